@@ -1,0 +1,178 @@
+"""What a figure is made of: strokes, fills and texts on a page, in millimetres.
+
+A point of the page is a complex number, x to the right and y **down** from the left upper corner (the user units of
+the SVG).  Angles are radians, counter-clockwise as seen on the page.  Every writer draws this same list.
+"""
+
+from __future__ import annotations
+
+import cmath
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import TypeAlias
+
+__all__ = [
+    "Arc",
+    "Circle",
+    "Drawing",
+    "Group",
+    "Line",
+    "Polygon",
+    "Polyline",
+    "Primitive",
+    "Run",
+    "Stroke",
+    "Text",
+    "page_direction",
+    "walk",
+]
+
+
+def page_direction(angle: float) -> complex:
+    """Unit step on the page at an angle (rad) counter-clockwise from the x axis."""
+    return cmath.rect(1.0, -angle)
+
+
+@dataclass(frozen=True)
+class Stroke:
+    """How a line is drawn: width (mm), dashes and gaps in turn (mm; none for a solid line), colour ``#rrggbb``."""
+
+    width: float
+    dash: tuple[float, ...] = ()
+    colour: str = "#000000"
+
+    @property
+    def solid(self) -> bool:
+        return not self.dash
+
+    def coloured(self, colour: str) -> Stroke:
+        return Stroke(self.width, self.dash, colour)
+
+
+@dataclass(frozen=True)
+class Line:
+    """A straight stroke.  ``covered`` mm at its end lie under an arrowhead and get no ink, so that the tip is sharp."""
+
+    start: complex
+    end: complex
+    stroke: Stroke
+    covered: float = 0.0
+
+    @property
+    def inked_end(self) -> complex:
+        length = abs(self.end - self.start)
+        if self.covered == 0.0 or length == 0.0:
+            return self.end
+        return self.end - (self.end - self.start) * min(1.0, self.covered / length)
+
+
+@dataclass(frozen=True)
+class Polyline:
+    """An open stroke through points."""
+
+    points: tuple[complex, ...]
+    stroke: Stroke
+
+
+@dataclass(frozen=True)
+class Polygon:
+    """A closed area, filled, with or without an outline; ``fill`` is "" for the outline alone."""
+
+    points: tuple[complex, ...]
+    fill: str = "#000000"
+    stroke: Stroke | None = None
+
+
+@dataclass(frozen=True)
+class Circle:
+    """A full circle, filled or not, with or without an outline; radius in mm."""
+
+    centre: complex
+    radius: float
+    fill: str = ""
+    stroke: Stroke | None = None
+
+
+@dataclass(frozen=True)
+class Arc:
+    """A stroke along a circle from angle ``start`` to angle ``end`` (rad, counter-clockwise positive).
+
+    It runs counter-clockwise where ``end > start``, else clockwise, and is less than a full turn.
+    """
+
+    centre: complex
+    radius: float
+    start: float
+    end: float
+    stroke: Stroke
+
+    def at(self, angle: float) -> complex:
+        return self.centre + self.radius * page_direction(angle)
+
+
+@dataclass(frozen=True)
+class Run:
+    """A stretch of text of one size and face; x and y (mm, y down) of its baseline start from the text's own point."""
+
+    text: str
+    x: float = 0.0
+    y: float = 0.0
+    size: float = 3.5
+    italic: bool = False
+    bold: bool = False
+
+
+@dataclass(frozen=True)
+class Text:
+    """Runs of text about a point of the baseline.
+
+    ``anchor`` says which part of the whole text stands at the point: "start", "middle" or "end".  ``id`` and
+    ``classes`` are those of the element in the SVG.
+    """
+
+    at: complex
+    runs: tuple[Run, ...]
+    anchor: str = "start"
+    colour: str = "#000000"
+    id: str = ""
+    classes: tuple[str, ...] = ()
+
+    @property
+    def string(self) -> str:
+        """The words alone, as a reader copies them."""
+        return "".join(run.text for run in self.runs)
+
+
+@dataclass(frozen=True)
+class Group:
+    """Things that belong together: ``layer`` names it as a layer for Inkscape, ``title`` says in words what it is."""
+
+    children: tuple[Primitive, ...]
+    id: str = ""
+    classes: tuple[str, ...] = ()
+    layer: str = ""
+    title: str = ""
+
+
+Primitive: TypeAlias = Line | Polyline | Polygon | Circle | Arc | Text | Group
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """A page: size in mm, title and description in words, language ("en", "zh"), facts for programs, and what is on it."""
+
+    width: float
+    height: float
+    children: tuple[Primitive, ...]
+    title: str = ""
+    desc: str = ""
+    lang: str = "en"
+    metadata: Mapping[str, object] = field(default_factory=dict)
+
+
+def walk(children: tuple[Primitive, ...]) -> Iterator[Primitive]:
+    """Everything in the order of drawing, groups before what they hold."""
+    for child in children:
+        yield child
+        if isinstance(child, Group):
+            yield from walk(child.children)

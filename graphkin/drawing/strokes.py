@@ -1,0 +1,57 @@
+"""The kinds of line of a figure, after ISO 128, and the colours of links.
+
+A kind is told by width and dash, so that black on white is enough; colour comes on top of it.
+"""
+
+from __future__ import annotations
+
+from graphkin.drawing.primitives import Stroke
+
+__all__ = [
+    "BLACK",
+    "CONSTRUCTION",
+    "DIMENSION",
+    "DIRECTION",
+    "FRAME",
+    "GREY",
+    "HATCHING",
+    "LEADER",
+    "LINK",
+    "LINK_COLOURS",
+    "OUTLINE",
+    "REDUNDANT",
+    "RELATIVE",
+    "RESULTANT",
+    "WHITE",
+    "link_colour",
+    "tint",
+]
+
+BLACK, WHITE, GREY = "#000000", "#ffffff", "#595959"
+
+LINK = Stroke(0.5)
+REDUNDANT = Stroke(0.5, (3.0, 1.2))  # a link that only repeats what others hold
+RESULTANT = Stroke(0.5)
+RELATIVE = Stroke(0.35)
+OUTLINE = Stroke(0.35)  # blocks, turning pairs, panels that carry weight
+FRAME = Stroke(0.5)
+DIRECTION = Stroke(0.18, (2.4, 0.9))
+CONSTRUCTION = Stroke(0.18)
+HATCHING = Stroke(0.18)
+DIMENSION = Stroke(0.18)
+LEADER = Stroke(0.18)
+
+# Okabe and Ito, Color Universal Design (2008), darkened to a contrast of at least 4.5 to 1 on white paper so that
+# lines and letters in them survive a black-and-white printer; the order keeps neighbours apart for every kind of sight.
+LINK_COLOURS = ("#0067a6", "#b34700", "#007a5a", "#a0467c", "#7a6200", "#1f7f93", "#5a4fa2", "#8a3b3b")
+
+
+def link_colour(index: int) -> str:
+    """Colour of the moving link at an index of the scene's order; it comes round again after eight links."""
+    return LINK_COLOURS[index % len(LINK_COLOURS)]
+
+
+def tint(colour: str, strength: float = 0.14) -> str:
+    """A colour thinned with white (0: white, 1: the colour), for the area of a rigid link."""
+    parts = (int(colour[i : i + 2], 16) for i in (1, 3, 5))
+    return "#" + "".join(f"{round(255 - (255 - part) * strength):02x}" for part in parts)

@@ -1,0 +1,168 @@
+r"""Texts as runs: plain words, and symbols with sub- and superscripts at places of their own.
+
+Between dollar signs stands a symbol, in the notation of TeX: ``"velocity $v_{B3}$ of the ram"``.
+Letters of symbols are italic, digits and signs upright, Chinese upright everywhere; ``_`` and ``^`` take one character
+or a group in braces; both after one letter stand above each other; an index may have an index (``$v_{B_3}$``); a prime
+is ``′`` or ``'``.  ``$$`` is a dollar sign.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+from graphkin.drawing.metrics import is_cjk, runs_width, width
+from graphkin.drawing.primitives import Run
+
+__all__ = ["INDEX", "LETTER", "SMALLEST", "beside", "plain", "rich", "symbol"]
+
+LETTER, INDEX, SMALLEST = 3.5, 2.5, 2.0  # mm
+_DROP, _DROP_STACKED, _RISE = 0.24, 0.30, 0.40  # of the size of the letter, after the usual practice of typesetting
+_GAP_SUB, _GAP_SUPER = 0.02, 0.06
+
+
+@dataclass(frozen=True)
+class _Atom:
+    """A stretch of symbol text with what hangs on it."""
+
+    text: str
+    sub: tuple[_Atom, ...] = ()
+    sup: tuple[_Atom, ...] = ()
+
+
+def plain(text: str, size: float = LETTER, italic: bool = False, bold: bool = False) -> tuple[Run, ...]:
+    """Words as they are, with no notation read into them; white space is folded to single spaces."""
+    folded = " ".join(text.split())
+    return (Run(folded, 0.0, 0.0, size, italic, bold),) if folded else ()
+
+
+def symbol(markup: str, size: float = LETTER) -> tuple[Run, ...]:
+    """A symbol set as runs from its notation without dollar signs: ``symbol("a^{n}_{C/B}")``.
+
+    Raises ValueError where a brace is not closed or an index has nothing to stand at.
+    """
+    return _symbol(markup, size)[0]
+
+
+def rich(markup: str, size: float = LETTER, bold: bool = False) -> tuple[Run, ...]:
+    """Words with symbols between dollar signs, set as runs one after the other.  Raises ValueError as ``symbol``."""
+    parts = markup.replace("$$", "\0").split("$")
+    if len(parts) % 2 == 0:
+        raise ValueError(f"a dollar sign is not closed in {markup!r}; a dollar sign itself is written $$")
+    runs: list[Run] = []
+    x = 0.0
+    for index, part in enumerate(parts):
+        part = part.replace("\0", "$")
+        if index % 2:
+            set_part, advance = _symbol(part, size)
+            runs += [replace(run, x=run.x + x) for run in set_part]
+            x += advance
+        elif part:
+            folded = " ".join(("_" + part + "_").split())[1:-1]
+            runs += _trimmed(folded, x, 0.0, size, False, bold)
+            x += width(folded, size, False, bold)
+    return tuple(runs)
+
+
+def beside(*texts: tuple[Run, ...], gap: float = 0.0) -> tuple[Run, ...]:
+    """Texts set one after the other with a gap (mm) between."""
+    runs: list[Run] = []
+    x = 0.0
+    for text in texts:
+        runs += [replace(run, x=run.x + x) for run in text]
+        x += runs_width(text) + gap
+    return tuple(runs)
+
+
+@lru_cache(maxsize=1024)
+def _symbol(markup: str, size: float) -> tuple[tuple[Run, ...], float]:
+    atoms, end = _read(markup, 0)
+    if end < len(markup):
+        raise ValueError(f"a brace is closed but not opened in {markup!r}")
+    runs, advance = _set(atoms, 0.0, 0.0, size, 0, size)
+    return tuple(runs), advance
+
+
+def _read(markup: str, at: int) -> tuple[tuple[_Atom, ...], int]:
+    """Atoms from a place up to the closing brace or the end, and where that is."""
+    atoms: list[_Atom] = []
+    while at < len(markup) and markup[at] != "}":
+        character = markup[at]
+        if character in "_^":
+            if not atoms:
+                raise ValueError(f"an index has nothing to stand at in {markup!r}")
+            inner, at = _argument(markup, at + 1)
+            last = atoms[-1]
+            if last.sub if character == "_" else last.sup:
+                raise ValueError(f"two indices in the same place in {markup!r}; put both in one pair of braces")
+            atoms[-1] = replace(last, sub=inner) if character == "_" else replace(last, sup=inner)
+        elif character == "{":
+            inner, at = _argument(markup, at)
+            atoms += inner
+        else:
+            atoms.append(_Atom("′" if character == "'" else character))
+            at += 1
+    return tuple(atoms), at
+
+
+def _argument(markup: str, at: int) -> tuple[tuple[_Atom, ...], int]:
+    if at >= len(markup) or markup[at] == "}":
+        raise ValueError(f"an index is empty in {markup!r}")
+    if markup[at] != "{":
+        return (_Atom("′" if markup[at] == "'" else markup[at]),), at + 1
+    inner, end = _read(markup, at + 1)
+    if end >= len(markup):
+        raise ValueError(f"a brace is not closed in {markup!r}")
+    return inner, end + 1
+
+
+def _set(
+    atoms: tuple[_Atom, ...], x: float, y: float, size: float, level: int, base: float
+) -> tuple[list[Run], float]:
+    """Runs of atoms from a place on, and the place after them; ``base`` is the size of the letters at level 0."""
+    runs: list[Run] = []
+    stretch, begin = "", x
+
+    def flush() -> None:
+        nonlocal stretch
+        if stretch:
+            runs.extend(_trimmed(stretch, begin, y, size, _italic(stretch[0]), False))
+            stretch = ""
+
+    for atom in atoms:
+        character = "−" if atom.text == "-" and level == 0 else atom.text
+        if stretch and _italic(stretch[0]) != _italic(character):
+            flush()
+        if not stretch:
+            begin = x
+        stretch += character
+        x = begin + width(stretch, size, _italic(character))
+        if atom.sub or atom.sup:
+            flush()
+            x = max(
+                _hang(runs, atom.sub, x + _GAP_SUB * size, y + (_DROP_STACKED if atom.sup else _DROP) * size, level, base),
+                _hang(runs, atom.sup, x + _GAP_SUPER * size, y - _RISE * size, level, base),
+                x,
+            )
+    flush()
+    return runs, x
+
+
+def _hang(runs: list[Run], atoms: tuple[_Atom, ...], x: float, y: float, level: int, base: float) -> float:
+    if not atoms:
+        return x
+    hung, end = _set(atoms, x, y, max(SMALLEST, base * (INDEX if level == 0 else SMALLEST) / LETTER), level + 1, base)
+    runs.extend(hung)
+    return end
+
+
+def _italic(character: str) -> bool:
+    return character.isalpha() and not is_cjk(character)
+
+
+def _trimmed(text: str, x: float, y: float, size: float, italic: bool, bold: bool) -> list[Run]:
+    """One run without outer spaces (SVG drops them), standing where its first letter stands; none for spaces alone."""
+    body = text.lstrip(" ")
+    start = x + width(text[: len(text) - len(body)], size, italic, bold)
+    body = body.rstrip(" ")
+    return [Run(body, start, y, size, italic, bold)] if body else []

@@ -1,0 +1,92 @@
+"""What can go wrong, as data: where, what was found, what would be right.
+
+Text for the terminal, the notebook and the tests is made here and nowhere else.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from difflib import get_close_matches
+
+__all__ = ["CallError", "GraphkinError", "Problem", "SceneError", "Unsolvable", "did_you_mean"]
+
+
+@dataclass(frozen=True)
+class Problem:
+    """One thing that is wrong.
+
+    Parameters
+    ----------
+    where : what it is about, by name as in the file ("links.3.length", "point D")
+    found : what was found, as a clause ("-5, a length must be positive")
+    wanted : what would be right, as a clause; empty where ``found`` says it all
+    """
+
+    where: str
+    found: str
+    wanted: str = ""
+
+    def __str__(self) -> str:
+        tail = f"; {self.wanted}" if self.wanted else ""
+        return f"{self.where}: {self.found}{tail}"
+
+
+class GraphkinError(Exception):
+    """Root of everything graphkin raises on purpose.  ``problems`` holds the facts."""
+
+    exit_code = 2
+
+    def __init__(self, *problems: Problem) -> None:
+        self.problems = problems
+        super().__init__("\n".join(str(p) for p in problems))
+
+    def __reduce__(self) -> tuple[type[GraphkinError], tuple[Problem, ...]]:
+        return type(self), self.problems
+
+
+class SceneError(GraphkinError):
+    """The scene file does not say a mechanism; every problem of the file is listed (exit status 2)."""
+
+
+class CallError(GraphkinError):
+    """The call is wrong: an unknown option value, an unknown scene or symbol (exit status 2)."""
+
+
+class Unsolvable(GraphkinError):
+    """The mechanism cannot be solved as asked (exit status 3).
+
+    ``status`` is one of "not assembled", "dead point", "mobility", "not drawn".
+    """
+
+    exit_code = 3
+
+    def __init__(self, status: str, *problems: Problem) -> None:
+        super().__init__(*problems)
+        self.status = status
+
+    def __reduce__(self) -> tuple[type[Unsolvable], tuple[object, ...]]:  # type: ignore[override]
+        return type(self), (self.status, *self.problems)
+
+    @property
+    def why(self) -> str:
+        """The reason in one line."""
+        return " ".join(str(p) for p in self.problems)
+
+
+def did_you_mean(word: str, known: Iterable[str]) -> str:
+    """Return a clause that names the known words, the nearest first if one is near.
+
+    >>> did_you_mean("lenght", ["length", "points"])
+    'did you mean "length"?'
+    >>> did_you_mean("Q", ["A", "B"])
+    'known here: A, B'
+    """
+    names = sorted(set(known))
+    near = get_close_matches(word, names, n=1, cutoff=0.6)
+    if not near:
+        near = [n for n in names if n.lower() == word.lower()]
+    if near:
+        return f'did you mean "{near[0]}"?'
+    shown = ", ".join(names[:12]) + (", ..." if len(names) > 12 else "")
+    return f"known here: {shown}" if names else "there is none here"

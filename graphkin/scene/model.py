@@ -1,0 +1,216 @@
+"""The one model of a mechanism: what a scene says, resolved, in SI units.
+
+Plane quantities are complex numbers (x + iy), lengths in m, angles in rad, times in s.
+A scene is a value: nothing stores results in it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Literal
+
+from graphkin.scene.symbol import Symbol
+
+__all__ = [
+    "AngleDriver",
+    "Convention",
+    "Driver",
+    "Guide",
+    "Language",
+    "Link",
+    "PinInSlot",
+    "Scene",
+    "SheetWishes",
+    "SlideDriver",
+    "SlidingPair",
+    "Units",
+]
+
+Convention = Literal["chinese", "us", "british", "russian"]
+Language = Literal["en", "zh"]
+
+
+@dataclass(frozen=True)
+class Units:
+    """The scene's length unit; ``metres`` is one of it in m."""
+
+    length: str = "mm"
+    metres: float = 1e-3
+
+
+@dataclass(frozen=True)
+class Guide:
+    """A straight guide of a link, in that link's own axes.
+
+    ``name`` is "" for the link's own x axis.  ``through`` (m) is the guide's origin, from which travel
+    counts; ``direction`` is a unit complex number, its sense.
+    """
+
+    name: str
+    through: complex
+    direction: complex
+
+
+@dataclass(frozen=True)
+class Link:
+    """A rigid link with everything placed in its own axes (for the frame: world axes).
+
+    ``points`` maps names to places (m), the own points first, in the order of the file.
+    ``bar`` are the 0, 1 or 2 names in the file's ``points`` key that give the own axes.
+    ``guides`` always holds "" (the own x axis).
+    """
+
+    name: str
+    points: Mapping[str, complex]
+    bar: tuple[str, ...]
+    guides: Mapping[str, Guide]
+    redundant: bool = False
+
+    @property
+    def length(self) -> float | None:
+        """Length of a bar between its two own points (m), None for other links."""
+        return abs(self.points[self.bar[1]]) if len(self.bar) == 2 else None
+
+
+@dataclass(frozen=True)
+class SlidingPair:
+    """``link`` slides by its own origin on a guide of link ``on``, at a fixed angle.
+
+    ``turn`` is the unit complex number by which the link's own x axis is turned from the guide's
+    sense (``angle_on``).  ``pin`` names the link's first point if it has one.
+    """
+
+    link: str
+    on: str
+    guide: str
+    turn: complex
+    pin: str | None
+
+    @property
+    def key(self) -> str:
+        """The name of the pair: SLIDING/GUIDING."""
+        return f"{self.link}/{self.on}"
+
+
+@dataclass(frozen=True)
+class PinInSlot:
+    """Point ``point`` of link ``of`` runs in a guide of link ``on``: one constraint."""
+
+    point: str
+    of: str
+    on: str
+    guide: str
+
+    @property
+    def key(self) -> str:
+        return f"{self.point}/{self.on}"
+
+
+@dataclass(frozen=True)
+class AngleDriver:
+    """The angle of ``link``'s own x axis from that of ``relative_to`` (the frame's name by default)."""
+
+    link: str
+    relative_to: str
+    angle: float
+    omega: float
+    alpha: float
+
+    @property
+    def key(self) -> str:
+        return self.link
+
+    @property
+    def values(self) -> tuple[float, float, float]:
+        """Value, rate, second rate (rad, rad/s, rad/s2)."""
+        return self.angle, self.omega, self.alpha
+
+
+@dataclass(frozen=True)
+class SlideDriver:
+    """The travel of the sliding pair (or pin in slot) whose key is ``key``, along the guide's sense."""
+
+    key: str
+    travel: float
+    velocity: float
+    acceleration: float
+
+    @property
+    def values(self) -> tuple[float, float, float]:
+        """Value, rate, second rate (m, m/s, m/s2)."""
+        return self.travel, self.velocity, self.acceleration
+
+
+Driver = AngleDriver | SlideDriver
+
+
+@dataclass(frozen=True)
+class SheetWishes:
+    """What the scene asks of the sheet.  Scales as in the file: mm of mechanism per mm of paper,
+    (length unit/s)/mm, (length unit/s2)/mm; None where graphkin is to choose."""
+
+    paper: str = "A4"
+    orientation: Literal["portrait", "landscape"] = "portrait"
+    length_scale: float | None = None
+    velocity_scale: float | None = None
+    acceleration_scale: float | None = None
+    convention: Convention = "chinese"
+    language: Language = "en"
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A mechanism at one position, with what is asked of it.
+
+    ``links`` are the moving links in the order of the file (redundant ones included, see ``Link.redundant``);
+    ``sketch`` and ``drawn`` give places of points in world axes (m); ``printed`` maps symbols to values in SI
+    (a float, or a complex number for a vector given by two components).
+    """
+
+    name: str
+    title: str
+    frame: Link
+    links: tuple[Link, ...]
+    slidings: tuple[SlidingPair, ...]
+    pins: tuple[PinInSlot, ...]
+    drivers: tuple[Driver, ...]
+    units: Units = Units()
+    title_zh: str = ""
+    source: str = ""
+    sketch: Mapping[str, complex] = field(default_factory=dict)
+    drawn: Mapping[str, complex] = field(default_factory=dict)
+    find: tuple[Symbol, ...] = ()
+    printed: Mapping[Symbol, float | complex] = field(default_factory=dict)
+    sheet: SheetWishes = SheetWishes()
+
+    @cached_property
+    def by_name(self) -> Mapping[str, Link]:
+        """Every link by its name, the frame included."""
+        return {link.name: link for link in (self.frame, *self.links)}
+
+    @cached_property
+    def order(self) -> Mapping[str, int]:
+        """Place of each link in the file; the frame is last."""
+        names = [link.name for link in self.links] + [self.frame.name]
+        return {name: i for i, name in enumerate(names)}
+
+    @cached_property
+    def holders(self) -> Mapping[str, tuple[str, ...]]:
+        """For each point the links that have it, the frame first, then in the order of the file."""
+        table: dict[str, list[str]] = {}
+        for link in (self.frame, *self.links):
+            for point in link.points:
+                table.setdefault(point, []).append(link.name)
+        return {point: tuple(names) for point, names in table.items()}
+
+    @cached_property
+    def size(self) -> float:
+        """A length that says how large the mechanism is (m): the largest distance given in the file."""
+        spans = [abs(z) for link in self.links for z in link.points.values()]
+        fixed = list(self.frame.points.values()) + [g.through for n, g in self.frame.guides.items() if n]
+        spans += [abs(a - b) for i, a in enumerate(fixed) for b in fixed[:i]]
+        spans += [abs(z - w) for z in self.drawn.values() for w in fixed]
+        spans += [abs(d.travel) for d in self.drivers if isinstance(d, SlideDriver)]
+        return max(spans, default=0.0) or self.units.metres

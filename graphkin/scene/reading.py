@@ -1,0 +1,316 @@
+"""From what the TOML parser gives to a ``SceneFile``: every wrong key and value of the file at once.
+
+A wrong entry is reported and taken out, a misspelt key is reported and read as the key that was meant, and what
+remains is a valid file, so that the questions asked later (do the names exist, do the lengths meet) can still be
+asked of it.  ``Flaws`` remembers what was taken out, so that nothing is reported twice.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from difflib import get_close_matches
+from numbers import Integral, Real
+from typing import Any
+
+from pydantic import BaseModel, ValidationError
+
+from graphkin.errors import Problem, SceneError, did_you_mean
+from graphkin.scene import file as tables
+
+__all__ = ["Flaws", "checked", "path_name", "plain", "shown"]
+
+Path = tuple[str | int, ...]
+MOST_VALUES = 20_000
+DEEPEST = 8
+_BARE = re.compile(r"[A-Za-z0-9_-]+")
+_TABLES: tuple[tuple[tuple[str, ...], type[BaseModel]], ...] = (
+    ((), tables.SceneFile),
+    (("units",), tables.UnitsTable),
+    (("frame",), tables.FrameTable),
+    (("frame", "guides", "*"), tables.GuideTable),
+    (("links", "*"), tables.LinkTable),
+    (("links", "*", "guides", "*"), tables.GuideTable),
+    (("links", "*", "at", "*", "<polar>"), tables.Polar),
+    (("links", "*", "at", "*", "<compass>"), tables.Compass),
+    (("pins", "*"), tables.PinTable),
+    (("driver", "<one>", "<angle>"), tables.AngleDriverTable),
+    (("driver", "<one>", "<slide>"), tables.SlideDriverTable),
+    (("driver", "<list>", "*", "<angle>"), tables.AngleDriverTable),
+    (("driver", "<list>", "*", "<slide>"), tables.SlideDriverTable),
+    (("sheet",), tables.SheetTable),
+)
+_KINDS = {
+    "string_type": "a text is wanted",
+    "float_type": "a number is wanted",
+    "bool_type": "true or false is wanted",
+    "list_type": "a list is wanted",
+    "dict_type": "a table is wanted",
+    "model_type": "a table is wanted",
+    "model_attributes_type": "a table is wanted",
+}
+
+
+@dataclass(frozen=True)
+class Flaws:
+    """The paths of the entries that were reported and taken out of the file."""
+
+    paths: frozenset[Path] = frozenset()
+
+    def under(self, *prefix: str) -> bool:
+        """True where something at or under this path, or a table that holds it, was taken out."""
+        n = len(prefix)
+        return any(p[:n] == prefix or p == prefix[: len(p)] for p in self.paths)
+
+    def names(self, *table: str) -> set[str]:
+        """The names of the entries of a table that were taken out as a whole."""
+        n = len(table)
+        return {str(p[n]) for p in self.paths if len(p) == n + 1 and p[:n] == table}
+
+
+def shown(value: object) -> str:
+    """A value as it would be written in the file, shortened.
+
+    >>> shown(True), shown("AB"), shown([1, 2.5])
+    ('true', '"AB"', '[1, 2.5]')
+    """
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, str):
+        text = value.encode("unicode_escape").decode() if not value.isprintable() else value
+        return f'"{text[:57]}..."' if len(text) > 60 else f'"{text}"'
+    if isinstance(value, float):
+        return f"{value:.15g}"
+    if isinstance(value, int):
+        return str(value) if abs(value) < 10**20 else "a number of too many digits"
+    if isinstance(value, list):
+        inner = ", ".join(shown(v) for v in value[:4]) + (", ..." if len(value) > 4 else "")
+        return f"[{inner}]"
+    if isinstance(value, dict):
+        return "a table" if value else "an empty table"
+    return str(value)[:60] if value is not None else "nothing"
+
+
+def path_name(path: Iterable[str | int]) -> str:
+    """A path as its name: ``links.3.length``; the second of several drivers is ``driver.2``."""
+    parts = []
+    for part in path:
+        if isinstance(part, int):
+            parts.append(str(part + 1))
+        else:
+            parts.append(part if _BARE.fullmatch(part) and len(part) <= 60 else shown(part))
+    return ".".join(parts) or "the file"
+
+
+def plain(source: Mapping[Any, Any]) -> dict[str, Any]:
+    """Copy a mapping to plain dict, list, str, bool, int and float, so that the form can be checked strictly.
+
+    Raises SceneError where a key is no text, or where the tables are nested too deeply or too many to be a scene.
+    """
+    left = MOST_VALUES
+
+    def copy(value: Any, path: Path) -> Any:
+        nonlocal left
+        left -= 1
+        if len(path) > DEEPEST:
+            raise SceneError(Problem(path_name(path[:4]), f"is nested more than {DEEPEST} levels deep",
+                                     "a scene needs at most four"))
+        if left < 0:
+            raise SceneError(Problem("the file", f"holds more than {MOST_VALUES} values", "a scene is one mechanism"))
+        if isinstance(value, Mapping):
+            for key in value:
+                if not isinstance(key, str):
+                    raise SceneError(Problem(path_name(path), f"has the key {key!r:.60}", "a key must be a text"))
+            return {str(key): copy(item, (*path, str(key))) for key, item in value.items()}
+        if isinstance(value, list | tuple):
+            return [copy(item, (*path, i)) for i, item in enumerate(value)]
+        if isinstance(value, bool):
+            return value
+        if isinstance(value, str):
+            return str(value)
+        if isinstance(value, Integral):
+            whole = int(value)
+            return whole if abs(whole) < 10**300 else math.copysign(math.inf, whole)
+        if isinstance(value, Real):
+            return float(value)
+        return value
+
+    made: dict[str, Any] = copy(source, ())
+    return made
+
+
+def checked(raw: dict[str, Any]) -> tuple[tables.SceneFile, list[Problem], Flaws]:
+    """Check the form of a file.  Returns what is valid in it, the problems, and what was taken out for them.
+
+    ``raw`` comes from ``plain`` and is changed: wrong entries are taken out of it.
+    Raises SceneError where nothing is left to ask about.
+    """
+    problems: dict[Path, Problem] = {}
+    gone: set[Path] = set()
+    for _ in range(50):
+        try:
+            return tables.SceneFile.model_validate(raw), list(problems.values()), Flaws(frozenset(gone))
+        except ValidationError as error:
+            found = error.errors(include_url=False)
+        for item in sorted(found, key=lambda e: e["type"] != "extra_forbidden"):
+            loc: Path = tuple(item["loc"])
+            path = _written_path(loc)
+            if path not in problems:
+                problems[path] = _problem(loc, path, dict(item))
+            meant = _meant(loc, raw) if item["type"] == "extra_forbidden" else None
+            if meant is not None:
+                _rename(raw, path, meant)
+            elif item["type"] != "missing" or _value_at(raw, path) is None:
+                cut = _cut(path)
+                gone.add(cut)
+                _take_out(raw, cut)
+        if "links" not in raw or raw["links"] == {}:
+            break
+    raise SceneError(*problems.values())
+
+
+def _written_path(loc: Path) -> Path:
+    return tuple(part for part in loc if not (isinstance(part, str) and part.startswith("<")) and part != "[key]")
+
+
+def _fields(loc: Path) -> dict[str, str]:
+    """The keys that may stand in the table at ``loc``, with their descriptions."""
+    for pattern, table in _TABLES:
+        if len(pattern) == len(loc) and all(p in ("*", part) for p, part in zip(pattern, loc, strict=True)):
+            return {f.alias or name: f.description or "" for name, f in table.model_fields.items()}
+    return {}
+
+
+def _meant(loc: Path, raw: dict[str, Any]) -> str | None:
+    """The key that a misspelt one stands for, where it is near and not written as well."""
+    table = _value_at(raw, _written_path(loc[:-1]))
+    if not isinstance(table, dict):
+        return None
+    free = [key for key in _fields(loc[:-1]) if key not in table]
+    near = get_close_matches(str(loc[-1])[:60], free, n=1, cutoff=0.75)
+    return near[0] if near else None
+
+
+def _problem(loc: Path, path: Path, item: dict[str, Any]) -> Problem:
+    where, kind, value, ctx = path_name(path), item["type"], item["input"], item.get("ctx", {})
+    if kind == "missing":
+        text = _fields(loc[:-1]).get(str(loc[-1]), "")
+        if loc == ("links",):
+            text = "a scene has moving links, [links.1] and so on"
+        elif loc[0] == "driver" and loc[-1] == "link":
+            text = 'write link = "1" for a driven angle or slide = "2" for a driven sliding pair'
+        return Problem(where, "is missing", text[:1].lower() + text[1:].rstrip(".") if text else "")
+    if kind == "extra_forbidden":
+        return Problem(where, "unknown key", _about_key(loc))
+    if "[key]" in loc:
+        return Problem(where, f"{shown(path[-1])} is no name here", _name_rule(ctx))
+    if kind == "form":
+        return Problem(where, f"found {shown(value)}", item["msg"])
+    if kind in _KINDS:
+        wanted = _KINDS[kind]
+        if kind == "string_type" and isinstance(value, int | float) and not isinstance(value, bool):
+            wanted = f'a name stands in quotation marks: "{shown(value)}"'
+        elif kind == "float_type" and isinstance(value, str):
+            wanted = "a number is written without quotation marks"
+        return Problem(where, f"found {shown(value)}", wanted)
+    if kind == "literal_error":
+        choices = re.findall(r"'([^']*)'", ctx["expected"])
+        near = did_you_mean(value[:60], choices) if isinstance(value, str) else ""
+        tail = f", {near}" if near.startswith("did") else ""
+        return Problem(where, f"found {shown(value)}", " or ".join(f'"{c}"' for c in choices) + " is possible" + tail)
+    if kind == "finite_number":
+        return Problem(where, f"found {shown(value)}", "a finite number is wanted")
+    if kind == "greater_than_equal":
+        if ctx["ge"] > 0:
+            what = "a negative" if value < 0 else "a zero" if value == 0 else "far too small a"
+            return Problem(where, f"found {shown(value)}, {what} length or scale", "it must be positive")
+        return Problem(where, f"found {shown(value)}", f"no number of a scene may be below {ctx['ge']:g}")
+    if kind == "less_than_equal":
+        return Problem(where, f"found {shown(value)}", f"no number of a scene may exceed {ctx['le']:g}")
+    if kind in ("too_short", "too_long"):
+        return Problem(where, *_about_size(loc, value))
+    if kind == "string_too_long":
+        return Problem(where, f"is {len(value)} characters long", f"at most {ctx['max_length']} are possible")
+    if kind == "string_pattern_mismatch":
+        return Problem(where, f"{shown(value)} is no name here", _name_rule(ctx))
+    return Problem(where, f"found {shown(value)}", str(item["msg"]))
+
+
+def _about_key(loc: Path) -> str:
+    key, here, top = str(loc[-1])[:60], _fields(loc[:-1]), _fields(())
+    if key in top and len(loc) > 1:
+        return f"{key} belongs at the top of the file, before the first table" if key in (
+            "title", "title_zh", "source", "find") else f"[{key}] is a table of its own"
+    if loc[0] == "driver" and key == "link":
+        return "a driver has either link (a driven angle) or slide (a driven sliding pair)"
+    return did_you_mean(key, here)
+
+
+def _about_size(loc: Path, value: Any) -> tuple[str, str]:
+    if loc == ("links",):
+        return "there is none", "a scene has moving links, [links.1] and so on"
+    found = f"found {shown(value)}"
+    if "on" in loc or "in" in loc:
+        return found, "one guide or two are possible" if "on" in loc else "at least one guide is wanted"
+    if "angle_on" in loc:
+        return found, "one number for each guide"
+    if "from" in loc:
+        return found, "two points of the link are wanted"
+    if "r" in loc:
+        return found, "two lengths are wanted, one for each point"
+    return found, "a place is [x, y]"
+
+
+def _name_rule(ctx: Mapping[str, Any]) -> str:
+    pattern = str(ctx.get("pattern", ""))
+    if "max_length" in ctx:
+        return f"a name has at most {ctx['max_length']} letters and digits"
+    if r"\." in pattern:
+        return 'a guide is written "LINK" for the link\'s own axis or "LINK.GUIDE"'
+    if "/" in pattern:
+        return 'a sliding pair is written "LINK", or "SLIDING/GUIDING"'
+    if "A-Z][" in pattern:
+        return "a point is named by a capital letter, then letters or digits"
+    return "a link or guide is named by letters and digits"
+
+
+def _cut(path: Path) -> Path:
+    """The smallest entry of the file that can be taken out for something wrong at ``path``."""
+    head = path[:1]
+    if head == ("links",):
+        return path[: 4 if len(path) > 2 and path[2] in ("at", "guides") else 3]
+    if head == ("frame",):
+        return path[: 3 if len(path) > 1 and path[1] in ("points", "guides") else 2]
+    if head == ("driver",):
+        return path[: 3 if len(path) > 1 and isinstance(path[1], int) else 2]
+    return path[:2] if head and head[0] in ("pins", "sketch", "drawn", "printed", "sheet", "units") else head
+
+
+def _value_at(raw: Any, path: Path) -> Any:
+    for part in path:
+        if isinstance(raw, dict):
+            raw = raw.get(part)
+        elif isinstance(raw, list) and isinstance(part, int) and part < len(raw):
+            raw = raw[part]
+        else:
+            return None
+    return raw
+
+
+def _rename(raw: dict[str, Any], path: Path, key: str) -> None:
+    table = _value_at(raw, path[:-1])
+    if isinstance(table, dict) and path[-1] in table and key not in table:
+        renamed = {key if k == path[-1] else k: v for k, v in table.items()}
+        table.clear()
+        table.update(renamed)
+
+
+def _take_out(raw: dict[str, Any], path: Path) -> None:
+    """Take an entry out; where it is not there (a required key), the table that misses it."""
+    table = _value_at(raw, path[:-1])
+    if isinstance(table, dict) and path[-1] in table:
+        del table[path[-1]]
+    elif len(path) > 1:
+        _take_out(raw, path[:-1])

@@ -1,0 +1,36 @@
+"""Mobility and its traps, Assur groups, order of solution."""
+
+from graphkin.structure.analysis import analyse
+from graphkin.structure.assembly import Choice, pick
+from graphkin.structure.model import (
+    Body,
+    Cluster,
+    Driven,
+    Dyad,
+    Element,
+    Mobility,
+    Pair,
+    Slide,
+    Structure,
+    Turn,
+    Weld,
+    driver_pair,
+)
+
+__all__ = [
+    "Body",
+    "Choice",
+    "Cluster",
+    "Driven",
+    "Dyad",
+    "Element",
+    "Mobility",
+    "Pair",
+    "Slide",
+    "Structure",
+    "Turn",
+    "Weld",
+    "analyse",
+    "driver_pair",
+    "pick",
+]

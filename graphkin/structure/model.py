@@ -1,0 +1,175 @@
+"""What analysis finds in a scene: pairs, mobility, and the elements in the order of solution.
+
+A pin in a slot is treated as a block without mass between pin and slot (replacement of the higher pair by a lower
+one, 高副低代); such a block is a link named ``B/3`` like its pair, and is not counted in the mobility.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from graphkin.scene.model import AngleDriver, Driver, Guide, Link, Scene, SlideDriver
+
+__all__ = ["Body", "Cluster", "Driven", "Dyad", "Element", "Mobility", "Pair", "Slide", "Structure", "Turn", "Weld"]
+
+
+@dataclass(frozen=True)
+class Turn:
+    """A turning pair at ``point`` between link ``a`` and link ``b``."""
+
+    point: str
+    a: str
+    b: str
+
+
+@dataclass(frozen=True)
+class Slide:
+    """A sliding pair: link ``a`` slides by its own origin on ``guide`` of link ``b``.
+
+    ``turn`` is the unit complex number from the guide's sense to a's own x axis.  ``pin`` names a's first point,
+    if it has one; ``slot`` is true where the block only stands for a pin in a slot.
+    """
+
+    key: str
+    a: str
+    b: str
+    guide: Guide
+    turn: complex
+    pin: str | None
+    slot: bool = False
+
+
+Pair = Turn | Slide
+
+
+@dataclass(frozen=True)
+class Weld:
+    """Link ``b`` held to link ``a`` of the same body by a driver at their common pair.
+
+    For an angle driver ``sign`` is +1 where the driver turns ``b`` from ``a``, -1 where it turns ``a`` from ``b``.
+    """
+
+    pair: Pair
+    driver: Driver
+    a: str
+    b: str
+    sign: int = 1
+
+
+@dataclass(frozen=True)
+class Body:
+    """Links that move as one but for the given motion of the drivers between them; ``links[0]`` is the base.
+
+    ``welds`` are in an order in which each ``a`` is the base or a ``b`` of an earlier one.
+    """
+
+    links: tuple[str, ...]
+    welds: tuple[Weld, ...] = ()
+
+
+@dataclass(frozen=True)
+class Driven:
+    """A link that a driver moves from links already known: crank, driven slider.
+
+    ``pair`` joins it (``a``) to a known link (``b``); for a slide driver it is the slide itself, in which the
+    driven link may be the sliding or the guiding one.
+    """
+
+    link: str
+    pair: Pair
+    driver: Driver
+
+
+@dataclass(frozen=True)
+class Dyad:
+    """An Assur group of class II: two bodies, one pair between them, one pair from each to known links.
+
+    ``kind`` is RRR, RRP, RPR, PRP or RPP (outer pair of ``first``, inner, outer pair of ``second``).  The mirror
+    images PRR and PPR are turned so that ``first`` is the body with two turning pairs (RRP) or with the outer turning
+    pair (RPP).  In RRR and PRP ``first`` is the body whose outer pair is on the link written first; in RPR ``first`` is
+    the sliding one.  In ``outer_first`` and ``outer_second`` a turning pair has ``a`` in the body and ``b`` known; a
+    slide has its own direction (see ``Slide``), either side may be the known one.
+    ``links`` are the real links of the group in the order of the file.
+    """
+
+    kind: str
+    first: Body
+    second: Body
+    inner: Pair
+    outer_first: Pair
+    outer_second: Pair
+    links: tuple[str, ...]
+
+    @property
+    def bodies(self) -> tuple[Body, Body]:
+        return self.first, self.second
+
+
+@dataclass(frozen=True)
+class Cluster:
+    """A larger group (class III and higher, or with a driver that joins no common pair): solved as a whole.
+
+    ``members`` are all its links, blocks of pins included; ``pairs`` all pairs that hold them (each with at least one
+    side among the members); ``drivers`` those inside the group.
+    """
+
+    members: tuple[str, ...]
+    pairs: tuple[Pair, ...]
+    drivers: tuple[Driver, ...]
+    links: tuple[str, ...]
+    order: int
+
+    @property
+    def kind(self) -> str:
+        return "group of " + ", ".join(self.links)
+
+
+Element = Driven | Dyad | Cluster
+
+
+@dataclass(frozen=True)
+class Mobility:
+    """F = 3 n - 2 p_L - p_H (Chebyshev-Gruebler-Kutzbach in the plane; compound hinges count k - 1)."""
+
+    links: int
+    lower: int
+    higher: int
+
+    @property
+    def value(self) -> int:
+        return 3 * self.links - 2 * self.lower - self.higher
+
+
+@dataclass(frozen=True)
+class Structure:
+    """The mechanism in the order of solution.
+
+    ``links`` holds every link that takes part, the frame and the blocks of pins included, redundant links left out;
+    ``hinges`` maps each point shared by links to those links.
+    """
+
+    scene: Scene
+    links: Mapping[str, Link]
+    slides: tuple[Slide, ...]
+    hinges: Mapping[str, tuple[str, ...]]
+    mobility: Mobility
+    elements: tuple[Element, ...]
+
+    @property
+    def groups(self) -> tuple[Dyad | Cluster, ...]:
+        """The Assur groups, in the order of solution."""
+        return tuple(e for e in self.elements if not isinstance(e, Driven))
+
+    def slide(self, key: str) -> Slide:
+        """The sliding pair or pin in slot of that name."""
+        return next(s for s in self.slides if s.key == key)
+
+
+def driver_pair(driver: Driver, links: Mapping[str, Link], slides: tuple[Slide, ...]) -> Pair | None:
+    """The pair at which a driver acts; None for an angle between links that no turning pair joins."""
+    if isinstance(driver, SlideDriver):
+        return next(s for s in slides if s.key == driver.key)
+    assert isinstance(driver, AngleDriver)
+    common = [p for p in links[driver.link].points if p in links[driver.relative_to].points]
+    return Turn(common[0], driver.link, driver.relative_to) if common else None
