@@ -159,7 +159,7 @@ Primitive: TypeAlias = Line | Polyline | Polygon | Circle | Arc | Text | Group
 
 @dataclass(frozen=True)
 class Drawing:
-    """A page: size in mm, title and description in words, language ("en", "zh"), facts for programs, and what is on it."""
+    """A page: size in mm, title and description in words, language ("en", "zh"), facts for programs, what is on it."""
 
     width: float
     height: float

@@ -9,6 +9,7 @@ import json
 import math
 import re
 from typing import Any
+from zlib import crc32
 
 from graphkin.drawing.metrics import has_cjk, runs_width, start_runs
 from graphkin.drawing.primitives import (
@@ -74,40 +75,36 @@ def svg_bytes(drawing: Drawing, debug: bool = False) -> bytes:
     page["font-family"] = FONTS
     page["stroke-linejoin"] = "round"
     page["text-rendering"] = "geometricPrecision"
-    labelled = [
-        (id, element(_clean(words)))
-        for id, element, words in (
-            ("title", svgwrite.base.Title, drawing.title),
-            ("desc", svgwrite.base.Desc, drawing.desc),
-        )
-        if words
-    ]
-    for id, element in labelled:
-        element["id"] = id
-        page.elements.append(element)
-    if labelled:
-        page["aria-labelledby"] = " ".join(id for id, _ in labelled)
-    page.elements.append(_metadata(svgwrite, drawing))
-    ink = _Ink(page, drawing.lang, clips=0)
+    page.elements.remove(page.defs)  # empty; the title comes first
+    facts = json.dumps(drawing.metadata, ensure_ascii=False, sort_keys=True, allow_nan=False, separators=(",", ":"))
+    for tag, words in (("title", drawing.title), ("desc", drawing.desc), ("metadata", facts)):
+        if words:
+            page.elements.append(_words(tag, words))
+    ink = _Ink(page, drawing.lang)
     for child in drawing.children:
         ink.draw(page, child)
     return ('<?xml version="1.0" encoding="utf-8"?>\n' + page.tostring() + "\n").encode()
 
 
 class _Ink:
-    """Turns primitives into elements of one page; counts the clips that end lines under arrowheads."""
+    """Turns primitives into elements of one page; knows the clips that it has already given."""
 
-    def __init__(self, page: Any, lang: str, clips: int) -> None:
-        self.page, self.lang, self.clips = page, lang, clips
+    def __init__(self, page: Any, lang: str) -> None:
+        self.page, self.lang = page, lang
+        self.clips: set[str] = set()
 
     def draw(self, parent: Any, thing: Primitive) -> None:
-        parent.add(self._element(thing))
+        element = parent.add(self._element(thing))
         if isinstance(thing, Line) and thing.covered:
-            clip = self.page.clipPath(id=f"clip-{self.clips}")
-            clip.add(self.page.path(d=_shaft(thing)))
-            parent.elements[-1]["clip-path"] = f"url(#clip-{self.clips})"
-            parent.add(clip)
-            self.clips += 1
+            shaft = _shaft(thing)
+            # Named by its shape: where several figures stand in one HTML page, equal names mean equal clips.
+            id = f"clip-{crc32(shaft.encode()):08x}"
+            element["clip-path"] = f"url(#{id})"
+            if id not in self.clips:
+                self.clips.add(id)
+                clip = self.page.clipPath(id=id)
+                clip.add(self.page.path(d=shaft))
+                parent.add(clip)
 
     def _element(self, thing: Primitive) -> Any:
         page = self.page
@@ -118,11 +115,9 @@ class _Ink:
         if isinstance(thing, Line):
             element = page.line(_pair(thing.start), _pair(thing.end))
         elif isinstance(thing, Polyline):
-            element = page.polyline(fill="none")
-            element["points"] = _points(thing.points)
+            element = page.polyline(map(_pair, thing.points), fill="none")
         elif isinstance(thing, Polygon):
-            element = page.polygon(fill=thing.fill or "none")
-            element["points"] = _points(thing.points)
+            element = page.polygon(map(_pair, thing.points), fill=thing.fill or "none")
         elif isinstance(thing, Circle):
             element = page.circle(_pair(thing.centre), number(thing.radius), fill=thing.fill or "none")
         else:
@@ -141,13 +136,8 @@ class _Ink:
         for child in group.children:
             self.draw(element, child)
         if group.title:  # last, because the first child of a vector's group is its line
-            element.elements.append(self.page_title(group.title))
+            element.elements.append(_words("title", group.title))
         return element
-
-    def page_title(self, words: str) -> Any:
-        from svgwrite.base import Title
-
-        return Title(_clean(words))
 
     def _text(self, text: Text) -> Any:
         runs, anchor = start_runs(text), ""
@@ -185,10 +175,6 @@ def _pair(point: complex) -> tuple[str, str]:
     return number(point.real), number(point.imag)
 
 
-def _points(points: tuple[complex, ...]) -> str:
-    return " ".join(",".join(_pair(point)) for point in points)
-
-
 def _name(element: Any, id: str, classes: tuple[str, ...]) -> None:
     if id:
         element["id"] = id
@@ -220,17 +206,12 @@ def _shaft(line: Line) -> str:
     return "M" + "L".join(" ".join(_pair(corner)) for corner in corners) + "Z"
 
 
-def _metadata(svgwrite: Any, drawing: Drawing) -> Any:
-    element = svgwrite.base.Metadata()
-    text = json.dumps(drawing.metadata, ensure_ascii=False, sort_keys=True, allow_nan=False, separators=(",", ":"))
-    plain_xml = element.get_xml
+def _words(tag: str, words: str) -> Any:
+    """An element that holds nothing but words."""
+    from svgwrite.base import Title
 
-    def with_text() -> Any:
-        xml = plain_xml()
-        xml.text = _clean(text)
-        return xml
-
-    element.get_xml = with_text
+    element = Title(_clean(words))
+    element.xml.tag = element.elementname = tag
     return element
 
 
@@ -240,7 +221,8 @@ def _allow_accessibility(page: Any) -> None:
     from svgwrite.extensions import Inkscape
 
     Inkscape(page)
+    del page.attribs["xmlns:sodipodi"]
     known = page.validator
-    for name in ("role", "lang", "aria-labelledby"):
+    for name in ("role", "lang"):
         known.attributes[name] = SVGAttribute(name, anim=False, types=frozenset(["string"]), const=frozenset())
         known.elements["svg"].valid_attributes = {name} | known.elements["svg"].valid_attributes

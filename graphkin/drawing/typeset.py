@@ -139,8 +139,9 @@ def _set(
         x = begin + width(stretch, size, _italic(character))
         if atom.sub or atom.sup:
             flush()
+            drop = _DROP_STACKED if atom.sup else _DROP
             x = max(
-                _hang(runs, atom.sub, x + _GAP_SUB * size, y + (_DROP_STACKED if atom.sup else _DROP) * size, level, base),
+                _hang(runs, atom.sub, x + _GAP_SUB * size, y + drop * size, level, base),
                 _hang(runs, atom.sup, x + _GAP_SUPER * size, y - _RISE * size, level, base),
                 x,
             )

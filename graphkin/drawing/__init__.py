@@ -1,0 +1,35 @@
+"""Drawing: primitives on a page in mm, texts, kinematic symbols, placed labels, and the writers that draw them all."""
+
+from graphkin.drawing.box import Box
+from graphkin.drawing.primitives import (
+    Arc,
+    Circle,
+    Drawing,
+    Group,
+    Line,
+    Polygon,
+    Polyline,
+    Primitive,
+    Run,
+    Stroke,
+    Text,
+)
+from graphkin.drawing.save import save
+from graphkin.drawing.svg import svg_bytes
+
+__all__ = [
+    "Arc",
+    "Box",
+    "Circle",
+    "Drawing",
+    "Group",
+    "Line",
+    "Polygon",
+    "Polyline",
+    "Primitive",
+    "Run",
+    "Stroke",
+    "Text",
+    "save",
+    "svg_bytes",
+]

@@ -1,0 +1,65 @@
+"""Drawings as files: the format by the name, each file whole or not at all."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from pathlib import Path
+
+from graphkin.drawing.primitives import Drawing
+from graphkin.drawing.svg import svg_bytes
+from graphkin.errors import CallError, Problem
+
+__all__ = ["FORMATS", "drawing_bytes", "save", "write_whole"]
+
+FORMATS = ("svg", "pdf", "png")
+
+
+def drawing_bytes(drawing: Drawing, format: str, dpi: float = 200.0) -> bytes:
+    """The drawing as a file of a format, "svg", "pdf" or "png" (``dpi`` for png only).
+
+    Raises
+    ------
+    CallError : another format
+    """
+    if format == "svg":
+        return svg_bytes(drawing)
+    if format in FORMATS:
+        from graphkin.drawing.page import pdf_bytes, png_bytes
+
+        return pdf_bytes(drawing) if format == "pdf" else png_bytes(drawing, dpi)
+    raise CallError(Problem("format", f'"{format}"', f"known here: {', '.join(FORMATS)}"))
+
+
+def save(drawing: Drawing, path: str | os.PathLike[str], dpi: float = 200.0) -> Path:
+    """Write the drawing to a file, as SVG, PDF or PNG by the ending of its name, and return the path.
+
+    The file appears whole or not at all; one of the same name is replaced.
+
+    Raises
+    ------
+    CallError : the ending is none of the three
+    OSError : the place cannot be written
+    """
+    target = Path(path)
+    write_whole(target, drawing_bytes(drawing, target.suffix.lower().removeprefix("."), dpi))
+    return target
+
+
+def write_whole(path: Path, content: bytes) -> None:
+    """Write a file by way of a temporary one beside it, so that nobody ever sees half of it.  Raises OSError."""
+    handle, temporary = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
+    try:
+        with os.fdopen(handle, "wb") as file:
+            file.write(content)
+        os.chmod(temporary, 0o666 & ~_umask())
+        os.replace(temporary, path)
+    except BaseException:
+        os.unlink(temporary)
+        raise
+
+
+def _umask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask
