@@ -1,0 +1,41 @@
+"""What a problem says: the scene, its file format and how it is read.
+
+Where the format leaves something open, the reader decides as follows.
+
+- ``title`` may be left out (the scene's name stands for it), so may ``[units]`` (mm), ``[frame]`` (named "0",
+  nothing but its own axis) and ``[driver]``: how many drivers are needed is asked of the mobility, not of the file.
+- A driver needs ``omega`` or ``rpm``, a driven slide needs ``velocity``; 0 is written out.  ``alpha`` and
+  ``acceleration`` are 0 if left out.  ``relative_to`` of a driven slide names the guiding link, which chooses the
+  pair where a link slides on two.  ``slide`` may also name a pin in a slot ("B/3").
+- A link is driven once; a second angle at it is written from the other link.
+- A moving link has own points or ``on``; without both nothing says where its own axes are.
+- ``at`` may place an own point again; both must agree.  Points in ``at`` may refer to one another in any order.
+  ``angle`` in a polar entry is 0 if left out.  Arcs that miss each other by rounding touch.
+- A guide with ``angle`` and ``toward`` is given twice; both must agree.
+- Between the same two links there is one sliding pair at most, and none where a common point pins them.
+- A length left out is the distance of drawn or fixed points only, never of points that follow from a driver.
+- Where a drawn position leaves the direction of a swinging guide open, what slides on it (the first in the file)
+  lies on its positive side.
+- Two statements of one thing are compared where they act: an angle by how far it moves the points that gave it.
+- Of a driver written as ``[[driver]]``, ``driver.2`` in a message is the second; so are items of lists.
+- ``[printed]`` takes negative numbers for vectors too (a signed velocity of a slider); one number is a magnitude.
+- A misspelt key is reported, and read as the key that was meant for the sake of the other messages.
+- Limits: 1 MB, 200 moving links, 100 points and guides a link, names of 40 and titles of 300 characters, numbers
+  up to 1e15, lengths from 1e-15.
+- A file with a byte order mark is read.  A file is taken before a scene of the same name that comes along.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from graphkin.scene.source import library, library_text, read, read_text
+
+__all__ = ["library", "library_text", "read", "read_text", "schema"]
+
+
+def schema() -> dict[str, Any]:
+    """The JSON schema of a scene file, for editors that complete and check TOML."""
+    from graphkin.scene.file import schema as of_file
+
+    return of_file()

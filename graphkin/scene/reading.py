@@ -157,15 +157,15 @@ def checked(raw: dict[str, Any]) -> tuple[tables.SceneFile, list[Problem], Flaws
         for item in sorted(found, key=lambda e: e["type"] != "extra_forbidden"):
             loc: Path = tuple(item["loc"])
             path = _written_path(loc)
+            if item["type"] == "missing" and _value_at(raw, path) is not None:
+                continue  # it was there under a misspelt name
             if path not in problems:
                 problems[path] = _problem(loc, path, dict(item))
             meant = _meant(loc, raw) if item["type"] == "extra_forbidden" else None
             if meant is not None:
                 _rename(raw, path, meant)
-            elif item["type"] != "missing" or _value_at(raw, path) is None:
-                cut = _cut(path)
-                gone.add(cut)
-                _take_out(raw, cut)
+            else:
+                gone.add(_take_out(raw, _cut(path)))
         if "links" not in raw or raw["links"] == {}:
             break
     raise SceneError(*problems.values())
@@ -251,16 +251,14 @@ def _about_key(loc: Path) -> str:
 def _about_size(loc: Path, value: Any) -> tuple[str, str]:
     if loc == ("links",):
         return "there is none", "a scene has moving links, [links.1] and so on"
-    found = f"found {shown(value)}"
-    if "on" in loc or "in" in loc:
-        return found, "one guide or two are possible" if "on" in loc else "at least one guide is wanted"
-    if "angle_on" in loc:
-        return found, "one number for each guide"
-    if "from" in loc:
-        return found, "two points of the link are wanted"
-    if "r" in loc:
-        return found, "two lengths are wanted, one for each point"
-    return found, "a place is [x, y]"
+    wanted = {
+        "on": "one guide or two are possible",
+        "in": "one guide or two are possible",
+        "angle_on": "one number for each guide is wanted",
+        "from": "two points of the link are wanted",
+        "r": "two lengths are wanted, one for each point",
+    }
+    return f"found {shown(value)}", wanted.get(str(_written_path(loc)[-1]), "a place is [x, y]")
 
 
 def _name_rule(ctx: Mapping[str, Any]) -> str:
@@ -307,10 +305,10 @@ def _rename(raw: dict[str, Any], path: Path, key: str) -> None:
         table.update(renamed)
 
 
-def _take_out(raw: dict[str, Any], path: Path) -> None:
-    """Take an entry out; where it is not there (a required key), the table that misses it."""
+def _take_out(raw: dict[str, Any], path: Path) -> Path:
+    """Take an entry out, or where it is not there (a required key) the table that misses it; return its path."""
     table = _value_at(raw, path[:-1])
     if isinstance(table, dict) and path[-1] in table:
         del table[path[-1]]
-    elif len(path) > 1:
-        _take_out(raw, path[:-1])
+        return path
+    return _take_out(raw, path[:-1]) if len(path) > 1 else path

@@ -1,0 +1,120 @@
+"""Sliding pairs and pins in slots, and whether every link is held by something."""
+
+from __future__ import annotations
+
+from graphkin.errors import Problem
+from graphkin.plane import direction
+from graphkin.scene.file import LinkTable, SceneFile
+from graphkin.scene.model import PinInSlot, SlidingPair
+from graphkin.scene.names import Names
+
+__all__ = ["islands", "pins_in_slots", "sliding_pairs"]
+
+
+def _as_list(refs: str | list[str]) -> list[str]:
+    return [refs] if isinstance(refs, str) else refs
+
+
+def sliding_pairs(file: SceneFile, names: Names, problems: list[Problem]) -> tuple[SlidingPair, ...]:
+    """The sliding pairs of the file; what is wrong with them is added to ``problems``."""
+    pairs: list[SlidingPair] = []
+    for name, link in file.links.items():
+        if link.on is None:
+            if link.angle_on is not None and name not in names.unsure:
+                problems.append(Problem(f"links.{name}.angle_on", "stands without on", "say what the link slides on"))
+            continue
+        refs = _as_list(link.on)
+        angles = _angles(name, link, len(refs), problems)
+        for ref, angle in zip(refs, angles, strict=True):
+            on, _, guide = ref.partition(".")
+            problem = names.no_guide(f"links.{name}.on", ref) or _sliding_problem(name, on, link, names, pairs)
+            if problem:
+                problems.append(problem)
+                continue
+            pairs.append(SlidingPair(name, on, guide, direction(angle), link.points[0] if link.points else None))
+    return tuple(pairs)
+
+
+def _angles(name: str, link: LinkTable, guides: int, problems: list[Problem]) -> list[float]:
+    if link.angle_on is None:
+        return [0.0] * guides
+    angles = link.angle_on if isinstance(link.angle_on, list) else [link.angle_on]
+    if len(angles) != guides:
+        problems.append(Problem(f"links.{name}.angle_on", f"found {len(angles)} for {guides} guides",
+                                "write one number for each guide"))
+        return [0.0] * guides
+    return angles
+
+
+def _sliding_problem(name: str, on: str, link: LinkTable, names: Names, pairs: list[SlidingPair]) -> Problem | None:
+    where = f"links.{name}.on"
+    if on == name:
+        return Problem(where, f"link {name} slides on itself", "name the link that guides it")
+    if any({p.link, p.on} == {name, on} for p in pairs):
+        return Problem(where, f"link {name} already has a sliding pair with link {on}",
+                       "two links have one sliding pair at most")
+    if link.points and link.points[0] in names.points.get(on, ()):
+        return Problem(where, f"{link.points[0]} is a point of link {on} too, which pins the two together",
+                       f"take {link.points[0]} away from one of them, or do not let link {name} slide")
+    return None
+
+
+def pins_in_slots(
+    file: SceneFile, names: Names, slidings: tuple[SlidingPair, ...], problems: list[Problem]
+) -> tuple[PinInSlot, ...]:
+    """The pins in slots of the file; what is wrong with them is added to ``problems``."""
+    pins: list[PinInSlot] = []
+    for point, pin in file.pins.items():
+        where = f"pins.{point}"
+        problem = names.no_link(f"{where}.of", pin.of) or names.no_point_of(f"{where}.of", pin.of, point)
+        if problem:
+            problems.append(problem)
+        for ref in _as_list(pin.slots):
+            on, _, guide = ref.partition(".")
+            found = names.no_guide(f"{where}.in", ref)
+            if not found and on == pin.of:
+                found = Problem(f"{where}.in", f"{ref} is a guide of link {on} itself",
+                                "name the guide of another link")
+            if not found and any(p.point == point and p.on == on for p in pins):
+                found = Problem(f"{where}.in", f"{point} runs twice in link {on}",
+                                f"one slot of link {on}, or a turning pair")
+            if not found and point in names.points.get(on, ()):
+                found = Problem(f"{where}.in", f"{point} is also a point of link {on}, which is a turning pair",
+                                f"take {point} away from link {on}, or the pin away")
+            if not found and any(s.key == f"{point}/{on}" for s in slidings):
+                found = Problem(where, f"{point}/{on} is also the name of a sliding pair", f"rename link {point}")
+            if found:
+                problems.append(found)
+            elif not problem:
+                pins.append(PinInSlot(point, pin.of, on, guide))
+    return tuple(pins)
+
+
+def islands(
+    names: Names, slidings: tuple[SlidingPair, ...], pins: tuple[PinInSlot, ...]
+) -> list[tuple[str, ...]]:
+    """The sets of links that no chain of joints connects with the frame, in the order of the file."""
+    near: dict[str, set[str]] = {name: set() for name in names.points}
+    holders: dict[str, list[str]] = {}
+    for name, points in names.points.items():
+        for point in points:
+            holders.setdefault(point, []).append(name)
+    joined = [(a, b) for held in holders.values() for a in held for b in held if a != b]
+    joined += [(s.link, s.on) for s in slidings] + [(p.of, p.on) for p in pins]
+    for a, b in joined:
+        near[a].add(b)
+        near[b].add(a)
+    apart: list[tuple[str, ...]] = []
+    seen: set[str] = set()
+    for start in (names.frame, *names.points):
+        if start in seen:
+            continue
+        reached, todo = {start}, [start]
+        while todo:
+            new = near[todo.pop()] - reached
+            reached |= new
+            todo += new
+        seen |= reached
+        if start != names.frame:
+            apart.append(tuple(n for n in names.points if n in reached))
+    return apart

@@ -1,0 +1,146 @@
+"""Points and guides of a link in its own axes, from the ways in which a file may give them.
+
+Each function answers with a plane vector (m), None while something that it refers to is not known yet, or a
+``Problem`` where what is known does not fit.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from graphkin.errors import Problem
+from graphkin.plane import cross_arcs, degrees, direction
+from graphkin.scene.file import Compass, GuideTable, LinkTable, Polar
+from graphkin.scene.model import Guide
+
+__all__ = ["Body", "circle_of_references", "guide_of", "place_of"]
+
+Places = Mapping[str, complex]
+
+
+@dataclass
+class Body:
+    """A link while it is being placed.
+
+    ``where`` is its name in the file ("links.3", "frame"); ``own`` its one or two own points, ``at`` and ``rails``
+    the further points and guides as the file gives them.  ``local`` and ``guides`` are in its own axes (m);
+    ``turn`` (unit complex, direction of the own x axis) and ``origin`` (m) are its pose in the world at the scene's
+    position, None while unknown.  ``arm`` is the distance (m) of the places that gave ``turn``: how well it is known.
+    """
+
+    name: str
+    where: str
+    own: tuple[str, ...]
+    at: Mapping[str, object]
+    rails: Mapping[str, GuideTable]
+    length: float | None = None
+    local: dict[str, complex] = field(default_factory=dict)
+    guides: dict[str, Guide] = field(default_factory=dict)
+    turn: complex | None = None
+    origin: complex | None = None
+    arm: float = math.inf
+    failed: set[str] = field(default_factory=set)
+
+    def world(self, local: complex) -> complex | None:
+        """A place of the link in world axes, None while its pose is unknown."""
+        return None if self.turn is None or self.origin is None else self.origin + self.turn * local
+
+    def in_own_axes(self, world: complex) -> complex | None:
+        """A place in world axes in the link's own, None while its pose is unknown."""
+        return None if self.turn is None or self.origin is None else (world - self.origin) / self.turn
+
+
+def place_polar(where: str, entry: Polar, metres: float, local: Places) -> complex | Problem | None:
+    """A point at r and angle from a point of the link, the angle from the x axis or toward another point."""
+    if entry.origin not in local:
+        return None
+    start, sense = local[entry.origin], 1 + 0j
+    if entry.toward is not None:
+        if entry.toward not in local:
+            return None
+        way = local[entry.toward] - start
+        if way == 0:
+            return Problem(f"{where}.toward", f"{entry.toward} lies at {entry.origin} itself",
+                           "name a point that lies elsewhere")
+        sense = way / abs(way)
+    return start + entry.r * metres * sense * direction(entry.angle)
+
+
+def place_compass(where: str, entry: Compass, metres: float, local: Places) -> complex | Problem | None:
+    """A point at two distances from two points of the link, on the given side of the line between them."""
+    first, second = entry.origins
+    if first not in local or second not in local:
+        return None
+    p, q = local[first], local[second]
+    r, s = entry.r[0] * metres, entry.r[1] * metres
+    c = abs(q - p)
+    if c == 0:
+        return Problem(f"{where}.from", f"{first} and {second} lie at the same place", "name two points apart")
+    both = cross_arcs(p, r, q, s)
+    if both is None and min(abs(r + s - c), abs(abs(r - s) - c)) <= 1e-12 * max(r, s, c):
+        both = (p + (q - p) / c * math.copysign(r, c * c + r * r - s * s),) * 2  # the arcs touch
+    if both is None:
+        least, most = abs(c - r) / metres, (c + r) / metres
+        return Problem(where, f"arcs of {entry.r[0]:g} about {first} and {entry.r[1]:g} about {second} do not meet",
+                       f"with {first}{second} = {c / metres:.6g} the second may be from {least:.6g} to {most:.6g}")
+    return both[0 if entry.side == "left" else 1]
+
+
+def place_of(where: str, entry: object, metres: float, local: Places) -> complex | Problem | None:
+    """A further point of a link; "drawn" answers None, it needs the pose."""
+    if isinstance(entry, list):
+        return complex(*entry) * metres
+    if isinstance(entry, Polar):
+        return place_polar(where, entry, metres, local)
+    return place_compass(where, entry, metres, local) if isinstance(entry, Compass) else None
+
+
+def guide_of(
+    where: str, name: str, entry: GuideTable, metres: float, body: Body, places: Places, tolerance: float
+) -> Guide | Problem | None:
+    """A guide of a link, its direction by angle or toward a point of the link, a fixed one or a drawn one."""
+    through = body.local.get(entry.through) if isinstance(entry.through, str) else complex(*entry.through) * metres
+    if through is None:
+        return None
+    if entry.toward is None:
+        return None if entry.angle is None else Guide(name, through, direction(entry.angle))
+    aim = body.local.get(entry.toward)
+    if aim is None and entry.toward in places:
+        aim = body.in_own_axes(places[entry.toward])
+    if aim is None:
+        return None
+    way = aim - through
+    if abs(way) <= tolerance:
+        return Problem(f"{where}.toward", f"{entry.toward} lies where the guide goes through",
+                       "name a point that lies elsewhere")
+    sense = way / abs(way)
+    if entry.angle is None:
+        return Guide(name, through, sense)
+    given = direction(entry.angle)
+    if abs(given - sense) * abs(way) > tolerance:
+        return Problem(f"{where}.angle", f"found {entry.angle:g} deg, but toward {entry.toward} it is "
+                       f"{degrees(sense):.8g} deg", "leave one of the two out, or correct it")
+    return Guide(name, through, given)
+
+
+def circle_of_references(table: LinkTable) -> list[str]:
+    """Points of ``at`` that are placed from one another in a circle, [] if there is no circle."""
+    needs: dict[str, set[str]] = {}
+    for point, entry in table.at.items():
+        if point in table.points:
+            continue
+        if isinstance(entry, Polar):
+            needs[point] = {entry.origin, entry.toward or entry.origin}
+        elif isinstance(entry, Compass):
+            needs[point] = set(entry.origins)
+    left = set(needs)
+    while free := {p for p in left if not needs[p] & left}:
+        left -= free
+    trail: list[str] = []
+    here = min(left, default="")
+    while here and here not in trail:
+        trail.append(here)
+        here = min(needs[here] & left)
+    return trail[trail.index(here):] if trail else []

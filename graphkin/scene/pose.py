@@ -1,0 +1,228 @@
+"""Where the links lie at the scene's own position, as far as the file says it outright.
+
+Problems that are stated by coordinates give places of points in ``[drawn]`` and leave lengths, angles and
+directions of guides to be taken from them.  What can be known is collected step by step until nothing new comes:
+
+- a link with two points at known places has its direction, and from it the place of its other points;
+- two links in a sliding pair keep their angle, so the direction of one gives that of the other;
+- a driver's angle gives the direction of the driven link, its travel the place of the sliding one;
+- last, where nothing else tells: a guide that turns about a known point passes through what slides on it, and
+  points so that this lies on its positive side (what is written first in the file decides).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+from graphkin.errors import Problem
+from graphkin.plane import dot
+from graphkin.scene.model import PinInSlot, SlidingPair
+from graphkin.scene.placing import Body, guide_of, place_of
+
+__all__ = ["Position", "find_position", "running_points", "travel_of"]
+
+GIVEN_TWICE = 1e-6
+
+
+@dataclass
+class Position:
+    """What is known of the scene's own position while it is being collected.
+
+    ``given`` are the places of fixed and drawn points, ``places`` also those found from them (m).
+    ``angles`` are driven links with the link they are measured from and the direction, ``travels`` driven
+    pairs by key with the travel (m).
+    """
+
+    bodies: Mapping[str, Body]
+    given: Mapping[str, complex]
+    slidings: tuple[SlidingPair, ...]
+    pins: tuple[PinInSlot, ...]
+    angles: tuple[tuple[str, str, complex], ...]
+    travels: Mapping[str, float]
+    metres: float
+    size: float
+    problems: list[Problem]
+
+    def __post_init__(self) -> None:
+        self.places = dict(self.given)
+        self.news = False
+
+    @property
+    def tolerance(self) -> float:
+        """How far apart two statements of one place may be (m)."""
+        return GIVEN_TWICE * self.size
+
+    def set_turn(self, body: Body, turn: complex, arm: float) -> None:
+        """Note the direction of a link, if it is news."""
+        if body.turn is None:
+            body.turn, body.arm, self.news = turn, arm, True
+
+    def set_origin(self, body: Body, origin: complex) -> None:
+        """Note the place of a link's origin, if it is news."""
+        if body.origin is None:
+            body.origin, self.news = origin, True
+
+
+def find_position(position: Position) -> None:
+    """Place everything that can be placed, in the links' own axes and in the world."""
+    while True:
+        position.news = False
+        for body in position.bodies.values():
+            _place_points(position, body)
+            _place_guides(position, body)
+            _turn_by_points(position, body)
+            _move_by_points(position, body)
+        _turn_by_slidings(position)
+        _turn_by_drivers(position)
+        _move_by_travels(position)
+        if not position.news and not _turn_to_positive_side(position):
+            return
+
+
+def _place_points(position: Position, body: Body) -> None:
+    for point, entry in body.at.items():
+        if point in body.local or point in body.failed:
+            continue
+        found = place_of(f"{body.where}.at.{point}", entry, position.metres, body.local)
+        if entry == "drawn" and point in position.given:
+            found = body.in_own_axes(position.given[point])
+        if isinstance(found, Problem):
+            position.problems.append(found)
+            body.failed.add(point)
+        elif found is not None:
+            body.local[point] = found
+            position.news = True
+
+
+def _place_guides(position: Position, body: Body) -> None:
+    for name, entry in body.rails.items():
+        if name in body.guides or f".{name}" in body.failed:
+            continue
+        where = f"{body.where}.guides.{name}"
+        found = guide_of(where, name, entry, position.metres, body, position.places, position.tolerance)
+        if isinstance(found, Problem):
+            position.problems.append(found)
+            body.failed.add(f".{name}")
+        elif found is not None:
+            body.guides[name] = found
+            position.news = True
+
+
+def _turn_by_points(position: Position, body: Body) -> None:
+    if body.turn is not None:
+        return
+    own = body.own
+    if len(own) == 2 and all(p in position.places for p in own):
+        way = position.places[own[1]] - position.places[own[0]]
+        if abs(way) > position.tolerance:
+            position.set_turn(body, way / abs(way), abs(way))
+        return
+    placed = [p for p in body.local if p in position.places]
+    pairs = ((p, q) for i, q in enumerate(placed) for p in placed[:i])
+    far = max(pairs, key=lambda pq: abs(body.local[pq[1]] - body.local[pq[0]]), default=None)
+    if far:
+        local = body.local[far[1]] - body.local[far[0]]
+        way = position.places[far[1]] - position.places[far[0]]
+        if min(abs(local), abs(way)) > position.tolerance:
+            turn = way / local
+            position.set_turn(body, turn / abs(turn), abs(way))
+
+
+def _move_by_points(position: Position, body: Body) -> None:
+    if body.turn is None:
+        return
+    for point, local in body.local.items():
+        if body.origin is None and point in position.places:
+            position.set_origin(body, position.places[point] - body.turn * local)
+    if body.origin is None:
+        return
+    for point, local in body.local.items():
+        if point not in position.places:
+            position.places[point] = body.origin + body.turn * local
+            position.news = True
+
+
+def _turn_by_slidings(position: Position) -> None:
+    for pair in position.slidings:
+        slider, rail = position.bodies[pair.link], position.bodies[pair.on]
+        guide = rail.guides.get(pair.guide)
+        if guide is None:
+            continue
+        if rail.turn is not None:
+            position.set_turn(slider, rail.turn * guide.direction * pair.turn, rail.arm)
+        elif slider.turn is not None:
+            position.set_turn(rail, slider.turn / (guide.direction * pair.turn), slider.arm)
+
+
+def _turn_by_drivers(position: Position) -> None:
+    for link, base, turn in position.angles:
+        driven, from_body = position.bodies[link], position.bodies[base]
+        if from_body.turn is not None:
+            position.set_turn(driven, from_body.turn * turn, from_body.arm)
+        elif driven.turn is not None:
+            position.set_turn(from_body, driven.turn / turn, driven.arm)
+
+
+def _move_by_travels(position: Position) -> None:
+    for pair in position.slidings:
+        slider, rail = position.bodies[pair.link], position.bodies[pair.on]
+        guide = rail.guides.get(pair.guide)
+        if pair.key not in position.travels or guide is None:
+            continue
+        along = guide.through + guide.direction * position.travels[pair.key]
+        if (place := rail.world(along)) is not None:
+            position.set_origin(slider, place)
+        elif rail.turn is not None and slider.origin is not None:
+            position.set_origin(rail, slider.origin - rail.turn * along)
+
+
+def running_points(position: Position) -> Iterable[tuple[str, str, str, complex | None]]:
+    """Each guiding link and guide with the point that runs in it: (link, guide, what runs, its place or None)."""
+    for pair in position.slidings:
+        place = position.places.get(pair.pin) if pair.pin else position.bodies[pair.link].origin
+        yield pair.on, pair.guide, pair.link, place
+    for pin in position.pins:
+        yield pin.on, pin.guide, pin.point, position.places.get(pin.point)
+
+
+def _turn_to_positive_side(position: Position) -> bool:
+    """Turn one guide about its link's origin until it passes through what runs in it; True if there was one.
+
+    With k the guide's place seen along its own direction, the running point lies at (k + s) w from the origin,
+    w the guide's direction in the world and s its travel, here the larger root of |k + s| = distance.
+    """
+    for name, guide_name, _, place in running_points(position):
+        rail = position.bodies[name]
+        guide = rail.guides.get(guide_name)
+        if rail.turn is not None or guide is None or place is None:
+            continue
+        centre = position.places.get(rail.own[0]) if rail.own else None
+        if centre is None:
+            continue
+        k, way = guide.through / guide.direction, place - centre
+        if abs(way) <= max(abs(k.imag), position.tolerance):
+            continue
+        s = math.sqrt((abs(way) - k.imag) * (abs(way) + k.imag)) - k.real
+        sense = way / (k + s)
+        position.set_turn(rail, sense / abs(sense) / guide.direction, abs(way))
+        return True
+    return False
+
+
+def travel_of(position: Position, key: str) -> float | None:
+    """The travel of a sliding pair or pin in slot at the known position (m), None if it is not known."""
+    for pair in position.slidings:
+        if pair.key == key:
+            return _along(position.bodies[pair.on], pair.guide, position.bodies[pair.link].origin)
+    for pin in position.pins:
+        if pin.key == key:
+            return _along(position.bodies[pin.on], pin.guide, position.places.get(pin.point))
+    return None
+
+
+def _along(rail: Body, guide_name: str, place: complex | None) -> float | None:
+    local = None if place is None else rail.in_own_axes(place)
+    guide = rail.guides.get(guide_name)
+    return None if local is None or guide is None else dot(guide.direction, local - guide.through)

@@ -1,0 +1,194 @@
+"""From the tables of a file to the one model of the mechanism: names looked up, points placed, SI units."""
+
+from __future__ import annotations
+
+import cmath
+from collections.abc import Mapping
+
+from graphkin.errors import Problem, SceneError
+from graphkin.scene.agreement import disagreements
+from graphkin.scene.drivers import Drive, drives
+from graphkin.scene.file import LinkTable, SceneFile
+from graphkin.scene.joints import islands, pins_in_slots, sliding_pairs
+from graphkin.scene.model import (
+    AngleDriver,
+    Driver,
+    Guide,
+    Link,
+    Scene,
+    SheetWishes,
+    SlideDriver,
+    Units,
+)
+from graphkin.scene.names import Names
+from graphkin.scene.placing import Body
+from graphkin.scene.pose import Position, find_position, travel_of
+from graphkin.scene.questions import asked, published, unknown_places
+from graphkin.scene.reading import Flaws
+from graphkin.scene.rules import not_held, nowhere_placed, unwritable_texts, wrong_own_points
+
+__all__ = ["resolve"]
+
+METRES = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254, "ft": 0.3048}
+MOST_LINKS = 200
+MOST_POINTS = 100
+
+
+def resolve(file: SceneFile, name: str, problems: list[Problem], flaws: Flaws) -> Scene:
+    """Make the scene that a file describes.
+
+    Parameters
+    ----------
+    file : what is valid in the file
+    name : the scene's name
+    problems : what was found wrong with the file's form so far
+    flaws : what was taken out for it
+
+    Raises
+    ------
+    SceneError : with everything that is wrong, the form first
+    """
+    problems = list(problems)
+    many = [n for n, link in file.links.items() if len(link.at) + len(link.guides) + len(link.points) > MOST_POINTS]
+    if len(file.links) > MOST_LINKS:
+        problems.append(Problem("links", f"found {len(file.links)} moving links", f"at most {MOST_LINKS} are possible"))
+    problems += [Problem(f"links.{n}", "has too many points and guides", f"at most {MOST_POINTS}") for n in many]
+    if many or len(file.links) > MOST_LINKS:
+        raise SceneError(*problems)
+
+    metres = METRES[file.units.length]
+    names = Names.of(file, flaws)
+    problems += unwritable_texts(file)
+    problems += wrong_own_points(file, names)
+    slidings = sliding_pairs(file, names, problems)
+    pins = pins_in_slots(file, names, slidings, problems)
+    driven = drives(file, names, flaws, slidings, pins, metres, problems)
+    problems += unknown_places(file, names)
+    find = asked(file, names, problems)
+    printed = published(file, names, metres, problems)
+    problems += nowhere_placed(file, names)
+    if not names.unsure and not flaws.under("pins"):
+        for group in islands(names, slidings, pins):
+            if not any(p.where.startswith(f"links.{n}.") for p in problems for n in group):
+                problems.append(not_held(group, names))
+
+    drawn = {p: complex(*xy) * metres for p, xy in file.drawn.items()}
+    bodies = _bodies(file, names, drawn, metres, flaws, problems)
+    fixed = bodies[names.frame].local
+    for point in fixed.keys() & drawn.keys():
+        size = max((abs(z) for z in fixed.values()), default=0.0)
+        if abs(fixed[point] - drawn[point]) > 1e-6 * size:
+            problems.append(Problem(f"drawn.{point}", f"found {file.drawn[point]}, but it is a fixed point at "
+                                    f"{file.frame.points[point]}", "leave it out of [drawn], or correct it"))
+    position = Position(
+        bodies, {**drawn, **fixed}, slidings, pins,
+        tuple((d.key, d.base, cmath.rect(1.0, d.value)) for d in driven if d.base and d.value is not None),
+        {d.key: d.value for d in driven if not d.base and d.value is not None},
+        metres, _size(bodies, drawn, metres), problems,
+    )
+    find_position(position)
+    if not problems and drawn:
+        problems += disagreements(position)
+    if not problems:
+        problems += _not_found(file, position)
+    drivers = tuple(_driver(d, position, problems) for d in driven)
+    if problems:
+        raise SceneError(*dict.fromkeys(problems))
+    links = tuple(_link(n, t, bodies[n]) for n, t in file.links.items())
+    frame = Link(names.frame, fixed, (), _guides(bodies[names.frame]))
+    title = file.title or name
+    return Scene(
+        name, title, frame, links, slidings, pins, tuple(d for d in drivers if d), Units(file.units.length, metres),
+        file.title_zh, file.source, {p: complex(*xy) * metres for p, xy in file.sketch.items()}, drawn, find, printed,
+        SheetWishes(**file.sheet.model_dump()),
+    )
+
+
+def _bodies(
+    file: SceneFile, names: Names, drawn: Mapping[str, complex], metres: float, flaws: Flaws, problems: list[Problem]
+) -> dict[str, Body]:
+    """Every link with its own points placed, where its length is known."""
+    fixed = {p: complex(*xy) * metres for p, xy in file.frame.points.items()}
+    given = {**drawn, **fixed}
+    bodies: dict[str, Body] = {}
+    for name, table in file.links.items():
+        own = tuple(table.points) if len(set(table.points)) == len(table.points) <= 2 else tuple(table.points[:1])
+        body = Body(name, f"links.{name}", own, table.at, table.guides)
+        body.guides[""] = Guide("", 0j, 1 + 0j)
+        body.local |= dict.fromkeys(own[:1], 0j)
+        if len(own) == 2:
+            body.length = table.length * metres if table.length is not None else None
+            if body.length is None and own[0] in given and own[1] in given:
+                body.length = abs(given[own[1]] - given[own[0]])
+                if body.length == 0.0:
+                    problems.append(Problem(f"links.{name}", f"{own[0]} and {own[1]} are given at the same place",
+                                            "a bar has two points apart"))
+            if body.length is not None:
+                body.local[own[1]] = complex(body.length)
+            elif not flaws.under("links", name, "length") and not flaws.under("drawn"):
+                problems.append(_no_length(name, own, given))
+        bodies[name] = body
+    frame = Body(names.frame, "frame", (), {}, file.frame.guides)
+    frame.local, frame.turn, frame.origin = dict(fixed), 1 + 0j, 0j
+    frame.guides[""] = Guide("", 0j, 1 + 0j)
+    return {**bodies, names.frame: frame}
+
+
+def _no_length(name: str, own: tuple[str, ...], given: Mapping[str, complex]) -> Problem:
+    undrawn = " and ".join(p for p in own if p not in given)
+    return Problem(f"links.{name}.length", "is missing",
+                   f"write length = ..., or give {undrawn} in [drawn]")
+
+
+def _size(bodies: Mapping[str, Body], drawn: Mapping[str, complex], metres: float) -> float:
+    """The largest distance that the file gives (m)."""
+    fixed = [z for b in bodies.values() if b.where == "frame" for z in b.local.values()]
+    spans = [b.length for b in bodies.values() if b.length]
+    spans += [abs(complex(*e)) * metres for b in bodies.values() for e in b.at.values() if isinstance(e, list)]
+    spans += [abs(a - b) for a in (*fixed, *drawn.values()) for b in fixed]
+    return max(spans, default=0.0) or metres
+
+
+def _not_found(file: SceneFile, position: Position) -> list[Problem]:
+    """Points, guides that need the position of their link, where it does not follow from what is drawn."""
+    found = []
+    for body in position.bodies.values():
+        hint = f"draw two points of link {body.name}, or give it in the link's own axes"
+        for point in body.at:
+            if point not in body.local:
+                found.append(Problem(f"{body.where}.at.{point}", f"where link {body.name} lies does not follow from "
+                                     "what is drawn", hint))
+        for guide in body.rails:
+            if guide not in body.guides:
+                found.append(Problem(f"{body.where}.guides.{guide}", f"where link {body.name} lies does not follow "
+                                     "from what is drawn", hint))
+    return found
+
+
+def _driver(drive: Drive, position: Position, problems: list[Problem]) -> Driver | None:
+    """The driver with its value, taken from the drawn points where the file leaves it out."""
+    if not drive.base:
+        travel = drive.value if drive.value is not None else travel_of(position, drive.key)
+        if travel is not None:
+            return SlideDriver(drive.key, travel, drive.rate, drive.second)
+        problems.append(Problem(f"{drive.where}.travel", "is missing",
+                                "write travel = ..., or draw the points that give it in [drawn]"))
+        return None
+    angle = drive.value
+    driven, base = position.bodies.get(drive.key), position.bodies.get(drive.base)
+    if angle is None and driven and base and driven.turn is not None and base.turn is not None:
+        angle = cmath.phase(driven.turn / base.turn)
+    if angle is not None:
+        return AngleDriver(drive.key, drive.base, angle, drive.rate, drive.second)
+    problems.append(Problem(f"{drive.where}.angle", "is missing",
+                            f"write angle = ... in degrees, or draw two points of link {drive.key} in [drawn]"))
+    return None
+
+
+def _guides(body: Body) -> dict[str, Guide]:
+    return {"": body.guides[""], **{name: body.guides[name] for name in body.rails}}
+
+
+def _link(name: str, table: LinkTable, body: Body) -> Link:
+    order = dict.fromkeys((*body.own, *table.at))
+    return Link(name, {p: body.local[p] for p in order}, body.own, _guides(body), table.redundant)

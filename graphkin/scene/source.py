@@ -1,0 +1,154 @@
+"""Finding a scene: a file, the name of a scene that comes along, a text, or a mapping."""
+
+from __future__ import annotations
+
+import os
+import re
+import tomllib
+from collections.abc import Mapping
+from importlib.resources import files
+from importlib.resources.abc import Traversable
+from pathlib import Path
+from typing import Any
+
+from graphkin.errors import Problem, SceneError, did_you_mean
+from graphkin.scene.model import Scene
+
+__all__ = ["library", "library_text", "read", "read_text", "safe_name"]
+
+LARGEST_FILE = 1_000_000
+_AT_LINE = re.compile(r"^(.*?)\s*\(at (?:line (\d+), column (\d+)|(end of document))\)$", re.DOTALL)
+
+
+def _shelf() -> Traversable:
+    return files("graphkin.scene") / "library"
+
+
+def library() -> tuple[str, ...]:
+    """Names of the scenes that come along, sorted."""
+    return tuple(sorted(f.name.removesuffix(".toml") for f in _shelf().iterdir() if f.name.endswith(".toml")))
+
+
+def library_text(name: str) -> str:
+    """The text of a scene that comes along.  Raises SceneError for a name that is not there."""
+    if name not in library():
+        raise SceneError(_no_scene(name))
+    return (_shelf() / f"{name}.toml").read_text(encoding="utf-8")
+
+
+def read(source: str | os.PathLike[str] | Mapping[str, Any]) -> Scene:
+    """Read a scene.
+
+    Parameters
+    ----------
+    source : a path, the name of a scene that comes along, or what a TOML parser makes of a scene file
+
+    Raises
+    ------
+    SceneError : naming everything that is wrong with the scene, or that there is none
+    """
+    if isinstance(source, Mapping):
+        return _scene(source, "scene")
+    if isinstance(source, str | os.PathLike):
+        text = os.fspath(source)
+        if isinstance(text, str):
+            if isinstance(source, str) and text in library() and not _is_file(text):
+                return read_text(library_text(text), text)
+            return read_text(_file_text(text), Path(text).stem)
+    raise SceneError(Problem("the scene", f"found a {type(source).__name__}",
+                             "give a file, the name of a scene that comes along, or a mapping"))
+
+
+def read_text(text: str, name: str) -> Scene:
+    """Read a scene from the text of a scene file; ``name`` is the scene's name.  Raises SceneError."""
+    if len(text) > LARGEST_FILE:
+        raise SceneError(_too_large())
+    try:
+        raw = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise SceneError(_syntax(str(error), text)) from None
+    except RecursionError:
+        raise SceneError(Problem("the file", "is nested too deeply", "a scene needs at most four levels")) from None
+    except ValueError as error:
+        raise SceneError(Problem("the file", f"is not TOML: {error}", "see https://toml.io")) from None
+    return _scene(raw, name)
+
+
+def safe_name(name: str) -> str:
+    """A name that can be a folder's: letters of any language, digits, and - _ . inside.
+
+    >>> safe_name("../my scene: 2?"), safe_name("..")
+    ('my-scene-2', 'scene')
+    """
+    kept = "".join(c if c.isalnum() or c in "-_." else "-" for c in name[:200])
+    return re.sub(r"-{2,}", "-", kept)[:60].strip("-_.") or "scene"
+
+
+def _scene(raw: Mapping[str, Any], name: str) -> Scene:
+    # pydantic is loaded where a file is read, not where a scene is only used
+    from graphkin.scene.reading import checked, plain
+    from graphkin.scene.resolve import resolve
+
+    file, problems, flaws = checked(plain(raw))
+    return resolve(file, safe_name(name), problems, flaws)
+
+
+def _is_file(path: str) -> bool:
+    try:
+        return os.path.isfile(path)
+    except ValueError:
+        return False
+
+
+def _file_text(path: str) -> str:
+    """The text of a file.  Raises SceneError where there is no such text."""
+    shown = path if path.isprintable() and len(path) <= 200 else ascii(path)[:200]
+    try:
+        if os.path.isdir(path):
+            raise SceneError(Problem(shown, "is a directory", "name a scene file in it"))
+        with open(path, "rb") as stream:
+            data = stream.read(LARGEST_FILE + 1)
+    except FileNotFoundError:
+        raise SceneError(_no_scene(path, shown)) from None
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+        raise SceneError(Problem(shown or "the scene", f"cannot be read: {reason}")) from None
+    if len(data) > LARGEST_FILE:
+        raise SceneError(_too_large())
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = data[: error.start].count(b"\n") + 1
+        raise SceneError(Problem(f"line {line}", "is not UTF-8 text", "a scene file is TOML, saved as UTF-8")) from None
+
+
+def _too_large() -> Problem:
+    return Problem("the file", f"is larger than {LARGEST_FILE // 1000} kB", "a scene file is one mechanism as TOML")
+
+
+def _no_scene(name: str, shown: str = "") -> Problem:
+    shown = shown or name
+    if name.endswith(".toml") or "/" in name or os.sep in name:
+        return Problem(shown, "there is no such file", "name a scene file, or a scene that comes along")
+    return Problem(shown or "the scene", "there is no such file, and no scene of this name comes along",
+                   did_you_mean(name[:60], library()))
+
+
+def _syntax(message: str, text: str) -> Problem:
+    """What the TOML parser says, with the line it happened in."""
+    match = _AT_LINE.match(message)
+    if not match:
+        return Problem("the file", f"is not TOML: {message}")
+    line = int(match[2]) if match[2] else text.count("\n") + 1
+    lines = text.splitlines()
+    here = lines[line - 1].strip() if line <= len(lines) else ""
+    said = f"{match[1]}: {here[:80]}" if here and here.isprintable() else match[1]
+    return Problem(f"line {line}", f"is not TOML, {said[:1].lower() + said[1:]}", _toml_hint(match[1]))
+
+
+def _toml_hint(message: str) -> str:
+    if "overwrite" in message or "twice" in message or "Cannot declare" in message:
+        return "a key or table may stand only once"
+    if "Invalid value" in message:
+        return "texts and names stand in quotation marks, numbers do not"
+    return "write key = value, texts in quotation marks, tables as [name]"
