@@ -66,7 +66,7 @@ def components(needs: Mapping[N, Sequence[N]]) -> list[tuple[N, ...]]:
         work: list[tuple[N, int]] = [(root, 0)]
         while work:
             node, place = work.pop()
-            if place == 0:
+            if node not in index:
                 index[node] = low[node] = len(index)
                 stack.append(node)
                 on_stack.add(node)
