@@ -4,10 +4,30 @@ from __future__ import annotations
 
 from graphkin.errors import Problem
 from graphkin.plane import cross, degrees
-from graphkin.scene.placing import Body
+from graphkin.scene.placing import Body, place_of
 from graphkin.scene.pose import Position, running_points, travel_of
 
-__all__ = ["disagreements"]
+__all__ = ["disagreements", "placed_twice"]
+
+
+def placed_twice(position: Position) -> list[Problem]:
+    """Points that the file places twice in one link, or fixes and draws, at different places."""
+    found = []
+    for body in position.bodies.values():
+        for point in body.own:
+            local = place_of(body.where, body.at.get(point), position.metres, body.local)
+            if isinstance(local, complex) and point in body.local:
+                own = body.local[point]
+                if abs(local - own) > position.tolerance:
+                    found.append(Problem(f"{body.where}.at.{point}", f"puts it at {_pair(local, position.metres)}, "
+                                         f"but as an own point it is at {_pair(own, position.metres)}",
+                                         "leave one of the two out, or correct it"))
+        for point, place in body.local.items() if body.where == "frame" else ():
+            drawn = position.drawn.get(point, place)
+            if abs(drawn - place) > position.tolerance:
+                found.append(Problem(f"drawn.{point}", f"found {_pair(drawn, position.metres)}, but it is a fixed "
+                                     f"point at {_pair(place, position.metres)}", "leave it out, or correct it"))
+    return found
 
 
 def disagreements(position: Position) -> list[Problem]:

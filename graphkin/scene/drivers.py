@@ -54,7 +54,7 @@ def drives(
             base = ""
         reasons += _driven_twice(where, key, base, found)
         problems += reasons
-        if reasons:
+        if reasons or lost & {"angle", "travel"}:
             continue
         if isinstance(table, AngleDriverTable):
             omega = table.omega if table.omega is not None else (table.rpm or 0.0) * math.pi / 30
@@ -105,7 +105,7 @@ def _slide_problems(
     what, _, on = table.slide.partition("/")
     pairs = {p.key: p.on for p in slidings if p.link == what} or {p.key: p.on for p in pins if p.point == what}
     keys = [key for key, rail in pairs.items() if rail in (on or rail, ) and rail == (table.relative_to or rail)]
-    known = [p.key for p in (*slidings, *pins)]
+    known = [p.key for p in slidings] + [p.key for p in pins]
     if "" in names.unsure or (what in file.links and file.links[what].on is not None and not pairs):
         return problems, keys[0] if len(keys) == 1 else table.slide  # its pair has a problem of its own
     if not pairs and what not in names.points:

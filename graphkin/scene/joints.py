@@ -90,18 +90,22 @@ def pins_in_slots(
     return tuple(pins)
 
 
-def islands(
-    names: Names, slidings: tuple[SlidingPair, ...], pins: tuple[PinInSlot, ...]
-) -> list[tuple[str, ...]]:
-    """The sets of links that no chain of joints connects with the frame, in the order of the file."""
+def islands(file: SceneFile, names: Names) -> list[tuple[str, ...]]:
+    """The sets of links that no chain of joints connects with the frame, in the order of the file.
+
+    Empty where the file names a link that does not exist: it may stand for the one that seems unheld.
+    """
+    slides = [(name, ref.partition(".")[0]) for name, link in file.links.items() for ref in _as_list(link.on or [])]
+    slides += [(pin.of, ref.partition(".")[0]) for pin in file.pins.values() for ref in _as_list(pin.slots)]
+    if any(name not in names.points for pair in slides for name in pair):
+        return []
     near: dict[str, set[str]] = {name: set() for name in names.points}
     holders: dict[str, list[str]] = {}
     for name, points in names.points.items():
         for point in points:
             holders.setdefault(point, []).append(name)
     joined = [(a, b) for held in holders.values() for a in held for b in held if a != b]
-    joined += [(s.link, s.on) for s in slidings] + [(p.of, p.on) for p in pins]
-    for a, b in joined:
+    for a, b in (*joined, *slides):
         near[a].add(b)
         near[b].add(a)
     apart: list[tuple[str, ...]] = []

@@ -38,7 +38,8 @@ class Names:
         if frame not in points:
             points[frame] = (*file.frame.points, *sorted(flaws.names("frame", "points")))
             guides[frame] = frozenset(file.frame.guides) | flaws.names("frame", "guides")
-        unsure = lost | {p[1] for p in flaws.paths if p[0] == "links" and len(p) == 3 and isinstance(p[1], str)}
+        harmless = {"length", "on", "angle_on", "redundant"}
+        unsure = lost | {str(p[1]) for p in flaws.paths if p[0] == "links" and len(p) == 3 and p[2] not in harmless}
         if flaws.under("frame", "name") or any(p[0] == "frame" and len(p) == 2 for p in flaws.paths):
             unsure |= {frame, ""}
         if unsure:

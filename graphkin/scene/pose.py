@@ -30,13 +30,15 @@ GIVEN_TWICE = 1e-6
 class Position:
     """What is known of the scene's own position while it is being collected.
 
-    ``given`` are the places of fixed and drawn points, ``places`` also those found from them (m).
+    ``fixed`` and ``drawn`` are the places of points that the file gives in the world (``given`` both of them),
+    ``places`` also those found from them (m).
     ``angles`` are driven links with the link they are measured from and the direction, ``travels`` driven
     pairs by key with the travel (m).
     """
 
     bodies: Mapping[str, Body]
-    given: Mapping[str, complex]
+    fixed: Mapping[str, complex]
+    drawn: Mapping[str, complex]
     slidings: tuple[SlidingPair, ...]
     pins: tuple[PinInSlot, ...]
     angles: tuple[tuple[str, str, complex], ...]
@@ -46,6 +48,7 @@ class Position:
     problems: list[Problem]
 
     def __post_init__(self) -> None:
+        self.given = {**self.drawn, **self.fixed}
         self.places = dict(self.given)
         self.news = False
 

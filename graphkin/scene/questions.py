@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from graphkin.errors import Problem
 from graphkin.scene.file import SceneFile
-from graphkin.scene.model import Symbol
 from graphkin.scene.names import Names
-from graphkin.scene.reading import path_name
+from graphkin.scene.sentences import path_name
+from graphkin.scene.symbol import Symbol
 
 __all__ = ["asked", "published", "unknown_places"]
 

@@ -6,7 +6,7 @@ import cmath
 from collections.abc import Mapping
 
 from graphkin.errors import Problem, SceneError
-from graphkin.scene.agreement import disagreements
+from graphkin.scene.agreement import disagreements, placed_twice
 from graphkin.scene.drivers import Drive, drives
 from graphkin.scene.file import LinkTable, SceneFile
 from graphkin.scene.joints import islands, pins_in_slots, sliding_pairs
@@ -66,32 +66,31 @@ def resolve(file: SceneFile, name: str, problems: list[Problem], flaws: Flaws) -
     problems += unknown_places(file, names)
     find = asked(file, names, problems)
     printed = published(file, names, metres, problems)
-    problems += nowhere_placed(file, names)
-    if not names.unsure and not flaws.under("pins"):
-        for group in islands(names, slidings, pins):
-            if not any(p.where.startswith(f"links.{n}.") for p in problems for n in group):
-                problems.append(not_held(group, names))
+    problems += nowhere_placed(file, names, flaws)
+    if not names.unsure and not flaws.under("pins") and not any(p[2:] == ("on",) for p in flaws.paths):
+        bare = {p.where for p in problems}
+        problems += [not_held(group, names) for group in islands(file, names) if f"links.{group[0]}" not in bare]
 
     drawn = {p: complex(*xy) * metres for p, xy in file.drawn.items()}
     bodies = _bodies(file, names, drawn, metres, flaws, problems)
+    referred = {p.on for p in slidings} | {p.on for p in pins} | {n for d in driven if d.base for n in (d.key, d.base)}
+    for other in sorted(referred):  # links that were taken out for something wrong are placed nowhere
+        bodies.setdefault(other, Body(other, f"links.{other}", (), {}, {}))
     fixed = bodies[names.frame].local
-    for point in fixed.keys() & drawn.keys():
-        size = max((abs(z) for z in fixed.values()), default=0.0)
-        if abs(fixed[point] - drawn[point]) > 1e-6 * size:
-            problems.append(Problem(f"drawn.{point}", f"found {file.drawn[point]}, but it is a fixed point at "
-                                    f"{file.frame.points[point]}", "leave it out of [drawn], or correct it"))
     position = Position(
-        bodies, {**drawn, **fixed}, slidings, pins,
+        bodies, fixed, drawn, slidings, pins,
         tuple((d.key, d.base, cmath.rect(1.0, d.value)) for d in driven if d.base and d.value is not None),
         {d.key: d.value for d in driven if not d.base and d.value is not None},
         metres, _size(bodies, drawn, metres), problems,
     )
     find_position(position)
+    problems += placed_twice(position)
     if not problems and drawn:
         problems += disagreements(position)
     if not problems:
-        problems += _not_found(file, position)
-    drivers = tuple(_driver(d, position, problems) for d in driven)
+        problems += _not_found(position)
+    hopeless = bool(problems) and (bool(drawn) or flaws.under("drawn"))
+    drivers = [_driver(d, position, [] if hopeless else problems) for d in driven]
     if problems:
         raise SceneError(*dict.fromkeys(problems))
     links = tuple(_link(n, t, bodies[n]) for n, t in file.links.items())
@@ -149,7 +148,7 @@ def _size(bodies: Mapping[str, Body], drawn: Mapping[str, complex], metres: floa
     return max(spans, default=0.0) or metres
 
 
-def _not_found(file: SceneFile, position: Position) -> list[Problem]:
+def _not_found(position: Position) -> list[Problem]:
     """Points, guides that need the position of their link, where it does not follow from what is drawn."""
     found = []
     for body in position.bodies.values():

@@ -8,6 +8,7 @@ from graphkin.errors import Problem
 from graphkin.scene.file import Compass, Polar, SceneFile
 from graphkin.scene.names import Names
 from graphkin.scene.placing import circle_of_references
+from graphkin.scene.reading import Flaws
 
 __all__ = ["not_held", "nowhere_placed", "unwritable_texts", "wrong_own_points"]
 
@@ -45,9 +46,10 @@ def wrong_own_points(file: SceneFile, names: Names) -> list[Problem]:
     return found
 
 
-def nowhere_placed(file: SceneFile, names: Names) -> list[Problem]:
+def nowhere_placed(file: SceneFile, names: Names, flaws: Flaws) -> list[Problem]:
     """Points that ``at`` and ``guides`` refer to and that are nowhere placed."""
     found: list[Problem | None] = []
+    drawn_lost = flaws.under("drawn")
     for name, link in file.links.items():
         for point, entry in link.at.items():
             where = f"links.{name}.at.{point}"
@@ -62,7 +64,7 @@ def nowhere_placed(file: SceneFile, names: Names) -> list[Problem]:
                 if entry.origins[0] == entry.origins[1]:
                     found.append(Problem(f"{where}.from", f"names {entry.origins[0]} twice",
                                          "two different points of the link are wanted"))
-            elif entry == "drawn" and point not in file.drawn and point not in file.frame.points:
+            elif entry == "drawn" and point not in file.drawn and point not in file.frame.points and not drawn_lost:
                 found.append(Problem(where, f'is "drawn", but {point} is not in [drawn]',
                                      f"write {point} = [x, y] in [drawn]"))
         circle = circle_of_references(link)
@@ -75,9 +77,10 @@ def nowhere_placed(file: SceneFile, names: Names) -> list[Problem]:
             here, aim = f"{where}.guides.{guide}", rail.toward
             if isinstance(rail.through, str):
                 found.append(names.no_point_of(f"{here}.through", name, rail.through))
-            if rail.angle is None and aim is None:
+            if rail.angle is None and aim is None and not flaws.under(*here.split(".")):
                 found.append(Problem(here, "has no direction", "write angle = ... in degrees, or toward = a point"))
-            if aim and not {aim} & {*file.drawn, *file.frame.points} and names.no_point_of("", name, aim):
+            world = {*file.drawn, *file.frame.points}
+            if aim and aim not in world and not drawn_lost and names.no_point_of("", name, aim):
                 found.append(Problem(f"{here}.toward", f"{aim} is no point of link {name}, nor fixed or drawn",
                                      f"write {aim} = [x, y] in [drawn], or the direction as angle"))
     return [p for p in found if p]

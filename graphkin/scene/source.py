@@ -52,6 +52,9 @@ def read(source: str | os.PathLike[str] | Mapping[str, Any]) -> Scene:
     if isinstance(source, str | os.PathLike):
         text = os.fspath(source)
         if isinstance(text, str):
+            if "\n" in text and "=" in text:
+                raise SceneError(Problem("the scene", "found the text of a scene file instead of its name",
+                                         "read it with read_text"))
             if isinstance(source, str) and text in library() and not _is_file(text):
                 return read_text(library_text(text), text)
             return read_text(_file_text(text), Path(text).stem)
