@@ -83,7 +83,8 @@ def svg_bytes(drawing: Drawing, debug: bool = False) -> bytes:
     ink = _Ink(page, drawing.lang)
     for child in drawing.children:
         ink.draw(page, child)
-    return ('<?xml version="1.0" encoding="utf-8"?>\n' + page.tostring() + "\n").encode()
+    text: str = page.tostring()
+    return f'<?xml version="1.0" encoding="utf-8"?>\n{text}\n'.encode()
 
 
 class _Ink:

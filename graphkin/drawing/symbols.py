@@ -1,0 +1,238 @@
+"""Kinematic symbols after ISO 3952 and GB/T 4460, in mm for a mechanism drawn 100 to 160 mm wide.
+
+Each function returns primitives at a place, in the order of drawing.  Directions ``angle`` are radians,
+counter-clockwise as seen on the page; points are page points (y down).
+"""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+
+from graphkin.drawing import strokes
+from graphkin.drawing.arrows import POINTER, arrowhead
+from graphkin.drawing.primitives import Arc, Circle, Line, Polygon, Polyline, Stroke, page_direction
+
+__all__ = [
+    "BLOCK_LENGTH",
+    "BLOCK_WIDTH",
+    "JOINT_RADIUS",
+    "PIN_RADIUS",
+    "bar",
+    "block",
+    "block_with_pin",
+    "cylinder",
+    "fixed_pivot",
+    "guide",
+    "hatched_line",
+    "pin",
+    "pin_in_slot",
+    "rigid_link",
+    "sense_arc",
+    "slot",
+    "turning_pair",
+    "weld",
+]
+
+JOINT_RADIUS = 1.3
+PIN_RADIUS = 0.8
+BLOCK_LENGTH, BLOCK_WIDTH = 8.0, 4.6
+FOOT_WIDTH, FOOT_HEIGHT = 6.4, 4.4
+HATCH_PITCH, HATCH_DEPTH = 1.3, 1.6
+SLOT_WIDTH = 2.6
+
+Shape = Line | Polyline | Polygon | Circle | Arc
+
+
+def turning_pair(at: complex, colour: str = strokes.BLACK, radius: float = JOINT_RADIUS) -> tuple[Circle, ...]:
+    """Open circle, white inside so that bars end at it."""
+    return (Circle(at, radius, fill=strokes.WHITE, stroke=strokes.OUTLINE.coloured(colour)),)
+
+
+def pin(at: complex, colour: str = strokes.BLACK) -> tuple[Circle, ...]:
+    """Filled circle: a pin that runs in a slot, or a point of a link."""
+    return (Circle(at, PIN_RADIUS, fill=colour),)
+
+
+def hatched_line(start: complex, end: complex, stroke: Stroke = strokes.FRAME) -> tuple[Line, ...]:
+    """The edge of the frame from start to end, hatched on its right as one walks along it on the page."""
+    length = abs(end - start)
+    along = (end - start) / length
+    right = along * 1j
+    count = max(2, round(length / HATCH_PITCH))
+    feet = (start + along * length * (i + 0.75) / count for i in range(count))
+    lean = (right - along * 0.8) * HATCH_DEPTH / abs(right)
+    return Line(start, end, stroke), *(Line(foot, foot + lean, strokes.HATCHING) for foot in feet)
+
+
+def fixed_pivot(at: complex, angle: float = -math.pi / 2) -> tuple[Shape, ...]:
+    """Turning pair on a hatched foot; the foot points along ``angle``, downwards unless told otherwise."""
+    down = page_direction(angle)
+    right = down * -1j
+    left_foot, right_foot = (at + FOOT_HEIGHT * down + side * FOOT_WIDTH / 2 * right for side in (-1, 1))
+    inner = 0.62  # the legs stand inside the edge of the frame
+    legs = Polygon(
+        (at, at + FOOT_HEIGHT * down - inner * FOOT_WIDTH / 2 * right,
+         at + FOOT_HEIGHT * down + inner * FOOT_WIDTH / 2 * right),
+        fill=strokes.WHITE,
+        stroke=strokes.OUTLINE,
+    )  # fmt: skip
+    return legs, *hatched_line(left_foot, right_foot), *turning_pair(at)
+
+
+def guide(
+    at: complex, angle: float, length: float, width: float = BLOCK_WIDTH, sides: tuple[int, ...] = (1, -1)
+) -> tuple[Shape, ...]:
+    """Frame guide for a block at a place: hatched edges beside its path, ``length`` (mm) long.
+
+    ``sides`` says which edges: +1 the left one, -1 the right one, as one looks along ``angle``.
+    """
+    along = page_direction(angle)
+    side = along * 1j * width / 2
+    half = along * length / 2
+    edges: list[Shape] = []
+    if 1 in sides:
+        edges += hatched_line(at + half - side, at - half - side)
+    if -1 in sides:
+        edges += hatched_line(at - half + side, at + half + side)
+    return tuple(edges)
+
+
+def block(
+    at: complex,
+    angle: float,
+    colour: str = strokes.BLACK,
+    length: float = BLOCK_LENGTH,
+    width: float = BLOCK_WIDTH,
+) -> tuple[Polygon, ...]:
+    """Sliding block, white inside, its long side along ``angle``."""
+    return (Polygon(_rectangle(at, angle, length, width), strokes.WHITE, strokes.OUTLINE.coloured(colour)),)
+
+
+def block_with_pin(at: complex, angle: float, colour: str = strokes.BLACK) -> tuple[Shape, ...]:
+    """Sliding block that turns about a pin at its middle."""
+    return *block(at, angle, colour), *turning_pair(at, radius=JOINT_RADIUS * 0.85)
+
+
+def slot(start: complex, end: complex, colour: str = strokes.BLACK, width: float = SLOT_WIDTH) -> tuple[Shape, ...]:
+    """Slot in a link between the centres of its round ends."""
+    along = (end - start) / abs(end - start)
+    side = along * 1j * width / 2
+    bearing = math.atan2(-along.imag, along.real)
+    stroke = strokes.OUTLINE.coloured(colour)
+    return (
+        Polygon((start + side, end + side, end - side, start - side), fill=strokes.WHITE),
+        Circle(start, width / 2, fill=strokes.WHITE),
+        Circle(end, width / 2, fill=strokes.WHITE),
+        Line(start + side, end + side, stroke),
+        Line(end - side, start - side, stroke),
+        Arc(end, width / 2, bearing - math.pi / 2, bearing + math.pi / 2, stroke),
+        Arc(start, width / 2, bearing + math.pi / 2, bearing + 3 * math.pi / 2, stroke),
+    )
+
+
+def pin_in_slot(
+    at: complex, start: complex, end: complex, colour: str = strokes.BLACK, pin_colour: str = strokes.BLACK
+) -> tuple[Shape, ...]:
+    """A pin that runs in the slot of another link, with no block between."""
+    return *slot(start, end, colour), *pin(at, pin_colour)
+
+
+def bar(start: complex, end: complex, colour: str = strokes.BLACK, stroke: Stroke = strokes.LINK) -> tuple[Line, ...]:
+    """A link with two points."""
+    return (Line(start, end, stroke.coloured(colour)),)
+
+
+def rigid_link(points: tuple[complex, ...], colour: str = strokes.BLACK) -> tuple[Shape, ...]:
+    """A link with three or more points: the area they span in a light tint; bars one after the other where all of
+    them lie on one line.
+
+    Raises ValueError for fewer than two points.
+    """
+    hull = _hull(points)
+    stroke = strokes.LINK.coloured(colour)
+    if len(hull) < 3:
+        ends = sorted(set(points), key=lambda z: (z.real, z.imag))
+        if len(ends) < 2:
+            raise ValueError("a link needs two places to be drawn between")
+        return tuple(Line(a, b, stroke) for a, b in pairwise(ends))
+    return (Polygon(hull, strokes.tint(colour), stroke),)
+
+
+def weld(
+    at: complex, first: complex, second: complex, colour: str = strokes.BLACK, size: float = 3.2
+) -> tuple[Polygon, ...]:
+    """Filled corner between two bars of one link that meet at a point, towards a point on each: they turn as one."""
+    a, b = ((end - at) / abs(end - at) for end in (first, second))
+    return (Polygon((at, at + size * a, at + size * b), fill=colour),)
+
+
+def sense_arc(
+    at: complex, radius: float, middle: float, sense: int, span: float = math.radians(70), colour: str = strokes.BLACK,
+    heads: int = 1,
+) -> tuple[Shape, ...]:  # fmt: skip
+    """Arc with an arrowhead: the sense of an angular velocity (one head) or acceleration (two heads) about a point.
+
+    Parameters
+    ----------
+    middle : direction (rad) of the middle of the arc from ``at``
+    sense : +1 counter-clockwise, -1 clockwise
+    span : angle of the arc (rad), made larger where the arrowheads would fill it
+    """
+    kind = POINTER
+    span = max(span, 2.2 * heads * kind.head_length / radius)
+    start, end = middle - sense * span / 2, middle + sense * span / 2
+    stroke = Stroke(0.25, (), colour)
+    shapes: list[Shape] = []
+    turn = kind.head_length / radius
+    for head in range(heads):
+        tip = end - sense * head * 1.1 * turn
+        # A straight head on a bent line looks right along the chord of the arc under it.
+        chord = at + radius * page_direction(tip) - (at + radius * page_direction(tip - sense * turn))
+        shapes.append(arrowhead(at + radius * page_direction(tip), chord, kind.head_length, 1.0, colour))
+    return Arc(at, radius, start, end - sense * 0.7 * turn, stroke), *shapes
+
+
+def cylinder(
+    pivot: complex, rod_end: complex, colour: str = strokes.BLACK, barrel_share: float = 0.6, width: float = 5.0
+) -> tuple[Shape, ...]:
+    """Hydraulic cylinder between the pivot of its barrel and the end of its rod: the drive of a sliding pair."""
+    length = abs(rod_end - pivot)
+    along = (rod_end - pivot) / length
+    near, far = pivot + min(4.0, 0.15 * length) * along, pivot + barrel_share * length * along
+    side = along * 1j * width / 2
+    stroke = strokes.OUTLINE.coloured(colour)
+    piston = near + 0.55 * (far - near)
+    gap = 0.12 * width / 2
+    return (
+        Line(pivot, near, strokes.LINK.coloured(colour)),
+        Polygon((near + side, far + side, far - side, near - side), strokes.WHITE, stroke),
+        Line(piston, rod_end, strokes.LINK.coloured(colour)),
+        Polygon(_rectangle(piston, math.atan2(-along.imag, along.real), 1.6, width - 2 * gap), fill=colour),
+    )
+
+
+def _rectangle(at: complex, angle: float, length: float, width: float) -> tuple[complex, ...]:
+    along = page_direction(angle) * length / 2
+    side = page_direction(angle + math.pi / 2) * width / 2
+    return at - along - side, at + along - side, at + along + side, at - along + side
+
+
+def _hull(points: tuple[complex, ...]) -> tuple[complex, ...]:
+    """Convex hull, without points on its edges.  Andrew, Another efficient algorithm for convex hulls (1979)."""
+    ordered = sorted(set(points), key=lambda z: (z.real, z.imag))
+    halves: list[complex] = []
+    for chain in (ordered, ordered[::-1]):
+        half: list[complex] = []
+        for point in chain:
+            while len(half) > 1 and _turns_back(half[-2], half[-1], point):
+                half.pop()
+            half.append(point)
+        halves += half[:-1]
+    return tuple(halves)
+
+
+def _turns_back(a: complex, b: complex, c: complex) -> bool:
+    # A millionth of the square of the size counts as straight.
+    turn = (b - a).real * (c - a).imag - (b - a).imag * (c - a).real
+    return turn <= 1e-6 * max(abs(b - a), abs(c - a)) ** 2
