@@ -36,4 +36,92 @@ def word(key: str, language: str = "en") -> str:
     return _TABLE[key][LANGUAGES.index(language)]
 
 
-_TABLE: dict[str, tuple[str, str]] = {}
+_TABLE: dict[str, tuple[str, str]] = {
+    # position
+    "frame": ("mark the fixed points and guides of frame {0}: {1}", "画出机架 {0} 的固定点和导路：{1}"),
+    "lay off angle": ("draw link {0} about {2} at {1} degrees", "过 {2} 作构件 {0}，与 x 轴成 {1}°"),
+    "lay off travel": ("lay off the travel of {0}, {1} mm on paper", "量取移动副 {0} 的位移，图上 {1} mm"),
+    "arcs": (
+        "an arc about {0} of {3} mm and one about {1} of {4} mm meet in {2}",
+        "以 {0} 为圆心、{3} mm 为半径作弧，以 {1} 为圆心、{4} mm 为半径作弧，交于 {2}",
+    ),
+    "path": ("draw the line on which {0} moves, along the guide of {1}", "作 {0} 的轨迹线，平行于移动副 {1} 的导路"),
+    "arc on path": ("an arc about {0} of {2} mm cuts it in {1}", "以 {0} 为圆心、{2} mm 为半径作弧，交该线于 {1}"),
+    "line of guide": ("join {0} and {1}: the guide of {2} lies along it", "连接 {0}、{1}，即移动副 {2} 的导路方向"),
+    "tangent": (
+        "circle of {2} mm about {0}, circle over {0}{1} as diameter; their crossing and {1} give the guide of {3}",
+        "以 {0} 为圆心、{2} mm 为半径作圆，再以 {0}{1} 为直径作圆，其交点与 {1} 的连线即移动副 {3} 的导路方向",
+    ),
+    "paths": (
+        "{0} lies where its lines along the guides of {1} and {2} cross",
+        "作 {0} 沿移动副 {1} 和 {2} 导路的轨迹线，交点即 {0}",
+    ),
+    "slide to meet": (
+        "shift along the guide of {1} until {0} lies on the guide of {2}",
+        "沿移动副 {1} 的导路平移，使 {0} 落在移动副 {2} 的导路上",
+    ),
+    "points": ("mark {1} on link {0}", "在构件 {0} 上标出 {1}"),
+    "transfer": ("transfer {1} of link {0} with the compass", "用圆规在构件 {0} 上定出 {1}"),
+    # polygons
+    "lay off": ("lay off {0} = {1}, {2} mm, {3}", "量取 {0} = {1}，{2} mm，方向 {3}"),
+    "lay off normal": (
+        "lay off the normal component {0} = {1}, {2} mm, {3}",
+        "量取法向加速度 {0} = {1}，{2} mm，方向 {3}",
+    ),
+    "lay off coriolis": (
+        "lay off the Coriolis component {0} = {1}, {2} mm, {3}",
+        "量取哥氏加速度 {0} = {1}，{2} mm，方向 {3}",
+    ),
+    "carry": ("add {0}, whose size and direction are known", "先加上大小、方向均已知的 {0}"),
+    "direction": ("through its start, {1}: the direction of {0}", "过起点作 {1}，即 {0} 的方向线"),
+    "meet": ("the two lines meet in the end point of {0}", "两方向线交于 {0} 的矢量端点"),
+    "found": ("so {0} is found, {1} mm", "得 {0}，图上长 {1} mm"),
+    "put back": ("put {0} in its place in the chain", "将 {0} 移回矢量链中的位置"),
+    "resultant": ("draw {0} from the pole", "由极点作 {0}"),
+    "name": ("name the end point of {0}", "标出 {0} 的矢量端点"),
+    "omega ccw": (
+        "ω_{{{0}}} = {1} / {2} = {3} rad/s, counter-clockwise",
+        "ω_{{{0}}} = {1} / {2} = {3} rad/s，逆时针",
+    ),
+    "omega cw": ("ω_{{{0}}} = {1} / {2} = {3} rad/s, clockwise", "ω_{{{0}}} = {1} / {2} = {3} rad/s，顺时针"),
+    "alpha ccw": (
+        "α_{{{0}}} = {1} / {2} = {3} rad/s², counter-clockwise",
+        "α_{{{0}}} = {1} / {2} = {3} rad/s²，逆时针",
+    ),
+    "alpha cw": ("α_{{{0}}} = {1} / {2} = {3} rad/s², clockwise", "α_{{{0}}} = {1} / {2} = {3} rad/s²，顺时针"),
+    "translates": ("link {0} translates: all its points move alike", "构件 {0} 作平动，各点运动相同"),
+    "same place": ("{0} moves with {1}", "{0} 与 {1} 运动相同"),
+    "by rate": ("{0} from {1} by the rates of link {2}", "由 {1} 及构件 {2} 的角速度、角加速度求 {0}"),
+    "division": (
+        "{0} divides the image of link {3} as it divides {1}{2} on the link",
+        "按构件 {3} 上的比例分割 {1}{2} 的影像，得 {0}",
+    ),
+    "image": (
+        "image of link {3}: the triangle over {1}{2} similar to that of the link, turned the same way, gives {0}",
+        "构件 {3} 的影像：在 {1}{2} 上作与构件相似且字母绕行方向一致的三角形，得 {0}",
+    ),
+    "asked": ("draw {0}, which is asked for", "作出所求的 {0}"),
+    # remarks
+    "zero vector": ("{0} = 0", "{0} = 0"),
+    "nearly parallel": (
+        "the lines that find {0} are nearly parallel: the crossing is badly conditioned",
+        "求 {0} 的两直线接近平行，交点精度差",
+    ),
+    "off the sheet": (
+        "the lines that find {0} meet off the sheet; the crossing was computed from their directions",
+        "求 {0} 的两直线交于图纸之外，交点按其方向算出",
+    ),
+    "stopped": (
+        "the group of links {0} is of class {1}: it has no two lines that find a point, so compass and ruler stop here; "
+        "graphkin solve gives its motion",
+        "构件 {0} 组成 {1} 级杆组，无法由两条线直接求点，图解到此为止；其运动可用 graphkin solve 求得",
+    ),
+    # assemblies
+    "RRR 0": ("{1} to the left of the line from {0} to {2}", "{1} 在 {0} 到 {2} 连线的左侧"),
+    "RRR 1": ("{1} to the right of the line from {0} to {2}", "{1} 在 {0} 到 {2} 连线的右侧"),
+    "RRP 0": ("{1} further along the guide of {2}", "{1} 取 {2} 导路正向较远的一侧"),
+    "RRP 1": ("{1} further back on the guide of {2}", "{1} 取 {2} 导路反向较远的一侧"),
+    "RPR 0": ("{0} on the positive side of the guide of {1}", "{0} 在 {1} 导路的正侧"),
+    "RPR 1": ("{0} on the negative side of the guide of {1}", "{0} 在 {1} 导路的负侧"),
+    "one assembly": ("only one assembly", "只有一种装配方式"),
+}

@@ -1,0 +1,86 @@
+"""Every reading held against the analytic solver, size and direction."""
+
+from __future__ import annotations
+
+import cmath
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from graphkin.checking.readings import Reading
+from graphkin.drafting.sheet import Scales, Sheet
+from graphkin.scene.symbol import Symbol
+
+__all__ = ["Compared", "Report", "compare"]
+
+Exact = Callable[[Symbol], complex | float]
+
+
+@dataclass(frozen=True)
+class Compared:
+    """A reading beside the exact value (SI).
+
+    ``error`` is the size of the difference of the two, as vectors where they are vectors; ``tolerance`` what it may be;
+    ``direction_error`` the angle from the exact direction to the drawn one (rad; 0 for rates and for vectors too short
+    to have a direction).
+    """
+
+    reading: Reading
+    exact: complex | float
+    error: float
+    tolerance: float
+    direction_error: float
+
+    @property
+    def symbol(self) -> Symbol:
+        return self.reading.symbol
+
+    @property
+    def ok(self) -> bool:
+        return self.error <= self.tolerance
+
+
+@dataclass(frozen=True)
+class Report:
+    """All readings of a drawing, compared.  ``missing`` are symbols asked for that the drawing does not reach."""
+
+    instrument: str
+    scales: Scales
+    rows: tuple[Compared, ...]
+    missing: tuple[Symbol, ...] = ()
+
+    @property
+    def ok(self) -> bool:
+        return all(row.ok for row in self.rows)
+
+
+def compare(
+    sheet: Sheet, readings: Sequence[Reading], exact: Exact, asked: Sequence[Symbol] = (), tolerance: float = 1e-9
+) -> Report:
+    """Hold readings against exact values.
+
+    Parameters
+    ----------
+    exact : gives the exact value of a symbol at the drawn position (SI; a complex number for a vector)
+    tolerance : relative to the largest value of the same kind in the diagram
+    """
+    pairs = [(r, exact(r.symbol)) for r in readings]
+    # a vector is judged by the largest vector of its diagram, a rate by the largest rate
+    largest: dict[tuple[str, bool], float] = {}
+    for reading, value in pairs:
+        group = (reading.diagram, reading.symbol.is_vector)
+        largest[group] = max(largest.get(group, 0.0), abs(value), abs(reading.value))
+    for order in ("velocity", "acceleration"):
+        # vectors that only lead to the readings asked for belong to the diagram too
+        diagram = sheet.vectors("velocity" if order == "velocity" else "acceleration")
+        whole = max((abs(v.span) for v in diagram.values()), default=0.0)
+        largest[order, True] = whole * sheet.scales.of("velocity" if order == "velocity" else "acceleration")
+    rows = []
+    for reading, value in pairs:
+        most = largest[reading.diagram, reading.symbol.is_vector]
+        error = abs(reading.value - value)
+        turned = 0.0
+        if reading.symbol.is_vector and min(abs(reading.value), abs(value)) > 1e-7 * most:
+            turned = cmath.phase(complex(reading.value) / complex(value))
+        rows.append(Compared(reading, value, error, tolerance * most, turned))
+    have = {r.symbol for r in readings}
+    return Report(sheet.instrument, sheet.scales, tuple(rows), tuple(s for s in asked if s not in have))

@@ -1,0 +1,313 @@
+"""Where the links of a group lie: compass arcs and ruler lines that meet, for each kind of dyad.
+
+All lengths in mm on paper.  Each function returns a `Meeting`: how well the two loci cross, the possible places of
+the links, and for each what was drawn.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+from graphkin.drafting.sheet import Arc, Bar, Pose, Stroke
+from graphkin.plane import cross, cross_arcs, cross_line_arc, cross_lines, direction, dot, unit
+from graphkin.scene.model import AngleDriver, Link
+from graphkin.structure import Body, Driven, Dyad, Slide, Turn
+from graphkin.words import Phrase
+
+__all__ = ["Frame", "Meeting", "drive", "meet"]
+
+Story = tuple[tuple[Phrase, tuple[Stroke, ...]], ...]
+
+
+@dataclass(frozen=True)
+class Meeting:
+    """Two loci that meet.
+
+    ``gap`` is positive where they cross, zero where they touch, negative where they miss each other; for two lines it
+    is the sine of their angle.  ``poses`` are the possible places of the group's links, the one of the default rule
+    first; ``stories`` what is drawn for each.  ``sine`` of the crossing angle is 0 where the crossing is lost.
+    """
+
+    gap: float
+    sine: float
+    poses: tuple[Mapping[str, Pose], ...]
+    stories: tuple[Story, ...]
+    two_lines: bool = False
+
+
+@dataclass
+class Frame:
+    """Links on paper: their shapes at the length scale, the driver values, and where the known ones lie."""
+
+    links: Mapping[str, Link]
+    mm: float  # of paper for one m
+    values: Mapping[str, float]  # drivers, rad or m
+    poses: dict[str, Pose] = field(default_factory=dict)
+
+    def place(self, link: str, local: complex) -> complex:
+        """A place given in a link's own axes (m), on paper."""
+        pose = self.poses[link]
+        return pose.origin + pose.axis * (local * self.mm)
+
+    def point(self, link: str, point: str) -> complex:
+        return self.place(link, self.links[link].points[point])
+
+
+class _Shape:
+    """A body as one piece: its points in mm in the axes of its base link."""
+
+    def __init__(self, frame: Frame, body: Body) -> None:
+        self.frame = frame
+        self.body = body
+        self.rel: dict[str, Pose] = {body.links[0]: Pose(0j, 1 + 0j)}
+        for weld in body.welds:
+            value = frame.values[weld.driver.key]
+            base = self.rel[weld.a]
+            if isinstance(weld.pair, Turn):
+                turned = (weld.driver.link == weld.b) if isinstance(weld.driver, AngleDriver) else True
+                axis = base.axis * direction(math.degrees(value if turned else -value))
+                hinge = base.origin + base.axis * self._local(weld.a, weld.pair.point)
+                self.rel[weld.b] = Pose(hinge - axis * self._local(weld.b, weld.pair.point), axis)
+            else:
+                self.rel[weld.b] = _across(weld.pair, weld.b, base, value * frame.mm, frame.mm)
+
+    def _local(self, link: str, point: str) -> complex:
+        return self.frame.links[link].points[point] * self.frame.mm
+
+    def point(self, link: str, point: str) -> complex:
+        pose = self.rel[link]
+        return pose.origin + pose.axis * self._local(link, point)
+
+    def placed(self, base: Pose) -> dict[str, Pose]:
+        return {
+            name: Pose(base.origin + base.axis * rel.origin, unit(base.axis * rel.axis))
+            for name, rel in self.rel.items()
+        }
+
+    def through(self, local: tuple[complex, complex], world: tuple[complex, complex]) -> dict[str, Pose]:
+        """Place the body by two of its points."""
+        axis = unit((world[1] - world[0]) / (local[1] - local[0]))
+        return self.placed(Pose(world[0] - axis * local[0], axis))
+
+
+def _across(slide: Slide, link: str, other: Pose, travel: float, mm: float) -> Pose:
+    """Pose of one side of a sliding pair from the other and the travel (mm)."""
+    g, start = slide.guide.direction, slide.guide.through * mm
+    if link == slide.a:
+        return Pose(other.origin + other.axis * (start + travel * g), other.axis * g * slide.turn)
+    axis = other.axis * (g * slide.turn).conjugate()
+    return Pose(other.origin - axis * (start + travel * g), axis)
+
+
+def drive(frame: Frame, element: Driven) -> tuple[Pose, Story]:
+    """Place a driven link: the angle or the travel is laid off."""
+    name, driver, pair = element.link, element.driver, element.pair
+    value = frame.values[driver.key]
+    if isinstance(driver, AngleDriver):
+        own = driver.link == name
+        other = driver.relative_to if own else driver.link
+        axis = unit(frame.poses[other].axis * direction(math.degrees(value if own else -value)))
+        assert isinstance(pair, Turn)
+        hinge = frame.point(pair.b, pair.point)
+        pose = Pose(hinge - axis * (frame.links[name].points[pair.point] * frame.mm), axis)
+        angle = f"{math.degrees(value):.6g}"
+        return pose, ((Phrase("lay off angle", (name, angle, pair.point)), ()),)
+    assert isinstance(pair, Slide)
+    known = pair.b if name == pair.a else pair.a
+    pose = _across(pair, name, frame.poses[known], value * frame.mm, frame.mm)
+    start = frame.place(pair.b, pair.guide.through) if name == pair.a else pose.origin
+    end = pose.origin if name == pair.a else frame.poses[known].origin
+    return pose, ((Phrase("lay off travel", (pair.key, f"{abs(value) * frame.mm:.2f}")), (Bar(start, end, name),)),)
+
+
+def meet(frame: Frame, dyad: Dyad) -> Meeting:
+    """Draw the loci of a dyad and find where they meet."""
+    return _MEETINGS[dyad.kind](frame, dyad, _Shape(frame, dyad.first), _Shape(frame, dyad.second))
+
+
+def _hinge(frame: Frame, shape: _Shape, pair: Turn) -> tuple[complex, complex]:
+    """An outer turning pair: its place on paper and in the body's axes."""
+    return frame.point(pair.b, pair.point), shape.point(pair.a, pair.point)
+
+
+def _holder(body: Body, frame: Frame, point: str) -> str:
+    return next(name for name in body.links if point in frame.links[name].points)
+
+
+def _inner(frame: Frame, dyad: Dyad, one: _Shape, two: _Shape) -> tuple[str, complex, complex]:
+    """The inner turning pair: its letter and its place in each body's axes."""
+    point = dyad.inner.point  # type: ignore[union-attr]
+    return (
+        point,
+        one.point(_holder(dyad.first, frame, point), point),
+        two.point(_holder(dyad.second, frame, point), point),
+    )
+
+
+def _rail(frame: Frame, shape: _Shape, slide: Slide) -> tuple[Pose, complex]:
+    """A body on a known guide, or with a guide on a known block: its pose at travel 0 and the way of it per mm."""
+    mine = slide.a if slide.a in shape.rel else slide.b
+    known = slide.b if mine == slide.a else slide.a
+    at_zero = _across(slide, mine, frame.poses[known], 0.0, frame.mm)
+    rel = shape.rel[mine]
+    axis = unit(at_zero.axis * rel.axis.conjugate())
+    if mine == slide.a:
+        step = frame.poses[known].axis * slide.guide.direction
+    else:
+        step = -at_zero.axis * slide.guide.direction
+    return Pose(at_zero.origin - axis * rel.origin, axis), unit(step)
+
+
+def _rrr(frame: Frame, dyad: Dyad, one: _Shape, two: _Shape) -> Meeting:
+    outer1, outer2 = dyad.outer_first, dyad.outer_second
+    assert isinstance(outer1, Turn)
+    assert isinstance(outer2, Turn)
+    (p1, local1), (p2, local2) = _hinge(frame, one, outer1), _hinge(frame, two, outer2)
+    letter, inner1, inner2 = _inner(frame, dyad, one, two)
+    r1, r2 = abs(inner1 - local1), abs(inner2 - local2)
+    lo, mid, hi = sorted((r1, r2, abs(p2 - p1)))
+    product = (hi + (mid + lo)) * (lo - (hi - mid)) * (lo + (hi - mid)) * (hi + (mid - lo))
+    gap = product / (2 * r1 * r2) ** 2
+    places = cross_arcs(p1, r1, p2, r2) or ()
+    poses = [{**one.through((local1, inner1), (p1, q)), **two.through((local2, inner2), (p2, q))} for q in places]
+    names = (outer1.point, outer2.point, letter, f"{r1:.2f}", f"{r2:.2f}")
+    stories: list[Story] = [((Phrase("arcs", names), (Arc(p1, r1, q), Arc(p2, r2, q))),) for q in places]
+    return Meeting(gap, math.sqrt(max(gap, 0.0)), tuple(poses), tuple(stories))
+
+
+def _rrp(frame: Frame, dyad: Dyad, one: _Shape, two: _Shape) -> Meeting:
+    outer, slide = dyad.outer_first, dyad.outer_second
+    assert isinstance(outer, Turn)
+    assert isinstance(slide, Slide)
+    p, local = _hinge(frame, one, outer)
+    letter, inner1, inner2 = _inner(frame, dyad, one, two)
+    start, step = _rail(frame, two, slide)
+    q0 = start.origin + start.axis * inner2
+    radius = abs(inner1 - local)
+    off = abs(cross(p - q0, step))
+    gap = (radius - off) * (radius + off) / radius**2
+    places = cross_line_arc(q0, step, p, radius) or ()
+    poses = []
+    stories: list[Story] = []
+    for q in places:
+        travel = dot(q - q0, step)
+        moved = Pose(start.origin + travel * step, start.axis)
+        poses.append({**one.through((local, inner1), (p, q)), **two.placed(moved)})
+        stories.append((
+            (Phrase("path", (letter, slide.key)), (Bar(q0, q, ""),)),
+            (Phrase("arc on path", (outer.point, letter, f"{radius:.2f}")), (Arc(p, radius, q),)),
+        ))
+    return Meeting(gap, math.sqrt(max(gap, 0.0)), tuple(poses), tuple(stories))
+
+
+def _rpr(frame: Frame, dyad: Dyad, one: _Shape, two: _Shape) -> Meeting:
+    outer1, slide, outer2 = dyad.outer_first, dyad.inner, dyad.outer_second
+    assert isinstance(outer1, Turn)
+    assert isinstance(slide, Slide)
+    assert isinstance(outer2, Turn)
+    (p1, local1), (p2, local2) = _hinge(frame, one, outer1), _hinge(frame, two, outer2)
+    # the sliding body as seen from the guiding one, at travel 0
+    at_zero = _across(slide, slide.a, two.rel[slide.b], 0.0, frame.mm)
+    turn = at_zero.axis * one.rel[slide.a].axis.conjugate()
+    g = two.rel[slide.b].axis * slide.guide.direction
+    c0 = at_zero.origin + turn * (local1 - one.rel[slide.a].origin) - local2
+    offset = cross(g, c0)  # of the pivot from the guide's parallel through the other pivot
+    span = abs(p1 - p2)
+    size = max((abs(z) * frame.mm for link in frame.links.values() for z in link.points.values()), default=1.0)
+    gap = (span - abs(offset)) * (span + abs(offset)) / size**2
+    poses = []
+    stories: list[Story] = []
+    if gap >= 0.0 and span > 0.0:
+        half = math.sqrt((span - abs(offset)) * (span + abs(offset)))
+        for root in (half, -half):
+            reach = g * complex(root, offset)
+            axis2 = unit((p1 - p2) / reach)
+            pose2 = Pose(p2 - axis2 * local2, axis2)
+            axis1 = unit(axis2 * turn)
+            pose1 = Pose(p1 - axis1 * local1, axis1)
+            poses.append({**one.placed(pose1), **two.placed(pose2)})
+            letters = (outer2.point, outer1.point)
+            strokes: tuple[Stroke, ...]
+            if abs(offset) < 1e-9 * size:
+                strokes = (Bar(p2, p1, ""),)
+                stories.append(((Phrase("line of guide", (*letters, slide.key)), strokes),))
+            else:
+                foot = p1 - axis2 * g * root  # foot of the square from the pivot to the guide's parallel through P1
+                middle = (p1 + p2) / 2
+                strokes = (Arc(middle, span / 2, foot), Arc(p2, abs(offset), foot), Bar(foot, p1, ""))
+                stories.append(((Phrase("tangent", (*letters, f"{abs(offset):.2f}", slide.key)), strokes),))
+    return Meeting(gap, math.sqrt(max(gap, 0.0)), tuple(poses), tuple(stories))
+
+
+def _prp(frame: Frame, dyad: Dyad, one: _Shape, two: _Shape) -> Meeting:
+    slide1, slide2 = dyad.outer_first, dyad.outer_second
+    assert isinstance(slide1, Slide)
+    assert isinstance(slide2, Slide)
+    letter, inner1, inner2 = _inner(frame, dyad, one, two)
+    (start1, step1), (start2, step2) = _rail(frame, one, slide1), _rail(frame, two, slide2)
+    q1, q2 = start1.origin + start1.axis * inner1, start2.origin + start2.axis * inner2
+
+    def placed(q: complex) -> dict[str, Pose]:
+        moved1 = Pose(start1.origin + (q - q1), start1.axis)
+        moved2 = Pose(start2.origin + (q - q2), start2.axis)
+        return {**one.placed(moved1), **two.placed(moved2)}
+
+    return _two_lines((q1, step1), (q2, step2), placed, Phrase("paths", (letter, slide1.key, slide2.key)))
+
+
+def _rpp(frame: Frame, dyad: Dyad, one: _Shape, two: _Shape) -> Meeting:
+    outer, inner, slide = dyad.outer_first, dyad.inner, dyad.outer_second
+    assert isinstance(outer, Turn)
+    assert isinstance(inner, Slide)
+    assert isinstance(slide, Slide)
+    p, local = _hinge(frame, one, outer)
+    start, step = _rail(frame, two, slide)
+    resting = two.placed(start)
+    sliding_first = inner.a in one.rel
+    mine, other = (inner.a, inner.b) if sliding_first else (inner.b, inner.a)
+    at_zero = _across(inner, mine, resting[other], 0.0, frame.mm)
+    axis = unit(at_zero.axis * one.rel[mine].axis.conjugate())
+    pose1 = Pose(p - axis * local, axis)
+    guiding = resting if sliding_first else one.placed(pose1)
+    along = unit(guiding[inner.b].axis * inner.guide.direction)
+    # where the guiding side would have to be: the second body may shift by s * step, and along the guide
+    want = one.placed(pose1)[mine].origin - at_zero.origin
+
+    def placed(shift: complex) -> dict[str, Pose]:
+        return {**one.placed(pose1), **two.placed(Pose(start.origin + shift, start.axis))}
+
+    # shift = s * step = want - t * along
+    sine = cross(step, along)
+    if sine == 0.0:
+        return Meeting(0.0, 0.0, (), (), True)
+    shift = step * (cross(want, along) / sine)
+    base = p - want
+    strokes = (Bar(base, base + shift, ""), Bar(base + shift, p, ""))
+    story: Story = ((Phrase("slide to meet", (outer.point, slide.key, inner.key)), strokes),)
+    return Meeting(sine, abs(sine), (placed(shift),), (story,), True)
+
+
+def _two_lines(
+    one: tuple[complex, complex],
+    two: tuple[complex, complex],
+    placed: Callable[[complex], Mapping[str, Pose]],
+    phrase: Phrase,
+) -> Meeting:
+    sine = cross(one[1], two[1])
+    q = cross_lines(*one, *two)
+    if q is None:
+        return Meeting(0.0, 0.0, (), (), True)
+    story: Story = ((phrase, (Bar(one[0], q, ""), Bar(two[0], q, ""))),)
+    return Meeting(sine, abs(sine), (placed(q),), (story,), True)
+
+
+_MEETINGS: Mapping[str, Callable[[Frame, Dyad, _Shape, _Shape], Meeting]] = {
+    "RRR": _rrr,
+    "RRP": _rrp,
+    "RPR": _rpr,
+    "PRP": _prp,
+    "RPP": _rpp,
+}
+

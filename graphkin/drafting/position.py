@@ -1,0 +1,220 @@
+"""The mechanism on paper: every link placed by compass and ruler, in the order of solution."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphkin.drafting.dyads import Frame, Meeting, drive, meet
+from graphkin.drafting.sheet import Pose
+from graphkin.errors import Problem, Unsolvable
+from graphkin.scene.model import AngleDriver, Driver, Scene
+from graphkin.structure import Cluster, Driven, Dyad, Element, Structure, pick
+from graphkin.structure.continuity import follow
+
+__all__ = ["DEAD", "Position", "branches_at", "place"]
+
+DEAD = 1e-7  # sine of a crossing below which a group is at a dead point
+TURNS = 720  # positions looked at on the way round
+
+Branches = Mapping[int, int]  # by place of the element: 0 the default assembly, 1 the other
+
+
+@dataclass(frozen=True)
+class Position:
+    """The links placed, and how each dyad was found."""
+
+    frame: Frame
+    meetings: Mapping[int, Meeting]
+
+
+def place(
+    structure: Structure, elements: Sequence[Element], mm: float, values: Mapping[str, float], branches: Branches
+) -> Position:
+    """Place the links of the elements at some driver values.
+
+    Parameters
+    ----------
+    mm : mm of paper for one m
+    values : driver values (rad, m)
+    branches : which of its assemblies each dyad takes
+
+    Raises
+    ------
+    Unsolvable
+        the loci of a dyad miss each other ("not assembled") or only touch ("dead point")
+    """
+    frame = _start(structure, mm, values)
+    meetings: dict[int, Meeting] = {}
+    for i, element in enumerate(elements):
+        if isinstance(element, Driven):
+            frame.poses[element.link], _ = drive(frame, element)
+        elif isinstance(element, Dyad):
+            meeting = meet(frame, element)
+            _refuse(element, meeting)
+            meetings[i] = meeting
+            frame.poses.update(meeting.poses[branches.get(i, 0) % len(meeting.poses)])
+    return Position(frame, meetings)
+
+
+def _start(structure: Structure, mm: float, values: Mapping[str, float]) -> Frame:
+    ground = structure.scene.frame.name
+    return Frame(structure.links, mm, values, {ground: Pose(0j, 1 + 0j)})
+
+
+def _refuse(element: Dyad, meeting: Meeting) -> None:
+    names = ", ".join(element.links)
+    if meeting.gap < -1e-14 and not meeting.two_lines:
+        raise Unsolvable(
+            "not assembled",
+            Problem(f"links {names}", f"the two loci of the {element.kind} group do not meet here",
+                    "choose a driver value at which the mechanism can be assembled"),
+        )
+    if not meeting.poses or meeting.sine < DEAD:
+        raise Unsolvable(
+            "dead point",
+            Problem(f"links {names}", f"the {element.kind} group stands at a dead point, its loci only touch",
+                    "move the driver off this position"),
+        )
+
+
+def branches_at(structure: Structure, elements: Sequence[Element], values: Mapping[str, float]) -> dict[int, int]:
+    """The assembly of each dyad at some driver values.
+
+    It is chosen once, at the scene's own position, and followed from there without a jump; where the straight way is
+    barred the other way round is tried.
+
+    Raises
+    ------
+    Unsolvable
+        status "not assembled": the motion does not reach the values; the message gives the limit
+    """
+    own = {d.key: d.values[0] for d in structure.scene.drivers}
+    chosen = _choose(structure, elements, own)
+    if all(values[k] == v for k, v in own.items()):
+        return chosen
+    limits = []
+    for target in _ways(structure.scene.drivers, own, values):
+        branches, limit = _follow(structure, elements, own, target, chosen)
+        if limit is None:
+            return branches
+        limits.append({k: own[k] + limit * (target[k] - own[k]) for k in own})
+    raise Unsolvable("not assembled", _out_of_reach(structure.scene, values, limits))
+
+
+def _choose(structure: Structure, elements: Sequence[Element], own: Mapping[str, float]) -> dict[int, int]:
+    scene = structure.scene
+    mm = 1.0 / scene.size
+    frame = _start(structure, mm, own)
+    chosen: dict[int, int] = {}
+    for i, element in enumerate(elements):
+        if isinstance(element, Driven):
+            frame.poses[element.link], _ = drive(frame, element)
+        elif isinstance(element, Dyad):
+            meeting = meet(frame, element)
+            _refuse(element, meeting)
+            placed = {p for name in frame.poses for p in structure.links[name].points}
+            candidates = []
+            for poses in meeting.poses:
+                trial = Frame(frame.links, mm, own, {**frame.poses, **poses})
+                fresh = [(n, p) for n in poses for p in structure.links[n].points if p not in placed]
+                candidates.append({p: trial.point(n, p) / mm for n, p in fresh})
+            chosen[i] = pick(scene, element.links, candidates, 0).index
+            frame.poses.update(meeting.poses[chosen[i]])
+    return chosen
+
+
+def _ways(
+    drivers: Sequence[Driver], own: Mapping[str, float], values: Mapping[str, float]
+) -> list[dict[str, float]]:
+    """The straight way, and for angles the other way round."""
+    around = {}
+    for d in drivers:
+        way = values[d.key] - own[d.key]
+        other = values[d.key] - math.copysign(2 * math.pi, way) if isinstance(d, AngleDriver) and way else values[d.key]
+        around[d.key] = other
+    return [dict(values)] if around == dict(values) else [dict(values), around]
+
+
+def _follow(
+    structure: Structure,
+    elements: Sequence[Element],
+    own: Mapping[str, float],
+    target: Mapping[str, float],
+    chosen: Mapping[int, int],
+) -> tuple[dict[int, int], float | None]:
+    """Branches at the end of a straight path of driver values, or where it is barred (0 .. 1)."""
+    turn = max(abs(target[k] - own[k]) for k in own)
+    grid = np.linspace(0.0, 1.0, max(9, math.ceil(TURNS * min(turn / (2 * math.pi), 2.0)) + 1))
+    signs: dict[int, NDArray[np.float64]] = {}
+    branches = dict(chosen)
+    for i, element in enumerate(elements):
+        if not isinstance(element, Dyad):
+            continue
+
+        def gaps(ts: NDArray[np.float64], last: int = i) -> NDArray[np.float64]:
+            return np.array([_gap(structure, elements[: last + 1], own, target, chosen, signs, float(t)) for t in ts])
+
+        start = gaps(np.zeros(1))[0]
+        lines = meet_is_lines(element)
+        way = math.copysign(1.0, start) if lines else 1.0
+        passage = follow(lambda t, way=way, gaps=gaps: way * gaps(t), grid, flips=not lines)  # type: ignore[misc]
+        if passage.limit is not None:
+            return branches, passage.limit
+        signs[i] = passage.flips
+        branches[i] = chosen[i] if passage.sign(np.ones(1))[0] > 0 else 1 - chosen[i]
+    return branches, None
+
+
+def meet_is_lines(element: Dyad) -> bool:
+    """Whether the group is found by two straight lines, and so in one way only."""
+    return element.kind in ("PRP", "RPP")
+
+
+def _gap(
+    structure: Structure,
+    elements: Sequence[Element],
+    own: Mapping[str, float],
+    target: Mapping[str, float],
+    chosen: Mapping[int, int],
+    flips: Mapping[int, NDArray[np.float64]],
+    t: float,
+) -> float:
+    """How well the loci of the last element cross at a place of the path."""
+    frame = _start(structure, 1.0 / structure.scene.size, {k: own[k] + t * (target[k] - own[k]) for k in own})
+    gap = -1.0
+    for i, element in enumerate(elements):
+        if isinstance(element, Driven):
+            frame.poses[element.link], _ = drive(frame, element)
+        elif isinstance(element, Dyad):
+            meeting = meet(frame, element)
+            gap = meeting.gap
+            if not meeting.poses:
+                return gap
+            flipped = int(np.searchsorted(flips[i], t)) % 2 if i in flips else 0
+            frame.poses.update(meeting.poses[(chosen[i] + flipped) % len(meeting.poses)])
+    return gap
+
+
+def _out_of_reach(scene: Scene, values: Mapping[str, float], limits: Sequence[Mapping[str, float]]) -> Problem:
+    def shown(key: str, value: float) -> str:
+        driver = next(d for d in scene.drivers if d.key == key)
+        if isinstance(driver, AngleDriver):
+            return f"{math.degrees(value):.6f} deg"
+        return f"{value / scene.units.metres:.6f} {scene.units.length}"
+
+    key = scene.drivers[0].key
+    ends = sorted(limit[key] for limit in limits)
+    asked = ", ".join(f"{k} at {shown(k, v)}" for k, v in values.items())
+    reach = " and ".join(shown(key, v) for v in ends)
+    word = "between" if len(ends) > 1 else "up to"
+    return Problem(f"driver {asked}", "the motion does not reach it", f"driver {key} moves {word} {reach}")
+
+
+def clusters(elements: Sequence[Element]) -> list[Cluster]:
+    """Groups that compass and ruler alone do not place."""
+    return [e for e in elements if isinstance(e, Cluster)]
