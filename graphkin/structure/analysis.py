@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from itertools import pairwise
 
 from graphkin.errors import Problem, Unsolvable
-from graphkin.scene.model import AngleDriver, Driver, Guide, Link, Scene, SlideDriver
+from graphkin.scene.model import AngleDriver, Driver, Guide, Link, Scene
 from graphkin.structure.graph import components, match
 from graphkin.structure.model import (
     Body,

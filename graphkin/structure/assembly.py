@@ -20,7 +20,9 @@ class Choice:
     by: Literal["only", "drawn", "sketch", "rule"]
 
 
-def pick(scene: Scene, links: Sequence[str], candidates: Sequence[Mapping[str, complex]], default: int | None) -> Choice:
+def pick(
+    scene: Scene, links: Sequence[str], candidates: Sequence[Mapping[str, complex]], default: int | None
+) -> Choice:
     """Choose the assembly of a group at the scene's own position.
 
     Parameters

@@ -1,0 +1,142 @@
+"""What the solver has to say in words: where the motion ends, why a position is dead, which assembly was taken."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from graphkin.exact.cluster import ClusterSolved
+from graphkin.exact.dyads import Solved
+from graphkin.exact.engine import SINGULAR, State, positions
+from graphkin.exact.joints import Drive
+from graphkin.exact.path import Path, follow_path
+from graphkin.exact.pose import Array
+from graphkin.scene.model import AngleDriver, Driver, Scene
+from graphkin.structure import Cluster, Dyad, Pair, Slide, Structure
+
+__all__ = ["assembly_words", "dead_why", "driver_text", "limit_why", "singular"]
+
+OPEN = 1e-9
+
+
+def singular(structure: Structure, state: State, n: int) -> Iterator[tuple[int, Array]]:
+    """For each group where it stands in a dead point, shape (n,)."""
+    for i, solved in state.groups.items():
+        if isinstance(solved, Solved):
+            yield i, np.broadcast_to(~(np.abs(solved.sine) >= SINGULAR), (n,))
+        else:
+            yield i, (~(solved.condition * SINGULAR <= 1)) | ~(solved.missed < OPEN)
+
+
+def driver_text(scene: Scene, driver: Driver, value: float) -> str:
+    """A driver value in its own unit."""
+    if isinstance(driver, AngleDriver):
+        return f"{np.degrees(value):.10g} deg"
+    return f"{value / scene.units.metres:.10g} {scene.units.length}"
+
+
+def limit_why(
+    structure: Structure, forms: Mapping[int, Array], start: Array, path: Path, back: Path | None = None
+) -> str:
+    """Why a path ends, at which driver value, and between which values the motion runs."""
+    scene = structure.scene
+    by = structure.elements[path.by if path.by is not None else 0]
+    assert isinstance(by, Dyad | Cluster)
+    moved = np.flatnonzero(path.end != path.start)
+    driver = scene.drivers[int(moved[0])] if len(moved) else scene.drivers[0]
+    column = scene.drivers.index(driver)
+    ends = path.values(np.array([path.reach]))[0]
+    if back is None:
+        back = follow_path(structure, forms, start, start - (path.end - path.start))
+        if isinstance(driver, AngleDriver):
+            full = np.copysign(2 * np.pi, path.start[column] - path.end[column])
+            other = start.copy()
+            other[column] += full
+            back = follow_path(structure, forms, start, other) if len(moved) == 1 else back
+    low, high = sorted((float(ends[column]), float(back.values(np.array([back.reach]))[0][column])))
+    said = (
+        f"links {', '.join(by.links)} {_ending(by)} at {driver.key} = {driver_text(scene, driver, float(ends[column]))}"
+    )
+    if len(moved) > 1:
+        return said + " on the straight way there"
+    return f"{said}; the motion reaches from {driver_text(scene, driver, low)} to {driver_text(scene, driver, high)}"
+
+
+def _ending(group: Dyad | Cluster) -> str:
+    if isinstance(group, Dyad) and group.kind in ("PRP", "RPP"):
+        return "have parallel guides"
+    return "reach the end of their motion"
+
+
+def dead_why(structure: Structure, i: int, values: Array, forms: Mapping[int, Array]) -> str:
+    """Why group ``i`` stands in a dead point: an infinite rate, or a velocity that is not unique."""
+    scene = structure.scene
+    group = structure.elements[i]
+    assert isinstance(group, Dyad | Cluster)
+    one = np.ones((1, len(scene.drivers)))
+    solved = positions(structure, Drive(values[None], one, 0 * one), forms, i + 1).groups[i]
+    names = ", ".join(group.links)
+    if isinstance(solved, ClusterSolved):
+        u, _, _ = np.linalg.svd(np.nan_to_num(solved.matrix[0]))
+        branch = abs(float(u[:, -1] @ solved.load[0])) <= 1e-5 * float(np.linalg.norm(solved.load[0]))
+        how = "have a singular position"
+    else:
+        e1, e2, load = (complex(np.ravel(x)[0]) for x in (solved.e1, solved.e2, solved.load))
+        along = e1 if abs(e1) > abs(e2) or not np.isfinite(abs(e2)) else e2
+        across = abs((along.conjugate() * load).imag) / (abs(along) or 1.0)
+        branch = not across > 1e-5 * abs(load)
+        assert isinstance(group, Dyad)
+        if group.kind == "RPR" and abs(e2) < 1e-6 * scene.size:
+            how, branch = f"have no direction of their own: {_outer(group)} fall together", True
+        else:
+            how = _in_line(group)
+    end = "the velocity is not unique here, the motion can branch" if branch else "a rate is infinite here"
+    return f"links {names} {how}: dead point, {end}"
+
+
+def _outer(group: Dyad) -> str:
+    return " and ".join(getattr(p, "point", "") for p in (group.outer_first, group.outer_second))
+
+
+def _in_line(group: Dyad) -> str:
+    def between(one: Pair, two: Pair) -> str:
+        return f"{getattr(one, 'point', '')}{getattr(two, 'point', '')}"
+
+    if group.kind == "RRR":
+        return f"have {between(group.outer_first, group.inner)} and {between(group.inner, group.outer_second)} in line"
+    if group.kind == "RRP":
+        return f"have {between(group.outer_first, group.inner)} square to the guide"
+    if group.kind == "RPR":
+        return f"have {between(group.outer_second, group.outer_first)} square to the guide"
+    return "have parallel guides"
+
+
+def assembly_words(structure: Structure, forms: Mapping[int, Array]) -> tuple[str, ...]:
+    """For each group which assembly was taken, in the order of ``structure.groups``."""
+    words: list[str] = []
+    for i, element in enumerate(structure.elements):
+        if isinstance(element, Dyad):
+            words.append(_dyad_words(structure, element, float(forms[i]) > 0))
+        elif isinstance(element, Cluster):
+            words.append("as in the scene's own position")
+    return tuple(words)
+
+
+def _dyad_words(structure: Structure, dyad: Dyad, positive: bool) -> str:
+    if dyad.kind == "RRR":
+        inner, first, second = (getattr(p, "point", "") for p in (dyad.inner, dyad.outer_first, dyad.outer_second))
+        return f"{inner} {'left' if positive else 'right'} of {first} to {second}"
+    if dyad.kind == "RRP":
+        pair = dyad.outer_second
+        assert isinstance(pair, Slide)
+        return f"{'further' if positive else 'less far'} along {_guide(pair)}"
+    if dyad.kind == "RPR":
+        pair = dyad.inner
+        assert isinstance(pair, Slide)
+        return f"on the {'positive' if positive else 'negative'} side of {_guide(pair)}"
+    return "the only one"
+
+
+def _guide(pair: Slide) -> str:
+    return f"{pair.b}.{pair.guide.name}" if pair.guide.name else pair.b

@@ -1,0 +1,146 @@
+"""The motion found: position, velocity and acceleration of every link, point and sliding pair."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
+from graphkin.exact.pose import Array, Pose
+from graphkin.exact.symbols import evaluate
+from graphkin.scene.model import Link, Scene
+from graphkin.scene.symbol import Symbol
+from graphkin.structure import Slide, Structure
+
+__all__ = ["Motion", "Sliding"]
+
+
+class Sliding(NamedTuple):
+    """A sliding pair's motion, signed along the guide's sense; ``coriolis`` is a vector (complex), 2 i omega v."""
+
+    travel: Array
+    velocity: Array
+    acceleration: Array
+    coriolis: Array
+
+
+@dataclass(frozen=True)
+class Motion:
+    """A mechanism solved at n positions of its drivers.
+
+    structure : the order of solution
+    values : real, shape (n, drivers), SI
+    status : str, shape (n,): "ok", "dead point" or "not assembled"
+    why : for each position the reason, empty where ok
+    poses : each moving link, the frame, and the blocks of pins, by name; NaN where the status is not ok
+    slides : the sliding pairs and pins in slots, those of redundant links included
+    assembly : for each group, in the order of ``structure.groups``, which assembly was taken
+    velocity_bound, acceleration_bound : real, shape (n,), how far rounding may have moved a value (m/s, m/s2)
+    """
+
+    structure: Structure
+    values: Array
+    status: Array
+    why: tuple[str, ...]
+    poses: Mapping[str, Pose]
+    slides: tuple[Slide, ...]
+    assembly: tuple[str, ...]
+    velocity_bound: Array
+    acceleration_bound: Array
+
+    @property
+    def scene(self) -> Scene:
+        return self.structure.scene
+
+    @property
+    def ok(self) -> Array:
+        """bool, shape (n,)."""
+        return np.asarray(self.status == "ok")
+
+    def __len__(self) -> int:
+        return len(self.values)
+
+    def require(self) -> Motion:
+        """Itself, if at least one position is ok.  Raises Unsolvable with the first reason otherwise."""
+        if not self.ok.any():
+            raise Unsolvable(str(self.status[0]), Problem(self.scene.name or "scene", self.why[0]))
+        return self
+
+    def link(self, name: str) -> Link:
+        """A link or the block of a pin.  Raises CallError for an unknown name."""
+        if name in self.structure.links:
+            return self.structure.links[name]
+        if name in self.scene.by_name:
+            return self.scene.by_name[name]
+        raise CallError(Problem(f'link "{name}"', "there is no such link", did_you_mean(name, self.scene.by_name)))
+
+    def point(self, point: str, link: str = "") -> Pose:
+        """Axes that move with ``link``, their origin at ``point`` of it, or at its point that lies at that pin now.
+
+        Without a link the pin itself: the point of any link that has it, the frame first.
+        """
+        if point not in self.scene.holders:
+            raise CallError(
+                Problem(f'point "{point}"', "there is no such point", did_you_mean(point, self.scene.holders))
+            )
+        of = self.link(link or self.scene.holders[point][0])
+        pose = self.poses[of.name]
+        if point in of.points:
+            return pose.fixed(of.points[point])
+        pin = self.point(point)
+        arm, spin = pin.z - pose.z, 1j * pose.omega
+        return Pose(
+            pin.z, pose.u, pose.v + spin * arm, pose.omega, pose.a + (1j * pose.alpha + spin * spin) * arm, pose.alpha
+        )
+
+    def position(self, point: str, link: str = "") -> Array:
+        """complex, shape (n,) (m)."""
+        return self.point(point, link).z
+
+    def velocity(self, point: str, link: str = "") -> Array:
+        """complex, shape (n,) (m/s)."""
+        return self.point(point, link).v
+
+    def acceleration(self, point: str, link: str = "") -> Array:
+        """complex, shape (n,) (m/s2)."""
+        return self.point(point, link).a
+
+    def angle(self, link: str) -> Array:
+        """Angle of the link's own x axis (rad): in (-pi, pi] at the first ok position, continuous from there."""
+        angle = np.angle(self.poses[self.link(link).name].u)
+        angle = np.where(angle == -np.pi, np.pi, angle)
+        good = self.ok
+        out = np.full(len(self), np.nan)
+        out[good] = np.unwrap(angle[good])
+        return out
+
+    def omega(self, link: str) -> Array:
+        """real, shape (n,) (rad/s), counter-clockwise positive."""
+        return self.poses[self.link(link).name].omega
+
+    def alpha(self, link: str) -> Array:
+        """real, shape (n,) (rad/s2), counter-clockwise positive."""
+        return self.poses[self.link(link).name].alpha
+
+    def slide(self, key: str) -> Sliding:
+        """A sliding pair or pin in slot by its key ("2/3", "B/3").  Raises CallError for an unknown one."""
+        pair = next((s for s in self.slides if s.key == key), None)
+        if pair is None:
+            raise CallError(
+                Problem(
+                    f'slide "{key}"', "there is no such sliding pair", did_you_mean(key, [s.key for s in self.slides])
+                )
+            )
+        guide = self.poses[pair.b].fixed(pair.guide.through, pair.guide.direction)
+        seen = guide.inverse().of(self.poses[pair.a])
+        return Sliding(seen.z.real, seen.v.real, seen.a.real, 2j * guide.omega * guide.u * seen.v.real)
+
+    def value(self, symbol: Symbol) -> Array:
+        """A quantity by its symbol: complex for vectors, real for omega and alpha, shape (n,).
+
+        Raises CallError where the symbol names nothing here.
+        """
+        return evaluate(self, symbol)

@@ -1,0 +1,176 @@
+"""From the scene's own position to other driver values by continuity, without jumping."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from graphkin.exact.cluster import ClusterSolved
+from graphkin.exact.dyads import Solved
+from graphkin.exact.engine import positions
+from graphkin.exact.joints import Drive
+from graphkin.exact.pose import Array
+from graphkin.scene.model import SlideDriver
+from graphkin.structure import Cluster, Dyad, Structure
+from graphkin.structure.continuity import Passage, follow
+
+__all__ = ["Path", "follow_path"]
+
+TURN_STEP = np.radians(1.0)
+TRAVEL_STEP = 1 / 200
+CLUSTER_STEP = np.radians(4.0)
+SWING = 0.09
+"""Between two nodes no link turns by more than this (about 5 degrees)."""
+CLOSE = 1e-9
+BESIDE = 1e-6
+"""At a change point a group tells nothing; what follows it is watched this far beside it."""
+
+
+@dataclass(frozen=True)
+class Path:
+    """A straight path of driver values, parameter 0 .. 1, with the form of each group along it.
+
+    ``limit`` is the parameter where the motion ends (None if it does not), ``by`` the element that ends it.
+    """
+
+    structure: Structure
+    start: Array
+    end: Array
+    forms: Mapping[int, Callable[[Array], Array]] = field(default_factory=dict)
+    flips: Array = field(default_factory=lambda: np.zeros(0))
+    limit: float | None = None
+    by: int | None = None
+
+    @property
+    def reach(self) -> float:
+        """The parameter that the motion reaches."""
+        return 1.0 if self.limit is None else self.limit
+
+    def values(self, t: Array) -> Array:
+        """Driver values, shape (n, drivers)."""
+        return np.asarray(self.start + t[:, None] * (self.end - self.start))
+
+    def form(self, t: Array) -> dict[int, Array]:
+        """The form of each group at these parameters, for ``positions``."""
+        return {i: form(t) for i, form in self.forms.items()}
+
+    def drive(self, t: Array) -> Drive:
+        """The drivers with rates by the path parameter."""
+        value = self.values(t)
+        return Drive(value, np.broadcast_to(self.end - self.start, value.shape), np.zeros_like(value))
+
+
+def follow_path(structure: Structure, forms: Mapping[int, Array], start: Array, end: Array) -> Path:
+    """Keep the assembly of every group along a straight path of driver values.
+
+    Parameters
+    ----------
+    forms : the assembly at the start: the sign of a dyad, the places (members, 3) of a larger group
+    start, end : driver values, shape (drivers,), SI
+    """
+    path = Path(structure, start, end)
+    grid = np.linspace(0.0, 1.0, _steps(structure, np.abs(end - start)) + 1)
+    for i, element in enumerate(structure.elements):
+        if isinstance(element, Dyad):
+            path = _follow_dyad(path, i, element, float(forms[i]), grid)
+        elif isinstance(element, Cluster):
+            path = _follow_cluster(path, i, element, np.asarray(forms[i]))
+        if path.limit is not None:
+            grid = np.append(grid[grid < path.limit], path.limit)
+        if len(grid) < 2:
+            break
+        grid = _refined(path, i, grid)
+    return path
+
+
+def _steps(structure: Structure, span: Array) -> int:
+    steps = 8
+    for driver, wide in zip(structure.scene.drivers, span, strict=True):
+        fine = TRAVEL_STEP * structure.scene.size if isinstance(driver, SlideDriver) else TURN_STEP
+        steps = max(steps, int(np.ceil(wide / fine)))
+    return min(steps, 4000)
+
+
+def _follow_dyad(path: Path, i: int, dyad: Dyad, sign: float, grid: Array) -> Path:
+    def discriminant(t: Array) -> Array:
+        t = _beside(path.flips, t)
+        forms = {**path.form(t), i: np.asarray(sign)}
+        solved = positions(path.structure, path.drive(t), forms, i + 1, rates=False).groups[i]
+        assert isinstance(solved, Solved)
+        return np.broadcast_to(solved.discriminant, t.shape)
+
+    passage = follow(discriminant, grid, flips=dyad.kind not in ("PRP", "RPP"))
+    limit, by = (path.limit, path.by) if passage.limit is None else (passage.limit, i)
+    flips = np.sort(np.append(path.flips, passage.flips))
+    return replace(path, forms={**path.forms, i: _signed(sign, passage)}, flips=flips, limit=limit, by=by)
+
+
+def _signed(sign: float, passage: Passage) -> Callable[[Array], Array]:
+    return lambda t: sign * passage.sign(t)
+
+
+def _beside(flips: Array, t: Array) -> Array:
+    for flip in flips:
+        t = np.where(np.abs(t - flip) < BESIDE, flip + BESIDE, t)
+    return t
+
+
+def _refined(path: Path, i: int, grid: Array) -> Array:
+    """More nodes where the links found so far turn fast."""
+    for _ in range(20):
+        t = _beside(path.flips, grid)
+        poses = positions(path.structure, path.drive(t), path.form(t), i + 1, rates=False).poses
+        turning = [np.broadcast_to(np.nan_to_num(p.u), grid.shape) for p in poses.values()]
+        swing = np.max([np.abs(np.diff(u)) for u in turning], axis=0)
+        fast = np.flatnonzero((swing > SWING) & (np.diff(grid) > BESIDE))
+        if not len(fast) or len(grid) > 20000:
+            break
+        grid = np.sort(np.append(grid, (grid[fast] + grid[fast + 1]) / 2))
+    return grid
+
+
+def _follow_cluster(path: Path, i: int, group: Cluster, place: Array) -> Path:
+    """Walk with a tangent predictor; a step is taken only if Newton's method confirms what was predicted."""
+    span = np.abs(path.end - path.start)
+    most = min(0.125, CLUSTER_STEP / TURN_STEP / _steps(path.structure, span))
+    weight = np.array([path.structure.scene.size, path.structure.scene.size, 1.0])
+
+    def at(t: float, start: Array) -> tuple[ClusterSolved, Array]:
+        t_ = _beside(path.flips, np.array([t]))
+        state = positions(path.structure, path.drive(t_), {**path.form(t_), i: start[None]}, i + 1)
+        solved = state.groups[i]
+        assert isinstance(solved, ClusterSolved)
+        slope = [[state.poses[k].v.real[0], state.poses[k].v.imag[0], state.poses[k].omega[0]] for k in group.members]
+        return solved, np.array(slope)
+
+    here, slope = at(0.0, place)
+    sense = np.sign(here.determinant[0])
+    t, step, end = 0.0, most / 2, path.reach
+    nodes, places = [0.0], [here.place[0]]
+    while t < end:
+        step = min(step, end - t)
+        guess = places[-1] + step * slope
+        there, new_slope = at(t + step, guess)
+        off = float(np.max(np.abs((there.place[0] - guess) / weight)))
+        moved = float(np.max(np.abs((there.place[0] - places[-1]) / weight)))
+        good = there.missed[0] < CLOSE and np.sign(there.determinant[0]) == sense
+        if good and off < min(0.03, 0.003 + 0.3 * moved) and np.all(np.isfinite(new_slope)):
+            t, slope = t + step, new_slope
+            nodes.append(t)
+            places.append(there.place[0])
+            step = min(most, step * (2.0 if off < 0.005 else 1.2))
+            continue
+        step /= 2
+        if step < 1e-13:
+            break
+    table, values = np.array(nodes), np.array(places)
+
+    def start(s: Array) -> Array:
+        flat = values.reshape(len(table), -1)
+        columns = [np.interp(s, table, flat[:, k]) for k in range(flat.shape[1])]
+        return np.stack(columns, axis=1).reshape(len(s), -1, 3)
+
+    limit, by = (path.limit, path.by) if t >= end else (t, i)
+    return replace(path, forms={**path.forms, i: start}, limit=limit, by=by)

@@ -1,0 +1,129 @@
+"""Where a link is and how it moves: place, direction, and their first and second rates, as arrays over positions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["Array", "Pose", "cross", "dot", "rest"]
+
+Array = NDArray[Any]
+
+
+def dot(a: Array, b: Array) -> Array:
+    """Scalar product of plane vectors."""
+    return np.asarray(a.real * b.real + a.imag * b.imag)
+
+
+def cross(a: Array, b: Array) -> Array:
+    """Vector product (its z part) of plane vectors."""
+    return np.asarray(a.real * b.imag - a.imag * b.real)
+
+
+@dataclass(frozen=True)
+class Pose:
+    """A moving frame of axes, in other axes (the world's, or those of another link).
+
+    Every field is an array of shape (positions,), or one that broadcasts to it.
+
+    z, v, a : complex, origin (m) and its rates (m/s, m/s2)
+    u : complex, direction of the x axis, of unit length
+    omega, alpha : real, rates of the direction (rad/s, rad/s2)
+    """
+
+    z: Array
+    u: Array
+    v: Array
+    omega: Array
+    a: Array
+    alpha: Array
+
+    def fixed(self, place: complex, direction: complex = 1 + 0j) -> Pose:
+        """The axes fixed to this frame at ``place``, turned by ``direction``."""
+        if place == 0:
+            u = self.u if direction == 1 else self.u * direction
+            return Pose(self.z, u, self.v, self.omega, self.a, self.alpha)
+        arm = self.u * place
+        return Pose(
+            self.z + arm,
+            self.u * direction,
+            self.v + 1j * self.omega * arm,
+            self.omega,
+            self.a + (1j * self.alpha - self.omega * self.omega) * arm,
+            self.alpha,
+        )
+
+    def of(self, inner: Pose) -> Pose:
+        """The frame ``inner``, given in these axes, in the axes that these are given in.
+
+        The acceleration has the guiding, the Coriolis (2 i omega v_rel) and the relative part.
+        """
+        arm, slip = self.u * inner.z, self.u * inner.v
+        spin = 1j * self.omega
+        return Pose(
+            self.z + arm,
+            self.u * inner.u,
+            self.v + spin * arm + slip,
+            self.omega + inner.omega,
+            self.a + (1j * self.alpha + spin * spin) * arm + 2 * spin * slip + self.u * inner.a,
+            self.alpha + inner.alpha,
+        )
+
+    def inverse(self) -> Pose:
+        """The outer axes as seen from this frame."""
+        back = np.conj(self.u)
+        spin = 1j * self.omega
+        return Pose(
+            -back * self.z,
+            back,
+            -back * (self.v - spin * self.z),
+            -self.omega,
+            -back * (self.a - 2 * spin * self.v + (spin * spin - 1j * self.alpha) * self.z),
+            -self.alpha,
+        )
+
+    def along(self, travel: Array, velocity: Array, acceleration: Array) -> Pose:
+        """This frame moved along its own direction by a travel with rates."""
+        spin = 1j * self.omega
+        return Pose(
+            self.z + travel * self.u,
+            self.u,
+            self.v + (velocity + spin * travel) * self.u,
+            self.omega,
+            self.a + (acceleration + 2 * spin * velocity + (1j * self.alpha + spin * spin) * travel) * self.u,
+            self.alpha,
+        )
+
+    def hung(self, joint: Pose, u: Array, omega: Array, alpha: Array) -> Pose:
+        """The link whose direction is known and whose ``joint`` (in its axes) lies at the origin of this frame."""
+        spin = 1j * omega
+        return Pose(
+            self.z - u * joint.z,
+            u,
+            self.v - u * (joint.v + spin * joint.z),
+            omega,
+            self.a - u * (joint.a + 2 * spin * joint.v + (1j * alpha + spin * spin) * joint.z),
+            alpha,
+        )
+
+    def spread(self, n: int) -> Pose:
+        """The same with every field of shape (n,)."""
+        z, u, v, a = (np.array(np.broadcast_to(x, (n,)), dtype=np.complex128) for x in (self.z, self.u, self.v, self.a))
+        omega, alpha = (np.array(np.broadcast_to(x, (n,)), dtype=np.float64) for x in (self.omega, self.alpha))
+        return Pose(z, u, v, omega, a, alpha)
+
+
+def rest(place: complex | Array = 0j, direction: complex | Array = 1 + 0j) -> Pose:
+    """Axes at rest."""
+    zero, none = np.zeros(1), np.zeros(1, dtype=np.complex128)
+    return Pose(
+        np.atleast_1d(np.asarray(place, dtype=np.complex128)),
+        np.atleast_1d(np.asarray(direction)),
+        none,
+        zero,
+        none,
+        zero,
+    )

@@ -1,0 +1,86 @@
+"""Along a path of driver values: where an assembly ends, and where its two forms pass through each other.
+
+A group of two links has a discriminant: positive where it can be assembled in two forms, zero where they fall
+together.  Along a path the form is kept while it stays positive.  Where it only touches zero (a change point, the
+parallelogram in line) the smooth motion goes over to the other sign; where it goes below, the motion ends.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["TOUCH", "Passage", "follow", "last_true"]
+
+Reals = NDArray[np.float64]
+
+TOUCH = 1e-12
+"""A least value of a discriminant (no unit) within this of zero is a touch."""
+
+
+@dataclass(frozen=True)
+class Passage:
+    """What happens to one group on the path parameter 0 .. 1.
+
+    ``limit`` is where the motion ends, None if it does not; ``flips`` are the change points before that.
+    """
+
+    limit: float | None = None
+    flips: Reals = field(default_factory=lambda: np.zeros(0))
+
+    def sign(self, t: Reals) -> Reals:
+        """+1 or -1: the sign of the assembly relative to that at the start of the path."""
+        return np.where(np.searchsorted(self.flips, t) % 2, -1.0, 1.0)
+
+
+def follow(discriminant: Callable[[Reals], Reals], grid: Reals, flips: bool = True) -> Passage:
+    """Follow one discriminant along a path.
+
+    Parameters
+    ----------
+    discriminant : function of path parameters, shape (n,), to values, shape (n,), scaled to have no unit
+    grid : increasing parameters, fine enough that the discriminant has at most one least value between three of them
+    flips : False where a touch of zero ends the motion too (two lines that become parallel)
+    """
+    value = discriminant(grid)
+    touches: list[float] = []
+    for i in range(len(grid)):
+        if value[i] < -TOUCH:
+            return Passage(last_true(lambda t: discriminant(t) >= 0, grid[max(i - 1, 0)], grid[i]), np.array(touches))
+        before, after = max(i - 1, 0), min(i + 1, len(grid) - 1)
+        change = max(abs(value[before] - value[i]), abs(value[after] - value[i]))
+        if value[before] < value[i] or value[after] < value[i] or value[i] > change:
+            continue
+        where, least = _least(discriminant, grid[before], grid[after])
+        if least > TOUCH or where <= grid[0] or where >= grid[-1]:
+            continue
+        if least < -TOUCH or not flips:
+            return Passage(last_true(lambda t: discriminant(t) > TOUCH, grid[before], where), np.array(touches))
+        if not touches or where > touches[-1] + 1e-6:
+            touches.append(where)
+    return Passage(None, np.array(touches))
+
+
+def _least(function: Callable[[Reals], Reals], low: float, high: float) -> tuple[float, float]:
+    """Place and value of the least value between two parameters, by repeated sections."""
+    while True:
+        at = np.linspace(low, high, 17)
+        value = function(at)
+        i = int(np.argmin(value))
+        if value[i] < -TOUCH or high - low < 1e-11:
+            return float(at[i]), float(value[i])
+        low, high = float(at[max(i - 1, 0)]), float(at[min(i + 1, 16)])
+
+
+def last_true(holds: Callable[[Reals], NDArray[np.bool_]], low: float, high: float) -> float:
+    """The parameter up to which a condition holds that is true at ``low`` and false at ``high``."""
+    while True:
+        at = np.linspace(low, high, 33)
+        bad = np.flatnonzero(~holds(at[1:]))
+        i = int(bad[0]) if len(bad) else 31
+        if high - low <= 4e-16 * max(1.0, abs(high)) or (at[i] <= low and at[i + 1] >= high):
+            return float(low)
+        low, high = float(at[i]), float(at[i + 1])
