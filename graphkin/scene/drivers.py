@@ -128,9 +128,10 @@ def _slide_problems(
 def _driven_twice(where: str, key: str, base: str, found: list[Drive]) -> list[Problem]:
     for other in found:
         if other.key == key:
+            what = f"link {key}" if base else key
             hint = f'write the second as link = "{base}", relative_to = "{key}"' if base != other.base else ""
-            return [Problem(where, f"{key} is driven by {other.where} already", hint or "leave one of them out")]
+            return [Problem(where, f"{what} is driven by {other.where} already", hint or "leave one of them out")]
         if base and {key, base} == {other.key, other.base}:
-            return [Problem(where, f"the angle between {key} and {base} is driven by {other.where} already",
+            return [Problem(where, f"the angle between links {key} and {base} is driven by {other.where} already",
                             "leave one of them out")]
     return []

@@ -34,7 +34,7 @@ def _symbol(where: str, text: str, names: Names) -> Symbol | Problem:
 
 def asked(file: SceneFile, names: Names, problems: list[Problem]) -> tuple[Symbol, ...]:
     """The symbols of ``find``, each once, in its order."""
-    found = [_symbol("find", text, names) for text in file.find or ()]
+    found = [_symbol(path_name(("find", text)), text, names) for text in file.find or ()]
     problems += [s for s in found if isinstance(s, Problem)]
     return tuple(dict.fromkeys(s for s in found if isinstance(s, Symbol)))
 

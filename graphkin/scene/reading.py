@@ -71,7 +71,7 @@ def plain(source: Mapping[Any, Any]) -> dict[str, Any]:
             return str(value)
         if isinstance(value, Integral):
             whole = int(value)
-            return whole if abs(whole) < 10**300 else math.copysign(math.inf, whole)
+            return whole if abs(whole) < 10**300 else math.inf if whole > 0 else -math.inf
         if isinstance(value, Real):
             return float(value)
         return value

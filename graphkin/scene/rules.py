@@ -56,14 +56,8 @@ def nowhere_placed(file: SceneFile, names: Names, flaws: Flaws) -> list[Problem]
             if isinstance(entry, Polar):
                 refs = [("from", entry.origin)] + ([("toward", entry.toward)] if entry.toward else [])
                 found += [names.no_point_of(f"{where}.{key}", name, ref) for key, ref in refs]
-                if entry.toward == entry.origin:
-                    found.append(Problem(f"{where}.toward", f"{entry.origin} is where it starts",
-                                         "name another point of the link"))
             elif isinstance(entry, Compass):
                 found += [names.no_point_of(f"{where}.from", name, ref) for ref in entry.origins]
-                if entry.origins[0] == entry.origins[1]:
-                    found.append(Problem(f"{where}.from", f"names {entry.origins[0]} twice",
-                                         "two different points of the link are wanted"))
             elif entry == "drawn" and point not in file.drawn and point not in file.frame.points and not drawn_lost:
                 found.append(Problem(where, f'is "drawn", but {point} is not in [drawn]',
                                      f"write {point} = [x, y] in [drawn]"))

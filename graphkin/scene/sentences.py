@@ -98,7 +98,7 @@ def sentence(loc: Path, path: Path, item: dict[str, Any]) -> Problem:
             text = 'write link = "1" for a driven angle or slide = "2" for a driven sliding pair'
         return Problem(where, "is missing", text[:1].lower() + text[1:].rstrip(".") if text else "")
     if kind == "extra_forbidden":
-        return Problem(where, "unknown key", _about_key(loc))
+        return Problem(where, "unknown table" if isinstance(value, dict) else "unknown key", _about_key(loc))
     if "[key]" in loc:
         return Problem(where, f"{shown(path[-1])} is no name here", _name_rule(ctx))
     if kind == "form":
@@ -106,7 +106,7 @@ def sentence(loc: Path, path: Path, item: dict[str, Any]) -> Problem:
     if kind in _KINDS:
         wanted = _KINDS[kind]
         if kind == "string_type" and isinstance(value, int | float) and not isinstance(value, bool):
-            wanted = f'a name stands in quotation marks: "{shown(value)}"'
+            wanted = f'a text stands in quotation marks: "{shown(value)}"'
         elif kind == "float_type" and isinstance(value, str):
             wanted = "a number is written without quotation marks"
         return Problem(where, f"found {shown(value)}", wanted)
@@ -114,13 +114,15 @@ def sentence(loc: Path, path: Path, item: dict[str, Any]) -> Problem:
         choices = re.findall(r"'([^']*)'", ctx["expected"])
         near = did_you_mean(value[:60], choices) if isinstance(value, str) else ""
         tail = f", {near}" if near.startswith("did") else ""
-        return Problem(where, f"found {shown(value)}", " or ".join(f'"{c}"' for c in choices) + " is possible" + tail)
+        words = ("one of " if len(choices) > 1 else "") + ", ".join(f'"{c}"' for c in choices)
+        return Problem(where, f"found {shown(value)}", f"{words} is possible{tail}")
     if kind == "finite_number":
         return Problem(where, f"found {shown(value)}", "a finite number is wanted")
     if kind == "greater_than_equal":
         if ctx["ge"] > 0:
             what = "a negative" if value < 0 else "a zero" if value == 0 else "far too small a"
-            return Problem(where, f"found {shown(value)}, {what} length or scale", "it must be positive")
+            noun = "scale" if str(path[-1]).endswith("scale") else "length"
+            return Problem(where, f"found {shown(value)}, {what} {noun}", f"a {noun} must be positive")
         return Problem(where, f"found {shown(value)}", f"no number of a scene may be below {ctx['ge']:g}")
     if kind == "less_than_equal":
         return Problem(where, f"found {shown(value)}", f"no number of a scene may exceed {ctx['le']:g}")
@@ -138,7 +140,7 @@ def _about_key(loc: Path) -> str:
     if key in top and len(loc) > 1:
         return f"{key} belongs at the top of the file, before the first table" if key in (
             "title", "title_zh", "source", "find") else f"[{key}] is a table of its own"
-    if loc[0] == "driver" and key == "link":
+    if loc[0] == "driver" and key == "slide":
         return "a driver has either link (a driven angle) or slide (a driven sliding pair)"
     return did_you_mean(key, here)
 

@@ -1,0 +1,232 @@
+"""Each rule of the scene format that can be broken gives a sentence that names the thing and what would be right."""
+
+from __future__ import annotations
+
+import pytest
+
+from graphkin.errors import SceneError
+from graphkin.scene import read_text
+
+from .scenes import FOUR_BAR, SIX_BAR, changed
+
+LINK1 = 'length = 150'
+LINK2 = 'length = 500'
+DRIVER = 'link = "1"\nangle = 60\nomega = 10'
+E_AT = "E = [100, 50]"
+GUIDE_S = 's = { through = "E", angle = 90 }'
+
+BROKEN = {
+    # keys, tables, numbers
+    "unknown key": ((LINK1, "lenght = 150"), ["links.1.lenght", 'did you mean "length"']),
+    "unknown table": (("[driver]", "[drivers]"), ["drivers", "unknown table", 'did you mean "driver"']),
+    "unknown unit": (("[frame]", '[units]\nlength = "mn"\n[frame]'), ["units.length", '"mn"', '"mm"']),
+    "unknown key of units": (("[frame]", '[units]\nmass = "kg"\n[frame]'), ["units.mass", "length"]),
+    "top key in a table": (("omega = 10", 'omega = 10\nfind = ["v_B"]'), ["driver.find", "top of the file"]),
+    "infinite": ((LINK1, "length = inf"), ["links.1.length", "inf", "finite"]),
+    "overflow": ((LINK1, "length = 1e400"), ["links.1.length", "inf", "finite"]),
+    "not a number": (("omega = 10", "omega = nan"), ["driver.omega", "nan", "finite"]),
+    "huge": (("omega = 10", "omega = 1e20"), ["driver.omega", "1e+20", "1e+15"]),
+    "huge integer": ((LINK1, "length = 1" + "0" * 400), ["links.1.length", "finite"]),
+    "zero length": ((LINK1, "length = 0"), ["links.1.length", "0", "zero", "positive"]),
+    "negative length": ((LINK1, "length = -5"), ["links.1.length", "-5", "negative", "positive"]),
+    "negative radius": ((E_AT, 'E = { from = "B", r = -5 }'), ["links.2.at.E.r", "-5", "positive"]),
+    "truth for a number": ((LINK1, "length = true"), ["links.1.length", "true", "a number"]),
+    "text for a number": ((LINK1, 'length = "150"'), ["links.1.length", '"150"', "without quotation marks"]),
+    "date for a number": ((LINK1, "length = 2020-01-01"), ["links.1.length", "2020-01-01", "number"]),
+    "number for a name": (('link = "1"', "link = 1"), ["driver.link", 'quotation marks: "1"']),
+    "number for a title": (('title = "Four-bar"', "title = 4"), ["title", "quotation marks"]),
+    "long title": (('title = "Four-bar"', f'title = "{"x" * 301}"'), ["title", "301", "300"]),
+    "control character": (('"Four-bar"', '"Four\\u0007bar"'), ["title", "control character"]),
+    "place of three": (("D = [400, 0]", "D = [400, 0, 1]"), ["frame.points.D", "[400, 0, 1]", "[x, y]"]),
+    "place of one": ((E_AT, "E = [100]"), ["links.2.at.E", "[100]", "[x, y]"]),
+    "point name": (('points = ["B", "C"]', 'points = ["b", "C"]'), ["links.2.points", '"b"', "capital letter"]),
+    "link name": (("[links.3]", '[links."a b"]'), ['"a b"', "letters and digits"]),
+    "guide name": ((GUIDE_S, f'"s-1" = {GUIDE_S[4:]}'), ["s-1", "letters and digits"]),
+    "no links": ((FOUR_BAR, "title = 'x'"), ["links", "missing", "[links.1]"]),
+    "empty links": ((FOUR_BAR, "[links]"), ["links", "none", "[links.1]"]),
+    "link no table": ((FOUR_BAR, "[links]\n1 = 3"), ["links.1", "3", "a table is wanted"]),
+    "sheet paper": (("[frame]", '[sheet]\npaper = "A9"\n[frame]'), ["sheet.paper", '"A9"', '"A4"']),
+    "sheet convention": (
+        ("[frame]", '[sheet]\nconvention = "rusian"\n[frame]'), ["sheet.convention", 'did you mean "russian"?']),
+    "sheet scale": (("[frame]", "[sheet]\nlength_scale = 0\n[frame]"), ["sheet.length_scale", "positive"]),
+    # own points
+    "three names": (('["B", "C"]', '["B", "C", "E"]'), ["links.2.points", "3 names", "at"]),
+    "point twice": (('["B", "C"]', '["B", "B"]'), ["links.2.points", "B", "twice", "different"]),
+    "length of one point": (('points = ["B", "C"]', 'points = ["B"]'), ["links.2.length", "500", "two names"]),
+    "no length": (("length = 500\n", ""), ["links.2.length", "missing", "B and C", "[drawn]"]),
+    "nothing placed": (
+        ("[driver]", "[links.9]\n[driver]"), ["links.9", "neither points nor on", "write points"]),
+    "no direction": ((GUIDE_S, 's = { through = "E" }'), ["links.2.guides.s", "no direction", "angle"]),
+    "frame's name": (('name = "4"', 'name = "3"'), ["frame.name", '"3"', "moving link"]),
+    # further points
+    "from nowhere": ((E_AT, 'E = { from = "Q", r = 5 }'), ["links.2.at.E.from", "Q", "nowhere placed", "B, C, E"]),
+    "toward nowhere": (
+        (E_AT, 'E = { from = "B", r = 5, toward = "D" }'), ["links.2.at.E.toward", "D", "nowhere placed"]),
+    "toward itself": (
+        (E_AT, 'E = { from = "B", r = 5, toward = "B" }'), ["links.2.at.E.toward", "B itself", "elsewhere"]),
+    "no radius": ((E_AT, 'E = { from = "B" }'), ["links.2.at.E.r", "missing", "distance"]),
+    "unknown form": ((E_AT, "E = true"), ["links.2.at.E", "true", "[x, y]", "from"]),
+    "unknown key of polar": ((E_AT, 'E = { from = "B", r = 5, angel = 3 }'), ["links.2.at.E.angel", '"angle"']),
+    "no such word": ((E_AT, 'E = "drwn"'), ["links.2.at.E", '"drwn"', '"drawn"']),
+    "circle": (
+        (E_AT, 'E = { from = "F", r = 5 }, F = { from = "E", r = 5 }'), ["links.2.at", "E, F", "one another"]),
+    "arcs apart": (
+        (E_AT, 'E = { from = ["B", "C"], r = [60, 80], side = "left" }'),
+        ["links.2.at.E", "60 about B", "80 about C", "do not meet", "BC = 500", "440", "560"]),
+    "arcs about one": (
+        (E_AT, 'E = { from = ["B", "B"], r = [60, 80], side = "left" }'),
+        ["links.2.at.E.from", "B and B", "same place"]),
+    "side missing": ((E_AT, 'E = { from = ["B", "C"], r = [400, 300] }'), ["links.2.at.E.side", "missing"]),
+    "side unknown": (
+        (E_AT, 'E = { from = ["B", "C"], r = [400, 300], side = "up" }'), ["links.2.at.E.side", '"up"', '"left"']),
+    "one radius": (
+        (E_AT, 'E = { from = ["B", "C"], r = [400], side = "left" }'), ["links.2.at.E.r", "two lengths"]),
+    "placed twice": (
+        (E_AT, "E = [100, 50], C = [400, 0]"), ["links.2.at.C", "[400, 0]", "[500, 0]", "leave one"]),
+    "drawn nowhere": ((E_AT, 'E = "drawn"'), ["links.2.at.E", "not in [drawn]", "E = [x, y]"]),
+    "through nowhere": ((GUIDE_S, 's = { through = "Q", angle = 1 }'), ["links.2.guides.s.through", "Q", "B, C, E"]),
+    "toward unknown": ((GUIDE_S, 's = { through = "E", toward = "Q" }'), ["links.2.guides.s.toward", "Q", "[drawn]"]),
+    "toward own place": (
+        (GUIDE_S, 's = { through = "E", toward = "E" }'), ["links.2.guides.s.toward", "E", "elsewhere"]),
+    "angle against toward": (
+        (GUIDE_S, 's = { through = "B", toward = "C", angle = 3 }'), ["links.2.guides.s.angle", "3 deg", "0 deg"]),
+    "too many on a link": (
+        (E_AT, ", ".join(f"P{i} = [{i}, 0]" for i in range(101))), ["links.2", "too many", "100"]),
+    # sliding pairs
+    "no such link": (("[driver]", '[links.9]\npoints = ["C"]\non = "7"\n[driver]'), ["links.9.on", '"7"', "1, 2, 3"]),
+    "no such guide": (
+        ("[driver]", '[links.9]\npoints = ["C"]\non = "4.h"\n[driver]'), ["links.9.on", "4", '"h"', "g"]),
+    "guide of a link without": (
+        ("[driver]", '[links.9]\npoints = ["C"]\non = "3.h"\n[driver]'), ["links.9.on", '"h"', 'own axis', '"3"']),
+    "on itself": (("[driver]", '[links.9]\npoints = ["C"]\non = "9"\n[driver]'), ["links.9.on", "itself"]),
+    "twice on a link": (
+        ("[driver]", '[links.9]\npoints = ["C"]\non = ["4", "4.g"]\n[driver]'), ["links.9.on", "already", "4"]),
+    "each on the other": (
+        ("[driver]", '[links.8]\non = "9"\n[links.9]\npoints = ["C"]\non = "8"\n[driver]'), ["links.9.on", "already"]),
+    "pinned and sliding": (
+        ("[driver]", '[links.9]\npoints = ["C"]\non = "3"\n[driver]'), ["links.9.on", "C", "link 3", "pins"]),
+    "three guides": (
+        ("[driver]", '[links.9]\npoints = ["C"]\non = ["1", "4", "4.g"]\n[driver]'),
+        ["links.9.on", "one guide or two"]),
+    "guide of a guide": (
+        ("[driver]", '[links.9]\npoints = ["C"]\non = "4.g.h"\n[driver]'), ["links.9.on", "4.g.h", "LINK.GUIDE"]),
+    "on is a number": (("[driver]", '[links.9]\npoints = ["C"]\non = 4\n[driver]'), ["links.9.on", "4", '"LINK"']),
+    "angle_on alone": ((LINK2, "length = 500\nangle_on = 3"), ["links.2.angle_on", "without on"]),
+    "angle_on count": (
+        ("[driver]", '[links.9]\npoints = ["C"]\non = ["4", "1"]\nangle_on = 90\n[driver]'),
+        ["links.9.angle_on", "1 for 2 guides", "one number for each"]),
+    "held by nothing": (
+        ("[driver]", '[links.9]\npoints = ["X", "Y"]\nlength = 5\n[driver]'), ["links.9", "nothing holds"]),
+    "held by one another only": (
+        ("[driver]", '[links.8]\npoints = ["X"]\n[links.9]\npoints = ["X", "Y"]\nlength = 5\n[driver]'),
+        ["links 8, 9", "to the frame", "link 4"]),
+    # pins in slots
+    "pin of no link": (("[driver]", '[pins.B]\nof = "9"\nin = "4.g"\n[driver]'), ["pins.B.of", '"9"', "1, 2, 3"]),
+    "pin of another link": (
+        ("[driver]", '[pins.E]\nof = "3"\nin = "4.g"\n[driver]'), ["pins.E.of", "E", "link 3", "C, D"]),
+    "pin in no slot": (("[driver]", '[pins.E]\nof = "2"\nin = "4.s"\n[driver]'), ["pins.E.in", '"s"']),
+    "pin in its own link": (("[driver]", '[pins.E]\nof = "2"\nin = "2.s"\n[driver]'), ["pins.E.in", "itself"]),
+    "pin twice in a link": (
+        ("[driver]", '[pins.E]\nof = "2"\nin = ["4", "4.g"]\n[driver]'), ["pins.E.in", "twice", "4"]),
+    "pin that is a joint": (("[driver]", '[pins.C]\nof = "2"\nin = "3"\n[driver]'), ["pins.C.in", "turning pair"]),
+    "pin without slot": (("[driver]", '[pins.E]\nof = "2"\n[driver]'), ["pins.E.in", "missing"]),
+    # drivers
+    "driver of nothing": (('link = "1"\n', ""), ["driver.link", "missing", "slide"]),
+    "driver of both": ((DRIVER, DRIVER + '\nslide = "2"'), ["driver.slide", "either link"]),
+    "driver of no link": (('link = "1"', 'link = "7"'), ["driver.link", '"7"', "1, 2, 3, 4"]),
+    "driver of the frame": (('link = "1"', 'link = "4"'), ["driver.link", "frame", "1, 2, 3"]),
+    "relative to no link": ((DRIVER, DRIVER + '\nrelative_to = "8"'), ["driver.relative_to", '"8"']),
+    "relative to itself": ((DRIVER, DRIVER + '\nrelative_to = "1"'), ["driver.relative_to", "itself"]),
+    "omega and rpm": ((DRIVER, DRIVER + "\nrpm = 95"), ["driver.omega", "omega = 10", "rpm = 95", "one of the two"]),
+    "no omega": (("omega = 10\n", ""), ["driver.omega", "missing", "rpm"]),
+    "no angle": (("angle = 60\n", ""), ["driver.angle", "missing", "degrees", "[drawn]"]),
+    "driven twice": (
+        (f"[driver]\n{DRIVER}", f"[[driver]]\n{DRIVER}\n[[driver]]\n{DRIVER}"), ["driver.2", "1", "already"]),
+    "driven from both sides": (
+        (f"[driver]\n{DRIVER}",
+         f'[[driver]]\n{DRIVER}\nrelative_to = "2"\n[[driver]]\nlink = "2"\nangle = 1\nomega = 1\nrelative_to = "1"'),
+        ["driver.2", "between links 2 and 1", "already"]),
+    "redundant driver": ((LINK1, "length = 150\nredundant = true"), ["driver.link", "redundant"]),
+    "slide of no link": (
+        (DRIVER, 'slide = "7"\ntravel = 1\nvelocity = 1'), ["driver.slide", '"7"', "there is none here"]),
+    "slide of a bar": ((DRIVER, 'slide = "2"\ntravel = 1\nvelocity = 1'), ["driver.slide", "slides on nothing"]),
+    # questions
+    "sketch of nothing": (("[driver]", "[sketch]\nQ = [1, 2]\n[driver]"), ["sketch.Q", "Q", "A, B, C, D, E"]),
+    "drawing of nothing": (("[driver]", "[drawn]\nQ = [1, 2]\n[driver]"), ["drawn.Q", "Q", "A, B, C, D, E"]),
+    "find is a text": (('title = "Four-bar"', 'find = "v_B"'), ["find", '"v_B"', "list"]),
+    "find of no point": (('title = "Four-bar"', 'find = ["v_Q"]'), ["find", "Q", "A, B, C, D, E"]),
+    "find of no link": (('title = "Four-bar"', 'find = ["omega_9"]'), ["find", '"9"', "1, 2, 3, 4"]),
+    "find under no link": (('title = "Four-bar"', 'find = ["v_B@9"]'), ["find", '"9"', "1, 2, 3, 4"]),
+    "find of no quantity": (('title = "Four-bar"', 'find = ["speed"]'), ["find", '"speed"', "v_B"]),
+    "find of itself": (('title = "Four-bar"', 'find = ["v_B/B"]'), ["find", "itself"]),
+    "Coriolis of two points": (('title = "Four-bar"', 'find = ["ak_B@1/C@2"]'), ["find", "two different points"]),
+    "printed of no point": (("[driver]", "[printed]\nv_Q = 3\n[driver]"), ["printed.v_Q", "Q"]),
+    "printed rate of two": (("[driver]", "[printed]\nomega_2 = [1, 2]\n[driver]"), ["printed.omega_2", "one number"]),
+    "printed text": (("[driver]", "[printed]\nv_B = 'x'\n[driver]"), ["printed.v_B", '"x"', "[x, y]"]),
+}
+
+
+def messages(text: str) -> list[str]:
+    with pytest.raises(SceneError) as error:
+        read_text(text, "test")
+    return [str(p) for p in error.value.problems]
+
+
+@pytest.mark.parametrize("rule", BROKEN)
+def test_a_broken_rule_gives_one_sentence_that_names_the_thing(rule: str) -> None:
+    change, fragments = BROKEN[rule]
+    text = FOUR_BAR.replace(*change, 1)
+    assert text != FOUR_BAR
+    [sentence] = messages(text)
+    missing = [f for f in fragments if f not in sentence]
+    assert missing == [], sentence
+
+
+def test_a_slide_that_is_ambiguous_lists_its_pairs() -> None:
+    text = changed(SIX_BAR, ('on     = "6.h"', 'on     = ["6.h", "1"]'),
+                   ('link  = "1"\nangle = 50\nomega = -10', 'slide = "5"\ntravel = 3\nvelocity = 1'))
+    [sentence] = messages(text)
+    assert '"5/6" or "5/1"' in sentence
+
+
+def test_a_driven_slide_without_velocity_asks_for_it() -> None:
+    text = changed(SIX_BAR, ('link  = "1"\nangle = 50\nomega = -10', 'slide = "5"\ntravel = 3'))
+    [sentence] = messages(text)
+    assert sentence.startswith("driver.velocity: is missing")
+
+
+def test_a_slide_on_a_link_that_does_not_guide_it_names_those_that_do() -> None:
+    text = changed(SIX_BAR, ('link  = "1"\nangle = 50\nomega = -10', 'slide = "5/3"\ntravel = 3\nvelocity = 1'))
+    [sentence] = messages(text)
+    assert "5 does not slide on link 3; it may be 5/6" in sentence
+
+
+def test_more_links_than_the_limit_is_one_sentence() -> None:
+    links = "".join(f'[links.{i}]\npoints = ["A"]\n' for i in range(201))
+    [sentence] = messages("[frame]\npoints = { A = [0, 0] }\n" + links)
+    assert "201 moving links" in sentence
+
+
+def test_all_problems_of_a_file_are_reported_together() -> None:
+    text = changed(
+        FOUR_BAR, ("length = 150", "length = -150"), ("length = 300", "lenght = 300"), ('"E", angle', '"Q", angle'),
+        ("omega = 10", "omega = 10\nrpm = 95"), ("[driver]", "[sketch]\nZ = [0, 0]\n[printed]\nv_Y = 3\n[driver]"),
+    )
+    wheres = {s.split(":")[0] for s in messages(text)}
+    assert wheres == {"links.1.length", "links.3.lenght", "links.2.guides.s.through", "driver.omega", "sketch.Z",
+                      "printed.v_Y"}
+
+
+def test_a_point_taken_out_for_a_wrong_number_is_not_reported_as_unknown() -> None:
+    text = changed(FOUR_BAR, ("E = [100, 50]", "E = [100, nan]"))
+    assert [s.split(":")[0] for s in messages(text)] == ["links.2.at.E.2"]
+
+
+def test_a_wrong_angle_of_the_driver_is_not_reported_as_missing() -> None:
+    text = changed(FOUR_BAR, ("angle = 60", 'angle = "60"'))
+    assert [s.split(":")[0] for s in messages(text)] == ["driver.angle"]
+
+
+def test_the_second_of_several_drivers_is_named_by_its_number() -> None:
+    text = changed(FOUR_BAR, ("[driver]", "[[driver]]")) + '[[driver]]\nlink = "2"\nangle = true\nomega = 0\n'
+    assert [s.split(":")[0] for s in messages(text)] == ["driver.2.angle"]

@@ -1,0 +1,59 @@
+"""The JSON schema that editors use agrees with what the reader takes."""
+
+from __future__ import annotations
+
+import tomllib
+
+import pytest
+
+from graphkin.scene import library, library_text, schema
+
+from .scenes import FOUR_BAR, SIX_BAR, changed
+
+jsonschema = pytest.importorskip("jsonschema")
+
+
+def valid(text: str) -> bool:
+    return bool(jsonschema.Draft202012Validator(schema()).is_valid(tomllib.loads(text)))
+
+
+def test_the_schema_is_a_schema() -> None:
+    jsonschema.Draft202012Validator.check_schema(schema())
+
+
+@pytest.mark.parametrize("text", [FOUR_BAR, SIX_BAR], ids=["four-bar", "six-bar"])
+def test_a_scene_keeps_the_schema(text: str) -> None:
+    assert valid(text)
+
+
+@pytest.mark.parametrize("name", library())
+def test_every_scene_that_comes_along_keeps_the_schema(name: str) -> None:
+    assert valid(library_text(name))
+
+
+WRONG = {
+    "misspelt key": ("length = 150", "lenght = 150"),
+    "misspelt table": ("[driver]", "[drivers]"),
+    "negative length": ("length = 150", "length = -1"),
+    "text for a number": ("length = 150", 'length = "150"'),
+    "name of a point": ('["B", "C"]', '["b", "C"]'),
+    "name of a link": ("[links.3]", '[links."a b"]'),
+    "form of a place": ("E = [100, 50]", "E = [100]"),
+    "side": ("E = [100, 50]", 'E = { from = ["B", "C"], r = [1, 2], side = "up" }'),
+}
+
+
+@pytest.mark.parametrize("change", WRONG)
+def test_the_schema_refuses_what_the_reader_refuses(change: str) -> None:
+    assert not valid(changed(FOUR_BAR, WRONG[change]))
+
+
+def test_every_key_is_described_or_has_its_choices() -> None:
+    tables = [schema(), *schema()["$defs"].values()]
+    silent = [key for table in tables for key, entry in table["properties"].items()
+              if not {"description", "enum", "$ref"} & entry.keys()]
+    assert silent == []
+
+
+def test_no_key_may_be_null() -> None:
+    assert "null" not in str(schema())
