@@ -7,7 +7,7 @@ and segment tell what touches.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
@@ -29,7 +29,9 @@ NEARER = 0.3  # by so much a label is nearer to its own mark than to any other
 LEADER_FROM = 5.0  # a label further off than this has a leader
 LEADER_LEAST = 2.0  # a leader shorter than this would not be seen
 # What a place costs beside its distance (mm): a leader, whatever the leader crosses, a dashed line under the label.
-LEADER_COST, CROSSED_COST, DASHED_COST = 4.0, 1.0, 1.6
+LEADER_COST, CROSSED_COST, DASHED_COST = 4.0, 3.0, 1.6
+# What lies nearer to the foot of a leader is the mark itself: a point with its symbol, or the line of a vector, mm.
+POINT_REACH, LINE_REACH = 1.5, 0.4
 _ANGLES = 2 * np.pi * np.arange(24) / 24
 _WAYS = np.exp(-1j * _ANGLES)
 _HOLDS = np.clip(1.6 * _WAYS.real, -1, 1), np.clip(1.6 * _WAYS.imag, -1, 1)
@@ -84,13 +86,16 @@ class Places:
     def __len__(self) -> int:
         return len(self._rows)
 
-    def __getitem__(self, index: int) -> Candidate:
-        while len(self._made) <= index:
-            centre, cost, foot, led, faults = self._rows[len(self._made)]
-            corner, other = centre - self.half, centre + self.half
-            box = Box(corner.real, corner.imag, other.real, other.imag)
-            self._made.append(Candidate(box, cost, (foot, box.nearest(foot)) if led else None, faults))
-        return self._made[index]
+    def __iter__(self) -> Iterator[Candidate]:
+        for index in range(len(self._rows)):
+            if index == len(self._made):
+                self._made.append(self._make(*self._rows[index]))
+            yield self._made[index]
+
+    def _make(self, centre: complex, cost: float, foot: complex, led: bool, faults: int) -> Candidate:
+        corner, other = centre - self.half, centre + self.half
+        box = Box(corner.real, corner.imag, other.real, other.imag)
+        return Candidate(box, cost, (foot, box.nearest(foot)) if led else None, faults)
 
 
 class Field:
@@ -135,13 +140,14 @@ class Field:
                 column[kept] for column in (centres, costs, feet, gap, owner, half, faults)
             )
         own = np.array([self.index[_ends(asker.mark)] for asker in askers], dtype=int)[owner]
+        reach = np.where(self.is_point[own], POINT_REACH, LINE_REACH)
         led = (gap > LEADER_FROM) | self._doubtful(centres, half, gap, own)
         if free:
             kept = ~led | (gap >= LEADER_LEAST)
-            centres, costs, feet, owner, half, faults, led = (
-                column[kept] for column in (centres, costs, feet, owner, half, faults, led)
+            centres, costs, feet, owner, half, faults, led, reach = (
+                column[kept] for column in (centres, costs, feet, owner, half, faults, led, reach)
             )
-        costs[led] += LEADER_COST + CROSSED_COST * self._crossed(feet[led], centres[led], half[led])
+        costs[led] += LEADER_COST + CROSSED_COST * self._crossed(feet[led], centres[led], half[led], reach[led])
         return [
             Places(asker.half, *(column[owner == i] for column in (centres, costs, feet, led, faults)))
             for i, asker in enumerate(askers)
@@ -173,17 +179,15 @@ class Field:
         rivals = (self.is_point[own][:, None] == self.is_point) & (own[:, None] != np.arange(len(self.marks)))
         return (near & rivals).any(axis=1)
 
-    def _crossed(self, feet: Any, centres: Any, half: Any) -> Any:
-        """How many obstacles each leader runs over once it has left its own mark."""
-        if not len(feet):
-            return 0
-        off = centres - feet
-        to = feet + _held(off.real, half.real, centres.real - feet.real)
-        to = to + 1j * _held(off.imag, half.imag, centres.imag - feet.imag)
-        start = feet + (to - feet) * 0.4
-        lines = shapely.linestrings(np.stack([[start.real, start.imag], [to.real, to.imag]]).transpose(2, 0, 1))
-        which, _ = self.tree.query(lines, predicate="intersects")
-        return np.bincount(which, minlength=len(feet))
+    def _crossed(self, feet: Any, centres: Any, half: Any, reach: Any) -> Any:
+        """How many obstacles each leader runs over once it has left its own mark; an area counts by its diagonal."""
+        to = feet + _held(centres.real - feet.real, half.real) + 1j * _held(centres.imag - feet.imag, half.imag)
+        way = (to - feet)[:, None]
+        start = feet[:, None] + way / np.maximum(np.abs(way), 1e-9) * reach[:, None]
+        a, b = self.things[None, :, 0], self.things[None, :, 1]
+        apart = _turn(way, a - start) * _turn(way, b - start)
+        across = _turn(b - a, start - a) * _turn(b - a, to[:, None] - a)
+        return ((apart < 0) & (across < 0)).sum(axis=1)
 
 
 def _around(asker: Asker, gaps: Any) -> tuple[Any, Any, Any, Any]:
@@ -218,9 +222,13 @@ def _apart(wish: float) -> Any:
     return np.abs(np.angle(np.exp(1j * (_ANGLES - wish))))
 
 
-def _held(off: Any, half: Any, full: Any) -> Any:
+def _held(off: Any, half: Any) -> Any:
     """From a foot to the nearest of a box along one axis."""
-    return np.where(np.abs(off) <= half, 0.0, full - np.sign(off) * half)
+    return np.where(np.abs(off) <= half, 0.0, off - np.sign(off) * half)
+
+
+def _turn(a: Any, b: Any) -> Any:
+    return a.real * b.imag - a.imag * b.real
 
 
 def _separated(centres: Any, half: Any, segments: Any) -> Any:
@@ -229,7 +237,7 @@ def _separated(centres: Any, half: Any, segments: Any) -> Any:
     start = segments[..., 0]
     along = segments[..., 1] - start
     off = centres - start
-    distance = np.abs(off.imag * along.real - off.real * along.imag)
+    distance = np.abs(_turn(along, off))
     return distance > half.real * np.abs(along.imag) + half.imag * np.abs(along.real)
 
 

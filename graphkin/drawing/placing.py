@@ -9,6 +9,7 @@ empirical study of algorithms for point-feature label placement, ACM Trans. Grap
 
 from __future__ import annotations
 
+import heapq
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -95,6 +96,7 @@ class _Board:
     def __init__(self, askers: Sequence[Asker], field: Field) -> None:
         self.askers, self.field = askers, field
         self.found: list[list[Places]] = [[] for _ in askers]
+        self.seen = [0] * len(askers)  # rings looked at
         self.standing: dict[int, Candidate] = {}
         self.clear = [True] * len(askers)
 
@@ -106,24 +108,35 @@ class _Board:
         """Give every label a place."""
         left = list(range(len(self.askers)))
         for first, last in pairwise(_STAGES):
-            for i, places in zip(left, self.field.free([self.askers[i] for i in left], first, last), strict=True):
-                self.found[i].append(places)
+            self._look(left, first, last)
             order = sorted(left, key=lambda i: (sum(map(len, self.found[i])), i))
             left = sorted(i for i in order if not self._stand(i))
             left = [i for i in left if not self._push(i)]
             if not left:
                 break
-        for i in sorted(self.standing):  # a better place may have come free
-            del self.standing[i]
-            self._stand(i)
+        self._ease()
         for i in left:
             self.clear[i] = False
             self.standing[i] = self._least_bad(i)
 
+    def _ease(self) -> None:
+        """Move labels to better places: such as have come free, and such as are further off but cost less."""
+        for first, last in pairwise(_STAGES):
+            uneasy = [i for i, at in sorted(self.standing.items()) if self.seen[i] == first and at.cost > RINGS[first]]
+            if uneasy:
+                self._look(uneasy, first, last)
+        for i in sorted(self.standing):
+            del self.standing[i]
+            self._stand(i)
+
+    def _look(self, who: list[int], first: int, last: int) -> None:
+        for i, places in zip(who, self.field.free([self.askers[i] for i in who], first, last), strict=True):
+            self.found[i].append(places)
+            self.seen[i] = last
+
     def _places(self, i: int) -> Iterator[Candidate]:
-        for places in self.found[i]:
-            for n in range(len(places)):
-                yield places[n]
+        """Places found so far, cheapest first."""
+        return heapq.merge(*self.found[i], key=lambda candidate: candidate.cost)
 
     def _stand(self, i: int) -> bool:
         for candidate in self._places(i):
@@ -160,7 +173,7 @@ class _Board:
     def _least_bad(self, i: int) -> Candidate:
         places = self.field.everywhere(self.askers[i])
         return min(
-            (places[n] for n in range(len(places))),
+            places,
             key=lambda place: (
                 place.faults + sum(place.meets(other, 0.0) for other in self.standing.values()),
                 place.cost,
