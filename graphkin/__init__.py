@@ -1,0 +1,82 @@
+"""graphkin draws velocity and acceleration polygons of mechanisms as with ruler and compass, measures and checks them.
+
+A four-bar, from a scene to a checked diagram.  A scene is a text file (TOML), the name of a scene that comes along, or
+a mapping of the same shape:
+
+>>> import graphkin
+>>> four_bar = {
+...     "title": "Four-bar linkage",
+...     "frame": {"name": "4", "points": {"A": [0, 0], "D": [400, 0]}},
+...     "links": {
+...         "1": {"points": ["A", "B"], "length": 150},
+...         "2": {"points": ["B", "C"], "length": 500},
+...         "3": {"points": ["D", "C"], "length": 300},
+...     },
+...     "driver": {"link": "1", "angle": 60, "omega": 10},
+...     "sketch": {"C": [500, 290]},
+... }
+
+The drawing board finds the position with arcs, then draws the velocity polygon and the acceleration polygon; every
+value is measured on the drawing and held against the analytic solver, which the drawing never sees:
+
+>>> result = graphkin.check(four_bar)
+>>> result.ok
+True
+>>> reading = result["v_C"]
+>>> f"{reading.on_paper:.2f} mm on paper"
+'120.75 mm on paper'
+
+The solver alone, at other positions too:
+
+>>> motion = graphkin.solve(four_bar, at=90).motion
+>>> f"{motion.omega('3')[0]:.4f} rad/s"
+'5.2174 rad/s'
+
+The figures, as SVG, PDF or PNG by the name:
+
+>>> figures = graphkin.draw(four_bar).figures
+>>> sorted(figures)
+['acceleration', 'mechanism', 'sheet', 'velocity']
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from graphkin.errors import CallError, GraphkinError, SceneError, Unsolvable
+
+if TYPE_CHECKING:
+    from graphkin.api import Checked, Drawn, Listed, Solved, check, draw, scenes, solve
+    from graphkin.scene import read
+    from graphkin.scene.model import Scene
+
+__version__ = "0.1.0"
+
+__all__ = [
+    "CallError",
+    "Checked",
+    "Drawn",
+    "GraphkinError",
+    "Listed",
+    "Scene",
+    "SceneError",
+    "Solved",
+    "Unsolvable",
+    "__version__",
+    "check",
+    "draw",
+    "read",
+    "scenes",
+    "solve",
+]
+
+_PLACES = {"read": "graphkin.scene", "Scene": "graphkin.scene.model"}
+
+
+def __getattr__(name: str) -> Any:
+    # the public functions are loaded when they are first used, so that importing graphkin costs next to nothing
+    if name.startswith("_") or name not in __all__:
+        raise AttributeError(f"module 'graphkin' has no attribute {name!r}")
+    from importlib import import_module
+
+    return getattr(import_module(_PLACES.get(name, "graphkin.api")), name)

@@ -1,0 +1,164 @@
+"""``graphkin check``: draw, measure, compare with the analytic solver."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+from graphkin.api.called import At, SceneLike, as_scene, asked_symbols, driver_values, own_unit
+from graphkin.checking import Compared, Report, compare, read_off
+from graphkin.drafting import Sheet, draft
+from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
+from graphkin.scene.model import Scene
+from graphkin.scene.symbol import Symbol
+
+if TYPE_CHECKING:
+    from graphkin.exact import Motion
+
+__all__ = ["Checked", "check", "compare_with_solver", "reading_row", "solved_here"]
+
+
+@dataclass(frozen=True)
+class Checked:
+    """A drawing, its readings, and how they compare with the exact values."""
+
+    sheet: Sheet
+    report: Report
+
+    @property
+    def scene(self) -> Scene:
+        return self.sheet.scene
+
+    @property
+    def ok(self) -> bool:
+        """Whether every reading lies within its tolerance."""
+        return self.report.ok
+
+    @property
+    def complete(self) -> bool:
+        """Whether all that is asked was drawn."""
+        return not self.report.missing and (self.sheet.stopped is None or bool(self.report.rows and self.scene.find))
+
+    def __getitem__(self, symbol: str) -> Compared:
+        return self._table[symbol]
+
+    @cached_property
+    def _table(self) -> dict[str, Compared]:
+        return {str(row.symbol): row for row in self.report.rows}
+
+    @cached_property
+    def data(self) -> dict[str, Any]:
+        """The object that ``graphkin check --json`` prints: scene units, readings with sign."""
+        unit = self.scene.units.metres
+        scales = self.report.scales
+        return {
+            "instrument": self.report.instrument,
+            "ok": self.ok,
+            "scales": {
+                "length": _plain(scales.length * 1e3),
+                "velocity": _plain(scales.velocity / unit),
+                "acceleration": _plain(scales.acceleration / unit),
+            },
+            "readings": [reading_row(self.scene, row) for row in self.report.rows],
+        }
+
+    def _repr_html_(self) -> str:
+        rows = "".join(
+            f"<tr><td>{html.escape(r['symbol'])}</td><td>{r['on_paper_mm']:.2f}</td><td>{r['measured']:.6g}</td>"
+            f"<td>{r['exact']:.6g}</td><td>{'ok' if r['ok'] else 'off'}</td></tr>"
+            for r in self.data["readings"]
+        )
+        head = "<tr><th>quantity</th><th>mm on paper</th><th>measured</th><th>exact</th><th></th></tr>"
+        return f"<table>{head}{rows}</table>"
+
+
+def _plain(value: float) -> float:
+    """A scale factor without the noise of unit conversion."""
+    return float(f"{value:.12g}")
+
+
+def in_scene_units(scene: Scene, symbol: Symbol, value: float) -> float:
+    """A value in the scene's length unit; rates stay as they are."""
+    return value / scene.units.metres if symbol.is_vector else value
+
+
+def reading_row(scene: Scene, row: Compared) -> dict[str, Any]:
+    """One reading as in the JSON: vectors by size, rates with sign."""
+
+    def size(value: complex | float) -> float:
+        plain = abs(value) if row.symbol.is_vector else float(value.real)
+        return in_scene_units(scene, row.symbol, plain)
+
+    return {
+        "symbol": str(row.symbol),
+        "on_paper_mm": row.reading.on_paper,
+        "measured": size(row.reading.value),
+        "exact": size(row.exact),
+        "error": in_scene_units(scene, row.symbol, row.error),
+        "tolerance": in_scene_units(scene, row.symbol, row.tolerance),
+        "direction_error_rad": row.direction_error,
+        "ok": row.ok,
+    }
+
+
+def check(
+    scene: SceneLike, at: At = None, find: Iterable[str | Symbol] | None = None, instrument: str = "exact"
+) -> Checked:
+    """Draw a scene, measure the drawing, and compare every reading with the analytic solver.
+
+    Parameters
+    ----------
+    scene, at : as for `solve`
+    find : what is asked, by name ("v_D", "omega_3"); the scene's own ``find`` if None; everything if that is empty
+    instrument : "exact"
+
+    Raises
+    ------
+    SceneError, CallError : the file or the call is wrong
+    Unsolvable : wrong mobility, a position that cannot be assembled or reached, a dead point
+
+    Examples
+    --------
+    >>> result = check("sixbar-guide-40deg")
+    >>> result.ok, round(result["v_B@3"].on_paper, 3)
+    (True, 107.578)
+    """
+    _known_instrument(instrument)
+    given = as_scene(scene)
+    asked = asked_symbols(given, find)
+    values = driver_values(given, at)
+    motion = solved_here(given, values)
+    sheet = draft(given, values, asked)
+    return Checked(sheet, compare_with_solver(sheet, motion, asked))
+
+
+def solved_here(scene: Scene, values: Mapping[str, float] | None) -> Motion:
+    """The exact motion at one position.
+
+    It comes before the drawing, because it tells best why a position cannot be had.
+    """
+    from graphkin import exact
+
+    motion = exact.solve(scene, at=values)
+    if motion.status[0] != "ok":
+        driver = ", ".join(f"{d.key} at {own_unit(scene, d, (values or {}).get(d.key, d.values[0]))}" for d in scene.drivers)
+        raise Unsolvable(str(motion.status[0]), Problem(f"driver {driver}", f"{motion.status[0]}: {motion.why[0]}"))
+    return motion
+
+
+def compare_with_solver(sheet: Sheet, motion: Motion, asked: tuple[Symbol, ...]) -> Report:
+    """Hold everything drawn on a sheet against the solver at the same position."""
+
+    def value(symbol: Symbol) -> complex | float:
+        found = motion.value(symbol)[0]
+        return complex(found) if symbol.is_vector else float(found.real)
+
+    return compare(sheet, read_off(sheet), value, asked)
+
+
+def _known_instrument(name: str) -> None:
+    if name != "exact":
+        raise CallError(Problem("instrument", f'"{name}"', did_you_mean(name, ["exact"])))

@@ -1,0 +1,152 @@
+"""``graphkin draw``: the figures, the readings and the check, as files."""
+
+from __future__ import annotations
+
+import csv
+import io
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from graphkin.api.called import At, SceneLike, as_scene, asked_symbols, driver_values
+from graphkin.api.checked import Checked, compare_with_solver, reading_row, solved_here
+from graphkin.api.told import told
+from graphkin.drafting import Sheet, draft
+from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.scene.symbol import Symbol
+
+if TYPE_CHECKING:
+    from graphkin.drawing import Drawing
+
+__all__ = ["Drawn", "draw"]
+
+FORMATS = ("svg", "pdf", "png")
+LANGUAGES = ("en", "zh")
+CONVENTIONS = ("chinese", "us", "british", "russian")
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """The figures of a scene by name, with the check of everything on them.
+
+    In a notebook it shows the sheet.  ``figures["velocity"].save("v.pdf")`` picks the format by the name.
+    """
+
+    checked: Checked
+    small: Sheet
+    language: str | None
+    convention: str | None
+
+    @property
+    def ok(self) -> bool:
+        return self.checked.ok
+
+    @cached_property
+    def figures(self) -> Mapping[str, Drawing]:
+        """Figures by name: mechanism, velocity, acceleration, sheet."""
+        from graphkin.drawing import figures
+
+        return figures(
+            self.checked.sheet,
+            self.small,
+            self.checked.report,
+            language=self.language,
+            convention=self.convention,
+        )
+
+    def write(self, folder: str | os.PathLike[str] | None = None, formats: Sequence[str] = ("svg",)) -> list[Path]:
+        """Write figures, readings.csv and report.txt; returns the paths.  Files appear whole or not at all.
+
+        Raises
+        ------
+        CallError : an unknown format, a folder that cannot be written
+        """
+        from graphkin.drawing.save import drawing_bytes, write_whole
+
+        _known("format", formats, FORMATS)
+        target = Path(folder) if folder is not None else Path(self.checked.scene.name)
+        files: dict[str, bytes] = {}
+        for name, figure in self.figures.items():
+            for kind in formats:
+                files[f"{name}.{kind}"] = drawing_bytes(figure, kind)
+        files["readings.csv"] = readings_csv(self.checked).encode()
+        files["report.txt"] = told(self.checked, self.language or self.checked.scene.sheet.language).encode()
+        try:
+            target.mkdir(parents=True, exist_ok=True)
+            for name, content in files.items():
+                write_whole(target / name, content)
+        except OSError as error:
+            raise CallError(Problem(str(target), f"cannot be written: {error.strerror}", "give another folder with -o")) from None
+        return [target / name for name in files]
+
+    def _repr_svg_(self) -> str:
+        from graphkin.drawing import svg_bytes
+
+        return svg_bytes(self.figures["sheet"]).decode()
+
+
+def readings_csv(checked: Checked) -> str:
+    """The readings as CSV, in scene units: one row each, 12 digits."""
+    out = io.StringIO()
+    unit = checked.scene.units.length
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(["symbol", "unit", "on_paper_mm", "measured", "exact", "error", "tolerance",
+                     "direction_error_rad", "ok"])
+    for row in checked.report.rows:
+        cells = reading_row(checked.scene, row)
+        units = {"v": f"{unit}/s", "omega": "rad/s", "alpha": "rad/s2"}.get(row.symbol.kind, f"{unit}/s2")
+        numbers = [f"{cells[k]:.12g}" for k in ("on_paper_mm", "measured", "exact")]
+        small = [f"{cells[k]:.3g}" for k in ("error", "tolerance", "direction_error_rad")]
+        writer.writerow([cells["symbol"], units, *numbers, *small, "yes" if row.ok else "no"])
+    return out.getvalue()
+
+
+def draw(
+    scene: SceneLike,
+    out: str | os.PathLike[str] | None = None,
+    at: At = None,
+    find: Iterable[str | Symbol] | None = None,
+    formats: Sequence[str] = ("svg",),
+    language: str | None = None,
+    convention: str | None = None,
+    instrument: str = "exact",
+) -> Drawn:
+    """Draw a scene step by step, check it, and write the figures if a folder is given.
+
+    Parameters
+    ----------
+    scene, at, find, instrument : as for `check`
+    out : folder for mechanism, velocity, acceleration and sheet in each of the ``formats``, readings.csv and report.txt
+    language : "en" or "zh"; the scene's own if None
+    convention : "chinese", "us", "british" or "russian"; the scene's own if None
+
+    Raises
+    ------
+    SceneError, CallError : the file or the call is wrong
+    Unsolvable : wrong mobility, a position that cannot be assembled or reached, a dead point
+    """
+    from graphkin.drawing import sheet_room
+
+    _known("instrument", [instrument], ("exact",))
+    _known("format", formats, FORMATS)
+    _known("lang", [language] if language else [], LANGUAGES)
+    _known("convention", [convention] if convention else [], CONVENTIONS)
+    given = as_scene(scene)
+    asked = asked_symbols(given, find)
+    values = driver_values(given, at)
+    motion = solved_here(given, values)
+    sheet = draft(given, values, asked)
+    checked = Checked(sheet, compare_with_solver(sheet, motion, asked))
+    drawn = Drawn(checked, draft(given, values, asked, room=sheet_room(given)), language, convention)
+    if out is not None:
+        drawn.write(out, formats)
+    return drawn
+
+
+def _known(where: str, words: Sequence[str], table: Sequence[str]) -> None:
+    wrong = [Problem(where, f'"{word}"', did_you_mean(word, table)) for word in words if word not in table]
+    if wrong or (where == "format" and not words):
+        raise CallError(*(wrong or [Problem(where, "none given", f"known here: {', '.join(table)}")]))

@@ -1,0 +1,296 @@
+"""The command line: every command is a thin call of the public function of the same name."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from graphkin import __version__
+from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable
+
+if TYPE_CHECKING:
+    from graphkin.api import Checked, Solved
+
+__all__ = ["app", "main"]
+
+app = typer.Typer(
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+    help="Velocity and acceleration polygons of mechanisms: constructed, measured, checked, drawn.",
+)
+
+SceneArgument = Annotated[str, typer.Argument(metavar="SCENE", help="A scene file, or the name of a scene that comes along.")]
+AtOption = Annotated[
+    list[str] | None,
+    typer.Option("--at", metavar="DEG", help="Driver value instead of the scene's, in the driver's unit; LINK=VALUE names the driver."),
+]
+FindOption = Annotated[
+    list[str] | None, typer.Option("--find", metavar="SYMBOL", help="Ask for this only (v_D, omega_3, ...); may be repeated.")
+]
+JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object.")]
+QuietOption = Annotated[bool, typer.Option("-q", "--quiet", help="Print nothing but errors.")]
+LangOption = Annotated[str | None, typer.Option("--lang", metavar="en|zh", help="Language of the figures and the report.")]
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"graphkin {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _common(
+    version: Annotated[bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version.")] = False,
+) -> None:
+    pass
+
+
+def main() -> None:
+    """Run the command line; problems are said on stderr, one a line, and give the exit status."""
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(encoding="utf-8", errors="replace")
+    try:
+        app()
+    except GraphkinError as error:
+        _say(error)
+        sys.exit(error.exit_code)
+    except BrokenPipeError:
+        sys.exit(0)
+
+
+def _say(error: GraphkinError) -> None:
+    for problem in error.problems:
+        typer.echo(f"graphkin: {problem}", err=True)
+
+
+def _dump(data: object) -> None:
+    typer.echo(json.dumps(data, ensure_ascii=False, allow_nan=False))
+
+
+def _values(at: list[str] | None) -> float | dict[str, float] | None:
+    """Driver values as given on the command line: DEG, or LINK=DEG."""
+    if not at:
+        return None
+    named: dict[str, float] = {}
+    bare: list[float] = []
+    for text in at:
+        name, _, number = text.rpartition("=")
+        try:
+            value = float(number)
+        except ValueError:
+            raise CallError(Problem(f"--at {text}", f'"{number}" is no number', "write --at 50 or --at 1=50")) from None
+        if name in named or (not name and bare):
+            raise CallError(Problem("--at", f"{text} is given twice for one driver", "write --at 1=50 --at 2=30"))
+        if name:
+            named[name] = value
+        else:
+            bare.append(value)
+    if bare and named:
+        raise CallError(Problem("--at", "a bare value beside named ones", "write --at 1=50 --at 2=30"))
+    return bare[0] if bare else named
+
+
+@app.command()
+def scenes(
+    name: Annotated[str | None, typer.Argument(help="A scene that comes along: print its text.")] = None,
+    file: Annotated[Path | None, typer.Argument(help="With --copy: where to write it; NAME.toml here if not given.")] = None,
+    copy: Annotated[bool, typer.Option("--copy", help="Write the scene out to start from.")] = False,
+    schema: Annotated[bool, typer.Option("--schema", help="Print the JSON schema of scene files, for editors.")] = False,
+    as_json: JsonOption = False,
+) -> None:
+    """List the scenes that come along, print one, or copy one out."""
+    from graphkin import scene as room
+
+    if schema:
+        typer.echo(json.dumps(room.schema(), ensure_ascii=False, indent=2))
+    elif name is not None:
+        text = room.library_text(name)
+        if copy:
+            _write_new(file or Path(f"{name}.toml"), text)
+        else:
+            typer.echo(text, nl=False)
+    elif copy:
+        raise CallError(Problem("--copy", "no scene is named", "write graphkin scenes NAME --copy"))
+    else:
+        from graphkin.api import scenes as listed
+
+        found = listed()
+        if as_json:
+            _dump(found.data)
+            return
+        _table(["scene", "title", "", "F"], [[n, t, z, str(f)] for n, t, z, f in found.rows])
+
+
+def _write_new(path: Path, text: str) -> None:
+    if path.exists():
+        raise CallError(Problem(str(path), "a file of that name is there already", "name another file"))
+    try:
+        path.write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise CallError(Problem(str(path), f"cannot be written: {error.strerror}")) from None
+    typer.echo(str(path))
+
+
+@app.command()
+def draw(
+    scene: SceneArgument,
+    out: Annotated[Path | None, typer.Option("-o", "--out", metavar="DIR", help="Folder for the files; ./NAME if not given.")] = None,
+    formats: Annotated[str, typer.Option("--format", metavar="svg,pdf,png", help="Formats of the figures.")] = "svg",
+    at: AtOption = None,
+    find: FindOption = None,
+    lang: LangOption = None,
+    convention: Annotated[str | None, typer.Option("--convention", metavar="chinese|us|british|russian", help="Letters and marks.")] = None,
+    instrument: Annotated[str, typer.Option("--instrument", help="What draws: exact.")] = "exact",
+    as_json: JsonOption = False,
+    quiet: QuietOption = False,
+) -> None:
+    """Draw the mechanism, the velocity and the acceleration polygon; measure and check them."""
+    from graphkin.api import draw as drawing
+
+    def run() -> Checked:
+        wanted = [f.strip().lower() for f in formats.split(",") if f.strip()]
+        drawn = drawing(scene, None, _values(at), find or None, wanted, lang, convention, instrument)
+        paths = drawn.write(out, wanted)
+        if not as_json and not quiet:
+            typer.echo("\n".join(str(p) for p in paths))
+        return drawn.checked
+
+    _report(run, as_json, quiet, lang)
+
+
+@app.command()
+def check(
+    scene: SceneArgument,
+    at: AtOption = None,
+    find: FindOption = None,
+    instrument: Annotated[str, typer.Option("--instrument", help="What draws: exact.")] = "exact",
+    lang: LangOption = None,
+    as_json: JsonOption = False,
+    quiet: QuietOption = False,
+) -> None:
+    """Measure the drawn diagrams and compare every reading with the analytic solver."""
+    from graphkin.api import check as checking
+
+    _report(lambda: checking(scene, _values(at), find or None, instrument), as_json, quiet, lang)
+
+
+def _report(run: Callable[[], Checked], as_json: bool, quiet: bool, lang: str | None) -> None:
+    """Print a check, and leave with the status that belongs to it."""
+    from graphkin.api.told import show, verdict
+    from graphkin.words import say
+
+    try:
+        checked = run()
+    except Unsolvable as error:
+        if as_json:
+            _dump({"instrument": "exact", "ok": False, "status": error.status, "why": error.why, "readings": []})
+        raise
+    language = lang or checked.scene.sheet.language
+    if as_json:
+        _dump(checked.data)
+    elif not quiet:
+        rows = [
+            [r["symbol"], f"{r['on_paper_mm']:.3f}", f"{r['measured']:.6g}", f"{r['exact']:.6g}", "ok" if r["ok"] else "off"]
+            for r in checked.data["readings"]
+        ]
+        _table(["quantity", "mm on paper", "measured", "exact", ""], rows, right=(1, 2, 3))
+        for note in checked.sheet.notes:
+            typer.echo(say(note, language, show))
+        typer.echo(verdict(checked, language))
+    if checked.sheet.stopped is not None and not checked.complete:
+        typer.echo(f"graphkin: {say(checked.sheet.stopped, language, show)}", err=True)
+        raise typer.Exit(3)
+    if not checked.ok:
+        raise typer.Exit(1)
+
+
+@app.command()
+def solve(
+    scene: SceneArgument,
+    at: AtOption = None,
+    sweep: Annotated[int | None, typer.Option("--sweep", metavar="N", help="N positions over a turn of the driver.")] = None,
+    as_json: JsonOption = False,
+    quiet: QuietOption = False,
+) -> None:
+    """The analytic solution alone, at one position or over a turn."""
+    from graphkin.api import solve as solving
+
+    solved = solving(scene, _values(at), sweep)
+    if as_json:
+        _dump(solved.data)
+    elif not quiet:
+        _print_solution(solved)
+    if not solved.ok:
+        first = solved.data["positions"][0]
+        typer.echo(f"graphkin: {first['status']}: {first['why']}", err=True)
+        raise typer.Exit(3)
+
+
+def _print_solution(solved: Solved) -> None:
+    data = solved.data
+    unit = data["units"]["length"]
+    typer.echo(f"{data['title']}   F = {data['mobility']}")
+    for group in data["groups"]:
+        typer.echo(f"links {', '.join(group['links'])}: {group['kind']}, class {group['class']}; {group['assembly']}")
+    for position in data["positions"]:
+        typer.echo("")
+        typer.echo("driver " + ", ".join(f"{k} = {v:.6g}" for k, v in position["driver"].items()))
+        if position["status"] != "ok":
+            typer.echo(f"{position['status']}: {position['why']}")
+            continue
+        _table(
+            ["link", "angle (deg)", "omega (rad/s)", "alpha (rad/s2)"],
+            [[n, _deg(v["angle"]), _num(v["omega"]), _num(v["alpha"])] for n, v in position["links"].items()],
+            right=(1, 2, 3),
+        )
+        _table(
+            ["point", f"x, y ({unit})", f"velocity ({unit}/s)", f"acceleration ({unit}/s2)"],
+            [[n, *(_pair(v[k]) for k in ("position", "velocity", "acceleration"))] for n, v in position["points"].items()],
+        )
+        _table(
+            ["slide", f"travel ({unit})", f"velocity ({unit}/s)", f"acceleration ({unit}/s2)", "Coriolis"],
+            [_slide_row(n, v) for n, v in position["slides"].items()],
+            right=(1, 2, 3),
+        )
+
+
+def _slide_row(name: str, slide: Mapping[str, Any]) -> list[str]:
+    return [name, *(_num(slide[k]) for k in ("travel", "velocity", "acceleration")), _pair(slide["coriolis"])]
+
+
+def _num(value: float) -> str:
+    return f"{value:.6g}"
+
+
+def _deg(value: float) -> str:
+    return f"{value * 57.29577951308232:.6g}"
+
+
+def _pair(value: list[float]) -> str:
+    return f"{value[0]:.6g}, {value[1]:.6g}"
+
+
+def _table(heads: list[str], rows: list[list[str]], right: tuple[int, ...] = ()) -> None:
+    if not rows:
+        return
+    from rich import box
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
+    for i, head in enumerate(heads):
+        table.add_column(head, justify="right" if i in right else "left", no_wrap=i != 1)
+    for row in rows:
+        table.add_row(*(Text(cell) for cell in row))
+    console = Console()
+    if not console.is_terminal:
+        console = Console(width=160)
+    console.print(table)
