@@ -113,6 +113,8 @@ def _argument(markup: str, at: int) -> tuple[tuple[_Atom, ...], int]:
     inner, end = _read(markup, at + 1)
     if end >= len(markup):
         raise ValueError(f"a brace is not closed in {markup!r}")
+    if not inner:
+        raise ValueError(f"there is nothing between braces in {markup!r}")
     return inner, end + 1
 
 

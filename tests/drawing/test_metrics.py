@@ -1,0 +1,26 @@
+from __future__ import annotations
+
+import string
+
+import pytest
+
+from graphkin.drawing.metrics import width
+
+SIGNS = string.ascii_letters + string.digits + " .,:;?!()[]/*'ωαμπτεφψθβγδλρ√′·°≈≤≥±→"
+STYLES = {"": {}, "Italic": {"italic": True}, "Bol": {"bold": True}}
+
+
+@pytest.mark.parametrize("style", STYLES)
+@pytest.mark.parametrize("character", SIGNS)
+def test_a_letter_fits_into_its_stated_width(true_width, style, character):
+    assert true_width(character, style) <= width(character, 1.0, **STYLES[style]) + 0.006
+
+
+@pytest.mark.parametrize("style", STYLES)
+def test_a_sentence_is_measured_to_three_percent(true_width, style):
+    words = "Acceleration polygon of the oscillating guide bar, link 3"
+    assert true_width(words, style) == pytest.approx(width(words, 1.0, **STYLES[style]), rel=0.03)
+
+
+def test_chinese_is_one_em_a_sign():
+    assert width("速度多边形", 3.5) == pytest.approx(5 * 3.5)

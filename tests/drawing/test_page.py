@@ -1,0 +1,128 @@
+from __future__ import annotations
+
+import io
+import re
+import shutil
+import subprocess
+import warnings
+import zlib
+
+import numpy as np
+import pytest
+
+from graphkin.drawing import page
+from graphkin.drawing.arrows import vector_group
+from graphkin.drawing.page import MissingFont, pdf_bytes, png_bytes
+from graphkin.drawing.primitives import Arc, Drawing, Line, Text
+from graphkin.drawing.strokes import CONSTRUCTION, LINK
+from graphkin.drawing.typeset import plain, rich
+
+A4 = Drawing(210.0, 297.0, (vector_group("v_B", 1, 20 + 50j, 80 + 30j), Text(20 + 90j, rich("$v_{B_3}$ = 0"))), "Title")
+CHINESE = Drawing(60.0, 30.0, (Text(5 + 15j, rich("速度 $v_B$")),), lang="zh")
+
+
+def ink(drawing: Drawing, dpi: float = 254.0):
+    """Rows and columns (0.1 mm) of the inked pixels."""
+    from PIL import Image
+
+    grey = np.asarray(Image.open(io.BytesIO(png_bytes(drawing, dpi))).convert("L"))
+    return np.nonzero(grey < 128)
+
+
+def content(pdf: bytes) -> str:
+    """The strokes of the page, unpacked."""
+    streams = re.findall(rb"stream\r?\n(.*?)\r?\nendstream", pdf, re.S)
+    return zlib.decompress(streams[0]).decode("latin-1")
+
+
+def test_the_pdf_page_is_a4():
+    box = re.search(rb"/MediaBox \[ ?0 0 ([\d.]+) ([\d.]+) ?\]", pdf_bytes(A4))
+    across, down = (float(n) / 72 * 25.4 for n in box.groups())
+    assert (pytest.approx(210, abs=0.001), pytest.approx(297, abs=0.001)) == (across, down)
+
+
+@pytest.mark.skipif(shutil.which("pdffonts") is None, reason="poppler is not installed")
+def test_all_fonts_of_the_pdf_are_embedded(tmp_path):
+    (tmp_path / "a.pdf").write_bytes(pdf_bytes(A4))
+    listed = subprocess.run(["pdffonts", tmp_path / "a.pdf"], capture_output=True, text=True, check=True).stdout
+    rows = listed.splitlines()[2:]
+    assert rows
+    assert all(re.search(r" yes yes (yes|no)  ", row) for row in rows)
+
+
+def test_a_stroke_of_the_pdf_is_where_the_drawing_has_it():
+    pdf = content(pdf_bytes(Drawing(100.0, 100.0, (Line(12.345 + 20j, 60 + 70j, LINK),))))
+    move, line = (re.search(rf"([\d.]+) ([\d.]+) {op}\n", pdf).groups() for op in "ml")
+    drawn = [float(n) / 72 * 25.4 for n in (*move, *line)]
+    assert [pytest.approx(n, abs=1e-3) for n in (12.345, 80, 60, 30)] == drawn
+
+
+def test_a_run_of_the_pdf_stands_where_the_drawing_has_it():
+    pdf = content(pdf_bytes(Drawing(100.0, 100.0, (Text(12.3 + 40j, plain("B")),))))
+    placed = re.search(r"1 0 -?0 1 ([\d.]+) ([\d.]+) cm\s+BT", pdf)
+    x, y = (float(n) / 72 * 25.4 for n in placed.groups())
+    assert (pytest.approx(12.3, abs=0.05), pytest.approx(60, abs=0.05)) == (x, y)
+
+
+def test_the_pdf_has_no_date():
+    assert b"Date" not in pdf_bytes(A4)
+
+
+@pytest.mark.parametrize("write", [pdf_bytes, png_bytes])
+@pytest.mark.parametrize("drawing", [A4, CHINESE], ids=["latin", "chinese"])
+@pytest.mark.filterwarnings("ignore::graphkin.drawing.page.MissingFont")
+def test_the_bytes_are_the_same_again(write, drawing):
+    assert write(drawing) == write(drawing)
+
+
+def test_the_png_has_as_many_pixels_as_the_page():
+    from PIL import Image
+
+    assert Image.open(io.BytesIO(png_bytes(A4, dpi=254.0))).size == (2100, 2970)
+
+
+def test_the_png_says_its_resolution():
+    from PIL import Image
+
+    assert Image.open(io.BytesIO(png_bytes(A4, dpi=254.0))).info["dpi"] == pytest.approx((254, 254), abs=0.1)
+
+
+def test_a_line_of_the_png_is_where_the_drawing_has_it():
+    rows, columns = ink(Drawing(50.0, 40.0, (Line(10 + 20j, 30 + 20j, LINK),)))
+    assert [
+        pytest.approx(columns.min(), abs=1),
+        pytest.approx(columns.max() + 1, abs=1),
+        pytest.approx(rows.mean() + 0.5, abs=1),
+    ] == [100, 300, 200]
+
+
+def test_a_page_of_odd_size_does_not_shift_its_lines():
+    rows, _ = ink(Drawing(50.03, 40.07, (Line(10 + 20j, 30 + 20j, LINK),)))
+    assert rows.mean() + 0.5 == pytest.approx(200, abs=1)
+
+
+def test_counter_clockwise_is_counter_clockwise_on_the_page():
+    rows, columns = ink(Drawing(40.0, 40.0, (Arc(20 + 20j, 10.0, 0.0, 1.5, CONSTRUCTION),)))
+    assert rows.max() <= 201
+    assert columns.min() >= 199
+
+
+def test_the_users_own_matplotlib_settings_do_not_show():
+    import matplotlib
+
+    before = png_bytes(A4)
+    with matplotlib.rc_context({"text.usetex": True, "font.family": "monospace", "path.snap": True}):
+        assert png_bytes(A4) == before
+
+
+def test_a_missing_chinese_font_is_one_warning_and_no_failure(monkeypatch):
+    monkeypatch.setattr(page, "_chinese_face", lambda: None)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        pdf_bytes(CHINESE)
+    assert [MissingFont] == [warning.category for warning in caught]
+
+
+def test_a_latin_figure_looks_for_no_chinese_font(monkeypatch):
+    monkeypatch.setattr(page, "_chinese_face", lambda: pytest.fail("looked for one"))
+    assert png_bytes(A4).startswith(b"\x89PNG")

@@ -1,0 +1,170 @@
+from __future__ import annotations
+
+import json
+import math
+import os
+import subprocess
+import sys
+import xml.etree.ElementTree as ET
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from graphkin.drawing import arrows
+from graphkin.drawing.arrows import vector_group
+from graphkin.drawing.primitives import Arc, Circle, Drawing, Group, Line, Polygon, Polyline, Text
+from graphkin.drawing.strokes import CONSTRUCTION, DIRECTION, LINK
+from graphkin.drawing.svg import number, svg_bytes
+from graphkin.drawing.typeset import plain, rich
+
+SVG = "{http://www.w3.org/2000/svg}"
+INKSCAPE = "{http://www.inkscape.org/namespaces/inkscape}"
+
+
+def drawing(*children, **more):
+    return Drawing(210.0, 297.0, tuple(children), "Title", "What it shows", **more)
+
+
+def root(*children, **more):
+    return ET.fromstring(svg_bytes(drawing(*children, **more)))
+
+
+EVERYTHING = (
+    Group(
+        (
+            vector_group("v_B", 1, 20 + 50j, 80 + 30j, title="velocity of B"),
+            vector_group("v_C", 2, 20 + 50j, 20 + 50j, arrows.COMPONENT),
+            Line(0j, 10 + 10j, DIRECTION),
+            Polyline((0j, 5 + 5j, 9 + 1j), CONSTRUCTION),
+            Polygon((0j, 5 + 5j, 9 + 1j), "", LINK),
+            Circle(30 + 30j, 2.0, "#ffffff", LINK),
+            Arc(30 + 30j, 9.0, 0.0, 4.0, CONSTRUCTION),
+        ),
+        id="velocity",
+        layer="velocity",
+    ),
+    Group(
+        (Text(10 + 10j, rich("速度 $a^n_{C/B}$"), classes=("label",)), Text(9 + 9j, plain("2"), "end")),
+        layer="labels",
+    ),
+)
+
+
+def test_one_user_unit_is_one_millimetre():
+    page = root()
+    assert tuple(page.get(key) for key in ("width", "height", "viewBox")) == ("210mm", "297mm", "0 0 210 297")
+
+
+def test_svgwrite_itself_finds_nothing_wrong_with_any_element():
+    assert svg_bytes(drawing(*EVERYTHING), debug=True) == svg_bytes(drawing(*EVERYTHING))
+
+
+def test_another_process_writes_the_same_bytes():
+    program = (
+        "import sys; from graphkin.drawing.svg import svg_bytes; from graphkin.drawing.primitives import *;"
+        "from graphkin.drawing.typeset import rich;"
+        "sys.stdout.buffer.write(svg_bytes(Drawing(9.,9.,(Text(1+5j,rich('$v_B$')),),metadata={'b':1,'a':2})))"
+    )
+    call = [sys.executable, "-c", program]
+    first, second = (
+        subprocess.run(call, capture_output=True, check=True, env={**os.environ, "PYTHONHASHSEED": seed}).stdout
+        for seed in ("1", "2")
+    )
+    assert first == second
+
+
+def test_a_vector_is_a_group_with_its_line_first():
+    group = root(*EVERYTHING).find(f".//{SVG}g[@id='v_B']")
+    assert (f"{SVG}line", "vector step-01") == (group[0].tag, group.get("class"))
+
+
+def test_the_line_of_a_vector_is_as_long_as_the_vector():
+    line = root(*EVERYTHING).find(f".//{SVG}g[@id='v_B']/{SVG}line")
+    x1, y1, x2, y2 = (float(line.get(key)) for key in ("x1", "y1", "x2", "y2"))
+    assert math.hypot(60, 20) == pytest.approx(math.hypot(x2 - x1, y2 - y1), abs=1e-3)
+
+
+def test_the_line_of_a_vector_is_solid():
+    assert root(*EVERYTHING).find(f".//{SVG}g[@id='v_B']/{SVG}line").get("stroke-dasharray") is None
+
+
+def test_a_vector_says_in_words_what_it_is():
+    assert root(*EVERYTHING).find(f".//{SVG}g[@id='v_B']/{SVG}title").text == "velocity of B"
+
+
+def test_layers_are_layers_in_inkscape():
+    layers = [g for g in root(*EVERYTHING) if g.get(f"{INKSCAPE}groupmode") == "layer"]
+    assert [layer.get(f"{INKSCAPE}label") for layer in layers] == ["velocity", "labels"]
+
+
+def test_ids_are_given_once():
+    twice = (vector_group("a", 1, 0j, 9 + 0j), vector_group("b", 1, 0j, 9 + 0j))
+    ids = [element.get("id") for element in root(*twice).iter() if element.get("id")]
+    assert len(ids) == len(set(ids))
+
+
+def test_title_and_description_come_first():
+    page = root()
+    assert [page[0].text, page[1].text] == ["Title", "What it shows"]
+
+
+def test_the_page_is_an_image_in_a_language():
+    page = root(lang="zh")
+    assert (page.get("role"), page.get("lang")) == ("img", "zh")
+
+
+def test_the_metadata_are_one_json_object():
+    facts = {"scene": "four-bar", "at": {"1": 50.0}, "说明": "中文 <&>"}
+    assert json.loads(root(metadata=facts).find(f"{SVG}metadata").text) == facts
+
+
+def test_each_run_has_a_place_of_its_own():
+    spans = root(*EVERYTHING).find(f".//{SVG}text").findall(f"{SVG}tspan")
+    assert all(span.get("x") and span.get("y") and span.get("font-size") for span in spans)
+
+
+def test_nothing_is_left_to_the_guess_of_the_reader():
+    text = svg_bytes(drawing(*EVERYTHING)).decode()
+    assert not any(word in text for word in ("baseline-shift", " dy=", " dx=", "marker", "transform"))
+
+
+def test_a_text_is_found_again_as_text():
+    assert "".join(root(*EVERYTHING).find(f".//{SVG}text").itertext()) == "速度aC/Bn"
+
+
+def test_chinese_in_an_english_figure_is_marked_as_chinese():
+    text = root(*EVERYTHING).find(f".//{SVG}text")
+    assert text.get("{http://www.w3.org/XML/1998/namespace}lang") == "zh"
+
+
+def test_control_characters_are_dropped_and_signs_of_xml_escaped():
+    page = root(Text(1 + 1j, plain("a<b>&\"\x00\x1b\ud800c")))
+    assert page.find(f".//{SVG}tspan").text == 'a<b>&"c'
+
+
+@given(st.text())
+def test_any_title_makes_a_file_that_can_be_read(words):
+    ET.fromstring(svg_bytes(Drawing(9.0, 9.0, (Text(1 + 1j, plain(words) or plain("x")),), title=words)))
+
+
+@given(st.floats(-1e6, 1e6))
+def test_a_number_is_written_to_three_decimals(value):
+    assert abs(float(number(value)) - value) <= 0.0005 + 1e-9
+
+
+@pytest.mark.parametrize(("value", "text"), [(-0.0001, "0"), (-0.0, "0"), (12.0, "12"), (0.5, "0.5"), (1e-9, "0")])
+def test_a_number_is_written_without_ornament(value, text):
+    assert text == number(value)
+
+
+@pytest.mark.parametrize("value", [math.nan, math.inf])
+def test_what_is_no_number_is_never_drawn(value):
+    with pytest.raises(ValueError, match="coordinate"):
+        number(value)
+
+
+@pytest.mark.parametrize(("end", "flags"), [(1.0, "0 0"), (4.0, "1 0"), (-1.0, "0 1"), (-4.0, "1 1")])
+def test_an_arc_turns_the_way_of_its_angles(end, flags):
+    path = root(Arc(30 + 30j, 9.0, 0.0, end, CONSTRUCTION)).find(f"{SVG}path")
+    assert f" 0 {flags} " in path.get("d")

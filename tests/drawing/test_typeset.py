@@ -1,0 +1,106 @@
+from __future__ import annotations
+
+import pytest
+
+from graphkin.drawing.metrics import run_box, runs_width, text_box, width
+from graphkin.drawing.primitives import Text
+from graphkin.drawing.typeset import plain, rich, symbol
+
+
+def by_text(runs):
+    return {run.text: run for run in runs}
+
+
+def test_an_index_stands_lower_and_smaller():
+    runs = by_text(symbol("v_{B}"))
+    assert (runs["B"].size, runs["B"].y > 0) == (2.5, True)
+
+
+def test_an_index_of_an_index_is_two_millimetres_high():
+    assert by_text(symbol("v_{B_3}"))["3"].size == 2.0
+
+
+def test_nothing_is_smaller_than_two_millimetres():
+    assert min(run.size for run in symbol("v_{B_{3_4}}", size=2.5)) == 2.0
+
+
+def test_sub_and_superscript_stand_above_each_other():
+    runs = by_text(symbol("a^{n}_{C}"))
+    assert abs(runs["n"].x - runs["C"].x) < 0.2
+
+
+def test_stacked_sub_and_superscript_do_not_overlap():
+    runs = by_text(symbol("a^{n}_{C}"))
+    assert run_box(runs["n"]).bottom <= run_box(runs["C"]).top + 0.4  # room for descenders that n has not
+
+
+def test_letters_of_symbols_are_italic():
+    assert by_text(symbol("ω_{3}"))["ω"].italic
+
+
+def test_digits_of_symbols_are_upright():
+    assert not by_text(symbol("ω_{3}"))["3"].italic
+
+
+def test_chinese_is_upright_in_symbols_too():
+    assert not by_text(symbol("v_{滑}"))["滑"].italic
+
+
+def test_an_apostrophe_becomes_a_prime():
+    assert [run.text for run in symbol("p'")] == ["p", "′"]
+
+
+def test_a_hyphen_becomes_a_minus():
+    assert "−" in "".join(run.text for run in symbol("-v"))
+
+
+def test_words_between_symbols_are_upright_and_in_order():
+    runs = rich("velocity $v_B$ of the ram")
+    assert [(r.text, r.italic) for r in runs] == [("velocity", False), ("v", True), ("B", True), ("of the ram", False)]
+
+
+def test_the_space_after_a_word_is_kept_as_room():
+    first, second = rich("to $v$")
+    assert second.x == pytest.approx(width("to ", first.size))
+
+
+def test_runs_follow_each_other_without_overlap():
+    runs = rich("大小 √ ? 方向 $⊥BC$ and $μ_v$ = 10 (mm/s)/mm")
+    ends = [run.x + width(run.text, run.size, run.italic) for run in runs]
+    assert all(end <= run.x + 1e-9 for end, run in zip(ends, runs[1:], strict=False))
+
+
+def test_two_dollar_signs_are_one():
+    assert rich("5 $$")[0].text == "5 $"
+
+
+def test_plain_words_read_no_notation():
+    assert plain("v_{B} $x$")[0].text == "v_{B} $x$"
+
+
+@pytest.mark.parametrize("markup", ["v_{B", "v}", "_B", "v_", "v_{B}_{C}", "v_{}"])
+def test_broken_notation_is_refused(markup):
+    with pytest.raises(ValueError, match="in "):
+        symbol(markup)
+
+
+def test_an_open_dollar_sign_is_refused():
+    with pytest.raises(ValueError, match="not closed"):
+        rich("costs $5")
+
+
+def test_a_text_anchored_at_its_end_ends_there():
+    assert text_box(Text(50 + 10j, rich("$a^n_{C/B}$"), "end")).right == pytest.approx(50.0)
+
+
+def test_a_text_anchored_at_its_middle_has_as_much_on_both_sides():
+    box = text_box(Text(50 + 10j, rich("$v_{B}$ = 0"), "middle"))
+    assert box.left + box.right == pytest.approx(100.0)
+
+
+def test_empty_words_have_no_run():
+    assert plain("  ") == ()
+
+
+def test_the_width_of_no_runs_is_zero():
+    assert runs_width(()) == 0.0
