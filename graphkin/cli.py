@@ -25,17 +25,26 @@ app = typer.Typer(
     help="Velocity and acceleration polygons of mechanisms: constructed, measured, checked, drawn.",
 )
 
-SceneArgument = Annotated[str, typer.Argument(metavar="SCENE", help="A scene file, or the name of a scene that comes along.")]
+SceneArgument = Annotated[
+    str, typer.Argument(metavar="SCENE", help="A scene file, or the name of a scene that comes along.")
+]
 AtOption = Annotated[
     list[str] | None,
-    typer.Option("--at", metavar="DEG", help="Driver value instead of the scene's, in the driver's unit; LINK=VALUE names the driver."),
+    typer.Option(
+        "--at",
+        metavar="DEG",
+        help="Driver value instead of the scene's, in the driver's unit; LINK=VALUE names the driver.",
+    ),
 ]
 FindOption = Annotated[
-    list[str] | None, typer.Option("--find", metavar="SYMBOL", help="Ask for this only (v_D, omega_3, ...); may be repeated.")
+    list[str] | None,
+    typer.Option("--find", metavar="SYMBOL", help="Ask for this only (v_D, omega_3, ...); may be repeated."),
 ]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object.")]
 QuietOption = Annotated[bool, typer.Option("-q", "--quiet", help="Print nothing but errors.")]
-LangOption = Annotated[str | None, typer.Option("--lang", metavar="en|zh", help="Language of the figures and the report.")]
+LangOption = Annotated[
+    str | None, typer.Option("--lang", metavar="en|zh", help="Language of the figures and the report.")
+]
 
 
 def _version(wanted: bool) -> None:
@@ -46,7 +55,9 @@ def _version(wanted: bool) -> None:
 
 @app.callback()
 def _common(
-    version: Annotated[bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version.")] = False,
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version.")
+    ] = False,
 ) -> None:
     pass
 
@@ -100,9 +111,13 @@ def _values(at: list[str] | None) -> float | dict[str, float] | None:
 @app.command()
 def scenes(
     name: Annotated[str | None, typer.Argument(help="A scene that comes along: print its text.")] = None,
-    file: Annotated[Path | None, typer.Argument(help="With --copy: where to write it; NAME.toml here if not given.")] = None,
+    file: Annotated[
+        Path | None, typer.Argument(help="With --copy: where to write it; NAME.toml here if not given.")
+    ] = None,
     copy: Annotated[bool, typer.Option("--copy", help="Write the scene out to start from.")] = False,
-    schema: Annotated[bool, typer.Option("--schema", help="Print the JSON schema of scene files, for editors.")] = False,
+    schema: Annotated[
+        bool, typer.Option("--schema", help="Print the JSON schema of scene files, for editors.")
+    ] = False,
     as_json: JsonOption = False,
 ) -> None:
     """List the scenes that come along, print one, or copy one out."""
@@ -141,12 +156,16 @@ def _write_new(path: Path, text: str) -> None:
 @app.command()
 def draw(
     scene: SceneArgument,
-    out: Annotated[Path | None, typer.Option("-o", "--out", metavar="DIR", help="Folder for the files; ./NAME if not given.")] = None,
+    out: Annotated[
+        Path | None, typer.Option("-o", "--out", metavar="DIR", help="Folder for the files; ./NAME if not given.")
+    ] = None,
     formats: Annotated[str, typer.Option("--format", metavar="svg,pdf,png", help="Formats of the figures.")] = "svg",
     at: AtOption = None,
     find: FindOption = None,
     lang: LangOption = None,
-    convention: Annotated[str | None, typer.Option("--convention", metavar="chinese|us|british|russian", help="Letters and marks.")] = None,
+    convention: Annotated[
+        str | None, typer.Option("--convention", metavar="chinese|us|british|russian", help="Letters and marks.")
+    ] = None,
     instrument: Annotated[str, typer.Option("--instrument", help="What draws: exact.")] = "exact",
     as_json: JsonOption = False,
     quiet: QuietOption = False,
@@ -197,7 +216,13 @@ def _report(run: Callable[[], Checked], as_json: bool, quiet: bool, lang: str | 
         _dump(checked.data)
     elif not quiet:
         rows = [
-            [r["symbol"], f"{r['on_paper_mm']:.3f}", f"{r['measured']:.6g}", f"{r['exact']:.6g}", "ok" if r["ok"] else "off"]
+            [
+                r["symbol"],
+                f"{r['on_paper_mm']:.3f}",
+                f"{r['measured']:.6g}",
+                f"{r['exact']:.6g}",
+                "ok" if r["ok"] else "off",
+            ]
             for r in checked.data["readings"]
         ]
         _table(["quantity", "mm on paper", "measured", "exact", ""], rows, right=(1, 2, 3))
@@ -215,7 +240,9 @@ def _report(run: Callable[[], Checked], as_json: bool, quiet: bool, lang: str | 
 def solve(
     scene: SceneArgument,
     at: AtOption = None,
-    sweep: Annotated[int | None, typer.Option("--sweep", metavar="N", help="N positions over a turn of the driver.")] = None,
+    sweep: Annotated[
+        int | None, typer.Option("--sweep", metavar="N", help="N positions over a turn of the driver.")
+    ] = None,
     as_json: JsonOption = False,
     quiet: QuietOption = False,
 ) -> None:
@@ -252,7 +279,10 @@ def _print_solution(solved: Solved) -> None:
         )
         _table(
             ["point", f"x, y ({unit})", f"velocity ({unit}/s)", f"acceleration ({unit}/s2)"],
-            [[n, *(_pair(v[k]) for k in ("position", "velocity", "acceleration"))] for n, v in position["points"].items()],
+            [
+                [n, *(_pair(v[k]) for k in ("position", "velocity", "acceleration"))]
+                for n, v in position["points"].items()
+            ],
         )
         _table(
             ["slide", f"travel ({unit})", f"velocity ({unit}/s)", f"acceleration ({unit}/s2)", "Coriolis"],

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-__all__ = ["cross", "cross_arcs", "cross_lines", "cross_line_arc", "degrees", "direction", "dot", "unit"]
+__all__ = ["cross", "cross_arcs", "cross_line_arc", "cross_lines", "degrees", "direction", "dot", "unit"]
 
 
 def dot(a: complex, b: complex) -> float:

@@ -112,8 +112,8 @@ _TABLE: dict[str, tuple[str, str]] = {
         "求 {0} 的两直线交于图纸之外，交点按其方向算出",
     ),
     "stopped": (
-        "the group of links {0} is of class {1}: it has no two lines that find a point, so compass and ruler stop here; "
-        "graphkin solve gives its motion",
+        "the group of links {0} is of class {1}: it has no two lines that find a point, so compass and ruler stop "
+        "here; graphkin solve gives its motion",
         "构件 {0} 组成 {1} 级杆组，无法由两条线直接求点，图解到此为止；其运动可用 graphkin solve 求得",
     ),
     # assemblies

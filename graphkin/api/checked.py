@@ -144,7 +144,9 @@ def solved_here(scene: Scene, values: Mapping[str, float] | None) -> Motion:
 
     motion = exact.solve(scene, at=values)
     if motion.status[0] != "ok":
-        driver = ", ".join(f"{d.key} at {own_unit(scene, d, (values or {}).get(d.key, d.values[0]))}" for d in scene.drivers)
+        driver = ", ".join(
+            f"{d.key} at {own_unit(scene, d, (values or {}).get(d.key, d.values[0]))}" for d in scene.drivers
+        )
         raise Unsolvable(str(motion.status[0]), Problem(f"driver {driver}", f"{motion.status[0]}: {motion.why[0]}"))
     return motion
 

@@ -79,7 +79,9 @@ class Drawn:
             for name, content in files.items():
                 write_whole(target / name, content)
         except OSError as error:
-            raise CallError(Problem(str(target), f"cannot be written: {error.strerror}", "give another folder with -o")) from None
+            raise CallError(
+                Problem(str(target), f"cannot be written: {error.strerror}", "give another folder with -o")
+            ) from None
         return [target / name for name in files]
 
     def _repr_svg_(self) -> str:
@@ -93,8 +95,9 @@ def readings_csv(checked: Checked) -> str:
     out = io.StringIO()
     unit = checked.scene.units.length
     writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(["symbol", "unit", "on_paper_mm", "measured", "exact", "error", "tolerance",
-                     "direction_error_rad", "ok"])
+    writer.writerow(
+        ["symbol", "unit", "on_paper_mm", "measured", "exact", "error", "tolerance", "direction_error_rad", "ok"]
+    )
     for row in checked.report.rows:
         cells = reading_row(checked.scene, row)
         units = {"v": f"{unit}/s", "omega": "rad/s", "alpha": "rad/s2"}.get(row.symbol.kind, f"{unit}/s2")

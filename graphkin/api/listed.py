@@ -23,7 +23,9 @@ class Listed:
         return [{"name": n, "title": t, "title_zh": z, "mobility": f} for n, t, z, f in self.rows]
 
     def _repr_html_(self) -> str:
-        rows = "".join("<tr>" + "".join(f"<td>{html.escape(str(cell))}</td>" for cell in row) + "</tr>" for row in self.rows)
+        rows = "".join(
+            "<tr>" + "".join(f"<td>{html.escape(str(cell))}</td>" for cell in row) + "</tr>" for row in self.rows
+        )
         return f"<table><tr><th>scene</th><th>title</th><th></th><th>mobility</th></tr>{rows}</table>"
 
 

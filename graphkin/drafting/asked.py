@@ -121,8 +121,11 @@ def _split(polygons: Polygons, symbol: Symbol, of: PointRef, to: PointRef | None
     tail, tip = ends[to], ends[of]
     arm = polygons.places[of.point] - polygons.places[to.point]
     if abs(arm) <= polygons.tiny:
-        raise CallError(Problem(str(symbol), "the two points coincide, no line joins them",
-                                "ask for ak and ar of coincident points"))
+        raise CallError(
+            Problem(
+                str(symbol), "the two points coincide, no line joins them", "ask for ak and ar of coincident points"
+            )
+        )
     along = unit(arm)
     foot = tail + along * dot(tip - tail, along)
     if symbol.kind == "an":
@@ -138,8 +141,13 @@ def _pivot(polygons: Polygons, of: PointRef) -> PointRef:
         for point in polygons.links[name].points:
             if point in ground.points and point != of.point:
                 return PointRef(point)
-    raise CallError(Problem(f"{of}", "its link has no fixed pivot to which its normal points",
-                            "name the other point too, for example an_C/B"))
+    raise CallError(
+        Problem(
+            f"{of}",
+            "its link has no fixed pivot to which its normal points",
+            "name the other point too, for example an_C/B",
+        )
+    )
 
 
 def _coincident(polygons: Polygons, symbol: Symbol, of: PointRef, to: PointRef | None) -> None:
@@ -169,8 +177,13 @@ def _pair(polygons: Polygons, symbol: Symbol) -> str:
         a, b = polygons.block_of.get(s.a, s.a), polygons.block_of.get(s.b, s.b)
         if symbol.of.point == symbol.to.point and ((a in one and b in two) or (b in one and a in two)):
             return names.get(s.b, s.b)
-    raise CallError(Problem(str(symbol), "these two points do not lie on the two sides of a sliding pair",
-                            "known are " + ", ".join(s.key for s in polygons.structure.slides)))
+    raise CallError(
+        Problem(
+            str(symbol),
+            "these two points do not lie on the two sides of a sliding pair",
+            "known are " + ", ".join(s.key for s in polygons.structure.slides),
+        )
+    )
 
 
 def polygons_holders(polygons: Polygons, point: str) -> set[str]:

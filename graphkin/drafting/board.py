@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from shapely import LineString
+from shapely import LineString, Point
 
 from graphkin.drafting.instrument import Instrument
 from graphkin.drafting.sheet import DiagramName, Equation, Step, Stroke
@@ -55,7 +55,7 @@ class Board:
         one = LineString([_xy(p - REACH * d), _xy(p + REACH * d)])
         two = LineString([_xy(q - REACH * e), _xy(q + REACH * e)])
         found = one.intersection(two)
-        if found.is_empty or found.geom_type != "Point":
+        if not isinstance(found, Point):
             # the ruler lines end before they meet: the place is computed, and said
             self.note(Phrase("off the sheet", (what,)))
             far = cross_lines(p, d, q, e)

@@ -39,9 +39,7 @@ class Edge:
     unknown: str = ""
 
     def reversed(self) -> Edge:
-        return replace(
-            self, start=self.end, end=self.start, labels=self.labels[::-1], forward=not self.forward
-        )
+        return replace(self, start=self.end, end=self.start, labels=self.labels[::-1], forward=not self.forward)
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from graphkin.drafting.dyads import Frame, drive
 from graphkin.drafting.instrument import EXACT, Instrument
 from graphkin.drafting.polygons import Polygons
 from graphkin.drafting.position import Position, branches_at, place
-from graphkin.drafting.sheet import Bar, Mark, Scales, Sheet
+from graphkin.drafting.sheet import Mark, Scales, Sheet
 from graphkin.scene.model import AngleDriver, Scene
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Cluster, Driven, Dyad, Element, Structure, analyse
@@ -55,10 +55,8 @@ def draft(
     """
     structure = analyse(scene)
     asked = tuple(scene.find if find is None else find)
-    elements = needed(structure, asked)
-    stop = next((i for i, e in enumerate(elements) if isinstance(e, Cluster)), None)
-    stopped = _stopped(elements, stop)
-    elements = _drawable(elements)
+    wanted = needed(structure, asked)
+    elements = _drawable(wanted)
     values = {d.key: d.values[0] for d in scene.drivers} | dict(at or {})
     branches = branches_at(structure, elements, values)
     scales = _scales(structure, elements, values, branches, room)
@@ -85,16 +83,16 @@ def draft(
         equations=tuple(board.equations),
         assembly=assembly,
         notes=tuple(board.notes),
-        stopped=stopped,
+        stopped=_stopped(wanted),
     )
 
 
-def _stopped(elements: Sequence[Element], stop: int | None) -> Phrase | None:
-    if stop is None:
-        return None
-    cluster = elements[stop]
-    assert isinstance(cluster, Cluster)
-    return Phrase("stopped", (", ".join(cluster.links), cluster.order))
+def _stopped(elements: Sequence[Element]) -> Phrase | None:
+    """Which group compass and ruler cannot draw, and why."""
+    for e in elements:
+        if isinstance(e, Cluster):
+            return Phrase("stopped", (", ".join(e.links), e.order))
+    return None
 
 
 def _drawable(elements: Sequence[Element]) -> list[Driven | Dyad]:
@@ -149,8 +147,12 @@ def _draw_position(
             index = branches.get(i, 0) % len(meeting.poses)
             story = meeting.stories[index]
             key = ", ".join(element.links)
-            assembly[key] = Phrase(f"{element.kind} {index}" if len(meeting.poses) > 1 or element.kind in (
-                "RRR", "RRP", "RPR") else "one assembly", _assembly_names(element))
+            assembly[key] = Phrase(
+                f"{element.kind} {index}"
+                if len(meeting.poses) > 1 or element.kind in ("RRR", "RRP", "RPR")
+                else "one assembly",
+                _assembly_names(element),
+            )
         for phrase, strokes in story:
             board.do("mechanism", phrase, *strokes)
         for name in _members(element):

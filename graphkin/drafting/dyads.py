@@ -195,10 +195,12 @@ def _rrp(frame: Frame, dyad: Dyad, one: _Shape, two: _Shape) -> Meeting:
         travel = dot(q - q0, step)
         moved = Pose(start.origin + travel * step, start.axis)
         poses.append({**one.through((local, inner1), (p, q)), **two.placed(moved)})
-        stories.append((
-            (Phrase("path", (letter, slide.key)), (Bar(q0, q, ""),)),
-            (Phrase("arc on path", (outer.point, letter, f"{radius:.2f}")), (Arc(p, radius, q),)),
-        ))
+        stories.append(
+            (
+                (Phrase("path", (letter, slide.key)), (Bar(q0, q, ""),)),
+                (Phrase("arc on path", (outer.point, letter, f"{radius:.2f}")), (Arc(p, radius, q),)),
+            )
+        )
     return Meeting(gap, math.sqrt(max(gap, 0.0)), tuple(poses), tuple(stories))
 
 
@@ -310,4 +312,3 @@ _MEETINGS: Mapping[str, Callable[[Frame, Dyad, _Shape, _Shape], Meeting]] = {
     "PRP": _prp,
     "RPP": _rpp,
 }
-

@@ -72,9 +72,7 @@ class Polygons:
         self.still = self._never_turning()
         self.drawn: dict[Order, dict[Symbol, Vector]] = {"velocity": {}, "acceleration": {}}
         self.chains: dict[Element, Chain] = {}
-        self.places = {
-            point: frame.point(name, point) for name in frame.poses for point in self.links[name].points
-        }
+        self.places = {point: frame.point(name, point) for name in frame.poses for point in self.links[name].points}
         size = max((abs(z - w) for z in self.places.values() for w in self.places.values()), default=1.0)
         self.tiny = 1e-9 * size
         self.block_of = {p.key: p.of for p in structure.scene.pins}
@@ -136,7 +134,11 @@ class Polygons:
             self.rates[order][name] = Rate(name, base + sign * rate)
             assert isinstance(pair, Turn)
             pivot = PointRef(pair.point)
-            far = [PointRef(p) for p in self.links[name].points if abs(self.places[p] - self.places[pair.point]) > self.tiny]
+            far = [
+                PointRef(p)
+                for p in self.links[name].points
+                if abs(self.places[p] - self.places[pair.point]) > self.tiny
+            ]
             if far:
                 edge = Edge(pivot, far[0], (pivot, far[0]), Direction("square", (pivot.point, far[0].point)), link=name)
                 self._lay_off(order, (edge,), element)
@@ -267,7 +269,9 @@ class Polygons:
     def _measured_speed(self, edge: Edge) -> float:
         """Relative velocity of an edge (m/s) as read off the velocity polygon."""
         ends = self.ends["velocity"]
-        return abs(self._end("velocity", edge.end, ends) - self._end("velocity", edge.start, ends)) * self.scales.velocity
+        return (
+            abs(self._end("velocity", edge.end, ends) - self._end("velocity", edge.start, ends)) * self.scales.velocity
+        )
 
     def _end(self, order: Order, ref: PointRef, ends: Mapping[PointRef, complex]) -> complex:
         if self._fixed(ref):
@@ -288,7 +292,11 @@ class Polygons:
         if slide.b in self.still or slide.a in self.still:
             # no rotation, no Coriolis: the sliding part is all there is
             symbol = self._symbol("a", edge) if fixed else self._symbol("ar", edge)
-            return [_Part(symbol, "resultant" if fixed else "sliding", sense, span, edge.direction, _given_size(slide, span))]
+            return [
+                _Part(
+                    symbol, "resultant" if fixed else "sliding", sense, span, edge.direction, _given_size(slide, span)
+                )
+            ]
         omega = self.rates["velocity"][slide.b].value
         ends = self.ends["velocity"]
         slip = self._end("velocity", edge.end, ends) - self._end("velocity", edge.start, ends)
@@ -329,11 +337,23 @@ class Polygons:
         per = arm_m / self.scales.acceleration
         inward = -unit(arm)
         return [
-            _Part(self._symbol("an", edge), "normal", inward, inward * (omega**2 * per),
-                  Direction("towards", (edge.end.point, hinge)), "ω²r"),
+            _Part(
+                self._symbol("an", edge),
+                "normal",
+                inward,
+                inward * (omega**2 * per),
+                Direction("towards", (edge.end.point, hinge)),
+                "ω²r",
+            ),
             _Part(self._symbol("at", edge), "tangential", square, square * (alpha * per), edge.direction, "αr"),
-            _Part(self._symbol("ak", edge), "coriolis", inward, inward * (2 * turn * omega * per),
-                  Direction("turned", edge.direction.names), "2ωv"),
+            _Part(
+                self._symbol("ak", edge),
+                "coriolis",
+                inward,
+                inward * (2 * turn * omega * per),
+                Direction("turned", edge.direction.names),
+                "2ωv",
+            ),
         ]
 
     # -- equations -----------------------------------------------------------------------------------------------------
@@ -408,7 +428,7 @@ class Polygons:
             starts.append((at, carried))
             lines.append(parts[open_at])
         what = f"{_letter(order)}_{self.label(chain.middle)}"
-        (p, carried_left), (q, carried_right) = starts
+        (p, _), (q, _) = starts
         left, right = lines
         meeting = self.board.cross(p, left.along, q, right.along, what)
         for start, part in ((p, left), (q, right)):

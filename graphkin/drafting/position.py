@@ -71,14 +71,20 @@ def _refuse(element: Dyad, meeting: Meeting) -> None:
     if meeting.gap < -1e-14 and not meeting.two_lines:
         raise Unsolvable(
             "not assembled",
-            Problem(f"links {names}", f"the two loci of the {element.kind} group do not meet here",
-                    "choose a driver value at which the mechanism can be assembled"),
+            Problem(
+                f"links {names}",
+                f"the two loci of the {element.kind} group do not meet here",
+                "choose a driver value at which the mechanism can be assembled",
+            ),
         )
     if not meeting.poses or meeting.sine < DEAD:
         raise Unsolvable(
             "dead point",
-            Problem(f"links {names}", f"the {element.kind} group stands at a dead point, its loci only touch",
-                    "move the driver off this position"),
+            Problem(
+                f"links {names}",
+                f"the {element.kind} group stands at a dead point, its loci only touch",
+                "move the driver off this position",
+            ),
         )
 
 
@@ -128,9 +134,7 @@ def _choose(structure: Structure, elements: Sequence[Element], own: Mapping[str,
     return chosen
 
 
-def _ways(
-    drivers: Sequence[Driver], own: Mapping[str, float], values: Mapping[str, float]
-) -> list[dict[str, float]]:
+def _ways(drivers: Sequence[Driver], own: Mapping[str, float], values: Mapping[str, float]) -> list[dict[str, float]]:
     """The straight way, and for angles the other way round."""
     around = {}
     for d in drivers:

@@ -53,8 +53,10 @@ class Symbol:
                 raise ValueError(f'"{text}" names no link; write for example {kind}_3')
             return cls(kind, link=rest)
         if kind not in VECTORS:
-            raise ValueError(f'"{text}" is no quantity; known are v_B, v_C/B, a_B, an_C/B, at_C/B, ak_B@3/B@2, '
-                             "ar_B@3/B@2, omega_3, alpha_3")
+            raise ValueError(
+                f'"{text}" is no quantity; known are v_B, v_C/B, a_B, an_C/B, at_C/B, ak_B@3/B@2, '
+                "ar_B@3/B@2, omega_3, alpha_3"
+            )
         parts = rest.split("/")
         refs = [_POINT.fullmatch(part) for part in parts]
         if len(parts) > 2 or not all(refs):
