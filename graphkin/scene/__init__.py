@@ -15,7 +15,8 @@ Where the format leaves something open, the reader decides as follows.
 - Between the same two links there is one sliding pair at most, and none where a common point pins them.
 - A length left out is the distance of drawn or fixed points only, never of points that follow from a driver.
 - Where a drawn position leaves the direction of a swinging guide open, what slides on it (the first in the file)
-  lies on its positive side.
+  lies on its positive side.  A link with one own point, all else of which is drawn and nothing measured from its
+  axis, has its x axis toward the first drawn point.
 - Two statements of one thing are compared where they act: an angle by how far it moves the points that gave it.
 - Of a driver written as ``[[driver]]``, ``driver.2`` in a message is the second; so are items of lists.
 - ``[printed]`` takes negative numbers for vectors too (a signed velocity of a slider); one number is a magnitude.

@@ -6,8 +6,9 @@ directions of guides to be taken from them.  What can be known is collected step
 - a link with two points at known places has its direction, and from it the place of its other points;
 - two links in a sliding pair keep their angle, so the direction of one gives that of the other;
 - a driver's angle gives the direction of the driven link, its travel the place of the sliding one;
-- last, where nothing else tells: a guide that turns about a known point passes through what slides on it, and
-  points so that this lies on its positive side (what is written first in the file decides).
+- where nothing else tells: a guide that turns about a known point passes through what slides on it, and points so
+  that this lies on its positive side (what is written first in the file decides);
+- last: a link with one own point of which everything else is drawn has its x axis toward the first of that.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from dataclasses import dataclass
 
 from graphkin.errors import Problem
 from graphkin.plane import dot
+from graphkin.scene.file import Polar
 from graphkin.scene.model import PinInSlot, SlidingPair
 from graphkin.scene.placing import Body, guide_of, place_of
 
@@ -80,7 +82,7 @@ def find_position(position: Position) -> None:
         _turn_by_slidings(position)
         _turn_by_drivers(position)
         _move_by_travels(position)
-        if not position.news and not _turn_to_positive_side(position):
+        if not (position.news or _turn_to_positive_side(position) or _turn_to_drawn_point(position)):
             return
 
 
@@ -175,9 +177,9 @@ def _move_by_travels(position: Position) -> None:
         if pair.key not in position.travels or guide is None:
             continue
         along = guide.through + guide.direction * position.travels[pair.key]
-        if (place := rail.world(along)) is not None:
+        if (place := rail.world(along)) is not None and not slider.local.keys() & position.places.keys():
             position.set_origin(slider, place)
-        elif rail.turn is not None and slider.origin is not None:
+        elif rail.turn is not None and slider.origin is not None and not rail.local.keys() & position.places.keys():
             position.set_origin(rail, slider.origin - rail.turn * along)
 
 
@@ -211,6 +213,25 @@ def _turn_to_positive_side(position: Position) -> bool:
         sense = way / (k + s)
         position.set_turn(rail, sense / abs(sense) / guide.direction, abs(way))
         return True
+    return False
+
+
+def _turn_to_drawn_point(position: Position) -> bool:
+    """Choose the x axis of a link that has one own point and nothing measured from its axis; True if there was one."""
+    used = {p.on for p in position.slidings if not p.guide} | {p.on for p in position.pins if not p.guide}
+    used |= {p.link for p in position.slidings} | {name for link, base, _ in position.angles for name in (link, base)}
+    for name, body in position.bodies.items():
+        measured = any(isinstance(e, list) or (isinstance(e, Polar) and not e.toward) for e in body.at.values())
+        aimed = all(g.toward and isinstance(g.through, str) for g in body.rails.values())
+        if body.turn is not None or len(body.own) != 1 or name in used or measured or not aimed:
+            continue
+        aims = [p for p, e in body.at.items() if e == "drawn"] + [g.toward for g in body.rails.values() if g.toward]
+        ways = [position.places[p] - position.places[body.own[0]] for p in aims
+                if p in position.places and body.own[0] in position.places]
+        way = next((w for w in ways if abs(w) > position.tolerance), None)
+        if way is not None:
+            position.set_turn(body, way / abs(way), abs(way))
+            return True
     return False
 
 

@@ -60,8 +60,8 @@ def plain(source: Mapping[Any, Any]) -> dict[str, Any]:
             raise SceneError(Problem("the file", f"holds more than {MOST_VALUES} values", "a scene is one mechanism"))
         if isinstance(value, Mapping):
             for key in value:
-                if not isinstance(key, str):
-                    raise SceneError(Problem(path_name(path), f"has the key {key!r:.60}", "a key must be a text"))
+                if not isinstance(key, str) or key.startswith(("<", "[")):  # signs that pydantic's paths use
+                    raise SceneError(Problem(path_name(path), f"has the key {key!a:.60}", "keys are words"))
             return {str(key): copy(item, (*path, str(key))) for key, item in value.items()}
         if isinstance(value, list | tuple):
             return [copy(item, (*path, i)) for i, item in enumerate(value)]
