@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from graphkin.drafting.chains import node
-from graphkin.drafting.polygons import Order, Polygons
+from graphkin.drafting.plot import Order, Plot
 from graphkin.drafting.sheet import Vector
 from graphkin.errors import CallError, Problem
 from graphkin.plane import dot, unit
@@ -70,57 +70,57 @@ def _outside(element: Element) -> set[str]:
     return names - _inside(element)
 
 
-def show(polygons: Polygons, asked: Sequence[Symbol]) -> None:
+def show(plot: Plot, asked: Sequence[Symbol]) -> None:
     """Draw the vectors that are asked for and stand in no equation."""
     for symbol in asked:
         if symbol.is_vector:
-            _show(polygons, symbol)
+            _show(plot, symbol)
 
 
-def _show(polygons: Polygons, symbol: Symbol) -> None:
+def _show(plot: Plot, symbol: Symbol) -> None:
     order: Order = "velocity" if symbol.kind == "v" else "acceleration"
-    if symbol in polygons.drawn[order] or symbol.of is None:
+    if symbol in plot.drawn[order] or symbol.of is None:
         return
-    of = _node(polygons, symbol.of)
-    to = _node(polygons, symbol.to) if symbol.to else None
-    if not _reachable(polygons, of) or (to and not _reachable(polygons, to)):
+    of = _node(plot, symbol.of)
+    to = _node(plot, symbol.to) if symbol.to else None
+    if not _reachable(plot, of) or (to and not _reachable(plot, to)):
         return
-    polygons.place(order, of)
+    plot.place(order, of)
     if to:
-        polygons.place(order, to)
-    ends = polygons.ends[order]
+        plot.place(order, to)
+    ends = plot.ends[order]
     tail, tip = (ends[to] if to else 0j), ends[of]
     if symbol.kind in ("v", "a"):
-        _draw(polygons, order, Vector(symbol, tail, tip, "relative" if to else "resultant"))
+        _draw(plot, order, Vector(symbol, tail, tip, "relative" if to else "resultant"))
     elif symbol.kind in ("an", "at"):
-        _split(polygons, symbol, of, to)
+        _split(plot, symbol, of, to)
     else:
-        _coincident(polygons, symbol, of, to)
+        _coincident(plot, symbol, of, to)
 
 
-def _node(polygons: Polygons, ref: PointRef) -> PointRef:
-    return node(polygons.links, ref.point, ref.link) if ref.link else ref
+def _node(plot: Plot, ref: PointRef) -> PointRef:
+    return node(plot.links, ref.point, ref.link) if ref.link else ref
 
 
-def _reachable(polygons: Polygons, ref: PointRef) -> bool:
-    names = [ref.link] if ref.link else [n for n, k in polygons.links.items() if ref.point in k.points]
-    return ref.point in polygons.places and any(n in polygons.rates["velocity"] for n in names)
+def _reachable(plot: Plot, ref: PointRef) -> bool:
+    names = [ref.link] if ref.link else [n for n, k in plot.links.items() if ref.point in k.points]
+    return ref.point in plot.places and any(n in plot.rates["velocity"] for n in names)
 
 
-def _draw(polygons: Polygons, order: Order, vector: Vector) -> None:
-    polygons.drawn[order][vector.symbol] = vector
-    polygons.board.do(order, Phrase("asked", (vector.symbol,)), vector)
+def _draw(plot: Plot, order: Order, vector: Vector) -> None:
+    plot.drawn[order][vector.symbol] = vector
+    plot.board.do(order, Phrase("asked", (vector.symbol,)), vector)
 
 
-def _split(polygons: Polygons, symbol: Symbol, of: PointRef, to: PointRef | None) -> None:
+def _split(plot: Plot, symbol: Symbol, of: PointRef, to: PointRef | None) -> None:
     """Normal and tangential part of a relative acceleration: along the bar and square to it."""
     if to is None:
-        to = _pivot(polygons, of)
-        polygons.place("acceleration", to)
-    ends = polygons.ends["acceleration"]
+        to = _pivot(plot, of)
+        plot.place("acceleration", to)
+    ends = plot.ends["acceleration"]
     tail, tip = ends[to], ends[of]
-    arm = polygons.places[of.point] - polygons.places[to.point]
-    if abs(arm) <= polygons.tiny:
+    arm = plot.places[of.point] - plot.places[to.point]
+    if abs(arm) <= plot.tiny:
         raise CallError(
             Problem(
                 str(symbol), "the two points coincide, no line joins them", "ask for ak and ar of coincident points"
@@ -129,16 +129,16 @@ def _split(polygons: Polygons, symbol: Symbol, of: PointRef, to: PointRef | None
     along = unit(arm)
     foot = tail + along * dot(tip - tail, along)
     if symbol.kind == "an":
-        _draw(polygons, "acceleration", Vector(symbol, tail, foot, "normal"))
+        _draw(plot, "acceleration", Vector(symbol, tail, foot, "normal"))
     else:
-        _draw(polygons, "acceleration", Vector(symbol, foot, tip, "tangential"))
+        _draw(plot, "acceleration", Vector(symbol, foot, tip, "tangential"))
 
 
-def _pivot(polygons: Polygons, of: PointRef) -> PointRef:
-    names = [of.link] if of.link else [n for n, k in polygons.links.items() if of.point in k.points]
-    ground = polygons.links[polygons.ground]
+def _pivot(plot: Plot, of: PointRef) -> PointRef:
+    names = [of.link] if of.link else [n for n, k in plot.links.items() if of.point in k.points]
+    ground = plot.links[plot.ground]
     for name in names:
-        for point in polygons.links[name].points:
+        for point in plot.links[name].points:
             if point in ground.points and point != of.point:
                 return PointRef(point)
     raise CallError(
@@ -150,42 +150,42 @@ def _pivot(polygons: Polygons, of: PointRef) -> PointRef:
     )
 
 
-def _coincident(polygons: Polygons, symbol: Symbol, of: PointRef, to: PointRef | None) -> None:
+def _coincident(plot: Plot, symbol: Symbol, of: PointRef, to: PointRef | None) -> None:
     """Coriolis and sliding part for two coincident points that stand in no equation."""
     assert to is not None
-    pair = _pair(polygons, symbol)
-    ends = polygons.ends["acceleration"]
-    polygons.place("velocity", of)
-    polygons.place("velocity", to)
-    slip = polygons.ends["velocity"][of] - polygons.ends["velocity"][to]
-    omega = polygons.rates["velocity"][pair].value
-    corner = ends[to] + 2j * omega * slip * (polygons.scales.velocity / polygons.scales.acceleration)
+    pair = _pair(plot, symbol)
+    ends = plot.ends["acceleration"]
+    plot.place("velocity", of)
+    plot.place("velocity", to)
+    slip = plot.ends["velocity"][of] - plot.ends["velocity"][to]
+    omega = plot.rates["velocity"][pair].value
+    corner = ends[to] + 2j * omega * slip * (plot.scales.velocity / plot.scales.acceleration)
     if symbol.kind == "ak":
-        _draw(polygons, "acceleration", Vector(symbol, ends[to], corner, "coriolis"))
+        _draw(plot, "acceleration", Vector(symbol, ends[to], corner, "coriolis"))
     else:
-        _draw(polygons, "acceleration", Vector(symbol, corner, ends[of], "sliding"))
+        _draw(plot, "acceleration", Vector(symbol, corner, ends[of], "sliding"))
 
 
-def _pair(polygons: Polygons, symbol: Symbol) -> str:
+def _pair(plot: Plot, symbol: Symbol) -> str:
     """The guiding link of the sliding pair between two coincident points."""
     assert symbol.of is not None
     assert symbol.to is not None
-    one = {symbol.of.link} if symbol.of.link else polygons_holders(polygons, symbol.of.point)
-    two = {symbol.to.link} if symbol.to.link else polygons_holders(polygons, symbol.to.point)
-    names = {polygons.block_of.get(n, n): n for n in polygons.links}
-    for s in polygons.structure.slides:
-        a, b = polygons.block_of.get(s.a, s.a), polygons.block_of.get(s.b, s.b)
+    one = {symbol.of.link} if symbol.of.link else _holders(plot, symbol.of.point)
+    two = {symbol.to.link} if symbol.to.link else _holders(plot, symbol.to.point)
+    names = {plot.block_of.get(n, n): n for n in plot.links}
+    for s in plot.structure.slides:
+        a, b = plot.block_of.get(s.a, s.a), plot.block_of.get(s.b, s.b)
         if symbol.of.point == symbol.to.point and ((a in one and b in two) or (b in one and a in two)):
             return names.get(s.b, s.b)
     raise CallError(
         Problem(
             str(symbol),
             "these two points do not lie on the two sides of a sliding pair",
-            "known are " + ", ".join(s.key for s in polygons.structure.slides),
+            "known are " + ", ".join(s.key for s in plot.structure.slides),
         )
     )
 
 
-def polygons_holders(polygons: Polygons, point: str) -> set[str]:
+def _holders(plot: Plot, point: str) -> set[str]:
     """Links that have a point, under the names in which they are written."""
-    return {polygons.block_of.get(n, n) for n, k in polygons.links.items() if point in k.points}
+    return {plot.block_of.get(n, n) for n, k in plot.links.items() if point in k.points}

@@ -23,8 +23,8 @@ __all__ = ["Chain", "Edge", "equation_of", "node"]
 class Edge:
     """The motion of ``end`` relative to ``start``.
 
-    ``link`` is the rigid link between them, or ``slide`` the sliding pair they belong to, or ``weld`` the driven turning
-    pair.  ``unknown`` names what is not known of it ("omega 3", "slide 2/3"); "" if nothing.  ``labels`` are the nodes
+    ``link`` is the rigid link between them, or ``slide`` the sliding pair they belong to, or ``weld`` the driven
+    turning pair.  ``unknown`` names what is not known of it ("omega 3", "slide 2/3"); "" if nothing.  ``labels`` are the nodes
     as written, coincident points with their links.
     """
 

@@ -153,11 +153,9 @@ def _rail(frame: Frame, shape: _Shape, slide: Slide) -> tuple[Pose, complex]:
     at_zero = _across(slide, mine, frame.poses[known], 0.0, frame.mm)
     rel = shape.rel[mine]
     axis = unit(at_zero.axis * rel.axis.conjugate())
-    if mine == slide.a:
-        step = frame.poses[known].axis * slide.guide.direction
-    else:
-        step = -at_zero.axis * slide.guide.direction
-    return Pose(at_zero.origin - axis * rel.origin, axis), unit(step)
+    # a block on a known guide goes along it; a guide on a known block goes against its own sense
+    along = frame.poses[known].axis if mine == slide.a else -at_zero.axis
+    return Pose(at_zero.origin - axis * rel.origin, axis), unit(along * slide.guide.direction)
 
 
 def _rrr(frame: Frame, dyad: Dyad, one: _Shape, two: _Shape) -> Meeting:
