@@ -60,7 +60,7 @@ def plain(source: Mapping[Any, Any]) -> dict[str, Any]:
             raise SceneError(Problem("the file", f"holds more than {MOST_VALUES} values", "a scene is one mechanism"))
         if isinstance(value, Mapping):
             for key in value:
-                if not isinstance(key, str) or key.startswith(("<", "[")):  # signs that pydantic's paths use
+                if not isinstance(key, str | int) or str(key).startswith(("<", "[")):  # signs that pydantic's paths use
                     raise SceneError(Problem(path_name(path), f"has the key {key!a:.60}", "keys are words"))
             return {str(key): copy(item, (*path, str(key))) for key, item in value.items()}
         if isinstance(value, list | tuple):
@@ -102,7 +102,7 @@ def checked(raw: dict[str, Any]) -> tuple[SceneFile, list[Problem], Flaws]:
                 problems[path] = sentence(loc, path, dict(item))
             meant = _meant(loc, raw) if item["type"] == "extra_forbidden" else None
             if meant is not None:
-                _rename(raw, path, meant)
+                _read_as(raw, path, meant)
             else:
                 cut = _take_out(raw, _cut(path))
                 if item["type"] != "extra_forbidden" or isinstance(item["input"], list | dict):
@@ -113,13 +113,13 @@ def checked(raw: dict[str, Any]) -> tuple[SceneFile, list[Problem], Flaws]:
 
 
 def _meant(loc: Path, raw: dict[str, Any]) -> str | None:
-    """The key that a misspelt one stands for, where it is near and not written as well."""
+    """The key that a misspelt one stands for, where it is near and not written as well, or both are tables."""
     table = _value_at(raw, written_path(loc[:-1]))
-    if not isinstance(table, dict):
+    near = get_close_matches(str(loc[-1])[:60], keys_at(loc[:-1]), n=1, cutoff=0.75)
+    if not near or not isinstance(table, dict) or loc[-1] not in table:
         return None
-    free = [key for key in keys_at(loc[:-1]) if key not in table]
-    near = get_close_matches(str(loc[-1])[:60], free, n=1, cutoff=0.75)
-    return near[0] if near else None
+    both = [table[loc[-1]], table.get(near[0])]
+    return near[0] if near[0] not in table or all(isinstance(t, dict) for t in both) else None
 
 
 def _cut(path: Path) -> Path:
@@ -145,12 +145,14 @@ def _value_at(raw: Any, path: Path) -> Any:
     return raw
 
 
-def _rename(raw: dict[str, Any], path: Path, key: str) -> None:
+def _read_as(raw: dict[str, Any], path: Path, key: str) -> None:
+    """Move a misspelt entry to the key that is meant; a table is added to the one that is there."""
     table = _value_at(raw, path[:-1])
-    if isinstance(table, dict) and path[-1] in table and key not in table:
-        renamed = {key if k == path[-1] else k: v for k, v in table.items()}
-        table.clear()
-        table.update(renamed)
+    value = table[path[-1]]
+    moved = {**value, **table[key]} if key in table else value
+    renamed = {key if k == path[-1] else k: v for k, v in table.items()}
+    table.clear()
+    table.update({**renamed, key: moved})
 
 
 def _take_out(raw: dict[str, Any], path: Path) -> Path:

@@ -71,7 +71,7 @@ def nowhere_placed(file: SceneFile, names: Names, flaws: Flaws) -> list[Problem]
             here, aim = f"{where}.guides.{guide}", rail.toward
             if isinstance(rail.through, str):
                 found.append(names.no_point_of(f"{here}.through", name, rail.through))
-            if rail.angle is None and aim is None and not flaws.under(*here.split(".")):
+            if rail.angle is None and aim is None:
                 found.append(Problem(here, "has no direction", "write angle = ... in degrees, or toward = a point"))
             world = {*file.drawn, *file.frame.points}
             if aim and aim not in world and not drawn_lost and names.no_point_of("", name, aim):

@@ -146,12 +146,17 @@ def _syntax(message: str, text: str) -> Problem:
     lines = text.splitlines()
     here = lines[line - 1].strip() if line <= len(lines) else ""
     said = f"{match[1]}: {here[:80]}" if here and here.isprintable() else match[1]
-    return Problem(f"line {line}", f"is not TOML, {said[:1].lower() + said[1:]}", _toml_hint(match[1]))
+    return Problem(f"line {line}", f"is not TOML, {said[:1].lower() + said[1:]}", _toml_hint(match[1], here))
 
 
-def _toml_hint(message: str) -> str:
+def _toml_hint(message: str, line: str) -> str:
+    wide = re.search("[\u2018-\u201f\u3000-\u3002\uff01-\uff5e]", re.sub(r'"[^"]*"|#.*', "", line))
+    if wide:
+        return f"outside of texts only ASCII signs are possible, not {wide[0]}"
+    if "key part" in message or "inline table" in message:
+        return "a table in braces { ... } stands on one line; a key is a word"
     if "overwrite" in message or "twice" in message or "Cannot declare" in message:
         return "a key or table may stand only once"
     if "Invalid value" in message:
         return "texts and names stand in quotation marks, numbers do not"
-    return "write key = value, texts in quotation marks, tables as [name]"
+    return "write key = value, numbers with a point, texts in quotation marks, tables as [name]"

@@ -217,6 +217,15 @@ def test_all_problems_of_a_file_are_reported_together() -> None:
                       "printed.v_Y"}
 
 
+def test_a_misspelt_table_beside_the_right_one_is_one_problem() -> None:
+    assert messages(changed(FOUR_BAR, ("[links.2]", "[link.2]"))) == ['link: unknown table; did you mean "links"?']
+
+
+def test_a_misspelt_key_beside_the_right_one_is_one_problem() -> None:
+    assert [s.split(":")[0] for s in messages(changed(FOUR_BAR, ("length = 150", "length = 150\nlenght = 3")))] == [
+        "links.1.lenght"]
+
+
 def test_a_point_taken_out_for_a_wrong_number_is_not_reported_as_unknown() -> None:
     text = changed(FOUR_BAR, ("E = [100, 50]", "E = [100, nan]"))
     assert [s.split(":")[0] for s in messages(text)] == ["links.2.at.E.2"]

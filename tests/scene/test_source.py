@@ -33,6 +33,12 @@ def test_a_mapping_is_what_the_parser_gives() -> None:
     assert read(tomllib.loads(FOUR_BAR)) == read_text(FOUR_BAR, "scene")
 
 
+def test_links_of_a_mapping_may_be_named_by_integers() -> None:
+    raw = tomllib.loads(FOUR_BAR)
+    raw["links"] = {int(name): link for name, link in raw["links"].items()}
+    assert read(raw) == read_text(FOUR_BAR, "scene")
+
+
 def test_the_mapping_is_not_changed() -> None:
     raw = tomllib.loads(FOUR_BAR + "[nonsense]\n")
     sentence(raw)
@@ -119,6 +125,10 @@ SYNTAX = {
     "a = " + "[" * 3000: "nested",
     "a = " + "9" * 5000: "not TOML",
     "\x00": "line 1",
+    "points = [A, B]": "quotation marks",
+    "length = 12,5": "numbers with a point",
+    'points = [“A”, “B”]': "not “",
+    'a = 1\nframe = {\n  name = "6" }': "on one line",
 }
 
 
