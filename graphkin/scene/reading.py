@@ -130,6 +130,8 @@ def _cut(path: Path) -> Path:
     if head == ("frame",):
         return path[: 3 if len(path) > 1 and path[1] in ("points", "guides") else 2]
     if head == ("driver",):
+        if path[-1] in ("link", "slide"):  # without it the form of the driver is not known
+            return head
         return path[: 3 if len(path) > 1 and isinstance(path[1], int) else 2]
     return path[:2] if head and head[0] in ("pins", "sketch", "drawn", "printed", "sheet", "units") else head
 

@@ -170,6 +170,33 @@ def test_a_link_with_one_own_point_and_all_else_drawn_has_its_axis_toward_the_dr
     assert read_text(text + "Q = [70, 100]\n", "x").by_name["5"].points["Q"] == pytest.approx(0.05, rel=1e-12)
 
 
+def test_two_points_of_a_link_at_known_places_give_its_direction() -> None:
+    text = changed(FOUR_BAR, ("[driver]", '[links.5]\npoints = ["C"]\nat = { P = [0, 50], Q = "drawn" }\n[driver]'))
+    scene = read_text(text + "P = [50, 140]\nQ = [100, 150]\n", "x")
+    assert scene.by_name["5"].points["Q"] == pytest.approx(0.01, rel=1e-12)
+
+
+def test_a_relative_angle_and_one_direction_give_the_other() -> None:
+    text = changed(FOUR_BAR, ("[driver]", '[links.5]\npoints = ["C"]\nat = { Q = "drawn" }\n[driver]'),
+                   ("omega = 10", 'omega = 10\nangle = 90\nrelative_to = "5"'))
+    turn = (0.6 + 0.8j) / 1j
+    assert read_text(text + "Q = [100, 150]\n", "x").by_name["5"].points["Q"] == pytest.approx(
+        0.01j / turn, rel=1e-12)
+
+
+def test_the_travel_of_a_pin_in_a_slot_follows_from_the_drawn_points() -> None:
+    text = changed(FOUR_BAR, ('link = "1"\nomega = 10', 'slide = "E/4"\nvelocity = 1'),
+                   ("[driver]", '[pins.E]\nof = "2"\nin = "4.v"\n[driver]'),
+                   ("guides = { u", "guides = { v = { through = [30, 0], angle = 90 }, u"))
+    [driver] = read_text(text, "x").drivers
+    assert driver == SlideDriver("E/4", pytest.approx(0.14, rel=1e-12), pytest.approx(0.001), 0.0)
+
+
+def test_an_angle_beside_toward_is_kept_where_it_agrees() -> None:
+    scene = read(FOUR_BAR, ('u = { through = "A", toward = "C" }', 'u = { through = "A", toward = "D", angle = 0 }'))
+    assert scene.frame.guides["u"].direction == 1
+
+
 def test_the_drawn_points_are_kept_for_the_choice_of_the_assembly() -> None:
     assert read(FOUR_BAR).drawn["C"] == pytest.approx(0.1 + 0.14j)
 

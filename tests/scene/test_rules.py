@@ -195,6 +195,34 @@ def test_a_driven_slide_without_velocity_asks_for_it() -> None:
     assert sentence.startswith("driver.velocity: is missing")
 
 
+def test_a_driven_slide_has_no_omega() -> None:
+    text = changed(SIX_BAR, ('link  = "1"\nangle = 50', 'slide = "5"\ntravel = 3\nvelocity = 1'))
+    assert messages(text) == [
+        "driver.omega: unknown key; known here: acceleration, relative_to, slide, travel, velocity"]
+
+
+def test_a_redundant_link_does_not_drive_by_its_slide() -> None:
+    text = changed(SIX_BAR, ('link  = "1"\nangle = 50\nomega = -10', 'slide = "5"\ntravel = 3\nvelocity = 1'),
+                   ('on     = "6.h"', 'on     = "6.h"\nredundant = true'))
+    assert messages(text) == ["driver.slide: link 5 is redundant; drive by a link that counts"]
+
+
+def test_a_pin_and_a_sliding_pair_do_not_share_their_name() -> None:
+    text = changed(SIX_BAR, ("[links.4]", "[links.D]"), ("[driver]", '[pins.D]\nof = "5"\nin = "3"\n[driver]'))
+    [sentence] = messages(text)
+    assert "D/3 is also the name of a sliding pair; rename link D" in sentence
+
+
+def test_a_long_name_is_refused() -> None:
+    [sentence] = messages(changed(FOUR_BAR, ("[links.3]", f"[links.{'x' * 41}]")))
+    assert "at most 40 letters and digits" in sentence
+
+
+def test_a_sliding_pair_has_its_way_of_writing() -> None:
+    [sentence] = messages(changed(FOUR_BAR, (DRIVER, 'slide = "2-3"\ntravel = 1\nvelocity = 1')))
+    assert '"SLIDING/GUIDING"' in sentence
+
+
 def test_a_slide_on_a_link_that_does_not_guide_it_names_those_that_do() -> None:
     text = changed(SIX_BAR, ('link  = "1"\nangle = 50\nomega = -10', 'slide = "5/3"\ntravel = 3\nvelocity = 1'))
     [sentence] = messages(text)
