@@ -46,7 +46,7 @@ def disagreements(position: Position) -> list[Problem]:
         local = None if place is None else rail.in_own_axes(place)
         if guide and local is not None:
             beside = abs(cross(guide.direction, local - guide.through))
-            if beside > position.tolerance:
+            if beside > position.tolerance * _reach(rail, local):
                 ref = f"{name}.{guide_name}" if guide_name else name
                 where = f"links.{what}.on" if what in position.bodies else f"pins.{what}.in"
                 found.append(Problem(where, f"the given places put it {beside / position.metres:.6g} beside the guide "
@@ -69,6 +69,11 @@ def _apart(position: Position, one: complex, other: complex, a: Body, b: Body) -
     return abs(one - other) * min(a.arm, b.arm, position.size) > position.tolerance
 
 
+def _reach(body: Body, local: complex) -> float:
+    """How much an error of the places that gave a link's direction grows out at ``local``."""
+    return max(1.0, abs(local) / body.arm)
+
+
 def _angle_problem(where: str, given: complex, seen: complex) -> Problem:
     return Problem(where, f"found {degrees(given):.10g} deg, but the given places make it "
                    f"{degrees(seen):.10g} deg", "one of the two is wrong")
@@ -88,7 +93,7 @@ def _points_apart(position: Position, body: Body) -> list[Problem]:
         if place is None or point not in position.given:
             continue
         drawn_at = position.given[point]
-        if abs(drawn_at - place) > position.tolerance:
+        if abs(drawn_at - place) > position.tolerance * _reach(body, local):
             found.append(Problem(f"point {point}", f"link {body.name} puts it at {_pair(place, m)}, but it is given at "
                                  f"{_pair(drawn_at, m)}", "one of the two is wrong"))
     return found

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from difflib import get_close_matches
+
 from graphkin.errors import Problem
 from graphkin.plane import direction
 from graphkin.scene.file import LinkTable, SceneFile
@@ -93,11 +95,13 @@ def pins_in_slots(
 def islands(file: SceneFile, names: Names) -> list[tuple[str, ...]]:
     """The sets of links that no chain of joints connects with the frame, in the order of the file.
 
-    Empty where the file names a link that does not exist: it may stand for the one that seems unheld.
+    A link that does not exist is taken for the one with the nearest name; empty where there is none near, since it
+    may stand for the one that seems unheld.
     """
     slides = [(name, ref.partition(".")[0]) for name, link in file.links.items() for ref in _as_list(link.on or [])]
     slides += [(pin.of, ref.partition(".")[0]) for pin in file.pins.values() for ref in _as_list(pin.slots)]
-    if any(name not in names.points for pair in slides for name in pair):
+    meant = {n: n if n in names.points else "".join(get_close_matches(n, names.points, n=1)) for p in slides for n in p}
+    if "" in meant.values():
         return []
     near: dict[str, set[str]] = {name: set() for name in names.points}
     holders: dict[str, list[str]] = {}
@@ -105,7 +109,7 @@ def islands(file: SceneFile, names: Names) -> list[tuple[str, ...]]:
         for point in points:
             holders.setdefault(point, []).append(name)
     joined = [(a, b) for held in holders.values() for a in held for b in held if a != b]
-    for a, b in (*joined, *slides):
+    for a, b in (*joined, *((meant[a], meant[b]) for a, b in slides)):
         near[a].add(b)
         near[b].add(a)
     apart: list[tuple[str, ...]] = []

@@ -245,6 +245,11 @@ def test_all_problems_of_a_file_are_reported_together() -> None:
                       "printed.v_Y"}
 
 
+def test_a_link_that_nothing_holds_is_reported_beside_a_misspelt_link() -> None:
+    text = changed(SIX_BAR, ('on     = "6.h"', 'on     = "66.h"'), ("[driver]", '[links.7]\npoints = ["X"]\n[driver]'))
+    assert [s.split(":")[0] for s in messages(text)] == ["links.5.on", "links.7"]
+
+
 def test_a_misspelt_table_beside_the_right_one_is_one_problem() -> None:
     assert messages(changed(FOUR_BAR, ("[links.2]", "[link.2]"))) == ['link: unknown table; did you mean "links"?']
 
