@@ -1,0 +1,169 @@
+"""The command line as a user meets it: what is printed, what is written, and the exit status."""
+
+from __future__ import annotations
+
+import csv
+import json
+import subprocess
+import sys
+import xml.etree.ElementTree as ET
+
+import pytest
+
+SIXBAR = "sixbar-guide-40deg"
+
+
+def run(*args, cwd=None):
+    return subprocess.run(
+        [sys.executable, "-c", "from graphkin.cli import main; main()", *args],
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
+        cwd=cwd,
+        timeout=120,
+    )
+
+
+def test_help_imports_no_numpy():
+    code = "import sys; sys.argv = ['graphkin', '--help']\nfrom graphkin.cli import main\ntry:\n main()\nexcept SystemExit:\n pass\nassert 'numpy' not in sys.modules"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert 0 == done.returncode, done.stderr
+
+
+def test_importing_graphkin_imports_no_numpy():
+    done = subprocess.run([sys.executable, "-c", "import sys, graphkin; assert 'numpy' not in sys.modules"])
+    assert 0 == done.returncode
+
+
+def test_the_version_is_printed():
+    assert run("--version").stdout.startswith("graphkin ")
+
+
+def test_scenes_lists_every_scene_with_its_mobility():
+    rows = json.loads(run("scenes", "--json").stdout)
+    assert {"name": SIXBAR, "mobility": 1}.items() <= next(r for r in rows if r["name"] == SIXBAR).items()
+
+
+def test_scenes_copies_one_out_and_the_copy_checks(tmp_path):
+    assert 0 == run("scenes", SIXBAR, "my.toml", "--copy", cwd=tmp_path).returncode
+    assert 0 == run("check", "my.toml", cwd=tmp_path).returncode
+
+
+def test_scenes_overwrites_no_file(tmp_path):
+    (tmp_path / "my.toml").write_text("mine")
+    assert 2 == run("scenes", SIXBAR, "my.toml", "--copy", cwd=tmp_path).returncode
+    assert "mine" == (tmp_path / "my.toml").read_text()
+
+
+def test_draw_writes_figures_readings_and_report(tmp_path):
+    done = run("draw", SIXBAR, "-o", "out", cwd=tmp_path)
+    assert 0 == done.returncode, done.stderr
+    names = {p.name for p in (tmp_path / "out").iterdir()}
+    assert {"mechanism.svg", "velocity.svg", "acceleration.svg", "sheet.svg", "readings.csv", "report.txt"} <= names
+
+
+def test_draw_writes_to_a_folder_named_like_the_scene_and_nowhere_else(tmp_path):
+    run("draw", SIXBAR, cwd=tmp_path)
+    assert [SIXBAR] == [p.name for p in tmp_path.iterdir()]
+
+
+def test_b3_lies_107_578_mm_from_the_pole_in_the_svg_itself(tmp_path):
+    run("draw", SIXBAR, "-o", "out", cwd=tmp_path)
+    tree = ET.parse(tmp_path / "out" / "velocity.svg")
+    group = next(g for g in tree.iter("{http://www.w3.org/2000/svg}g") if g.get("id") == "v_B3")
+    line = group[0]
+    x1, y1, x2, y2 = (float(line.get(k)) for k in ("x1", "y1", "x2", "y2"))
+    assert 107.578 == pytest.approx(((x2 - x1) ** 2 + (y2 - y1) ** 2) ** 0.5, abs=2e-3)
+
+
+def test_the_readings_are_a_table(tmp_path):
+    run("draw", SIXBAR, "-o", "out", cwd=tmp_path)
+    rows = {r["symbol"]: r for r in csv.DictReader((tmp_path / "out" / "readings.csv").open())}
+    assert 482.722 == pytest.approx(float(rows["v_D"]["measured"]), abs=1e-3)
+
+
+def test_the_report_tells_every_step(tmp_path):
+    run("draw", SIXBAR, "-o", "out", "--lang", "zh", cwd=tmp_path)
+    text = (tmp_path / "out" / "report.txt").read_text(encoding="utf-8")
+    assert "哥氏加速度" in text
+
+
+def test_the_same_scene_gives_the_same_bytes(tmp_path):
+    run("draw", SIXBAR, "-o", "one", cwd=tmp_path)
+    run("draw", SIXBAR, "-o", "two", cwd=tmp_path)
+    one, two = ({p.name: p.read_bytes() for p in (tmp_path / n).iterdir()} for n in ("one", "two"))
+    assert one == two
+
+
+def test_solve_prints_the_contract_s_object():
+    data = json.loads(run("solve", SIXBAR, "--json").stdout)
+    assert {"length": "mm", "time": "s", "angle": "rad"} == data["units"]
+    position = data["positions"][0]
+    assert ("ok", -2.81912) == (position["status"], pytest.approx(position["links"]["3"]["omega"], abs=1e-5))
+    assert 381.602 == pytest.approx(position["slides"]["2/3"]["travel"], abs=1e-3)
+
+
+def test_a_sweep_gives_as_many_positions():
+    assert 12 == len(json.loads(run("solve", SIXBAR, "--sweep", "12", "--json").stdout)["positions"])
+
+
+def test_at_moves_the_named_driver():
+    data = json.loads(run("solve", SIXBAR, "--at", "1=20", "--json").stdout)
+    assert 0.34906585 == pytest.approx(data["positions"][0]["driver"]["1"])
+
+
+def test_a_position_out_of_reach_is_status_3_with_the_object_printed():
+    done = run("solve", "sixbar-AE70", "--at", "80", "--json")
+    assert (3, "not assembled") == (done.returncode, json.loads(done.stdout)["positions"][0]["status"])
+    assert "58.997" in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("args", "said"),
+    [
+        (("check", "no-such-scene"), "no-such-scene"),
+        (("check", SIXBAR, "--find", "v_Q"), "Q"),
+        (("check", SIXBAR, "--at", "fifty"), "fifty"),
+        (("check", SIXBAR, "--at", "9=50"), "9"),
+        (("draw", SIXBAR, "--format", "bmp"), "bmp"),
+        (("draw", SIXBAR, "--lang", "tlh"), "tlh"),
+        (("draw", SIXBAR, "--convention", "martian"), "martian"),
+        (("check", SIXBAR, "--instrument", "crayon"), "crayon"),
+        (("solve", SIXBAR, "--sweep", "0"), "0"),
+    ],
+)
+def test_a_wrong_call_is_status_2_and_a_sentence(args, said, tmp_path):
+    done = run(*args, cwd=tmp_path)
+    assert 2 == done.returncode
+    assert said in done.stderr
+    assert "Traceback" not in done.stderr
+    assert [] == list(tmp_path.iterdir())
+
+
+def test_all_problems_of_a_file_are_told_at_once(tmp_path):
+    (tmp_path / "bad.toml").write_text('[links.1]\npoints = ["A", "B"]\nlenght = -5\n[driver]\nlink = "7"\nomega = 1\nrpm = 2\n')
+    done = run("check", "bad.toml", cwd=tmp_path)
+    assert 2 == done.returncode
+    assert 'did you mean "length"' in done.stderr
+    assert len(done.stderr.splitlines()) >= 3
+
+
+def test_a_truss_is_refused_as_immobile(tmp_path):
+    text = """
+    [frame]
+    points = { A = [0, 0], B = [100, 0] }
+    [links.1]
+    points = ["A", "C"]
+    length = 80
+    [links.2]
+    points = ["B", "C"]
+    length = 80
+    [driver]
+    link = "1"
+    angle = 50
+    omega = 1
+    """
+    (tmp_path / "truss.toml").write_text(text)
+    done = run("check", "truss.toml", cwd=tmp_path)
+    assert 3 == done.returncode
+    assert "mobility" in done.stderr

@@ -1,0 +1,127 @@
+"""The check: right drawings pass, planted errors are caught."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from dataclasses import replace
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import graphkin
+from graphkin.drafting import draft as drafting_draft
+from graphkin.drafting import parts, polygons
+from graphkin.errors import Unsolvable
+from graphkin.scene import library, read
+from graphkin.scene.model import AngleDriver
+from graphkin.scene.symbol import Symbol
+from tests.mechanisms import KINDS, random_scene
+
+SIXBAR = "sixbar-guide-40deg"
+
+
+@pytest.mark.parametrize("name", library())
+def test_every_scene_that_comes_along_passes_at_12_positions(name):
+    scene = read(name)
+    driver = scene.drivers[0]
+    turns = isinstance(driver, AngleDriver)
+    own = math.degrees(driver.angle) if turns else driver.travel / scene.units.metres
+    reached = 0
+    for k in range(12):
+        value = own + 30 * k if turns else own * (1 + 0.02 * (k - 6))
+        try:
+            result = graphkin.check(scene, at=value)
+        except Unsolvable as refusal:
+            assert refusal.status in ("not assembled", "dead point")
+            assert str(refusal)
+            continue
+        reached += 1
+        assert result.ok, [str(r.symbol) for r in result.report.rows if not r.ok]
+        assert all(abs(r.direction_error) < 1e-6 for r in result.report.rows)
+    assert reached >= 4
+
+
+@given(seed=st.integers(0, 10**6), kinds=st.lists(st.sampled_from(KINDS), min_size=1, max_size=4))
+@settings(max_examples=40, deadline=None)
+def test_any_class_ii_mechanism_is_drawn_as_it_is_solved(seed, kinds):
+    try:
+        result = graphkin.check(random_scene(seed, tuple(kinds)))
+    except Unsolvable as refusal:
+        # a random place can come to lie at a dead point, nothing else may be refused
+        assert refusal.status == "dead point"
+        return
+    assert result.ok, [str(r.symbol) for r in result.report.rows if not r.ok]
+
+
+def test_a_coriolis_vector_the_wrong_way_round_is_caught(monkeypatch):
+    right = parts._slide_parts
+
+    def wrong(plot, order, edge, slide):
+        found = right(plot, order, edge, slide)
+        return [replace(p, span=-p.span) if p.role == "coriolis" else p for p in found]
+
+    monkeypatch.setattr(parts, "_slide_parts", wrong)
+    result = graphkin.check(SIXBAR)
+    assert not result.ok
+    assert "a_D" in [str(r.symbol) for r in result.report.rows if not r.ok]
+
+
+def test_a_guide_turned_by_a_tenth_of_a_degree_is_caught(monkeypatch):
+    right = drafting_draft.__globals__["analyse"]
+
+    def turned(scene):
+        structure = right(scene)
+        off = cmath.rect(1, math.radians(0.1))
+        slides = {s.key: replace(s, guide=replace(s.guide, direction=s.guide.direction * off)) for s in structure.slides}
+        slides = {k: v if k == "5/6" else structure.slide(k) for k, v in slides.items()}
+        elements = []
+        for e in structure.elements:
+            for field in ("outer_first", "inner", "outer_second"):
+                pair = getattr(e, field, None)
+                if pair is not None and getattr(pair, "key", "") in slides:
+                    e = replace(e, **{field: slides[pair.key]})
+            elements.append(e)
+        return replace(structure, slides=tuple(slides.values()), elements=tuple(elements))
+
+    monkeypatch.setitem(drafting_draft.__globals__, "analyse", turned)
+    assert not graphkin.check(SIXBAR).ok
+
+
+def test_a_normal_component_away_from_the_pivot_is_caught(monkeypatch):
+    right = parts._rigid_parts
+
+    def wrong(plot, order, edge):
+        found = right(plot, order, edge)
+        return [replace(p, span=-p.span) if p.role == "normal" else p for p in found]
+
+    monkeypatch.setattr(parts, "_rigid_parts", wrong)
+    assert not graphkin.check("fourbar-150-500-300-400").ok
+
+
+def test_an_angular_velocity_of_the_wrong_sense_is_caught(monkeypatch):
+    monkeypatch.setattr(polygons, "cross", lambda a, b: -(a.real * b.imag - a.imag * b.real))
+    assert not graphkin.check("fourbar-150-500-300-400").ok
+
+
+def test_a_reading_is_length_on_paper_times_the_scale():
+    result = graphkin.check(SIXBAR)
+    row = result["v_B@3"]
+    assert row.reading.on_paper * result.report.scales.velocity == pytest.approx(abs(row.reading.value), rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    "symbol", ["v_D", "a_B@3", "v_B@2/B@3", "ak_B@2/B@3", "ar_D@5/D@3", "an_B/A", "omega_3", "alpha_4", "v_B@5", "v_D/B"]
+)
+def test_whatever_is_asked_for_is_read_off(symbol):
+    result = graphkin.check(SIXBAR, find=[symbol])
+    assert result.ok
+    assert Symbol.parse(symbol) in [r.symbol for r in result.report.rows]
+
+
+def test_the_json_of_a_check_gives_vectors_by_size_and_rates_with_sign():
+    rows = {r["symbol"]: r for r in graphkin.check(SIXBAR).data["readings"]}
+    assert 554.668 == pytest.approx(rows["a_D"]["measured"], abs=1e-3)
+    assert -2.81912 == pytest.approx(rows["omega_3"]["measured"], abs=1e-5)
+    assert {"length": 2, "velocity": 10, "acceleration": 100} == graphkin.check(SIXBAR).data["scales"]

@@ -1,0 +1,178 @@
+"""Random mechanisms of class II: a crank and dyads of every kind hung on what is there already.
+
+Every place is chosen first and the given lengths follow from it, so that each mechanism assembles at its own position;
+the sketch tells which assembly that is.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+import random
+from dataclasses import dataclass, field
+from typing import Any
+
+__all__ = ["KINDS", "random_scene"]
+
+KINDS = ("RRR", "RRP", "RPR", "PRP", "RPP", "pin")
+
+
+@dataclass
+class _Builder:
+    rng: random.Random
+    frame: dict[str, Any] = field(default_factory=lambda: {"name": "0", "points": {}, "guides": {}})
+    links: dict[str, dict[str, Any]] = field(default_factory=dict)
+    pins: dict[str, dict[str, Any]] = field(default_factory=dict)
+    sketch: dict[str, list[float]] = field(default_factory=dict)
+    pose: dict[str, tuple[complex, complex]] = field(default_factory=lambda: {"0": (0j, 1 + 0j)})
+    where: dict[str, tuple[complex, str]] = field(default_factory=dict)  # point: place, a link that has it
+    letters: int = 0
+
+    def place(self, spread: float = 100.0) -> complex:
+        return complex(self.rng.uniform(-spread, spread), self.rng.uniform(-spread, spread))
+
+    def letter(self) -> str:
+        self.letters += 1
+        return f"P{self.letters}"
+
+    def link(self) -> str:
+        return str(len(self.links) + 1)
+
+    def bar(self, p: str, z: complex, q: str, w: complex) -> str:
+        name = self.link()
+        self.links[name] = {"points": [p, q], "length": abs(w - z)}
+        self.pose[name] = (z, (w - z) / abs(w - z))
+        if self.rng.random() < 0.5:
+            extra = self.letter()
+            r, angle = self.rng.uniform(20, 60), self.rng.uniform(-170, 170)
+            self.links[name]["at"] = {extra: {"from": q, "r": r, "angle": angle}}
+            self.where[extra] = (w + self.pose[name][1] * cmath.rect(r, math.radians(angle)), name)
+        return name
+
+    def old(self, besides: str = "") -> tuple[str, complex, str]:
+        """A point that is there already, or a new one of the frame."""
+        names = [p for p, (_, link) in self.where.items() if link != besides]
+        if not names or self.rng.random() < 0.35:
+            p, z = self.letter(), self.place()
+            self.frame["points"][p] = [z.real, z.imag]
+            self.where[p] = (z, "0")
+            return p, z, "0"
+        p = self.rng.choice(names)
+        return p, *self.where[p]
+
+    def guide(self, link: str, on: complex) -> tuple[str, complex]:
+        """A new guide of a link through a place, at any angle; its name and its direction."""
+        origin, axis = self.pose[link]
+        along = cmath.rect(1.0, self.rng.uniform(-math.pi, math.pi))
+        start = on - along * self.rng.uniform(20, 80)
+        local, turned = (start - origin) / axis, along / axis
+        holder = self.frame if link == "0" else self.links[link]
+        guides = holder.setdefault("guides", {})
+        name = f"g{len(guides) + 1}"
+        guides[name] = {"through": [local.real, local.imag], "angle": math.degrees(cmath.phase(turned))}
+        return f"{link}.{name}", along
+
+    def block(self, point: str | None, on: str, along: complex, z: complex) -> str:
+        name = self.link()
+        turn = self.rng.choice([0.0, 0.0, 35.0, -120.0])
+        self.links[name] = {"on": on, "angle_on": turn}
+        if point:
+            self.links[name]["points"] = [point]
+        self.pose[name] = (z, along * cmath.rect(1.0, math.radians(turn)))
+        return name
+
+    def any_link(self, *besides: str) -> str:
+        return self.rng.choice([name for name in self.pose if name not in besides])
+
+    def add(self, kind: str) -> None:
+        getattr(self, "_" + kind.lower())()
+
+    def _rrr(self) -> None:
+        p, z, link = self.old()
+        q, w, _ = self.old(besides=link)
+        r, x = self.letter(), self.place()
+        self.bar(p, z, r, x)
+        name = self.bar(q, w, r, x)
+        self._mark(r, x, name)
+
+    def _rrp(self) -> None:
+        p, z, link = self.old()
+        r, x = self.letter(), self.place()
+        on, along = self.guide(self.any_link(link), x)
+        self.bar(p, z, r, x)
+        self._mark(r, x, self.block(r, on, along, x))
+
+    def _rpr(self) -> None:
+        p, z, link = self.old()
+        q, w, _ = self.old(besides=link)
+        block, name = self.link(), str(len(self.links) + 2)
+        offset = self.rng.choice([0.0, 0.0, self.rng.uniform(-15, 15)])
+        # a guide at a distance from the pivot: the bar is turned so that it passes through the pin
+        span = z - w
+        angle = math.asin(max(-0.9, min(0.9, offset / abs(span))))
+        axis = span / abs(span) * cmath.rect(1.0, -angle)
+        self.links[block] = {"points": [p], "on": f"{name}.s" if offset else name}
+        self.links[name] = {"points": [q]}
+        if offset:
+            self.links[name]["guides"] = {"s": {"through": [0, abs(span) * math.sin(angle)], "angle": 0}}
+        self.pose[block], self.pose[name] = (z, axis), (w, axis)
+        end = self.letter()
+        self.links[name]["at"] = {end: [-40.0, 10.0]}
+        self._mark(end, w + axis * (-40 + 10j), name)
+
+    def _prp(self) -> None:
+        one = self.any_link()
+        two = self.any_link(one)
+        r, x = self.letter(), self.place()
+        on1, along1 = self.guide(one, x)
+        on2, along2 = self.guide(two, x)
+        self.block(r, on1, along1, x)
+        self._mark(r, x, self.block(r, on2, along2, x))
+
+    def _rpp(self) -> None:
+        p, z, link = self.old()
+        other = self.any_link(link)
+        y = self.place()
+        on, along = self.guide(other, y)
+        slider = str(len(self.links) + 2)
+        block = self.link()
+        self.links[block] = {}
+        name = self.block(None, on, along, y)
+        assert name == slider
+        inner, across = self.guide(slider, z)
+        self.links[block] = {"points": [p], "on": inner}
+        self.pose[block] = (z, across)
+
+    def _pin(self) -> None:
+        """A link held by a hinge, with a pin of it in a slot of another link."""
+        p, z, link = self.old()
+        r, x = self.letter(), self.place()
+        slot, _ = self.guide(self.any_link(link), x)
+        name = self.bar(p, z, r, x)
+        self.pins[r] = {"of": name, "in": slot}
+        self._mark(r, x, name)
+
+    def _mark(self, point: str, z: complex, link: str) -> None:
+        self.where[point] = (z, link)
+        self.sketch[point] = [z.real, z.imag]
+
+
+def random_scene(seed: int, kinds: tuple[str, ...]) -> dict[str, Any]:
+    """A crank and one dyad of each of the given kinds, as a scene mapping."""
+    b = _Builder(random.Random(seed))
+    a, z = b.letter(), b.place(40)
+    b.frame["points"][a] = [z.real, z.imag]
+    b.where[a] = (z, "0")
+    angle, length = b.rng.uniform(-180, 180), b.rng.uniform(20, 60)
+    crank = b.letter()
+    w = z + cmath.rect(length, math.radians(angle))
+    b.links["1"] = {"points": [a, crank], "length": length}
+    b.pose["1"] = (z, cmath.rect(1.0, math.radians(angle)))
+    b.where[crank] = (w, "1")
+    for kind in kinds:
+        b.add(kind)
+    driver = {"link": "1", "angle": angle, "omega": b.rng.uniform(-10, 10), "alpha": b.rng.uniform(-20, 20)}
+    scene = {"title": f"random {seed}", "frame": b.frame, "links": b.links, "driver": driver, "sketch": b.sketch}
+    if b.pins:
+        scene["pins"] = b.pins
+    return scene
