@@ -18,7 +18,7 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.obstacles import Obstacles, Segment
 from graphkin.drawing.primitives import page_direction
 
-__all__ = ["RINGS", "Asker", "Candidate", "Field", "Mark"]
+__all__ = ["RINGS", "Asker", "Candidate", "Field", "Mark", "least_cost"]
 
 Mark: TypeAlias = complex | Segment
 
@@ -51,26 +51,33 @@ class Asker:
 
 @dataclass(frozen=True)
 class Candidate:
-    """A place for a label: its box, what it costs in looks (mm), and its leader from mark to box."""
+    """A place for a label: its box, what it costs in looks (mm), its leader from mark to box, the box around both, and
+    the number of faults that the drawing finds there."""
 
     box: Box
     cost: float
-    leader: Segment | None = None
+    leader: Segment | None
+    reach: Box
     faults: int = 0
 
     def meets(self, other: Candidate, space: float) -> bool:
-        """Whether two labels come nearer than a space (mm), or one's leader crosses the other."""
-        mine, theirs = self.box, other.box
-        if (
-            mine.left - space < theirs.right
-            and theirs.left < mine.right + space
-            and mine.top - space < theirs.bottom
-            and theirs.top < mine.bottom + space
-        ):
+        """Whether two labels come nearer than a space (mm), or one's leader crosses the other or its leader."""
+        if not _near(self.reach, other.reach, space):
+            return False
+        if _near(self.box, other.box, space):
             return True
-        if self.leader is not None and theirs.clip(*self.leader) is not None:
+        if self.leader is not None and other.box.clip(*self.leader) is not None:
             return True
-        return other.leader is not None and mine.clip(*other.leader) is not None
+        if other.leader is None:
+            return False
+        return self.box.clip(*other.leader) is not None or (
+            self.leader is not None and _cross(self.leader, other.leader)
+        )
+
+
+def least_cost(ring: int) -> float:
+    """What the best place of a ring could cost."""
+    return RINGS[ring] + (LEADER_COST if RINGS[ring] > LEADER_FROM else 0.0)
 
 
 class Places:
@@ -95,7 +102,10 @@ class Places:
     def _make(self, centre: complex, cost: float, foot: complex, led: bool, faults: int) -> Candidate:
         corner, other = centre - self.half, centre + self.half
         box = Box(corner.real, corner.imag, other.real, other.imag)
-        return Candidate(box, cost, (foot, box.nearest(foot)) if led else None, faults)
+        if not led:
+            return Candidate(box, cost, None, box, faults)
+        leader = (foot, box.nearest(foot))
+        return Candidate(box, cost, leader, box.joined(Box.around(leader)), faults)
 
 
 class Field:
@@ -192,30 +202,37 @@ class Field:
 
 def _around(asker: Asker, gaps: Any) -> tuple[Any, Any, Any, Any]:
     """Centres of boxes, costs, feet on the mark and gaps, for the rings of one label."""
-    half, toward = asker.half, asker.toward
     start, end = _ends(asker.mark)
     if start == end:
-        # The corner or the edge of the box that looks at the point slides with the direction.
-        hold = _HOLDS[0] * half.real + 1j * _HOLDS[1] * half.imag
-        centres = start + gaps[:, None] * _WAYS + hold
-        if toward:
-            dislike = np.min([3.0 * _apart(wish) / np.pi + 0.3 * rank for rank, wish in enumerate(toward)], axis=0)
-        else:
-            dislike = 0.5 * _apart(_LIKED) / np.pi
-        costs = gaps[:, None] + dislike
-        feet = np.full(centres.shape, start)
+        return _off_point(start, asker, gaps)
+    # Far from a vector there is more room all round its middle than square to it.
+    middle = _off_point((start + end) / 2, Asker(asker.mark, asker.half, ()), gaps[gaps >= LEADER_LEAST])
+    return tuple(map(np.concatenate, zip(_off_segment(start, end, asker, gaps), middle, strict=True)))  # type: ignore
+
+
+def _off_point(point: complex, asker: Asker, gaps: Any) -> tuple[Any, Any, Any, Any]:
+    half = asker.half
+    # The corner or the edge of the box that looks at the point slides with the direction.
+    hold = _HOLDS[0] * half.real + 1j * _HOLDS[1] * half.imag
+    centres = point + gaps[:, None] * _WAYS + hold
+    if asker.toward:
+        dislike = np.min([3.0 * _apart(wish) / np.pi + 0.3 * rank for rank, wish in enumerate(asker.toward)], axis=0)
     else:
-        side = (end - start) / abs(end - start) * 1j
-        sides = np.array((side, -side))
-        liked = page_direction(toward[0] if toward else _LIKED)
-        dislike = 0.4 * (1.0 - (sides * liked.conjugate()).real)[:, None] + 2.0 * np.abs(_SHARES - 0.5)
-        off = gaps + abs(side.real) * half.real + abs(side.imag) * half.imag
-        foot = start + _SHARES * (end - start)
-        centres = foot + off[:, None, None] * sides[:, None]
-        costs = gaps[:, None, None] + dislike
-        feet = np.broadcast_to(foot, centres.shape)
-    around = np.broadcast_to(gaps.reshape(-1, *[1] * (centres.ndim - 1)), centres.shape)
-    return centres.ravel(), costs.ravel(), feet.ravel(), around.ravel()
+        dislike = 0.5 * _apart(_LIKED) / np.pi
+    around = np.broadcast_to(gaps[:, None], centres.shape)
+    return centres.ravel(), (around + dislike).ravel(), np.full(centres.size, point), around.ravel()
+
+
+def _off_segment(start: complex, end: complex, asker: Asker, gaps: Any) -> tuple[Any, Any, Any, Any]:
+    side = (end - start) / abs(end - start) * 1j
+    sides = np.array((side, -side))
+    liked = page_direction(asker.toward[0] if asker.toward else _LIKED)
+    dislike = 0.4 * (1.0 - (sides * liked.conjugate()).real)[:, None] + 2.0 * np.abs(_SHARES - 0.5)
+    off = gaps + abs(side.real) * asker.half.real + abs(side.imag) * asker.half.imag
+    foot = start + _SHARES * (end - start)
+    centres = foot + off[:, None, None] * sides[:, None]
+    around = np.broadcast_to(gaps[:, None, None], centres.shape)
+    return centres.ravel(), (around + dislike).ravel(), np.broadcast_to(foot, centres.shape).ravel(), around.ravel()
 
 
 def _apart(wish: float) -> Any:
@@ -229,6 +246,21 @@ def _held(off: Any, half: Any) -> Any:
 
 def _turn(a: Any, b: Any) -> Any:
     return a.real * b.imag - a.imag * b.real
+
+
+def _near(one: Box, other: Box, space: float) -> bool:
+    return (
+        one.left - space < other.right
+        and other.left < one.right + space
+        and one.top - space < other.bottom
+        and other.top < one.bottom + space
+    )
+
+
+def _cross(one: Segment, other: Segment) -> bool:
+    """Whether two segments cross between their ends."""
+    (a, b), (c, d) = one, other
+    return bool(_turn(b - a, c - a) * _turn(b - a, d - a) < 0 and _turn(d - c, a - c) * _turn(d - c, b - c) < 0)
 
 
 def _separated(centres: Any, half: Any, segments: Any) -> Any:

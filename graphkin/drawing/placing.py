@@ -12,11 +12,11 @@ from __future__ import annotations
 import heapq
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
+from itertools import islice, pairwise
 
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
-from graphkin.drawing.candidates import RINGS, Asker, Candidate, Field, Mark, Places
+from graphkin.drawing.candidates import RINGS, Asker, Candidate, Field, Mark, Places, least_cost
 from graphkin.drawing.metrics import text_box
 from graphkin.drawing.obstacles import Obstacles
 from graphkin.drawing.primitives import Line, Text
@@ -25,6 +25,8 @@ __all__ = ["Label", "Mark", "Placed", "place"]
 
 # Rings looked at, one stage after the other, for the labels that have no place yet.
 _STAGES = (0, 2, 4, 7, len(RINGS))
+# How often labels may drive out others, and that each considers only one in so many of its places, near ones and far.
+_DRIVES, _STRIDE = 120, 3
 _SPACE = 0.5  # between two labels, mm
 _NOTHING = Obstacles()
 
@@ -114,22 +116,54 @@ class _Board:
             left = [i for i in left if not self._push(i)]
             if not left:
                 break
+        left = self._drive_out(left)
         self._ease()
         for i in left:
             self.clear[i] = False
             self.standing[i] = self._least_bad(i)
 
+    def _drive_out(self, left: list[int]) -> list[int]:
+        """Seat labels in a crowd by driving out whoever is in the way, who then seats itself the same way; each time
+        that a label is driven out it grows harder to drive out.  Returns those that stand nowhere in the end."""
+        weight = [1] * len(self.askers)
+        queue, hopeless = list(left), []
+        best, state = list(left), dict(self.standing)
+        for _ in range(_DRIVES):
+            if not queue:
+                break
+            i = queue.pop(0)
+            self._look([i], self.seen[i], len(RINGS))
+            choices = [
+                (sum(weight[j] for j in rivals), at.cost, n, at, rivals)
+                for n, at in enumerate(islice(self._places(i), 0, None, _STRIDE))
+                for rivals in (self._rivals(at, len(self.askers)),)
+            ]
+            if not choices:
+                hopeless.append(i)
+                continue
+            _, _, _, at, rivals = min(choices)
+            for j in rivals:
+                del self.standing[j]
+                weight[j] += 1
+                queue.append(j)
+            self.standing[i] = at
+            if len(queue) + len(hopeless) < len(best):
+                best, state = sorted(queue + hopeless), dict(self.standing)
+        self.standing = state
+        return best
+
     def _ease(self) -> None:
         """Move labels to better places: such as have come free, and such as are further off but cost less."""
-        for first, last in pairwise(_STAGES):
-            uneasy = [i for i, at in sorted(self.standing.items()) if self.seen[i] == first and at.cost > RINGS[first]]
-            if uneasy:
-                self._look(uneasy, first, last)
+        for first, last in pairwise(_STAGES[1:]):
+            uneasy = [i for i in sorted(self.standing) if self.standing[i].cost > least_cost(first)]
+            self._look([i for i in uneasy if self.seen[i] == first], first, last)
         for i in sorted(self.standing):
             del self.standing[i]
             self._stand(i)
 
     def _look(self, who: list[int], first: int, last: int) -> None:
+        if first == last or not who:
+            return
         for i, places in zip(who, self.field.free([self.askers[i] for i in who], first, last), strict=True):
             self.found[i].append(places)
             self.seen[i] = last

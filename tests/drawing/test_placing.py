@@ -3,8 +3,10 @@ from __future__ import annotations
 import cmath
 import itertools
 import time
+from itertools import combinations
 
 import pytest
+import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -125,16 +127,17 @@ def test_no_labels_need_no_places():
     assert place([], PANEL) == ()
 
 
-def test_forty_labels_are_placed_in_ten_milliseconds():
-    children, labels = polygon([complex(30 + 8.5 * (7 * i % 13), 15 + 5.8 * (5 * i % 13)) for i in range(13)])
+def test_the_labels_of_a_six_bar_are_placed_in_ten_milliseconds():
+    children, labels = polygon([complex(30 + 15 * (3 * i % 7), 15 + 11 * (5 * i % 7)) for i in range(1, 7)])
     obstacles = obstacles_of(children)
     place(labels, PANEL, obstacles)  # imports
     best = float("inf")
-    for _ in range(7):
+    for _ in range(9):
         start = time.process_time()
         place(labels, PANEL, obstacles)
         best = min(best, time.process_time() - start)
-    assert best < 0.020  # twice the aim: the machine is shared
+    assert len(labels) >= 18
+    assert best < 0.010
 
 
 def test_a_tint_is_no_obstacle_but_its_edge_is():
@@ -162,3 +165,18 @@ def test_dashed_lines_may_be_crossed_where_nothing_else_is_free():
 def test_a_tiny_vector_is_labelled_as_well(length):
     (placed,) = place([label("$v_C$", (50 + 50j, 50 + length + 50j))], PANEL)
     assert placed.clear
+
+
+def test_a_crowd_of_fifteen_labels_in_one_centimetre_stays_legible(violations):
+    crowd = [30 + 70j + complex(6 - 3 * (3 * i % 5), 5 - 2.5 * (2 * i % 5)) for i in range(5)]
+    svg, _ = figure(*polygon(crowd))
+    assert violations(svg) == []
+
+
+def test_leaders_do_not_cross_each_other():
+    crowd = [30 + 70j + complex(6 - 3 * (3 * i % 5), 5 - 2.5 * (2 * i % 5)) for i in range(5)]
+    _, placed = figure(*polygon(crowd))
+    ends = [(p.leader.start, p.leader.end) for p in placed if p.leader]
+    leaders = [shapely.LineString([(a.real, a.imag), (b.real, b.imag)]) for a, b in ends]
+    assert len(leaders) > 2
+    assert not any(one.crosses(other) and not one.touches(other) for one, other in combinations(leaders, 2))
