@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from graphkin.drafting.chains import node
 from graphkin.drafting.plot import Order, Plot
 from graphkin.drafting.sheet import Vector
-from graphkin.errors import CallError, Problem
+from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.plane import dot, unit
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import PointRef, Symbol
@@ -41,6 +41,9 @@ def _links_for(structure: Structure, symbol: Symbol) -> set[str]:
         if ref is None:
             continue
         holders = [n for n, link in structure.links.items() if ref.point in link.points]
+        if not holders or (ref.link and ref.link not in structure.links):
+            wanted = did_you_mean(ref.point, structure.scene.holders)
+            raise CallError(Problem(str(symbol), f'"{ref}" names no point of a link here', wanted))
         if ref.link:
             found.add(ref.link)
         if not ref.link or ref.point not in structure.links[ref.link].points:
@@ -153,7 +156,7 @@ def _pivot(plot: Plot, of: PointRef) -> PointRef:
 def _coincident(plot: Plot, symbol: Symbol, of: PointRef, to: PointRef | None) -> None:
     """Coriolis and sliding part for two coincident points that stand in no equation."""
     assert to is not None
-    pair = _pair(plot, symbol)
+    pair = _pair(plot, of, to, symbol)
     ends = plot.ends["acceleration"]
     plot.place("velocity", of)
     plot.place("velocity", to)
@@ -166,17 +169,12 @@ def _coincident(plot: Plot, symbol: Symbol, of: PointRef, to: PointRef | None) -
         _draw(plot, "acceleration", Vector(symbol, corner, ends[of], "sliding"))
 
 
-def _pair(plot: Plot, symbol: Symbol) -> str:
+def _pair(plot: Plot, of: PointRef, to: PointRef, symbol: Symbol) -> str:
     """The guiding link of the sliding pair between two coincident points."""
-    assert symbol.of is not None
-    assert symbol.to is not None
-    one = {symbol.of.link} if symbol.of.link else _holders(plot, symbol.of.point)
-    two = {symbol.to.link} if symbol.to.link else _holders(plot, symbol.to.point)
-    names = {plot.block_of.get(n, n): n for n in plot.links}
     for s in plot.structure.slides:
-        a, b = plot.block_of.get(s.a, s.a), plot.block_of.get(s.b, s.b)
-        if symbol.of.point == symbol.to.point and ((a in one and b in two) or (b in one and a in two)):
-            return names.get(s.b, s.b)
+        sides = {node(plot.links, of.point, s.a), node(plot.links, of.point, s.b)}
+        if sides == {of, to}:
+            return s.b
     raise CallError(
         Problem(
             str(symbol),
@@ -184,8 +182,3 @@ def _pair(plot: Plot, symbol: Symbol) -> str:
             "known are " + ", ".join(s.key for s in plot.structure.slides),
         )
     )
-
-
-def _holders(plot: Plot, point: str) -> set[str]:
-    """Links that have a point, under the names in which they are written."""
-    return {plot.block_of.get(n, n) for n, k in plot.links.items() if point in k.points}

@@ -193,7 +193,8 @@ class _Net:
                 continue
             if len(path) == 5:
                 continue
-            visited = {start, *(e.end for e in path)}
+            # a chain may come back to where it began: a pin that both guides of a group belong to
+            visited = {e.end for e in path}
             for edge in reversed(self.edges[at]):
                 if edge.end in visited or sum(bool(e.unknown) for e in (*path, edge)) > 2:
                     continue

@@ -104,10 +104,10 @@ def test_what_is_asked_for_limits_what_is_drawn():
 
 
 def test_a_vector_asked_for_that_stands_in_no_equation_is_drawn():
-    sheet = draft(read("four-bar-coupler-point"), find=[Symbol.parse("an_E/B"), Symbol.parse("at_E/B")])
-    arm = sheet.points[PointRef("E")] - sheet.points[PointRef("B")]
-    assert 0 == pytest.approx(cross(_vector(sheet, "an_E/B").span, arm), abs=1e-9)
-    assert 0 == pytest.approx(dot(_vector(sheet, "at_E/B").span, arm), abs=1e-9)
+    sheet = draft(read("four-bar-coupler-point"), find=[Symbol.parse("an_P/B"), Symbol.parse("at_P/B")])
+    arm = sheet.points[PointRef("P")] - sheet.points[PointRef("B")]
+    assert 0 == pytest.approx(cross(_vector(sheet, "an_P/B").span, arm), abs=1e-9)
+    assert 0 == pytest.approx(dot(_vector(sheet, "at_P/B").span, arm), abs=1e-9)
 
 
 def test_a_zero_velocity_is_said_not_drawn_askew():

@@ -1,0 +1,173 @@
+"""All instant centres of a scene as a student finds them: the permanent ones, Kennedy's theorem, and what remains."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Literal
+
+from graphkin.drafting.centres.chart import Chart, Place
+from graphkin.drafting.centres.kennedy import SURE, Crossing, Known, Relation, Search, closure
+from graphkin.drafting.centres.measured import Motion, measured, relative_centre
+from graphkin.drafting.centres.pairs import Links, Normal, Pair, links_on_paper, normals, permanent
+from graphkin.drafting.draft import Room, draft
+from graphkin.drafting.instrument import EXACT, Instrument
+from graphkin.drafting.sheet import Sheet
+from graphkin.scene.model import AngleDriver, Scene
+from graphkin.words import Phrase
+
+__all__ = ["Centre", "Centres", "find_centres"]
+
+Way = Literal["", "velocity polygon", "superposition"]
+
+
+@dataclass(frozen=True)
+class Centre:
+    """One instant centre.
+
+    ``place`` is homogeneous in the chart (None where undetermined); ``point`` in mm on paper, None at infinity, where
+    ``direction`` is the way to it.  ``number`` counts the found ones in their order.  ``joint`` names the joint of a
+    permanent one, ``lines`` are the two that cross in a found one; ``way`` names the construction of one that Kennedy's
+    theorem does not give, ``why`` says why it does not, or why there is none.
+    """
+
+    pair: Pair
+    kind: Literal["permanent", "found", "undetermined"]
+    place: Place | None = None
+    point: complex | None = None
+    direction: complex | None = None
+    number: int = 0
+    joint: str = ""
+    lines: tuple[Relation, ...] = ()
+    way: Way = ""
+    why: Phrase | None = None
+    error: float = 0.0
+
+
+@dataclass(frozen=True)
+class Centres:
+    """All centres of one position.  ``found`` gives them in the order in which they are found, the permanent first."""
+
+    sheet: Sheet
+    links: Links
+    chart: Chart
+    table: Mapping[Pair, Centre]
+    normals: tuple[Normal, ...]
+    motions: Mapping[str, Motion]
+
+    def of(self, a: str, b: str) -> Centre:
+        """The centre of two links, in any order.  Raises KeyError for a pair that is none."""
+        return self.table[self.links.pair(a, b)]
+
+    @property
+    def found(self) -> tuple[Centre, ...]:
+        return tuple(sorted(self.table.values(), key=lambda c: c.number))
+
+    @property
+    def indeterminate(self) -> tuple[Centre, ...]:
+        """Those that Kennedy's theorem does not give."""
+        return tuple(c for c in self.found if c.way or c.kind == "undetermined")
+
+
+def find_centres(
+    scene: Scene, at: Mapping[str, float] | None = None, instrument: Instrument = EXACT, room: Room | None = None
+) -> Centres:
+    """Find every centre of every two links on the drawing board.
+
+    Parameters
+    ----------
+    scene, at, instrument, room : as for `draft`
+
+    Raises
+    ------
+    Unsolvable : wrong mobility, a position that cannot be assembled or reached, a dead point
+    """
+    sheet = draft(_moving(scene), at, (), instrument, room)
+    motions = measured(sheet)
+    links = links_on_paper(scene, 1.0 / sheet.scales.length, sheet.poses)
+    chart = links.chart()
+    return Centres(sheet, links, chart, *_search(links, chart, motions, instrument, "velocity polygon"), motions)
+
+
+def _moving(scene: Scene) -> Scene:
+    """The scene itself, or at unit speed where its one driver stands still: centres do not depend on the speed."""
+    if len(scene.drivers) != 1 or scene.drivers[0].values[1] != 0.0:
+        return scene
+    driver = scene.drivers[0]
+    if isinstance(driver, AngleDriver):
+        return replace(scene, drivers=(replace(driver, omega=1.0),))
+    return replace(scene, drivers=(replace(driver, velocity=scene.size),))
+
+
+def _search(
+    links: Links, chart: Chart, motions: Mapping[str, Motion], instrument: Instrument, way: Way
+) -> tuple[dict[Pair, Centre], tuple[Normal, ...]]:
+    slots = tuple(normals(links, chart))
+    search = Search(links.pairs, links.names, slots)
+    table: dict[Pair, Centre] = {}
+    for p in permanent(links, chart).values():
+        direction = chart.direction(p.place) if p.point is None else None
+        table[p.pair] = Centre(p.pair, "permanent", p.place, p.point, direction, joint=p.joint)
+        search.learn(p.pair, Known(p.place))
+    number = 0
+    least = SURE
+    while len(table) < len(links.pairs):
+        number += 1
+        crossing = search.next(least)
+        if crossing is not None:
+            centre = _crossed(crossing, chart, number, instrument)
+        else:
+            centre = _otherwise(links, chart, motions, search, table, number, way)
+        table[centre.pair] = centre
+        if centre.place is not None:
+            search.learn(centre.pair, Known(centre.place, max(centre.error, 2e-16)))
+    return {pair: table[pair] for pair in links.pairs}, slots
+
+
+def _crossed(crossing: Crossing, chart: Chart, number: int, instrument: Instrument) -> Centre:
+    place = crossing.place
+    point = chart.point(place)
+    if point is not None:
+        pricked = instrument.point(point)
+        if pricked != point:
+            place, point = chart.at(pricked), pricked
+    direction = chart.direction(place) if point is None else None
+    return Centre(
+        crossing.pair, "found", place, point, direction, number, lines=crossing.lines, error=crossing.error
+    )
+
+
+def _otherwise(
+    links: Links, chart: Chart, motions: Mapping[str, Motion], search: Search, table: Mapping[Pair, Centre],
+    number: int, way: Way,
+) -> Centre:  # fmt: skip
+    """A centre that Kennedy's theorem does not give now: that one from which it gives most others."""
+    missing = [pair for pair in links.pairs if pair not in table]
+    frame = links.scene.frame.name
+    slots = [p for p, lines in search.lines.items() for line in lines if not line.via]
+    usable = {p for p, c in table.items() if c.place is not None}
+
+    def gain(pair: Pair) -> tuple[bool, int, bool]:
+        measurable = pair[0] in motions and pair[1] in motions
+        return measurable, len(closure(links.pairs, links.names, usable | {pair}, slots)), frame in pair
+
+    pair = max(missing, key=gain)
+    why = _why(search, pair)
+    place = None
+    if pair[0] in motions and pair[1] in motions:
+        place = relative_centre(motions, pair, chart)
+        if place is None:
+            return Centre(pair, "undetermined", number=number, why=Phrase("centre no motion", pair))
+    if place is None:
+        return Centre(pair, "undetermined", number=number, why=why)
+    point = chart.point(place)
+    direction = chart.direction(place) if point is None else None
+    return Centre(pair, "found", place, point, direction, number, way=way, why=why, error=1e-15)
+
+
+def _why(search: Search, pair: Pair) -> Phrase:
+    """Why Kennedy's theorem fails: too few triangles, or lines that fall together."""
+    count = len(search.lines[pair])
+    if count < 2:
+        return Phrase("centre few lines", (*pair, count))
+    return Phrase("centre lines together", pair)
