@@ -1,8 +1,8 @@
 """How far rounding may have moved a result: a running first-order bound, carried along with the solution.
 
 Each group takes over the bound of what it hangs on and multiplies it by one over the sine of the angle at which its two
-loci cross (for a larger group by the condition of its equations).  Lengths are counted in the size of the
-mechanism, velocities in the largest velocity met so far, accelerations likewise.
+loci cross (for a larger group by the condition of its equations).  An error of place counts in the velocity in
+proportion to the size of the mechanism, one of velocity in the acceleration by the Coriolis term.
 """
 
 from __future__ import annotations
@@ -14,10 +14,10 @@ import numpy as np
 
 from graphkin.exact.pose import Array, Pose
 
-__all__ = ["Bound", "crossing", "solved_together"]
+__all__ = ["Bound", "enlarged"]
 
 EPS = float(np.finfo(float).eps)
-ROUNDINGS = 8.0
+ROUNDINGS = 2.0
 """Roundings that a step of the chain adds, in units of the last place of its largest term."""
 
 
@@ -38,28 +38,31 @@ class Bound:
         return cls(zero, zero, zero, zero, zero)
 
 
-def crossing(
-    bounds: Mapping[str, Bound], poses: Mapping[str, Pose], names: Iterable[str], sine: Array, size: float
+def enlarged(
+    bounds: Mapping[str, Bound],
+    poses: Mapping[str, Pose],
+    radius: Mapping[str, float],
+    bases: Iterable[str],
+    gain: Array,
+    size: float,
 ) -> Bound:
-    """The bound of links that were found where two loci cross at an angle of this sine."""
-    return solved_together(bounds, poses, names, 1 / np.abs(sine), size)
+    """The bound of links found from others (``bases``) by equations that enlarge an error by ``gain``.
 
-
-def solved_together(
-    bounds: Mapping[str, Bound], poses: Mapping[str, Pose], names: Iterable[str], gain: Array, size: float
-) -> Bound:
-    """The bound of links that were found from equations that enlarge an error by ``gain``."""
-    before = list(bounds.values())
-    new = [poses[name] for name in names]
-    spin = _most([np.abs(p.omega) for p in new])
-    reach = _most([np.abs(p.z) for p in new] + [np.asarray([size])])
-    speed = _most([b.speed for b in before] + [np.abs(p.v) + np.abs(p.omega) * size for p in new])
-    push = _most([b.push for b in before] + [np.abs(p.a) + (np.abs(p.alpha) + p.omega**2) * size for p in new])
+    Parameters
+    ----------
+    radius : for each link found the distance of its farthest point from its origin (m)
+    """
+    before = [bounds[name] for name in bases]
+    new = [(poses[name], r) for name, r in radius.items()]
+    reach = _most([np.abs(p.z) + r for p, r in new])
+    spin = _most([np.abs(p.omega) for p, _ in new])
+    speed = _most([b.speed for b in before] + [np.abs(p.v) + np.abs(p.omega) * r for p, r in new])
+    push = _most([b.push for b in before] + [np.abs(p.a) + (np.abs(p.alpha) + p.omega**2) * r for p, r in new])
     place = gain * (_most([b.position for b in before]) + ROUNDINGS * EPS * reach)
-    turned = place / size
-    velocity = gain * (_most([b.velocity for b in before]) + ROUNDINGS * EPS * speed + turned * speed)
-    whirl = 2 * spin * velocity
-    acceleration = gain * (_most([b.acceleration for b in before]) + ROUNDINGS * EPS * push + turned * push + whirl)
+    velocity = gain * (_most([b.velocity for b in before]) + (ROUNDINGS * EPS + place / size) * speed)
+    acceleration = gain * (
+        _most([b.acceleration for b in before]) + (ROUNDINGS * EPS + place / size) * push + 2 * spin * velocity
+    )
     return Bound(place, velocity, acceleration, speed, push)
 
 

@@ -10,11 +10,11 @@ from graphkin.errors import Problem, Unsolvable
 from graphkin.exact.cluster import ClusterSolved, System, as_place, solve_all, solve_cluster
 from graphkin.exact.dyads import Solved
 from graphkin.exact.engine import SINGULAR, State, positions
-from graphkin.exact.joints import Drive
+from graphkin.exact.joints import Drive, driver_text
 from graphkin.exact.pose import Array, Pose
-from graphkin.scene.model import Scene
+from graphkin.scene.model import AngleDriver, Scene
 from graphkin.structure import Cluster, Driven, Dyad, Slide, Structure, pick
-from graphkin.structure.continuity import TOUCH
+from graphkin.structure.continuity import TOUCH, last_true
 
 __all__ = ["choose_forms", "own_values"]
 
@@ -66,15 +66,44 @@ def _choose_sign(structure: Structure, i: int, dyad: Dyad, drive: Drive, forms: 
         if abs(solved.sine[0]) >= SINGULAR:
             pick(scene, dyad.links, [_places(structure, i, dyad.links, states[0])], 0)
         return np.array(sign)
-    if solved.discriminant[0] < -TOUCH:
-        names = ", ".join(dyad.links)
+    if not solved.discriminant[0] >= -TOUCH:
         raise Unsolvable(
-            "not assembled", Problem(f"links {names}", "they do not reach each other in the scene's own position")
+            "not assembled",
+            Problem(
+                f"links {', '.join(dyad.links)}",
+                "they do not reach each other in the scene's own position",
+                _nearest(structure, i, drive, forms),
+            ),
         )
     if not abs(solved.sine[0]) >= SINGULAR:
         return np.array(1.0)
     candidates = [_places(structure, i, dyad.links, state) for state in states]
     return np.array((1.0, -1.0)[pick(scene, dyad.links, candidates, 0).index])
+
+
+def _nearest(structure: Structure, i: int, drive: Drive, forms: Mapping[int, Array]) -> str:
+    """The nearest value of the first driver at which everything up to group ``i`` can be assembled."""
+    scene = structure.scene
+    first = scene.drivers[0]
+    wide = np.pi if isinstance(first, AngleDriver) else 2 * scene.size
+
+    def open_(offset: Array) -> Array:
+        value = np.repeat(drive.value, len(offset), axis=0)
+        value[:, 0] += wide * offset
+        state = positions(structure, Drive.at(structure, value), {**forms, i: np.ones(1)}, i + 1, rates=False)
+        gaps = [g.discriminant >= 0 for g in state.groups.values() if isinstance(g, Solved)]
+        return np.asarray(np.logical_and.reduce(np.broadcast_arrays(*gaps)))
+
+    if any(isinstance(e, Cluster) for e in structure.elements[:i]):
+        return ""
+    offset = np.linspace(-1, 1, 721)
+    good = np.flatnonzero(open_(offset))
+    if not len(good):
+        return "no value of the driver assembles them with these lengths"
+    near = offset[good[np.argmin(np.abs(offset[good]))]]
+    limit = last_true(open_, float(near), float(near - np.copysign(1 / 360, near)))
+    value = float(drive.value[0, 0] + wide * limit)
+    return f"the nearest position where they do is at {first.key} = {driver_text(scene, first, value)}"
 
 
 def _places(structure: Structure, i: int, links: Sequence[str], state: State) -> dict[str, complex]:

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
 
-from graphkin.exact.bounds import Bound, crossing, solved_together
+from graphkin.exact.bounds import Bound, enlarged
 from graphkin.exact.cluster import ClusterSolved, solve_cluster
 from graphkin.exact.dyads import Solved, solve_dyad
 from graphkin.exact.joints import Drive, body_shape, driven, dyad_joints, members
 from graphkin.exact.pose import Array, Pose, rest
-from graphkin.structure import Cluster, Driven, Dyad, Structure
+from graphkin.structure import Driven, Dyad, Pair, Structure
 
 __all__ = ["SINGULAR", "State", "positions"]
 
@@ -55,14 +55,20 @@ def positions(
     bounds: dict[str, Bound] = {frame: Bound.none()}
     groups: dict[int, Solved | ClusterSolved] = {}
     size = structure.scene.size
+
+    def bound(names: Iterable[str], pairs: Iterable[Pair], gain: Array) -> None:
+        radius = {name: max(map(abs, structure.links[name].points.values()), default=0.0) for name in names}
+        bases = {end for pair in pairs for end in (pair.a, pair.b)} - set(radius)
+        found = enlarged(bounds, poses, radius, bases, gain, size)
+        bounds.update(dict.fromkeys(radius, found))
+
     with np.errstate(all="ignore"):
         for i, element in enumerate(structure.elements[:upto]):
             if isinstance(element, Driven):
                 poses[element.link] = driven(structure, element, poses, drive)
                 if rates:
-                    bounds[element.link] = crossing(bounds, poses, [element.link], np.ones(1), size)
-                continue
-            if isinstance(element, Dyad):
+                    bound([element.link], [element.pair], np.ones(1))
+            elif isinstance(element, Dyad):
                 shapes = body_shape(structure, element.first, drive), body_shape(structure, element.second, drive)
                 joints = dyad_joints(structure, element, shapes, poses)
                 solved = solve_dyad(element.kind, joints, np.asarray(forms[i]), rates)
@@ -70,15 +76,13 @@ def positions(
                 poses.update(members(shapes[0], solved.first))
                 poses.update(members(shapes[1], solved.second))
                 if rates:
-                    names = [*shapes[0], *shapes[1]]
-                    bound = crossing(bounds, poses, names, solved.sine, size)
-                    bounds.update(dict.fromkeys(names, bound))
-                continue
-            assert isinstance(element, Cluster)
-            together = solve_cluster(structure, element, poses, drive, np.asarray(forms[i]), rates)
-            groups[i] = together
-            poses.update(together.poses)
-            if rates:
-                bound = solved_together(bounds, poses, element.members, together.condition, size)
-                bounds.update(dict.fromkeys(element.members, bound))
+                    bound(
+                        [*shapes[0], *shapes[1]], [element.outer_first, element.outer_second], 1 / np.abs(solved.sine)
+                    )
+            else:
+                together = solve_cluster(structure, element, poses, drive, np.asarray(forms[i]), rates)
+                groups[i] = together
+                poses.update(together.poses)
+                if rates:
+                    bound(element.members, element.pairs, together.condition)
     return State(poses, groups, bounds)

@@ -9,13 +9,13 @@ import numpy as np
 from graphkin.exact.cluster import ClusterSolved
 from graphkin.exact.dyads import Solved
 from graphkin.exact.engine import SINGULAR, State, positions
-from graphkin.exact.joints import Drive
+from graphkin.exact.joints import Drive, driver_text
 from graphkin.exact.path import Path, follow_path
 from graphkin.exact.pose import Array
-from graphkin.scene.model import AngleDriver, Driver, Scene
+from graphkin.scene.model import AngleDriver
 from graphkin.structure import Cluster, Dyad, Pair, Slide, Structure
 
-__all__ = ["assembly_words", "dead_why", "driver_text", "limit_why", "singular"]
+__all__ = ["assembly_words", "dead_why", "limit_why", "singular"]
 
 OPEN = 1e-9
 
@@ -27,13 +27,6 @@ def singular(structure: Structure, state: State, n: int) -> Iterator[tuple[int, 
             yield i, np.broadcast_to(~(np.abs(solved.sine) >= SINGULAR), (n,))
         else:
             yield i, (~(solved.condition * SINGULAR <= 1)) | ~(solved.missed < OPEN)
-
-
-def driver_text(scene: Scene, driver: Driver, value: float) -> str:
-    """A driver value in its own unit."""
-    if isinstance(driver, AngleDriver):
-        return f"{np.degrees(value):.10g} deg"
-    return f"{value / scene.units.metres:.10g} {scene.units.length}"
 
 
 def limit_why(

@@ -9,10 +9,10 @@ import numpy as np
 
 from graphkin.exact.dyads import Joints
 from graphkin.exact.pose import Array, Pose, rest
-from graphkin.scene.model import AngleDriver, Driver
+from graphkin.scene.model import AngleDriver, Driver, Scene
 from graphkin.structure import Body, Driven, Dyad, Pair, Structure, Turn
 
-__all__ = ["Drive", "body_shape", "driven", "dyad_joints", "joint_place", "members"]
+__all__ = ["Drive", "body_shape", "driven", "driver_text", "dyad_joints", "joint_place", "members"]
 
 
 @dataclass(frozen=True)
@@ -52,6 +52,13 @@ def turned(angle: Array) -> Array:
     rest_of = angle - quarters * (np.pi / 2)
     rest_of = np.where(np.abs(rest_of) <= 4e-16 * np.abs(angle), 0.0, rest_of)
     return np.array([1, 1j, -1, -1j])[quarters.astype(np.int64) % 4] * (np.cos(rest_of) + 1j * np.sin(rest_of))
+
+
+def driver_text(scene: Scene, driver: Driver, value: float) -> str:
+    """A driver value in its own unit."""
+    if isinstance(driver, AngleDriver):
+        return f"{np.degrees(value):.10g} deg"
+    return f"{value / scene.units.metres:.10g} {scene.units.length}"
 
 
 def joint_place(structure: Structure, pair: Pair, link: str) -> tuple[complex, complex]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
@@ -39,6 +39,7 @@ class Motion:
     slides : the sliding pairs and pins in slots, those of redundant links included
     assembly : for each group, in the order of ``structure.groups``, which assembly was taken
     velocity_bound, acceleration_bound : real, shape (n,), how far rounding may have moved a value (m/s, m/s2)
+    turned : over a sweep how far each link has turned since its start, to a few degrees (rad): tells whole turns
     """
 
     structure: Structure
@@ -50,6 +51,7 @@ class Motion:
     assembly: tuple[str, ...]
     velocity_bound: Array
     acceleration_bound: Array
+    turned: Mapping[str, Array] = field(default_factory=dict)
 
     @property
     def scene(self) -> Scene:
@@ -114,8 +116,15 @@ class Motion:
         angle = np.where(angle == -np.pi, np.pi, angle)
         good = self.ok
         out = np.full(len(self), np.nan)
-        out[good] = np.unwrap(angle[good])
-        return out
+        out[good] = angle[good]
+        if not good.any() or len(self) == 1:
+            return out
+        if link not in self.turned:
+            out[good] = np.unwrap(angle[good])
+            return out
+        first = int(np.argmax(good))
+        since = angle[first] + self.turned[link] - self.turned[link][first]
+        return np.asarray(out + 2 * np.pi * np.rint((since - out) / (2 * np.pi)))
 
     def omega(self, link: str) -> Array:
         """real, shape (n,) (rad/s), counter-clockwise positive."""

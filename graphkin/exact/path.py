@@ -33,6 +33,7 @@ class Path:
     """A straight path of driver values, parameter 0 .. 1, with the form of each group along it.
 
     ``limit`` is the parameter where the motion ends (None if it does not), ``by`` the element that ends it.
+    Between two ``nodes`` no link turns by more than a few degrees.
     """
 
     structure: Structure
@@ -42,6 +43,7 @@ class Path:
     flips: Array = field(default_factory=lambda: np.zeros(0))
     limit: float | None = None
     by: int | None = None
+    nodes: Array = field(default_factory=lambda: np.zeros(1))
 
     @property
     def reach(self) -> float:
@@ -55,6 +57,17 @@ class Path:
     def form(self, t: Array) -> dict[int, Array]:
         """The form of each group at these parameters, for ``positions``."""
         return {i: form(t) for i, form in self.forms.items()}
+
+    def turned(self, t: Array) -> dict[str, Array]:
+        """How far each link has turned from the start (rad), whole turns included, to a few degrees."""
+        nodes = _beside(self.flips, self.nodes)
+        poses = positions(self.structure, self.drive(nodes), self.form(nodes), rates=False).poses
+        found: dict[str, Array] = {}
+        for name, pose in poses.items():
+            u = np.nan_to_num(np.broadcast_to(pose.u, nodes.shape), nan=1.0)
+            steps = np.angle(u[1:] * np.conj(u[:-1]))
+            found[name] = np.interp(t, self.nodes, np.concatenate(([0.0], np.cumsum(steps))))
+        return found
 
     def drive(self, t: Array) -> Drive:
         """The drivers with rates by the path parameter."""
@@ -79,10 +92,8 @@ def follow_path(structure: Structure, forms: Mapping[int, Array], start: Array, 
             path = _follow_cluster(path, i, element, np.asarray(forms[i]))
         if path.limit is not None:
             grid = np.append(grid[grid < path.limit], path.limit)
-        if len(grid) < 2:
-            break
         grid = _refined(path, i, grid)
-    return path
+    return replace(path, nodes=grid)
 
 
 def _steps(structure: Structure, span: Array) -> int:

@@ -44,6 +44,11 @@ def _slide(scene: Scene, s: SlidingPair) -> Slide:
 
 def fit(scene: Scene, link: Link, poses: Mapping[str, Pose]) -> Fit | None:
     """Place a link from what it is joined to; None if the links it is joined to do not place it."""
+    with np.errstate(all="ignore"):
+        return _fit(scene, link, poses)
+
+
+def _fit(scene: Scene, link: Link, poses: Mapping[str, Pose]) -> Fit | None:
     shared = {p: n for p in link.points for n in scene.holders[p] if n in poses and n != link.name}
     slides = [s for s in scene.slidings if s.link == link.name and s.on in poses]
     pose = _between_hinges(scene, link, shared, poses) if len(shared) > 1 else None

@@ -150,7 +150,9 @@ def _swept(structure: Structure, forms: Mapping[int, Array], start: Array, n: in
         why = "" if good.all() else limit_why(structure, forms, start, there, back)
     one, other = there.form(np.clip(t, 0, there.reach)), back.form(np.clip(s, 0, back.reach))
     chosen = {i: np.where(ahead.reshape(-1, *[1] * (one[i].ndim - 1)), one[i], other[i]) for i in one if i in other}
-    return _solved(structure, forms, values, chosen, good, why)
+    motion = _solved(structure, forms, values, chosen, good, why)
+    forth, astern = there.turned(np.clip(t, 0, there.reach)), back.turned(np.clip(s, 0, back.reach))
+    return replace(motion, turned={name: np.where(ahead, forth[name], astern[name]) for name in forth})
 
 
 def _first(like: Array) -> Array:

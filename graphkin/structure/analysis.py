@@ -283,8 +283,14 @@ def _dyad(parts: _Parts, bodies: list[Body], pairs: list[Pair], links: tuple[str
     one, two = bodies
     inner: list[Pair] = []
     outer: dict[int, list[Pair]] = {0: [], 1: []}
+    hinged: set[tuple[str, int]] = set()
     for pair in pairs:
         sides = [i for i, body in enumerate(bodies) if pair.a in body.links or pair.b in body.links]
+        if isinstance(pair, Turn):
+            # links held together by a driver at this very point hang on it once
+            if (pair.point, sum(1 << i for i in sides)) in hinged:
+                continue
+            hinged.add((pair.point, sum(1 << i for i in sides)))
         if len(sides) == 2:
             inner.append(pair)
         elif not (pair.a in bodies[sides[0]].links and pair.b in bodies[sides[0]].links):

@@ -49,7 +49,7 @@ def follow(discriminant: Callable[[Reals], Reals], grid: Reals, flips: bool = Tr
     touches: list[float] = []
     for i in range(len(grid)):
         if value[i] < -TOUCH:
-            return Passage(last_true(lambda t: discriminant(t) >= 0, grid[max(i - 1, 0)], grid[i]), np.array(touches))
+            return Passage(_end(discriminant, 0.0, grid[max(i - 1, 0)], grid[i]), np.array(touches))
         before, after = max(i - 1, 0), min(i + 1, len(grid) - 1)
         change = max(abs(value[before] - value[i]), abs(value[after] - value[i]))
         if value[before] < value[i] or value[after] < value[i] or value[i] > change:
@@ -58,10 +58,15 @@ def follow(discriminant: Callable[[Reals], Reals], grid: Reals, flips: bool = Tr
         if least > TOUCH or where <= grid[0] or where >= grid[-1]:
             continue
         if least < -TOUCH or not flips:
-            return Passage(last_true(lambda t: discriminant(t) > TOUCH, grid[before], where), np.array(touches))
+            floor = 0.0 if least < -TOUCH else TOUCH
+            return Passage(_end(discriminant, floor, grid[before], where), np.array(touches))
         if not touches or where > touches[-1] + 1e-6:
             touches.append(where)
     return Passage(None, np.array(touches))
+
+
+def _end(discriminant: Callable[[Reals], Reals], floor: float, low: float, high: float) -> float:
+    return last_true(lambda t: discriminant(t) >= floor, low, high)
 
 
 def _least(function: Callable[[Reals], Reals], low: float, high: float) -> tuple[float, float]:

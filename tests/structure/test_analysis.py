@@ -1,0 +1,178 @@
+"""Mobility, and the groups in the order of solution."""
+
+from __future__ import annotations
+
+import pytest
+
+from graphkin.errors import Unsolvable
+from graphkin.scene import read, read_text
+from graphkin.structure import Cluster, Driven, Dyad, Structure, analyse
+
+FRAME = "[frame]\npoints = { A = [0, 0], D = [400, 0] }\n"
+CRANK = '[links.1]\npoints = ["A", "B"]\nlength = 150\n'
+ROD = '[links.2]\npoints = ["B", "C"]\nlength = 500\n'
+ROCKER = '[links.3]\npoints = ["C", "D"]\nlength = 300\n'
+DRIVER = '[driver]\nlink = "1"\nangle = 60\nomega = 10\n'
+FOUR_BAR = FRAME + CRANK + ROD + ROCKER + DRIVER
+
+
+def structure(text: str) -> Structure:
+    return analyse(read_text(text, "scene"))
+
+
+def kinds(found: Structure) -> list[str]:
+    return ["driven" if isinstance(e, Driven) else e.kind for e in found.elements]
+
+
+MOBILITY = {"sixbar-guide-40deg": (5, 7, 0), "cam-eccentric-flat-rocker": (2, 2, 1), "sixbar-coupler-1A": (5, 7, 0)}
+
+
+@pytest.mark.parametrize("name", MOBILITY)
+def test_the_count_of_mobility_has_links_lower_and_higher_pairs(name: str) -> None:
+    found = analyse(read(name)).mobility
+    assert (found.links, found.lower, found.higher) == MOBILITY[name]
+
+
+def test_a_hinge_of_three_links_counts_as_two_turning_pairs() -> None:
+    more = '[links.4]\npoints = ["C", "E"]\nlength = 100\n[links.5]\npoints = ["E", "F"]\nlength = 300\n'
+    text = FOUR_BAR.replace("D = [400, 0]", "D = [400, 0], F = [600, 0]").replace("[driver]", more + "[driver]")
+    assert structure(text).mobility.lower == 7
+
+
+ORDERS = {
+    "fourbar-150-500-300-400": ["driven", "RRR"],
+    "sixbar-guide-40deg": ["driven", "RPR", "PRP"],
+    "shaper-scheme-2": ["driven", "RPR", "RRP"],
+    "sixbar-coupler-1A": ["driven", "RRR", "RRR"],
+    "hit-two-RPR": ["driven", "RPR", "RPR"],
+    "hydraulic-cylinder": ["RRR"],
+    "oldham-coupling": ["driven", "RPP"],
+}
+
+
+@pytest.mark.parametrize("name", ORDERS)
+def test_the_groups_in_the_order_of_solution_are(name: str) -> None:
+    assert kinds(analyse(read(name))) == ORDERS[name]
+
+
+def test_the_order_of_solution_is_not_that_of_the_file() -> None:
+    text = FRAME + ROCKER + ROD + CRANK + DRIVER
+    assert [e.link for e in structure(text).elements if isinstance(e, Driven)] == ["1"]
+    assert kinds(structure(text)) == ["driven", "RRR"]
+
+
+def test_the_first_body_of_rrr_is_on_the_link_written_first() -> None:
+    group = structure(FRAME + ROCKER + ROD + CRANK + DRIVER).groups[0]
+    assert isinstance(group, Dyad)
+    assert (group.first.links, group.second.links) == (("3",), ("2",))
+
+
+def test_a_driver_between_rod_and_rocker_makes_a_body_of_both() -> None:
+    text = FOUR_BAR.replace('link = "1"', 'link = "3"\nrelative_to = "2"')
+    group = structure(text).groups[0]
+    assert isinstance(group, Dyad)
+    assert sorted(len(b.links) for b in group.bodies) == [1, 2]
+
+
+def test_a_driver_between_two_of_three_links_at_one_hinge_makes_a_dyad() -> None:
+    # crank 1 and arm 4 turn about A, 4 held to 1 by the driver; 1 and 4 both hang on the frame there, as one body
+    text = FOUR_BAR.replace("[driver]", '[links.4]\npoints = ["A", "E"]\nlength = 80\n[driver]')
+    text = text.replace('link = "1"', 'link = "4"\nrelative_to = "1"') + "\n"
+    two = (
+        '[[driver]]\nlink = "4"\nrelative_to = "1"\nangle = 60\nomega = 10\n[[driver]]\nlink = "2"\nrelative_to = "1"\n'
+    )
+    found = structure(text.split("[driver]")[0] + two + "angle = -40\nomega = 1\n")
+    assert kinds(found) == ["RRR", "driven"]
+
+
+def test_a_driven_coupler_is_a_group_of_class_three() -> None:
+    group = structure(
+        FOUR_BAR.replace('link = "1"', 'link = "2"') + "[sketch]\nB = [75, 130]\nC = [550, 260]\n"
+    ).groups[0]
+    assert isinstance(group, Cluster)
+    assert (group.order, group.kind) == (3, "group of 1, 2, 3")
+
+
+def test_a_plate_on_three_bars_is_a_group_of_class_three() -> None:
+    text = """
+[frame]
+points = { A = [0, 0], G = [260, 40], H = [60, 260] }
+[links.1]
+points = ["A", "B"]
+length = 30
+[links.2]
+points = ["B", "C"]
+length = 110
+[links.3]
+points = ["C", "D"]
+length = 90
+at = { E = [30, 70] }
+[links.4]
+points = ["G", "D"]
+length = 90
+[links.5]
+points = ["H", "E"]
+length = 120
+[driver]
+link = "1"
+angle = 50
+omega = 6
+"""
+    found = structure(text)
+    assert isinstance(found.groups[0], Cluster)
+    assert (found.groups[0].links, found.groups[0].order) == (("2", "3", "4", "5"), 3)
+
+
+def test_a_closed_contour_of_four_pairs_is_a_group_of_class_four() -> None:
+    # two ternary links joined by two bars, each hung on a known link: B of the crank, G of the frame
+    text = """
+[frame]
+points = { A = [0, 0], G = [300, 0] }
+[links.1]
+points = ["A", "B"]
+length = 50
+[links.2]
+points = ["B", "C"]
+length = 100
+at = { E = [50, 60] }
+[links.3]
+points = ["G", "D"]
+length = 100
+at = { F = [50, -60] }
+[links.4]
+points = ["C", "D"]
+length = 150
+[links.5]
+points = ["E", "F"]
+length = 160
+[driver]
+link = "1"
+angle = 50
+omega = 6
+"""
+    group = structure(text).groups[0]
+    assert isinstance(group, Cluster)
+    assert group.order == 4
+
+
+def test_the_block_of_a_pin_is_not_counted_among_the_links() -> None:
+    assert analyse(read("cam-eccentric-flat-rocker")).groups[0].links == ("2",)
+
+
+def test_a_driver_too_many_is_counted() -> None:
+    text = (
+        FRAME
+        + CRANK
+        + ROD
+        + ROCKER
+        + '[[driver]]\nlink = "1"\nangle = 60\nomega = 1\n[[driver]]\nlink = "2"\nangle = 1\nomega = 1\n'
+    )
+    with pytest.raises(Unsolvable, match=r"F = 3\*3 - 2\*4 = 1, but 2 drivers given"):
+        structure(text)
+
+
+def test_a_part_held_too_much_is_named_with_the_part_that_is_free() -> None:
+    # one bar too many in the four-bar, and a free pendulum: the count is right, the mechanism is not
+    more = '[links.4]\npoints = ["A", "C"]\nlength = 420\n[links.5]\npoints = ["D", "E"]\nlength = 50\n'
+    with pytest.raises(Unsolvable, match="links left free: 5"):
+        structure(FOUR_BAR.replace("[driver]", more + "[driver]"))

@@ -1,0 +1,50 @@
+"""Which assembly a scene means: drawn, then sketched, then the rule."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from graphkin.errors import SceneError
+from graphkin.scene.model import Guide, Link, Scene
+from graphkin.structure import Choice, pick
+
+OWN = {"": Guide("", 0j, 1 + 0j)}
+FRAME = Link("0", {"A": 0j, "D": 0.4 + 0j}, (), OWN)
+SCENE = Scene("s", "s", FRAME, (Link("1", {"A": 0j, "B": 0.1 + 0j}, ("A", "B"), OWN),), (), (), ())
+UP, DOWN = {"C": 0.2 + 0.1j}, {"C": 0.2 - 0.1j}
+
+
+def test_a_sketch_wins_over_the_rule() -> None:
+    assert pick(replace(SCENE, sketch={"C": 0.3 - 0.02j}), ["2"], [UP, DOWN], 0) == Choice(1, "sketch")
+
+
+def test_without_a_sketch_the_rule_decides() -> None:
+    assert pick(SCENE, ["2"], [UP, DOWN], 0) == Choice(0, "rule")
+
+
+def test_a_sketch_that_cannot_tell_leaves_it_to_the_rule() -> None:
+    assert pick(replace(SCENE, sketch={"C": 0.3 + 0j}), ["2"], [UP, DOWN], 0) == Choice(0, "rule")
+
+
+def test_drawn_points_pick() -> None:
+    assert pick(replace(SCENE, drawn=DOWN), ["2"], [UP, DOWN], 0) == Choice(1, "drawn")
+
+
+def test_drawn_points_win_over_a_sketch() -> None:
+    assert pick(replace(SCENE, drawn=DOWN, sketch=UP), ["2"], [UP, DOWN], 0) == Choice(1, "drawn")
+
+
+def test_drawn_points_in_no_assembly_are_refused_with_both_places() -> None:
+    with pytest.raises(SceneError, match=r"drawn.C: drawn at \[200, 50\].*\[200, 100\]"):
+        pick(replace(SCENE, drawn={"C": 0.2 + 0.05j}), ["2"], [UP, DOWN], 0)
+
+
+def test_without_a_rule_the_assemblies_are_listed_to_paste() -> None:
+    with pytest.raises(SceneError, match=r"sketch = \{ C = \[200, 100\] \}\n  sketch = \{ C = \[200, -100\] \}"):
+        pick(SCENE, ["2", "3"], [UP, DOWN], None)
+
+
+def test_a_single_assembly_is_taken_without_a_rule() -> None:
+    assert pick(SCENE, ["2"], [UP], None) == Choice(0, "only")
