@@ -124,6 +124,69 @@ _TABLE: dict[str, tuple[str, str]] = {
     "RPR 0": ("{0} on the positive side of the guide of {1}", "{0} 在 {1} 导路的正侧"),
     "RPR 1": ("{0} on the negative side of the guide of {1}", "{0} 在 {1} 导路的负侧"),
     "one assembly": ("only one assembly", "只有一种装配方式"),
+    # centres
+    "centre joint": ("{0} lies in the turning pair {1}", "{0} 位于转动副 {1} 处"),
+    "centre guide": ("{0} lies at infinity, square to the guide of {1}", "{0} 位于垂直于移动副 {1} 导路方向的无穷远处"),
+    "centre crossing": ("{0} lies where {1} and {2} cross", "{0} 为 {1} 与 {2} 的交点"),
+    "centre crossing far": ("{0} lies at infinity: {1} and {2} are parallel", "{1} 与 {2} 平行，{0} 在其方向的无穷远处"),
+    "centre velocity polygon": (
+        "{0} from the measured velocity polygon: the point of both links that has one velocity",
+        "由速度多边形量取两构件的速度，其同速重合点即 {0}",
+    ),
+    "centre superposition": (
+        "{0} from two auxiliary motions superposed, so that the length of {1} is kept",
+        "由两组试设运动叠加（使 {1} 的长度保持不变）求得 {0}",
+    ),
+    "centre superposition driver": (
+        "{0} from two auxiliary motions superposed, so that the driver {1} has its speed",
+        "由两组试设运动叠加（使原动件 {1} 的速度为给定值）求得 {0}",
+    ),
+    "centre none": ("{0} is not determined", "{0} 无法确定"),
+    "centre no motion": (
+        "links {0} and {1} do not move relative to each other here",
+        "构件 {0} 与 {1} 在此位置无相对运动",
+    ),
+    "centre few lines": (
+        "Kennedy's theorem gives too few lines for links {0} and {1} ({2} of 2): the linkage is indeterminate",
+        "三心定理对构件 {0} 与 {1} 只能给出 {2} 条直线（需 2 条）：该机构的瞬心无法由三心定理直接求得",
+    ),
+    "centre lines together": (
+        "all lines of Kennedy's theorem for links {0} and {1} fall together here",
+        "在此位置，三心定理对构件 {0} 与 {1} 给出的各直线重合",
+    ),
+    "centre same sense": (
+        "ω_{{{0}}} = ω_{{{1}}} · {2}{3} / {2}{4} = ω_{{{1}}} · {5} / {6} = {7} rad/s; {3} and {4} lie on one side of {2}: "
+        "the same sense",
+        "ω_{{{0}}} = ω_{{{1}}} · {2}{3} / {2}{4} = ω_{{{1}}} · {5} / {6} = {7} rad/s；{3}、{4} 在 {2} 同侧，转向相同",
+    ),
+    "centre opposite sense": (
+        "ω_{{{0}}} = ω_{{{1}}} · {2}{3} / {2}{4} = ω_{{{1}}} · {5} / {6} = {7} rad/s; {3} and {4} lie on both sides of {2}: "
+        "the opposite sense",
+        "ω_{{{0}}} = ω_{{{1}}} · {2}{3} / {2}{4} = ω_{{{1}}} · {5} / {6} = {7} rad/s；{3}、{4} 在 {2} 两侧，转向相反",
+    ),
+    "centre slides": (
+        "link {0} translates with the velocity that link {1} has at {2}",
+        "构件 {0} 平动，其速度等于构件 {1} 在 {2} 处的速度",
+    ),
+    "centre turns alike": ("{2} lies at infinity: ω_{{{0}}} = ω_{{{1}}}", "{2} 在无穷远处：ω_{{{0}}} = ω_{{{1}}}"),
+    "centre from slider": (
+        "link {0} has at {2} the velocity of link {1}: ω_{{{0}}} = v / {2}{4} = v / {5} mm = {6} rad/s",
+        "构件 {0} 在 {2} 处的速度等于构件 {1} 的速度：ω_{{{0}}} = v / {2}{4} = v / {5} mm = {6} rad/s",
+    ),
+    "centres": ("Instant centres", "速度瞬心"),
+    "centres checked": (
+        "All {0} instant centres agree with the analytic solution.",
+        "{0} 个速度瞬心均与解析解一致。",
+    ),
+    "circle diagram": ("circle diagram", "瞬心圆图"),
+    "velocities by centres": ("Velocities by centres", "瞬心法求速度"),
+    "permanent fixed": ("permanent, fixed", "绝对瞬心（固定）"),
+    "permanent moving": ("permanent, moving", "相对瞬心（运动副处）"),
+    "by Kennedy": ("found by Kennedy's theorem", "由三心定理求得"),
+    "otherwise": ("found in another way", "以其他方法求得"),
+    "fixed centrode": ("fixed centrode", "定瞬心线"),
+    "moving centrode": ("moving centrode", "动瞬心线"),
+    "coupler curve": ("coupler curve of {0}", "{0} 点的连杆曲线"),
     # headings of the report
     "source": ("Source", "来源"),
     "driver": ("Driver", "原动件"),
@@ -139,4 +202,43 @@ _TABLE: dict[str, tuple[str, str]] = {
     "direction of": ("direction", "方向"),
     "check passed": ("All {0} readings agree with the analytic solution.", "{0} 个量取值均与解析解一致。"),
     "check failed": ("Out of tolerance: {0}.", "超出允许误差：{0}。"),
+    # figures
+    "mechanism": ("Mechanism", "机构运动简图"),
+    "velocity polygon": ("Velocity polygon", "速度多边形"),
+    "acceleration polygon": ("Acceleration polygon", "加速度多边形"),
+    "sheet": ("Drawing sheet", "图解"),
+    "given": ("Given", "已知"),
+    "scale": ("Scale", "比例尺"),
+    "scales": ("Scales", "比例尺"),
+    "check bar": ("50 mm, to check the print", "50 mm，核对打印比例"),
+    "title": ("Title", "名称"),
+    "difference": ("difference", "相对误差"),
+    "lengths": ("Lengths", "尺寸"),
+    "unit": ("unit", "单位"),
+    "guide": ("guide", "导路"),
+    "sense of Coriolis": (
+        "Sense of the Coriolis part: the sliding velocity turned by 90° with the guide",
+        "哥氏加速度方向：相对速度沿导杆 ω 转向转过 90°",
+    ),
+    "more readings": ("{0} more in readings.csv", "其余 {0} 项见 readings.csv"),
+    "more equations": ("{0} more in the steps", "其余 {0} 个方程见作图步骤"),
+    "stopped here": ("drawn as far as compass and ruler reach", "图解所及部分"),
+    "detail": ("Detail {0} : 1", "放大图 {0} : 1"),
+    "all agree": ("all {0} readings agree with the analytic solution", "{0} 个读数均与解析解一致"),
+    "not all agree": ("{0} of {1} readings out of tolerance", "{1} 个读数中 {0} 个超出允差"),
+    "instrument": ("Instrument", "作图工具"),
+    # descriptions for those who do not see the figure
+    "figure of": ("{0} of: {1}.", "{1}：{0}。"),
+    "at drivers": ("At {0}.", "位置：{0}。"),
+    "scale is": ("Scale: {0}.", "比例尺：{0}。"),
+    "link joins": ("Link {0} joins {1}.", "构件 {0} 连接 {1}。"),
+    "fixed link": ("The fixed link {0} has the points {1}.", "机架 {0} 上有点 {1}。"),
+    "link slides": ("Link {0} slides on link {1}.", "构件 {0} 在构件 {1} 上滑动。"),
+    "pin runs": ("Point {0} of link {1} runs in a slot of link {2}.", "构件 {1} 上的点 {0} 在构件 {2} 的槽中运动。"),
+    "point lies": ("{0} lies at ({1}, {2}) {3}.", "{0} 位于 ({1}, {2}) {3}。"),
+    "vector is": (
+        "{0} is {1} {2}, {3} mm on paper, at {4} degrees.",
+        "{0} = {1} {2}，图上 {3} mm，方向角 {4}°。",
+    ),
+    "vector is zero": ("{0} is zero.", "{0} 为零。"),
 }

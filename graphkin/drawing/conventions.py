@@ -1,0 +1,185 @@
+r"""How each school writes: poles, end points, component marks, directions, scale statements.
+
+Everything is returned in the notation of `graphkin.drawing.typeset` (without dollar signs unless said).
+Chinese: Sun Huan, Mechanical Principles; us: Norton, Design of Machinery; british: Hannah and Stephens, Mechanics of
+Machines; russian: Artobolevsky, Theory of Mechanisms and Machines.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Literal
+
+from graphkin.drafting.sheet import DiagramName, Direction, Sheet
+from graphkin.scene.model import Convention
+from graphkin.scene.symbol import PointRef, Symbol
+
+__all__ = ["Letters", "letters_of", "pole", "rows_of", "scale_statement"]
+
+Rows = Literal["rows", "over", "table", "underlines"]
+
+_POLES: Mapping[str, tuple[str, str]] = {
+    "chinese": ("p", "p'"),
+    "us": ("O_{v}", "O_{a}"),
+    "british": ("o", "o'"),
+    "russian": ("p", "π"),
+}
+# superscripts of the parts of an acceleration: normal, tangential, Coriolis, sliding
+_PARTS: Mapping[str, tuple[str, str, str, str]] = {
+    "chinese": ("n", "t", "k", "r"),
+    "us": ("n", "t", "c", "s"),
+    "british": ("n", "t", "c", "s"),
+    "russian": ("n", "τ", "k", "r"),
+}
+_ROWS: Mapping[str, Rows] = {"chinese": "rows", "us": "over", "british": "table", "russian": "underlines"}
+_ORDER = ("an", "at", "ak", "ar")
+_ROLES = {"normal": 0, "tangential": 1, "coriolis": 2, "sliding": 3}
+_NAME = re.compile(r"([A-Za-z]+)(.*)")
+
+
+def pole(convention: Convention, diagram: DiagramName) -> str:
+    """The letter of the pole of a diagram."""
+    return _POLES[convention][diagram == "acceleration"]
+
+
+def rows_of(convention: Convention) -> Rows:
+    """How known and unknown sizes and directions are shown: rows under the terms, marks over them, a table, lines."""
+    return _ROWS[convention]
+
+
+@dataclass(frozen=True)
+class Letters:
+    """Names of quantities as one convention writes them on one sheet.
+
+    ``blocks`` gives for a pin that runs in a guide the link whose index it bears where coincident points are told
+    apart (the pin B of block 2 is written B2 beside B3).
+    """
+
+    convention: Convention
+    blocks: Mapping[str, str]
+
+    def point(self, name: str) -> str:
+        """A point of the mechanism: capital letter, digits as an index."""
+        letter, rest = _parted(name)
+        return f"{letter}_{{{rest}}}" if rest else letter
+
+    def ref(self, ref: PointRef) -> str:
+        """A point of a link as it stands in an index: ``B3``."""
+        link = ref.link or self.blocks.get(ref.point, "")
+        if not link:
+            return ref.point
+        return f"{ref.point}_{{{link}}}" if ref.point[-1].isdigit() else f"{ref.point}{link}"
+
+    def vector(self, symbol: Symbol) -> str:
+        """A vector or a rate: ``v_{B3B2}``, ``a^{n}_{CB}``, ``ω_{3}``."""
+        if symbol.of is None:
+            return f"{'ω' if symbol.kind == 'omega' else 'α'}_{{{symbol.link}}}"
+        us = self.convention == "us"
+        index = self.ref(symbol.of)
+        if symbol.to is not None:
+            index += ("/" if us else "") + self.ref(symbol.to)
+        letter = symbol.kind[0].upper() if us else symbol.kind[0]
+        if symbol.kind in _ORDER:
+            return f"{letter}^{{{_PARTS[self.convention][_ORDER.index(symbol.kind)]}}}_{{{index}}}"
+        return f"{letter}_{{{index}}}"
+
+    def end(self, diagram: DiagramName, ref: PointRef) -> str:
+        """The end point of a vector from the pole: small letter, primed in the acceleration polygon; in the us
+        convention the vector is named instead."""
+        if self.convention == "us":
+            return ""
+        letter, rest = _parted(ref.point)
+        link = ref.link or self.blocks.get(ref.point, "")
+        index = f"{rest},{link}" if rest and link else rest + link
+        prime = "'" if diagram == "acceleration" else ""
+        return letter.lower() + (f"_{{{index}}}" if index else "") + prime
+
+    def foot(self, role: str, end: PointRef, number: int, link: str) -> str:
+        """The point between two components of one acceleration; "" where the convention names the vectors instead.
+
+        ``number`` counts the feet on the way to one end point, ``link`` is the link of the component.
+        """
+        if self.convention == "us" or role not in _ROLES:
+            return ""
+        if self.convention == "british":
+            letter, rest = _parted(end.point)
+            return f"{letter.lower()}_{{{rest}{',' if rest else ''}{number}}}'"
+        mark = _PARTS[self.convention][_ROLES[role]]
+        prime = "'" if self.convention == "chinese" else ""
+        return mark + (f"_{{{link}}}" if link else "") + prime
+
+    def direction(self, direction: Direction | None, frame: str) -> str:
+        """A direction in an equation row or at its line: ``⊥BC``, ``∥CB``, ``B→A``; "" if none is written."""
+        if direction is None:
+            return ""
+        names = "".join(self.point(n) if len(direction.names) > 1 else self.guide(n, frame) for n in direction.names)
+        if direction.relation == "towards":
+            return "→".join(self.point(n) for n in direction.names)
+        return ("∥" if direction.relation == "along" else "⊥") + names
+
+    def guide(self, name: str, frame: str) -> str:
+        """A guide by its name; the frame's own axis is x."""
+        if name == f"x{frame}":
+            return "x"
+        letter, rest = _parted(name)
+        return f"{letter}_{{{rest}}}" if letter and rest else name
+
+    def size(self, rule: str) -> str:
+        """The rule that gives a size: ``ω_{1}^{2}·l_{AB}``."""
+        words = rule.replace("²", "^{2}")
+        words = re.sub(r"[va][nktr]?_[A-Z][\w@]*(?:/[A-Z][\w@]*)?", lambda m: self.vector(Symbol.parse(m[0])), words)
+        return re.sub(r"·([A-Z]\w*)$", lambda m: f" l_{{{m[1]}}}", words).replace("·", " ")
+
+
+@lru_cache(maxsize=64)
+def _parted(name: str) -> tuple[str, str]:
+    match = _NAME.fullmatch(name)
+    return (match[1], match[2]) if match else ("", name)
+
+
+def letters_of(sheet: Sheet, convention: Convention) -> Letters:
+    """The names on one sheet."""
+    blocks: dict[str, set[str]] = {}
+    holders = sheet.scene.holders
+    for diagram in ("velocity", "acceleration"):
+        for symbol in sheet.vectors("velocity" if diagram == "velocity" else "acceleration"):
+            if symbol.of is None or symbol.to is None or symbol.of.point != symbol.to.point:
+                continue
+            for ref in (symbol.of, symbol.to):
+                if ref.link in holders.get(ref.point, ()):
+                    blocks.setdefault(ref.point, set()).add(ref.link)
+    return Letters(convention, {point: min(links) for point, links in blocks.items() if len(links) == 1})
+
+
+def scale_statement(sheet: Sheet, convention: Convention, diagram: DiagramName) -> str:
+    """The scale of a figure, as words with symbols between dollar signs.
+
+    >>> from graphkin.scene import read
+    >>> from graphkin.drafting import draft
+    >>> scale_statement(draft(read("sixbar-guide-40deg")), "british", "velocity")
+    '1 cm = 100 mm/s'
+    """
+    unit = sheet.scene.units.length
+    per = sheet.scales.of(diagram) / sheet.scene.units.metres
+    tail = {"mechanism": "", "velocity": "/s", "acceleration": "/s²"}[diagram]
+    if convention == "us":
+        return f"1 mm = {_number(per)} {unit}{tail}"
+    if convention == "british":
+        return f"1 cm = {_number(10 * per)} {unit}{tail}"
+    index = {"mechanism": "l", "velocity": "v", "acceleration": "a"}[diagram]
+    if convention == "russian":
+        under = {"mechanism": "mm", "velocity": "(s·mm)", "acceleration": "(s²·mm)"}[diagram]
+        return f"$μ_{{{index}}}$ = {_number(per)} {unit}/{under}"
+    whole = f"({unit}{tail})" if tail else unit
+    return f"$μ_{{{index}}}$ = {_number(per)} {whole}/mm"
+
+
+def _number(value: float) -> str:
+    text = f"{value:.10g}"
+    if "e" in text:
+        head, power = text.split("e")
+        return f"{head}·$10^{{{str(int(power)).replace('-', '−')}}}$"
+    return text

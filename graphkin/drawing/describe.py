@@ -1,0 +1,124 @@
+"""Figures in words, so that someone who does not see them can follow: titles of parts and whole descriptions."""
+
+from __future__ import annotations
+
+import math
+
+from graphkin.drafting.sheet import DiagramName, Direction, Sheet
+from graphkin.drawing.headings import languages, number, titles
+from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.words import Phrase, say, word
+
+__all__ = ["describe", "figure_title", "plain_symbol", "spoken_ref", "spoken_vector"]
+
+_KINDS = {
+    "v": ("velocity of {0}", "{0} 的速度"),
+    "a": ("acceleration of {0}", "{0} 的加速度"),
+    "an": ("normal acceleration of {0}", "{0} 的法向加速度"),
+    "at": ("tangential acceleration of {0}", "{0} 的切向加速度"),
+    "ak": ("Coriolis acceleration of {0}", "{0} 的哥氏加速度"),
+    "ar": ("sliding acceleration of {0}", "{0} 的相对滑动加速度"),
+}
+_RELATIVE = (" relative to {0}", "（相对 {0}）")
+_ON_LINK = ("{0} of link {1}", "构件 {1} 上的 {0}")
+
+
+def spoken_ref(ref: PointRef, language: str) -> str:
+    """A point in words: "B of link 3"."""
+    return " / ".join(_ref(ref, _index(each)) for each in languages(language))
+
+
+def spoken_vector(symbol: Symbol, language: str) -> str:
+    """A vector in words: "velocity of B of link 3 relative to B of link 2"."""
+    said = []
+    for each in languages(language):
+        i = _index(each)
+        assert symbol.of is not None
+        text = _KINDS[symbol.kind][i].format(_ref(symbol.of, i))
+        if symbol.to is not None:
+            text += _RELATIVE[i].format(_ref(symbol.to, i))
+        said.append(text)
+    return " / ".join(said)
+
+
+def plain_symbol(thing: object) -> str:
+    """A symbol, point or direction as plain text: ``v_B3/B2``, ``⊥BC``."""
+    if isinstance(thing, Direction):
+        if thing.relation == "towards":
+            return "→".join(thing.names)
+        return ("∥" if thing.relation == "along" else "⊥") + "".join(thing.names)
+    return str(thing).replace("@", "").replace("{", "").replace("}", "")
+
+
+def figure_title(sheet: Sheet, figure: str, language: str) -> str:
+    """Title of a figure as one line."""
+    parts = []
+    for each, title in zip(languages(language), titles(sheet, language) * 2, strict=False):
+        parts.append(f"{title.replace('$$', '$')}: {word(figure, each)}")
+    return " / ".join(parts)
+
+
+def describe(sheet: Sheet, diagrams: tuple[DiagramName, ...], language: str) -> str:
+    """Everything that a figure shows, in sentences: the mechanism as it is built, each step, each vector found."""
+    return "\n".join(" ".join(_sentences(sheet, diagrams, each)) for each in languages(language))
+
+
+def _sentences(sheet: Sheet, diagrams: tuple[DiagramName, ...], language: str) -> list[str]:
+    said = []
+    if "mechanism" in diagrams:
+        said += _mechanism(sheet, language)
+    for diagram in diagrams:
+        for step in sheet.steps:
+            if step.diagram == diagram:
+                said.append(f"{step.number}. {_capital(say(step.phrase, language, plain_symbol))}.")
+        if diagram != "mechanism":
+            said += _vectors(sheet, diagram, language)
+    for note in (*sheet.notes, *((sheet.stopped,) if sheet.stopped else ())):
+        if note.key != "zero vector":
+            said.append(_capital(say(note, language, plain_symbol)) + ".")
+    return [sentence.replace("。.", "。") for sentence in said]
+
+
+def _mechanism(sheet: Sheet, language: str) -> list[str]:
+    scene = sheet.scene
+    said = [say(Phrase("fixed link", (scene.frame.name, ", ".join(scene.frame.points) or "-")), language)]
+    for link in scene.links:
+        if link.points:
+            said.append(say(Phrase("link joins", (link.name, ", ".join(link.points))), language))
+    for pair in scene.slidings:
+        said.append(say(Phrase("link slides", (pair.link, pair.on)), language))
+    for pin in scene.pins:
+        said.append(say(Phrase("pin runs", (pin.point, pin.of, pin.on)), language))
+    per_mm = sheet.scales.length / scene.units.metres
+    for ref, z in sheet.points.items():
+        place = (number(z.real * per_mm, 5), number(z.imag * per_mm, 5), scene.units.length)
+        said.append(say(Phrase("point lies", (ref.point, *place)), language))
+    return said
+
+
+def _vectors(sheet: Sheet, diagram: DiagramName, language: str) -> list[str]:
+    unit = sheet.scene.units.length + ("/s" if diagram == "velocity" else "/s²")
+    per_mm = sheet.scales.of(diagram) / sheet.scene.units.metres
+    said = []
+    for symbol, vector in sheet.vectors(diagram).items():
+        words = _capital(spoken_vector(symbol, language))
+        if abs(vector.span) < 1e-7:
+            said.append(say(Phrase("vector is zero", (words,)), language))
+            continue
+        angle = math.degrees(math.atan2(vector.span.imag, vector.span.real))
+        size = abs(vector.span)
+        values = (words, number(size * per_mm, 5), unit, f"{size:.2f}", f"{angle:.1f}".replace("-", "−"))
+        said.append(say(Phrase("vector is", values), language))
+    return said
+
+
+def _ref(ref: PointRef, index: int) -> str:
+    return _ON_LINK[index].format(ref.point, ref.link) if ref.link else ref.point
+
+
+def _index(language: str) -> int:
+    return ("en", "zh").index(language)
+
+
+def _capital(text: str) -> str:
+    return text[:1].upper() + text[1:]

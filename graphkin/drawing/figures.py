@@ -1,0 +1,102 @@
+"""One figure on a page of its own: mechanism, velocity polygon, acceleration polygon, with heading and scale."""
+
+from __future__ import annotations
+
+from graphkin.checking import Report
+from graphkin.drafting.sheet import DiagramName, Sheet
+from graphkin.drawing.box import Box
+from graphkin.drawing.conventions import Letters, letters_of, scale_statement
+from graphkin.drawing.describe import describe, figure_title
+from graphkin.drawing.dimensions import check_bar
+from graphkin.drawing.headings import drivers, facts, languages, term, titles
+from graphkin.drawing.layout import Piece, joined, layer_groups, settled, wrapped
+from graphkin.drawing.mechanism import mechanism_extent, mechanism_piece
+from graphkin.drawing.polygon import extent, polygon_piece
+from graphkin.drawing.primitives import Drawing, Primitive, Run, Text
+from graphkin.drawing.typeset import rich
+
+__all__ = ["acceleration_figure", "figures", "mechanism_figure", "velocity_figure"]
+
+LEAST_WIDTH = 130.0
+MARGIN = 8.0  # of the page
+ROOM = 12.0  # around the figure, for names
+LINE = 5.0  # from one line of the heading to the next
+FOOT = 14.0
+
+
+def mechanism_figure(sheet: Sheet, *, language: str | None = None, convention: str | None = None) -> Drawing:
+    """The mechanism at its true scale, on a page of its own.
+
+    Parameters
+    ----------
+    language : "en", "zh" or "both"; the scene's own if None
+    convention : "chinese", "us", "british" or "russian"; the scene's own if None
+    """
+    return _figure(sheet, "mechanism", language, convention)
+
+
+def velocity_figure(sheet: Sheet, *, language: str | None = None, convention: str | None = None) -> Drawing:
+    """The velocity polygon at its true scale, on a page of its own; parameters as for `mechanism_figure`."""
+    return _figure(sheet, "velocity", language, convention)
+
+
+def acceleration_figure(sheet: Sheet, *, language: str | None = None, convention: str | None = None) -> Drawing:
+    """The acceleration polygon at its true scale, on a page of its own; parameters as for `mechanism_figure`."""
+    return _figure(sheet, "acceleration", language, convention)
+
+
+def _figure(sheet: Sheet, diagram: DiagramName, language: str | None, convention: str | None) -> Drawing:
+    spoken = language or sheet.scene.sheet.language
+    letters = letters_of(sheet, convention or sheet.scene.sheet.convention)  # type: ignore[arg-type]
+    content = mechanism_extent(sheet, letters) if diagram == "mechanism" else extent(sheet, diagram)
+    width = max(LEAST_WIDTH, content.width + 2 * (ROOM + MARGIN))
+    head = _heading(sheet, diagram, letters, spoken, width - 2 * MARGIN)
+    top = MARGIN + LINE * len(head) + 2.0
+    panel = Box(MARGIN, top, width - MARGIN, top + content.height + 2 * ROOM)
+    origin = panel.centre - content.centre
+    if diagram == "mechanism":
+        piece = mechanism_piece(sheet, letters, origin)
+    else:
+        piece = polygon_piece(sheet, diagram, letters, spoken, panel, origin)
+    piece = settled(piece, panel)
+    height = panel.bottom + FOOT
+    words: list[Primitive] = [
+        Text(complex(MARGIN, MARGIN + 3.5 + LINE * i), runs, classes=("heading",)) for i, runs in enumerate(head)
+    ]
+    words.append(Text(complex(MARGIN, height - 6.0), rich(scale_statement(sheet, letters.convention, diagram), 3.5)))
+    words += check_bar(complex(width - MARGIN - 50.0, height - 6.0), rich(term("check bar", spoken), 2.5))
+    page = joined((piece, Piece({"labels": tuple(words)})))
+    return Drawing(
+        width,
+        height,
+        layer_groups(page),
+        figure_title(sheet, FIGURE_WORDS[diagram], spoken),
+        describe(sheet, (diagram,), spoken),
+        languages(spoken)[0],
+        facts(sheet, diagram),
+    )
+
+
+FIGURE_WORDS = {"mechanism": "mechanism", "velocity": "velocity polygon", "acceleration": "acceleration polygon"}
+
+
+def _heading(sheet: Sheet, diagram: DiagramName, letters: Letters, language: str, width: float) -> list[tuple[Run, ...]]:
+    lines = [line for title in titles(sheet, language) for line in wrapped(title, 4.0, width, bold=True)]
+    lines += wrapped(f"{term(FIGURE_WORDS[diagram], language)}:  {drivers(sheet, letters)}", 3.2, width)
+    return lines
+
+
+def figures(
+    sheet: Sheet,
+    sheet_a4: Sheet | None = None,
+    report: Report | None = None,
+    language: str | None = None,
+    convention: str | None = None,
+) -> dict[str, Drawing]:
+    """All figures of a scene by name: "mechanism", "velocity", "acceleration", and "sheet" where its own drawing is
+    given (``sheet_a4``, drafted in ``sheet_room(scene)``)."""
+    return {
+        "mechanism": mechanism_figure(sheet, language=language, convention=convention),
+        "velocity": velocity_figure(sheet, language=language, convention=convention),
+        "acceleration": acceleration_figure(sheet, language=language, convention=convention),
+    }

@@ -1,0 +1,162 @@
+"""Putting a figure together: pieces with what they draw by layer and what wants a name, then labels in their places."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+from graphkin.drawing.box import Box
+from graphkin.drawing.metrics import runs_width, text_box
+from graphkin.drawing.obstacles import obstacles_of
+from graphkin.drawing.placing import Label, Mark, Placed, place
+from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Run, Text, walk
+from graphkin.drawing.typeset import SMALLEST, rich
+
+__all__ = ["LAYERS", "Name", "Piece", "fitted", "ink_box", "joined", "layer_groups", "settled", "wrapped"]
+
+# In the order of drawing.
+LAYERS = ("construction", "mechanism", "velocity", "acceleration", "centres", "answers", "labels")
+_NEAR = 15.0  # mm: how far around a label without a place others may be given up for it
+
+
+@dataclass(frozen=True)
+class Name:
+    """A label that a piece asks for; one with ``rank`` 0 must stand, others are given up first, the highest first."""
+
+    label: Label
+    rank: int = 0
+
+
+@dataclass(frozen=True)
+class Piece:
+    """Part of a page: primitives by layer, names that want a place, and further marks a name could be taken for."""
+
+    layers: Mapping[str, tuple[Primitive, ...]] = field(default_factory=dict)
+    names: tuple[Name, ...] = ()
+    marks: tuple[Mark, ...] = ()
+
+    @property
+    def drawn(self) -> tuple[Primitive, ...]:
+        return tuple(thing for layer in self.layers.values() for thing in layer)
+
+
+def joined(pieces: Iterable[Piece]) -> Piece:
+    """Several pieces as one."""
+    layers: dict[str, tuple[Primitive, ...]] = {}
+    names: tuple[Name, ...] = ()
+    marks: tuple[Mark, ...] = ()
+    for piece in pieces:
+        for layer, things in piece.layers.items():
+            layers[layer] = layers.get(layer, ()) + things
+        names += piece.names
+        marks += piece.marks
+    return Piece(layers, names, marks)
+
+
+def settled(piece: Piece, panel: Box) -> Piece:
+    """The piece with its names in their places, in the layer "labels"; those that find none are given up if they may."""
+    names = list(piece.names)
+    obstacles = obstacles_of(piece.drawn)
+    placed: tuple[Placed, ...] = ()
+    while True:
+        placed = place([name.label for name in names], panel, obstacles, piece.marks)
+        losers = [p for p in placed if not p.clear]
+        given_up = _given_up(names, placed, losers)
+        if not given_up:
+            break
+        names = [name for i, name in enumerate(names) if i not in given_up]
+    written: list[Primitive] = []
+    for one in placed:
+        if one.leader is not None:
+            written.append(one.leader)
+        written.append(one.text)
+    return Piece({**piece.layers, "labels": (*piece.layers.get("labels", ()), *written)}, (), piece.marks)
+
+
+def _given_up(names: Sequence[Name], placed: Sequence[Placed], losers: Sequence[Placed]) -> set[int]:
+    """Names to leave out: those that stand badly, or where such a one must stand the least important near it."""
+    out = {i for i, p in enumerate(placed) if not p.clear and names[i].rank}
+    if out or not losers:
+        return out
+    for loser in losers:
+        near = [i for i, p in enumerate(placed) if names[i].rank and p.box.grown(_NEAR).overlaps(loser.box)]
+        if near:
+            out.add(max(near, key=lambda i: (names[i].rank, i)))
+    return out
+
+
+def layer_groups(piece: Piece) -> tuple[Group, ...]:
+    """The layers of a page as groups with names, in the order of drawing."""
+    return tuple(Group(piece.layers[name], id=name, layer=name) for name in LAYERS if piece.layers.get(name))
+
+
+def ink_box(children: Iterable[Primitive]) -> Box | None:
+    """The box around everything drawn, line widths left out; None where nothing is."""
+    box: Box | None = None
+    for thing in walk(tuple(children)):
+        own = _reach(thing)
+        if own is not None:
+            box = own if box is None else box.joined(own)
+    return box
+
+
+def _reach(thing: Primitive) -> Box | None:
+    if isinstance(thing, Line):
+        return Box.around((thing.start, thing.end))
+    if isinstance(thing, Polyline | Polygon):
+        return Box.around(thing.points)
+    if isinstance(thing, Circle):
+        return Box.around((thing.centre,)).grown(thing.radius)
+    if isinstance(thing, Arc):
+        steps = [thing.start + (thing.end - thing.start) * i / 12 for i in range(13)]
+        return Box.around(thing.at(angle) for angle in steps)
+    if isinstance(thing, Text) and thing.runs:
+        return text_box(thing)
+    return None
+
+
+def fitted(markup: str, size: float, width: float, bold: bool = False, least: float = SMALLEST) -> tuple[Run, ...]:
+    """Words with symbols set as large as they fit a width (mm), at most ``size`` and at least ``least``."""
+    runs = rich(markup, size, bold)
+    wide = runs_width(runs)
+    if wide <= width:
+        return runs
+    return rich(markup, max(least, size * width / wide * 0.995), bold)
+
+
+def wrapped(markup: str, size: float, width: float, bold: bool = False) -> list[tuple[Run, ...]]:
+    """Words with symbols set in lines of a width (mm), broken at spaces and between Chinese characters."""
+    lines: list[str] = []
+    line = ""
+    for piece in _pieces(markup):
+        if line and runs_width(rich((line + piece).strip(), size, bold)) > width:
+            lines.append(line.strip())
+            line = piece.lstrip()
+        else:
+            line += piece
+    if line.strip():
+        lines.append(line.strip())
+    return [rich(text, size, bold) for text in lines]
+
+
+def _pieces(markup: str) -> list[str]:
+    """Words with the space before them; symbols between dollar signs stay whole."""
+    pieces: list[str] = []
+    word, inside = "", False
+    for character in markup:
+        wide = ord(character) > 0x2E7F
+        if not inside and (character == " " or (wide and character not in "，。；：、）")):
+            if word:
+                pieces.append(word)
+            word = ""
+        if character == "$":
+            inside = not inside
+        word += character
+    if word:
+        pieces.append(word)
+    return pieces
+
+
+def shifted_runs(runs: tuple[Run, ...], by: float) -> tuple[Run, ...]:
+    """Runs moved to the right by mm."""
+    return tuple(replace(run, x=run.x + by) for run in runs)
