@@ -1,5 +1,6 @@
 """Instant centres: permanent ones, Kennedy's theorem with its circle diagram, velocities by centres, centrodes."""
 
 from graphkin.drafting.centres.find import Centre, Centres, find_centres
+from graphkin.drafting.centres.speeds import Turning, by_centres, speeds
 
-__all__ = ["Centre", "Centres", "find_centres"]
+__all__ = ["Centre", "Centres", "Turning", "by_centres", "find_centres", "speeds"]

@@ -56,7 +56,7 @@ class Crossing:
 
 
 class Search:
-    """The circle diagram as it fills: centres known, the lines known for each missing one, the best crossing of each."""
+    """The circle diagram as it fills: centres known, lines known for each missing one, the best crossing of each."""
 
     def __init__(self, pairs: Sequence[Pair], names: Sequence[str], normals: Sequence[Normal]) -> None:
         self.pairs, self.names, self.known = pairs, names, dict[Pair, Known]()

@@ -13,7 +13,7 @@ from graphkin.scene.symbol import PointRef
 __all__ = ["Motion", "measured", "relative_centre"]
 
 AT_REST = 1e-9
-"""Two links whose relative motion is smaller than this part of the largest motion do not move relative to each other."""
+"""Two links whose relative motion is smaller than this part of the largest do not move relative to each other."""
 
 
 @dataclass(frozen=True)

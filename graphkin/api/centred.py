@@ -1,0 +1,272 @@
+"""``graphkin centres``: every instant centre, how it was found, the velocities taken through them, and the check."""
+
+from __future__ import annotations
+
+import csv
+import html
+import io
+import math
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from graphkin.api.called import At, SceneLike, as_scene, driver_values
+from graphkin.api.checked import solved_here
+from graphkin.drafting.centres import Centre, Centres, Turning, by_centres, find_centres, speeds
+from graphkin.drafting.centres.chart import normal, wedge
+from graphkin.drafting.centres.pairs import Pair
+from graphkin.scene.model import Scene
+from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.words import say
+
+if TYPE_CHECKING:
+    from graphkin.drawing import Drawing
+    from graphkin.exact import Motion
+
+__all__ = ["Centred", "Velocity", "centres", "velocities_by_centres"]
+
+TOLERANCE = 1e-9
+NO_MOTION = 1e-9
+
+
+@dataclass(frozen=True)
+class Velocity:
+    """A velocity or angular velocity by centres beside the exact one (SI)."""
+
+    symbol: Symbol
+    by_centres: complex | float
+    exact: complex | float
+    chain: tuple[str, ...]
+    ok: bool
+
+
+@dataclass(frozen=True)
+class Centred:
+    """All instant centres of a scene at one position, with their check.
+
+    ``errors`` holds for each centre how far it lies from the exact one, as an angle seen from the middle of the
+    mechanism at half its size (so that far centres are judged by their direction), None where the two links do not
+    move relative to each other.
+    """
+
+    centres: Centres
+    turning: Mapping[str, Turning]
+    motion: Motion
+    language: str | None = None
+    convention: str | None = None
+
+    @property
+    def scene(self) -> Scene:
+        return self.centres.links.scene
+
+    @cached_property
+    def errors(self) -> dict[Pair, float | None]:
+        return {pair: found and found[0] for pair, found in self._compared.items()}
+
+    @cached_property
+    def _compared(self) -> dict[Pair, tuple[float, float] | None]:
+        """For each centre its error and what it may be."""
+        return {pair: _error(self.centres, self.motion, centre) for pair, centre in self.centres.table.items()}
+
+    @cached_property
+    def velocities(self) -> tuple[Velocity, ...]:
+        """Those asked for, or the angular velocity of every link and the velocity of every moving pin."""
+        return velocities_by_centres(self.centres, self.turning, self.motion)
+
+    @property
+    def ok(self) -> bool:
+        """Whether all centres and all velocities through them agree with the analytic solver."""
+        near = all(found is None or found[0] <= found[1] for found in self._compared.values())
+        return near and all(v.ok for v in self.velocities)
+
+    @cached_property
+    def data(self) -> dict[str, Any]:
+        """The object that ``graphkin centres --json`` prints."""
+        names = self.centres.links.names
+        return {
+            "links": list(names),
+            "centres": {_name(pair): self._centre(centre) for pair, centre in self.centres.table.items()},
+            "velocities": {str(v.symbol): self._velocity(v) for v in self.velocities},
+            "ok": self.ok,
+        }
+
+    def _centre(self, centre: Centre) -> dict[str, Any]:
+        row: dict[str, Any] = {}
+        if centre.point is not None:
+            z = centre.point * self.centres.sheet.scales.length / self.scene.units.metres
+            row["point"] = [_plain(z.real), _plain(z.imag)]
+        elif centre.direction is not None:
+            row["direction"] = [_plain(centre.direction.real), _plain(centre.direction.imag)]
+        row["kind"] = centre.kind
+        if centre.lines:
+            row["by"] = [[p if isinstance(p, str) else _name(p) for p in line.through] for line in centre.lines]
+        if centre.way:
+            row["by"] = centre.way
+        if centre.number and centre.kind == "found":
+            row["number"] = centre.number
+        if centre.why:
+            row["why"] = say(centre.why, self.language or self.scene.sheet.language)
+        return row
+
+    def _velocity(self, v: Velocity) -> dict[str, Any]:
+        unit = self.scene.units.metres if v.symbol.is_vector else 1.0
+        values = (abs(x) / unit if v.symbol.is_vector else float(x.real) for x in (v.by_centres, v.exact))
+        return dict(zip(("by_centres", "exact"), values, strict=True)) | {"chain": list(v.chain), "ok": v.ok}
+
+    @cached_property
+    def figure(self) -> Drawing:
+        """The mechanism with all its centres, and the circle diagram."""
+        from graphkin.drawing.centres import centres_figure
+
+        return centres_figure(self.centres, self.turning, language=self.language, convention=self.convention)
+
+    def write(self, folder: str | os.PathLike[str] | None = None, formats: Sequence[str] = ("svg",)) -> list[Path]:
+        """Write centres.svg (or other formats) and centres.csv; returns the paths.  Files appear whole or not at all.
+
+        Raises
+        ------
+        CallError : an unknown format, a folder that cannot be written
+        """
+        from graphkin.api.files import write_files
+        from graphkin.drawing.save import drawing_bytes
+
+        files = {f"centres.{kind}": drawing_bytes(self.figure, kind) for kind in formats}
+        files["centres.csv"] = centres_csv(self).encode()
+        return write_files(Path(folder) if folder is not None else Path(self.scene.name), files)
+
+    def _repr_html_(self) -> str:
+        rows = "".join(
+            f"<tr><td>{html.escape(name)}</td><td>{html.escape(str(row.get('point', row.get('direction', ''))))}</td>"
+            f"<td>{row['kind']}</td></tr>"
+            for name, row in self.data["centres"].items()
+        )
+        return f"<table><tr><th>centre</th><th>place</th><th></th></tr>{rows}</table>"
+
+    def _repr_svg_(self) -> str:
+        from graphkin.drawing import svg_bytes
+
+        return svg_bytes(self.figure).decode()
+
+
+def _name(pair: Pair) -> str:
+    return "-".join(pair)
+
+
+def _plain(value: float) -> float:
+    return float(f"{value:.15g}") + 0.0
+
+
+def _error(centres: Centres, motion: Motion, centre: Centre) -> tuple[float, float] | None:
+    from graphkin.exact.centres import instant_centre
+
+    if centre.place is None:
+        return None
+    q, omega = instant_centre(motion, *centre.pair)
+    chart, mm = centres.chart, centres.links.mm
+    away = (complex(q[0]) * mm - float(omega[0]) * chart.middle) / chart.unit
+    strength = math.hypot(abs(away), float(omega[0]))
+    largest = max(
+        math.hypot(abs(complex(z[0]) * mm - float(w[0]) * chart.middle) / chart.unit, float(w[0]))
+        for z, w in (instant_centre(motion, n, centres.links.scene.frame.name) for n in centres.links.names)
+    )
+    if strength <= NO_MOTION * largest:
+        return None
+    _, sine = wedge(normal((away.real, away.imag, float(omega[0]))), normal(centre.place))
+    # what rounding does to the exact one grows as the relative motion gets small beside the motions themselves
+    return sine, TOLERANCE + 1e-14 * largest / strength
+
+
+def velocities_by_centres(centres: Centres, turning: Mapping[str, Turning], motion: Motion) -> tuple[Velocity, ...]:
+    """Velocities measured through centres beside the exact ones: those the scene asks for, or all."""
+    scene = centres.links.scene
+    asked = [s for s in scene.find if s.kind in ("v", "omega")]
+    symbols = asked if scene.find else _all(centres)
+    found = []
+    exact = {s: complex(motion.value(s)[0]) for s in symbols}
+    largest = {
+        kind: max((abs(x) for s, x in exact.items() if s.kind == kind), default=0.0) for kind in ("v", "omega")
+    }
+    for symbol in symbols:
+        value = by_centres(centres, turning, symbol)
+        if value is None:
+            continue
+        wanted = exact[symbol] if symbol.is_vector else exact[symbol].real
+        close = abs(value - wanted) <= TOLERANCE * max(largest[symbol.kind], 1e-300)
+        found.append(Velocity(symbol, value, wanted, _chain(centres, turning, symbol), close))
+    return tuple(found)
+
+
+def _all(centres: Centres) -> list[Symbol]:
+    links = centres.links
+    frame = links.scene.frame
+    moving = [name for name in links.names if name != frame.name]
+    pins = [p for p, names in links.scene.holders.items() if p not in frame.points and any(n in moving for n in names)]
+    return [Symbol("omega", link=name) for name in moving] + [Symbol("v", PointRef(p)) for p in pins]
+
+
+def _chain(centres: Centres, turning: Mapping[str, Turning], symbol: Symbol) -> tuple[str, ...]:
+    if symbol.link:
+        return turning[symbol.link].chain
+    assert symbol.of is not None
+    holders = [symbol.of.link] if symbol.of.link else centres.links.scene.holders[symbol.of.point]
+    return next((turning[n].chain for n in holders if n in turning), ())
+
+
+def centres_csv(centred: Centred) -> str:
+    """The centres as CSV, in scene units: one row each, 12 digits."""
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(["pair", "kind", "number", "x", "y", "direction_x", "direction_y", "by", "error"])
+    for (pair, centre), row in zip(
+        centred.centres.table.items(), centred.data["centres"].values(), strict=True
+    ):
+        place = [f"{v:.12g}" for v in row.get("point", [])] or ["", ""]
+        way = [f"{v:.12g}" for v in row.get("direction", [])] or ["", ""]
+        by = row.get("by", centre.joint)
+        told = by if isinstance(by, str) else " x ".join(" ".join(line) for line in by)
+        error = centred.errors[pair]
+        writer.writerow([_name(pair), centre.kind, centre.number or "", *place, *way, told,
+                         "" if error is None else f"{error:.3g}"])
+    return out.getvalue()
+
+
+def centres(
+    scene: SceneLike,
+    at: At = None,
+    out: str | os.PathLike[str] | None = None,
+    formats: Sequence[str] = ("svg",),
+    language: str | None = None,
+    convention: str | None = None,
+) -> Centred:
+    """Find all instant centres on the drawing board, take the velocities through them, and check both.
+
+    Parameters
+    ----------
+    scene, at : as for `solve`
+    out : folder for centres.svg (in each of the ``formats``) and centres.csv; nothing is written without it
+    language, convention : as for `draw`
+
+    Raises
+    ------
+    SceneError, CallError : the file or the call is wrong
+    Unsolvable : wrong mobility, a position that cannot be assembled or reached, a dead point
+
+    Examples
+    --------
+    >>> found = centres("cam-eccentric-flat-rocker")
+    >>> [round(x, 3) for x in found.data["centres"]["1-2"]["point"]]
+    [-28.603, 0.0]
+    >>> round(found.data["velocities"]["omega_2"]["by_centres"], 5)
+    2.63374
+    """
+    given = as_scene(scene)
+    values = driver_values(given, at)
+    motion = solved_here(given, values)
+    found = find_centres(given, values)
+    centred = Centred(found, speeds(found), motion, language, convention)
+    if out is not None:
+        centred.write(out, formats)
+    return centred
