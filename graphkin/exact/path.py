@@ -23,7 +23,7 @@ TRAVEL_STEP = 1 / 200
 CLUSTER_STEP = np.radians(4.0)
 SWING = 0.09
 """Between two nodes no link turns by more than this (about 5 degrees)."""
-CLOSE = 1e-9
+CLOSE = 2e-13
 BESIDE = 1e-6
 """At a change point a group tells nothing; what follows it is watched this far beside it."""
 

@@ -67,11 +67,12 @@ def solve_structure(structure: Structure, at: Mapping[str, float] | None = None,
     except Unsolvable as stop:
         values = goal[None] if sweep is None else _turn(scene, goal, sweep)
         return _nowhere(structure, values, stop.status, stop.why)
-    path = _reached(structure, forms, start, goal)
-    if path.limit is not None:
-        values = goal[None] if sweep is None else _turn(scene, goal, sweep)
-        return _nowhere(structure, values, "not assembled", limit_why(structure, forms, start, path))
-    forms = {i: f[0] for i, f in path.form(np.ones(1)).items()}
+    if not np.array_equal(start, goal):
+        path = _reached(structure, forms, start, goal)
+        if path.limit is not None:
+            values = goal[None] if sweep is None else _turn(scene, goal, sweep)
+            return _nowhere(structure, values, "not assembled", limit_why(structure, forms, start, path))
+        forms = {i: f[0] for i, f in path.form(np.ones(1)).items()}
     if sweep is None:
         return _solved(structure, forms, goal[None], {i: f[None] for i, f in forms.items()}, np.ones(1, dtype=bool), "")
     return _swept(structure, forms, goal, sweep)

@@ -20,6 +20,9 @@ Reals = NDArray[np.float64]
 TOUCH = 1e-12
 """A least value of a discriminant (no unit) within this of zero is a touch."""
 
+START = 1e-6
+"""A touch as near to the start as this is the start's own: the form was chosen there."""
+
 
 @dataclass(frozen=True)
 class Passage:
@@ -55,7 +58,7 @@ def follow(discriminant: Callable[[Reals], Reals], grid: Reals, flips: bool = Tr
         if value[before] < value[i] or value[after] < value[i] or value[i] > change:
             continue
         where, least = _least(discriminant, grid[before], grid[after])
-        if least > TOUCH or where <= grid[0] or where >= grid[-1]:
+        if least > TOUCH or where <= grid[0] + START or where >= grid[-1]:
             continue
         if least < -TOUCH or not flips:
             floor = 0.0 if least < -TOUCH else TOUCH

@@ -50,7 +50,11 @@ def test_a_touch_of_two_parallel_lines_ends_the_motion() -> None:
 
 
 def test_a_start_at_zero_is_no_touch() -> None:
-    assert len(follow(lambda t: t * (2 - t), GRID).flips) == 0
+    assert len(follow(lambda t: t * t * (2 - t), GRID).flips) == 0
+
+
+def test_a_start_at_zero_with_rounding_is_no_touch() -> None:
+    assert len(follow(lambda t: (t - 1e-9) ** 2, GRID).flips) == 0
 
 
 def test_a_path_may_end_at_zero() -> None:
