@@ -1,6 +1,7 @@
 """Drawing: primitives on a page in mm, texts, kinematic symbols, placed labels, and the writers that draw them all."""
 
 from graphkin.drawing.box import Box
+from graphkin.drawing.figures import acceleration_figure, figures, mechanism_figure, velocity_figure
 from graphkin.drawing.primitives import (
     Arc,
     Circle,
@@ -15,6 +16,7 @@ from graphkin.drawing.primitives import (
     Text,
 )
 from graphkin.drawing.save import save
+from graphkin.drawing.sheet_page import sheet_page, sheet_room
 from graphkin.drawing.svg import svg_bytes
 
 __all__ = [
@@ -30,6 +32,12 @@ __all__ = [
     "Run",
     "Stroke",
     "Text",
+    "acceleration_figure",
+    "figures",
+    "mechanism_figure",
     "save",
+    "sheet_page",
+    "sheet_room",
     "svg_bytes",
+    "velocity_figure",
 ]

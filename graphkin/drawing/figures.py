@@ -13,6 +13,7 @@ from graphkin.drawing.layout import Piece, joined, layer_groups, settled, wrappe
 from graphkin.drawing.mechanism import mechanism_extent, mechanism_piece
 from graphkin.drawing.polygon import extent, polygon_piece
 from graphkin.drawing.primitives import Drawing, Primitive, Run, Text
+from graphkin.drawing.sheet_page import sheet_page
 from graphkin.drawing.typeset import rich
 
 __all__ = ["acceleration_figure", "figures", "mechanism_figure", "velocity_figure"]
@@ -94,9 +95,12 @@ def figures(
     convention: str | None = None,
 ) -> dict[str, Drawing]:
     """All figures of a scene by name: "mechanism", "velocity", "acceleration", and "sheet" where its own drawing is
-    given (``sheet_a4``, drafted in ``sheet_room(scene)``)."""
-    return {
+    given (``sheet_a4``, drafted in ``sheet_room(scene)``); ``report`` is the check of that drawing."""
+    made = {
         "mechanism": mechanism_figure(sheet, language=language, convention=convention),
         "velocity": velocity_figure(sheet, language=language, convention=convention),
         "acceleration": acceleration_figure(sheet, language=language, convention=convention),
     }
+    if sheet_a4 is not None:
+        made["sheet"] = sheet_page(sheet_a4, report, language=language, convention=convention)
+    return made

@@ -12,7 +12,7 @@ from graphkin.drawing.placing import Label, Mark, Placed, place
 from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Run, Text, walk
 from graphkin.drawing.typeset import SMALLEST, rich
 
-__all__ = ["LAYERS", "Name", "Piece", "fitted", "ink_box", "joined", "layer_groups", "settled", "wrapped"]
+__all__ = ["LAYERS", "Name", "Piece", "fitted", "ink_box", "joined", "layer_groups", "moved", "settled", "wrapped"]
 
 # In the order of drawing.
 LAYERS = ("construction", "mechanism", "velocity", "acceleration", "centres", "answers", "labels")
@@ -54,7 +54,7 @@ def joined(pieces: Iterable[Piece]) -> Piece:
 
 
 def settled(piece: Piece, panel: Box) -> Piece:
-    """The piece with its names in their places, in the layer "labels"; those that find none are given up if they may."""
+    """The piece with its names in their places, in the layer "labels"; some that find none are given up."""
     names = list(piece.names)
     obstacles = obstacles_of(piece.drawn)
     placed: tuple[Placed, ...] = ()
@@ -157,6 +157,18 @@ def _pieces(markup: str) -> list[str]:
     return pieces
 
 
-def shifted_runs(runs: tuple[Run, ...], by: float) -> tuple[Run, ...]:
-    """Runs moved to the right by mm."""
-    return tuple(replace(run, x=run.x + by) for run in runs)
+def moved(children: Iterable[Primitive], by: complex) -> tuple[Primitive, ...]:
+    """The same primitives elsewhere on the page."""
+    return tuple(_moved(child, by) for child in children)
+
+
+def _moved(thing: Primitive, by: complex) -> Primitive:
+    if isinstance(thing, Text):
+        return replace(thing, at=thing.at + by)
+    if isinstance(thing, Line):
+        return replace(thing, start=thing.start + by, end=thing.end + by)
+    if isinstance(thing, Circle | Arc):
+        return replace(thing, centre=thing.centre + by)
+    if isinstance(thing, Polyline | Polygon):
+        return replace(thing, points=tuple(z + by for z in thing.points))
+    return replace(thing, children=moved(thing.children, by))

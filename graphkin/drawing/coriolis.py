@@ -1,0 +1,81 @@
+"""The sense of a Coriolis acceleration in a small inset: the sliding velocity turned by 90 degrees with the guide."""
+
+from __future__ import annotations
+
+import math
+from cmath import phase
+
+from graphkin.drafting.sheet import Sheet, Vector
+from graphkin.drawing import strokes
+from graphkin.drawing.arrows import COMPONENT, arrow
+from graphkin.drawing.box import Box
+from graphkin.drawing.colours import colour_of_vector
+from graphkin.drawing.conventions import Letters
+from graphkin.drawing.layout import Name, Piece, fitted
+from graphkin.drawing.placing import Label
+from graphkin.drawing.primitives import Circle, Group, Polygon, Primitive, Text
+from graphkin.drawing.symbols import sense_arc
+from graphkin.drawing.typeset import symbol
+from graphkin.plane import cross, unit
+from graphkin.scene.symbol import Symbol
+
+__all__ = ["INSET", "coriolis_inset", "coriolis_terms"]
+
+INSET = (30.0, 24.0)  # mm
+REACH = 7.5
+ZERO = 0.02  # mm
+
+
+def coriolis_terms(sheet: Sheet) -> list[tuple[Vector, Vector, str]]:
+    """Each Coriolis vector that is not zero, with its sliding velocity and the rule for its size."""
+    velocities = sheet.vectors("velocity")
+    rules = {t.symbol: t.size for e in sheet.equations for side in e.sides for t in side}
+    found = []
+    for vector in sheet.vectors("acceleration").values():
+        if vector.role != "coriolis" or abs(vector.span) < ZERO:
+            continue
+        of, to = vector.symbol.of, vector.symbol.to
+        for velocity in (velocities.get(Symbol("v", of, to)), velocities.get(Symbol("v", of))):
+            if velocity is not None and abs(velocity.span) > ZERO:
+                found.append((vector, velocity, rules.get(vector.symbol, "")))
+                break
+    return found
+
+
+def coriolis_inset(
+    sheet: Sheet, term: tuple[Vector, Vector, str], letters: Letters, box: Box
+) -> tuple[Piece, Box]:
+    """The inset in a box of the page, and the part of it in which its names may stand."""
+    vector, velocity, rule = term
+    slip, turned = unit(velocity.span), unit(vector.span)
+    sense = 1 if cross(slip, turned) > 0 else -1
+    inner = Box(box.left + 0.6, box.top + 0.6, box.right - 0.6, box.bottom - 5.6)
+    centre = inner.centre - REACH / 2 * (slip + turned).conjugate()
+    colour = colour_of_vector(sheet, vector.symbol)
+    tips = [centre + REACH * way.conjugate() for way in (slip, turned)]
+    arc = sense_arc(centre, 3.6, phase(slip) + sense * math.pi / 4, sense, math.radians(72))
+    parts: tuple[Primitive, ...] = (
+        *arrow(centre, tips[0], COMPONENT, strokes.BLACK),
+        *arrow(centre, tips[1], COMPONENT, colour),
+        *arc,
+        Circle(centre, 0.4, fill=strokes.BLACK),
+    )
+    frame = Polygon(box.corners, "", strokes.DIMENSION)
+    id = vector.symbol.id
+    links = rule.split("ω_{")[1].split("}")[0] if "ω_{" in rule else ""
+    names = [
+        Name(_label(letters.vector(velocity.symbol), f"label-inset-v-{id}", tips[0], phase(slip))),
+        Name(_label(letters.vector(vector.symbol), f"label-inset-{id}", tips[1], phase(turned))),
+    ]
+    if links:
+        middle = centre + 3.6 * (slip + turned).conjugate() / abs(slip + turned)
+        names.append(Name(_label(f"ω_{{{links}}}", f"label-inset-omega-{id}", middle, phase(slip + turned)), 1))
+    markup = f"${letters.vector(vector.symbol)}$" + (f" = ${letters.size(rule)}$" if rule else "")
+    caption = fitted(markup, 2.8, box.width - 1.6)
+    words = Text(complex(box.centre.real, box.bottom - 1.7), caption, "middle")
+    group = Group((frame, *parts), id=f"sense-{id}", classes=("inset",))
+    return Piece({"acceleration": (group,), "labels": (words,)}, tuple(names)), inner
+
+
+def _label(markup: str, id: str, at: complex, toward: float) -> Label:
+    return Label(Text(0j, symbol(markup, 2.8), "start", strokes.BLACK, id, ("label",)), at, (toward,))

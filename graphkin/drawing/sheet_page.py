@@ -1,0 +1,226 @@
+"""The sheet: mechanism, both polygons, equations, given data, readings and title block on one page, true to scale."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from graphkin.checking import Report
+from graphkin.drafting import Room
+from graphkin.drafting.sheet import DiagramName, Sheet
+from graphkin.drawing import strokes
+from graphkin.drawing.box import Box
+from graphkin.drawing.conventions import Letters, letters_of, scale_statement
+from graphkin.drawing.coriolis import INSET, coriolis_inset, coriolis_terms
+from graphkin.drawing.describe import describe, figure_title
+from graphkin.drawing.dimensions import check_bar
+from graphkin.drawing.equations import write_equations
+from graphkin.drawing.headings import drivers, facts, languages, term, titles
+from graphkin.drawing.layout import Piece, fitted, joined, layer_groups, moved, settled
+from graphkin.drawing.mechanism import mechanism_extent, mechanism_piece
+from graphkin.drawing.polygon import extent, polygon_piece
+from graphkin.drawing.primitives import Drawing, Group, Line, Polygon, Primitive, Text
+from graphkin.drawing.tables import given_data, readings_table
+from graphkin.drawing.typeset import rich
+from graphkin.scene.model import Scene
+from graphkin.words import Phrase, say
+
+__all__ = ["sheet_page", "sheet_room"]
+
+PAPERS = {"A4": (210.0, 297.0), "A3": (297.0, 420.0), "A2": (420.0, 594.0), "A1": (594.0, 841.0), "A0": (841.0, 1189.0)}
+MARGIN, GUTTER, CAPTION = 10.0, 2.0, 5.5
+HEAD, BLOCK = 11.0, 16.0  # heading above, title block below
+FILL = 0.87  # of a panel, by the polygon with the finest scale
+AROUND_MECHANISM = 26.0  # mm for symbols and names
+
+
+@dataclass(frozen=True)
+class _Plan:
+    """Where everything stands on the page (mm); panels without their captions."""
+
+    width: float
+    height: float
+    mechanism: Box
+    velocity: Box
+    acceleration: Box
+    equations: Box
+    given: Box
+    readings: Box
+    block: Box
+
+
+def sheet_room(scene: Scene) -> Room:
+    """The room in which a sheet for ``sheet_page`` is to be drafted: ``draft(scene, room=sheet_room(scene))``."""
+    plan = _plan(scene)
+    return Room(
+        mechanism=(plan.mechanism.width - AROUND_MECHANISM, plan.mechanism.height - AROUND_MECHANISM),
+        polygon=(plan.velocity.width * FILL, plan.velocity.height * FILL),
+    )
+
+
+def _plan(scene: Scene) -> _Plan:
+    short, long = PAPERS.get(scene.sheet.paper, PAPERS["A4"])
+    if scene.sheet.orientation == "landscape":
+        return _landscape(long, short)
+    return _portrait(short, long)
+
+
+def _portrait(width: float, height: float) -> _Plan:
+    page = Box(MARGIN, MARGIN, width - MARGIN, height - MARGIN)
+    top = page.top + HEAD + CAPTION
+    split = page.left + 0.483 * page.width
+    polygon = 0.315 * page.height  # height of a polygon's panel
+    right = split + GUTTER
+    velocity = Box(right, top, page.right, top + polygon)
+    acceleration = velocity.moved(complex(0, polygon + CAPTION + GUTTER))
+    mechanism = Box(page.left, top, split, top + 1.08 * polygon)
+    equations = Box(page.left, mechanism.bottom + GUTTER + CAPTION, split, acceleration.bottom)
+    block = Box(page.left, page.bottom - BLOCK, page.right, page.bottom)
+    low = acceleration.bottom + GUTTER + CAPTION
+    third = page.left + 0.27 * page.width
+    given = Box(page.left, low, third, block.top - GUTTER)
+    readings = Box(third + 2 * GUTTER, low, page.right, block.top - GUTTER)
+    return _Plan(width, height, mechanism, velocity, acceleration, equations, given, readings, block)
+
+
+def _landscape(width: float, height: float) -> _Plan:
+    page = Box(MARGIN, MARGIN, width - MARGIN, height - MARGIN)
+    top = page.top + HEAD + CAPTION
+    panel = (page.width - 2 * GUTTER) / 3
+    bottom = top + panel * 0.98
+    boxes = [Box(page.left + i * (panel + GUTTER), top, page.left + i * (panel + GUTTER) + panel, bottom)
+             for i in range(3)]
+    block = Box(page.left, page.bottom - BLOCK, page.right, page.bottom)
+    low = bottom + GUTTER + CAPTION
+    one, two = page.left + 0.17 * page.width, page.left + 0.53 * page.width
+    given = Box(page.left, low, one, block.top - GUTTER)
+    equations = Box(one + GUTTER, low, two, block.top - GUTTER)
+    readings = Box(two + GUTTER, low, page.right, block.top - GUTTER)
+    return _Plan(width, height, boxes[0], boxes[1], boxes[2], equations, given, readings, block)
+
+
+def sheet_page(
+    sheet: Sheet, report: Report | None = None, *, language: str | None = None, convention: str | None = None
+) -> Drawing:
+    """One page with everything.
+
+    Parameters
+    ----------
+    sheet : drafted in ``sheet_room(scene)``, so that its polygons fill their panels
+    report : its readings held against the exact values; without it the table shows the readings alone
+    language : "en", "zh" or "both"; the scene's own if None
+    convention : "chinese", "us", "british" or "russian"; the scene's own if None
+    """
+    scene = sheet.scene
+    spoken = language or scene.sheet.language
+    letters = letters_of(sheet, convention or scene.sheet.convention)  # type: ignore[arg-type]
+    plan = _plan(scene)
+    pieces = [
+        _heading(sheet, letters, spoken, plan),
+        _panel(plan.mechanism, _caption(sheet, letters, spoken, "mechanism")),
+        _panel(plan.velocity, _caption(sheet, letters, spoken, "velocity")),
+        _panel(plan.acceleration, _caption(sheet, letters, spoken, "acceleration")),
+        _mechanism(sheet, letters, plan.mechanism),
+        _polygon(sheet, "velocity", letters, spoken, plan.velocity),
+        _polygon(sheet, "acceleration", letters, spoken, plan.acceleration),
+        _equations(sheet, letters, spoken, plan.equations),
+        _captioned(plan.given, term("given", spoken), "labels", given_data(sheet, letters, spoken, plan.given)),
+        _captioned(plan.readings, term("readings", spoken), "answers",
+                   readings_table(sheet, report, letters, spoken, plan.readings)),
+        _title_block(sheet, report, letters, spoken, plan.block),
+    ]
+    return Drawing(
+        plan.width,
+        plan.height,
+        layer_groups(joined(pieces)),
+        figure_title(sheet, "sheet", spoken),
+        describe(sheet, ("mechanism", "velocity", "acceleration"), spoken),
+        languages(spoken)[0],
+        facts(sheet, "sheet"),
+    )
+
+
+WORDS = {"mechanism": "mechanism", "velocity": "velocity polygon", "acceleration": "acceleration polygon"}
+
+
+def _heading(sheet: Sheet, letters: Letters, language: str, plan: _Plan) -> Piece:
+    width = plan.width - 2 * MARGIN
+    words = "   ".join(titles(sheet, language))
+    return Piece({"labels": (
+        Text(complex(MARGIN, MARGIN + 4.0), fitted(words, 4.6, width, bold=True, least=2.6)),
+        Text(complex(MARGIN, MARGIN + 9.2), fitted(drivers(sheet, letters), 3.2, width)),
+    )})  # fmt: skip
+
+
+def _caption(sheet: Sheet, letters: Letters, language: str, diagram: DiagramName) -> str:
+    return f"{term(WORDS[diagram], language)}   {scale_statement(sheet, letters.convention, diagram)}"
+
+
+def _panel(box: Box, caption: str) -> Piece:
+    frame = Polygon(box.corners, "", strokes.DIMENSION)
+    words = Text(complex(box.left, box.top - 1.6), fitted(caption, 3.2, box.width))
+    return Piece({"construction": (Group((frame,), classes=("panel",)),), "labels": (words,)})
+
+
+def _captioned(box: Box, caption: str, layer: str, children: tuple[Primitive, ...]) -> Piece:
+    words = Text(complex(box.left, box.top - 1.6), fitted(caption, 3.2, box.width, bold=True))
+    return joined((Piece({"labels": (words,)}), Piece({layer: children})))
+
+
+def _mechanism(sheet: Sheet, letters: Letters, panel: Box) -> Piece:
+    content = mechanism_extent(sheet, letters)
+    return settled(mechanism_piece(sheet, letters, panel.centre - content.centre), panel.grown(-0.8))
+
+
+def _polygon(sheet: Sheet, diagram: DiagramName, letters: Letters, language: str, panel: Box) -> Piece:
+    content = extent(sheet, diagram)
+    room = panel.grown(-0.8)
+    return settled(polygon_piece(sheet, diagram, letters, language, room, panel.centre - content.centre), room)
+
+
+def _equations(sheet: Sheet, letters: Letters, language: str, box: Box) -> Piece:
+    terms = coriolis_terms(sheet)
+    shown = terms[: int((box.width + GUTTER) // (INSET[0] + GUTTER))]
+    insets = INSET[1] + GUTTER if shown else 0.0
+    blocks, left_out = write_equations(sheet, letters, language, box.width, box.height - insets)
+    pieces = []
+    y = box.top
+    for block in blocks:
+        pieces.append(moved(block.children, complex(box.left, y)))
+        y += block.height
+    written: list[Primitive] = [Group(tuple(p for piece in pieces for p in piece), id="equations")]
+    if left_out:
+        text = say(Phrase("more equations", (left_out,)), languages(language)[0])
+        written.append(Text(complex(box.left, y + 2.6), rich(text, 2.4)))
+    parts = [_captioned(box, term("equations", language), "labels", tuple(written))]
+    for i, one in enumerate(shown):
+        left = box.left + i * (INSET[0] + GUTTER)
+        inset = Box(left, box.bottom - INSET[1], left + INSET[0], box.bottom)
+        piece, inner = coriolis_inset(sheet, one, letters, inset)
+        parts.append(settled(piece, inner))
+    return joined(parts)
+
+
+def _title_block(sheet: Sheet, report: Report | None, letters: Letters, language: str, box: Box) -> Piece:
+    lines: list[Primitive] = [Polygon(box.corners, "", strokes.OUTLINE)]
+    one, two = box.left + 0.36 * box.width, box.left + 0.66 * box.width
+    lines += [Line(complex(x, box.top), complex(x, box.bottom), strokes.DIMENSION) for x in (one, two)]
+    words: list[Primitive] = []
+    names = titles(sheet, language)
+    left = box.left + 2.0
+    for i, name in enumerate(names):
+        words.append(Text(complex(left, box.top + 5.0 + 4.4 * i), fitted(name, 3.2, one - left - 1.5, True)))
+    second = f"{sheet.scene.name}   {term('instrument', language)}: {sheet.instrument}"
+    words.append(Text(complex(left, box.bottom - 2.0), fitted(second, 2.6, one - left - 1.5)))
+    for i, diagram in enumerate(("mechanism", "velocity", "acceleration")):
+        text = scale_statement(sheet, letters.convention, diagram)  # type: ignore[arg-type]
+        words.append(Text(complex(one + 2.0, box.top + 4.6 + 4.4 * i), fitted(text, 3.0, two - one - 4.0)))
+    words += check_bar(complex(box.right - 53.0, box.bottom - 2.2), fitted(term("check bar", language), 2.4, 50.0))
+    answers: tuple[Primitive, ...] = ()
+    if report is not None:
+        wrong = sum(not row.ok for row in report.rows)
+        whole = len(report.rows)
+        phrase = Phrase("not all agree", (wrong, whole)) if wrong else Phrase("all agree", (whole,))
+        text = " ".join(say(phrase, each) for each in languages(language))
+        answers = (Text(complex(two + 2.0, box.top + 4.2), fitted(text, 2.6, box.right - two - 4.0)),)
+    return Piece({"construction": (Group(tuple(lines), classes=("title-block",)),), "labels": tuple(words),
+                  "answers": answers})

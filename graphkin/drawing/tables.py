@@ -1,0 +1,211 @@
+"""Tables of a sheet: the readings with their check, and the given data."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from graphkin.checking import Compared, Reading, Report, read_off
+from graphkin.drafting.sheet import Sheet
+from graphkin.drawing import strokes
+from graphkin.drawing.box import Box
+from graphkin.drawing.conventions import Letters
+from graphkin.drawing.headings import drivers, number, term
+from graphkin.drawing.layout import fitted, wrapped
+from graphkin.drawing.metrics import runs_width
+from graphkin.drawing.primitives import Line, Primitive, Run, Text
+from graphkin.drawing.typeset import rich
+from graphkin.scene.model import Link, Scene
+from graphkin.words import Phrase, say
+
+__all__ = ["given_data", "readings_table"]
+
+ROW, LEAST_ROW = 3.9, 3.0  # mm
+_LETTERS = {"v": 0, "omega": 1, "a": 2, "alpha": 4}
+_SHARES = (0.24, 0.16, 0.2, 0.2, 0.2)  # of the width: symbol, mm on paper, measured, exact, difference
+
+
+@dataclass(frozen=True)
+class _Row:
+    reading: Reading
+    compared: Compared | None = None
+
+    @property
+    def rank(self) -> int:
+        """Order in the table: velocities, rates, accelerations and their parts, rates."""
+        return _LETTERS.get(self.reading.symbol.kind, 3)
+
+
+def readings_table(
+    sheet: Sheet, report: Report | None, letters: Letters, language: str, area: Box
+) -> tuple[Primitive, ...]:
+    """Readings in columns that fill an area (mm): symbol, mm on paper, measured, exact, relative difference.
+
+    Where they do not all fit, what was asked and the absolute quantities stay and the number of the others is said.
+    """
+    rows = _rows(sheet, report)
+    count, columns, row_height = _grid(len(rows), area)
+    left_out = max(0, len(rows) - count)
+    if left_out:
+        rows = _most_asked(sheet, rows, count - 1)
+        left_out += 1
+    rows = sorted(rows, key=lambda r: r.rank)
+    width = (area.width - 4.0 * (columns - 1)) / columns
+    per_column = max(1, math.ceil(len(rows) / columns))
+    children: list[Primitive] = []
+    for c in range(columns):
+        part = rows[c * per_column : (c + 1) * per_column]
+        if part:
+            corner = complex(area.left + c * (width + 4.0), area.top)
+            children += _column(sheet, part, letters, language, corner, width, row_height)
+    if left_out:
+        text = rich(say(Phrase("more readings", (left_out,)), language.replace("both", "en")), 2.2)
+        children.append(Text(complex(area.right, area.bottom - 0.4), text, "end"))
+    return tuple(children)
+
+
+def _rows(sheet: Sheet, report: Report | None) -> list[_Row]:
+    if report is not None:
+        return [_Row(row.reading, row) for row in report.rows]
+    return [_Row(reading) for reading in read_off(sheet, sheet.scene.find)]
+
+
+def _grid(count: int, area: Box) -> tuple[int, int, float]:
+    """How many rows fit, in how many columns, how high."""
+    widest = 3 if area.width > 170 else 2
+    for columns in range(1, widest + 1):
+        if area.width / columns > 95 and columns < widest:
+            continue  # too wide to read across
+        for height in (ROW, 3.5, 3.2, LEAST_ROW):
+            room = int((area.height - height * 1.4) / height) * columns
+            if room >= count:
+                return room, columns, height
+    return int((area.height - LEAST_ROW * 2.6) / LEAST_ROW) * widest, widest, LEAST_ROW
+
+
+def _most_asked(sheet: Sheet, rows: list[_Row], count: int) -> list[_Row]:
+    asked = set(sheet.scene.find) | set(sheet.scene.printed)
+
+    def worth(row: _Row) -> tuple[bool, bool, bool]:
+        symbol = row.reading.symbol
+        return symbol not in asked, symbol.of is not None and symbol.to is not None, symbol.kind in ("an", "at")
+
+    kept = sorted(range(len(rows)), key=lambda i: (worth(rows[i]), i))[:count]
+    return [rows[i] for i in sorted(kept)]
+
+
+def _column(
+    sheet: Sheet, rows: Sequence[_Row], letters: Letters, language: str, corner: complex, width: float, row: float
+) -> list[Primitive]:
+    compared = any(r.compared for r in rows)
+    shares = _SHARES if compared else (0.4, 0.25, 0.35)
+    edges = [corner.real + width * sum(shares[:i]) for i in range(len(shares) + 1)]
+    size = max(2.0, 0.7 * row)
+    heads = ("quantity", "on paper", "measured", "exact", "difference")[: len(shares)]
+    children: list[Primitive] = []
+    y = corner.imag + 0.72 * row
+    for i, head in enumerate(heads):
+        runs = fitted(term(head, language), size, edges[i + 1] - edges[i] - 0.8)
+        children.append(_cell(runs, edges, i, y))
+    rule = corner.imag + 1.05 * row
+    children.append(Line(complex(edges[0], rule), complex(edges[-1], rule), strokes.OUTLINE))
+    for n, one in enumerate(rows):
+        y = rule + (n + 0.78) * row
+        for i, runs in enumerate(_texts(sheet, one, letters, size)):
+            limit = edges[i + 1] - edges[i] - 0.8
+            if runs_width(runs) > limit:
+                runs = _shrunk(runs, limit)
+            children.append(_cell(runs, edges, i, y))
+        foot = rule + (n + 1) * row
+        if (n + 1) % 5 == 0 or n + 1 == len(rows):
+            children.append(Line(complex(edges[0], foot), complex(edges[-1], foot), strokes.DIMENSION))
+    return children
+
+
+def _cell(runs: tuple[Run, ...], edges: Sequence[float], i: int, y: float) -> Text:
+    return Text(complex(edges[i], y), runs) if i == 0 else Text(complex(edges[i + 1] - 0.6, y), runs, "end")
+
+
+def _shrunk(runs: tuple[Run, ...], width: float) -> tuple[Run, ...]:
+    share = width / runs_width(runs)
+    return tuple(Run(r.text, r.x * share, r.y, max(2.0, r.size * share), r.italic, r.bold) for r in runs)
+
+
+def _texts(sheet: Sheet, row: _Row, letters: Letters, size: float) -> list[tuple[Run, ...]]:
+    reading, compared = row.reading, row.compared
+    unit, per = _unit(sheet, reading)
+    value = abs(reading.value) if reading.symbol.is_vector else float(reading.value.real)
+    texts = [
+        rich(f"${letters.vector(reading.symbol)}$, {unit}", size),
+        rich(f"{reading.on_paper:.2f}" if reading.on_paper else "–", size),
+        rich(number(value / per, 5), size),
+    ]
+    if compared is not None:
+        exact = abs(compared.exact) if reading.symbol.is_vector else float(compared.exact.real)
+        scale = max(abs(exact), abs(value))
+        texts.append(rich(number(exact / per, 5), size))
+        texts.append(rich(_difference(compared.error / scale if scale else 0.0), size))
+    return texts
+
+
+def _difference(share: float) -> str:
+    if share < 1e-12:
+        return "0"
+    if share < 1e-4:
+        return f"{share:.0e}".replace("e-0", "e-").replace("e-", " · $10^{−") + "}$"
+    return f"{100 * share:.2g} %"
+
+
+def _unit(sheet: Sheet, reading: Reading) -> tuple[str, float]:
+    name = sheet.scene.units.length
+    kinds = {"v": f"{name}/s", "omega": "rad/s", "alpha": "rad/s²"}
+    per = 1.0 if reading.symbol.kind in ("omega", "alpha") else sheet.scene.units.metres
+    return kinds.get(reading.symbol.kind, f"{name}/s²"), per
+
+
+def given_data(sheet: Sheet, letters: Letters, language: str, area: Box) -> tuple[Primitive, ...]:
+    """Lengths, fixed points and drivers as lines of text in an area (mm); as large as they fit."""
+    scene = sheet.scene
+    unit = scene.units.length
+    items = [drivers(sheet, letters)]
+    items += [f"${name}$ = {number(value)} {unit}" for name, value in _lengths(scene, letters)]
+    fixed = [f"${letters.point(p)}$ ({_pair(z, scene)})" for p, z in scene.frame.points.items()]
+    lines: list[tuple[Run, ...]] = []
+    for size in (2.8, 2.5, 2.2, 2.0):
+        lines = wrapped(";  ".join(items), size, area.width)
+        if fixed:
+            lines += wrapped(", ".join(fixed) + f" {unit}", size, area.width)
+        if len(lines) * 1.55 * size <= area.height:
+            break
+    most = int(area.height / (1.55 * size))
+    return tuple(
+        Text(complex(area.left, area.top + size + i * 1.55 * size), runs) for i, runs in enumerate(lines[:most])
+    )
+
+
+def _lengths(scene: Scene, letters: Letters) -> list[tuple[str, float]]:
+    found: list[tuple[str, float]] = []
+    for link in scene.links:
+        if link.length is not None:
+            found.append((_bar(letters, link.bar), link.length / scene.units.metres))
+        found += _further(link, scene, letters)
+    return found
+
+
+def _further(link: Link, scene: Scene, letters: Letters) -> list[tuple[str, float]]:
+    """Distances of the further points of a link from its own."""
+    more = [p for p in link.points if p not in link.bar]
+    return [
+        (_bar(letters, (own, p)), abs(link.points[p] - link.points[own]) / scene.units.metres)
+        for p in more
+        for own in link.bar
+    ]
+
+
+def _bar(letters: Letters, names: tuple[str, ...]) -> str:
+    return f"l_{{{''.join(names)}}}"
+
+
+def _pair(z: complex, scene: Scene) -> str:
+    return f"{number(z.real / scene.units.metres)}, {number(z.imag / scene.units.metres)}"
