@@ -101,6 +101,8 @@ _TABLE: dict[str, tuple[str, str]] = {
         "构件 {3} 的影像：在 {1}{2} 上作与构件相似且字母绕行方向一致的三角形，得 {0}",
     ),
     "asked": ("draw {0}, which is asked for", "作出所求的 {0}"),
+    "placing": ("placing link {0} on paper", "画出构件 {0} 的位置"),
+    "reading": ("reading {0} off the paper", "从图上量取 {0}"),
     # remarks
     "zero vector": ("{0} = 0", "{0} = 0"),
     "nearly parallel": (
@@ -128,7 +130,10 @@ _TABLE: dict[str, tuple[str, str]] = {
     "centre joint": ("{0} lies in the turning pair {1}", "{0} 位于转动副 {1} 处"),
     "centre guide": ("{0} lies at infinity, square to the guide of {1}", "{0} 位于垂直于移动副 {1} 导路方向的无穷远处"),
     "centre crossing": ("{0} lies where {1} and {2} cross", "{0} 为 {1} 与 {2} 的交点"),
-    "centre crossing far": ("{0} lies at infinity: {1} and {2} are parallel", "{1} 与 {2} 平行，{0} 在其方向的无穷远处"),
+    "centre crossing far": (
+        "{0} lies at infinity: {1} and {2} are parallel",
+        "{1} 与 {2} 平行，{0} 在其方向的无穷远处",
+    ),
     "centre velocity polygon": (
         "{0} from the measured velocity polygon: the point of both links that has one velocity",
         "由速度多边形量取两构件的速度，其同速重合点即 {0}",

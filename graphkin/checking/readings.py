@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from graphkin.drafting.instrument import EXACT, Instrument
 from graphkin.drafting.sheet import DiagramName, Sheet, Vector
 from graphkin.scene.symbol import Symbol
 
@@ -25,8 +26,8 @@ class Reading:
     diagram: DiagramName
 
 
-def read_off(sheet: Sheet, asked: Sequence[Symbol] = ()) -> tuple[Reading, ...]:
-    """Measure every vector and every rate that was drawn, or only those asked for.
+def read_off(sheet: Sheet, asked: Sequence[Symbol] = (), instrument: Instrument = EXACT) -> tuple[Reading, ...]:
+    """Measure every vector and every rate that was drawn, or only those asked for, with the instrument's eyes.
 
     >>> from graphkin.scene import read
     >>> from graphkin.drafting import draft
@@ -39,7 +40,7 @@ def read_off(sheet: Sheet, asked: Sequence[Symbol] = ()) -> tuple[Reading, ...]:
     for diagram, rate, kind in (("velocity", sheet.omega, "omega"), ("acceleration", sheet.alpha, "alpha")):
         name: DiagramName = "velocity" if diagram == "velocity" else "acceleration"
         for symbol, vector in sheet.vectors(name).items():
-            found[symbol] = _vector(sheet, name, vector)
+            found[symbol] = _vector(sheet, name, vector, instrument)
         for link, r in rate.items():
             if link == sheet.scene.frame.name or "/" in link:
                 continue
@@ -50,5 +51,10 @@ def read_off(sheet: Sheet, asked: Sequence[Symbol] = ()) -> tuple[Reading, ...]:
     return tuple(found[s] for s in asked if s in found)
 
 
-def _vector(sheet: Sheet, diagram: DiagramName, vector: Vector) -> Reading:
-    return Reading(vector.symbol, abs(vector.span), vector.span * sheet.scales.of(diagram), diagram)
+def _vector(sheet: Sheet, diagram: DiagramName, vector: Vector, instrument: Instrument) -> Reading:
+    size = abs(vector.span)
+    if instrument is EXACT or size == 0.0:
+        return Reading(vector.symbol, size, vector.span * sheet.scales.of(diagram), diagram)
+    read = abs(instrument.read(size))
+    along = instrument.read_direction(vector.span / size)
+    return Reading(vector.symbol, read, read * along * sheet.scales.of(diagram), diagram)

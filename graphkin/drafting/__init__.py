@@ -4,8 +4,22 @@ It starts from the scene and takes every later length and angle from what is alr
 analytic solver.
 """
 
-from graphkin.drafting.draft import Room, draft
-from graphkin.drafting.instrument import EXACT, Exact, Instrument
+from graphkin.drafting.draft import Plan, Room, draft, execute, plan
+from graphkin.drafting.instrument import EXACT, Cad, Exact, Instrument, nudged, pencil
 from graphkin.drafting.sheet import Scales, Sheet
 
-__all__ = ["EXACT", "Exact", "Instrument", "Room", "Scales", "Sheet", "draft"]
+__all__ = [
+    "EXACT",
+    "Cad",
+    "Exact",
+    "Instrument",
+    "Plan",
+    "Room",
+    "Scales",
+    "Sheet",
+    "draft",
+    "execute",
+    "nudged",
+    "pencil",
+    "plan",
+]

@@ -26,10 +26,12 @@ class Board:
     steps: list[Step] = field(default_factory=list)
     equations: list[Equation] = field(default_factory=list)
     notes: list[Phrase] = field(default_factory=list)
+    causes: list[tuple[int, Phrase]] = field(default_factory=list)  # acts of the hand up to which each step reaches
 
     def do(self, diagram: DiagramName, phrase: Phrase, *strokes: Stroke, equation: int | None = None) -> None:
         """Record one step."""
         self.steps.append(Step(len(self.steps) + 1, diagram, phrase, tuple(strokes), equation))
+        self.causes.append((self.instrument.acts, phrase))
 
     def note(self, phrase: Phrase) -> None:
         if phrase not in self.notes:

@@ -18,7 +18,7 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Cluster, Driven, Dyad, Element, Structure, analyse
 from graphkin.words import Phrase
 
-__all__ = ["Room", "draft"]
+__all__ = ["Plan", "Room", "draft", "execute", "plan"]
 
 SERIES = (1.0, 2.0, 2.5, 5.0)
 
@@ -29,6 +29,68 @@ class Room:
 
     mechanism: tuple[float, float] = (150.0, 150.0)
     polygon: tuple[float, float] = (140.0, 140.0)
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What is to be drawn, at which position and scales, and in which assembly."""
+
+    structure: Structure
+    asked: tuple[Symbol, ...]
+    elements: tuple[Driven | Dyad, ...]
+    values: Mapping[str, float]
+    branches: Mapping[int, int]
+    scales: Scales
+    stopped: Phrase | None
+
+
+def plan(
+    scene: Scene,
+    at: Mapping[str, float] | None = None,
+    find: Iterable[Symbol] | None = None,
+    room: Room | None = None,
+) -> Plan:
+    """Decide what to draw; parameters and errors as for `draft`."""
+    structure = analyse(scene)
+    asked = tuple(scene.find if find is None else find)
+    wanted = needed(structure, asked)
+    elements = _drawable(wanted)
+    values = {d.key: d.values[0] for d in scene.drivers} | dict(at or {})
+    branches = branches_at(structure, elements, values)
+    scales = _scales(structure, elements, values, branches, room)
+    return Plan(structure, asked, tuple(elements), values, branches, scales, _stopped(wanted))
+
+
+def execute(what: Plan, instrument: Instrument = EXACT) -> Sheet:
+    """Draw a plan with an instrument."""
+    structure, elements, scales = what.structure, what.elements, what.scales
+    board = Board(instrument)
+    position = place(structure, elements, 1.0 / scales.length, what.values, what.branches, instrument)
+    assembly = _draw_position(board, structure, elements, position, what.branches)
+    board.causes[:] = position.causes
+    polygons = Polygons(board, structure, position.frame, scales)
+    for order in ("velocity", "acceleration"):
+        for element in elements:
+            polygons.draw(order, element)
+    show(polygons, what.asked)
+    return Sheet(
+        scene=structure.scene,
+        structure=structure,
+        instrument=instrument.name,
+        drivers=what.values,
+        scales=scales,
+        poses=dict(position.frame.poses),
+        points={PointRef(p): z for p, z in polygons.places.items()},
+        ends={order: dict(ends) for order, ends in polygons.ends.items()},
+        omega=dict(polygons.rates["velocity"]),
+        alpha=dict(polygons.rates["acceleration"]),
+        steps=tuple(board.steps),
+        equations=tuple(board.equations),
+        assembly=assembly,
+        notes=tuple(board.notes),
+        stopped=what.stopped,
+        causes=tuple(board.causes),
+    )
 
 
 def draft(
@@ -44,6 +106,7 @@ def draft(
     ----------
     at : driver values other than the scene's own (rad or m), by the driver's key
     find : what is asked (the scene's own ``find`` if None; empty: everything)
+    instrument : what draws and reads
     room : paper to fill, with scales chosen from the 1-2-2.5-5 series; None takes the scene's own scales where it
         gives them
 
@@ -53,38 +116,7 @@ def draft(
         wrong mobility, a position that cannot be assembled or reached, a dead point.  A group larger than a dyad is no
         error: ``Sheet.stopped`` says which it is, and what stands before it is drawn.
     """
-    structure = analyse(scene)
-    asked = tuple(scene.find if find is None else find)
-    wanted = needed(structure, asked)
-    elements = _drawable(wanted)
-    values = {d.key: d.values[0] for d in scene.drivers} | dict(at or {})
-    branches = branches_at(structure, elements, values)
-    scales = _scales(structure, elements, values, branches, room)
-    board = Board(instrument)
-    position = place(structure, elements, 1.0 / scales.length, values, branches)
-    assembly = _draw_position(board, structure, elements, position, branches)
-    polygons = Polygons(board, structure, position.frame, scales)
-    for order in ("velocity", "acceleration"):
-        for element in elements:
-            polygons.draw(order, element)
-    show(polygons, asked)
-    return Sheet(
-        scene=scene,
-        structure=structure,
-        instrument=instrument.name,
-        drivers=values,
-        scales=scales,
-        poses=dict(position.frame.poses),
-        points={PointRef(p): z for p, z in polygons.places.items()},
-        ends={order: dict(ends) for order, ends in polygons.ends.items()},
-        omega=dict(polygons.rates["velocity"]),
-        alpha=dict(polygons.rates["acceleration"]),
-        steps=tuple(board.steps),
-        equations=tuple(board.equations),
-        assembly=assembly,
-        notes=tuple(board.notes),
-        stopped=_stopped(wanted),
-    )
+    return execute(plan(scene, at, find, room), instrument)
 
 
 def _stopped(elements: Sequence[Element]) -> Phrase | None:

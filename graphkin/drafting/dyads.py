@@ -7,9 +7,10 @@ the links, and for each what was drawn.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
+from graphkin.drafting.instrument import EXACT, Instrument
 from graphkin.drafting.sheet import Arc, Bar, Pose, Stroke
 from graphkin.plane import cross, cross_arcs, cross_line_arc, cross_lines, direction, dot, unit
 from graphkin.scene.model import AngleDriver, Link
@@ -45,6 +46,8 @@ class Frame:
     mm: float  # of paper for one m
     values: Mapping[str, float]  # drivers, rad or m
     poses: dict[str, Pose] = field(default_factory=dict)
+    instrument: Instrument = EXACT
+    pricked: dict[str, complex] = field(default_factory=dict)  # points as they came to lie, where hands err
 
     def place(self, link: str, local: complex) -> complex:
         """A place given in a link's own axes (m), on paper."""
@@ -52,7 +55,33 @@ class Frame:
         return pose.origin + pose.axis * (local * self.mm)
 
     def point(self, link: str, point: str) -> complex:
+        if point in self.pricked:
+            return self.pricked[point]
         return self.place(link, self.links[link].points[point])
+
+    def settle(self, names: Sequence[str]) -> None:
+        """Prick the new points of links just placed, and let the links lie as their points came out."""
+        if self.instrument.faultless:
+            return
+        for name in names:
+            link, pose = self.links[name], self.poses[name]
+            known = [p for p in link.points if p in self.pricked]
+            for point in link.points:
+                if point not in self.pricked:
+                    lies = self._settled(name, pose, known)
+                    self.pricked[point] = self.instrument.point(lies.origin + lies.axis * link.points[point] * self.mm)
+                    known.append(point)
+            self.poses[name] = self._settled(name, pose, known)
+
+    def _settled(self, name: str, pose: Pose, known: Sequence[str]) -> Pose:
+        """A link as two of its points on paper hold it, the farthest apart; by one point with the direction drawn."""
+        link = self.links[name]
+        if not known:
+            return pose
+        a, b = max(((a, b) for a in known for b in known), key=lambda ab: abs(link.points[ab[0]] - link.points[ab[1]]))
+        span = link.points[b] - link.points[a]
+        axis = unit((self.pricked[b] - self.pricked[a]) / span) if abs(span) * self.mm > 1.0 else pose.axis
+        return Pose(self.pricked[a] - axis * (link.points[a] * self.mm), axis)
 
 
 class _Shape:
@@ -108,7 +137,7 @@ def drive(frame: Frame, element: Driven) -> tuple[Pose, Story]:
     if isinstance(driver, AngleDriver):
         own = driver.link == name
         other = driver.relative_to if own else driver.link
-        axis = unit(frame.poses[other].axis * direction(math.degrees(value if own else -value)))
+        axis = unit(frame.poses[other].axis * frame.instrument.angle(direction(math.degrees(value if own else -value))))
         assert isinstance(pair, Turn)
         hinge = frame.point(pair.b, pair.point)
         pose = Pose(hinge - axis * (frame.links[name].points[pair.point] * frame.mm), axis)
@@ -116,7 +145,7 @@ def drive(frame: Frame, element: Driven) -> tuple[Pose, Story]:
         return pose, ((Phrase("lay off angle", (name, angle, pair.point)), ()),)
     assert isinstance(pair, Slide)
     known = pair.b if name == pair.a else pair.a
-    pose = _across(pair, name, frame.poses[known], value * frame.mm, frame.mm)
+    pose = _across(pair, name, frame.poses[known], frame.instrument.length(value * frame.mm), frame.mm)
     start = frame.place(pair.b, pair.guide.through) if name == pair.a else pose.origin
     end = pose.origin if name == pair.a else frame.poses[known].origin
     return pose, ((Phrase("lay off travel", (pair.key, f"{abs(value) * frame.mm:.2f}")), (Bar(start, end, name),)),)
@@ -155,7 +184,8 @@ def _rail(frame: Frame, shape: _Shape, slide: Slide) -> tuple[Pose, complex]:
     axis = unit(at_zero.axis * rel.axis.conjugate())
     # a block on a known guide goes along it; a guide on a known block goes against its own sense
     along = frame.poses[known].axis if mine == slide.a else -at_zero.axis
-    return Pose(at_zero.origin - axis * rel.origin, axis), unit(along * slide.guide.direction)
+    step = frame.instrument.direction(unit(along * slide.guide.direction))
+    return Pose(at_zero.origin - axis * rel.origin, axis), step
 
 
 def _rrr(frame: Frame, dyad: Dyad, one: _Shape, two: _Shape) -> Meeting:
@@ -164,7 +194,7 @@ def _rrr(frame: Frame, dyad: Dyad, one: _Shape, two: _Shape) -> Meeting:
     assert isinstance(outer2, Turn)
     (p1, local1), (p2, local2) = _hinge(frame, one, outer1), _hinge(frame, two, outer2)
     letter, inner1, inner2 = _inner(frame, dyad, one, two)
-    r1, r2 = abs(inner1 - local1), abs(inner2 - local2)
+    r1, r2 = frame.instrument.compass(abs(inner1 - local1)), frame.instrument.compass(abs(inner2 - local2))
     lo, mid, hi = sorted((r1, r2, abs(p2 - p1)))
     product = (hi + (mid + lo)) * (lo - (hi - mid)) * (lo + (hi - mid)) * (hi + (mid - lo))
     gap = product / (2 * r1 * r2) ** 2
@@ -183,7 +213,7 @@ def _rrp(frame: Frame, dyad: Dyad, one: _Shape, two: _Shape) -> Meeting:
     letter, inner1, inner2 = _inner(frame, dyad, one, two)
     start, step = _rail(frame, two, slide)
     q0 = start.origin + start.axis * inner2
-    radius = abs(inner1 - local)
+    radius = frame.instrument.compass(abs(inner1 - local))
     off = abs(cross(p - q0, step))
     gap = (radius - off) * (radius + off) / radius**2
     places = cross_line_arc(q0, step, p, radius) or ()
@@ -214,6 +244,8 @@ def _rpr(frame: Frame, dyad: Dyad, one: _Shape, two: _Shape) -> Meeting:
     g = two.rel[slide.b].axis * slide.guide.direction
     c0 = at_zero.origin + turn * (local1 - one.rel[slide.a].origin) - local2
     offset = cross(g, c0)  # of the pivot from the guide's parallel through the other pivot
+    if abs(offset) > 1e-9 * abs(c0):
+        offset = frame.instrument.compass(offset)
     span = abs(p1 - p2)
     size = max((abs(z) * frame.mm for link in frame.links.values() for z in link.points.values()), default=1.0)
     gap = (span - abs(offset)) * (span + abs(offset)) / size**2

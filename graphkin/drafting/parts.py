@@ -8,7 +8,7 @@ from typing import Literal
 from graphkin.drafting.chains import Edge
 from graphkin.drafting.plot import Order, Plot
 from graphkin.drafting.sheet import Direction
-from graphkin.plane import unit
+from graphkin.plane import dot, unit
 from graphkin.scene.model import AngleDriver, SlideDriver
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Slide, Weld
@@ -48,16 +48,17 @@ def _rigid_parts(plot: Plot, order: Order, edge: Edge) -> list[Part]:
     arm = plot.places[edge.end.point] - plot.places[edge.start.point]
     if edge.link in plot.still:
         return []
-    arm_m = abs(arm) * plot.scales.length
     square = 1j * unit(arm)
     name = bar(edge)
-    rate = plot.rates[order].get(edge.link)
+    rate = None if edge.unknown else plot.rates[order].get(edge.link)
     role: Literal["resultant", "relative"] = "resultant" if plot.fixed(edge.start) else "relative"
     if order == "velocity":
-        span = None if edge.unknown or rate is None else square * (rate.value * arm_m / plot.scales.velocity)
+        span = None if rate is None else square * (rate.value * plot.measured(arm) / plot.scales.velocity)
         size = f"ω_{{{edge.link}}}·{name}" if span is not None else ""
         return [Part(symbol_of(plot, "v", edge), role, square, span, edge.direction, size)]
-    speed = _measured_speed(plot, edge)
+    slip = plot.end("velocity", edge.end) - plot.end("velocity", edge.start)
+    speed = plot.board.instrument.read(abs(slip)) * plot.scales.velocity
+    arm_m = plot.measured(arm)
     inward = -unit(arm)
     normal = Part(
         symbol_of(plot, "an", edge),
@@ -67,17 +68,11 @@ def _rigid_parts(plot: Plot, order: Order, edge: Edge) -> list[Part]:
         Direction("towards", (edge.end.point, edge.start.point)),
         f"ω_{{{edge.link}}}²·{name}",
     )
-    steady = rate is not None and not edge.unknown and rate.value == 0.0
-    if steady:
+    if rate is not None and rate.value == 0.0:
         return [normal]
-    span = None if edge.unknown or rate is None else square * (rate.value * arm_m / plot.scales.acceleration)
+    span = None if rate is None else square * (rate.value * arm_m / plot.scales.acceleration)
     size = f"α_{{{edge.link}}}·{name}" if span is not None else ""
     return [normal, Part(symbol_of(plot, "at", edge), "tangential", square, span, edge.direction, size)]
-
-
-def _measured_speed(plot: Plot, edge: Edge) -> float:
-    """Relative velocity of an edge (m/s) as read off the velocity polygon."""
-    return abs(plot.end("velocity", edge.end) - plot.end("velocity", edge.start)) * plot.scales.velocity
 
 
 def _slide_parts(plot: Plot, order: Order, edge: Edge, slide: Slide) -> list[Part]:
@@ -97,12 +92,13 @@ def _slide_parts(plot: Plot, order: Order, edge: Edge, slide: Slide) -> list[Par
         ]
     omega = plot.rates["velocity"][slide.b].value
     slip = plot.end("velocity", edge.end) - plot.end("velocity", edge.start)
-    size = 2 * omega * plot.scales.velocity / plot.scales.acceleration
+    read = plot.board.instrument.read(abs(slip)) * (1 if dot(slip, sense) >= 0 else -1)
+    size = 2 * omega * read * plot.scales.velocity / plot.scales.acceleration
     coriolis = Part(
         symbol_of(plot, "ak", edge),
         "coriolis",
         1j * sense,
-        1j * slip * size,
+        1j * sense * size,
         Direction("turned", edge.direction.names),
         f"2ω_{{{slide.b}}}·{symbol_of(plot, 'v', edge)}",
     )
@@ -125,7 +121,7 @@ def _weld_parts(plot: Plot, order: Order, edge: Edge, weld: Weld) -> list[Part]:
     way = 1 if edge.forward else -1
     _, speed, rate = weld.driver.values
     omega, alpha = way * turn_sign(weld) * speed, way * turn_sign(weld) * rate
-    arm_m = abs(arm) * plot.scales.length
+    arm_m = plot.measured(arm)
     square = 1j * unit(arm)
     if order == "velocity":
         span = square * (omega * arm_m / plot.scales.velocity)

@@ -80,6 +80,10 @@ class Plot:
                     grown = True
         return still
 
+    def measured(self, arm: complex) -> float:
+        """A length of the mechanism (m), read off the drawing."""
+        return self.board.instrument.read(abs(arm)) * self.scales.length
+
     def end(self, order: Order, ref: PointRef) -> complex:
         """The end point of a node, found by image if it does not stand there yet; the pole for a fixed point."""
         if self.fixed(ref):

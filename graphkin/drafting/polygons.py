@@ -163,11 +163,11 @@ class Polygons(Plot):
         """Lay off a known vector."""
         assert part.span is not None
         size = abs(part.span)
-        span = part.span
+        tip = at
         if size > 0.0:
-            laid = self.board.instrument.direction(part.span / size) * self.board.instrument.length(size)
-            span = laid
-        vector = Vector(part.symbol, at, at + span, part.role)
+            hand = self.board.instrument
+            tip = hand.point(at + hand.direction(part.span / size) * hand.length(size))
+        vector = Vector(part.symbol, at, tip, part.role)
         if size < ZERO_MM:
             phrase = Phrase("zero vector", (part.symbol,))
             self.board.note(phrase)
@@ -175,7 +175,7 @@ class Polygons(Plot):
             key = {"normal": "lay off normal", "coriolis": "lay off coriolis"}.get(part.role, "lay off")
             phrase = Phrase(key, (part.symbol, part.size, f"{size:.2f}", part.written))
         self.record(order, vector, phrase, equation)
-        return at + span
+        return tip
 
     def _cross(self, order: Order, chain: Chain, sides: list[_Side], equation: int) -> None:
         """Draw both sides of an equation up to their unknowns, and let these meet."""
@@ -223,7 +223,7 @@ class Polygons(Plot):
                     if part.symbol not in self.drawn[order]:
                         moved = Vector(part.symbol, at, at + part.span, part.role)
                         self.record(order, moved, Phrase("put back", (part.symbol,)), equation)
-                    at += part.span
+                    at = self.drawn[order][part.symbol].tip
             if edge is not side[-1][0]:
                 self.reach(order, edge.end, at, equation)
 
@@ -235,9 +235,10 @@ class Polygons(Plot):
         symbol = symbol_of(self, kind, edge)
         vector = self.drawn[order][symbol]
         arm = self.places[edge.end.point] - self.places[edge.start.point]
-        size = abs(vector.span) * self.scales.of(order) / (abs(arm) * self.scales.length)
+        read = self.board.instrument.read(abs(vector.span))
+        size = abs(read) * self.scales.of(order) / self.measured(arm)
         sense = 1.0 if cross(arm, vector.span) >= 0 else -1.0
-        self.rates[order][edge.link] = Rate(edge.link, sense * size, symbol, abs(vector.span), abs(arm))
+        self.rates[order][edge.link] = Rate(edge.link, sense * size, symbol, abs(read), abs(arm))
         key = "omega" if order == "velocity" else "alpha"
         turning = "ccw" if sense > 0 else "cw"
         self.board.do(order, Phrase(f"{key} {turning}", (edge.link, symbol, bar(edge), f"{size:.6g}")))

@@ -10,11 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.drafting.dyads import Frame, Meeting, drive, meet
+from graphkin.drafting.instrument import EXACT, Instrument
 from graphkin.drafting.sheet import Pose
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, Driver, Scene
 from graphkin.structure import Cluster, Driven, Dyad, Element, Structure, pick
 from graphkin.structure.continuity import follow
+from graphkin.words import Phrase
 
 __all__ = ["DEAD", "Position", "branches_at", "place"]
 
@@ -30,10 +32,16 @@ class Position:
 
     frame: Frame
     meetings: Mapping[int, Meeting]
+    causes: Sequence[tuple[int, Phrase]] = ()  # acts of the hand up to which each link reaches
 
 
 def place(
-    structure: Structure, elements: Sequence[Element], mm: float, values: Mapping[str, float], branches: Branches
+    structure: Structure,
+    elements: Sequence[Element],
+    mm: float,
+    values: Mapping[str, float],
+    branches: Branches,
+    instrument: Instrument = EXACT,
 ) -> Position:
     """Place the links of the elements at some driver values.
 
@@ -42,28 +50,39 @@ def place(
     mm : mm of paper for one m
     values : driver values (rad, m)
     branches : which of its assemblies each dyad takes
+    instrument : what draws
 
     Raises
     ------
     Unsolvable
         the loci of a dyad miss each other ("not assembled") or only touch ("dead point")
     """
-    frame = _start(structure, mm, values)
+    frame = _start(structure, mm, values, instrument)
     meetings: dict[int, Meeting] = {}
+    causes = [(instrument.acts, Phrase("placing", (structure.scene.frame.name,)))]
     for i, element in enumerate(elements):
         if isinstance(element, Driven):
             frame.poses[element.link], _ = drive(frame, element)
+            frame.settle([element.link])
+            causes.append((instrument.acts, Phrase("placing", (element.link,))))
         elif isinstance(element, Dyad):
             meeting = meet(frame, element)
             _refuse(element, meeting)
             meetings[i] = meeting
-            frame.poses.update(meeting.poses[branches.get(i, 0) % len(meeting.poses)])
-    return Position(frame, meetings)
+            poses = meeting.poses[branches.get(i, 0) % len(meeting.poses)]
+            frame.poses.update(poses)
+            frame.settle(list(poses))
+            causes.append((instrument.acts, Phrase("placing", (", ".join(element.links),))))
+    return Position(frame, meetings, causes)
 
 
-def _start(structure: Structure, mm: float, values: Mapping[str, float]) -> Frame:
+def _start(structure: Structure, mm: float, values: Mapping[str, float], instrument: Instrument = EXACT) -> Frame:
+    """The empty sheet with the fixed points pricked."""
     ground = structure.scene.frame.name
-    return Frame(structure.links, mm, values, {ground: Pose(0j, 1 + 0j)})
+    frame = Frame(structure.links, mm, values, {ground: Pose(0j, 1 + 0j)}, instrument)
+    if not instrument.faultless:
+        frame.pricked.update({p: instrument.point(z * mm) for p, z in structure.links[ground].points.items()})
+    return frame
 
 
 def _refuse(element: Dyad, meeting: Meeting) -> None:

@@ -197,7 +197,7 @@ class Sheet:
     ``ends`` gives the end points in each polygon: ends["velocity"][PointRef("B", "3")] is b3.
     ``omega`` and ``alpha`` hold the measured rates by link.  ``stopped`` names the group that could not be drawn and
     why; everything before it stands.  ``notes`` are remarks on the construction (lines that meet off the sheet,
-    zero vectors).
+    zero vectors).  ``causes`` tells to which step the acts of the hand belong: (acts made when it was done, the step).
     """
 
     scene: Scene
@@ -215,6 +215,7 @@ class Sheet:
     assembly: Mapping[str, Phrase]
     notes: tuple[Phrase, ...] = ()
     stopped: Phrase | None = None
+    causes: tuple[tuple[int, Phrase], ...] = ()
 
     def vectors(self, diagram: DiagramName) -> dict[Symbol, Vector]:
         """All vectors of a diagram by symbol."""

@@ -25,6 +25,7 @@ __all__ = [
     "SheetWishes",
     "SlideDriver",
     "SlidingPair",
+    "Tools",
     "Units",
 ]
 
@@ -147,6 +148,23 @@ Driver = AngleDriver | SlideDriver
 
 
 @dataclass(frozen=True)
+class Tools:
+    """What the tools of a pencil drawing can do.
+
+    ``line_width`` (mm): a point is pricked within half of it (one standard deviation, each way); ``ruler`` (mm):
+    the step to which a length is read or laid off (0.5, or 0.1 interpolated); ``compass`` (mm): standard deviation
+    of a radius; ``set_square`` (degrees): standard deviation of a direction set; ``protractor`` (degrees): the step to
+    which an angle is read or laid off.
+    """
+
+    line_width: float = 0.2
+    ruler: float = 0.1
+    compass: float = 0.1
+    set_square: float = 0.1
+    protractor: float = 0.5
+
+
+@dataclass(frozen=True)
 class SheetWishes:
     """What the scene asks of the sheet.  Scales as in the file: mm of mechanism per mm of paper,
     (length unit/s)/mm, (length unit/s2)/mm; None where graphkin is to choose."""
@@ -158,6 +176,7 @@ class SheetWishes:
     acceleration_scale: float | None = None
     convention: Convention = "chinese"
     language: Language = "en"
+    tools: Tools = Tools()
 
 
 @dataclass(frozen=True)
