@@ -42,6 +42,10 @@ FindOption = Annotated[
 ]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object.")]
 QuietOption = Annotated[bool, typer.Option("-q", "--quiet", help="Print nothing but errors.")]
+InstrumentOption = Annotated[
+    str, typer.Option("--instrument", metavar="exact|cad|pencil", help="What draws and reads.")
+]
+SeedOption = Annotated[int, typer.Option("--seed", help="Seed of the pencil's errors.")]
 LangOption = Annotated[
     str | None, typer.Option("--lang", metavar="en|zh", help="Language of the figures and the report.")
 ]
@@ -166,7 +170,8 @@ def draw(
     convention: Annotated[
         str | None, typer.Option("--convention", metavar="chinese|us|british|russian", help="Letters and marks.")
     ] = None,
-    instrument: Annotated[str, typer.Option("--instrument", help="What draws: exact.")] = "exact",
+    instrument: InstrumentOption = "exact",
+    seed: SeedOption = 0,
     as_json: JsonOption = False,
     quiet: QuietOption = False,
 ) -> None:
@@ -175,7 +180,7 @@ def draw(
 
     def run() -> Checked:
         wanted = [f.strip().lower() for f in formats.split(",") if f.strip()]
-        drawn = drawing(scene, None, _values(at), find or None, wanted, lang, convention, instrument)
+        drawn = drawing(scene, None, _values(at), find or None, wanted, lang, convention, instrument, seed)
         paths = drawn.write(out, wanted)
         if not as_json and not quiet:
             typer.echo("\n".join(str(p) for p in paths))
@@ -189,7 +194,8 @@ def check(
     scene: SceneArgument,
     at: AtOption = None,
     find: FindOption = None,
-    instrument: Annotated[str, typer.Option("--instrument", help="What draws: exact.")] = "exact",
+    instrument: InstrumentOption = "exact",
+    seed: SeedOption = 0,
     lang: LangOption = None,
     as_json: JsonOption = False,
     quiet: QuietOption = False,
@@ -197,7 +203,7 @@ def check(
     """Measure the drawn diagrams and compare every reading with the analytic solver."""
     from graphkin.api import check as checking
 
-    _report(lambda: checking(scene, _values(at), find or None, instrument), as_json, quiet, lang)
+    _report(lambda: checking(scene, _values(at), find or None, instrument, seed), as_json, quiet, lang)
 
 
 def _report(run: Callable[[], Checked], as_json: bool, quiet: bool, lang: str | None) -> None:

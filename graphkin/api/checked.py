@@ -9,16 +9,19 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from graphkin.api.called import At, SceneLike, as_scene, asked_symbols, driver_values, own_unit
-from graphkin.checking import Compared, Report, compare, read_off
-from graphkin.drafting import Sheet, draft
+from graphkin.checking import Compared, Report, Uncertainty, compare, predict, read_off
+from graphkin.drafting import EXACT, Cad, Instrument, Plan, Sheet, execute, pencil, plan
 from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
 from graphkin.scene.model import Scene
 from graphkin.scene.symbol import Symbol
+from graphkin.words import say
 
 if TYPE_CHECKING:
     from graphkin.exact import Motion
 
-__all__ = ["Checked", "check", "compare_with_solver", "reading_row", "solved_here"]
+__all__ = ["INSTRUMENTS", "Checked", "check", "checked", "hand_of", "reading_row", "solved_here"]
+
+INSTRUMENTS = ("exact", "cad", "pencil")
 
 
 @dataclass(frozen=True)
@@ -101,11 +104,25 @@ def reading_row(scene: Scene, row: Compared) -> dict[str, Any]:
         "tolerance": in_scene_units(scene, row.symbol, row.tolerance),
         "direction_error_rad": row.direction_error,
         "ok": row.ok,
+        **(_predicted(scene, row, row.uncertainty) if row.uncertainty else {}),
+    }
+
+
+def _predicted(scene: Scene, row: Compared, uncertainty: Uncertainty) -> dict[str, Any]:
+    """Standard deviation of a reading in scene units, and the step that adds most to it."""
+    return {
+        "uncertainty": in_scene_units(scene, row.symbol, uncertainty.deviation),
+        "cause": say(uncertainty.cause),
+        "cause_share": uncertainty.share,
     }
 
 
 def check(
-    scene: SceneLike, at: At = None, find: Iterable[str | Symbol] | None = None, instrument: str = "exact"
+    scene: SceneLike,
+    at: At = None,
+    find: Iterable[str | Symbol] | None = None,
+    instrument: str = "exact",
+    seed: int = 0,
 ) -> Checked:
     """Draw a scene, measure the drawing, and compare every reading with the analytic solver.
 
@@ -113,7 +130,9 @@ def check(
     ----------
     scene, at : as for `solve`
     find : what is asked, by name ("v_D", "omega_3"); the scene's own ``find`` if None; everything if that is empty
-    instrument : "exact"
+    instrument : "exact", "cad" (lengths read to 0.01 mm, angles to 0.01 degree) or "pencil" (the tools of the scene's
+        ``[sheet.instrument]``); a finite one is judged by the uncertainty predicted from its construction
+    seed : of the pencil; the same seed draws the same sheet
 
     Raises
     ------
@@ -126,13 +145,36 @@ def check(
     >>> result.ok, round(result["v_B@3"].on_paper, 3)
     (True, 107.578)
     """
-    _known_instrument(instrument)
     given = as_scene(scene)
     asked = asked_symbols(given, find)
     values = driver_values(given, at)
+    hand = hand_of(given, instrument, seed)
     motion = solved_here(given, values)
-    sheet = draft(given, values, asked)
-    return Checked(sheet, compare_with_solver(sheet, motion, asked))
+    return checked(plan(given, values, asked), motion, hand)
+
+
+def checked(what: Plan, motion: Motion, hand: Instrument) -> Checked:
+    """Draw a plan and hold everything on it against the solver at the same position."""
+
+    def value(symbol: Symbol) -> complex | float:
+        found = motion.value(symbol)[0]
+        return complex(found) if symbol.is_vector else float(found.real)
+
+    sheet = execute(what, hand)
+    readings = read_off(sheet, (), hand)
+    predicted = None if hand is EXACT else predict(what, hand.name, what.structure.scene.sheet.tools)
+    return Checked(sheet, compare(sheet, readings, value, what.asked, predicted))
+
+
+def hand_of(scene: Scene, name: str, seed: int) -> Instrument:
+    """The instrument of a name.  Raises CallError for another name."""
+    if name == "exact":
+        return EXACT
+    if name == "cad":
+        return Cad()
+    if name == "pencil":
+        return pencil(scene.sheet.tools, seed)
+    raise CallError(Problem("instrument", f'"{name}"', did_you_mean(name, INSTRUMENTS)))
 
 
 def solved_here(scene: Scene, values: Mapping[str, float] | None) -> Motion:
@@ -149,18 +191,3 @@ def solved_here(scene: Scene, values: Mapping[str, float] | None) -> Motion:
         )
         raise Unsolvable(str(motion.status[0]), Problem(f"driver {driver}", f"{motion.status[0]}: {motion.why[0]}"))
     return motion
-
-
-def compare_with_solver(sheet: Sheet, motion: Motion, asked: tuple[Symbol, ...]) -> Report:
-    """Hold everything drawn on a sheet against the solver at the same position."""
-
-    def value(symbol: Symbol) -> complex | float:
-        found = motion.value(symbol)[0]
-        return complex(found) if symbol.is_vector else float(found.real)
-
-    return compare(sheet, read_off(sheet), value, asked)
-
-
-def _known_instrument(name: str) -> None:
-    if name != "exact":
-        raise CallError(Problem("instrument", f'"{name}"', did_you_mean(name, ["exact"])))

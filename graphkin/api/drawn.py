@@ -12,9 +12,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from graphkin.api.called import At, SceneLike, as_scene, asked_symbols, driver_values
-from graphkin.api.checked import Checked, compare_with_solver, reading_row, solved_here
+from graphkin.api.checked import Checked, checked, hand_of, reading_row, solved_here
 from graphkin.api.told import told
-from graphkin.drafting import Sheet, draft
+from graphkin.drafting import Sheet, execute, plan
 from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.scene.symbol import Symbol
 
@@ -96,14 +96,26 @@ def readings_csv(checked: Checked) -> str:
     unit = checked.scene.units.length
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(
-        ["symbol", "unit", "on_paper_mm", "measured", "exact", "error", "tolerance", "direction_error_rad", "ok"]
+        [
+            "symbol",
+            "unit",
+            "on_paper_mm",
+            "measured",
+            "exact",
+            "error",
+            "tolerance",
+            "direction_error_rad",
+            "ok",
+            "uncertainty",
+        ]
     )
     for row in checked.report.rows:
         cells = reading_row(checked.scene, row)
         units = {"v": f"{unit}/s", "omega": "rad/s", "alpha": "rad/s2"}.get(row.symbol.kind, f"{unit}/s2")
         numbers = [f"{cells[k]:.12g}" for k in ("on_paper_mm", "measured", "exact")]
         small = [f"{cells[k]:.3g}" for k in ("error", "tolerance", "direction_error_rad")]
-        writer.writerow([cells["symbol"], units, *numbers, *small, "yes" if row.ok else "no"])
+        spread = f"{cells['uncertainty']:.3g}" if "uncertainty" in cells else ""
+        writer.writerow([cells["symbol"], units, *numbers, *small, "yes" if row.ok else "no", spread])
     return out.getvalue()
 
 
@@ -116,12 +128,13 @@ def draw(
     language: str | None = None,
     convention: str | None = None,
     instrument: str = "exact",
+    seed: int = 0,
 ) -> Drawn:
     """Draw a scene step by step, check it, and write the figures if a folder is given.
 
     Parameters
     ----------
-    scene, at, find, instrument : as for `check`
+    scene, at, find, instrument, seed : as for `check`
     out : folder for mechanism, velocity, acceleration and sheet in each of the ``formats``, readings.csv and report.txt
     language : "en" or "zh"; the scene's own if None
     convention : "chinese", "us", "british" or "russian"; the scene's own if None
@@ -133,17 +146,17 @@ def draw(
     """
     from graphkin.drawing import sheet_room
 
-    _known("instrument", [instrument], ("exact",))
     _known("format", formats, FORMATS)
     _known("lang", [language] if language else [], LANGUAGES)
     _known("convention", [convention] if convention else [], CONVENTIONS)
     given = as_scene(scene)
     asked = asked_symbols(given, find)
     values = driver_values(given, at)
+    hand = hand_of(given, instrument, seed)
     motion = solved_here(given, values)
-    sheet = draft(given, values, asked)
-    checked = Checked(sheet, compare_with_solver(sheet, motion, asked))
-    drawn = Drawn(checked, draft(given, values, asked, room=sheet_room(given)), language, convention)
+    whole = checked(plan(given, values, asked), motion, hand)
+    small = execute(plan(given, values, asked, sheet_room(given)), hand_of(given, instrument, seed))
+    drawn = Drawn(whole, small, language, convention)
     if out is not None:
         drawn.write(out, formats)
     return drawn

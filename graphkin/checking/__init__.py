@@ -2,5 +2,6 @@
 
 from graphkin.checking.readings import Reading, read_off
 from graphkin.checking.report import Compared, Report, compare
+from graphkin.checking.uncertainty import COVERAGE, Uncertainty, predict
 
-__all__ = ["Compared", "Reading", "Report", "compare", "read_off"]
+__all__ = ["COVERAGE", "Compared", "Reading", "Report", "Uncertainty", "compare", "predict", "read_off"]

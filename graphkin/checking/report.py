@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import cmath
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from graphkin.checking.readings import Reading
+from graphkin.checking.uncertainty import Uncertainty
 from graphkin.drafting.sheet import Scales, Sheet
 from graphkin.scene.symbol import Symbol
 
 __all__ = ["Compared", "Report", "compare"]
+
+EXACT_TOLERANCE = 1e-9
 
 Exact = Callable[[Symbol], complex | float]
 
@@ -29,6 +32,7 @@ class Compared:
     error: float
     tolerance: float
     direction_error: float
+    uncertainty: Uncertainty | None = None
 
     @property
     def symbol(self) -> Symbol:
@@ -54,14 +58,19 @@ class Report:
 
 
 def compare(
-    sheet: Sheet, readings: Sequence[Reading], exact: Exact, asked: Sequence[Symbol] = (), tolerance: float = 1e-9
+    sheet: Sheet,
+    readings: Sequence[Reading],
+    exact: Exact,
+    asked: Sequence[Symbol] = (),
+    predicted: Mapping[Symbol, Uncertainty] | None = None,
 ) -> Report:
     """Hold readings against exact values.
 
     Parameters
     ----------
     exact : gives the exact value of a symbol at the drawn position (SI; a complex number for a vector)
-    tolerance : relative to the largest value of the same kind in the diagram
+    predicted : uncertainty of each reading, by which it is judged; without it (exact instrument) a reading may be off
+        by 1e-9 of the largest value of the same kind in the diagram
     """
     pairs = [(r, exact(r.symbol)) for r in readings]
     # a vector is judged by the largest vector of its diagram, a rate by the largest rate
@@ -81,6 +90,8 @@ def compare(
         turned = 0.0
         if reading.symbol.is_vector and min(abs(reading.value), abs(value)) > 1e-7 * most:
             turned = cmath.phase(complex(reading.value) / complex(value))
-        rows.append(Compared(reading, value, error, tolerance * most, turned))
+        expected = (predicted or {}).get(reading.symbol)
+        tolerance = max(expected.bound if expected else 0.0, EXACT_TOLERANCE * most)
+        rows.append(Compared(reading, value, error, tolerance, turned, expected))
     have = {r.symbol for r in readings}
     return Report(sheet.instrument, sheet.scales, tuple(rows), tuple(s for s in asked if s not in have))

@@ -33,6 +33,7 @@ LONGEST_TEXT = 300
 
 Number = Annotated[float, Field(allow_inf_nan=False, ge=-LARGEST, le=LARGEST)]
 Magnitude = Annotated[float, Field(allow_inf_nan=False, ge=SMALLEST, le=LARGEST)]
+Tool = Annotated[float, Field(allow_inf_nan=False, ge=0, le=10)]
 Place = Annotated[list[Number], Field(min_length=2, max_length=2, description="[x, y]")]
 PointName = Annotated[str, StringConstraints(pattern=r"^[A-Z][A-Za-z0-9]*$", max_length=40)]
 LinkName = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9]+$", max_length=40)]
@@ -206,6 +207,18 @@ DriverTable = Annotated[
 ]
 
 
+class InstrumentTable(_Table):
+    """What the tools of a pencil drawing can do; used with --instrument pencil."""
+
+    line_width: Tool = Field(
+        default=0.2, description="Width of a pencil line (mm); a point is pricked within half of it."
+    )
+    ruler: Tool = Field(default=0.1, description="Step of the ruler (mm): 0.5, or 0.1 interpolated.")
+    compass: Tool = Field(default=0.1, description="Standard deviation of a compass radius (mm).")
+    set_square: Tool = Field(default=0.1, description="Standard deviation of a direction set (degrees).")
+    protractor: Tool = Field(default=0.5, description="Step of the protractor (degrees).")
+
+
 class SheetTable(_Table):
     """Wishes for the drawn sheet."""
 
@@ -216,6 +229,7 @@ class SheetTable(_Table):
     acceleration_scale: Magnitude | None = Field(default=None, description="(length unit/s2) per mm of paper.")
     convention: Literal["chinese", "us", "british", "russian"] = "chinese"
     language: Literal["en", "zh"] = "en"
+    instrument: InstrumentTable = InstrumentTable()
 
 
 class SceneFile(_Table):

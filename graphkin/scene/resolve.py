@@ -18,6 +18,7 @@ from graphkin.scene.model import (
     Scene,
     SheetWishes,
     SlideDriver,
+    Tools,
     Units,
 )
 from graphkin.scene.names import Names
@@ -99,7 +100,7 @@ def resolve(file: SceneFile, name: str, problems: list[Problem], flaws: Flaws) -
     return Scene(
         name, title, frame, links, slidings, pins, tuple(d for d in drivers if d), Units(file.units.length, metres),
         file.title_zh, file.source, {p: complex(*xy) * metres for p, xy in file.sketch.items()}, drawn, find, printed,
-        SheetWishes(**file.sheet.model_dump()),
+        SheetWishes(**file.sheet.model_dump(exclude={"instrument"}), tools=Tools(**file.sheet.instrument.model_dump())),
     )
 
 
