@@ -234,6 +234,8 @@ def _report(run: Callable[[], Checked], as_json: bool, quiet: bool, lang: str | 
         _table(["quantity", "mm on paper", "measured", "exact", ""], rows, right=(1, 2, 3))
         for note in checked.sheet.notes:
             typer.echo(say(note, language, show))
+        if checked.advice:
+            typer.echo(say(checked.advice.phrase(), language, show))
         typer.echo(verdict(checked, language))
     if checked.sheet.stopped is not None and not checked.complete:
         typer.echo(f"graphkin: {say(checked.sheet.stopped, language, show)}", err=True)

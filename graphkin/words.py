@@ -16,7 +16,7 @@ LANGUAGES = ("en", "zh")
 
 @dataclass(frozen=True)
 class Phrase:
-    """A sentence to be: its key in the table and what stands in its gaps (names, symbols, numbers)."""
+    """A sentence to be: its key in the table and what stands in its gaps (names, symbols, numbers, phrases)."""
 
     key: str
     args: tuple[object, ...] = ()
@@ -28,7 +28,8 @@ def say(phrase: Phrase, language: str = "en", show: Callable[[object], str] = st
     >>> say(Phrase("arcs", ("C", "B", "D")))
     'arcs about B and D meet in C'
     """
-    return _TABLE[phrase.key][LANGUAGES.index(language)].format(*(show(a) for a in phrase.args))
+    parts = (say(a, language, show) if isinstance(a, Phrase) else show(a) for a in phrase.args)
+    return _TABLE[phrase.key][LANGUAGES.index(language)].format(*parts)
 
 
 def word(key: str, language: str = "en") -> str:
@@ -104,11 +105,19 @@ _TABLE: dict[str, tuple[str, str]] = {
     "placing": ("placing link {0} on paper", "画出构件 {0} 的位置"),
     "reading": ("reading {0} off the paper", "从图上量取 {0}"),
     # remarks
-    "zero vector": ("{0} = 0", "{0} = 0"),
-    "nearly parallel": (
-        "the lines that find {0} are nearly parallel: the crossing is badly conditioned",
-        "求 {0} 的两直线接近平行，交点精度差",
+    "advice": (
+        "The least certain reading is {0} (±{1} %), mostly from {2} ({3} % of the variance); {4} drawn twice as "
+        "large would leave ±{5} %.",
+        "最不可靠的量取值是 {0}（±{1} %），主要来自：{2}（占方差 {3} %）；将{4}放大一倍，可减小到 ±{5} %。",
     ),
+    "figure length": ("the mechanism", "机构图"),
+    "figure velocity": ("the velocity polygon", "速度多边形"),
+    "figure acceleration": ("the acceleration polygon", "加速度多边形"),
+    "sharp crossing": (
+        "the lines that find {0} cross at {1} degrees only: readings that depend on it are uncertain",
+        "求 {0} 的两线夹角仅 {1}°，与之有关的量取值误差大",
+    ),
+    "zero vector": ("{0} = 0", "{0} = 0"),
     "off the sheet": (
         "the lines that find {0} meet off the sheet; the crossing was computed from their directions",
         "求 {0} 的两直线交于图纸之外，交点按其方向算出",

@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from graphkin.api.called import At, SceneLike, as_scene, asked_symbols, driver_values, own_unit
-from graphkin.checking import Compared, Report, Uncertainty, compare, predict, read_off
+from graphkin.checking import Advice, Compared, Report, Uncertainty, advise, compare, predict, read_off
 from graphkin.drafting import EXACT, Cad, Instrument, Plan, Sheet, execute, pencil, plan
 from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
 from graphkin.scene.model import Scene
@@ -26,10 +26,14 @@ INSTRUMENTS = ("exact", "cad", "pencil")
 
 @dataclass(frozen=True)
 class Checked:
-    """A drawing, its readings, and how they compare with the exact values."""
+    """A drawing, its readings, and how they compare with the exact values.
+
+    ``advice`` names the least certain reading of a drawing with finite tools, and what would help it.
+    """
 
     sheet: Sheet
     report: Report
+    advice: Advice | None = None
 
     @property
     def scene(self) -> Scene:
@@ -66,6 +70,7 @@ class Checked:
                 "acceleration": _plain(scales.acceleration / unit),
             },
             "readings": [reading_row(self.scene, row) for row in self.report.rows],
+            **({"advice": say(self.advice.phrase())} if self.advice else {}),
         }
 
     def _repr_html_(self) -> str:
@@ -162,8 +167,12 @@ def checked(what: Plan, motion: Motion, hand: Instrument) -> Checked:
 
     sheet = execute(what, hand)
     readings = read_off(sheet, (), hand)
-    predicted = None if hand is EXACT else predict(what, hand.name, what.structure.scene.sheet.tools)
-    return Checked(sheet, compare(sheet, readings, value, what.asked, predicted))
+    if hand is EXACT:
+        return Checked(sheet, compare(sheet, readings, value, what.asked))
+    tools = what.structure.scene.sheet.tools
+    predicted = predict(what, hand.name, tools)
+    advice = advise(what, hand.name, tools, readings, predicted)
+    return Checked(sheet, compare(sheet, readings, value, what.asked, predicted), advice)
 
 
 def hand_of(scene: Scene, name: str, seed: int) -> Instrument:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from graphkin.api.called import At, SceneLike, as_scene, asked_symbols, driver_values
 from graphkin.api.checked import Checked, checked, hand_of, reading_row, solved_here
 from graphkin.api.told import told
-from graphkin.drafting import Sheet, execute, plan
+from graphkin.drafting import plan
 from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.scene.symbol import Symbol
 
@@ -36,7 +36,7 @@ class Drawn:
     """
 
     checked: Checked
-    small: Sheet
+    small: Checked
     language: str | None
     convention: str | None
 
@@ -51,8 +51,8 @@ class Drawn:
 
         return figures(
             self.checked.sheet,
-            self.small,
-            self.checked.report,
+            self.small.sheet,
+            self.small.report,
             language=self.language,
             convention=self.convention,
         )
@@ -155,7 +155,8 @@ def draw(
     hand = hand_of(given, instrument, seed)
     motion = solved_here(given, values)
     whole = checked(plan(given, values, asked), motion, hand)
-    small = execute(plan(given, values, asked, sheet_room(given)), hand_of(given, instrument, seed))
+    # the sheet is drawn anew at the scales that fit it, and bears its own readings
+    small = checked(plan(given, values, asked, sheet_room(given)), motion, hand_of(given, instrument, seed))
     drawn = Drawn(whole, small, language, convention)
     if out is not None:
         drawn.write(out, formats)

@@ -1,7 +1,19 @@
 """Readings off a drawing, and their comparison with exact values."""
 
+from graphkin.checking.advice import Advice, advise
 from graphkin.checking.readings import Reading, read_off
 from graphkin.checking.report import Compared, Report, compare
 from graphkin.checking.uncertainty import COVERAGE, Uncertainty, predict
 
-__all__ = ["COVERAGE", "Compared", "Reading", "Report", "Uncertainty", "compare", "predict", "read_off"]
+__all__ = [
+    "COVERAGE",
+    "Advice",
+    "Compared",
+    "Reading",
+    "Report",
+    "Uncertainty",
+    "advise",
+    "compare",
+    "predict",
+    "read_off",
+]

@@ -70,10 +70,10 @@ def compare(
     ----------
     exact : gives the exact value of a symbol at the drawn position (SI; a complex number for a vector)
     predicted : uncertainty of each reading, by which it is judged; without it (exact instrument) a reading may be off
-        by 1e-9 of the largest value of the same kind in the diagram
+        by 1e-9 of the largest vector of the diagram, a rate by 1e-9 of the largest rate or of that vector by the scene's size
     """
     pairs = [(r, exact(r.symbol)) for r in readings]
-    # a vector is judged by the largest vector of its diagram, a rate by the largest rate
+    # a vector is judged by the largest vector of its diagram, a rate by the largest rate or by that vector over the size
     largest: dict[tuple[str, bool], float] = {}
     for reading, value in pairs:
         group = (reading.diagram, reading.symbol.is_vector)
@@ -83,6 +83,8 @@ def compare(
         diagram = sheet.vectors("velocity" if order == "velocity" else "acceleration")
         whole = max((abs(v.span) for v in diagram.values()), default=0.0)
         largest[order, True] = whole * sheet.scales.of("velocity" if order == "velocity" else "acceleration")
+        # a rate that is zero comes from a vector divided by a length
+        largest[order, False] = max(largest.get((order, False), 0.0), largest[order, True] / sheet.scene.size)
     rows = []
     for reading, value in pairs:
         most = largest[reading.diagram, reading.symbol.is_vector]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 
 from shapely import LineString, Point
@@ -15,6 +16,7 @@ from graphkin.words import Phrase
 __all__ = ["REACH", "Board"]
 
 REACH = 2000.0  # mm to either side: how far a construction line is drawn
+SHARP = math.sin(math.radians(15.0))
 PARALLEL = 1e-12  # sine below which two lines have no crossing at all
 
 
@@ -37,6 +39,11 @@ class Board:
         if phrase not in self.notes:
             self.notes.append(phrase)
 
+    def warn(self, sine: float, what: str) -> None:
+        """Say where two lines cross at so small an angle that the place of the crossing is uncertain."""
+        if sine < SHARP:
+            self.note(Phrase("sharp crossing", (what, f"{math.degrees(math.asin(sine)):.2g}")))
+
     def cross(self, p: complex, d: complex, q: complex, e: complex, what: str) -> complex:
         """Where the line through p along d meets the line through q along e, drawn as ruler lines.
 
@@ -52,8 +59,7 @@ class Board:
                 "dead point",
                 Problem(what, "the two lines that should find it are parallel", "move the driver off this position"),
             )
-        if sine < 0.05:
-            self.note(Phrase("nearly parallel", (what,)))
+        self.warn(sine, what)
         one = LineString([_xy(p - REACH * d), _xy(p + REACH * d)])
         two = LineString([_xy(q - REACH * e), _xy(q + REACH * e)])
         found = one.intersection(two)

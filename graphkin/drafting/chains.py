@@ -24,8 +24,8 @@ class Edge:
     """The motion of ``end`` relative to ``start``.
 
     ``link`` is the rigid link between them, or ``slide`` the sliding pair they belong to, or ``weld`` the driven
-    turning pair.  ``unknown`` names what is not known of it ("omega 3", "slide 2/3"); "" if nothing.  ``labels`` are the nodes
-    as written, coincident points with their links.
+    turning pair.  ``unknown`` names what is not known of it ("omega 3", "slide 2/3"); "" if nothing.  ``labels`` are
+    the nodes as written, coincident points with their links.
     """
 
     start: PointRef

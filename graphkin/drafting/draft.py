@@ -15,7 +15,7 @@ from graphkin.drafting.position import Position, branches_at, place
 from graphkin.drafting.sheet import Mark, Scales, Sheet
 from graphkin.scene.model import AngleDriver, Scene
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Cluster, Driven, Dyad, Element, Structure, analyse
+from graphkin.structure import Cluster, Driven, Dyad, Element, Structure, Turn, analyse
 from graphkin.words import Phrase
 
 __all__ = ["Plan", "Room", "draft", "execute", "plan"]
@@ -176,6 +176,7 @@ def _draw_position(
             _, story = drive(so_far, element)
         else:
             meeting = position.meetings[i]
+            board.warn(min(meeting.sine, 1.0), _inner_name(element))
             index = branches.get(i, 0) % len(meeting.poses)
             story = meeting.stories[index]
             key = ", ".join(element.links)
@@ -197,6 +198,13 @@ def _draw_position(
             elif marks:
                 board.do("mechanism", Phrase("points", (name, ", ".join(fresh))), *marks)
     return assembly
+
+
+def _inner_name(dyad: Dyad) -> str:
+    """What the loci of a dyad find, for a remark."""
+    if isinstance(dyad.inner, Turn):
+        return dyad.inner.point
+    return f"links {', '.join(dyad.links)}"
 
 
 def _assembly_names(dyad: Dyad) -> tuple[object, ...]:
@@ -240,6 +248,8 @@ def _scales(
 
 def _fit(points: Sequence[complex], room: tuple[float, float], per_mm: float) -> float:
     """The finest scale of the series at which points given at ``per_mm`` fit the room; 1 if they span nothing."""
+    if not points:
+        return 1.0
     width = max(z.real for z in points) - min(z.real for z in points)
     height = max(z.imag for z in points) - min(z.imag for z in points)
     least = max(width / room[0], height / room[1]) * per_mm
