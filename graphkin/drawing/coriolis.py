@@ -19,14 +19,14 @@ from graphkin.drawing.typeset import symbol
 from graphkin.plane import cross, unit
 from graphkin.scene.symbol import Symbol
 
-__all__ = ["INSET", "coriolis_inset", "coriolis_terms"]
+__all__ = ["CoriolisTerm", "coriolis_inset", "coriolis_terms"]
 
-INSET = (30.0, 24.0)  # mm
-REACH = 7.5
+CoriolisTerm = tuple[Vector, Vector, str]
+REACH = 8.0  # mm of the arrows
 ZERO = 0.02  # mm
 
 
-def coriolis_terms(sheet: Sheet) -> list[tuple[Vector, Vector, str]]:
+def coriolis_terms(sheet: Sheet) -> list[CoriolisTerm]:
     """Each Coriolis vector that is not zero, with its sliding velocity and the rule for its size."""
     velocities = sheet.vectors("velocity")
     rules = {t.symbol: t.size for e in sheet.equations for side in e.sides for t in side}
@@ -43,7 +43,7 @@ def coriolis_terms(sheet: Sheet) -> list[tuple[Vector, Vector, str]]:
 
 
 def coriolis_inset(
-    sheet: Sheet, term: tuple[Vector, Vector, str], letters: Letters, box: Box
+    sheet: Sheet, term: CoriolisTerm, letters: Letters, box: Box
 ) -> tuple[Piece, Box]:
     """The inset in a box of the page, and the part of it in which its names may stand."""
     vector, velocity, rule = term

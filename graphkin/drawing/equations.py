@@ -1,4 +1,4 @@
-"""Vector equations as they are written: terms with what is known of their size and direction, as a convention shows it."""
+"""Vector equations as they are written: terms with what is known of their size and direction."""
 
 from __future__ import annotations
 
@@ -140,7 +140,7 @@ def _heads(letters: Letters, language: str, size: float) -> tuple[tuple[Run, ...
 
 
 def _space(cell: _Cell) -> float:
-    return GAP * (1.0 if cell.is_term else 0.3)
+    return 0.6 * GAP
 
 
 def _lines(cells: list[_Cell], width: float) -> list[list[_Cell]]:

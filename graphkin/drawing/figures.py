@@ -9,9 +9,10 @@ from graphkin.drawing.conventions import Letters, letters_of, scale_statement
 from graphkin.drawing.describe import describe, figure_title
 from graphkin.drawing.dimensions import check_bar
 from graphkin.drawing.headings import drivers, facts, languages, term, titles
-from graphkin.drawing.layout import Piece, joined, layer_groups, settled, wrapped
-from graphkin.drawing.mechanism import mechanism_extent, mechanism_piece
-from graphkin.drawing.polygon import extent, polygon_piece
+from graphkin.drawing.insets import polygon_with_insets, strip_height
+from graphkin.drawing.layout import Piece, joined, layer_groups, moved_piece, settled, wrapped
+from graphkin.drawing.mechanism import mechanism_piece
+from graphkin.drawing.polygon import extent
 from graphkin.drawing.primitives import Drawing, Primitive, Run, Text
 from graphkin.drawing.sheet_page import sheet_page
 from graphkin.drawing.typeset import rich
@@ -49,18 +50,20 @@ def acceleration_figure(sheet: Sheet, *, language: str | None = None, convention
 def _figure(sheet: Sheet, diagram: DiagramName, language: str | None, convention: str | None) -> Drawing:
     spoken = language or sheet.scene.sheet.language
     letters = letters_of(sheet, convention or sheet.scene.sheet.convention)  # type: ignore[arg-type]
-    content = mechanism_extent(sheet, letters) if diagram == "mechanism" else extent(sheet, diagram)
+    piece, content = mechanism_piece(sheet, letters) if diagram == "mechanism" else (Piece(), extent(sheet, diagram))
     width = max(LEAST_WIDTH, content.width + 2 * (ROOM + MARGIN))
     head = _heading(sheet, diagram, letters, spoken, width - 2 * MARGIN)
     top = MARGIN + LINE * len(head) + 2.0
     panel = Box(MARGIN, top, width - MARGIN, top + content.height + 2 * ROOM)
     origin = panel.centre - content.centre
+    bottom = panel.bottom
     if diagram == "mechanism":
-        piece = mechanism_piece(sheet, letters, origin)
+        piece = settled(moved_piece(piece, origin), panel)
     else:
-        piece = polygon_piece(sheet, diagram, letters, spoken, panel, origin)
-    piece = settled(piece, panel)
-    height = panel.bottom + FOOT
+        bottom += strip_height(sheet, diagram, panel.width)
+        strip = Box(panel.left, panel.bottom, panel.right, bottom)
+        piece, _ = polygon_with_insets(sheet, diagram, letters, spoken, panel, origin, strip)
+    height = bottom + FOOT
     words: list[Primitive] = [
         Text(complex(MARGIN, MARGIN + 3.5 + LINE * i), runs, classes=("heading",)) for i, runs in enumerate(head)
     ]
@@ -81,7 +84,9 @@ def _figure(sheet: Sheet, diagram: DiagramName, language: str | None, convention
 FIGURE_WORDS = {"mechanism": "mechanism", "velocity": "velocity polygon", "acceleration": "acceleration polygon"}
 
 
-def _heading(sheet: Sheet, diagram: DiagramName, letters: Letters, language: str, width: float) -> list[tuple[Run, ...]]:
+def _heading(
+    sheet: Sheet, diagram: DiagramName, letters: Letters, language: str, width: float
+) -> list[tuple[Run, ...]]:
     lines = [line for title in titles(sheet, language) for line in wrapped(title, 4.0, width, bold=True)]
     lines += wrapped(f"{term(FIGURE_WORDS[diagram], language)}:  {drivers(sheet, letters)}", 3.2, width)
     return lines

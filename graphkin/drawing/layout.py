@@ -7,12 +7,24 @@ from dataclasses import dataclass, field, replace
 
 from graphkin.drawing.box import Box
 from graphkin.drawing.metrics import runs_width, text_box
-from graphkin.drawing.obstacles import obstacles_of
+from graphkin.drawing.obstacles import Obstacles, obstacles_of
 from graphkin.drawing.placing import Label, Mark, Placed, place
 from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Run, Text, walk
 from graphkin.drawing.typeset import SMALLEST, rich
 
-__all__ = ["LAYERS", "Name", "Piece", "fitted", "ink_box", "joined", "layer_groups", "moved", "settled", "wrapped"]
+__all__ = [
+    "LAYERS",
+    "Name",
+    "Piece",
+    "fitted",
+    "ink_box",
+    "joined",
+    "layer_groups",
+    "moved",
+    "moved_piece",
+    "settled",
+    "wrapped",
+]
 
 # In the order of drawing.
 LAYERS = ("construction", "mechanism", "velocity", "acceleration", "centres", "answers", "labels")
@@ -53,10 +65,13 @@ def joined(pieces: Iterable[Piece]) -> Piece:
     return Piece(layers, names, marks)
 
 
-def settled(piece: Piece, panel: Box) -> Piece:
-    """The piece with its names in their places, in the layer "labels"; some that find none are given up."""
+def settled(piece: Piece, panel: Box, fences: Sequence[Box] = ()) -> Piece:
+    """The piece with its names in their places, in the layer "labels"; some that find none are given up.
+
+    No name leaves the panel or enters a fence.
+    """
     names = list(piece.names)
-    obstacles = obstacles_of(piece.drawn)
+    obstacles = obstacles_of(piece.drawn) + Obstacles(areas=tuple(fences))
     placed: tuple[Placed, ...] = ()
     while True:
         placed = place([name.label for name in names], panel, obstacles, piece.marks)
@@ -155,6 +170,17 @@ def _pieces(markup: str) -> list[str]:
     if word:
         pieces.append(word)
     return pieces
+
+
+def moved_piece(piece: Piece, by: complex) -> Piece:
+    """The same piece elsewhere on the page."""
+    names = tuple(replace(n, label=replace(n.label, mark=_moved_mark(n.label.mark, by))) for n in piece.names)
+    layers = {layer: moved(things, by) for layer, things in piece.layers.items()}
+    return Piece(layers, names, tuple(_moved_mark(mark, by) for mark in piece.marks))
+
+
+def _moved_mark(mark: Mark, by: complex) -> Mark:
+    return (mark[0] + by, mark[1] + by) if isinstance(mark, tuple) else mark + by
 
 
 def moved(children: Iterable[Primitive], by: complex) -> tuple[Primitive, ...]:

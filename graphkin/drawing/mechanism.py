@@ -14,45 +14,54 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.colours import colour_of_link
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.layout import Name, Piece, ink_box
+from graphkin.drawing.lengths import LENGTHS, drawn_lengths
 from graphkin.drawing.placing import Label
 from graphkin.drawing.primitives import Arc, Group, Line, Polygon, Primitive, Stroke, Text
-from graphkin.drawing.shapes import Bearing, Shape, bearings, shapes
+from graphkin.drawing.senses import Clearance
+from graphkin.drawing.shapes import GUIDE_LENGTH, Bearing, Shape, bearings, shapes
 from graphkin.drawing.typeset import plain, symbol
 from graphkin.plane import cross, dot
 from graphkin.scene.model import AngleDriver, SlideDriver
 
-__all__ = ["mechanism_extent", "mechanism_piece"]
+__all__ = ["mechanism_piece"]
 
 COMPASS = 4.0  # mm of arc to either side of what it finds
-GUIDE_LENGTH = 24.0
-DRIVER_RADIUS, RADIUS, RADIUS_STEP = 7.5, 6.0, 2.6
+DRIVER_RADIUS, RADIUS = 6.5, 5.5
 FOOT = {-math.pi / 2: 0.0, 0.0: 0.5, math.pi: 0.5, math.pi / 2: 0.7}  # where feet may point, and how little liked
 
 
-def mechanism_extent(sheet: Sheet, letters: Letters) -> Box:
-    """The box (mm, y down, about the world's origin) around the drawn mechanism, names left out."""
-    box = ink_box(mechanism_piece(sheet, letters, 0j).drawn)
-    return box or Box(-20.0, -20.0, 20.0, 20.0)
+def mechanism_piece(sheet: Sheet, letters: Letters, room: tuple[float, float] | None = None) -> tuple[Piece, Box]:
+    """Draw the mechanism about the world's origin; the piece, and the box (mm, y down) around it, names left out.
 
-
-def mechanism_piece(sheet: Sheet, letters: Letters, origin: complex) -> Piece:
-    """Draw the mechanism with the world's origin at a point of the page (mm)."""
-    return _Composer(sheet, letters, origin).piece()
+    ``room`` is the width and height (mm) that dimensions may take up at most; None for any.
+    """
+    piece = _Composer(sheet, letters, None).piece()
+    box = ink_box(piece.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
+    if room is None or (box.width <= room[0] and box.height <= room[1]):
+        return piece, box
+    lengths = [thing for thing in piece.drawn if isinstance(thing, Group) and thing.id == LENGTHS]
+    bare = ink_box(thing for thing in piece.drawn if thing not in lengths)
+    middle = (bare or box).centre
+    half = complex(*room) / 2
+    panel = Box.around((middle - half, middle + half))
+    piece = _Composer(sheet, letters, panel).piece()
+    return piece, panel
 
 
 class _Composer:
-    def __init__(self, sheet: Sheet, letters: Letters, origin: complex) -> None:
-        self.sheet, self.scene, self.letters, self.origin = sheet, sheet.scene, letters, origin
+    def __init__(self, sheet: Sheet, letters: Letters, panel: Box | None) -> None:
+        self.panel = panel
+        self.sheet, self.scene, self.letters = sheet, sheet.scene, letters
         self.ground = sheet.scene.frame.name
         self.shapes = shapes(sheet)
         self.bearings = bearings(sheet)
         self.places = {ref.point: z for ref, z in sheet.points.items() if not ref.link}
         self.cylinders = {b.slide.key for b in self.bearings if b.driven and self._is_cylinder(b)}
         self.names: list[Name] = []
-        self.arcs: dict[complex, list[float]] = {}  # directions in which arcs stand about a place already
+        self.clearance = self._clearance()
 
     def at(self, z: complex) -> complex:
-        return self.origin + z.conjugate()
+        return z.conjugate()
 
     def piece(self) -> Piece:
         fixed = list(self._frame())
@@ -60,11 +69,12 @@ class _Composer:
         joints = list(self._joints())
         drivers = list(self._drivers())
         found = list(self._found())
+        lengths = drawn_lengths(self.sheet, (*fixed, *links, *joints, *drivers, *found), self.panel)
         self._name_links()
         marks = tuple(self.at(z) for z in self.places.values())
         layers: dict[str, tuple[Primitive, ...]] = {
             "construction": tuple(self._construction()),
-            "mechanism": (*fixed, *links, *joints, *drivers),
+            "mechanism": (*fixed, *links, *joints, *drivers, lengths),
             "answers": tuple(found),
         }
         return Piece(layers, tuple(self.names), marks)
@@ -147,6 +157,7 @@ class _Composer:
         hidden = {b.slide.b for b in self.bearings if b.slide.key in self.cylinders}
         if shape.link not in hidden:
             parts += [Line(self.at(start), self.at(end), stroke) for start, end in shape.bars]
+            parts += self._welds(shape, colour)
         for start, end in shape.slots:
             parts += symbols.slot(self.at(start), self.at(end), colour)
         for b in self.bearings:
@@ -160,6 +171,21 @@ class _Composer:
                 far = pivot + 0.6 * (b.at - pivot)
                 parts.append(Line(self.at(far), self.at(b.at), strokes.LINK.coloured(colour)))
         return Group(tuple(parts), id=f"link-{shape.link}", classes=("link",))
+
+    def _welds(self, shape: Shape, colour: str) -> list[Primitive]:
+        """Filled corners where two bars of one link meet at an angle with no joint between them."""
+        parts: list[Primitive] = []
+        for i, (a, b) in enumerate(shape.bars):
+            for p, q in shape.bars[i + 1 :]:
+                for corner, far in ((p, q), (q, p)):
+                    e = (b - a) / abs(b - a)
+                    if abs(cross(corner - a, e)) > 1e-3 or abs(cross((far - corner) / abs(far - corner), e)) < 0.1:
+                        continue
+                    if any(abs(corner - z) < 1.0 for z in self.places.values()):
+                        continue
+                    along = b if abs(b - corner) > abs(a - corner) else a
+                    parts += symbols.weld(self.at(corner), self.at(far), self.at(along), colour)
+        return parts
 
     def _is_cylinder(self, b: Bearing) -> bool:
         if b.slide.b == self.ground or b.slide.slot:
@@ -254,9 +280,9 @@ class _Composer:
                     markup = f"ω_{{{driver.link}}}"
                     if driver.relative_to != self.ground:
                         markup = f"ω_{{{driver.link}{driver.relative_to}}}"
-                    centre = self._centre_of_turn(driver.link, driver.relative_to)
-                    yield self._sense(centre, driver.link, 1 if driver.omega > 0 else -1, 1, markup, DRIVER_RADIUS,
-                                      f"driver-{driver.link}")
+                    centres = self._centres_of_turn(driver.link, driver.relative_to)
+                    yield self._sense(centres, driver.link, 1 if driver.omega > 0 else -1, 1, markup,
+                                      f"driver-{driver.link}", DRIVER_RADIUS)
             else:
                 yield from self._slide_arrow(driver)
 
@@ -282,55 +308,51 @@ class _Composer:
             for link, rate in own.items():
                 if rate.vector is None or rate.same_as or "/" in link or abs(rate.value) < 1e-12:
                     continue
-                centre = self._centre_of_turn(link, self.ground)
+                centres = self._centres_of_turn(link, self.ground)
                 kind = "omega" if heads == 1 else "alpha"
-                yield self._sense(centre, link, 1 if rate.value > 0 else -1, heads, f"{sign}_{{{link}}}", RADIUS,
-                                  f"{kind}-{link}")
+                sense = 1 if rate.value > 0 else -1
+                yield self._sense(centres, link, sense, heads, f"{sign}_{{{link}}}", f"{kind}-{link}")
 
-    def _centre_of_turn(self, link: str, other: str) -> complex:
-        """Where an arc of sense is drawn: at the pivot of the link, else at the middle of the link."""
+    def _centres_of_turn(self, link: str, other: str) -> list[complex]:
+        """Where an arc of sense may stand: about the pivot of the link, else about places along it."""
         mine = self.scene.by_name[link].points
         theirs = self.scene.by_name[other].points
         for point in mine:
             if point in theirs and point in self.places:
-                return self.places[point]
+                return [self.places[point]]
         shape = next((s for s in self.shapes if s.link == link), None)
         if shape is not None and shape.corners:
-            return sum(shape.corners, 0j) / len(shape.corners)
+            return [sum(shape.corners, 0j) / len(shape.corners)]
         if shape is not None and shape.longest is not None:
             a, b = shape.longest
-            return a + 0.62 * (b - a)
-        return self.sheet.poses[link].origin
+            return [a + share * (b - a) for share in (0.5, 0.34, 0.66)]
+        return [self.sheet.poses[link].origin]
 
     def _sense(
-        self, centre: complex, link: str, sense: int, heads: int, markup: str, radius: float, id: str
+        self, centres: list[complex], link: str, sense: int, heads: int, markup: str, id: str, radius: float = RADIUS
     ) -> Group:
-        used = self.arcs.setdefault(_rounded(centre), [])
-        middle, width = self._gap(centre, used)
-        if width < math.radians(75) and used:  # no room beside the others: outside them
-            middle, _ = self._gap(centre, [])
-            radius += RADIUS_STEP * len(used)
-        used += [middle - 0.75, middle, middle + 0.75]
-        colour = self.colour(link)
-        parts = symbols.sense_arc(self.at(centre), radius, middle, sense, colour=colour, heads=heads)
+        centre, radius, middle = self.clearance.arc(centres, radius)
+        parts = symbols.sense_arc(self.at(centre), radius, middle, sense, colour=self.colour(link), heads=heads)
         text = Text(0j, symbol(markup), "start", strokes.BLACK, f"label-{id}", ("label",))
         top = self.at(centre + radius * complex(math.cos(middle), math.sin(middle)))
         self.names.append(Name(Label(text, top, (middle,)), 0))
         return Group(parts, id=id, classes=("sense",))
 
-    def _gap(self, centre: complex, used: list[float]) -> tuple[float, float]:
-        """Middle and width of the widest angle that bars, feet and other arcs leave free about a place."""
-        ways = [phase(w) for w in self._ways(centre)] + used
+    def _clearance(self) -> Clearance:
+        """Everything that arcs keep clear of."""
+        segments = [segment for shape in self.shapes for segment in shape.segments]
+        segments += [(z, z + 0.01) for z in self.places.values()]
         for point in self.scene.frame.points:
-            if self._moving(point) and abs(self.places[point] - centre) < 1e-6:
-                foot = self._foot(point)
-                ways += [foot - 0.5, foot, foot + 0.5]
-        if not ways:
-            return math.pi / 4, 2 * math.pi
-        ways = sorted(w % (2 * math.pi) for w in ways)
-        gaps = [((b - a) % (2 * math.pi) or 2 * math.pi, a) for a, b in zip(ways, ways[1:] + ways[:1], strict=True)]
-        width, start = max(gaps, key=lambda g: (round(g[0], 6), -g[1]))
-        return start + width / 2, width
+            if self._moving(point):
+                z, foot = self.places[point], self._foot(point)
+                down = complex(math.cos(foot), math.sin(foot))
+                end = z + symbols.FOOT_HEIGHT * down
+                segments += [(z, end + 3.2j * down), (z, end - 3.2j * down), (end + 4.5j * down, end - 4.5j * down)]
+        for b in self.bearings:
+            reach = GUIDE_LENGTH / 2 if self.ground in (b.slide.a, b.slide.b) else symbols.BLOCK_LENGTH / 2
+            side = 1j * b.along * symbols.BLOCK_WIDTH / 2
+            segments += [(b.at + s * side - reach * b.along, b.at + s * side + reach * b.along) for s in (-1, 1)]
+        return Clearance(segments)
 
     # -- construction ------------------------------------------------------------------------------------------------
 
@@ -350,7 +372,3 @@ class _Composer:
 def _turn(a: float, b: float) -> float:
     """Angle between two directions (rad, 0 to pi)."""
     return abs((a - b + math.pi) % (2 * math.pi) - math.pi)
-
-
-def _rounded(z: complex) -> complex:
-    return complex(round(z.real, 3), round(z.imag, 3))

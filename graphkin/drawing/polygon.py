@@ -13,6 +13,7 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.colours import colour_of_link, colour_of_vector, link_of_vector
 from graphkin.drawing.conventions import Letters, pole
 from graphkin.drawing.describe import spoken_ref, spoken_vector
+from graphkin.drawing.detail import Detail
 from graphkin.drawing.layout import Name, Piece
 from graphkin.drawing.placing import Label
 from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Primitive, Stroke, Text
@@ -24,6 +25,7 @@ __all__ = ["extent", "polygon_piece"]
 POLE_RADIUS, END_RADIUS, FOOT_RADIUS, RING = 0.9, 0.5, 0.4, 0.45
 BEYOND = 9.0  # mm: how far a direction line runs past the crossing
 SAME = 0.02  # mm: nearer end points fall together on paper
+SHORT = 8.0  # mm: a shorter vector from the pole is named by its end points alone
 ZERO = 0.02  # mm: a shorter vector is drawn as a dot
 
 
@@ -43,22 +45,26 @@ def extent(sheet: Sheet, diagram: DiagramName) -> Box:
 
 
 def polygon_piece(
-    sheet: Sheet, diagram: DiagramName, letters: Letters, language: str, panel: Box, origin: complex
-) -> Piece:
+    sheet: Sheet, diagram: DiagramName, letters: Letters, language: str, panel: Box, origin: complex,
+    enlarged: Sequence[Detail] = (),
+) -> Piece:  # fmt: skip
     """Draw a polygon with its pole at a point of the page.
 
     Parameters
     ----------
     panel : lines known by direction only are clipped to it
     origin : page point of the pole (mm)
+    enlarged : places that are drawn again larger; they get a ring, and their vectors no names here
     """
-    return _Composer(sheet, diagram, letters, language, panel, origin).piece()
+    return _Composer(sheet, diagram, letters, language, panel, origin, enlarged).piece()
 
 
 class _Composer:
     def __init__(
-        self, sheet: Sheet, diagram: DiagramName, letters: Letters, language: str, panel: Box, origin: complex
-    ) -> None:
+        self, sheet: Sheet, diagram: DiagramName, letters: Letters, language: str, panel: Box, origin: complex,
+        enlarged: Sequence[Detail],
+    ) -> None:  # fmt: skip
+        self.enlarged = enlarged
         self.sheet, self.diagram, self.letters, self.language = sheet, diagram, letters, language
         self.panel, self.origin = panel, origin
         self.vectors: dict[Symbol, tuple[int, Vector]] = {}
@@ -74,7 +80,9 @@ class _Composer:
 
     def piece(self) -> Piece:
         spots = self._spots()
-        construction = [*self._images(), *self._bars(), *self._rays()]
+        rings = [Group((Circle(self.at(d.centre), d.radius + 0.8, stroke=strokes.CONSTRUCTION),), classes=("ring",))
+                 for d in self.enlarged]
+        construction = [*rings, *self._images(), *self._bars(), *self._rays()]
         vectors = [self._vector(step, vector) for step, vector in self._in_order()]
         ends = [*self._ends(spots), *self._feet(spots), self._pole(spots)]
         self._name_vectors()
@@ -106,7 +114,10 @@ class _Composer:
             key = (_rounded(vector.tail), _rounded(vector.tip))
             groups.setdefault(key, []).append(vector)
         lengths = {key: abs(vectors[0].span) for key, vectors in groups.items()}
+        elsewhere = {v.symbol for detail in self.enlarged for v in detail.vectors}
         for key in sorted(groups, key=lambda k: -lengths[k]):
+            if groups[key][0].symbol in elsewhere:
+                continue
             vectors = sorted(groups[key], key=lambda v: self.vectors[v.symbol][0])
             if lengths[key] < ZERO:
                 vectors = [v for v in vectors if v.role != "resultant" or self.letters.convention == "us"
@@ -120,6 +131,8 @@ class _Composer:
                 text = Text(0j, symbol(markup + " = 0"), "start", strokes.BLACK, id, ("label",))
                 self.names.append(Name(Label(text, self.at(vectors[0].tip)), 3))
                 continue
+            if self.letters.convention != "us" and lengths[key] < SHORT and all(v.role == "resultant" for v in vectors):
+                continue  # the letters at its ends say it
             needed = self.letters.convention == "us" or any(v.role != "resultant" for v in vectors)
             text = Text(0j, symbol(markup), "start", colour, id, ("label",))
             mark = (self.at(vectors[0].tail), self.at(vectors[0].tip))

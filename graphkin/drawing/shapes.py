@@ -9,12 +9,13 @@ from graphkin.plane import cross, dot
 from graphkin.scene.model import SlideDriver
 from graphkin.structure import Slide
 
-__all__ = ["Bearing", "Shape", "bearings", "shapes"]
+__all__ = ["GUIDE_LENGTH", "Bearing", "Shape", "bearings", "shapes"]
 
 Segment = tuple[complex, complex]
 
 # mm: how far a bar of no fixed length goes on beyond a block, and a slot beyond its pin
 PAST_BLOCK, PAST_PIN = 9.0, 8.0
+GUIDE_LENGTH = 24.0  # mm of the frame's guide about a block
 NEAR = 1e-4  # mm: points so near to a line lie on it
 
 

@@ -10,15 +10,16 @@ from graphkin.drafting.sheet import DiagramName, Sheet
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, letters_of, scale_statement
-from graphkin.drawing.coriolis import INSET, coriolis_inset, coriolis_terms
+from graphkin.drawing.coriolis import CoriolisTerm
 from graphkin.drawing.describe import describe, figure_title
 from graphkin.drawing.dimensions import check_bar
 from graphkin.drawing.equations import write_equations
 from graphkin.drawing.headings import drivers, facts, languages, term, titles
-from graphkin.drawing.layout import Piece, fitted, joined, layer_groups, moved, settled
-from graphkin.drawing.mechanism import mechanism_extent, mechanism_piece
-from graphkin.drawing.polygon import extent, polygon_piece
-from graphkin.drawing.primitives import Drawing, Group, Line, Polygon, Primitive, Text
+from graphkin.drawing.insets import INSET, coriolis_row, polygon_with_insets
+from graphkin.drawing.layout import Piece, fitted, joined, layer_groups, moved, moved_piece, settled, wrapped
+from graphkin.drawing.mechanism import mechanism_piece
+from graphkin.drawing.polygon import extent
+from graphkin.drawing.primitives import Drawing, Group, Line, Polygon, Primitive, Run, Text
 from graphkin.drawing.tables import given_data, readings_table
 from graphkin.drawing.typeset import rich
 from graphkin.scene.model import Scene
@@ -30,7 +31,7 @@ PAPERS = {"A4": (210.0, 297.0), "A3": (297.0, 420.0), "A2": (420.0, 594.0), "A1"
 MARGIN, GUTTER, CAPTION = 10.0, 2.0, 5.5
 HEAD, BLOCK = 11.0, 16.0  # heading above, title block below
 FILL = 0.87  # of a panel, by the polygon with the finest scale
-AROUND_MECHANISM = 26.0  # mm for symbols and names
+AROUND_MECHANISM = 19.0  # mm for symbols and names
 
 
 @dataclass(frozen=True)
@@ -114,15 +115,17 @@ def sheet_page(
     spoken = language or scene.sheet.language
     letters = letters_of(sheet, convention or scene.sheet.convention)  # type: ignore[arg-type]
     plan = _plan(scene)
+    velocity, _ = _polygon(sheet, "velocity", letters, spoken, plan.velocity)
+    acceleration, homeless = _polygon(sheet, "acceleration", letters, spoken, plan.acceleration)
     pieces = [
         _heading(sheet, letters, spoken, plan),
         _panel(plan.mechanism, _caption(sheet, letters, spoken, "mechanism")),
         _panel(plan.velocity, _caption(sheet, letters, spoken, "velocity")),
         _panel(plan.acceleration, _caption(sheet, letters, spoken, "acceleration")),
         _mechanism(sheet, letters, plan.mechanism),
-        _polygon(sheet, "velocity", letters, spoken, plan.velocity),
-        _polygon(sheet, "acceleration", letters, spoken, plan.acceleration),
-        _equations(sheet, letters, spoken, plan.equations),
+        velocity,
+        acceleration,
+        _equations(sheet, letters, spoken, plan.equations, homeless),
         _captioned(plan.given, term("given", spoken), "labels", given_data(sheet, letters, spoken, plan.given)),
         _captioned(plan.readings, term("readings", spoken), "answers",
                    readings_table(sheet, report, letters, spoken, plan.readings)),
@@ -152,7 +155,7 @@ def _heading(sheet: Sheet, letters: Letters, language: str, plan: _Plan) -> Piec
 
 
 def _caption(sheet: Sheet, letters: Letters, language: str, diagram: DiagramName) -> str:
-    return f"{term(WORDS[diagram], language)}   {scale_statement(sheet, letters.convention, diagram)}"
+    return f"{term(WORDS[diagram], language)},  {scale_statement(sheet, letters.convention, diagram)}"
 
 
 def _panel(box: Box, caption: str) -> Piece:
@@ -167,20 +170,22 @@ def _captioned(box: Box, caption: str, layer: str, children: tuple[Primitive, ..
 
 
 def _mechanism(sheet: Sheet, letters: Letters, panel: Box) -> Piece:
-    content = mechanism_extent(sheet, letters)
-    return settled(mechanism_piece(sheet, letters, panel.centre - content.centre), panel.grown(-0.8))
-
-
-def _polygon(sheet: Sheet, diagram: DiagramName, letters: Letters, language: str, panel: Box) -> Piece:
-    content = extent(sheet, diagram)
     room = panel.grown(-0.8)
-    return settled(polygon_piece(sheet, diagram, letters, language, room, panel.centre - content.centre), room)
+    piece, content = mechanism_piece(sheet, letters, (room.width, room.height))
+    return settled(moved_piece(piece, panel.centre - content.centre), room)
 
 
-def _equations(sheet: Sheet, letters: Letters, language: str, box: Box) -> Piece:
-    terms = coriolis_terms(sheet)
-    shown = terms[: int((box.width + GUTTER) // (INSET[0] + GUTTER))]
-    insets = INSET[1] + GUTTER if shown else 0.0
+def _polygon(
+    sheet: Sheet, diagram: DiagramName, letters: Letters, language: str, panel: Box
+) -> tuple[Piece, list[CoriolisTerm]]:
+    content = extent(sheet, diagram)
+    origin = panel.centre - content.centre
+    return polygon_with_insets(sheet, diagram, letters, language, panel.grown(-0.8), origin)
+
+
+def _equations(sheet: Sheet, letters: Letters, language: str, box: Box, senses: list[CoriolisTerm]) -> Piece:
+    """The equations, and below them the insets of Coriolis terms that found no room in their panel."""
+    insets = INSET[1] + GUTTER if senses else 0.0
     blocks, left_out = write_equations(sheet, letters, language, box.width, box.height - insets)
     pieces = []
     y = box.top
@@ -192,11 +197,9 @@ def _equations(sheet: Sheet, letters: Letters, language: str, box: Box) -> Piece
         text = say(Phrase("more equations", (left_out,)), languages(language)[0])
         written.append(Text(complex(box.left, y + 2.6), rich(text, 2.4)))
     parts = [_captioned(box, term("equations", language), "labels", tuple(written))]
-    for i, one in enumerate(shown):
-        left = box.left + i * (INSET[0] + GUTTER)
-        inset = Box(left, box.bottom - INSET[1], left + INSET[0], box.bottom)
-        piece, inner = coriolis_inset(sheet, one, letters, inset)
-        parts.append(settled(piece, inner))
+    if senses:
+        row = Box(box.left, box.bottom - INSET[1], box.right, box.bottom)
+        parts.append(coriolis_row(sheet, senses, letters, row))
     return joined(parts)
 
 
@@ -207,9 +210,9 @@ def _title_block(sheet: Sheet, report: Report | None, letters: Letters, language
     words: list[Primitive] = []
     names = titles(sheet, language)
     left = box.left + 2.0
-    for i, name in enumerate(names):
-        words.append(Text(complex(left, box.top + 5.0 + 4.4 * i), fitted(name, 3.2, one - left - 1.5, True)))
-    second = f"{sheet.scene.name}   {term('instrument', language)}: {sheet.instrument}"
+    for i, runs in enumerate(_title_lines(names, one - left - 1.5)):
+        words.append(Text(complex(left, box.top + 4.6 + 3.8 * i), runs))
+    second = f"{sheet.scene.name},  {term('instrument', language)}: {sheet.instrument}"
     words.append(Text(complex(left, box.bottom - 2.0), fitted(second, 2.6, one - left - 1.5)))
     for i, diagram in enumerate(("mechanism", "velocity", "acceleration")):
         text = scale_statement(sheet, letters.convention, diagram)  # type: ignore[arg-type]
@@ -224,3 +227,12 @@ def _title_block(sheet: Sheet, report: Report | None, letters: Letters, language
         answers = (Text(complex(two + 2.0, box.top + 4.2), fitted(text, 2.6, box.right - two - 4.0)),)
     return Piece({"construction": (Group(tuple(lines), classes=("title-block",)),), "labels": tuple(words),
                   "answers": answers})
+
+
+def _title_lines(names: tuple[str, ...], width: float) -> list[tuple[Run, ...]]:
+    """Titles in at most three lines."""
+    for size in (3.2, 2.8, 2.4, 2.0):
+        lines = [line for name in names for line in wrapped(name, size, width, bold=True)]
+        if len(lines) <= 2:
+            return lines
+    return lines[:3]

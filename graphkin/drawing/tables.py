@@ -4,32 +4,34 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from graphkin.checking import Compared, Reading, Report, read_off
 from graphkin.drafting.sheet import Sheet
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
-from graphkin.drawing.headings import drivers, number, term
-from graphkin.drawing.layout import fitted, wrapped
+from graphkin.drawing.headings import drivers, languages, number, term
+from graphkin.drawing.layout import wrapped
 from graphkin.drawing.metrics import runs_width
 from graphkin.drawing.primitives import Line, Primitive, Run, Text
 from graphkin.drawing.typeset import rich
+from graphkin.plane import degrees
 from graphkin.scene.model import Link, Scene
-from graphkin.words import Phrase, say
+from graphkin.words import Phrase, say, word
 
 __all__ = ["given_data", "readings_table"]
 
-ROW, LEAST_ROW = 3.9, 3.0  # mm
+ROW, LEAST_ROW = 4.2, 3.75  # mm
 _LETTERS = {"v": 0, "omega": 1, "a": 2, "alpha": 4}
-_SHARES = (0.24, 0.16, 0.2, 0.2, 0.2)  # of the width: symbol, mm on paper, measured, exact, difference
+_SHARES = (0.26, 0.18, 0.19, 0.19, 0.18)  # of the width: symbol, mm on paper, measured, exact, difference
 
 
 @dataclass(frozen=True)
 class _Row:
     reading: Reading
     compared: Compared | None = None
+    more: tuple[str, ...] = ()  # further links that turn alike
 
     @property
     def rank(self) -> int:
@@ -45,7 +47,7 @@ def readings_table(
     Where they do not all fit, what was asked and the absolute quantities stay and the number of the others is said.
     """
     rows = _rows(sheet, report)
-    count, columns, row_height = _grid(len(rows), area)
+    count, columns, row_height = _grid(len(rows), area, len(languages(language)))
     left_out = max(0, len(rows) - count)
     if left_out:
         rows = _most_asked(sheet, rows, count - 1)
@@ -66,22 +68,41 @@ def readings_table(
 
 
 def _rows(sheet: Sheet, report: Report | None) -> list[_Row]:
+    """Readings to show: rates that are given are left out, links that turn alike share a row."""
     if report is not None:
-        return [_Row(row.reading, row) for row in report.rows]
-    return [_Row(reading) for reading in read_off(sheet, sheet.scene.find)]
+        rows = [_Row(row.reading, row) for row in report.rows]
+    else:
+        rows = [_Row(reading) for reading in read_off(sheet, sheet.scene.find)]
+    shown: list[_Row] = []
+    for row in rows:
+        reading = row.reading
+        if reading.symbol.is_vector:
+            shown.append(row)
+            continue
+        alike = next((i for i, other in enumerate(shown) if _alike(other, row)), None)
+        if alike is not None:
+            shown[alike] = replace(shown[alike], more=(*shown[alike].more, reading.symbol.link))
+        elif reading.on_paper:
+            shown.append(row)
+    return shown
 
 
-def _grid(count: int, area: Box) -> tuple[int, int, float]:
-    """How many rows fit, in how many columns, how high."""
+def _alike(one: _Row, two: _Row) -> bool:
+    a, b = one.reading, two.reading
+    return a.symbol.kind == b.symbol.kind and a.value == b.value and a.on_paper == b.on_paper != 0.0
+
+
+def _grid(count: int, area: Box, heads: int) -> tuple[int, int, float]:
+    """How many rows fit under so many lines of heading, in how many columns, how high."""
     widest = 3 if area.width > 170 else 2
     for columns in range(1, widest + 1):
         if area.width / columns > 95 and columns < widest:
             continue  # too wide to read across
-        for height in (ROW, 3.5, 3.2, LEAST_ROW):
-            room = int((area.height - height * 1.4) / height) * columns
+        for height in (ROW, LEAST_ROW):
+            room = int(area.height / height - 0.5 - 0.75 * heads) * columns
             if room >= count:
                 return room, columns, height
-    return int((area.height - LEAST_ROW * 2.6) / LEAST_ROW) * widest, widest, LEAST_ROW
+    return int(area.height / LEAST_ROW - 1.2 - 0.75 * heads) * widest, widest, LEAST_ROW
 
 
 def _most_asked(sheet: Sheet, rows: list[_Row], count: int) -> list[_Row]:
@@ -101,26 +122,31 @@ def _column(
     compared = any(r.compared for r in rows)
     shares = _SHARES if compared else (0.4, 0.25, 0.35)
     edges = [corner.real + width * sum(shares[:i]) for i in range(len(shares) + 1)]
-    size = max(2.0, 0.7 * row)
+    size = 2.4
     heads = ("quantity", "on paper", "measured", "exact", "difference")[: len(shares)]
     children: list[Primitive] = []
     y = corner.imag + 0.72 * row
-    for i, head in enumerate(heads):
-        runs = fitted(term(head, language), size, edges[i + 1] - edges[i] - 0.8)
-        children.append(_cell(runs, edges, i, y))
-    rule = corner.imag + 1.05 * row
+    for each in languages(language):
+        words = [word(head, each) for head in heads]
+        small = min(_head_size(one, edges[i + 1] - edges[i] - 1.2) for i, one in enumerate(words))
+        children += [_cell(rich(one, small), edges, i, y) for i, one in enumerate(words)]
+        y += 0.75 * row
+    rule = y - 0.42 * row
     children.append(Line(complex(edges[0], rule), complex(edges[-1], rule), strokes.OUTLINE))
     for n, one in enumerate(rows):
-        y = rule + (n + 0.78) * row
+        y = rule + (n + 0.72) * row
         for i, runs in enumerate(_texts(sheet, one, letters, size)):
             limit = edges[i + 1] - edges[i] - 0.8
             if runs_width(runs) > limit:
                 runs = _shrunk(runs, limit)
             children.append(_cell(runs, edges, i, y))
-        foot = rule + (n + 1) * row
-        if (n + 1) % 5 == 0 or n + 1 == len(rows):
-            children.append(Line(complex(edges[0], foot), complex(edges[-1], foot), strokes.DIMENSION))
+    foot = rule + (len(rows) + 0.12) * row
+    children.append(Line(complex(edges[0], foot), complex(edges[-1], foot), strokes.DIMENSION))
     return children
+
+
+def _head_size(words: str, width: float) -> float:
+    return max(2.0, min(2.3, 2.3 * width / runs_width(rich(words, 2.3))))
 
 
 def _cell(runs: tuple[Run, ...], edges: Sequence[float], i: int, y: float) -> Text:
@@ -136,8 +162,11 @@ def _texts(sheet: Sheet, row: _Row, letters: Letters, size: float) -> list[tuple
     reading, compared = row.reading, row.compared
     unit, per = _unit(sheet, reading)
     value = abs(reading.value) if reading.symbol.is_vector else float(reading.value.real)
+    name = letters.vector(reading.symbol)
+    if row.more:
+        name = f"{name[0]}_{{{','.join((reading.symbol.link, *row.more))}}}"
     texts = [
-        rich(f"${letters.vector(reading.symbol)}$, {unit}", size),
+        rich(f"${name}$, {unit}", size),
         rich(f"{reading.on_paper:.2f}" if reading.on_paper else "–", size),
         rich(number(value / per, 5), size),
     ]
@@ -168,20 +197,35 @@ def given_data(sheet: Sheet, letters: Letters, language: str, area: Box) -> tupl
     """Lengths, fixed points and drivers as lines of text in an area (mm); as large as they fit."""
     scene = sheet.scene
     unit = scene.units.length
-    items = [drivers(sheet, letters)]
+    items = drivers(sheet, letters).split(",  ")
     items += [f"${name}$ = {number(value)} {unit}" for name, value in _lengths(scene, letters)]
-    fixed = [f"${letters.point(p)}$ ({_pair(z, scene)})" for p, z in scene.frame.points.items()]
+    fixed = [f"${letters.point(p)}$ ({_pair(z, scene)}) {unit}" for p, z in scene.frame.points.items()]
+    for guide in scene.frame.guides.values():
+        if guide.name:
+            angle = number(degrees(guide.direction))
+            name = letters.guide(guide.name, scene.frame.name)
+            fixed.append(f"{term('guide', language)} ${name}$: ({_pair(guide.through, scene)}) {unit}, {angle}°")
     lines: list[tuple[Run, ...]] = []
     for size in (2.8, 2.5, 2.2, 2.0):
-        lines = wrapped(";  ".join(items), size, area.width)
-        if fixed:
-            lines += wrapped(", ".join(fixed) + f" {unit}", size, area.width)
+        lines = [line for group in (items, fixed) for line in _flowed(group, size, area.width)]
         if len(lines) * 1.55 * size <= area.height:
             break
     most = int(area.height / (1.55 * size))
     return tuple(
         Text(complex(area.left, area.top + size + i * 1.55 * size), runs) for i, runs in enumerate(lines[:most])
     )
+
+
+def _flowed(items: Sequence[str], size: float, width: float) -> list[tuple[Run, ...]]:
+    """Items one after the other in lines, each whole; one longer than a line is broken."""
+    lines: list[str] = []
+    for item in items:
+        joined = f"{lines[-1]};  {item}" if lines else item
+        if lines and runs_width(rich(joined, size)) <= width:
+            lines[-1] = joined
+        else:
+            lines.append(item)
+    return [runs for line in lines for runs in wrapped(line, size, width)]
 
 
 def _lengths(scene: Scene, letters: Letters) -> list[tuple[str, float]]:
