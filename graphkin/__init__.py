@@ -24,13 +24,13 @@ value is measured on the drawing and held against the analytic solver, which the
 True
 >>> reading = result["v_C"]
 >>> f"{reading.on_paper:.2f} mm on paper"
-'120.75 mm on paper'
+'155.61 mm on paper'
 
 The solver alone, at other positions too:
 
 >>> motion = graphkin.solve(four_bar, at=90).motion
 >>> f"{motion.omega('3')[0]:.4f} rad/s"
-'5.2174 rad/s'
+'5.6430 rad/s'
 
 The figures, as SVG, PDF or PNG by the name:
 

@@ -25,8 +25,8 @@ class Phrase:
 def say(phrase: Phrase, language: str = "en", show: Callable[[object], str] = str) -> str:
     """The sentence in a language.  ``show`` writes each argument (plain text, or markup of a convention).
 
-    >>> say(Phrase("arcs", ("C", "B", "D")))
-    'arcs about B and D meet in C'
+    >>> say(Phrase("points", ("2", "B, C")))
+    'mark B, C on link 2'
     """
     parts = (say(a, language, show) if isinstance(a, Phrase) else show(a) for a in phrase.args)
     return _TABLE[phrase.key][LANGUAGES.index(language)].format(*parts)

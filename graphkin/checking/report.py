@@ -39,6 +39,11 @@ class Compared:
         return self.reading.symbol
 
     @property
+    def on_paper(self) -> float:
+        """Length on paper it was read from (mm)."""
+        return self.reading.on_paper
+
+    @property
     def ok(self) -> bool:
         return self.error <= self.tolerance
 
@@ -70,10 +75,10 @@ def compare(
     ----------
     exact : gives the exact value of a symbol at the drawn position (SI; a complex number for a vector)
     predicted : uncertainty of each reading, by which it is judged; without it (exact instrument) a reading may be off
-        by 1e-9 of the largest vector of the diagram, a rate by 1e-9 of the largest rate or of that vector by the scene's size
+        by 1e-9 of the largest vector of the diagram, a rate by 1e-9 of the largest rate or of that vector over the size
     """
     pairs = [(r, exact(r.symbol)) for r in readings]
-    # a vector is judged by the largest vector of its diagram, a rate by the largest rate or by that vector over the size
+    # a vector is judged by the largest of its diagram, a rate by the largest rate or by that vector over the size
     largest: dict[tuple[str, bool], float] = {}
     for reading, value in pairs:
         group = (reading.diagram, reading.symbol.is_vector)

@@ -1,0 +1,109 @@
+"""Finite instruments: repeatable, and off by no more than was predicted."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import pytest
+
+import graphkin
+from graphkin.checking import COVERAGE, predict, read_off
+from graphkin.drafting import execute, pencil, plan
+from graphkin.scene import library, library_text, read, read_text
+from graphkin.scene.model import Tools
+from graphkin.scene.symbol import Symbol
+
+SIXBAR = "sixbar-guide-40deg"
+SEEDS = 40
+
+
+def _series(what, tools):
+    """Errors of every reading over a series of seeds (SI)."""
+    exact = {r.symbol: r.value for r in read_off(execute(what))}
+    errors = {symbol: [] for symbol in exact}
+    for seed in range(SEEDS):
+        hand = pencil(tools, seed)
+        for r in read_off(execute(what, hand), (), hand):
+            errors[r.symbol].append(abs(r.value - exact[r.symbol]))
+    return errors
+
+
+@pytest.mark.parametrize("name", library())
+def test_readings_lie_within_their_bounds_and_the_bounds_are_not_lazy(name):
+    what = plan(read(name), find=())
+    if not what.elements:
+        pytest.skip("nothing of it is drawn with two lines")
+    predicted = predict(what, "pencil", Tools())
+    errors = _series(what, Tools())
+    inside = [e <= predicted[s].bound * (1 + 1e-9) + 1e-12 for s, es in errors.items() for e in es]
+    assert 0.99 <= sum(inside) / len(inside)
+    scatter = {s: math.sqrt(sum(e * e for e in es) / len(es)) for s, es in errors.items()}
+    lazy = [s for s, rms in scatter.items() if rms and predicted[s].bound > 3 * COVERAGE * rms]
+    assert len(lazy) <= len(errors) / 10
+
+
+def test_the_same_seed_draws_the_same_sheet():
+    one, two, other = (graphkin.check(SIXBAR, instrument="pencil", seed=s) for s in (3, 3, 4))
+    assert one.data == two.data
+    assert one.data != other.data
+
+
+def test_a_pencil_drawing_is_judged_by_its_predicted_uncertainty():
+    row = graphkin.check(SIXBAR, instrument="pencil", seed=1)["a_D"]
+    assert row.uncertainty is not None
+    assert COVERAGE * row.uncertainty.deviation == pytest.approx(row.tolerance)
+
+
+def test_a_coarser_ruler_makes_readings_less_certain():
+    what = plan(read(SIXBAR), find=())
+    fine, coarse = (predict(what, "pencil", Tools(ruler=r)) for r in (0.1, 0.5))
+    assert all(coarse[s].deviation >= fine[s].deviation for s in fine)
+    assert coarse[Symbol.parse("v_D")].deviation > fine[Symbol.parse("v_D")].deviation
+
+
+def test_pricking_errors_fall_with_the_size_of_the_figures():
+    what = plan(read(SIXBAR), find=())
+    s = what.scales
+    double = replace(what, scales=replace(s, length=s.length / 2, velocity=s.velocity / 2, acceleration=s.acceleration / 2))
+    tools = Tools(ruler=0, compass=0, set_square=0, protractor=0)
+    symbol = Symbol.parse("a_D")
+    small, large = (predict(w, "pencil", tools)[symbol].deviation for w in (what, double))
+    assert 0.5 == pytest.approx(large / small, rel=1e-3)
+
+
+def test_faultless_tools_draw_exactly():
+    scene = read(SIXBAR)
+    clean = replace(scene, sheet=replace(scene.sheet, tools=Tools(0, 0, 0, 0, 0)))
+    result = graphkin.check(clean, instrument="pencil")
+    assert all(row.error <= 1e-9 * abs(row.exact) + 1e-12 for row in result.report.rows)
+
+
+def test_a_drafting_program_shows_two_digits_behind_the_point():
+    result = graphkin.check(SIXBAR, instrument="cad")
+    assert 107.58 == pytest.approx(result["v_B@3"].on_paper, abs=1e-9)
+    assert result.ok
+
+
+def test_the_tools_of_the_scene_are_used():
+    text = library_text(SIXBAR)
+    rough = read_text(text + "\n[sheet.instrument]\nline_width = 2\n", "rough")
+    fine, coarse = (graphkin.check(s, instrument="pencil")["v_D"].tolerance for s in (SIXBAR, rough))
+    assert coarse > 3 * fine
+
+
+def test_the_advice_names_a_step_and_a_figure_that_helps():
+    advice = graphkin.check(SIXBAR, instrument="pencil").advice
+    assert advice is not None
+    assert advice.figure in ("length", "velocity", "acceleration")
+    assert 0 < advice.share <= 1
+    assert advice.gain < 1
+
+
+def test_an_acute_crossing_is_said():
+    notes = graphkin.check("sixbar-AE70", at=58).sheet.notes
+    assert "sharp crossing" in [n.key for n in notes]
+
+
+def test_crossings_at_a_fair_angle_are_not_remarked_on():
+    assert "sharp crossing" not in [n.key for n in graphkin.check("fourbar-150-500-300-400").sheet.notes]
