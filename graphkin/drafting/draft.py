@@ -13,6 +13,7 @@ from graphkin.drafting.instrument import EXACT, Instrument
 from graphkin.drafting.polygons import Polygons
 from graphkin.drafting.position import Position, branches_at, place
 from graphkin.drafting.sheet import Mark, Scales, Sheet
+from graphkin.drafting.slip import NO_SLIP, Slip
 from graphkin.scene.model import AngleDriver, Scene
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Cluster, Driven, Dyad, Element, Structure, Turn, analyse
@@ -61,14 +62,14 @@ def plan(
     return Plan(structure, asked, tuple(elements), values, branches, scales, _stopped(wanted))
 
 
-def execute(what: Plan, instrument: Instrument = EXACT) -> Sheet:
-    """Draw a plan with an instrument."""
+def execute(what: Plan, instrument: Instrument = EXACT, slip: Slip = NO_SLIP) -> Sheet:
+    """Draw a plan with an instrument; with a ``slip``, what follows from it."""
     structure, elements, scales = what.structure, what.elements, what.scales
     board = Board(instrument)
     position = place(structure, elements, 1.0 / scales.length, what.values, what.branches, instrument)
     assembly = _draw_position(board, structure, elements, position, what.branches)
     board.causes[:] = position.causes
-    polygons = Polygons(board, structure, position.frame, scales)
+    polygons = Polygons(board, structure, position.frame, scales, slip)
     for order in ("velocity", "acceleration"):
         for element in elements:
             polygons.draw(order, element)

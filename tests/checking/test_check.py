@@ -125,3 +125,30 @@ def test_the_json_of_a_check_gives_vectors_by_size_and_rates_with_sign():
     assert 554.668 == pytest.approx(rows["a_D"]["measured"], abs=1e-3)
     assert -2.81912 == pytest.approx(rows["omega_3"]["measured"], abs=1e-5)
     assert {"length": 2, "velocity": 10, "acceleration": 100} == graphkin.check(SIXBAR).data["scales"]
+
+
+PARALLELOGRAM = {
+    "frame": {"points": {"A": [0, 0], "D": [200, 0]}},
+    "links": {
+        "1": {"points": ["A", "B"], "length": 50},
+        "2": {"points": ["B", "C"], "length": 200},
+        "3": {"points": ["D", "C"], "length": 50},
+    },
+    "driver": {"link": "1", "angle": 60, "omega": 5},
+    "sketch": {"C": [225, 43]},
+}
+
+
+def test_rates_that_are_all_zero_are_judged_by_the_vectors_they_come_from():
+    assert graphkin.check(PARALLELOGRAM).ok
+
+
+def test_a_mechanism_of_which_nothing_can_be_drawn_is_said_not_crashed_on():
+    trammel = {
+        "frame": {"guides": {"x": {"through": [0, 0], "angle": 0}, "y": {"through": [0, 0], "angle": 90}}},
+        "links": {"2": {"points": ["B", "C"], "length": 100}},
+        "pins": {"B": {"of": "2", "in": "0.x"}, "C": {"of": "2", "in": "0.y"}},
+        "driver": {"link": "2", "angle": 130, "omega": 3},
+    }
+    result = graphkin.check(trammel)
+    assert not result.complete
