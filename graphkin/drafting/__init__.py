@@ -7,9 +7,11 @@ analytic solver.
 from graphkin.drafting.draft import Plan, Room, draft, execute, plan
 from graphkin.drafting.instrument import EXACT, Cad, Exact, Instrument, nudged, pencil
 from graphkin.drafting.sheet import Scales, Sheet
+from graphkin.drafting.slip import NO_SLIP, Slip
 
 __all__ = [
     "EXACT",
+    "NO_SLIP",
     "Cad",
     "Exact",
     "Instrument",
@@ -17,6 +19,7 @@ __all__ = [
     "Room",
     "Scales",
     "Sheet",
+    "Slip",
     "draft",
     "execute",
     "nudged",

@@ -11,6 +11,7 @@ from graphkin.drafting.board import Board
 from graphkin.drafting.chains import node
 from graphkin.drafting.dyads import Frame
 from graphkin.drafting.sheet import Bar, Image, Mark, Rate, Scales, Stroke, Vector
+from graphkin.drafting.slip import NO_SLIP, Slip
 from graphkin.plane import cross, dot
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Slide, Structure
@@ -25,8 +26,11 @@ Order = Literal["velocity", "acceleration"]
 class Plot:
     """What stands in the velocity and the acceleration polygon of one position."""
 
-    def __init__(self, board: Board, structure: Structure, frame: Frame, scales: Scales) -> None:
-        self.board, self.structure, self.frame, self.scales = board, structure, frame, scales
+    def __init__(
+        self, board: Board, structure: Structure, frame: Frame, scales: Scales, slip: Slip = NO_SLIP
+    ) -> None:
+        self.board, self.structure, self.frame, self.scales, self.slip = board, structure, frame, scales, slip
+        self.believed: set[tuple[Order, str]] = set()  # rates of links that a slip has put in place of the measured
         self.links = structure.links
         self.ground = structure.scene.frame.name
         fixed = {PointRef(p): 0j for p in self.links[self.ground].points}
@@ -138,7 +142,7 @@ class Plot:
             key=lambda ab: abs(self.places[ab[0].point] - self.places[ab[1].point]),
         )
         bar = self.places[b.point] - self.places[a.point]
-        if abs(bar) <= self.tiny:
+        if abs(bar) <= self.tiny or (order, name) in self.believed:
             at = self._by_rates(order, ends[a], here - self.places[a.point], name)
             self._reach_by(order, ref, at, Phrase("by rate", (self.label(ref), self.label(a), name)))
             return
@@ -152,9 +156,10 @@ class Plot:
             self._reach_by(order, ref, at, Phrase("image", names), image)
 
     def _reach_by(self, order: Order, ref: PointRef, at: complex, phrase: Phrase, *strokes: Stroke) -> None:
+        symbol = Symbol(letter(order), self.label(ref))
+        at = self.slip.found(symbol, 0j, at)
         self.ends[order][ref] = at
         mark = Mark(self.label(ref), at)
-        symbol = Symbol(letter(order), self.label(ref))
         self.record(order, Vector(symbol, 0j, at, "resultant"), phrase, None, mark, *strokes)
 
     def _on(self, ref: PointRef, name: str) -> bool:

@@ -13,6 +13,7 @@ from graphkin.drafting.dyads import Frame
 from graphkin.drafting.parts import Part, bar, parts_of, symbol_of, turn_sign
 from graphkin.drafting.plot import ZERO_MM, Order, Plot, letter
 from graphkin.drafting.sheet import Bar, Direction, Equation, Mark, Rate, Ray, Scales, Term, Vector
+from graphkin.drafting.slip import NO_SLIP, Slip
 from graphkin.plane import cross
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import PointRef, Symbol
@@ -27,8 +28,10 @@ _Side = list[tuple[Edge, list[Part]]]
 class Polygons(Plot):
     """Both polygons of one position, drawn element by element in the order of solution."""
 
-    def __init__(self, board: Board, structure: Structure, frame: Frame, scales: Scales) -> None:
-        super().__init__(board, structure, frame, scales)
+    def __init__(
+        self, board: Board, structure: Structure, frame: Frame, scales: Scales, slip: Slip = NO_SLIP
+    ) -> None:
+        super().__init__(board, structure, frame, scales, slip)
         self.chains: dict[Dyad, Chain] = {}
 
     def draw(self, order: Order, element: Driven | Dyad) -> None:
@@ -134,7 +137,7 @@ class Polygons(Plot):
                         queue.append(new)
 
     def _side(self, order: Order, edges: tuple[Edge, ...]) -> _Side:
-        return [(edge, parts_of(self, order, edge)) for edge in edges]
+        return [(edge, [self.slip.term(part) for part in parts_of(self, order, edge)]) for edge in edges]
 
     def _terms(self, order: Order, side: _Side) -> tuple[Term, ...]:
         start = side[0][0].start
@@ -199,6 +202,7 @@ class Polygons(Plot):
         (p, _), (q, _) = starts
         left, right = lines
         meeting = self.board.cross(p, left.along, q, right.along, what)
+        meeting = self.slip.found(Symbol(letter(order), self.label(chain.middle)), 0j, meeting)
         for start, part in ((p, left), (q, right)):
             ray = Ray(start, part.along, meeting, part.written, part.symbol)
             self.board.do(order, Phrase("direction", (part.symbol, part.written)), ray, equation=equation)
@@ -214,7 +218,7 @@ class Polygons(Plot):
         for edge, parts in side:
             for part in parts:
                 if part.span is None:
-                    found = Vector(part.symbol, tail, tip, part.role)
+                    found = Vector(part.symbol, tail, self.slip.found(part.symbol, tail, tip), part.role)
                     if abs(found.span) < ZERO_MM:
                         self.board.note(Phrase("zero vector", (part.symbol,)))
                     self.record(order, found, Phrase("found", (part.symbol, f"{abs(found.span):.2f}")), equation)
@@ -238,8 +242,13 @@ class Polygons(Plot):
         read = self.board.instrument.read(abs(vector.span))
         size = abs(read) * self.scales.of(order) / self.measured(arm)
         sense = 1.0 if cross(arm, vector.span) >= 0 else -1.0
-        self.rates[order][edge.link] = Rate(edge.link, sense * size, symbol, abs(read), abs(arm))
         key = "omega" if order == "velocity" else "alpha"
+        own = self.slip.rate(Symbol(key, link=edge.link), sense * size)
+        if own is not None:
+            self.believed.add((order, edge.link))
+        self.rates[order][edge.link] = Rate(
+            edge.link, sense * size if own is None else own, symbol, abs(read), abs(arm)
+        )
         turning = "ccw" if sense > 0 else "cw"
         self.board.do(order, Phrase(f"{key} {turning}", (edge.link, symbol, bar(edge), f"{size:.6g}")))
         self._spread(order, edge.link, dyad)
