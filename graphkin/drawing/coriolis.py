@@ -72,7 +72,7 @@ def coriolis_inset(
         names.append(Name(_label(f"ω_{{{links}}}", f"label-inset-omega-{id}", middle, phase(slip + turned)), 1))
     markup = f"${letters.vector(vector.symbol)}$" + (f" = ${letters.size(rule)}$" if rule else "")
     caption = fitted(markup, 2.8, box.width - 1.6)
-    words = Text(complex(box.centre.real, box.bottom - 1.7), caption, "middle")
+    words = Text(complex(box.centre.real, box.bottom - 1.7), caption, "middle", id=f"label-sense-{id}")
     group = Group((frame, *parts), id=f"sense-{id}", classes=("inset",))
     return Piece({"acceleration": (group,), "labels": (words,)}, tuple(names)), inner
 

@@ -87,6 +87,8 @@ def detail_inset(
         else:
             parts.append(Line(*clipped, kind.stroke.coloured(colour)))
     words = f"{term('detail', language).replace('{0}', f'{detail.factor:g}')}"
-    caption = Text(complex(box.centre.real, box.bottom - 1.6), fitted(words, 2.6, box.width - 1.6), "middle")
-    group = Group(tuple(parts), id=f"detail-{diagram}-{number}", classes=("inset", "detail"))
+    id = f"detail-{diagram}-{number}"
+    runs = fitted(words, 2.6, box.width - 1.6)
+    caption = Text(complex(box.centre.real, box.bottom - 1.6), runs, "middle", id=f"label-{id}")
+    group = Group(tuple(parts), id=id, classes=("inset", "detail"))
     return Piece({diagram: (group,), "labels": (caption,)}, tuple(names)), inner

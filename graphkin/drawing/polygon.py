@@ -202,7 +202,8 @@ class _Composer:
             while markup in used:
                 markup += "'"
             used.add(markup)
-            yield Group((Circle(self.at(at), FOOT_RADIUS, fill=strokes.BLACK),), classes=("foot",))
+            dot = Circle(self.at(at), FOOT_RADIUS, fill=strokes.BLACK)
+            yield Group((dot,), id=f"foot-{vector.symbol.id}", classes=("foot",))
             self._name_point(markup, at, f"label-foot-{vector.symbol.id}", 1, away=at)
 
     def _pole(self, spots: Sequence[_Spot]) -> Group:

@@ -1,0 +1,159 @@
+"""A figure as far as it is drawn: to each part the step that puts it there, later parts left out, new ones lit.
+
+Vectors, direction lines and arcs are drawn with the class of their step; here names, end points, links and senses get
+theirs, from what they belong to.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from dataclasses import replace
+
+from graphkin.drafting.sheet import DiagramName, Mark, Sheet, Step, Vector
+from graphkin.drawing import strokes
+from graphkin.drawing.detail import details
+from graphkin.drawing.lengths import LENGTHS
+from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Stroke, Text
+
+__all__ = ["births", "so_far", "step_of", "stepped"]
+
+FADED = 0.42  # of its colour is left to what was drawn before
+HALO, HALO_WIDTH = "#ffe08a", 2.0  # mm around what is new: pale enough to print as a light grey
+_STEP = re.compile(r"step-(\d+)")
+
+
+def births(sheet: Sheet) -> dict[str, int]:
+    """For each id of the figures of a sheet the number of the step that draws it."""
+    born: dict[str, int] = {}
+    for diagram in ("mechanism", "velocity", "acceleration"):
+        steps = [step for step in sheet.steps if step.diagram == diagram]
+        if not steps:
+            continue
+        if diagram == "mechanism":
+            born.update(_mechanism(sheet, steps))
+        else:
+            born[f"pole-{diagram}"] = steps[0].number
+            born.update(_polygon(diagram, steps))
+            _insets(sheet, diagram, born)
+    return born
+
+
+def _mechanism(sheet: Sheet, steps: list[Step]) -> dict[str, int]:
+    born: dict[str, int] = {}
+    mentioned: dict[str, int] = {}
+    for step in steps:
+        for mark in (s for s in step.strokes if isinstance(s, Mark)):
+            born.setdefault(f"point-{mark.ref.point}", step.number)
+        for name in (n for arg in step.phrase.args for n in str(arg).split("/")):
+            mentioned.setdefault(name, step.number)
+    last = steps[-1].number
+    for link in (sheet.scene.frame, *sheet.scene.links):
+        points = [born.get(f"point-{p}", last) for p in link.points]
+        born[f"link-{link.name}"] = max([*points, mentioned.get(link.name, 0)], default=last) or last
+    born[f"link-{sheet.scene.frame.name}"] = steps[0].number
+    for driver in sheet.scene.drivers:
+        born[f"driver-{driver.key.replace('/', '-')}"] = born.get(f"link-{driver.key.split('/')[0]}", last)
+    born[LENGTHS] = last
+    for step in sheet.steps:
+        kind = step.phrase.key.partition(" ")[0]
+        if kind in ("omega", "alpha"):
+            born[f"{kind}-{step.phrase.args[0]}"] = step.number
+    return born
+
+
+def _polygon(diagram: DiagramName, steps: list[Step]) -> dict[str, int]:
+    born: dict[str, int] = {}
+    for step in steps:
+        born[f"direction-{step.number:02d}"] = step.number
+        for stroke in step.strokes:
+            if isinstance(stroke, Mark):
+                born.setdefault(f"{diagram}-{stroke.ref}".replace("@", ""), step.number)
+            elif isinstance(stroke, Vector):
+                born[stroke.symbol.id] = step.number
+                born[f"foot-{stroke.symbol.id}"] = step.number
+    return born
+
+
+def _insets(sheet: Sheet, diagram: DiagramName, born: dict[str, int]) -> None:
+    if diagram == "acceleration":
+        for symbol in sheet.vectors(diagram):
+            if symbol.kind == "ak":
+                for part in ("sense", "inset", "inset-v", "inset-omega"):
+                    born[f"{part}-{symbol.id}"] = born[symbol.id]
+    for number, detail in enumerate(details(sheet, diagram), 1):
+        last = max(born[v.symbol.id] for v in detail.vectors)
+        born[f"detail-{diagram}-{number}"] = last
+        born.update({f"detail-{v.symbol.id}": last for v in detail.vectors})
+
+
+def step_of(thing: Primitive) -> int | None:
+    """Number of the step in the classes of a group or a text; None where it has none."""
+    if isinstance(thing, Group | Text):
+        for name in thing.classes:
+            match = _STEP.fullmatch(name)
+            if match:
+                return int(match[1])
+    return None
+
+
+def stepped(children: Iterable[Primitive], born: dict[str, int]) -> tuple[Primitive, ...]:
+    """The same figure with the class of its step on everything that has one; a leader takes that of its name."""
+    found: list[Primitive] = []
+    children = tuple(children)
+    for thing, after in zip(children, (*children[1:], None), strict=True):
+        if isinstance(thing, Line) and isinstance(after, Text) and "label" in after.classes:
+            step = born.get(after.id.removeprefix("label-"))
+            thing = Group((thing,), classes=("leader", *(() if step is None else (f"step-{step:02d}",))))
+        elif isinstance(thing, Group | Text):
+            step = born.get(thing.id.removeprefix("label-"))
+            if step is not None and step_of(thing) is None:
+                thing = replace(thing, classes=(*thing.classes, f"step-{step:02d}"))
+            if isinstance(thing, Group):
+                thing = replace(thing, children=stepped(thing.children, born))
+        found.append(thing)
+    return tuple(found)
+
+
+def so_far(children: Iterable[Primitive], first: int, last: int) -> tuple[Primitive, ...]:
+    """The parts up to step ``last``, those before step ``first`` faded, the new ones on a pale band."""
+    found: list[Primitive] = []
+    for thing in children:
+        step = step_of(thing)
+        if step is not None and step > last:
+            continue
+        if step is None and isinstance(thing, Group):
+            inside = so_far(thing.children, first, last)
+            found += [replace(thing, children=inside)] if inside else []
+        elif step is not None and step < first:
+            found.append(_faded(thing))
+        elif step is not None and isinstance(thing, Group):
+            halo = tuple(band for child in thing.children for band in _band(child))
+            found += [Group(halo, classes=("new",))] if halo else []
+            found.append(thing)
+        else:
+            found.append(thing)
+    return tuple(found)
+
+
+def _faded(thing: Primitive) -> Primitive:
+    if isinstance(thing, Group):
+        return replace(thing, children=tuple(map(_faded, thing.children)))
+    if isinstance(thing, Text):
+        return replace(thing, colour=strokes.tint(thing.colour, FADED + 0.2))
+    stroke = thing.stroke and thing.stroke.coloured(strokes.tint(thing.stroke.colour, FADED))
+    if isinstance(thing, Polygon | Circle) and thing.fill not in ("", strokes.WHITE):
+        return replace(thing, stroke=stroke, fill=strokes.tint(thing.fill, FADED))
+    return replace(thing, stroke=stroke)  # type: ignore[arg-type]
+
+
+def _band(thing: Primitive) -> list[Primitive]:
+    if isinstance(thing, Line) and thing.start != thing.end:
+        return [Line(thing.start, thing.end, Stroke(HALO_WIDTH, (), HALO))]
+    if isinstance(thing, Polyline | Arc):
+        return [replace(thing, stroke=Stroke(HALO_WIDTH, (), HALO))]
+    if isinstance(thing, Polygon) and thing.stroke is not None and not thing.fill:
+        return [Polygon(thing.points, "", Stroke(HALO_WIDTH, (), HALO))]
+    if isinstance(thing, Circle):
+        return [Circle(thing.centre, thing.radius + HALO_WIDTH / 2, HALO)]
+    return []
