@@ -8,18 +8,16 @@ from typing import Literal
 
 from graphkin.drafting.centres.chart import Chart, Place
 from graphkin.drafting.centres.kennedy import SURE, Crossing, Known, Relation, Search, closure
-from graphkin.drafting.centres.measured import Motion, measured, relative_centre
+from graphkin.drafting.centres.measured import Motion, relative_centre
 from graphkin.drafting.centres.pairs import Links, Normal, Pair, links_on_paper, normals, permanent
-from graphkin.drafting.draft import Room, draft
+from graphkin.drafting.centres.superposed import Way, work
+from graphkin.drafting.draft import Room
 from graphkin.drafting.instrument import EXACT, Instrument
 from graphkin.drafting.sheet import Sheet
 from graphkin.scene.model import AngleDriver, Scene
 from graphkin.words import Phrase
 
 __all__ = ["Centre", "Centres", "find_centres"]
-
-Way = Literal["", "velocity polygon", "superposition"]
-
 
 @dataclass(frozen=True)
 class Centre:
@@ -39,14 +37,17 @@ class Centre:
     number: int = 0
     joint: str = ""
     lines: tuple[Relation, ...] = ()
-    way: Way = ""
+    way: Way | Literal[""] = ""
     why: Phrase | None = None
     error: float = 0.0
 
 
 @dataclass(frozen=True)
 class Centres:
-    """All centres of one position.  ``found`` gives them in the order in which they are found, the permanent first."""
+    """All centres of one position.  ``found`` gives them in the order in which they are found, the permanent first.
+
+    ``kept`` names the bars that two superposed motions keep in their length, where the position was found by trial.
+    """
 
     sheet: Sheet
     links: Links
@@ -54,6 +55,7 @@ class Centres:
     table: Mapping[Pair, Centre]
     normals: tuple[Normal, ...]
     motions: Mapping[str, Motion]
+    kept: tuple[str, ...] = ()
 
     def of(self, a: str, b: str) -> Centre:
         """The centre of two links, in any order.  Raises KeyError for a pair that is none."""
@@ -82,11 +84,11 @@ def find_centres(
     ------
     Unsolvable : wrong mobility, a position that cannot be assembled or reached, a dead point
     """
-    sheet = draft(_moving(scene), at, (), instrument, room)
-    motions = measured(sheet)
-    links = links_on_paper(scene, 1.0 / sheet.scales.length, sheet.poses)
+    worked = work(_moving(scene), at, instrument, room)
+    links = links_on_paper(scene, 1.0 / worked.sheet.scales.length, worked.sheet.poses)
     chart = links.chart()
-    return Centres(sheet, links, chart, *_search(links, chart, motions, instrument, "velocity polygon"), motions)
+    table, slots = _search(links, chart, worked.motions, instrument, worked.way)
+    return Centres(worked.sheet, links, chart, table, slots, worked.motions, worked.kept)
 
 
 def _moving(scene: Scene) -> Scene:

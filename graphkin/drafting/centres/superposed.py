@@ -1,0 +1,105 @@
+"""Position and motion of every link on paper, by the polygons, or by trial and superposition where they stop."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Literal
+
+from graphkin.drafting.centres.measured import Motion, measured
+from graphkin.drafting.closing import Closing, Moved
+from graphkin.drafting.draft import Room, draft
+from graphkin.drafting.instrument import EXACT, Instrument
+from graphkin.drafting.sheet import Pose, Sheet
+from graphkin.drafting.trial import trial_position
+from graphkin.scene.model import AngleDriver, Driver, Scene
+from graphkin.scene.symbol import PointRef
+from graphkin.structure import Structure, analyse
+
+__all__ = ["Way", "Worked", "work"]
+
+Way = Literal["velocity polygon", "superposition"]
+
+
+@dataclass(frozen=True)
+class Worked:
+    """A position drawn, the motion of every link measured, and the way in which it was found.
+
+    ``kept`` names what two superposed motions let fit: the bars, blocks or drivers left out of the trial drawings.
+    """
+
+    sheet: Sheet
+    motions: Mapping[str, Motion]
+    way: Way = "velocity polygon"
+    kept: tuple[str, ...] = ()
+
+
+def work(
+    scene: Scene, at: Mapping[str, float] | None = None, instrument: Instrument = EXACT, room: Room | None = None
+) -> Worked:
+    """Draw everything of a scene and measure how it moves.
+
+    Parameters and exceptions are those of `draft`; a group larger than a dyad is drawn by trial.
+    """
+    sheet = draft(scene, at, (), instrument, room)
+    if sheet.stopped is None:
+        return Worked(sheet, measured(sheet))
+    structure = analyse(scene)
+    values = {d.key: d.values[0] for d in scene.drivers} | dict(at or {})
+    trial = trial_position(scene, values)
+    dyads = trial.scene
+    for closing, key in trial.closings:
+        dyads = _at_speed(dyads, key, _true_speed(dyads, closing, key, structure))
+    drawn = draft(dyads, None, (), instrument, room)
+    moved = _moved(drawn)
+    mm = 1.0 / drawn.scales.length
+    for closing, _ in reversed(trial.closings):
+        back = closing.put_back(structure, moved, mm)
+        if back is not None:
+            moved[closing.left_out] = back
+    kept = tuple(c.left_out or (c.driver.key if c.driver else "") for c, _ in trial.closings)
+    motions = {name: Motion(m.pose.origin, m.velocity, m.omega) for name, m in moved.items()}
+    return Worked(_whole(drawn, scene, structure, values, moved), motions, "superposition", kept)
+
+
+def _true_speed(scene: Scene, closing: Closing, key: str, structure: Structure) -> float:
+    """The trial driver's speed by proportional division of what two trial drawings leave open."""
+    driver = next(d for d in scene.drivers if d.key == key)
+    base = max((abs(d.values[1]) for d in scene.drivers if isinstance(d, AngleDriver)), default=0.0) or 1.0
+    once = base if isinstance(driver, AngleDriver) else base * scene.size
+    open_ = []
+    for speed in (0.0, once):
+        sheet = draft(_at_speed(scene, key, speed), None, ())
+        open_.append(closing.rate(structure, _moved(sheet), 1.0 / sheet.scales.length))
+    return once * open_[0] / (open_[0] - open_[1])
+
+
+def _at_speed(scene: Scene, key: str, speed: float) -> Scene:
+    def faster(driver: Driver) -> Driver:
+        if driver.key != key:
+            return driver
+        return replace(driver, omega=speed) if isinstance(driver, AngleDriver) else replace(driver, velocity=speed)
+
+    return replace(scene, drivers=tuple(faster(d) for d in scene.drivers))
+
+
+def _moved(sheet: Sheet) -> dict[str, Moved]:
+    """Every link drawn, with its motion as measured."""
+    return {
+        name: Moved(sheet.poses[name], motion.of(sheet.poses[name].origin), motion.omega)
+        for name, motion in measured(sheet).items()
+    }
+
+
+def _whole(
+    drawn: Sheet, scene: Scene, structure: Structure, values: Mapping[str, float], moved: Mapping[str, Moved]
+) -> Sheet:
+    """The sheet of the stand-in as one of the scene itself: links left out put back."""
+    poses: dict[str, Pose] = {**drawn.poses, **{name: m.pose for name, m in moved.items()}}
+    mm = 1.0 / drawn.scales.length
+    places = {
+        p: poses[n].origin + poses[n].axis * z * mm
+        for n, link in structure.links.items() if n in poses for p, z in link.points.items()
+    }  # fmt: skip
+    points = {**{PointRef(p): z for p, z in places.items()}, **drawn.points}
+    return replace(drawn, scene=scene, structure=structure, drivers=values, poses=poses, points=points)
