@@ -14,7 +14,7 @@ from functools import lru_cache
 from graphkin.drawing.metrics import is_cjk, runs_width, width
 from graphkin.drawing.primitives import Run
 
-__all__ = ["INDEX", "LETTER", "SMALLEST", "beside", "plain", "rich", "symbol"]
+__all__ = ["INDEX", "LETTER", "SMALLEST", "Atom", "beside", "is_italic", "parsed", "plain", "rich", "symbol"]
 
 LETTER, INDEX, SMALLEST = 3.5, 2.5, 2.0  # mm
 _DROP, _DROP_STACKED, _RISE = 0.24, 0.30, 0.40  # of the size of the letter, after the usual practice of typesetting
@@ -22,12 +22,12 @@ _GAP_SUB, _GAP_SUPER = 0.02, 0.06
 
 
 @dataclass(frozen=True)
-class _Atom:
+class Atom:
     """A stretch of symbol text with what hangs on it."""
 
     text: str
-    sub: tuple[_Atom, ...] = ()
-    sup: tuple[_Atom, ...] = ()
+    sub: tuple[Atom, ...] = ()
+    sup: tuple[Atom, ...] = ()
 
 
 def plain(text: str, size: float = LETTER, italic: bool = False, bold: bool = False) -> tuple[Run, ...]:
@@ -44,14 +44,31 @@ def symbol(markup: str, size: float = LETTER) -> tuple[Run, ...]:
     return _symbol(markup, size)[0]
 
 
-def rich(markup: str, size: float = LETTER, bold: bool = False) -> tuple[Run, ...]:
-    """Words with symbols between dollar signs, set as runs one after the other.  Raises ValueError as ``symbol``."""
+def parsed(markup: str) -> tuple[str | tuple[Atom, ...], ...]:
+    """Words with symbols between dollar signs, taken apart: stretches of words, and symbols as atoms, for writers that
+    set them themselves.  Raises ValueError as ``symbol``."""
+    found: list[str | tuple[Atom, ...]] = []
+    for index, part in enumerate(_parts(markup)):
+        if index % 2:
+            found.append(_read(part, 0)[0])
+        elif part:
+            found.append(part.replace("\0", "$"))
+    return tuple(found)
+
+
+def _parts(markup: str) -> list[str]:
+    """Words and symbols in turn, with a NUL for a dollar sign itself."""
     parts = markup.replace("$$", "\0").split("$")
     if len(parts) % 2 == 0:
         raise ValueError(f"a dollar sign is not closed in {markup!r}; a dollar sign itself is written $$")
+    return parts
+
+
+def rich(markup: str, size: float = LETTER, bold: bool = False) -> tuple[Run, ...]:
+    """Words with symbols between dollar signs, set as runs one after the other.  Raises ValueError as ``symbol``."""
     runs: list[Run] = []
     x = 0.0
-    for index, part in enumerate(parts):
+    for index, part in enumerate(_parts(markup)):
         part = part.replace("\0", "$")
         if index % 2:
             set_part, advance = _symbol(part, size)
@@ -83,9 +100,9 @@ def _symbol(markup: str, size: float) -> tuple[tuple[Run, ...], float]:
     return tuple(runs), advance
 
 
-def _read(markup: str, at: int) -> tuple[tuple[_Atom, ...], int]:
+def _read(markup: str, at: int) -> tuple[tuple[Atom, ...], int]:
     """Atoms from a place up to the closing brace or the end, and where that is."""
-    atoms: list[_Atom] = []
+    atoms: list[Atom] = []
     while at < len(markup) and markup[at] != "}":
         character = markup[at]
         if character in "_^":
@@ -100,16 +117,16 @@ def _read(markup: str, at: int) -> tuple[tuple[_Atom, ...], int]:
             inner, at = _argument(markup, at)
             atoms += inner
         else:
-            atoms.append(_Atom("′" if character == "'" else character))
+            atoms.append(Atom("′" if character == "'" else character))
             at += 1
     return tuple(atoms), at
 
 
-def _argument(markup: str, at: int) -> tuple[tuple[_Atom, ...], int]:
+def _argument(markup: str, at: int) -> tuple[tuple[Atom, ...], int]:
     if at >= len(markup) or markup[at] == "}":
         raise ValueError(f"an index is empty in {markup!r}")
     if markup[at] != "{":
-        return (_Atom("′" if markup[at] == "'" else markup[at]),), at + 1
+        return (Atom("′" if markup[at] == "'" else markup[at]),), at + 1
     inner, end = _read(markup, at + 1)
     if end >= len(markup):
         raise ValueError(f"a brace is not closed in {markup!r}")
@@ -119,7 +136,7 @@ def _argument(markup: str, at: int) -> tuple[tuple[_Atom, ...], int]:
 
 
 def _set(
-    atoms: tuple[_Atom, ...], x: float, y: float, size: float, level: int, base: float
+    atoms: tuple[Atom, ...], x: float, y: float, size: float, level: int, base: float
 ) -> tuple[list[Run], float]:
     """Runs of atoms from a place on, and the place after them; ``base`` is the size of the letters at level 0."""
     runs: list[Run] = []
@@ -128,17 +145,17 @@ def _set(
     def flush() -> None:
         nonlocal stretch
         if stretch:
-            runs.extend(_trimmed(stretch, begin, y, size, _italic(stretch[0]), False))
+            runs.extend(_trimmed(stretch, begin, y, size, is_italic(stretch[0]), False))
             stretch = ""
 
     for atom in atoms:
         character = "−" if atom.text == "-" and level == 0 else atom.text
-        if stretch and _italic(stretch[0]) != _italic(character):
+        if stretch and is_italic(stretch[0]) != is_italic(character):
             flush()
         if not stretch:
             begin = x
         stretch += character
-        x = begin + width(stretch, size, _italic(character))
+        x = begin + width(stretch, size, is_italic(character))
         if atom.sub or atom.sup:
             flush()
             drop = _DROP_STACKED if atom.sup else _DROP
@@ -151,7 +168,7 @@ def _set(
     return runs, x
 
 
-def _hang(runs: list[Run], atoms: tuple[_Atom, ...], x: float, y: float, level: int, base: float) -> float:
+def _hang(runs: list[Run], atoms: tuple[Atom, ...], x: float, y: float, level: int, base: float) -> float:
     if not atoms:
         return x
     hung, end = _set(atoms, x, y, max(SMALLEST, base * (INDEX if level == 0 else SMALLEST) / LETTER), level + 1, base)
@@ -159,7 +176,8 @@ def _hang(runs: list[Run], atoms: tuple[_Atom, ...], x: float, y: float, level: 
     return end
 
 
-def _italic(character: str) -> bool:
+def is_italic(character: str) -> bool:
+    """Whether a character of a symbol is set in italics."""
     return character.isalpha() and not is_cjk(character)
 
 
