@@ -154,7 +154,7 @@ def _opened(scene: Scene, closing: Closing) -> Scene:
 
 def _trials(structure: Structure, cluster: Cluster, closing: Closing) -> Iterator[Driver]:
     """Drivers that can stand in: at a turning or sliding pair of the group that is not driven and not left out."""
-    driven = {d.key for d in structure.scene.drivers if d != closing.driver}
+    driven = {d.key for d in structure.scene.drivers}
     blocks = {s.key for s in structure.slides if s.slot}
     for pair in cluster.pairs:
         if closing.left_out in (pair.a, pair.b):
