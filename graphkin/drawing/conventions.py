@@ -55,11 +55,12 @@ class Letters:
     """Names of quantities as one convention writes them on one sheet.
 
     ``blocks`` gives for a pin that runs in a guide the link whose index it bears where coincident points are told
-    apart (the pin B of block 2 is written B2 beside B3).
+    apart (the pin B of block 2 is written B2 beside B3); ``holders`` the links of each point.
     """
 
     convention: Convention
     blocks: Mapping[str, str]
+    holders: Mapping[str, tuple[str, ...]]
 
     def point(self, name: str) -> str:
         """A point of the mechanism: capital letter, digits as an index."""
@@ -93,6 +94,8 @@ class Letters:
             return ""
         letter, rest = _parted(ref.point)
         link = ref.link or self.blocks.get(ref.point, "")
+        if not rest and not link and letter.lower() == _POLES[self.convention][0]:
+            link = self.holders[ref.point][0]  # the pole has this letter already
         index = f"{rest},{link}" if rest and link else rest + link
         prime = "'" if diagram == "acceleration" else ""
         return letter.lower() + (f"_{{{index}}}" if index else "") + prime
@@ -151,7 +154,7 @@ def letters_of(sheet: Sheet, convention: Convention) -> Letters:
             for ref in (symbol.of, symbol.to):
                 if ref.link in holders.get(ref.point, ()):
                     blocks.setdefault(ref.point, set()).add(ref.link)
-    return Letters(convention, {point: min(links) for point, links in blocks.items() if len(links) == 1})
+    return Letters(convention, {point: min(links) for point, links in blocks.items() if len(links) == 1}, holders)
 
 
 def scale_statement(sheet: Sheet, convention: Convention, diagram: DiagramName) -> str:

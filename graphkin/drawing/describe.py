@@ -11,32 +11,20 @@ from graphkin.words import Phrase, say, word
 
 __all__ = ["describe", "figure_title", "plain_symbol", "spoken_ref", "spoken_vector"]
 
-_KINDS = {
-    "v": ("velocity of {0}", "{0} 的速度"),
-    "a": ("acceleration of {0}", "{0} 的加速度"),
-    "an": ("normal acceleration of {0}", "{0} 的法向加速度"),
-    "at": ("tangential acceleration of {0}", "{0} 的切向加速度"),
-    "ak": ("Coriolis acceleration of {0}", "{0} 的哥氏加速度"),
-    "ar": ("sliding acceleration of {0}", "{0} 的相对滑动加速度"),
-}
-_RELATIVE = (" relative to {0}", "（相对 {0}）")
-_ON_LINK = ("{0} of link {1}", "构件 {1} 上的 {0}")
-
 
 def spoken_ref(ref: PointRef, language: str) -> str:
     """A point in words: "B of link 3"."""
-    return " / ".join(_ref(ref, _index(each)) for each in languages(language))
+    return " / ".join(_ref(ref, each) for each in languages(language))
 
 
 def spoken_vector(symbol: Symbol, language: str) -> str:
     """A vector in words: "velocity of B of link 3 relative to B of link 2"."""
     said = []
     for each in languages(language):
-        i = _index(each)
         assert symbol.of is not None
-        text = _KINDS[symbol.kind][i].format(_ref(symbol.of, i))
+        text = say(Phrase(f"{symbol.kind} of", (_ref(symbol.of, each),)), each)
         if symbol.to is not None:
-            text += _RELATIVE[i].format(_ref(symbol.to, i))
+            text += say(Phrase("relative to", (_ref(symbol.to, each),)), each)
         said.append(text)
     return " / ".join(said)
 
@@ -112,12 +100,8 @@ def _vectors(sheet: Sheet, diagram: DiagramName, language: str) -> list[str]:
     return said
 
 
-def _ref(ref: PointRef, index: int) -> str:
-    return _ON_LINK[index].format(ref.point, ref.link) if ref.link else ref.point
-
-
-def _index(language: str) -> int:
-    return ("en", "zh").index(language)
+def _ref(ref: PointRef, language: str) -> str:
+    return say(Phrase("point of link", (ref.point, ref.link)), language) if ref.link else ref.point
 
 
 def _capital(text: str) -> str:

@@ -70,17 +70,18 @@ def write_equation(
     if short is not None:
         runs = rich(short, size)
         return Written((Text(complex(0, size), runs),), runs_width(runs), 1.9 * size)
+    gap = 1.2 * GAP if rows_of(letters.convention) == "table" else 0.6 * GAP
     for rules in (True, False):
         cells = _cells(sheet, equation, letters, size, rules)
         heads = _heads(letters, language, size)
         lead = max((runs_width(h) for h in heads), default=0.0) + (2 * GAP if heads else 0.0)
-        if lead + sum(c.width + _space(c) for c in cells) <= width:
+        if lead + sum(c.width + gap for c in cells) <= width:
             break
-    lines = _lines(cells, width - lead)
+    lines = _lines(cells, width - lead, gap)
     children: list[Primitive] = []
     y = most = 0.0
     for line in lines:
-        block = _set(line, heads, lead, letters, size, y)
+        block = _set(line, heads, lead, gap, letters, size, y)
         children += block.children
         y += block.height
         most = max(most, block.width)
@@ -139,29 +140,26 @@ def _heads(letters: Letters, language: str, size: float) -> tuple[tuple[Run, ...
     return rich(term("size", language), small), rich(term("direction of", language), small)
 
 
-def _space(cell: _Cell) -> float:
-    return 0.6 * GAP
-
-
-def _lines(cells: list[_Cell], width: float) -> list[list[_Cell]]:
+def _lines(cells: list[_Cell], width: float, gap: float) -> list[list[_Cell]]:
     """Broken before an operator where a line gets too long."""
     lines: list[list[_Cell]] = [[]]
     used = 0.0
     for i, cell in enumerate(cells):
-        need = cell.width + _space(cell)
+        need = cell.width + gap
         if not cell.is_term and i + 1 < len(cells):
-            need += cells[i + 1].width + _space(cells[i + 1])
+            need += cells[i + 1].width + gap
             if lines[-1] and used + need > width:
                 lines.append([])
                 used = 0.0
         lines[-1].append(cell)
-        used += cell.width + _space(cell)
+        used += cell.width + gap
     return lines
 
 
 def _set(
-    line: list[_Cell], heads: tuple[tuple[Run, ...], ...], lead: float, letters: Letters, size: float, top: float
-) -> Written:
+    line: list[_Cell], heads: tuple[tuple[Run, ...], ...], lead: float, gap: float, letters: Letters, size: float,
+    top: float,
+) -> Written:  # fmt: skip
     rows = rows_of(letters.convention)
     pitch = 1.45 * size
     base = top + size + (pitch * 0.85 if rows == "over" else 0.0)
@@ -169,7 +167,7 @@ def _set(
     for i, head in enumerate(heads):
         children.append(Text(complex(0, base + (i + 1) * pitch), head))
     x = lead
-    edges = [x - GAP / 2]
+    edges = [x - gap / 2]
     for cell in line:
         middle = x + cell.width / 2
         for runs, y in (
@@ -184,19 +182,20 @@ def _set(
             half = runs_width(cell.runs) / 2
             y = base + size * (0.52 + 0.2 * i)
             children.append(Line(complex(middle - half, y), complex(middle + half, y), strokes.DIMENSION))
-        x += cell.width + _space(cell)
-        if cell.is_term:
-            edges.append(x - GAP / 2)
+        if not cell.is_term:
+            edges.append(middle)
+        x += cell.width + gap
+    edges.append(x)
     depth = {"rows": 2, "table": 2, "over": 0, "underlines": 1}[rows]
     bottom = base + depth * pitch + 0.35 * size
     if rows == "table":
-        children += _grid(edges, lead, base, pitch, size)
-    return Written(tuple(children), x, bottom - top + 0.55 * size)
+        children += _grid(edges, base, pitch, size)
+    return Written(tuple(children), x + 0.2, bottom - top + 0.55 * size)
 
 
-def _grid(edges: list[float], lead: float, base: float, pitch: float, size: float) -> list[Primitive]:
+def _grid(edges: list[float], base: float, pitch: float, size: float) -> list[Primitive]:
     """Rules of the table under an equation."""
-    box = Box(-0.5, base + 0.42 * size, edges[-1], base + 2 * pitch + 0.42 * size)
+    box = Box(-0.8, base + 0.42 * size, edges[-1], base + 2 * pitch + 0.42 * size)
     across = [box.top, box.top + pitch, box.bottom]
     lines: list[Primitive] = [Line(complex(box.left, y), complex(box.right, y), strokes.DIMENSION) for y in across]
     for x in (box.left, *edges):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator
 from itertools import pairwise
 from typing import Any
@@ -11,21 +12,24 @@ import numpy as np
 from graphkin.drafting.sheet import Sheet
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
-from graphkin.drawing.dimensions import dimension
+from graphkin.drawing.dimensions import angle_dimension, dimension
 from graphkin.drawing.headings import number
 from graphkin.drawing.metrics import text_box
 from graphkin.drawing.obstacles import Obstacles, obstacles_of
 from graphkin.drawing.primitives import Arc, Group, Line, Polygon, Primitive, Text
 from graphkin.drawing.shapes import GUIDE_LENGTH, bearings
 from graphkin.drawing.typeset import rich
+from graphkin.scene.model import AngleDriver
+from graphkin.scene.symbol import PointRef
 
 __all__ = ["LENGTHS", "drawn_lengths"]
 
 LENGTHS = "dimensions"  # id of their group
-OFFSETS = (6.0, -6.0, 9.0, -9.0, 12.5, -12.5)  # mm from the bar
+OFFSETS = (6.0, -6.0, 9.0, -9.0, 12.5, -12.5, 17.0, -17.0)  # mm from the bar
 LEAST = 11.0  # mm: a shorter bar gets no dimension
 BESIDE = 6.5  # mm from the mechanism to the dimensions of the frame
 SIZE = 2.8
+ANGLE_RADII = (10.0, 13.0, 16.0)
 Parts = tuple[Line | Polygon | Arc | Text, ...]
 
 
@@ -40,7 +44,7 @@ def drawn_lengths(sheet: Sheet, drawn: Iterable[Primitive], panel: Box | None) -
     drawn = tuple(drawn)
     room = _Room(obstacles_of(drawn), panel)
     parts: list[Primitive] = []
-    for taken in (*_frame(sheet, room), *_bars(sheet, room)):
+    for taken in (*_frame(sheet, room), *_bars(sheet, room), *_angles(sheet, room)):
         parts += taken
     return Group(tuple(parts), id=LENGTHS)
 
@@ -68,6 +72,9 @@ class _Room:
                 start = line.start + min(2.2, 0.8 * length) * (line.end - line.start) / length
             ends.append((start, line.end))
         boxes = [*texts, *(Box.around(p.points) for p in parts if isinstance(p, Polygon))]
+        for arc in (part for part in parts if isinstance(part, Arc)):
+            course = [arc.at(arc.start + (arc.end - arc.start) * (0.06 + 0.11 * i)) for i in range(9)]
+            ends += pairwise(course)
         if self.panel is not None and not all(self.panel.holds(box) for box in boxes):
             return False
         if self._meets(ends) or any(self._touched(box.grown(0.5)) for box in boxes):
@@ -142,6 +149,27 @@ def _frame(sheet: Sheet, room: _Room) -> Iterator[Parts]:
         parts = (*lines, *dimension(complex(left, a), complex(left, b), 0.0, runs))
         if b - a >= 5.0 and room.take(parts, 2):
             yield parts
+
+
+def _angles(sheet: Sheet, room: _Room) -> Iterator[Parts]:
+    """The angle of a driver from the x axis."""
+    for driver in sheet.scene.drivers:
+        if not isinstance(driver, AngleDriver) or driver.relative_to != sheet.scene.frame.name:
+            continue
+        link = sheet.scene.by_name[driver.link]
+        pivot = next((sheet.points[PointRef(p)] for p in link.points if p in sheet.scene.frame.points), None)
+        value = sheet.drivers[driver.key]
+        turn = math.remainder(value, 2 * math.pi)
+        if pivot is None or abs(turn) < 0.2 or math.pi - abs(turn) < 0.05:
+            continue
+        runs = rich(f"{number(math.degrees(turn), 5)}°", SIZE)
+        for radius in ANGLE_RADII:
+            at = pivot.conjugate()
+            base = Line(at + 2.2, at + radius + 3.0, strokes.DIMENSION)
+            parts = (base, *angle_dimension(at, radius, 0.0, turn, runs))
+            if room.take(parts, 1):
+                yield parts
+                break
 
 
 def _levels(spots: list[complex], key: Any) -> list[tuple[float, complex]]:

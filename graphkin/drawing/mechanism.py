@@ -246,7 +246,7 @@ class _Composer:
         for shape in self.shapes:
             text = Text(0j, plain(shape.link, bold=True), "start", self.colour(shape.link),
                         f"label-link-{shape.link}", ("label", "link-number"))
-            whole = shape.longest
+            whole = self._cylinder_part(shape.link) or shape.longest
             block = next((b.at for b in self.bearings if b.slide.a == shape.link), None)
             if whole is not None:
                 self.names.append(Name(Label(text, (self.at(whole[0]), self.at(whole[1]))), 1))
@@ -270,6 +270,15 @@ class _Composer:
             text = Text(0j, plain(self.ground, bold=True), "start", strokes.BLACK,
                         f"label-link-{self.ground}", ("label", "link-number"))
             self.names.append(Name(Label(text, self.at(spots[0] + away), (phase(away),)), 1))
+
+    def _cylinder_part(self, link: str) -> tuple[complex, complex] | None:
+        """The barrel or the rod of a cylinder."""
+        for b in self.bearings:
+            if b.slide.key in self.cylinders and link in (b.slide.a, b.slide.b):
+                pivot = self._pivot(b)
+                far = pivot + 0.6 * (b.at - pivot)
+                return (pivot, far) if link == b.slide.b else (far, b.at)
+        return None
 
     # -- senses ------------------------------------------------------------------------------------------------------
 

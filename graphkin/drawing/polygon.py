@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from graphkin.drafting.sheet import Bar, DiagramName, Image, Mark, Ray, Sheet, Vector
 from graphkin.drawing import strokes
-from graphkin.drawing.arrows import COMPONENT, RESULTANT, vector_group
+from graphkin.drawing.arrows import COMPONENT, POINTER, RESULTANT, arrowhead, vector_group
 from graphkin.drawing.box import Box
 from graphkin.drawing.colours import colour_of_link, colour_of_vector, link_of_vector
 from graphkin.drawing.conventions import Letters, pole
@@ -25,6 +25,7 @@ __all__ = ["extent", "polygon_piece"]
 POLE_RADIUS, END_RADIUS, FOOT_RADIUS, RING = 0.9, 0.5, 0.4, 0.45
 BEYOND = 9.0  # mm: how far a direction line runs past the crossing
 SAME = 0.02  # mm: nearer end points fall together on paper
+FAR = 60.0  # mm: construction further outside than this is cut off
 SHORT = 8.0  # mm: a shorter vector from the pole is named by its end points alone
 ZERO = 0.02  # mm: a shorter vector is drawn as a dot
 
@@ -38,10 +39,21 @@ class _Spot:
     refs: list[PointRef]
 
 
-def extent(sheet: Sheet, diagram: DiagramName) -> Box:
-    """The box (mm, y down, about the pole) around all vectors of a polygon."""
+def extent(sheet: Sheet, diagram: DiagramName, within: Box | None = None) -> Box:
+    """The box (mm, y down, about the pole) around all vectors of a polygon; lines that lead to them are counted in
+    where they do not reach far."""
     ends = [0j, *(z for v in sheet.vectors(diagram).values() for z in (v.tail, v.tip))]
-    return Box.around(z.conjugate() for z in ends)
+    box = Box.around(z.conjugate() for z in ends)
+    for step in sheet.steps:
+        for stroke in step.strokes:
+            if step.diagram == diagram and isinstance(stroke, Bar):
+                wider = box.joined(Box.around((stroke.a.conjugate(), stroke.b.conjugate())))
+                if within is None:
+                    fits = max(wider.width - box.width, wider.height - box.height) < FAR
+                else:
+                    fits = wider.width <= within.width and wider.height <= within.height
+                box = wider if fits else box
+    return box
 
 
 def polygon_piece(
@@ -199,8 +211,10 @@ class _Composer:
             per_end[vector.symbol.of] = number = per_end.get(vector.symbol.of, 0) + 1
             link = link_of_vector(self.sheet, vector.symbol) if per_role[vector.role] > 1 else ""
             markup = self.letters.foot(vector.role, vector.symbol.of, number, link)
-            while markup in used:
-                markup += "'"
+            if markup in used:
+                index = self.letters.ref(vector.symbol.of)
+                index += self.letters.ref(vector.symbol.to) if vector.symbol.to else ""
+                markup = self.letters.foot(vector.role, vector.symbol.of, number, index)
             used.add(markup)
             dot = Circle(self.at(at), FOOT_RADIUS, fill=strokes.BLACK)
             yield Group((dot,), id=f"foot-{vector.symbol.id}", classes=("foot",))
@@ -275,10 +289,27 @@ class _Composer:
     def _bars(self) -> Iterator[Primitive]:
         for step in self.steps:
             for bar in (s for s in step.strokes if isinstance(s, Bar)):
-                if abs(bar.b - bar.a) > SAME and not self._covered(bar.a, bar.b):
-                    clipped = self.panel.clip(self.at(bar.a), self.at(bar.b))
-                    if clipped:
-                        yield Group((Line(*clipped, strokes.CONSTRUCTION),), classes=(f"step-{step.number:02d}",))
+                if abs(bar.b - bar.a) <= SAME or self._covered(bar.a, bar.b):
+                    continue
+                start, end = self.at(bar.a), self.at(bar.b)
+                clipped = self.panel.clip(start, end)
+                if clipped is None:
+                    continue
+                parts: list[Primitive] = [Line(*clipped, strokes.CONSTRUCTION)]
+                if step.phrase.key == "carry":
+                    parts += self._carried(step.phrase.args[0], clipped, end)
+                yield Group(tuple(parts), classes=("construction", f"step-{step.number:02d}"))
+
+    def _carried(self, moved: object, line: tuple[complex, complex], tip: complex) -> Iterator[Primitive]:
+        """A vector added before its turn in the chain: thin, with its name."""
+        length = abs(line[1] - line[0])
+        if abs(line[1] - tip) < SAME and length > 1.0:
+            head = min(POINTER.head_length, 0.7 * length)
+            yield arrowhead(tip, line[1] - line[0], head, POINTER.head_width, strokes.BLACK)
+        if isinstance(moved, Symbol) and length > 4.0:
+            text = Text(0j, symbol(self.letters.vector(moved), 3.0), "start", strokes.GREY,
+                        f"label-carried-{moved.id}", ("label",))
+            self.names.append(Name(Label(text, line), 4))
 
 
 def _rounded(z: complex) -> complex:

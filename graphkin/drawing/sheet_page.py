@@ -31,7 +31,7 @@ PAPERS = {"A4": (210.0, 297.0), "A3": (297.0, 420.0), "A2": (420.0, 594.0), "A1"
 MARGIN, GUTTER, CAPTION = 10.0, 2.0, 5.5
 HEAD, BLOCK = 11.0, 16.0  # heading above, title block below
 FILL = 0.87  # of a panel, by the polygon with the finest scale
-AROUND_MECHANISM = 19.0  # mm for symbols and names
+AROUND_MECHANISM = (16.0, 19.0)  # mm for symbols and names
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ def sheet_room(scene: Scene) -> Room:
     """The room in which a sheet for ``sheet_page`` is to be drafted: ``draft(scene, room=sheet_room(scene))``."""
     plan = _plan(scene)
     return Room(
-        mechanism=(plan.mechanism.width - AROUND_MECHANISM, plan.mechanism.height - AROUND_MECHANISM),
+        mechanism=(plan.mechanism.width - AROUND_MECHANISM[0], plan.mechanism.height - AROUND_MECHANISM[1]),
         polygon=(plan.velocity.width * FILL, plan.velocity.height * FILL),
     )
 
@@ -178,7 +178,7 @@ def _mechanism(sheet: Sheet, letters: Letters, panel: Box) -> Piece:
 def _polygon(
     sheet: Sheet, diagram: DiagramName, letters: Letters, language: str, panel: Box
 ) -> tuple[Piece, list[CoriolisTerm]]:
-    content = extent(sheet, diagram)
+    content = extent(sheet, diagram, panel.grown(-3.0))
     origin = panel.centre - content.centre
     return polygon_with_insets(sheet, diagram, letters, language, panel.grown(-0.8), origin)
 

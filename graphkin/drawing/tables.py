@@ -180,7 +180,7 @@ def _texts(sheet: Sheet, row: _Row, letters: Letters, size: float) -> list[tuple
 
 def _difference(share: float) -> str:
     if share < 1e-12:
-        return "0"
+        return "< $10^{−12}$" if share else "0"
     if share < 1e-4:
         return f"{share:.0e}".replace("e-0", "e-").replace("e-", " · $10^{−") + "}$"
     return f"{100 * share:.2g} %"
