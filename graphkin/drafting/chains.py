@@ -87,7 +87,7 @@ def equation_of(
             ends = (path[0].start, path[-1].end)
             strangers = {n for e in path for n in (e.start, e.end)} - net.natural
             cost = (
-                len(path) + 0.4 * len(strangers) + 0.1 * sum(n not in drawn for n in ends),
+                len(path) + 0.6 * len(strangers) + 0.1 * sum(n not in drawn for n in ends),
                 float(net.fixed(path[0].start)),
                 float(net.order[path[0].start]),
             )
