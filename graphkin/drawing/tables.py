@@ -11,6 +11,7 @@ from graphkin.drafting.sheet import Sheet
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
+from graphkin.drawing.describe import remarks
 from graphkin.drawing.headings import drivers, languages, number, term
 from graphkin.drawing.layout import wrapped
 from graphkin.drawing.metrics import runs_width
@@ -20,7 +21,7 @@ from graphkin.plane import degrees
 from graphkin.scene.model import Link, Scene
 from graphkin.words import Phrase, say, word
 
-__all__ = ["given_data", "readings_table"]
+__all__ = ["given_data", "given_lengths", "readings_table"]
 
 ROW, LEAST_ROW = 4.2, 3.75  # mm
 _LETTERS = {"v": 0, "omega": 1, "a": 2, "alpha": 4}
@@ -194,11 +195,11 @@ def _unit(sheet: Sheet, reading: Reading) -> tuple[str, float]:
 
 
 def given_data(sheet: Sheet, letters: Letters, language: str, area: Box) -> tuple[Primitive, ...]:
-    """Lengths, fixed points and drivers as lines of text in an area (mm); as large as they fit."""
+    """Drivers, lengths, fixed points and remarks as lines of text in an area (mm); as large as they fit."""
     scene = sheet.scene
     unit = scene.units.length
     items = drivers(sheet, letters).split(",  ")
-    items += [f"${name}$ = {number(value)} {unit}" for name, value in _lengths(scene, letters)]
+    items += [f"${name}$ = {number(value)} {unit}" for name, value in given_lengths(scene, letters)]
     fixed = [f"${letters.point(p)}$ ({_pair(z, scene)}) {unit}" for p, z in scene.frame.points.items()]
     for guide in scene.frame.guides.values():
         if guide.name:
@@ -208,6 +209,8 @@ def given_data(sheet: Sheet, letters: Letters, language: str, area: Box) -> tupl
     lines: list[tuple[Run, ...]] = []
     for size in (2.8, 2.5, 2.2, 2.0):
         lines = [line for group in (items, fixed) for line in _flowed(group, size, area.width)]
+        for each in languages(language):
+            lines += [line for note in remarks(sheet, each) for line in wrapped(note, size, area.width)]
         if len(lines) * 1.55 * size <= area.height:
             break
     most = int(area.height / (1.55 * size))
@@ -228,7 +231,8 @@ def _flowed(items: Sequence[str], size: float, width: float) -> list[tuple[Run, 
     return [runs for line in lines for runs in wrapped(line, size, width)]
 
 
-def _lengths(scene: Scene, letters: Letters) -> list[tuple[str, float]]:
+def given_lengths(scene: Scene, letters: Letters) -> list[tuple[str, float]]:
+    """The given lengths of all links: symbol (without dollar signs) and value in the scene's unit."""
     found: list[tuple[str, float]] = []
     for link in scene.links:
         if link.length is not None:
