@@ -1,0 +1,167 @@
+"""Zeros and extremes of smooth curves to full accuracy, not to a grid.
+
+Curves are represented by Chebyshev polynomials on as many pieces as it takes until the last coefficients vanish in
+rounding; zeros are roots of the polynomials, extremes roots of their derivatives (Boyd, Computing zeros on a real
+interval through Chebyshev expansion and polynomial rootfinding, SIAM J. Numer. Anal. 40, 2002; Trefethen, Approximation
+Theory and Approximation Practice).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.polynomial import chebyshev
+from numpy.typing import NDArray
+
+__all__ = ["Pieces", "resolve"]
+
+Array = NDArray[np.float64]
+
+POINTS = 24
+FIRST_PIECES = 8
+MOST_DEPTH = 12
+MOST_PIECES = 500
+RESOLVED = 2e-14
+OUTSIDE = 1e-9
+"""A root this far outside its piece (in half widths) is still its own: two pieces meet there."""
+SAME = 1e-8
+
+_NODES = np.cos(np.pi * (np.arange(POINTS) + 0.5) / POINTS)[::-1]
+_FIT = np.linalg.inv(chebyshev.chebvander(_NODES, POINTS - 1))
+
+
+@dataclass(frozen=True)
+class Pieces:
+    """Curves over a range of a parameter.
+
+    low, high : shape (pieces,), the ends of each piece, in increasing order
+    coefficients : shape (pieces, points, curves)
+    scale : shape (curves,), the largest value of each curve (the usual one, where it grows without bound), or the floor
+    """
+
+    low: Array
+    high: Array
+    coefficients: Array
+    scale: Array
+    periodic: bool
+
+    def zeros(self, curve: int) -> Array:
+        """Parameters at which a curve is zero, in increasing order."""
+        return self._roots(self.coefficients[:, :, curve], self.scale[curve])
+
+    def extremes(self, curve: int) -> Array:
+        """Parameters at which the derivative of a curve is zero, in increasing order."""
+        slopes = np.stack([chebyshev.chebder(c) for c in self.coefficients[:, :, curve]])
+        # rounding of the values, seen in the derivative of a polynomial of this degree
+        return self._roots(slopes, self.scale[curve] * POINTS)
+
+    def at(self, parameter: float, curve: int) -> float:
+        """The value of a curve, by its polynomial: also at an end where the curve itself cannot be computed."""
+        piece = min(int(np.searchsorted(self.high, parameter)), len(self.high) - 1)
+        low, high = self.low[piece], self.high[piece]
+        x = (2 * parameter - low - high) / (high - low)
+        return float(chebyshev.chebval(x, self.coefficients[piece, :, curve]))
+
+    def is_constant(self, curve: int) -> bool:
+        """Whether a curve does not change beyond rounding."""
+        c = self.coefficients[:, :, curve]
+        level = float(np.max(np.abs(c[:, 0] - c[0, 0])))
+        return bool(max(level, float(np.max(np.abs(c[:, 1:])))) <= 1e-12 * self.scale[curve])
+
+    def _roots(self, coefficients: Array, scale: float) -> Array:
+        found: list[float] = []
+        rounding = 1e-15 * scale
+        for low, high, c in zip(self.low, self.high, coefficients, strict=True):
+            rest = float(np.sum(np.abs(c[1:])))
+            if abs(c[0]) > rest or rest <= rounding:
+                continue
+            for x in _real_roots(c, rounding):
+                found.append(float((low + high) / 2 + (high - low) / 2 * x))
+        found.sort()
+        kept: list[float] = []
+        for t in found:
+            if not kept or t - kept[-1] > SAME * (self.high[-1] - self.low[0]):
+                kept.append(min(max(t, float(self.low[0])), float(self.high[-1])))
+        if self.periodic and len(kept) > 1 and kept[-1] - kept[0] > (1 - SAME) * (self.high[-1] - self.low[0]):
+            kept.pop()
+        return np.array(kept)
+
+
+def _real_roots(c: Array, rounding: float) -> list[float]:
+    significant = np.flatnonzero(np.abs(c) > rounding)
+    c = c[: int(significant[-1]) + 1] if len(significant) else c[:1]
+    if len(c) < 2:
+        return []
+    slope = chebyshev.chebder(c)
+    roots = []
+    for z in chebyshev.chebroots(c):
+        if abs(z.imag) > 1e-6 or abs(z.real) > 1 + 1e-6:
+            continue
+        x = float(z.real)
+        for _ in range(3):
+            rate = chebyshev.chebval(x, slope)
+            step = chebyshev.chebval(x, c) / rate if rate else 0.0
+            x -= step if abs(step) < 1e-6 else 0.0
+        # a pair of complex roots near the axis is a curve that comes close to zero without reaching it
+        if abs(x) <= 1 + OUTSIDE and (abs(z.imag) < 1e-12 or _crosses(c, x, abs(z.imag))):
+            roots.append(x)
+    return roots
+
+
+def _crosses(c: Array, x: float, reach: float) -> bool:
+    """Whether a polynomial changes sign near a root."""
+    step = max(10 * reach, 1e-9)
+    before, after = chebyshev.chebval(np.array([x - step, x + step]), c)
+    return bool(before * after <= 0)
+
+
+def resolve(
+    curves: Callable[[Array], Array], low: float, high: float, periodic: bool = False, floor: Array | float = 0.0
+) -> Pieces:
+    """Represent curves to rounding.
+
+    Parameters
+    ----------
+    curves : function of parameters, shape (n,), to values, shape (n, curves); values that are not finite are taken as 0
+    low, high : range of the parameter
+    periodic : whether both ends are the same position
+    floor : shape (curves,), values that are as good as zero relative to it are not looked into
+    """
+    edges = np.linspace(low, high, FIRST_PIECES + 1)
+    waiting = np.stack([edges[:-1], edges[1:]], axis=1)
+    before = np.full((len(waiting), 1), np.inf)
+    done: list[tuple[Array, Array]] = []
+    scale = usual = np.zeros(1)
+    for depth in range(MOST_DEPTH + 1):
+        middle, half = waiting.mean(axis=1), np.diff(waiting, axis=1)[:, 0] / 2
+        at = middle[:, None] + half[:, None] * _NODES
+        value = curves(at.ravel())
+        value = np.where(np.isfinite(value), value, 0.0).reshape(len(waiting), POINTS, -1)
+        local = np.abs(value).max(axis=1)
+        if depth == 0:
+            # a curve that grows without bound at an end is represented to the rounding of its values there
+            scale = np.maximum(np.minimum(local.max(axis=0), 30 * np.median(local, axis=0)), floor)
+            usual = scale
+        c = np.einsum("kn,pnc->pkc", _FIT, value)
+        tail = np.abs(c[:, -3:]).max(axis=1)
+        # what does not shrink when a piece is halved is rounding, which no halving takes away
+        shrinks = tail < 0.25 * before if depth > 2 else np.ones_like(tail, dtype=bool)
+        rough = np.any((tail > RESOLVED * np.maximum(np.maximum(local, usual), 1e-300)) & shrinks, axis=1)
+        if depth == MOST_DEPTH or len(done) + 2 * int(rough.sum()) > MOST_PIECES:
+            rough[:] = False
+        done += [(w, k) for w, k in zip(waiting[~rough], c[~rough], strict=True)]
+        if not rough.any():
+            break
+        low_, high_, mid = waiting[rough, 0], waiting[rough, 1], middle[rough]
+        waiting = np.concatenate([np.stack([low_, mid], axis=1), np.stack([mid, high_], axis=1)])
+        before = np.concatenate([tail[rough], tail[rough]])
+    done.sort(key=lambda piece: float(piece[0][0]))
+    return Pieces(
+        np.array([w[0] for w, _ in done]),
+        np.array([w[1] for w, _ in done]),
+        np.stack([k for _, k in done]),
+        scale,
+        periodic,
+    )

@@ -1,0 +1,211 @@
+"""Designs: one scene with some of its numbers replaced, in a grid, a list, or as the rows of a CSV file."""
+
+from __future__ import annotations
+
+import copy
+import csv
+import math
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import islice
+from typing import Any
+
+from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.scene.sentences import keys_at
+
+__all__ = ["Designs", "Value", "applied", "designs_of", "read_designs"]
+
+Value = float | str
+MOST_DESIGNS = 10_000_000
+MOST_ROWS = 1_000_000
+
+
+@dataclass(frozen=True)
+class Designs:
+    """What is replaced in each design: keys of the scene file with dots, and their values.
+
+    Either every combination of the values of each key (``grid``; the last key changes fastest), or ``rows`` of one value
+    for each key.
+    """
+
+    keys: tuple[str, ...] = ()
+    grid: tuple[tuple[Value, ...], ...] = ()
+    rows: tuple[tuple[Value, ...], ...] | None = None
+
+    def __len__(self) -> int:
+        each = math.prod(len(values) for values in self.grid)
+        return each if self.rows is None else each * len(self.rows)
+
+    def __getitem__(self, index: int) -> tuple[Value, ...]:
+        """The values of one design, in the order of the keys."""
+        values: list[Value] = []
+        for choices in reversed(self.grid):
+            index, k = divmod(index, len(choices))
+            values.append(choices[k])
+        values.reverse()
+        return (*(self.rows[index] if self.rows is not None else ()), *values)
+
+
+def designs_of(given: Mapping[str, str | Sequence[Value] | Value] | None, table: str | os.PathLike[str] | None) -> Designs:
+    """Designs from grids and lists, and from a CSV file; both together give every combination.
+
+    Parameters
+    ----------
+    given : for each key "a:b:n" (n values evenly from a to b), "a,b,c", a value, or a sequence of values
+    table : a CSV file whose head names the keys
+
+    Raises
+    ------
+    CallError : naming every value, key and row that is wrong
+    """
+    problems: list[Problem] = []
+    grid: dict[str, tuple[Value, ...]] = {}
+    for key, values in (given or {}).items():
+        try:
+            grid[key] = _values(values)
+        except ValueError as error:
+            problems.append(Problem(f"--set {key}", str(error), "write KEY=40:60:21, KEY=40,50,60 or KEY=50"))
+    rows, keys = None, ()
+    if table is not None:
+        keys, rows = read_designs(table)
+        twice = [key for key in grid if key in keys]
+        problems += [Problem(f"--set {key}", f"is a column of {os.fspath(table)} too", "give it once") for key in twice]
+    if problems:
+        raise CallError(*problems)
+    made = Designs((*keys, *grid), tuple(grid.values()), rows)
+    if len(made) > MOST_DESIGNS:
+        raise CallError(Problem("designs", f"{len(made)} of them", f"at most {MOST_DESIGNS} are possible"))
+    return made
+
+
+def _values(given: str | Sequence[Value] | Value) -> tuple[Value, ...]:
+    if isinstance(given, bool):
+        raise ValueError(f"found {given}")
+    if isinstance(given, int | float):
+        return (_finite(float(given)),)
+    if not isinstance(given, str):
+        values = tuple(v if isinstance(v, str) else _finite(float(v)) for v in given)
+        if not values:
+            raise ValueError("there are no values")
+        return values
+    text = given.strip()
+    parts = text.split(":")
+    if len(parts) == 3:
+        try:
+            low, high, n = _finite(float(parts[0])), _finite(float(parts[1])), int(parts[2])
+        except ValueError:
+            raise ValueError(f'"{text}" is no grid') from None
+        if not 1 <= n <= MOST_DESIGNS:
+            raise ValueError(f"a grid of {n} values")
+        if n == 1:
+            return (low,)
+        # both ends exactly, and the same numbers on every machine
+        return tuple(low + (high - low) * k / (n - 1) if k < n - 1 else high for k in range(n))
+    if not text:
+        raise ValueError("there is no value")
+    return tuple(_value(part) for part in text.split(","))
+
+
+def _value(text: str) -> Value:
+    text = text.strip()
+    if not text:
+        raise ValueError("a value is empty")
+    try:
+        return _finite(float(text))
+    except ValueError:
+        if text.lower().strip("+-") in ("inf", "nan", "infinity"):
+            raise
+        return text
+
+
+def _finite(value: float) -> float:
+    if not math.isfinite(value):
+        raise ValueError(f"{value} is no number of a scene")
+    return value
+
+
+def read_designs(path: str | os.PathLike[str]) -> tuple[tuple[str, ...], tuple[tuple[Value, ...], ...]]:
+    """Keys and rows of a CSV file of designs.  Raises CallError, naming the row."""
+    shown = os.fspath(path)
+    try:
+        with open(path, newline="", encoding="utf-8-sig") as stream:
+            lines = list(islice(csv.reader(stream), MOST_ROWS + 2))
+    except OSError as error:
+        raise CallError(Problem(str(shown), f"cannot be read: {error.strerror}")) from None
+    except (UnicodeDecodeError, csv.Error) as error:
+        raise CallError(Problem(str(shown), f"is no CSV file: {error}")) from None
+    lines = [line for line in lines if any(cell.strip() for cell in line)]
+    if len(lines) < 2:
+        raise CallError(Problem(str(shown), "holds no designs", "the first row names keys (links.1.length), the others "
+                                                                "give values"))
+    if len(lines) > MOST_ROWS + 1:
+        raise CallError(Problem(str(shown), f"holds more than {MOST_ROWS} designs"))
+    keys = tuple(cell.strip() for cell in lines[0])
+    problems = [Problem(f"{shown}, row 1", f'"{k}" stands twice') for i, k in enumerate(keys) if k in keys[:i]]
+    rows: list[tuple[Value, ...]] = []
+    for number, line in enumerate(lines[1:], start=2):
+        if len(line) != len(keys):
+            problems.append(Problem(f"{shown}, row {number}", f"has {len(line)} cells, the head has {len(keys)}"))
+            continue
+        try:
+            rows.append(tuple(_value(cell) for cell in line))
+        except ValueError as error:
+            problems.append(Problem(f"{shown}, row {number}", str(error)))
+    if problems:
+        raise CallError(*problems[:20])
+    return keys, tuple(rows)
+
+
+def applied(source: Mapping[str, Any], keys: Sequence[str], values: Sequence[Value]) -> dict[str, Any]:
+    """A scene's mapping with some numbers replaced.
+
+    Keys are those of the file with dots: ``links.1.length``, ``frame.points.D.x`` (or ``.1``: items of lists are counted
+    from 1, as in messages), ``driver.omega``, ``driver.2.angle`` of the second ``[[driver]]``.
+
+    Raises
+    ------
+    CallError : naming every key that the scene does not have
+    """
+    made = copy.deepcopy(dict(source))
+    problems = []
+    for key, value in zip(keys, values, strict=True):
+        problem = _put(made, key, value)
+        if problem is not None:
+            problems.append(problem)
+    if problems:
+        raise CallError(*problems)
+    return made
+
+
+def _put(made: dict[str, Any], key: str, value: Value) -> Problem | None:
+    parts = key.split(".")
+    place: Any = made
+    for depth, part in enumerate(parts):
+        last = depth == len(parts) - 1
+        before = ".".join(parts[:depth]) or "the scene"
+        if isinstance(place, list):
+            index = {"x": 0, "y": 1}.get(part, int(part) - 1 if part.isdecimal() else -1)
+            if not 0 <= index < len(place):
+                return Problem(f"--set {key}", f"{before} has no item {part}", f"it has {len(place)}, counted from 1")
+            if last:
+                place[index] = value
+                return None
+            place = place[index]
+            continue
+        if not isinstance(place, dict):
+            return Problem(f"--set {key}", f"{before} is {place!r:.40} and has nothing inside")
+        if last and part not in place and part in keys_at(tuple(parts[:-1])):
+            place[part] = value
+            return None
+        if part not in place:
+            return Problem(f"--set {key}", f'{before} has no "{part}"', did_you_mean(part, map(str, place)))
+        if last:
+            if isinstance(place[part], dict | list):
+                inside = place[part] if isinstance(place[part], dict) else ["x", "y"]
+                return Problem(f"--set {key}", "is a table or a list, not a number",
+                               f"add one of: {', '.join(map(str, inside))}")
+            place[part] = value
+            return None
+        place = place[part]
+    return None

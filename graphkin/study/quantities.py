@@ -1,0 +1,167 @@
+"""What can be watched over a turn: angles and travels with their rates, anything that ``find`` names, transmission."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphkin.exact import Motion
+from graphkin.scene.model import Scene
+from graphkin.scene.symbol import Symbol
+from graphkin.structure import Dyad, Slide, Structure, Turn
+from graphkin.study.course import Course
+
+__all__ = ["Crossing", "Quantity", "link_quantities", "slide_quantities", "symbol_quantity", "transmission"]
+
+Array = NDArray[np.float64]
+Kind = Literal["theta", "omega", "alpha", "s", "v", "a", "symbol"]
+Measure = Literal["angle", "length", "angular rate", "speed", "angular acceleration", "acceleration"]
+
+_MEASURES: dict[str, Measure] = {
+    "theta": "angle",
+    "omega": "angular rate",
+    "alpha": "angular acceleration",
+    "s": "length",
+    "v": "speed",
+    "a": "acceleration",
+}
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """One number that changes over the turn: ``theta_3`` (angle of a link), ``s_6/1`` (travel of a sliding pair), their
+    rates ``omega_3``, ``alpha_3``, ``v_6/1``, ``a_6/1``, or a symbol of ``find`` (a vector by its size)."""
+
+    kind: Kind
+    of: str
+    symbol: Symbol | None = None
+
+    @property
+    def name(self) -> str:
+        return str(self.symbol) if self.symbol else f"{self.kind}_{self.of}"
+
+    @property
+    def measure(self) -> Measure:
+        """What kind of number it is."""
+        if self.symbol is None:
+            return _MEASURES[self.kind]
+        return _MEASURES.get(self.symbol.kind, "acceleration")
+
+    @property
+    def is_position(self) -> bool:
+        """Whether it is an angle or a travel."""
+        return self.kind in ("theta", "s")
+
+    @property
+    def is_size(self) -> bool:
+        """Whether it is the size of a vector."""
+        return self.symbol is not None and self.symbol.is_vector
+
+    def unit(self, scene: Scene, degrees: bool = False) -> str:
+        """The unit of ``in_units``."""
+        length, angle = scene.units.length, "deg" if degrees else "rad"
+        return {
+            "angle": angle,
+            "length": length,
+            "angular rate": "rad/s",
+            "speed": f"{length}/s",
+            "angular acceleration": "rad/s2",
+            "acceleration": f"{length}/s2",
+        }[self.measure]
+
+    def in_units(self, scene: Scene, value: float, degrees: bool = False) -> float:
+        """A value in the scene's length unit, seconds, radians (or degrees)."""
+        if self.measure == "angle":
+            return math.degrees(value) if degrees else value
+        return value if self.measure.startswith("angular") else value / scene.units.metres
+
+    def values(self, course: Course, motion: Motion) -> Array:
+        """Its values in a motion of a course (SI), shape (n,)."""
+        if self.symbol is not None:
+            found = motion.value(self.symbol)
+            return np.abs(found) if self.is_size else np.asarray(found.real)
+        if self.kind == "theta":
+            return course.angle(motion, self.of)
+        if self.kind == "omega":
+            return motion.omega(self.of)
+        if self.kind == "alpha":
+            return motion.alpha(self.of)
+        slide = motion.slide(self.of)
+        return {"s": slide.travel, "v": slide.velocity, "a": slide.acceleration}[self.kind]
+
+    def smooth(self, course: Course, motion: Motion) -> Array:
+        """What is smooth where the quantity may not be: the square of a vector's size, else the quantity itself."""
+        value = self.values(course, motion)
+        return value**2 if self.is_size else value
+
+
+def link_quantities(link: str) -> tuple[Quantity, Quantity, Quantity]:
+    """Angle, angular velocity and angular acceleration of a link."""
+    return Quantity("theta", link), Quantity("omega", link), Quantity("alpha", link)
+
+
+def slide_quantities(key: str) -> tuple[Quantity, Quantity, Quantity]:
+    """Travel, velocity and acceleration of a sliding pair."""
+    return Quantity("s", key), Quantity("v", key), Quantity("a", key)
+
+
+def symbol_quantity(symbol: Symbol) -> Quantity:
+    """What ``find`` names."""
+    if symbol.kind in ("omega", "alpha"):
+        return Quantity("omega" if symbol.kind == "omega" else "alpha", symbol.link)
+    return Quantity("symbol", str(symbol), symbol)
+
+
+@dataclass(frozen=True)
+class Crossing:
+    """Sine and cosine of the angle between the two directions that decide how well a group passes on a force."""
+
+    cosine: Array
+    sine: Array
+
+    @property
+    def angle(self) -> Array:
+        """Transmission angle (rad), in 0 .. pi/2."""
+        return np.arctan2(np.abs(self.sine), np.abs(self.cosine))
+
+
+def transmission(structure: Structure, dyad: Dyad, motion: Motion) -> Crossing:
+    """The transmission angle of a group of two links; the pressure angle is what it lacks to 90 degrees.
+
+    Taken is the acute angle between the two paths on which the inner joint can move as a point of either link (Hall,
+    Kinematics and Linkage Design; Norton, Design of Machinery, ch. 3; 孙桓 《机械原理》, ch. 8):
+
+    - RRR: between coupler and rocker, at their common pin
+    - RRP: between rod and the normal of the guide
+    - RPR: between the normal of the guide and the line of the two outer pivots; 90 degrees where the guide passes
+      through both, as in most guide-bar mechanisms and swinging blocks
+    - PRP, RPP: between the two guides
+    """
+
+    def place(turn: Turn) -> Array:
+        return np.asarray(motion.poses[turn.a].fixed(structure.links[turn.a].points[turn.point]).z)
+
+    def guide(slide: Slide) -> Array:
+        return np.asarray(motion.poses[slide.b].u * slide.guide.direction)
+
+    inner, one, two = dyad.inner, dyad.outer_first, dyad.outer_second
+    if isinstance(inner, Turn):
+        first = place(inner) - place(one) if isinstance(one, Turn) else guide(one)
+        second = place(inner) - place(two) if isinstance(two, Turn) else guide(two)
+        if isinstance(one, Turn) != isinstance(two, Turn):
+            second = 1j * second
+    else:
+        first = guide(inner)
+        if isinstance(one, Turn) and isinstance(two, Turn):
+            first, second = 1j * first, place(one) - place(two)
+        else:
+            other = two if isinstance(two, Slide) else one
+            assert isinstance(other, Slide)
+            second = guide(other)
+    with np.errstate(all="ignore"):
+        across = np.conj(first) * second / (np.abs(first) * np.abs(second))
+    return Crossing(np.asarray(across.real), np.asarray(across.imag))

@@ -1,0 +1,103 @@
+"""In which ranges of the driver a mechanism can be assembled, and which of them the motion reaches."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphkin.exact.engine import positions
+from graphkin.exact.joints import Drive
+from graphkin.scene.model import AngleDriver
+from graphkin.structure import Cluster, Dyad
+from graphkin.structure.continuity import last_true
+from graphkin.study.course import Course
+
+__all__ = ["Range", "ranges"]
+
+Array = NDArray[np.float64]
+
+GRID = 1440
+MOST_GROUPS = 5
+
+
+@dataclass(frozen=True)
+class Range:
+    """Values of the first driver (SI) between which the mechanism assembles.
+
+    ``reached`` says whether the motion of the scene's own assembly runs there; ``whole`` that it is a full turn;
+    ``open_low``, ``open_high`` that the motion does not end there but was not followed further.
+    """
+
+    low: float
+    high: float
+    reached: bool
+    whole: bool = False
+    open_low: bool = False
+    open_high: bool = False
+
+
+def ranges(course: Course) -> tuple[Range, ...]:
+    """The range that the motion reaches, then all others in which some assembly closes (for groups of two links: where
+    larger groups can be assembled is known only along their motion)."""
+    if course.full:
+        return (Range(0.0, 2 * np.pi * course.turns, True, whole=True),)
+    low, high = sorted(float(course.value(np.array(end))) for end in course.ends)
+    below, above = course.limited if course.sense > 0 else course.limited[::-1]
+    own = Range(low, high, True, open_low=not below, open_high=not above)
+    if not isinstance(course.driver, AngleDriver):
+        return (own,)
+    dyads = [i for i, e in enumerate(course.structure.elements) if isinstance(e, Dyad)]
+    if len(dyads) > MOST_GROUPS or any(isinstance(e, Cluster) for e in course.structure.elements):
+        return (own,)
+    return own, *_elsewhere(course, dyads, own)
+
+
+def _elsewhere(course: Course, dyads: list[int], own: Range) -> list[Range]:
+    def closes(value: Array) -> NDArray[np.bool_]:
+        values = np.repeat(course.start[None], len(value), axis=0)
+        values[:, 0] = value
+        drive = Drive.at(course.structure, values)
+        some = np.zeros(len(value), dtype=bool)
+        # the last group's own form decides nothing about whether it closes
+        for signs in product((1.0, -1.0), repeat=max(len(dyads) - 1, 0)):
+            forms = {i: np.asarray(sign) for i, sign in zip(dyads, (*signs, 1.0), strict=True)}
+            state = positions(course.structure, drive, forms, rates=False)
+            gaps = [np.broadcast_to(_closed(course, i, state.groups[i]), value.shape) for i in dyads]
+            some |= np.logical_and.reduce(gaps)
+        return some
+
+    start = own.low + 1e-9
+    grid = start + np.linspace(0.0, 2 * np.pi, GRID + 1)
+    holds = closes(grid)
+    found: list[Range] = []
+    k = 0
+    while k < GRID:
+        if not holds[k]:
+            k += 1
+            continue
+        end = k
+        while end < GRID and holds[end + 1]:
+            end += 1
+        low = float(grid[k]) if k == 0 else last_true(closes, float(grid[k]), float(grid[k - 1]))
+        high = float(grid[end]) if end == GRID else last_true(closes, float(grid[end]), float(grid[end + 1]))
+        if k > 0 and end < GRID and not (low < own.high and high > own.low + 2e-9):
+            found.append(_within(low, high))
+        k = end + 1
+    return found
+
+
+def _closed(course: Course, i: int, solved: object) -> NDArray[np.bool_]:
+    discriminant = np.asarray(solved.discriminant)  # type: ignore[attr-defined]
+    element = course.structure.elements[i]
+    if isinstance(element, Dyad) and element.kind in ("PRP", "RPP"):
+        return np.asarray(np.abs(discriminant) > 1e-12)
+    return np.asarray(discriminant >= 0)
+
+
+def _within(low: float, high: float) -> Range:
+    """The same range with its middle in (-pi, pi]."""
+    shift = 2 * np.pi * np.rint((low + high) / 2 / (2 * np.pi))
+    return Range(float(low - shift), float(high - shift), False)

@@ -1,0 +1,132 @@
+"""The study of a turn as plain data for programs, in the scene's length unit."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from graphkin.scene.model import AngleDriver, Scene
+from graphkin.study.trace import Extreme, Traced
+from graphkin.study.turn import Output, Turn
+
+__all__ = ["row", "to_json"]
+
+
+def to_json(turn: Turn) -> dict[str, Any]:
+    """The object that ``sweep --json`` prints: numbers in the scene's length unit, seconds, radians.
+
+    ``null`` stands where there is no value, with a ``why`` beside it.
+    """
+    course, scene = turn.course, turn.scene
+    driver = course.driver
+    return {
+        "title": scene.title,
+        "units": {"length": scene.units.length, "time": "s", "angle": "rad"},
+        "mobility": course.structure.mobility.value,
+        "driver": {"key": driver.key, "full_turn": course.full, "turns_to_close": course.turns or None},
+        "ranges": [
+            {
+                "low": None if r.open_low else _driver(scene, r.low),
+                "high": None if r.open_high else _driver(scene, r.high),
+                "reached": r.reached,
+                "full_turn": r.whole,
+            }
+            for r in turn.ranges
+        ],
+        "why": course.limit_why,
+        "mechanisms": [
+            {
+                "kind": loop.kind,
+                "name": loop.name,
+                "links": list(loop.links),
+                "lengths": {k: v / scene.units.metres for k, v in loop.lengths.items()},
+                "grashof": loop.grashof,
+                "turn_fully": list(loop.turns),
+            }
+            for loop in turn.loops
+        ],
+        "outputs": [_output(turn, o) for o in turn.outputs],
+        "transmission": [
+            {
+                "links": list(least.group.links),
+                "kind": least.group.kind,
+                "least_angle": least.angle,
+                "greatest_pressure_angle": least.pressure,
+                "driver": None if least.driver is None else _driver(scene, least.driver),
+                **({"why": "the same in every position"} if least.driver is None else {}),
+            }
+            for least in turn.transmission
+        ],
+        "curves": {t.quantity.name: _curve(turn, t) for t in turn.curves},
+    }
+
+
+def _driver(scene: Scene, value: float) -> float:
+    first = scene.drivers[0]
+    return value if isinstance(first, AngleDriver) else value / scene.units.metres
+
+
+def _extreme(turn: Turn, traced: Traced, extreme: Extreme) -> dict[str, Any]:
+    return {
+        "kind": extreme.kind,
+        "driver": _driver(turn.scene, extreme.driver),
+        "value": traced.quantity.in_units(turn.scene, extreme.value),
+    }
+
+
+def _curve(turn: Turn, traced: Traced) -> dict[str, Any]:
+    scene = turn.scene
+    data: dict[str, Any] = {
+        "unit": traced.quantity.unit(scene),
+        "extremes": [_extreme(turn, traced, e) for e in traced.extremes],
+        "zeros": [_driver(scene, z) for z in traced.zeros],
+    }
+    if traced.constant is not None:
+        data["constant"] = traced.quantity.in_units(scene, traced.constant)
+    return data
+
+
+def _output(turn: Turn, output: Output) -> dict[str, Any]:
+    scene, quantity = turn.scene, output.quantity
+    name = quantity.of
+    data: dict[str, Any] = {
+        "link" if quantity.kind == "theta" else "slide": name,
+        "limit_positions": [_extreme(turn, output.position, e) for e in output.position.extremes],
+    }
+    stroke, back = output.stroke, turn.quick_return(output)
+    what = "swing" if quantity.kind == "theta" else "stroke"
+    data[what] = None if stroke is None else quantity.in_units(scene, stroke)
+    data["K"], data["theta"] = back if back else (None, None)
+    if stroke is None:
+        data["why"] = "it does not move" if output.position.constant is not None else "it turns on and on"
+    elif back is None:
+        data["why"] = "K needs a driver that turns fully and a motion that repeats each turn"
+    return data
+
+
+def row(turn: Turn) -> dict[str, float | str | None]:
+    """One row of a table of designs: strokes and swings (deg), K, the least transmission angle (deg) and where."""
+    scene = turn.scene
+    length = scene.units.length
+    cells: dict[str, float | str | None] = {}
+    degrees = isinstance(turn.course.driver, AngleDriver)
+    low, high = turn.ranges[0].low, turn.ranges[0].high
+    unit = "deg" if degrees else length
+    cells[f"range_low ({unit})"] = _shown(scene, low)
+    cells[f"range_high ({unit})"] = _shown(scene, high)
+    for output in turn.outputs:
+        quantity, stroke = output.quantity, output.stroke
+        name = quantity.of
+        key = f"swing_{name} (deg)" if quantity.kind == "theta" else f"stroke_{name} ({length})"
+        cells[key] = None if stroke is None else quantity.in_units(scene, stroke, degrees=True)
+        back = turn.quick_return(output)
+        cells[f"K_{name}"] = back[0] if back else None
+    for least in turn.transmission:
+        name = "-".join(least.group.links)
+        cells[f"least_transmission_{name} (deg)"] = least.angle * 57.29577951308232
+    cells["mechanisms"] = "; ".join(loop.name for loop in turn.loops)
+    return cells
+
+
+def _shown(scene: Scene, value: float) -> float:
+    first = scene.drivers[0]
+    return value * 57.29577951308232 if isinstance(first, AngleDriver) else value / scene.units.metres

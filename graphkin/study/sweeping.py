@@ -1,0 +1,326 @@
+"""A sweep run to its end: chunks through any executor, kept as they are done, merged into tables.
+
+In the folder of results a hidden folder holds the finished chunks until the tables are whole; a sweep that was
+interrupted finds them there and goes on.  Its name is the key of the sweep, so nothing of another sweep is ever used.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import tempfile
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, ProcessPoolExecutor, wait
+from contextlib import suppress
+from dataclasses import dataclass
+from multiprocessing import get_context
+from pathlib import Path
+from typing import IO, Any
+
+import numpy as np
+
+from graphkin.errors import CallError, Problem
+from graphkin.study.chunks import Done, Plan, work
+from graphkin.study.table import csv_cell
+
+__all__ = ["Swept", "have_parquet", "run", "scheduler"]
+
+Progress = Callable[[int, int], None]
+AHEAD = 4
+"""Chunks handed out beyond those being worked on, so that memory stays bounded and no worker waits."""
+MOST_LOSSES = 5
+"""Times that a chunk is given out again after its worker was lost."""
+
+
+@dataclass(frozen=True)
+class Swept:
+    """What a sweep gave: files of the tables, rows in all, rows that are ok, and how each design came out.
+
+    tables : "table.csv", "designs.csv" and, where pyarrow is installed, "table.parquet", in the folder
+    outcomes : for each status how many designs have it
+    """
+
+    folder: Path
+    tables: tuple[str, ...]
+    rows: int
+    good: int
+    outcomes: dict[str, int]
+
+
+def have_parquet() -> bool:
+    """Whether pyarrow is installed."""
+    from importlib.util import find_spec
+
+    return find_spec("pyarrow") is not None
+
+
+def scheduler(address: str) -> Executor:
+    """An executor that runs on the Dask cluster at an address.
+
+    Raises
+    ------
+    CallError : the extra ``cluster`` is not installed, or no scheduler answers
+    """
+    try:
+        from distributed import Client
+    except ImportError:
+        raise CallError(
+            Problem("--scheduler", "Dask is not installed", 'install it with pip install "graphkin[cluster]"')
+        ) from None
+    try:
+        client = Client(address, timeout="10s", set_as_default=False)
+    except (OSError, ValueError, TypeError) as error:
+        raise CallError(
+            Problem(f"--scheduler {address}", f"no Dask scheduler answers: {error}", "give tcp://HOST:8786")
+        ) from None
+    executor: Executor = client.get_executor(pure=False, retries=MOST_LOSSES)
+    return executor
+
+
+def run(
+    plan: Plan,
+    folder: Path,
+    executor: Executor | None = None,
+    workers: int | None = None,
+    parquet: bool = False,
+    progress: Progress | None = None,
+) -> Swept:
+    """Compute what is missing of a sweep and write its tables into a folder; they appear whole or not at all.
+
+    Parameters
+    ----------
+    executor : anything that follows ``concurrent.futures.Executor``; it stays open.  Where it breaks, what is left is
+        computed here.
+    workers : without an executor, the number of processes of one's own; none for 1 or None
+    progress : called with the rows that are done and all rows
+
+    Raises
+    ------
+    CallError : the folder cannot be written
+    """
+    # what is wrong with the scene itself is said before anything is written
+    _ = plan.heads
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        kept = _Kept(folder / f".sweep-{plan.key}", plan, parquet)
+        kept.open()
+        done = plan.chunks - len(kept.missing())
+
+        def count() -> None:
+            if progress is not None:
+                progress(min(plan.rows, round(plan.rows * done / plan.chunks)), plan.rows)
+
+        count()
+        for chunk, result in _results(plan, kept.missing(), executor, workers, parquet):
+            kept.keep(chunk, result)
+            done += 1
+            count()
+        return kept.merge(folder)
+    except OSError as error:
+        raise CallError(
+            Problem(str(folder), f"cannot be written: {error.strerror or error}", "give another folder with -o")
+        ) from None
+
+
+def _results(
+    plan: Plan, missing: list[int], executor: Executor | None, workers: int | None, binary: bool
+) -> Iterator[tuple[int, Done]]:
+    """Each missing chunk with what it gives, in the order in which they are done."""
+    if executor is None and (workers or 1) > 1 and len(missing) > 1:
+        yield from _own_pool(plan, missing, workers or 1, binary)
+        return
+    left = list(missing)
+    if executor is not None:
+        for chunk, done in _through(plan, left, executor, binary):
+            left.remove(chunk)
+            yield chunk, done
+    for chunk in left:
+        yield chunk, work(plan.task(chunk, binary))
+
+
+def _own_pool(plan: Plan, missing: list[int], workers: int, binary: bool) -> Iterator[tuple[int, Done]]:
+    """Processes of one's own; a pool that breaks because a worker was killed is replaced."""
+    left = list(missing)
+    losses = 0
+    while left:
+        before = len(left)
+        # fresh processes, not copies of this one: safe beside threads, the same on every system
+        with ProcessPoolExecutor(min(workers, len(left)), mp_context=get_context("spawn")) as pool:
+            for chunk, done in _through(plan, list(left), pool, binary):
+                left.remove(chunk)
+                yield chunk, done
+        losses = losses + 1 if len(left) == before else 0
+        if losses > MOST_LOSSES:
+            raise CallError(Problem("the workers", "are lost again and again", "run with --workers 1"))
+
+
+def _through(plan: Plan, chunks: Sequence[int], executor: Executor, binary: bool) -> Iterator[tuple[int, Done]]:
+    """Results of an executor as they come; ends early where the executor is broken."""
+    waiting: dict[Future[Done], int] = {}
+    lost: dict[int, int] = {}
+    ahead = AHEAD * max(2, _width(executor))
+    queue = list(reversed(chunks))
+    try:
+        while queue or waiting:
+            while queue and len(waiting) < ahead:
+                chunk = queue.pop()
+                waiting[executor.submit(work, plan.task(chunk, binary))] = chunk
+            finished, _ = wait(waiting, return_when=FIRST_COMPLETED)
+            for future in finished:
+                chunk = waiting.pop(future)
+                error = future.exception()
+                if error is None:
+                    yield chunk, future.result()
+                elif isinstance(error, BrokenExecutor):
+                    return
+                elif type(error).__name__ in ("KilledWorker", "CancelledError", "CommClosedError"):
+                    # the cluster gave the chunk up because workers died under it: ask again
+                    lost[chunk] = lost.get(chunk, 0) + 1
+                    if lost[chunk] > MOST_LOSSES:
+                        raise error
+                    queue.append(chunk)
+                else:
+                    raise error
+    except BrokenExecutor:
+        return
+    finally:
+        for future in waiting:
+            future.cancel()
+
+
+def _width(executor: Executor) -> int:
+    """How many workers an executor has, as far as it tells."""
+    width = getattr(executor, "_max_workers", None)
+    if isinstance(width, int):
+        return width
+    client: Any = getattr(executor, "_client", None)
+    with suppress(Exception):
+        return int(sum(client.nthreads().values()))
+    return 2
+
+
+@dataclass(frozen=True)
+class _Kept:
+    """The chunks of a sweep that are done, as files in a hidden folder."""
+
+    place: Path
+    plan: Plan
+    parquet: bool
+
+    def open(self) -> None:
+        """Make the folder, with a manifest that says in words what it holds."""
+        self.place.mkdir(exist_ok=True)
+        manifest = self.place / "manifest.json"
+        if not manifest.exists():
+            facts = {
+                "what": "finished chunks of a graphkin sweep; the same command goes on from here",
+                "scene": self.plan.name,
+                "key": self.plan.key,
+                "chunks": self.plan.chunks,
+                "rows": self.plan.rows,
+            }
+            _whole(manifest, json.dumps(facts, indent=1).encode())
+
+    def missing(self) -> list[int]:
+        """Chunks that are not done."""
+        have = {p.name for p in self.place.iterdir()}
+        endings = (".csv", ".json", ".bin") if self.parquet else (".csv", ".json")
+        return [k for k in range(self.plan.chunks) if any(f"{k:07d}{e}" not in have for e in endings)]
+
+    def keep(self, chunk: int, done: Done) -> None:
+        """Put a chunk into the folder; the file that counts comes last."""
+        if self.parquet:
+            _whole(self.place / f"{chunk:07d}.bin", done.numbers)
+        facts = {"designs": done.designs, "good": done.good}
+        _whole(self.place / f"{chunk:07d}.json", json.dumps(facts).encode())
+        _whole(self.place / f"{chunk:07d}.csv", done.text)
+
+    def merge(self, folder: Path) -> Swept:
+        """All chunks in their order as tables in the folder of results; the chunks are removed."""
+        plan = self.plan
+        good, outcomes = 0, {}
+        facts = [json.loads((self.place / f"{k:07d}.json").read_bytes()) for k in range(plan.chunks)]
+        good = sum(f["good"] for f in facts)
+        designs = [d for f in facts for d in f["designs"]]
+        for _, status, _, _ in designs:
+            outcomes[status] = outcomes.get(status, 0) + 1
+        made: dict[str, Path] = {"table.csv": self._table_csv()}
+        if plan.designs.keys:
+            made["designs.csv"] = self.place / "designs"
+            _whole(made["designs.csv"], _designs_csv(plan, designs))
+        if self.parquet:
+            made["table.parquet"] = self._table_parquet()
+        for name, path in made.items():
+            os.replace(path, folder / name)
+        shutil.rmtree(self.place)
+        return Swept(folder, tuple(made), plan.rows, good, outcomes)
+
+    def _table_csv(self) -> Path:
+        path = self.place / "table"
+        with open(path, "wb") as stream:
+            head = [csv_cell(c) for part in self.plan.heads for c in part]
+            stream.write((",".join(head) + "\n").encode())
+            for k in range(self.plan.chunks):
+                with open(self.place / f"{k:07d}.csv", "rb") as chunk:
+                    shutil.copyfileobj(chunk, stream)
+        return path
+
+    def _table_parquet(self) -> Path:
+        import pyarrow as pa
+        from pyarrow import parquet
+
+        plan = self.plan
+        before, names, after = plan.heads
+        whole = [pa.int64()] * (2 if plan.designs.keys else 1)
+        fields = [(n, pa.float64()) for n in names] + [(n, pa.string()) for n in after]
+        lead = [("design", whole[0])] if plan.designs.keys else []
+        schema = pa.schema([*lead, ("position", pa.int64()), *fields])
+        path = self.place / "binary"
+        with parquet.ParquetWriter(path, schema, compression="zstd") as writer:
+            for k in range(plan.chunks):
+                task = plan.task(k)
+                n = task.last - task.first
+                numbers = np.frombuffer((self.place / f"{k:07d}.bin").read_bytes()).reshape(-1, len(names))
+                ends = [_last_cells(line) for line in _lines(self.place / f"{k:07d}.csv")]
+                columns: list[Any] = []
+                if plan.designs.keys:
+                    columns.append(np.repeat([d + 1 for d, _ in task.designs], n))
+                columns.append(np.tile(np.arange(task.first, task.last) + 1, len(task.designs)))
+                columns += [pa.array(numbers[:, i], mask=np.isnan(numbers[:, i])) for i in range(len(names))]
+                columns += [[e[i] for e in ends] for i in range(2)]
+                writer.write_table(pa.table(columns, schema=schema))
+        return path
+
+
+def _lines(path: Path) -> IO[str]:
+    return open(path, encoding="utf-8", newline="")
+
+
+def _last_cells(line: str) -> tuple[str, str]:
+    """Status and reason at the end of a line of the table."""
+    import csv
+
+    cells = next(csv.reader([line]))
+    return cells[-2], cells[-1]
+
+
+def _designs_csv(plan: Plan, designs: Sequence[Any]) -> bytes:
+    """A row for each design: what was replaced, how it came out, strokes, K, least transmission angles."""
+    names: dict[str, None] = {}
+    for _, _, _, cells in designs:
+        names.update(dict.fromkeys(cells))
+    lines = [["design", *plan.designs.keys, "status", *names, "why"]]
+    for index, status, why, cells in sorted(designs, key=lambda d: int(d[0])):
+        values = [csv_cell(v) for v in plan.designs[index]]
+        lines.append([str(index + 1), *values, status, *(csv_cell(cells.get(n)) for n in names), csv_cell(why)])
+    head = [csv_cell(c) for c in lines[0]]
+    return ("\n".join(",".join(line) for line in [head, *lines[1:]]) + "\n").encode()
+
+
+def _whole(path: Path, content: bytes) -> None:
+    """Write a file so that it is there whole or not at all."""
+    handle, temporary = tempfile.mkstemp(prefix=".", dir=path.parent)
+    with os.fdopen(handle, "wb") as stream:
+        stream.write(content)
+    os.replace(temporary, path)

@@ -1,0 +1,240 @@
+"""Extremes and zeros of quantities over a whole course."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphkin.scene.model import AngleDriver
+from graphkin.structure import Dyad
+from graphkin.study.course import Course
+from graphkin.study.curves import Pieces, resolve
+from graphkin.study.quantities import Quantity, transmission
+
+__all__ = ["Extreme", "Least", "Traced", "driver_value", "trace"]
+
+Array = NDArray[np.float64]
+
+NEAR_END = 1e-5
+"""Of the range: an extreme this near to an end of the motion is the end itself."""
+POLISH = 3
+
+
+@dataclass(frozen=True)
+class Extreme:
+    """A greatest or least value, or the value at an end of the motion: where (offset, and value of the driver, SI) and
+    how much (SI)."""
+
+    kind: Literal["max", "min", "end"]
+    offset: float
+    driver: float
+    value: float
+
+
+@dataclass(frozen=True)
+class Traced:
+    """A quantity over the course: its extremes in the order of the motion, where it is zero (values of the driver)."""
+
+    quantity: Quantity
+    extremes: tuple[Extreme, ...]
+    zeros: tuple[float, ...]
+    constant: float | None = None
+
+    @property
+    def greatest(self) -> Extreme | None:
+        return max(self.extremes, key=lambda e: e.value, default=None)
+
+    @property
+    def least(self) -> Extreme | None:
+        return min(self.extremes, key=lambda e: e.value, default=None)
+
+
+@dataclass(frozen=True)
+class Least:
+    """The least transmission angle of a group (rad), and the value of the driver there (None if it never changes)."""
+
+    group: Dyad
+    angle: float
+    driver: float | None
+
+    @property
+    def pressure(self) -> float:
+        """The greatest pressure angle (rad)."""
+        return float(np.pi / 2) - self.angle
+
+
+def driver_value(course: Course, offset: float) -> float:
+    """Value of the first driver at an offset; an angle of a driver that turns fully within a turn from 0 on."""
+    value = float(course.value(np.array(offset)))
+    if course.full and isinstance(course.driver, AngleDriver):
+        whole = 2 * np.pi * course.turns
+        value = value % whole
+        value -= whole if whole - value < 1e-9 else 0.0
+        return 0.0 if abs(value) < 1e-11 else value
+    return value
+
+
+def trace(course: Course, quantities: Sequence[Quantity]) -> tuple[tuple[Traced, ...], tuple[Least, ...]]:
+    """Find all extremes and zeros of quantities, and the least transmission angle of each group of two links."""
+    way = _Way(course)
+    dyads = [g for g in course.structure.groups if isinstance(g, Dyad)]
+    places = [q for q in quantities if q.is_position]
+    rates = [q for q in quantities if not q.is_position]
+
+    def positions(parameter: Array) -> Array:
+        motion = course.motion(way.offset(parameter))
+        columns = [q.smooth(course, motion) for q in places]
+        columns += [transmission(course.structure, d, motion).cosine for d in dyads]
+        return np.stack(columns, axis=1)
+
+    def speeds(parameter: Array) -> Array:
+        motion = course.motion(way.offset(parameter))
+        return np.stack([q.smooth(course, motion) for q in rates], axis=1)
+
+    # apart, because positions stay smooth where rates grow without bound
+    found: dict[Quantity, Traced] = {}
+    least: tuple[Least, ...] = ()
+    if places or dyads:
+        size = course.scene.size
+        floor = np.array([size if q.kind == "s" else 1.0 for q in places] + [1.0] * len(dyads))
+        pieces = resolve(positions, *way.range, periodic=course.full, floor=floor)
+        found.update({q: _traced(way, pieces, k, q) for k, q in enumerate(places)})
+        least = tuple(_least(way, pieces, len(places) + k, d) for k, d in enumerate(dyads))
+    if rates:
+        pieces = resolve(speeds, *way.range, periodic=course.full, floor=_floor(course, rates))
+        found.update({q: _traced(way, pieces, k, q) for k, q in enumerate(rates)})
+    return tuple(found[q] for q in quantities), least
+
+
+def _floor(course: Course, rates: Sequence[Quantity]) -> Array:
+    """For each rate the size that such rates have in this mechanism: what is nothing beside it is zero."""
+    size = course.scene.size
+    motion = course.motion(np.linspace(*course.ends, 62)[1:-1])
+    poses = [motion.poses[link.name] for link in course.scene.links]
+    omega = max(float(np.nanmedian(np.abs(p.omega))) for p in poses)
+    speed = max(omega * size, max(float(np.nanmedian(np.abs(p.v))) for p in poses))
+    alpha = max(omega**2, max(float(np.nanmedian(np.abs(p.alpha))) for p in poses))
+    push = max(alpha * size, max(float(np.nanmedian(np.abs(p.a))) for p in poses))
+    table = {"angular rate": omega, "angular acceleration": alpha, "speed": speed, "acceleration": push}
+    return np.array([table[q.measure] ** (2 if q.is_size else 1) for q in rates]) * 1e-3
+
+
+@dataclass(frozen=True)
+class _Way:
+    """The parameter of the curves: the offset itself for a driver that turns fully; else an angle whose cosine runs
+    over the range, in which positions stay smooth up to the ends, where their rates are infinite."""
+
+    course: Course
+
+    @property
+    def range(self) -> tuple[float, float]:
+        return self.course.ends if self.course.full else (0.0, float(np.pi))
+
+    def offset(self, parameter: Array) -> Array:
+        low, high = self.course.ends
+        if self.course.full:
+            return np.asarray(parameter)
+        # halves of a product of sines, so that nothing is lost near the ends
+        return np.asarray(np.where(
+            parameter < np.pi / 2,
+            low + (high - low) * np.sin(parameter / 2) ** 2,
+            high - (high - low) * np.cos(parameter / 2) ** 2,
+        ))
+
+    def inside(self, parameter: Array) -> Array:
+        """Those that are not at an end of the motion."""
+        if self.course.full:
+            return parameter
+        low, high = self.range
+        margin = NEAR_END * (high - low)
+        return parameter[(parameter > low + margin) & (parameter < high - margin)]
+
+
+def _traced(way: _Way, pieces: Pieces, k: int, quantity: Quantity) -> Traced:
+    course = way.course
+    at_start = course.motion(np.zeros(1))
+    if pieces.is_constant(k):
+        return Traced(quantity, (), (), float(quantity.values(course, at_start)[0]))
+    offset = way.offset(way.inside(pieces.extremes(k)))
+    zeros = way.offset(way.inside(pieces.zeros(k)))
+    if quantity.is_position:
+        offset = _polished(course, quantity, offset)
+    extremes = _extremes(way, pieces, k, quantity, offset)
+    if quantity.is_size:
+        most = max((e.value for e in extremes), default=0.0)
+        zeros = np.array([e.offset for e in extremes if e.value <= 1e-11 * most])
+    elif quantity.kind == "theta":
+        zeros = np.zeros(0)
+    return Traced(quantity, extremes, tuple(driver_value(course, float(z)) for z in zeros))
+
+
+def _polished(course: Course, quantity: Quantity, offset: Array) -> Array:
+    """Newton's method on the rate by the driver: the place of an extreme position to the last digits."""
+    first, second = ("omega", "alpha") if quantity.kind == "theta" else ("v", "a")
+    rate, bend = Quantity(first, quantity.of), Quantity(second, quantity.of)
+    low, high = course.ends
+    for _ in range(POLISH if len(offset) else 0):
+        motion = course.motion(offset, unit=True)
+        with np.errstate(all="ignore"):
+            step = rate.values(course, motion) / bend.values(course, motion)
+        step = np.where(np.abs(step) < 1e-5 * (high - low), step, 0.0)
+        offset = np.clip(offset - step, low, high)
+    return offset
+
+
+def _extremes(way: _Way, pieces: Pieces, curve: int, quantity: Quantity, offset: Array) -> tuple[Extreme, ...]:
+    course = way.course
+    low, high = course.ends
+    ends = [] if course.full or not quantity.is_position else [low, high]
+    places = np.sort(np.append(offset, ends))
+    if not len(places):
+        return ()
+    motion = course.motion(places)
+    near = 1e-4 * (high - low)
+    values = quantity.values(course, motion)
+    before = quantity.values(course, course.motion(_wrapped(course, places - near)))
+    after = quantity.values(course, course.motion(_wrapped(course, places + near)))
+    found: list[Extreme] = []
+    for k, place in enumerate(places):
+        kind: Literal["max", "min", "end"]
+        value = float(values[k])
+        if place in ends:
+            # the solver refuses a position at the end of the motion, or loses half of its digits there
+            kind, value = "end", pieces.at(way.range[0] if place == low else way.range[1], curve)
+        elif before[k] < value > after[k]:
+            kind = "max"
+        elif before[k] > value < after[k]:
+            kind = "min"
+        else:
+            continue  # a curve that only stands still for a moment
+        found.append(Extreme(kind, float(place), driver_value(course, float(place)), value))
+    return tuple(found)
+
+
+def _wrapped(course: Course, offset: Array) -> Array:
+    low, high = course.ends
+    return np.asarray(offset % (high - low) if course.full else np.clip(offset, low, high))
+
+
+def _least(way: _Way, pieces: Pieces, k: int, dyad: Dyad) -> Least:
+    course = way.course
+
+    def angle(offset: Array) -> Array:
+        return transmission(course.structure, dyad, course.motion(offset)).angle
+
+    if pieces.is_constant(k):
+        return Least(dyad, float(angle(np.zeros(1))[0]), None)
+    low, high = way.range
+    inner = way.inside(np.append(pieces.extremes(k), np.linspace(low, high, 33)))
+    places = list(zip(way.offset(inner).tolist(), angle(way.offset(inner)).tolist(), strict=True))
+    if not course.full:
+        # at an end of the motion the group may stand in line, where the solver refuses
+        lack = [max(0.0, 1.0 - abs(pieces.at(end, k))) for end in way.range]
+        places += [(at, 2 * float(np.arcsin(np.sqrt(x / 2))) if x > 1e-12 else 0.0)
+                   for at, x in zip(course.ends, lack, strict=True)]
+    offset, best = min((p for p in places if p[1] == p[1]), key=lambda p: p[1])
+    return Least(dyad, best, driver_value(course, offset))

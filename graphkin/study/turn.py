@@ -1,0 +1,143 @@
+"""The motion of a whole turn: range of the driver, limit positions, strokes, K, transmission, classes, extremes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from graphkin.exact import Motion
+from graphkin.scene.model import AngleDriver, Scene
+from graphkin.scene.symbol import Symbol
+from graphkin.study.course import Course
+from graphkin.study.grashof import Loop, loops
+from graphkin.study.quantities import Quantity, link_quantities, slide_quantities, symbol_quantity
+from graphkin.study.ranges import Range, ranges
+from graphkin.study.trace import Extreme, Least, Traced, trace
+
+__all__ = ["Output", "Turn", "study_turn"]
+
+
+@dataclass(frozen=True)
+class Output:
+    """A link that the mechanism moves about the frame or along it.
+
+    position : its angle or travel over the turn; the extremes are the limit positions, in which the mechanism is at a
+        dead point when the output drives it
+    swings : False for a link that turns on and on
+    low, high : the limit positions between which it moves the whole stroke; None for a link that turns on and on
+    turned : how far it turns over the course (rad; 0 for a slide, and for a link that comes back)
+    """
+
+    position: Traced
+    swings: bool
+    low: Extreme | None
+    high: Extreme | None
+    turned: float = 0.0
+
+    @property
+    def quantity(self) -> Quantity:
+        return self.position.quantity
+
+    @property
+    def stroke(self) -> float | None:
+        """Stroke (m) or swing (rad); None for a link that turns on and on."""
+        return self.high.value - self.low.value if self.low and self.high else None
+
+
+@dataclass(frozen=True)
+class Turn:
+    """What is to be said about the motion over a whole turn (SI)."""
+
+    course: Course
+    ranges: tuple[Range, ...]
+    outputs: tuple[Output, ...]
+    curves: tuple[Traced, ...]
+    transmission: tuple[Least, ...]
+    loops: tuple[Loop, ...]
+
+    @property
+    def scene(self) -> Scene:
+        return self.course.scene
+
+    def quick_return(self, output: Output) -> tuple[float, float] | None:
+        """K of an output, and the crank angle theta (rad) between its limit positions; None where it has none.
+
+        K = (180 + theta) / (180 - theta): the greater of the two ways of the driver between the limit positions of the
+        output, divided by the smaller; 1 or more (coefficient of travel speed variation, 行程速比系数; quick-return or
+        time ratio, Norton, Design of Machinery, ch. 3).
+        """
+        low, high = output.low, output.high
+        if low is None or high is None or self.course.turns != 1:
+            return None
+        way = abs(high.offset - low.offset)
+        longer = max(way, 2 * np.pi - way)
+        return longer / (2 * np.pi - longer), float(longer - np.pi)
+
+
+def study_turn(course: Course, asked: Sequence[Symbol] = (), everything: bool = True) -> Turn:
+    """Study the whole course.
+
+    Parameters
+    ----------
+    asked : symbols whose extremes and zeros are wanted besides those of the outputs and their rates; where there are
+        none, those of every link and sliding pair
+    everything : False leaves out all but the limit positions of the outputs, transmission and classes
+    """
+    scene = course.scene
+    start = course.motion(np.zeros(1))
+    mains = [Quantity("theta", name) for name in output_links(course)]
+    mains += [Quantity("s", key) for key in output_slides(start)]
+    wanted = list(mains)
+    if everything:
+        for main in mains:
+            wanted += [q for q in _with_rates(main) if q not in wanted]
+        others = [symbol_quantity(s) for s in asked]
+        if not asked:
+            others = [q for link in scene.links for q in link_quantities(link.name)]
+            others += [q for s in start.slides for q in slide_quantities(s.key)]
+        wanted += [q for q in others if q not in wanted]
+    traced, least = trace(course, wanted)
+    outputs = tuple(_output(course, t) for t in traced[: len(mains)])
+    return Turn(course, ranges(course), outputs, traced, least, loops(course.structure))
+
+
+def _with_rates(quantity: Quantity) -> tuple[Quantity, ...]:
+    return link_quantities(quantity.of) if quantity.kind == "theta" else slide_quantities(quantity.of)
+
+
+def output_links(course: Course) -> tuple[str, ...]:
+    """Links pivoted to the frame that no driver turns about it."""
+    scene = course.scene
+    frame = scene.frame
+    driven = {d.link for d in scene.drivers if isinstance(d, AngleDriver) and d.relative_to == frame.name}
+    sliding = {s.link for s in scene.slidings}
+    return tuple(
+        link.name
+        for link in scene.links
+        if link.name not in driven
+        and not (link.name in sliding and len(link.points) == 1)
+        and any(p in frame.points for p in link.points)
+    )
+
+
+def output_slides(motion: Motion) -> tuple[str, ...]:
+    """Sliding pairs along the frame that no driver moves."""
+    scene = motion.scene
+    driven = {d.key for d in scene.drivers}
+    return tuple(
+        s.key for s in motion.slides if scene.frame.name in (s.a, s.b) and s.key not in driven and not s.slot
+    )
+
+
+def _output(course: Course, position: Traced) -> Output:
+    if position.constant is not None:
+        return Output(position, False, None, None)
+    if position.quantity.kind == "theta" and course.full:
+        both = course.motion(np.array(course.ends))
+        turned = float(np.diff(position.quantity.values(course, both))[0])
+        if abs(turned) > 1.0:
+            return Output(position, False, None, None, turned)
+    return Output(position, True, position.least, position.greatest)
+
