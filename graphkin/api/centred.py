@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 from graphkin.api.called import At, SceneLike, as_scene, driver_values
 from graphkin.api.checked import solved_here
+from graphkin.drafting import Room
 from graphkin.drafting.centres import Centre, Centres, Turning, by_centres, find_centres, speeds
 from graphkin.drafting.centres.chart import normal, wedge
 from graphkin.drafting.centres.pairs import Pair
@@ -30,6 +31,7 @@ __all__ = ["Centred", "Velocity", "centres", "velocities_by_centres"]
 
 TOLERANCE = 1e-9
 NO_MOTION = 1e-9
+ROOM = Room(mechanism=(90.0, 75.0))  # mm: the mechanism is drawn small, so that its centres find room around it
 
 
 @dataclass(frozen=True)
@@ -265,7 +267,7 @@ def centres(
     given = as_scene(scene)
     values = driver_values(given, at)
     motion = solved_here(given, values)
-    found = find_centres(given, values)
+    found = find_centres(given, values, room=None if given.sheet.length_scale else ROOM)
     centred = Centred(found, speeds(found), motion, language, convention)
     if out is not None:
         centred.write(out, formats)

@@ -1,0 +1,258 @@
+"""Instant centres on a figure: marks by kind, the lines near what they find, arrows to centres that lie far away."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from graphkin.drafting.centres import Centre, Centres
+from graphkin.drafting.centres.chart import Line as Straight
+from graphkin.drawing import strokes
+from graphkin.drawing.arrows import POINTER, arrow
+from graphkin.drawing.box import Box
+from graphkin.drawing.headings import number
+from graphkin.drawing.layout import Name, Piece
+from graphkin.drawing.obstacles import obstacles_of
+from graphkin.drawing.placing import Label
+from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Primitive, Stroke, Text
+from graphkin.drawing.typeset import rich
+from graphkin.plane import cross, dot, unit
+
+__all__ = ["CentreLetters", "centre_marks", "mark_of", "near_box", "pale"]
+
+TOGETHER = 1.3  # mm: centres so near to each other share one mark
+REACH = 9.0  # mm of a construction line to either side of what it finds
+ARROW = 11.0  # mm, to what lies off the figure
+THIN = strokes.CONSTRUCTION.coloured(strokes.GREY)
+
+
+@dataclass(frozen=True)
+class CentreLetters:
+    """Names of centres: P in the chinese and russian convention, I in the others; links in the order of counting."""
+
+    convention: str
+
+    def name(self, pair: Sequence[str]) -> str:
+        a, b = sorted(pair, key=lambda n: (not n.isdigit(), int(n) if n.isdigit() else 0, n))
+        comma = "," if max(len(a), len(b)) > 1 else ""
+        return f"{'P' if self.convention in ('chinese', 'russian') else 'I'}_{{{a}{comma}{b}}}"
+
+
+def mark_of(centre: Centre, frame: str, at: complex) -> tuple[Primitive, ...]:
+    """The mark of a centre at a page point: permanent ones in rings (the fixed filled), found ones as dots in a cross,
+    those found in another way as lozenges."""
+    line = strokes.RELATIVE
+    if centre.kind == "permanent":
+        inner = strokes.BLACK if frame in centre.pair else strokes.WHITE
+        return Circle(at, 2.1, "", line), Circle(at, 1.0, inner, line)
+    if centre.way:
+        corners = (at - 1.5, at - 1.5j, at + 1.5, at + 1.5j)
+        return (Polygon(corners, strokes.WHITE, line),)
+    cross_ = tuple(Line(at - 1.7 * w, at + 1.7 * w, strokes.OUTLINE) for w in (1 + 1j, 1 - 1j) for w in (w / abs(w),))
+    return *cross_, Circle(at, 0.65, strokes.BLACK)
+
+
+def near_box(centres: Centres, mechanism: Box, most: tuple[float, float]) -> Box:
+    """The box (mm about the world's origin, y down) of the mechanism and of the centres that lie near enough to be
+    shown with it: the nearest first, as long as the whole stays within a width and height."""
+    box = mechanism
+    spots = [c.point.conjugate() for c in centres.found if c.point is not None]
+    for z in sorted(spots, key=mechanism.distance):
+        larger = box.joined(Box.around((z,)).grown(3.0))
+        if larger.width <= most[0] and larger.height <= most[1]:
+            box = larger
+    return box
+
+
+def centre_marks(
+    centres: Centres, letters: CentreLetters, panel: Box, drawn: tuple[Primitive, ...]
+) -> Piece:
+    """All centres of a figure about the world's origin (y down); ``drawn`` is the mechanism, of which arrows to what
+    lies outside the panel keep clear."""
+    return _Marks(centres, letters, panel, drawn).piece()
+
+
+class _Marks:
+    def __init__(
+        self, centres: Centres, letters: CentreLetters, panel: Box, drawn: tuple[Primitive, ...]
+    ) -> None:
+        self.centres, self.letters, self.panel = centres, letters, panel
+        self.frame = centres.links.scene.frame.name
+        self.inside = panel.grown(-2.5)
+        obstacles = obstacles_of(drawn)
+        self.solid = list(obstacles.solid)
+
+    def at(self, z: complex) -> complex:
+        return z.conjugate()
+
+    def piece(self) -> Piece:
+        near: list[list[Centre]] = []
+        far: list[Centre] = []
+        for centre in self.centres.found:
+            if centre.place is None:
+                continue
+            if centre.point is None or self.inside.distance(self.at(centre.point)) > 0.0:
+                far.append(centre)
+                continue
+            home = next((g for g in near if abs((g[0].point or 0j) - centre.point) < TOGETHER), None)
+            if home is None:
+                near.append([centre])
+            else:
+                home.append(centre)
+        names: list[Name] = []
+        lines = [line for group in near for c in group for line in self._lines(c)]
+        marks: list[Primitive] = []
+        for group in near:
+            spot = self.at(group[0].point or 0j)
+            marks += self._group(group, spot)
+            names.append(self._name(group, spot))
+        self.solid += [(line.start, line.end) for line in lines]
+        for spot in [self.at(g[0].point or 0j) for g in near]:
+            self.solid += [(spot - 4.0, spot + 4.0), (spot - 4.0j, spot + 4.0j)]
+        for together in self._alike(far):
+            tail, tip = self._arrow(together[0])
+            self.solid.append((tail, tip))
+            marks += [
+                Group(arrow(tail, tip, POINTER) if i == 0 else (), id=self._id(c), classes=("centre", "far", c.kind))
+                for i, c in enumerate(together)
+            ]
+            names.append(self._far_name(together, tail, tip))
+        # over the tint of links, under the marks
+        found_by = Group(tuple(lines), id="centre-lines", classes=("construction",))
+        return Piece({"centres": (found_by, *marks)}, tuple(names))
+
+    def _id(self, centre: Centre) -> str:
+        return "centre-" + "-".join(sorted(centre.pair))
+
+    def _group(self, group: list[Centre], spot: complex) -> list[Primitive]:
+        """One mark for centres that fall together: that of the best known, every name with a group of its own."""
+        return [
+            Group(
+                mark_of(c, self.frame, spot) if i == 0 else (Circle(self.at(c.point or 0j), 0.3, strokes.BLACK),),
+                id=self._id(c),
+                classes=("centre", c.kind, *((f"step-{c.number:02d}",) if c.number else ())),
+            )
+            for i, c in enumerate(group)
+        ]
+
+    def _name(self, group: list[Centre], spot: complex) -> Name:
+        words = ", ".join(f"${self.letters.name(c.pair)}$" for c in group)
+        text = Text(0j, rich(words, 3.5), "start", strokes.BLACK, f"label-{self._id(group[0])}", ("label", "centre"))
+        return Name(Label(text, spot), 0)
+
+    def _lines(self, centre: Centre) -> list[Line]:
+        """The two lines that cross in a centre, only near it."""
+        found = []
+        for relation in centre.lines:
+            along = self._along(relation.line)
+            here = self.at(centre.point or 0j)
+            ends = self.panel.clip(here - REACH * along, here + REACH * along)
+            if ends is not None:
+                found.append(Line(*ends, THIN))
+        return found
+
+    def _along(self, line: Straight) -> complex:
+        """Direction of a line on the page (y down)."""
+        return unit(complex(-line[1], line[0])).conjugate()
+
+    # -- far ones ----------------------------------------------------------------------------------------------------
+
+    def _alike(self, far: list[Centre]) -> list[list[Centre]]:
+        """Centres at infinity in one direction share an arrow."""
+        groups: list[list[Centre]] = []
+        for centre in far:
+            for group in groups:
+                one, two = group[0].direction, centre.direction
+                if one is not None and two is not None and abs(cross(one, two)) < 1e-9:
+                    group.append(centre)
+                    break
+            else:
+                groups.append([centre])
+        return groups
+
+    def _arrow(self, centre: Centre) -> tuple[complex, complex]:
+        """Where an arrow to a far centre stands: pointing straight at it, clear of what is drawn, near the edge."""
+        middle = self.inside.centre
+        best: tuple[float, complex, complex] | None = None
+        steps = [s * k * 6.0 for k in range(18) for s in ((1, -1) if k else (1,))]
+        for sense in (1, -1) if centre.point is None else (1,):
+            for aside in steps:
+                towards = self._towards(centre, middle, sense)
+                start = middle + 1j * towards * aside
+                towards = self._towards(centre, start, sense)
+                for back in (0.0, 4.0, 10.0):
+                    chord = self.inside.clip(start, start + 1e4 * towards)
+                    if chord is None or abs(chord[1] - chord[0]) < ARROW + back:
+                        continue
+                    tip = chord[1] - back * towards
+                    tail = tip - ARROW * towards
+                    cost = 0.12 * abs(aside) + 0.5 * back + 3.0 * (sense < 0) + self._crowd(tail, tip)
+                    if best is None or cost < best[0]:
+                        best = cost, tail, tip
+        assert best is not None, "a panel is larger than an arrow"
+        return best[1], best[2]
+
+    def _towards(self, centre: Centre, start: complex, sense: int) -> complex:
+        if centre.point is not None:
+            return unit(self.at(centre.point) - start)
+        assert centre.direction is not None
+        return sense * centre.direction.conjugate()
+
+    def _crowd(self, tail: complex, tip: complex) -> float:
+        """How much is drawn near an arrow."""
+        cost = 0.0
+        spots = [tail + (tip - tail) * k / 3 for k in range(4)]
+        for a, b in self.solid:
+            gap = min(_distance(z, a, b) for z in spots)
+            cost += max(0.0, 7.0 - gap)
+        return cost
+
+    def _far_name(self, group: list[Centre], tail: complex, tip: complex) -> Name:
+        first = group[0]
+        names = ", ".join(f"${self.letters.name(c.pair)}$" for c in group)
+        words = f"{names} → ∞"
+        if first.point is not None:
+            point, start = self._reference()
+            scene = self.centres.links.scene
+            far = abs(first.point - start) / self.centres.links.mm / scene.units.metres
+            words = f"${point}{self.letters.name(first.pair)}$ = {number(far, 4)} {scene.units.length}"
+        text = Text(0j, rich(words, 3.2), "start", strokes.BLACK, f"label-{self._id(first)}", ("label", "centre"))
+        return Name(Label(text, (tail, tip)), 0)
+
+    def _reference(self) -> tuple[str, complex]:
+        """The fixed pivot from which far centres are measured."""
+        links = self.centres.links
+        fixed = links.scene.frame.points
+        point = next(iter(fixed), None) or next(iter(links.scene.holders))
+        letter, rest = point[0], point[1:]
+        return (f"{letter}_{{{rest}}}" if rest else letter), links.point(point)
+
+
+def _distance(z: complex, a: complex, b: complex) -> float:
+    span = b - a
+    length = abs(span)
+    if length == 0.0:
+        return abs(z - a)
+    t = min(1.0, max(0.0, dot(z - a, span) / length**2))
+    return abs(z - a - t * span)
+
+
+def pale(child: Primitive, strength: float = 0.45) -> Primitive:
+    """The same in thinned colours, as a background."""
+    if isinstance(child, Group):
+        inside = tuple(pale(c, strength) for c in child.children)
+        return Group(inside, child.id, child.classes, child.layer, child.title)
+    if isinstance(child, Text):
+        return child
+    stroke = child.stroke and Stroke(child.stroke.width, child.stroke.dash, strokes.tint(child.stroke.colour, strength))
+    if isinstance(child, Line):
+        return Line(child.start, child.end, stroke or child.stroke, child.covered)
+    if isinstance(child, Circle):
+        return Circle(child.centre, child.radius, _thin(child.fill, strength), stroke)
+    if isinstance(child, Polygon):
+        return Polygon(child.points, _thin(child.fill, strength), stroke)
+    return type(child)(**{**vars(child), "stroke": stroke})
+
+
+def _thin(fill: str, strength: float) -> str:
+    return strokes.tint(fill, strength) if fill else fill

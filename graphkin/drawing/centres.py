@@ -1,0 +1,216 @@
+"""The figure of the instant centres: the mechanism pale behind all its centres, the circle diagram beside it, how each
+centre was found, and the velocities taken through them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from graphkin.drafting.centres import Centre, Centres, Turning
+from graphkin.drafting.centres.kennedy import Relation
+from graphkin.drawing.box import Box
+from graphkin.drawing.centre_marks import CentreLetters, centre_marks, mark_of, near_box, pale
+from graphkin.drawing.circle_diagram import circle_diagram
+from graphkin.drawing.conventions import letters_of, scale_statement
+from graphkin.drawing.describe import describe, figure_title
+from graphkin.drawing.dimensions import check_bar
+from graphkin.drawing.headings import drivers, facts, languages, term, titles
+from graphkin.drawing.layout import Piece, ink_box, joined, layer_groups, moved_piece, settled, wrapped
+from graphkin.drawing.mechanism import mechanism_piece
+from graphkin.drawing.primitives import Drawing, Group, Primitive, Run, Text
+from graphkin.drawing.typeset import rich
+from graphkin.words import Phrase, say
+
+__all__ = ["centres_figure"]
+
+MARGIN, ROOM, LINE, FOOT = 8.0, 9.0, 5.0, 14.0
+MOST = (150.0, 150.0)  # mm that the mechanism with its near centres may fill
+LEAST = (70.0, 60.0)
+SIDE = 62.0  # width of the column beside the mechanism
+ROW = 4.4
+RADIUS = {3: 15.0, 4: 17.0, 5: 20.0, 6: 22.0}
+
+
+def centres_figure(
+    centres: Centres, turning: Mapping[str, Turning], *, language: str | None = None, convention: str | None = None
+) -> Drawing:
+    """Draw all centres of a position on a page of its own.
+
+    Parameters
+    ----------
+    turning : the velocities by centres (`graphkin.drafting.centres.speeds`)
+    language : "en", "zh" or "both"; the scene's own if None
+    convention : "chinese", "us", "british" or "russian"; the scene's own if None
+    """
+    sheet = centres.sheet
+    spoken = language or sheet.scene.sheet.language
+    letters = letters_of(sheet, convention or sheet.scene.sheet.convention)  # type: ignore[arg-type]
+    named = CentreLetters(letters.convention)
+    back = _background(mechanism_piece(sheet, letters)[0])
+    mechanism = ink_box(back.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
+    content = near_box(centres, mechanism, MOST)
+    width = max(content.width, LEAST[0]) + 2 * ROOM + SIDE + 2 * MARGIN
+    head = _heading(centres, drivers(sheet, letters), spoken, width - 2 * MARGIN)
+    top = MARGIN + LINE * len(head) + 2.0
+    side = _Side(centres, named, spoken, complex(width - MARGIN - SIDE, top))
+    tall = max(content.height, LEAST[1], side.height - 2 * ROOM)
+    panel = Box(MARGIN, top, width - MARGIN - SIDE - 2.0, top + tall + 2 * ROOM)
+    origin = panel.centre - content.centre
+    around = panel.moved(-origin)  # about the world's origin, as the mechanism is drawn
+    piece = settled(joined((back, centre_marks(centres, named, around, back.drawn))), around)
+    piece = moved_piece(piece, origin)
+    told = _told(centres, turning, named, spoken, width - 2 * MARGIN)
+    below = panel.bottom + 6.0
+    words: list[Primitive] = [
+        Text(complex(MARGIN, MARGIN + 3.5 + LINE * i), runs, classes=("heading",)) for i, runs in enumerate(head)
+    ]
+    words += [Text(complex(MARGIN, below + ROW * i), runs, classes=("told",)) for i, runs in enumerate(told)]
+    height = below + ROW * len(told) + FOOT
+    statement = scale_statement(sheet, letters.convention, "mechanism")
+    words.append(Text(complex(MARGIN, height - 6.0), rich(statement, 3.5)))
+    words += check_bar(complex(width - MARGIN - 50.0, height - 6.0), rich(term("check bar", spoken), 2.5))
+    page = joined((piece, Piece({"centres": side.drawn, "labels": (*side.words, *words)})))
+    return Drawing(
+        width,
+        height,
+        layer_groups(page),
+        figure_title(sheet, "centres", spoken),
+        describe(sheet, ("mechanism",), spoken) + "\n" + _description(centres, turning, named, spoken),
+        languages(spoken)[0],
+        facts(sheet, "centres"),
+    )
+
+
+def _heading(centres: Centres, at: str, language: str, width: float) -> list[tuple[Run, ...]]:
+    lines = [line for title in titles(centres.sheet, language) for line in wrapped(title, 4.0, width, bold=True)]
+    return lines + wrapped(f"{term('centres', language)}:  {at}", 3.2, width)
+
+
+def _background(piece: Piece) -> Piece:
+    """The mechanism alone, pale: without lengths, senses and compass arcs."""
+    kept = tuple(
+        pale(thing)
+        for thing in piece.layers["mechanism"]
+        if isinstance(thing, Group) and {"frame", "link", "point"} & set(thing.classes)
+    )
+    names = tuple(
+        name for name in piece.names if name.label.text.id.startswith(("label-point-", "label-link-"))
+    )
+    return Piece({"mechanism": kept}, names, piece.marks)
+
+
+class _Side:
+    """The column beside the mechanism: circle diagram, legend, and the order in which centres were found."""
+
+    def __init__(self, centres: Centres, letters: CentreLetters, language: str, corner: complex) -> None:
+        self.centres, self.letters, self.language = centres, letters, language
+        radius = RADIUS.get(len(centres.links.names), 23.0)
+        middle = corner + complex(SIDE / 2, 8.0 + radius + 7.0)
+        self.words: list[Primitive] = [self._text(corner + 3.5j, term("circle diagram", language), 3.2, bold=True)]
+        self.drawn: tuple[Primitive, ...] = circle_diagram(centres, middle, radius)
+        y = middle.imag + radius + 11.0
+        y = self._legend(corner.real, y)
+        y = self._rows(corner.real, y + 2.5)
+        self.height = y - corner.imag
+
+    def _text(self, at: complex, words: str, size: float = 2.8, bold: bool = False) -> Text:
+        return Text(at, rich(words, size, bold), classes=("legend",))
+
+    def _legend(self, x: float, y: float) -> float:
+        frame = self.centres.links.scene.frame.name
+        kinds: dict[str, Callable[[Centre], bool]] = {
+            "permanent fixed": lambda c: c.kind == "permanent" and frame in c.pair,
+            "permanent moving": lambda c: c.kind == "permanent" and frame not in c.pair,
+            "by Kennedy": lambda c: c.kind == "found" and not c.way,
+            "otherwise": lambda c: bool(c.way),
+        }
+        for word, holds in kinds.items():
+            one = next((c for c in self.centres.found if holds(c)), None)
+            if one is not None:
+                self.drawn += mark_of(one, frame, complex(x + 3.0, y - 1.0))
+                self.words.append(self._text(complex(x + 8.0, y), term(word, self.language)))
+                y += 5.2
+        return y
+
+    def _rows(self, x: float, y: float) -> float:
+        for centre in self.centres.found:
+            if not centre.number:
+                continue
+            self.words.append(Text(complex(x + 4.5, y), rich(str(centre.number), 2.5), "end", classes=("legend",)))
+            self.words.append(self._text(complex(x + 7.0, y), f"${self.letters.name(centre.pair)}$", 3.0))
+            for line in wrapped(how_found(centre, self.letters, self.language, self.centres), 2.8, SIDE - 17.0):
+                self.words.append(Text(complex(x + 16.0, y), line, classes=("legend",)))
+                y += ROW
+        return y
+
+
+def how_found(centre: Centre, letters: CentreLetters, language: str, centres: Centres) -> str:
+    """The construction of a centre in short: the two lines that cross, or the name of another way."""
+    if centre.lines:
+        return " × ".join(_line(line, letters) for line in centre.lines)
+    if centre.way:
+        return term(f"way {centre.way}", language)
+    return term("way none", language)
+
+
+def _line(relation: Relation, letters: CentreLetters) -> str:
+    if len(relation.through) == 1:
+        point = str(relation.through[0]).split("/")[0]
+        return f"$n_{{{point}}}$"
+    return "$" + "".join(letters.name(pair) for pair in relation.through if not isinstance(pair, str)) + "$"
+
+
+def _told(
+    centres: Centres, turning: Mapping[str, Turning], letters: CentreLetters, language: str, width: float
+) -> list[tuple[Run, ...]]:
+    """What Kennedy's theorem does not give and why, and the velocities by centres, as lines of text."""
+    lines: list[tuple[Run, ...]] = []
+    for each in languages(language):
+        for centre in centres.indeterminate:
+            sentences = [_say(centre.why, each, letters)] if centre.why else []
+            if centre.way:
+                kept = ", ".join(centres.kept)
+                sentences.append(_say(Phrase(f"centre {centre.way}", (centre.pair, kept)), each, letters))
+            lines += wrapped("; ".join(sentences), 3.0, width)
+        spoken = [t.told for t in turning.values() if t.told is not None]
+        if spoken:
+            lines += wrapped(term("velocities by centres", each), 3.2, width, bold=True)
+        for phrase in spoken:
+            lines += wrapped(_say(phrase, each, letters), 3.0, width)
+    return lines
+
+
+def _say(phrase: Phrase, language: str, letters: CentreLetters) -> str:
+    """A sentence with its symbols between dollar signs."""
+
+    def show(argument: object) -> str:
+        return f"${letters.name(argument)}$" if isinstance(argument, tuple) else str(argument)
+
+    said = say(phrase, language, show)
+    parts = said.split("ω_{")
+    said = parts[0] + "".join(f"$ω_{{{p.split('}', 1)[0]}}}${p.split('}', 1)[1]}" for p in parts[1:])
+    return said.replace("$$", "")  # two symbols side by side are one
+
+
+def _description(
+    centres: Centres, turning: Mapping[str, Turning], letters: CentreLetters, language: str
+) -> str:
+    """Every centre in words, for those who do not see the figure."""
+    said = []
+    per_mm = centres.sheet.scales.length / centres.links.scene.units.metres
+    for each in languages(language):
+        for centre in centres.found:
+            name = letters.name(centre.pair).replace("_{", "").replace("}", "")
+            if centre.point is not None:
+                z = centre.point * per_mm
+                place = f"({z.real:.4g}, {z.imag:.4g})"
+            else:
+                place = "∞" if centre.direction is not None else "?"
+            how = how_found(centre, letters, each, centres) if centre.number else centre.joint
+            said.append(f"{name} {place}: {how.replace('$', '').replace('_{', '').replace('}', '')}")
+        said += [
+            _say(t.told, each, letters).replace("$", "").replace("_{", "").replace("}", "")
+            for t in turning.values() if t.told
+        ]  # fmt: skip
+    return "\n".join(said)
+
+
