@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from graphkin.drawing import Drawing
     from graphkin.exact import Motion
 
-__all__ = ["Centred", "Velocity", "centres", "velocities_by_centres"]
+__all__ = ["Centred", "Velocity", "centres", "found_centres", "velocities_by_centres"]
 
 TOLERANCE = 1e-9
 NO_MOTION = 1e-9
@@ -153,6 +153,11 @@ class Centred:
         return svg_bytes(self.figure).decode()
 
 
+def found_centres(scene: Scene, values: Mapping[str, float] | None) -> Centres:
+    """All centres at driver values in SI, on a drawing that leaves room around the mechanism."""
+    return find_centres(scene, values, room=None if scene.sheet.length_scale else ROOM)
+
+
 def _name(pair: Pair) -> str:
     return "-".join(pair)
 
@@ -267,7 +272,7 @@ def centres(
     given = as_scene(scene)
     values = driver_values(given, at)
     motion = solved_here(given, values)
-    found = find_centres(given, values, room=None if given.sheet.length_scale else ROOM)
+    found = found_centres(given, values)
     centred = Centred(found, speeds(found), motion, language, convention)
     if out is not None:
         centred.write(out, formats)

@@ -17,6 +17,7 @@ from graphkin.scene.symbol import Symbol
 from graphkin.words import say
 
 if TYPE_CHECKING:
+    from graphkin.drafting.centres import Centres, Turning
     from graphkin.exact import Motion
 
 __all__ = ["INSTRUMENTS", "Checked", "check", "checked", "hand_of", "reading_row", "solved_here"]
@@ -69,9 +70,32 @@ class Checked:
                 "velocity": _plain(scales.velocity / unit),
                 "acceleration": _plain(scales.acceleration / unit),
             },
-            "readings": [reading_row(self.scene, row) for row in self.report.rows],
+            "readings": [{**reading_row(self.scene, row), **self._by_centres(row)} for row in self.report.rows],
             **({"advice": say(self.advice.phrase())} if self.advice else {}),
         }
+
+    @cached_property
+    def centres(self) -> Centres:
+        """All instant centres at this position, from which velocities come by a third way."""
+        from graphkin.drafting.centres import find_centres
+
+        return find_centres(self.scene, self.sheet.drivers, sheet=self.sheet)
+
+    @cached_property
+    def _turning(self) -> Mapping[str, Turning]:
+        from graphkin.drafting.centres import speeds
+
+        return speeds(self.centres)
+
+    def _by_centres(self, row: Compared) -> dict[str, float]:
+        """A velocity by centres, in scene units; nothing for accelerations."""
+        from graphkin.drafting.centres import by_centres
+
+        value = by_centres(self.centres, self._turning, row.symbol) if row.symbol.kind in ("v", "omega") else None
+        if value is None:
+            return {}
+        plain = abs(value) if row.symbol.is_vector else float(value.real)
+        return {"by_centres": in_scene_units(self.scene, row.symbol, plain)}
 
     def _repr_html_(self) -> str:
         rows = "".join(

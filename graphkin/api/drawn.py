@@ -46,16 +46,21 @@ class Drawn:
 
     @cached_property
     def figures(self) -> Mapping[str, Drawing]:
-        """Figures by name: mechanism, velocity, acceleration, sheet."""
+        """Figures by name: mechanism, velocity, acceleration, centres, sheet."""
+        from graphkin.api.centred import found_centres
+        from graphkin.drafting.centres import speeds
         from graphkin.drawing import figures
+        from graphkin.drawing.centres import centres_figure
 
-        return figures(
-            self.checked.sheet,
-            self.small.sheet,
-            self.small.report,
-            language=self.language,
-            convention=self.convention,
+        spoken, letters = self.language, self.convention
+        made = dict(
+            figures(
+                self.checked.sheet, self.small.sheet, self.small.report, language=spoken, convention=letters
+            )
         )
+        found = found_centres(self.checked.scene, self.checked.sheet.drivers)
+        made["centres"] = centres_figure(found, speeds(found), language=spoken, convention=letters)
+        return made
 
     def write(self, folder: str | os.PathLike[str] | None = None, formats: Sequence[str] = ("svg",)) -> list[Path]:
         """Write figures, readings.csv and report.txt; returns the paths.  Files appear whole or not at all.

@@ -8,9 +8,9 @@ from typing import Literal
 
 from graphkin.drafting.centres.chart import Chart, Place
 from graphkin.drafting.centres.kennedy import SURE, Crossing, Known, Relation, Search, closure
-from graphkin.drafting.centres.measured import Motion, relative_centre
+from graphkin.drafting.centres.measured import Motion, measured, relative_centre
 from graphkin.drafting.centres.pairs import Links, Normal, Pair, links_on_paper, normals, permanent
-from graphkin.drafting.centres.superposed import Way, work
+from graphkin.drafting.centres.superposed import Way, Worked, work
 from graphkin.drafting.draft import Room
 from graphkin.drafting.instrument import EXACT, Instrument
 from graphkin.drafting.sheet import Sheet
@@ -72,19 +72,25 @@ class Centres:
 
 
 def find_centres(
-    scene: Scene, at: Mapping[str, float] | None = None, instrument: Instrument = EXACT, room: Room | None = None
-) -> Centres:
+    scene: Scene, at: Mapping[str, float] | None = None, instrument: Instrument = EXACT, room: Room | None = None,
+    sheet: Sheet | None = None,
+) -> Centres:  # fmt: skip
     """Find every centre of every two links on the drawing board.
 
     Parameters
     ----------
     scene, at, instrument, room : as for `draft`
+    sheet : the scene drawn at this position already; it is used if every link stands on it
 
     Raises
     ------
     Unsolvable : wrong mobility, a position that cannot be assembled or reached, a dead point
     """
-    worked = work(_moving(scene), at, instrument, room)
+    moving = _moving(scene)
+    if sheet is not None and moving is scene and set(sheet.structure.links) <= set(sheet.poses):
+        worked = Worked(sheet, measured(sheet))
+    else:
+        worked = work(moving, at, instrument, room)
     links = links_on_paper(scene, 1.0 / worked.sheet.scales.length, worked.sheet.poses)
     chart = links.chart()
     table, slots = _search(links, chart, worked.motions, instrument, worked.way)
