@@ -204,6 +204,7 @@ _TABLE: dict[str, tuple[str, str]] = {
     "fixed centrode": ("fixed centrode", "定瞬心线"),
     "moving centrode": ("moving centrode", "动瞬心线"),
     "coupler curve": ("coupler curve of {0}", "{0} 点的连杆曲线"),
+    "centrodes": ("Centrodes of link", "瞬心线，构件"),
     # headings of the report
     "source": ("Source", "来源"),
     "driver": ("Driver", "原动件"),
@@ -433,6 +434,7 @@ _TABLE: dict[str, tuple[str, str]] = {
     "slip other": ("the value of another quantity: {0}", "是另一个量的值：{0}"),
     "slip component": ("the {0} component of {1} only", "只是 {1} 的 {0} 分量"),
     "slip other component": ("another column: the {0} component of {1}", "另一栏的值：{1} 的 {0} 分量"),
+    "slip and sign": ("{0}, and the sign", "{0}，且正负号错误"),
     "slip position": ("another position: the value at {0}", "是另一位置的值：{0}"),
     "slip pen": ("a slip of the pen for {0}", "{0} 的笔误"),
     "slip follows": ("follows from an earlier wrong value: {0}", "由前面的错误值引起：{0}"),

@@ -20,7 +20,7 @@ from graphkin.drawing.primitives import Drawing, Group, Primitive, Run, Text
 from graphkin.drawing.typeset import rich
 from graphkin.words import Phrase, say
 
-__all__ = ["centres_figure"]
+__all__ = ["background", "centres_figure"]
 
 MARGIN, ROOM, LINE, FOOT = 8.0, 9.0, 5.0, 14.0
 MOST = (150.0, 150.0)  # mm that the mechanism with its near centres may fill
@@ -45,7 +45,7 @@ def centres_figure(
     spoken = language or sheet.scene.sheet.language
     letters = letters_of(sheet, convention or sheet.scene.sheet.convention)  # type: ignore[arg-type]
     named = CentreLetters(letters.convention)
-    back = _background(mechanism_piece(sheet, letters)[0])
+    back = background(mechanism_piece(sheet, letters)[0])
     mechanism = ink_box(back.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
     content = near_box(centres, mechanism, MOST)
     width = max(content.width, LEAST[0]) + 2 * ROOM + SIDE + 2 * MARGIN
@@ -85,7 +85,7 @@ def _heading(centres: Centres, at: str, language: str, width: float) -> list[tup
     return lines + wrapped(f"{term('centres', language)}:  {at}", 3.2, width)
 
 
-def _background(piece: Piece) -> Piece:
+def background(piece: Piece) -> Piece:
     """The mechanism alone, pale: without lengths, senses and compass arcs."""
     kept = tuple(
         pale(thing)

@@ -1,0 +1,186 @@
+"""``graphkin centres --centrode``: the centrodes of a link over a turn, with the path of a point of it."""
+
+from __future__ import annotations
+
+import csv
+import io
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphkin.api.called import At, SceneLike, as_scene, driver_values
+from graphkin.api.centred import found_centres
+from graphkin.api.checked import solved_here
+from graphkin.drafting.centres import Centres
+from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.scene.model import Scene
+
+if TYPE_CHECKING:
+    from graphkin.drawing import Drawing
+    from graphkin.exact import Motion
+    from graphkin.exact.centrode import Centrode
+
+__all__ = ["Centroded", "centrodes"]
+
+POSITIONS = 3600
+STILL = 1e-9
+
+
+@dataclass(frozen=True)
+class Centroded:
+    """The fixed and the moving centrode of a link, and the path of a point of it (complex arrays over the turn, m)."""
+
+    centres: Centres
+    motion: Motion
+    curves: Centrode
+    link: str
+    point: str
+    language: str | None = None
+    convention: str | None = None
+
+    @property
+    def scene(self) -> Scene:
+        return self.centres.links.scene
+
+    @property
+    def ok(self) -> bool:
+        """Whether the centre drawn at this position lies on the fixed centrode, to 1e-9 of the mechanism's size."""
+        centre = self.centres.of(self.link, self.scene.frame.name)
+        if centre.point is None or not np.isfinite(self.curves.fixed[0]):
+            return True
+        away = abs(centre.point / self.centres.links.mm - complex(self.curves.fixed[0]))
+        return bool(away <= 1e-9 * max(self.scene.size, abs(complex(self.curves.fixed[0]))))
+
+    @property
+    def path(self) -> NDArray[np.complex128]:
+        """Places of the point over the turn (m), empty without one."""
+        return self.motion.position(self.point, self.link) if self.point else np.zeros(0, dtype=np.complex128)
+
+    @cached_property
+    def figure(self) -> Drawing:
+        from graphkin.drawing.centrodes import centrodes_figure
+
+        mm = self.centres.links.mm
+        pose = self.centres.links.poses[self.link]
+        moving = pose.origin + pose.axis * self.curves.moving * mm
+        path = self.path * mm
+        whole = np.isfinite(path[:-1]) & np.isfinite(path[1:]) if self.point else np.zeros(0, dtype=bool)
+        return centrodes_figure(
+            self.centres,
+            self.link,
+            _branches(self.curves.fixed * mm, self.curves.joined),
+            _branches(moving, self.curves.joined),
+            _branches(path, whole),
+            self.point,
+            language=self.language,
+            convention=self.convention,
+        )
+
+    def write(self, folder: str | os.PathLike[str] | None = None, formats: Sequence[str] = ("svg",)) -> list[Path]:
+        """Write centrode.svg (or other formats) and centrode.csv; returns the paths.
+
+        Raises
+        ------
+        CallError : an unknown format, a folder that cannot be written
+        """
+        from graphkin.api.files import write_files
+        from graphkin.drawing.save import drawing_bytes
+
+        files = {f"centrode.{kind}": drawing_bytes(self.figure, kind) for kind in formats}
+        files["centrode.csv"] = self._csv().encode()
+        return write_files(Path(folder) if folder is not None else Path(self.scene.name), files)
+
+    def _csv(self) -> str:
+        """Both curves in scene units: the moving one in the link's own axes; empty cells where there is no centre."""
+        out = io.StringIO()
+        writer = csv.writer(out, lineterminator="\n")
+        writer.writerow(["driver", "fixed_x", "fixed_y", "moving_x", "moving_y"])
+        unit = self.scene.units.metres
+        for value, one, two in zip(self.motion.values[:, 0], self.curves.fixed, self.curves.moving, strict=True):
+            cells = [f"{x / unit:.12g}" if np.isfinite(x) else "" for z in (one, two) for x in (z.real, z.imag)]
+            writer.writerow([f"{value:.12g}", *cells])
+        return out.getvalue()
+
+    def _repr_svg_(self) -> str:
+        from graphkin.drawing import svg_bytes
+
+        return svg_bytes(self.figure).decode()
+
+
+def _branches(places: NDArray[Any], joined: NDArray[Any]) -> list[list[complex]]:
+    """Places in runs that a pen draws without lifting; the end of a turn joins its start."""
+    runs: list[list[complex]] = []
+    run: list[complex] = []
+    for i, z in enumerate(places.tolist()):
+        if np.isfinite(z):
+            run.append(z)
+        if (i == len(places) - 1 or not joined[i]) and run:
+            runs.append(run)
+            run = []
+    if len(places) and np.isfinite(places[0]) and np.isfinite(places[-1]) and joined[0] and joined[-1]:
+        step = abs(places[1] - places[0]) + abs(places[-1] - places[-2])
+        if abs(places[0] - places[-1]) <= step:
+            runs[-1].append(complex(places[0]))
+    return runs
+
+
+def centrodes(
+    scene: SceneLike,
+    link: str,
+    point: str = "",
+    at: At = None,
+    out: str | os.PathLike[str] | None = None,
+    formats: Sequence[str] = ("svg",),
+    language: str | None = None,
+    convention: str | None = None,
+) -> Centroded:
+    """The fixed and the moving centrode of a link over a turn of the driver.
+
+    Parameters
+    ----------
+    scene, at : as for `solve`; the moving centrode is shown where it lies at this position
+    link : a moving link that neither turns about a fixed pivot nor only slides
+    point : a point of the link, whose path is shown too
+    out, formats, language, convention : as for `draw`
+
+    Raises
+    ------
+    SceneError, CallError : the file or the call is wrong
+    Unsolvable : wrong mobility, a position that cannot be assembled or reached, a dead point
+    """
+    from graphkin.exact import solve
+    from graphkin.exact.centrode import centrode
+
+    given = as_scene(scene)
+    values = driver_values(given, at)
+    _check_names(given, link, point)
+    solved_here(given, values)
+    motion = solve(given, at=values, sweep=POSITIONS)
+    curves = centrode(motion, link)
+    turning = np.abs(motion.omega(link)[motion.ok])
+    if not len(turning) or turning.max() <= STILL * max(abs(d.values[1]) for d in given.drivers):
+        raise CallError(Problem(f"centrode {link}", "the link never turns, its centre is always at infinity",
+                                "name a link that turns"))
+    good = curves.fixed[np.isfinite(curves.fixed)]
+    if np.abs(good - good[0]).max() <= STILL * given.size:
+        raise CallError(Problem(f"centrode {link}", "the link turns about a fixed pivot, its centrodes are points",
+                                "name a link with no fixed pivot"))
+    centroded = Centroded(found_centres(given, values), motion, curves, link, point, language, convention)
+    if out is not None:
+        centroded.write(out, formats)
+    return centroded
+
+
+def _check_names(scene: Scene, link: str, point: str) -> None:
+    names = [n.name for n in scene.links if not n.redundant]
+    if link not in names:
+        raise CallError(Problem(f"centrode {link}", f'there is no moving link "{link}"', did_you_mean(link, names)))
+    points = scene.by_name[link].points
+    if point and point not in points:
+        raise CallError(Problem(f"point {point}", f"link {link} has no such point", did_you_mean(point, points)))
