@@ -128,7 +128,7 @@ def so_far(children: Iterable[Primitive], first: int, last: int) -> tuple[Primit
         elif step is not None and step < first:
             found.append(_faded(thing))
         elif step is not None and isinstance(thing, Group):
-            halo = tuple(band for child in thing.children for band in _band(child))
+            halo = () if "inset" in thing.classes else tuple(band for child in thing.children for band in _band(child))
             found += [Group(halo, classes=("new",))] if halo else []
             found.append(thing)
         else:

@@ -1,0 +1,115 @@
+"""What a handout is made of, whatever it is written as: headings, sentences, steps, figures, tables.
+
+Words are said in one language or in several, one below the other; symbols in them stand between dollar signs, in the
+notation of `graphkin.drawing.typeset`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from graphkin.drawing.headings import languages
+from graphkin.drawing.primitives import Drawing
+from graphkin.words import Phrase, say
+
+__all__ = ["Beside", "Block", "Document", "Fields", "Heading", "Paragraph", "Picture", "Said", "StepItem", "Steps", "Table",
+           "said", "spoken"]  # fmt: skip
+
+Said: TypeAlias = tuple[tuple[str, str], ...]  # (language, words) for each language
+
+
+@dataclass(frozen=True)
+class Heading:
+    """A heading of level 1 (the document's), 2 or 3; ``fresh`` begins a new page with it."""
+
+    words: Said
+    level: int = 2
+    fresh: bool = False
+
+
+@dataclass(frozen=True)
+class Paragraph:
+    """Sentences; ``small`` for remarks."""
+
+    words: Said
+    small: bool = False
+
+
+@dataclass(frozen=True)
+class StepItem:
+    """One step of the construction: its number, its reason, the lines of numbers computed in it."""
+
+    number: int
+    words: Said
+    work: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Steps:
+    """Steps in their order."""
+
+    items: tuple[StepItem, ...]
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A figure at true scale with its caption; ``drawing.desc`` says in words what it shows.
+
+    ``joined`` keeps it with what follows on one page (an equation with its steps).
+    """
+
+    drawing: Drawing
+    caption: Said = ()
+    joined: bool = False
+
+
+@dataclass(frozen=True)
+class Table:
+    """Rows under heads; ``align`` is one of l, r, c for each column; ``bold`` are the rows that stand out.
+
+    ``roomy`` makes cells to write in by hand.
+    """
+
+    heads: tuple[Said, ...]
+    rows: tuple[tuple[str, ...], ...]
+    align: str
+    bold: frozenset[int] = frozenset()
+    roomy: bool = False
+
+
+@dataclass(frozen=True)
+class Fields:
+    """Names of what is filled in on lines, as at the head of a sheet."""
+
+    names: tuple[Said, ...]
+
+
+@dataclass(frozen=True)
+class Beside:
+    """Blocks with a narrow figure at their right."""
+
+    blocks: tuple[Heading | Paragraph | Steps, ...]
+    picture: Picture
+
+
+Block: TypeAlias = Heading | Paragraph | Steps | Picture | Table | Fields | Beside
+
+
+@dataclass(frozen=True)
+class Document:
+    """A whole document: its title in words, its languages in order, and its blocks."""
+
+    title: str
+    languages: tuple[str, ...]
+    blocks: tuple[Block, ...]
+
+
+def said(key: str, language: str, *args: object) -> Said:
+    """Words from the table of terms, in the languages of a sheet ("en", "zh" or "both")."""
+    return tuple((each, say(Phrase(key, args), each)) for each in languages(language))
+
+
+def spoken(markup: str, language: str) -> Said:
+    """Words that are the same in every language, said once."""
+    return ((languages(language)[0], markup),)

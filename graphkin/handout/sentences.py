@@ -1,0 +1,171 @@
+"""Steps in words and in numbers: the sentence of each, and what is computed in it from what is measured.
+
+Sentences hold symbols between dollar signs, in the notation of `graphkin.drawing.typeset`; the lines of numbers are
+the same in every language.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from graphkin.drafting.sheet import DiagramName, Direction, Sheet, Step, Vector
+from graphkin.drawing.conventions import Letters
+from graphkin.drawing.headings import number
+from graphkin.drawing.typeset import Atom, parsed
+from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.words import Phrase, say, word
+
+__all__ = ["Speaker", "plain_words"]
+
+_POINT_NAMES = re.compile(r"(?:[A-Z][a-z]*\d*)+")
+_RATE = re.compile(r"([ωα])_\{([^{}]*)\}")
+_OPEN, _CLOSE = "\x02", "\x03"  # around symbols until the sentence is whole; no argument can hold them
+
+
+@dataclass(frozen=True)
+class Speaker:
+    """Says the steps of one sheet in one convention."""
+
+    sheet: Sheet
+    letters: Letters
+
+    @property
+    def unit(self) -> str:
+        return self.sheet.scene.units.length
+
+    def sentence(self, phrase: Phrase, language: str) -> str:
+        """A phrase as a sentence with its full stop."""
+        said = say(phrase, language, lambda thing: self._show(thing, language))
+        # symbols stand between marks; a rate whose index is a gap of the sentence is marked here
+        parts = re.split(f"{_OPEN}([^{_CLOSE}]*){_CLOSE}", said)
+        for i in range(0, len(parts), 2):
+            parts[i] = _RATE.sub(f"{_OPEN}\\g<0>{_CLOSE}", parts[i])
+        parts[1::2] = [f"{_OPEN}{symbol}{_CLOSE}" for symbol in parts[1::2]]
+        said = "".join(parts).replace(_CLOSE + _OPEN, "").replace(_OPEN, "$").replace(_CLOSE, "$")
+        if language == "zh":
+            return said.rstrip("。") + "。"
+        return said[:1].upper() + said[1:].rstrip(".") + "."
+
+    def _show(self, thing: object, language: str) -> str:
+        if isinstance(thing, Symbol):
+            return self._marked(self.letters.vector(thing))
+        if isinstance(thing, PointRef):
+            return self._marked(self.point(thing))
+        if isinstance(thing, Direction):
+            return self._marked(self.letters.direction(thing, self.sheet.scene.frame.name))
+        text = str(thing)
+        if text == "given":
+            return word("given", language).lower()
+        if "·" in text and "_" in text:
+            return self._marked(self.letters.size(text))
+        names = text.split(", ")
+        if all(map(_POINT_NAMES.fullmatch, names)):
+            return ", ".join(self._marked(self.bar(name)) for name in names)
+        return text.replace("$", "$$")
+
+    def _marked(self, markup: str) -> str:
+        return f"{_OPEN}{markup}{_CLOSE}"
+
+    def point(self, ref: PointRef) -> str:
+        """A point, with the link as a further index where coincident points are told apart."""
+        link = ref.link or self.letters.blocks.get(ref.point, "")
+        base = self.letters.point(ref.point)
+        if not link:
+            return base
+        return f"{base[:-1]},{link}}}" if base.endswith("}") else f"{base}_{{{link}}}"
+
+    def bar(self, names: str) -> str:
+        """Letters of a bar as they are written: ``O_{4}A``."""
+        return "".join(self.letters.point(name) for name in re.findall(r"[A-Z][a-z]*\d*", names))
+
+    # -- numbers -----------------------------------------------------------------------------------------------------
+
+    def work(self, step: Step) -> tuple[str, ...]:
+        """What is computed in a step, as lines of symbols and numbers."""
+        key, args = step.phrase.key, step.phrase.args
+        if key.startswith(("omega ", "alpha ")):
+            return self._rate(step)
+        if key.startswith("lay off") and isinstance(args[0], Symbol):
+            return self._laid_off(step, args[0], str(args[1]))
+        return tuple(line for s in step.strokes if isinstance(s, Vector) for line in self._measured(step.diagram, s))
+
+    def _rate(self, step: Step) -> tuple[str, ...]:
+        link, symbol = str(step.phrase.args[0]), step.phrase.args[1]
+        omega = step.phrase.key.startswith("omega")
+        rate = (self.sheet.omega if omega else self.sheet.alpha)[link]
+        assert isinstance(symbol, Symbol)
+        per = self._per(step.diagram)
+        arm = rate.arm_mm * self.sheet.scales.length / self.sheet.scene.units.metres
+        unit = "rad/s" if omega else "rad/s²"
+        name = f"{'ω' if omega else 'α'}_{{{link}}}"
+        return (
+            f"${name}$ = {number(rate.mm * per, 5)} {self._unit(step.diagram)} / "
+            f"{number(arm, 5)} {self.unit} = {number(abs(rate.value), 4)} {unit}",
+        )
+
+    def _laid_off(self, step: Step, symbol: Symbol, rule: str) -> tuple[str, ...]:
+        vector = next(s for s in step.strokes if isinstance(s, Vector))
+        per = self._per(step.diagram)
+        value = number(abs(vector.span) * per, 5)
+        numbers = self._substituted(rule)
+        middle = f" = {numbers}" if numbers else ""
+        unit = self._unit(step.diagram)
+        return (
+            f"${self.letters.vector(symbol)}${middle} = {value} {unit}",
+            f"{value} {unit} ÷ {self._scale(step.diagram)} = {abs(vector.span):.2f} mm",
+        )
+
+    def _measured(self, diagram: DiagramName, vector: Vector) -> Iterator[str]:
+        if abs(vector.span) < 1e-7:
+            yield f"${self.letters.vector(vector.symbol)}$ = 0"
+            return
+        value = number(abs(vector.span) * self._per(diagram), 5)
+        yield (
+            f"${self.letters.vector(vector.symbol)}$ = {abs(vector.span):.2f} mm × {self._scale(diagram)} = "
+            f"{value} {self._unit(diagram)}"
+        )
+
+    def _substituted(self, rule: str) -> str:
+        """A rule of a size with numbers in place of its symbols: ``2 × 2.819 × 575.4`` for 2ω v."""
+        head, _, tail = rule.partition("·")
+        match = re.fullmatch(r"(2?)([ωα])_\{(.*)\}(²?)", head)
+        factor = (self._speed(tail) if "_" in tail else self._length(tail)) if tail else None
+        if match is None or factor is None:
+            return ""
+        rates = self.sheet.omega if match[2] == "ω" else self.sheet.alpha
+        rate = number(abs(rates[match[3]].value), 5) + ("²" if match[4] else "")
+        return " × ".join(filter(None, (match[1], rate, factor)))
+
+    def _length(self, names: str) -> str | None:
+        places = {ref.point: z for ref, z in self.sheet.points.items() if not ref.link}
+        for i in range(1, len(names)):
+            if names[:i] in places and names[i:] in places:
+                arm = abs(places[names[:i]] - places[names[i:]])
+                return number(arm * self.sheet.scales.length / self.sheet.scene.units.metres, 5)
+        return None
+
+    def _speed(self, name: str) -> str | None:
+        vector = self.sheet.vectors("velocity").get(Symbol.parse(name))
+        return None if vector is None else number(abs(vector.span) * self._per("velocity"), 5)
+
+    def _per(self, diagram: DiagramName) -> float:
+        return self.sheet.scales.of(diagram) / self.sheet.scene.units.metres
+
+    def _unit(self, diagram: DiagramName) -> str:
+        return self.unit + {"mechanism": "", "velocity": "/s", "acceleration": "/s²"}[diagram]
+
+    def _scale(self, diagram: DiagramName) -> str:
+        return f"{number(self._per(diagram))} ({self._unit(diagram)})/mm"
+
+
+def plain_words(markup: str) -> str:
+    """Words with symbols as one plain line, for titles and for readers of screens: ``v_B3B2``."""
+    return "".join(p if isinstance(p, str) else "".join(map(_plain_atom, p)) for p in parsed(markup))
+
+
+def _plain_atom(atom: Atom) -> str:
+    up = "".join(map(_plain_atom, atom.sup))
+    down = "".join(map(_plain_atom, atom.sub))
+    return atom.text + (f"^{up}" if up else "") + (f"_{down}" if down else "")
