@@ -36,7 +36,7 @@ The figures, as SVG, PDF or PNG by the name:
 
 >>> figures = graphkin.draw(four_bar).figures
 >>> sorted(figures)
-['acceleration', 'mechanism', 'sheet', 'velocity']
+['acceleration', 'centres', 'mechanism', 'sheet', 'velocity']
 """
 
 from __future__ import annotations
@@ -46,7 +46,20 @@ from typing import TYPE_CHECKING, Any
 from graphkin.errors import CallError, GraphkinError, SceneError, Unsolvable
 
 if TYPE_CHECKING:
-    from graphkin.api import Checked, Drawn, Listed, Solved, check, draw, scenes, solve
+    from graphkin.api import (
+        Centred,
+        Centroded,
+        Checked,
+        Drawn,
+        Listed,
+        Solved,
+        centres,
+        centrodes,
+        check,
+        draw,
+        scenes,
+        solve,
+    )
     from graphkin.scene import read
     from graphkin.scene.model import Scene
 
@@ -54,6 +67,8 @@ __version__ = "0.1.0"
 
 __all__ = [
     "CallError",
+    "Centred",
+    "Centroded",
     "Checked",
     "Drawn",
     "GraphkinError",
@@ -63,6 +78,8 @@ __all__ = [
     "Solved",
     "Unsolvable",
     "__version__",
+    "centres",
+    "centrodes",
     "check",
     "draw",
     "read",

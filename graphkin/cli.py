@@ -268,6 +268,60 @@ def solve(
         raise typer.Exit(3)
 
 
+@app.command()
+def centres(
+    scene: SceneArgument,
+    out: Annotated[
+        Path | None,
+        typer.Option("-o", "--out", metavar="DIR", help="Folder for the files; ./NAME if not given, none with --json."),
+    ] = None,
+    formats: Annotated[str, typer.Option("--format", metavar="svg,pdf,png", help="Formats of the figures.")] = "svg",
+    at: AtOption = None,
+    centrode: Annotated[
+        str | None, typer.Option("--centrode", metavar="LINK", help="The centrodes of a link over a turn instead.")
+    ] = None,
+    point: Annotated[str, typer.Option("--point", metavar="P", help="With --centrode: the path of this point.")] = "",
+    lang: LangOption = None,
+    convention: Annotated[
+        str | None, typer.Option("--convention", metavar="chinese|us|british|russian", help="Letters and marks.")
+    ] = None,
+    as_json: JsonOption = False,
+    quiet: QuietOption = False,
+) -> None:
+    """All instant centres, how each was found, and the velocities by centres."""
+    from graphkin.api import centres as finding
+    from graphkin.api import centrodes
+    from graphkin.api.centres_told import told_centres
+
+    wanted = [f.strip().lower() for f in formats.split(",") if f.strip()]
+    if point and centrode is None:
+        raise CallError(Problem("--point", "without --centrode", "write --centrode LINK --point P"))
+    if centrode is not None:
+        rolled = centrodes(scene, centrode, point, _values(at), None, wanted, lang, convention)
+        paths = rolled.write(out, wanted)
+        if not quiet:
+            typer.echo("\n".join(str(p) for p in paths))
+        if not rolled.ok:
+            raise typer.Exit(1)
+        return
+    try:
+        found = finding(scene, _values(at), None, wanted, lang, convention)
+    except Unsolvable as error:
+        if as_json:
+            _dump({"links": [], "centres": {}, "ok": False, "status": error.status, "why": error.why})
+        raise
+    paths = [] if as_json and out is None else found.write(out, wanted)
+    if as_json:
+        _dump(found.data)
+    elif not quiet:
+        typer.echo("\n".join(str(p) for p in paths))
+        told = told_centres(found)
+        _table(told.heads, [list(row) for row in told.rows])
+        typer.echo("\n".join(told.sentences))
+    if not found.ok:
+        raise typer.Exit(1)
+
+
 def _print_solution(solved: Solved) -> None:
     data = solved.data
     unit = data["units"]["length"]

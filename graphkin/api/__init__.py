@@ -1,8 +1,23 @@
 """The public functions, one for each command, and the results they return."""
 
+from graphkin.api.centred import Centred, centres
+from graphkin.api.centroded import Centroded, centrodes
 from graphkin.api.checked import Checked, check
 from graphkin.api.drawn import Drawn, draw
 from graphkin.api.listed import Listed, scenes
 from graphkin.api.solved import Solved, solve
 
-__all__ = ["Checked", "Drawn", "Listed", "Solved", "check", "draw", "scenes", "solve"]
+__all__ = [
+    "Centred",
+    "Centroded",
+    "Checked",
+    "Drawn",
+    "Listed",
+    "Solved",
+    "centres",
+    "centrodes",
+    "check",
+    "draw",
+    "scenes",
+    "solve",
+]
