@@ -47,18 +47,22 @@ from graphkin.errors import CallError, GraphkinError, SceneError, Unsolvable
 
 if TYPE_CHECKING:
     from graphkin.api import (
+        Audited,
         Centred,
         Centroded,
         Checked,
         Drawn,
         Listed,
         Solved,
+        Swept,
+        audit,
         centres,
         centrodes,
         check,
         draw,
         scenes,
         solve,
+        sweep,
     )
     from graphkin.scene import read
     from graphkin.scene.model import Scene
@@ -66,6 +70,7 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 __all__ = [
+    "Audited",
     "CallError",
     "Centred",
     "Centroded",
@@ -76,8 +81,10 @@ __all__ = [
     "Scene",
     "SceneError",
     "Solved",
+    "Swept",
     "Unsolvable",
     "__version__",
+    "audit",
     "centres",
     "centrodes",
     "check",
@@ -85,6 +92,7 @@ __all__ = [
     "read",
     "scenes",
     "solve",
+    "sweep",
 ]
 
 _PLACES = {"read": "graphkin.scene", "Scene": "graphkin.scene.model"}

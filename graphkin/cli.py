@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Callable, Mapping
+import time
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -357,6 +359,37 @@ def _slide_row(name: str, slide: Mapping[str, Any]) -> list[str]:
     return [name, *(_num(slide[k]) for k in ("travel", "velocity", "acceleration")), _pair(slide["coriolis"])]
 
 
+@app.command()
+def audit(
+    scene: SceneArgument,
+    answers: Annotated[
+        Path | None,
+        typer.Option(
+            "--answers", metavar="FILE.csv", help="A row for each person, symbols as heads, values in scene units."
+        ),
+    ] = None,
+    at: AtOption = None,
+    out: Annotated[Path | None, typer.Option("-o", "--out", metavar="DIR", help="Folder for audit.csv.")] = None,
+    lang: LangOption = None,
+    as_json: JsonOption = False,
+    quiet: QuietOption = False,
+) -> None:
+    """Judge the scene's printed values, or people's answers: right, within drafting accuracy, or wrong and why."""
+    from graphkin.api import audit as auditing
+
+    audited = auditing(scene, answers, _values(at), lang)
+    paths = audited.write(out) if out is not None else []
+    if as_json:
+        _dump(audited.data)
+    elif not quiet:
+        first = len(audited.heads) - 6
+        _table(audited.heads, audited.rows, right=(first + 1, first + 2, first + 3))
+        for path in paths:
+            typer.echo(str(path))
+    if not audited.ok:
+        raise typer.Exit(1)
+
+
 def _num(value: float) -> str:
     return f"{value:.6g}"
 
@@ -386,3 +419,110 @@ def _table(heads: list[str], rows: list[list[str]], right: tuple[int, ...] = ())
     if not console.is_terminal:
         console = Console(width=160)
     console.print(table)
+
+
+@app.command()
+def sweep(
+    scene: SceneArgument,
+    out: Annotated[
+        Path | None, typer.Option("-o", "--out", metavar="DIR", help="Folder for the files; ./NAME if not given.")
+    ] = None,
+    positions: Annotated[
+        int, typer.Option("--positions", metavar="12|36|N", help="Rows of the table over a turn of the driver.")
+    ] = 36,
+    replace: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--set",
+            metavar="KEY=VALUES",
+            help="Designs: links.1.length=40:60:21 (a grid), =40,50,60 (a list); several give every combination.",
+        ),
+    ] = None,
+    designs: Annotated[
+        Path | None, typer.Option("--designs", metavar="FILE.csv", help="Designs: a CSV file whose head names keys.")
+    ] = None,
+    workers: Annotated[
+        int | None, typer.Option("--workers", metavar="N", help="Processes; as many as there are cores if long.")
+    ] = None,
+    scheduler: Annotated[
+        str | None, typer.Option("--scheduler", metavar="ADDRESS", help="Run on a Dask cluster (extra cluster).")
+    ] = None,
+    formats: Annotated[str, typer.Option("--format", metavar="svg,pdf,png", help="Formats of the figures.")] = "svg",
+    at: AtOption = None,
+    find: FindOption = None,
+    lang: LangOption = None,
+    as_json: JsonOption = False,
+    quiet: QuietOption = False,
+) -> None:
+    """Tables and motion diagrams over a turn, limit positions, strokes and K; and the same over designs."""
+    from graphkin.api import sweep as sweeping
+    from graphkin.api.turn_told import told_turn
+    from graphkin.scene import read
+
+    wanted = [f.strip().lower() for f in formats.split(",") if f.strip()]
+    target = out if out is not None else Path(read(scene).name)
+    try:
+        with _bar(not as_json and not quiet) as progress:
+            swept = sweeping(
+                scene, target, positions, find or None, _values(at), _replaced(replace), designs, None,
+                _processes(workers, scheduler), scheduler, wanted, lang, progress,
+            )
+    except Unsolvable as error:
+        if as_json:
+            _dump({"status": error.status, "why": error.why})
+        raise
+    except KeyboardInterrupt:
+        typer.echo(f"graphkin: interrupted; what is done is kept in {target}, the same command goes on", err=True)
+        raise
+    if as_json:
+        _dump(swept.data)
+    elif not quiet:
+        typer.echo(told_turn(swept))
+        typer.echo("\n".join(str(p) for p in sorted(target.iterdir()) if not p.name.startswith(".")))
+    if not swept.ok:
+        typer.echo("graphkin: no position could be solved; designs.csv or table.csv says why", err=True)
+        raise typer.Exit(3)
+
+
+def _replaced(given: list[str] | None) -> dict[str, str]:
+    """Designs as given on the command line: KEY=VALUES."""
+    found: dict[str, str] = {}
+    for text in given or []:
+        key, sign, values = text.partition("=")
+        if not sign or not key.strip():
+            raise CallError(Problem(f"--set {text}", "says no key or no values", "write --set links.1.length=40:60:21"))
+        if key.strip() in found:
+            raise CallError(Problem(f"--set {text}", "the key is given twice", "write KEY=40,50,60"))
+        found[key.strip()] = values
+    return found
+
+
+def _processes(workers: int | None, scheduler: str | None) -> int | None:
+    import os
+
+    return None if scheduler else workers if workers is not None else os.cpu_count()
+
+
+@contextmanager
+def _bar(shown: bool) -> Iterator[Callable[[int, int], None] | None]:
+    """A progress bar on stderr, where that is a terminal and it takes longer than a second."""
+    if not shown or not sys.stderr.isatty():
+        yield None
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
+
+    columns = BarColumn(), MofNCompleteColumn(), TimeRemainingColumn()
+    bar = Progress(*columns, console=Console(stderr=True), transient=True)
+    task = bar.add_task("", total=None)
+    started = time.monotonic()
+
+    def tell(done: int, total: int) -> None:
+        if time.monotonic() - started > 1.0 and not bar.live.is_started:
+            bar.start()
+        bar.update(task, completed=done, total=total)
+
+    try:
+        yield tell
+    finally:
+        bar.stop()

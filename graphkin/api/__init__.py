@@ -1,23 +1,29 @@
 """The public functions, one for each command, and the results they return."""
 
+from graphkin.api.audited import Audited, audit
 from graphkin.api.centred import Centred, centres
 from graphkin.api.centroded import Centroded, centrodes
 from graphkin.api.checked import Checked, check
 from graphkin.api.drawn import Drawn, draw
 from graphkin.api.listed import Listed, scenes
 from graphkin.api.solved import Solved, solve
+from graphkin.api.swept import Swept, sweep
 
 __all__ = [
+    "Audited",
     "Centred",
     "Centroded",
     "Checked",
     "Drawn",
     "Listed",
     "Solved",
+    "Swept",
+    "audit",
     "centres",
     "centrodes",
     "check",
     "draw",
     "scenes",
     "solve",
+    "sweep",
 ]

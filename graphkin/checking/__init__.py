@@ -1,19 +1,29 @@
-"""Readings off a drawing, and their comparison with exact values."""
+"""Readings off a drawing, their comparison with exact values, and the judging of values that others state."""
 
 from graphkin.checking.advice import Advice, advise
+from graphkin.checking.audit import Judged, Verdict, judge
+from graphkin.checking.printed import Printed, printed_values, stated
 from graphkin.checking.readings import Reading, read_off
 from graphkin.checking.report import Compared, Report, compare
+from graphkin.checking.suspects import Case
 from graphkin.checking.uncertainty import COVERAGE, Uncertainty, predict
 
 __all__ = [
     "COVERAGE",
     "Advice",
+    "Case",
     "Compared",
+    "Judged",
+    "Printed",
     "Reading",
     "Report",
     "Uncertainty",
+    "Verdict",
     "advise",
     "compare",
+    "judge",
     "predict",
+    "printed_values",
     "read_off",
+    "stated",
 ]

@@ -143,8 +143,9 @@ class Plot:
         )
         bar = self.places[b.point] - self.places[a.point]
         if abs(bar) <= self.tiny or (order, name) in self.believed:
-            at = self._by_rates(order, ends[a], here - self.places[a.point], name)
-            self._reach_by(order, ref, at, Phrase("by rate", (self.label(ref), self.label(a), name)))
+            start = refs[0]  # a fixed point, if the link has one
+            at = self._by_rates(order, ends[start], here - self.places[start.point], name)
+            self._reach_by(order, ref, at, Phrase("by rate", (self.label(ref), self.label(start), name)))
             return
         ratio = (here - self.places[a.point]) / bar
         at = self.board.instrument.point(ends[a] + (ends[b] - ends[a]) * ratio)

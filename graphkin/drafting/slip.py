@@ -33,8 +33,9 @@ def _same_rate(_: Symbol, value: float) -> float | None:
 class Slip:
     """Three places where a value may be another than the drawn one.
 
-    ``term`` gets each term of an equation before it is laid off; ``found`` each vector found, by tail and tip (mm on
-    paper), and returns its tip, end points by image included; ``rate`` each angular rate measured (rad/s, rad/s2), and returns None where it stays.
+    ``term`` gets each term of an equation before it is laid off; ``found`` each vector found (end points by image
+    included) by tail and tip, mm on paper, and returns its tip; ``rate`` each angular rate measured (rad/s, rad/s2),
+    and returns None where it stays.
     """
 
     term: Callable[[Part], Part] = _same_term

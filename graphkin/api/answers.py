@@ -1,0 +1,141 @@
+"""Answers of several people: a table with a row for each, from a CSV file or a mapping."""
+
+from __future__ import annotations
+
+import csv
+import io
+import os
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from graphkin.api.called import asked_symbols
+from graphkin.checking import Printed, stated
+from graphkin.errors import CallError, Problem
+from graphkin.scene.model import Scene
+from graphkin.scene.symbol import Symbol
+
+__all__ = ["Answers", "AnswersLike", "Rows", "as_answers", "table_of"]
+
+AnswersLike = str | os.PathLike[str] | Mapping[str, Mapping[str, object]]
+
+LARGEST = 10_000_000
+PLACE = "at"
+_QUANTITY = re.compile(r"(v|a|an|at|ak|ar|omega|alpha)_")
+
+
+@dataclass(frozen=True)
+class Rows:
+    """A table as read: its heads, and its rows with the number of their line."""
+
+    heads: tuple[str, ...]
+    rows: tuple[tuple[int, tuple[str, ...]], ...]
+
+
+@dataclass(frozen=True)
+class Answers:
+    """What one person states, and at which driver value (None: the scene's, or that of the call)."""
+
+    person: str
+    at: float | None
+    values: tuple[Printed, ...]
+
+
+def as_answers(scene: Scene, given: AnswersLike) -> tuple[Answers, ...]:
+    """The answers in a CSV file, or in a mapping from person to values by symbol.
+
+    The file has a line of heads: symbols ("v_D", "omega_3"), ``at`` for the driver's value where rows are positions,
+    and any other word for who it is (the first such column counts).  Units are the scene's, rad/s, rad/s2.  A vector is
+    one number, its size, or two with a blank or semicolon between.  An empty cell is no answer.
+
+    Raises
+    ------
+    CallError : everything that is wrong with the table, by line and column
+    """
+    if isinstance(given, Mapping):
+        heads = list(dict.fromkeys(s for values in given.values() for s in values))
+        rows = [(i, (name, *(_text(v.get(h, "")) for h in heads))) for i, (name, v) in enumerate(given.items(), 1)]
+        return _answers(scene, Rows(("person", *heads), tuple(rows)), "answers")
+    return _answers(scene, table_of(given), str(given))
+
+
+def table_of(path: str | os.PathLike[str]) -> Rows:
+    """A CSV file in UTF-8, or in GB 18030 as Chinese spreadsheets write it; commas, semicolons or tabs part the cells.
+
+    Raises CallError.
+    """
+    shown = str(path)[:200]
+    try:
+        with Path(path).open("rb") as stream:
+            data = stream.read(LARGEST + 1)
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise CallError(Problem(shown, f"cannot be read: {reason}", "name a CSV file")) from None
+    if len(data) > LARGEST:
+        raise CallError(Problem(shown, f"is larger than {LARGEST // 1_000_000} MB", "give fewer rows"))
+    text = ""
+    for encoding in ("utf-8-sig", "gb18030"):
+        try:
+            text = data.decode(encoding)
+            break
+        except UnicodeDecodeError:
+            continue
+    first = text.split("\n", 1)[0]
+    sign = max(",;\t", key=first.count)
+    try:
+        reader = csv.reader(io.StringIO(text), delimiter=sign, strict=True)
+        lines = [(reader.line_num, tuple(c.strip() for c in row)) for row in reader if any(c.strip() for c in row)]
+    except csv.Error as error:
+        raise CallError(Problem(shown, f"is no table: {error}", "save it as CSV")) from None
+    if len(lines) < 2:
+        raise CallError(Problem(shown, "has no rows", "write a line of heads, and a line for each row"))
+    return Rows(lines[0][1], tuple(lines[1:]))
+
+
+def _answers(scene: Scene, sheet: Rows, name: str) -> tuple[Answers, ...]:
+    symbols: dict[int, Symbol] = {}
+    problems: list[Problem] = []
+    for i, head in enumerate(sheet.heads):
+        if _QUANTITY.match(head):
+            try:
+                (symbols[i],) = asked_symbols(scene, [head])
+            except CallError as error:
+                problems += [Problem(f"{name}, column {head}", p.found, p.wanted) for p in error.problems]
+    if not symbols and not problems:
+        known = "write symbols as heads, for example v_D or omega_3"
+        problems.append(Problem(name, f"no column is a quantity: {', '.join(sheet.heads)[:200]}", known))
+    who = next((i for i, h in enumerate(sheet.heads) if i not in symbols and h != PLACE), None)
+    where = sheet.heads.index(PLACE) if PLACE in sheet.heads else None
+    found = []
+    for line, cells in sheet.rows:
+        values = []
+        for i, symbol in symbols.items():
+            text = cells[i] if i < len(cells) else ""
+            if text:
+                try:
+                    values.append(stated(symbol, _components(symbol, text), scene.units.metres))
+                except ValueError as error:
+                    problems.append(Problem(f"{name}, line {line}, {symbol}", str(error), "write a number alone"))
+        at = None
+        if where is not None and where < len(cells) and cells[where]:
+            try:
+                at = float(cells[where])
+            except ValueError:
+                problems.append(Problem(f"{name}, line {line}, at", f'"{cells[where][:40]}" is no driver value'))
+        person = cells[who] if who is not None and who < len(cells) else ""
+        found.append(Answers(person or ("" if at is not None else f"line {line}"), at, tuple(values)))
+    if problems:
+        raise CallError(*problems[:50])
+    return tuple(found)
+
+
+def _components(symbol: Symbol, text: str) -> Sequence[str]:
+    parts = re.split(r"[;,\s]+", text.strip("[]() "))
+    return parts if symbol.is_vector and len(parts) == 2 else [text]
+
+
+def _text(value: object) -> str:
+    if isinstance(value, list | tuple):
+        return "; ".join(str(v) for v in value)
+    return "" if value is None else str(value)

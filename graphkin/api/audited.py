@@ -1,0 +1,217 @@
+"""``graphkin audit``: other people's values judged, and what the wrong ones look like."""
+
+from __future__ import annotations
+
+import csv
+import html
+import io
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cache, cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from graphkin.api.answers import Answers, AnswersLike, as_answers
+from graphkin.api.called import At, SceneLike, as_scene, driver_values, own_unit
+from graphkin.api.checked import in_scene_units, solved_here
+from graphkin.api.files import write_files
+from graphkin.checking import Case, Judged, judge, predict, printed_values
+from graphkin.checking.suspects import Table
+from graphkin.drafting import plan
+from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.scene.model import AngleDriver, Scene
+from graphkin.scene.symbol import Symbol
+from graphkin.words import LANGUAGES, say, word
+
+if TYPE_CHECKING:
+    from graphkin.exact import Motion
+
+__all__ = ["Audited", "audit"]
+
+POSITIONS = 72
+
+
+@dataclass(frozen=True)
+class Audited:
+    """The values of each person with their verdicts; of a scene's ``[printed]`` values the person is ""."""
+
+    scene: Scene
+    people: tuple[tuple[Answers, tuple[Judged, ...]], ...]
+    language: str = "en"
+
+    @property
+    def ok(self) -> bool:
+        """Whether no value is wrong."""
+        return all(j.verdict != "wrong" for _, judged in self.people for j in judged)
+
+    @cached_property
+    def data(self) -> dict[str, Any]:
+        """The object that ``graphkin audit --json`` prints; values in scene units."""
+        values = [_value(self.scene, who, j, "en") for who, judged in self.people for j in judged]
+        return {"ok": self.ok, "values": values}
+
+    @property
+    def heads(self) -> list[str]:
+        """Heads of ``rows``."""
+        keys = ("quantity", "printed", "exact", "deviation", "verdict", "looks like")
+        who = [word("person", self.language)] if any(w.person for w, _ in self.people) else []
+        at = ["at"] if any(w.at is not None for w, _ in self.people) else []
+        return [*who, *at, *(word(k, self.language) for k in keys)]
+
+    @cached_property
+    def rows(self) -> list[list[str]]:
+        """The table as texts, in the language of the call."""
+        named = any(w.person for w, _ in self.people)
+        placed = any(w.at is not None for w, _ in self.people)
+        rows = []
+        for who, judged in self.people:
+            for j in judged:
+                row = _value(self.scene, who, j, self.language)
+                off = "" if row["deviation_pct"] is None else f"{row['deviation_pct']:+.2f} %"
+                rows.append(
+                    [
+                        *([who.person] if named else []),
+                        *(["" if who.at is None else f"{who.at:g}"] if placed else []),
+                        row["symbol"],
+                        ", ".join(j.printed.texts),
+                        _shown(row["exact"]),
+                        off,
+                        word(j.verdict, self.language),
+                        row.get("looks_like", ""),
+                    ]
+                )
+        return rows
+
+    def csv(self) -> str:
+        """The table as CSV."""
+        out = io.StringIO()
+        writer = csv.writer(out, lineterminator="\n")
+        writer.writerow(self.heads)
+        writer.writerows(self.rows)
+        return out.getvalue()
+
+    def write(self, folder: str | os.PathLike[str]) -> list[Path]:
+        """Write audit.csv into a folder.  Raises CallError where it cannot be written."""
+        return write_files(Path(folder), {"audit.csv": self.csv().encode("utf-8-sig")})
+
+    def _repr_html_(self) -> str:
+        def line(cells: Sequence[str], tag: str) -> str:
+            return "<tr>" + "".join(f"<{tag}>{html.escape(c)}</{tag}>" for c in cells) + "</tr>"
+
+        return f"<table>{line(self.heads, 'th')}{''.join(line(row, 'td') for row in self.rows)}</table>"
+
+
+def _value(scene: Scene, who: Answers, judged: Judged, language: str) -> dict[str, Any]:
+    symbol = judged.printed.symbol
+
+    def unit(value: complex | float) -> float | list[float]:
+        if isinstance(value, complex):
+            return [_plain(in_scene_units(scene, symbol, v)) for v in (value.real, value.imag)]
+        return _plain(in_scene_units(scene, symbol, value))
+
+    row: dict[str, Any] = {"symbol": str(symbol), "printed": unit(judged.printed.value), "exact": unit(judged.exact)}
+    row["deviation_pct"] = None if judged.deviation is None else 100 * judged.deviation
+    if judged.deviation is None:
+        row["why"] = "the exact value is zero"
+    row["verdict"] = judged.verdict
+    row["bound"] = unit(judged.bound)
+    if judged.looks_like is not None:
+        row["looks_like"] = say(judged.looks_like, language)
+    if judged.follows_from:
+        row["follows_from"] = [str(s) for s in judged.follows_from]
+    person = {"person": who.person} if who.person else {}
+    return {**person, **({"at": who.at} if who.at is not None else {}), **row}
+
+
+def _plain(value: float) -> float:
+    return float(f"{value:.12g}")
+
+
+def _shown(value: float | list[float]) -> str:
+    return ", ".join(f"{v:.6g}" for v in (value if isinstance(value, list) else [value]))
+
+
+def audit(
+    scene: SceneLike, answers: AnswersLike | None = None, at: At = None, language: str | None = None
+) -> Audited:
+    """Judge the scene's ``[printed]`` values, or the answers of several people.
+
+    Parameters
+    ----------
+    scene, at : as for `solve`
+    answers : a CSV file with a row for each person (or, with a column ``at``, for each position) and symbols as heads,
+        or a mapping from person to values by symbol; in scene units, rad/s, rad/s2
+    language : "en" or "zh", of the table; the scene's own if None
+
+    Returns
+    -------
+    Audited; each value is "right" (to the digits stated), "within drafting accuracy" (of a pencil drawing with the
+    scene's scales and tools) or "wrong", then with what it looks like where a common slip explains it
+
+    Raises
+    ------
+    SceneError, CallError : the file, the table or the call is wrong, or there is nothing to judge
+    Unsolvable : wrong mobility, a position that cannot be assembled or reached, a dead point
+
+    Examples
+    --------
+    >>> [v["verdict"] for v in audit("shaper-scheme-2").data["values"] if v["symbol"] in ("a_B", "a_C")]
+    ['within drafting accuracy', 'wrong']
+    """
+    given = as_scene(scene)
+    if language is not None and language not in LANGUAGES:
+        raise CallError(Problem("lang", f'"{language}"', did_you_mean(language, LANGUAGES)))
+    if answers is None and not given.printed:
+        raise CallError(
+            Problem("printed", "the scene has no printed values", "write them in [printed], or give answers as CSV")
+        )
+    people = (Answers("", None, printed_values(given)),) if answers is None else as_answers(given, answers)
+    asked = list(dict.fromkeys(p.symbol for who in people for p in who.values))
+
+    @cache
+    def case(place: float | None) -> Case:
+        return _case(given, asked, at if place is None else place)
+
+    judged = tuple((who, judge(case(who.at), who.values)) for who in people)
+    return Audited(given, judged, language or given.sheet.language)
+
+
+def _case(scene: Scene, asked: Sequence[Symbol], at: At) -> Case:
+    values = driver_values(scene, at)
+    motion = solved_here(scene, values)
+    what = plan(scene, values, asked)
+    # everything is drawn, so that slips in what leads to the asked and beside it are found
+    whole = plan(scene, values, ())
+    drawn = what if set(what.elements) == set(whole.elements) else whole
+
+    def exact(symbol: Symbol) -> complex | float:
+        found = motion.value(symbol)[0]
+        return complex(found) if symbol.is_vector else float(found.real)
+
+    predicted = predict(what, "pencil", scene.sheet.tools)
+    return Case(drawn, exact, predicted, _elsewhere(scene, values))
+
+
+def _elsewhere(scene: Scene, values: dict[str, float] | None) -> Table:
+    """Exact values at the positions of a table: steps of 5 degrees, from here and from 0."""
+
+    @cache
+    def motions() -> tuple[Motion, ...]:
+        from graphkin import exact
+
+        first = scene.drivers[0]
+        if not isinstance(first, AngleDriver):
+            return ()
+        return exact.solve(scene, values, POSITIONS), exact.solve(scene, {**(values or {}), first.key: 0.0}, POSITIONS)
+
+    def table(symbol: Symbol) -> list[tuple[str, complex | float]]:
+        found = []
+        for motion in motions():
+            for i, value in enumerate(motion.value(symbol)):
+                if motion.ok[i]:
+                    name = f"{scene.drivers[0].key} = {own_unit(scene, scene.drivers[0], float(motion.values[i, 0]))}"
+                    found.append((name, complex(value) if symbol.is_vector else float(value.real)))
+        return found
+
+    return table

@@ -1,0 +1,168 @@
+"""Judging stated values: right, within drafting accuracy, or wrong, and then what the wrong one looks like.
+
+What a wrong value looks like is the likeliest of the known slips by Bayes' rule: how often it is made, times how well
+its value fits the digits stated, as a number computed (to its last digit) or drawn (with the predicted deviation).  A
+value is called by no name where no slip fits much better than chance.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Literal
+
+from graphkin.checking.followed import followed
+from graphkin.checking.lines import line_of
+from graphkin.checking.pen import slips_of_the_pen
+from graphkin.checking.printed import Printed
+from graphkin.checking.suspects import Case, Suspect, suspects
+from graphkin.scene.symbol import Symbol
+from graphkin.words import Phrase
+
+__all__ = ["Judged", "Verdict", "judge"]
+
+Verdict = Literal["right", "within drafting accuracy", "wrong"]
+Value = complex | float
+
+RIGHT_SHARE = 0.7  # drawn values that are right but for drafting errors
+CHANCE = 0.15  # a wrong value lies anywhere, within its own size
+SURER = 10.0  # so much likelier must a slip be than drafting errors, to call a value in their reach wrong
+DIGITS = 5  # fewer digits than this tell no slip from an error of drafting
+COMPUTED = 1e-5  # relative error of values worked out with rounded ones
+
+
+@dataclass(frozen=True)
+class Judged:
+    """One stated value with its verdict.
+
+    ``exact`` is what it is held against: signed where it has a sense, a complex number against two components, else
+    the size of the vector (SI).  ``deviation`` is the relative one, None where the exact value is zero; ``bound`` what
+    a pencil drawing keeps within (0 where nothing can be predicted).  ``follows_from`` are earlier wrong values of the
+    same person from which it follows.
+    """
+
+    printed: Printed
+    exact: Value
+    deviation: float | None
+    verdict: Verdict
+    bound: float
+    looks_like: Phrase | None = None
+    follows_from: tuple[Symbol, ...] = ()
+
+
+def judge(case: Case, stated: Sequence[Printed]) -> tuple[Judged, ...]:
+    """Judge the values of one person."""
+    first = [_judged(case, p) for p in stated]
+    wrong = [j.printed.symbol for j in first if j.verdict == "wrong"]
+    own = {p.symbol: p.value for p in stated}
+    return tuple(_explained(case, j, own, wrong) if j.verdict == "wrong" else j for j in first)
+
+
+def _judged(case: Case, printed: Printed) -> Judged:
+    symbol = printed.symbol
+    right = case.exact(symbol)
+    line = line_of(case.sheet, symbol)
+    exact = _comparable(printed, right, line)
+    off = abs(printed.value - exact)
+    uncertainty = case.predicted.get(symbol)
+    bound = uncertainty.bound if uncertainty and math.isfinite(uncertainty.bound) else 0.0
+    deviation = _deviation(printed, exact)
+    if off <= printed.rounding + 1e-9 * abs(exact):
+        return Judged(printed, exact, deviation, "right", bound)
+    verdict: Verdict = "within drafting accuracy" if off <= bound + printed.coarse else "wrong"
+    judged = Judged(printed, exact, deviation, verdict, bound)
+    if verdict == "wrong":
+        return judged
+    if printed.digits >= DIGITS:
+        best = max(_weighed(case, judged), key=lambda w: w[1], default=None)
+        drawn = RIGHT_SHARE * _likelihood(printed, off, bound / 3, exact)
+        if best and best[1] > SURER * drawn and _fits_to_the_digit(judged, best[0], case):
+            return replace(judged, verdict="wrong", looks_like=best[0].phrase)
+    return judged
+
+
+def _deviation(printed: Printed, exact: Value) -> float | None:
+    if exact == 0:
+        return None
+    if isinstance(exact, complex):
+        return abs(printed.value - exact) / abs(exact)
+    return (printed.value.real - exact) / exact
+
+
+def _comparable(printed: Printed, value: Value, line: complex | None) -> Value:
+    """A value as it would be stated in the form of the printed one."""
+    if not printed.symbol.is_vector:
+        return float(value.real)
+    if isinstance(printed.value, complex):
+        return complex(value)
+    if printed.value >= 0:
+        return abs(value)
+    # a negative number for a vector has a sense: along its line, if it has one
+    signed = (complex(value) * complex(line).conjugate()).real if line is not None else -abs(value)
+    return signed if isinstance(value, complex) else float(value)
+
+
+def _explained(case: Case, judged: Judged, own: Mapping[Symbol, Value], wrong: Iterable[Symbol]) -> Judged:
+    symbol = judged.printed.symbol
+    others = [s for s in wrong if s != symbol]
+    chance = CHANCE / max(abs(judged.printed.value), abs(judged.exact), judged.printed.step)
+    found = list(_weighed(case, judged))
+    line = line_of(case.sheet, symbol)
+    if others:
+        for value in followed(case.plan, case.sheet, own, symbol):
+            exact = _comparable(judged.printed, value, line)
+            if abs(exact - judged.exact) > judged.bound / 3:
+                names = tuple(s for s in others if _moves(case, own, s, symbol, judged))
+                phrase = Phrase("slip follows", (", ".join(str(s) for s in names),))
+                if names:
+                    found.append(_weight(judged, Suspect(phrase, value, 0.5), line))
+    best = max(found, key=lambda w: w[1], default=None)
+    if best is None or best[1] <= chance:
+        return replace(judged, looks_like=None) if judged.looks_like is None else judged
+    follows = best[0].phrase.key == "slip follows"
+    names = tuple(s for s in others if _moves(case, own, s, symbol, judged)) if follows else ()
+    return replace(judged, looks_like=best[0].phrase, follows_from=names)
+
+
+def _moves(case: Case, own: Mapping[Symbol, Value], one: Symbol, symbol: Symbol, judged: Judged) -> bool:
+    """Whether one wrong value, taken for granted, moves another by more than drafting errors do."""
+    line = line_of(case.sheet, symbol)
+    moved = followed(case.plan, case.sheet, {one: own[one]}, symbol)
+    return any(abs(_comparable(judged.printed, v, line) - judged.exact) > judged.bound / 3 for v in moved)
+
+
+def _weighed(case: Case, judged: Judged) -> Iterator[tuple[Suspect, float]]:
+    """Every explanation with its weight: share times likelihood (per unit of the value)."""
+    line = line_of(case.sheet, judged.printed.symbol)
+    for suspect in suspects(case, judged.printed.symbol):
+        yield _weight(judged, suspect, line)
+    for text, share, other in slips_of_the_pen(judged.printed):
+        off = abs(other - judged.exact)
+        weight = share * _likelihood(judged.printed, off, judged.bound / 3, judged.exact)
+        yield Suspect(Phrase("slip pen", (text,)), judged.exact, share), weight
+
+
+def _weight(judged: Judged, suspect: Suspect, line: complex | None) -> tuple[Suspect, float]:
+    printed = judged.printed
+    value = _comparable(printed, suspect.value, line)
+    relative = judged.bound / 3 / abs(judged.exact) if judged.exact else 0.0
+    spread = relative * abs(value) if suspect.drawn else 0.0
+    return suspect, suspect.share * _likelihood(printed, abs(printed.value - value), spread, value)
+
+
+def _likelihood(printed: Printed, off: float, spread: float, value: Value) -> float:
+    """Density of a stated value at a distance from what it should be: half of them computed, half of them drawn."""
+    half = printed.rounding + COMPUTED * abs(value)
+    computed = 0.5 / (2 * half) if off <= half else 0.0
+    if spread <= 0.0:
+        return computed
+    wide = math.hypot(spread, printed.step / math.sqrt(12))
+    return computed + 0.5 * math.exp(-0.5 * (off / wide) ** 2) / (wide * math.sqrt(math.tau))
+
+
+def _fits_to_the_digit(judged: Judged, suspect: Suspect, case: Case) -> bool:
+    if suspect.phrase.key == "slip pen":
+        return True
+    value = _comparable(judged.printed, suspect.value, line_of(case.sheet, judged.printed.symbol))
+    return abs(judged.printed.value - value) <= judged.printed.rounding + COMPUTED * abs(value)

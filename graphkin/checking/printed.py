@@ -1,0 +1,92 @@
+"""Values that somebody states, with the digits they are stated to."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from decimal import Decimal, InvalidOperation
+
+from graphkin.scene.model import Scene
+from graphkin.scene.symbol import Symbol
+
+__all__ = ["Printed", "printed_values", "stated"]
+
+Value = complex | float
+
+
+@dataclass(frozen=True)
+class Printed:
+    """A stated value.
+
+    ``value`` (SI) is a float, or a complex number for a vector given by two components; ``step`` (SI) one unit of its
+    last digit; ``digits`` the number of its significant digits; ``texts`` what was written, in scene units.
+    """
+
+    symbol: Symbol
+    value: Value
+    step: float
+    digits: int
+    texts: tuple[str, ...]
+
+    @property
+    def rounding(self) -> float:
+        """How far a right value may lie from it (SI): half a unit of the last digit."""
+        return 0.5 * self.step * (1 + 1e-9)
+
+    @property
+    def coarse(self) -> float:
+        """The same in the person's favour: a whole number that ends in a zero may be rounded to tens (0.52 m/s, written
+        520 mm/s), where that is no more than one in a hundred."""
+        if any("." in t or not t.endswith("0") for t in self.texts):
+            return self.rounding
+        return max(self.rounding, min(5.0 * self.step, 0.01 * abs(self.value)))
+
+
+def stated(symbol: Symbol, texts: Sequence[str], metres: float) -> Printed:
+    """A value from its text, or the texts of its two components, in scene units (``metres`` is one length unit in m).
+
+    Trailing zeros of whole numbers count as written: 480 is stated to the unit.
+
+    Raises
+    ------
+    ValueError : a text that is no number
+
+    >>> v = stated(Symbol.parse("v_D"), ["480.0"], 1e-3)
+    >>> v.value, v.step, v.digits
+    (0.48, 0.0001, 4)
+    """
+    unit = metres if symbol.is_vector else 1.0
+    numbers = [_number(text) for text in texts]
+    values = [float(n) * unit for n in numbers]
+    last = max(int(n.as_tuple().exponent) for n in numbers)
+    digits = max(len(n.as_tuple().digits) for n in numbers)
+    value: Value = complex(*values) if len(values) == 2 else values[0]
+    return Printed(symbol, value, 10.0**last * unit, digits, tuple(t.strip() for t in texts))
+
+
+def _number(text: str) -> Decimal:
+    plain = text.strip().replace("\u2212", "-")
+    try:
+        number = Decimal(plain)
+    except InvalidOperation:
+        raise ValueError(f'"{plain[:40]}" is no number') from None
+    if not number.is_finite() or not abs(number) < Decimal("1e15") or len(plain) > 40:
+        raise ValueError(f'"{plain[:40]}" is no number of a size that can be meant')
+    return number
+
+
+def printed_values(scene: Scene) -> tuple[Printed, ...]:
+    """The ``[printed]`` values of a scene, as they stand in the file but for zeros at the end of decimals."""
+    found = []
+    for symbol, value in scene.printed.items():
+        unit = scene.units.metres if symbol.is_vector else 1.0
+        parts = (value.real, value.imag) if isinstance(value, complex) else (value,)
+        found.append(stated(symbol, [_shortest(part / unit) for part in parts], scene.units.metres))
+    return tuple(found)
+
+
+def _shortest(number: float) -> str:
+    # unit conversion leaves noise in the last digits; nobody prints more than twelve
+    text = f"{number:.12g}"
+    return text if "e" not in text or not math.isfinite(number) else format(Decimal(text), "f")

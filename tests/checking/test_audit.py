@@ -1,0 +1,173 @@
+"""Judging stated values: published errors are found, right ones passed, common slips called by their names."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+import graphkin
+from graphkin.api.audited import _case
+from graphkin.checking import stated
+from graphkin.checking.pen import slips_of_the_pen
+from graphkin.errors import CallError
+from graphkin.scene import read
+from graphkin.scene.symbol import Symbol
+from graphkin.words import say
+
+SIXBAR = "sixbar-guide-40deg"
+TABLE = "sixbar-rotating-guide-35rpm"
+
+
+def verdicts(audited):
+    return {v["symbol"]: v["verdict"] for v in audited.data["values"]}
+
+
+def judged(scene, at=None, **values):
+    """The entry of the last of one person's values; @ is written _at_ and / is written _to_."""
+    named = {k.replace("_at_", "@").replace("_to_", "/"): v for k, v in values.items()}
+    return graphkin.audit(scene, {"A": named}, at).data["values"][-1]
+
+
+def test_every_published_value_of_the_six_bar_passes():
+    assert {"right", "within drafting accuracy"} == set(verdicts(graphkin.audit(SIXBAR)).values())
+
+
+def test_of_the_shaper_only_the_acceleration_of_the_ram_is_wrong():
+    assert ["a_C"] == [s for s, v in verdicts(graphkin.audit("shaper-scheme-2")).items() if v == "wrong"]
+
+
+@pytest.mark.parametrize(
+    ("scene", "symbol"), [("hit16-double-guide", "alpha_5"), (TABLE, "v_D"), ("slotter-75-150", "v_C")]
+)
+def test_a_published_error_is_found(scene, symbol):
+    assert "wrong" == verdicts(graphkin.audit(scene))[symbol]
+
+
+@pytest.mark.parametrize("scene", ["rotating-guide-bar", "cam-eccentric-flat-rocker"])
+def test_a_value_right_to_its_digits_is_right(scene):
+    assert {"right"} == set(verdicts(graphkin.audit(scene)).values())
+
+
+def test_the_slotter_was_taken_from_the_other_assembly():
+    assert "other assembly" in graphkin.audit("slotter-75-150").data["values"][0]["looks_like"]
+
+
+def test_a_number_copied_wrong_is_told_with_what_stood_there():
+    assert "a slip of the pen for 1293.698" == graphkin.audit(TABLE).data["values"][0]["looks_like"]
+
+
+def test_a_value_of_another_column_is_wrong_even_within_drafting_accuracy():
+    entry = judged(TABLE, -120, a_D="4920.073")
+    assert ("wrong", "another column: the x component of a_S4") == (entry["verdict"], entry["looks_like"])
+
+
+def test_a_value_of_another_position_is_told_with_it():
+    assert "another position" in judged(TABLE, -60, v_D="434.0523")["looks_like"]
+
+
+def test_drawings_in_pencil_are_within_drafting_accuracy():
+    people = {}
+    for seed in range(2):
+        rows = graphkin.check(SIXBAR, instrument="pencil", seed=seed).data["readings"]
+        people[str(seed)] = {r["symbol"]: f"{r['measured']:.4g}" for r in rows}
+    assert graphkin.audit(SIXBAR, people).ok
+
+
+@pytest.mark.parametrize(
+    ("values", "name"),
+    [
+        ({"omega_3": "2.819"}, "sign"),
+        ({"v_D": "0.4827"}, "wrong unit: 0.001 times"),
+        ({"omega_3": "-26.92"}, "wrong unit: r/min"),
+        ({"a_D": "55.4668"}, "velocity scale used for acceleration"),
+        ({"a_D": "1126"}, "Coriolis left out (ak_D@4/D@3)"),
+        ({"a_D": "1698"}, "Coriolis reversed (ak_D@4/D@3)"),
+        ({"a_D": "4609"}, "Coriolis reversed (ak_B@3/B@2, ak_D@4/D@3)"),
+        ({"a_B_at_3": "3030"}, "normal term only"),
+        ({"a_B_at_3": "2515"}, "tangential term only"),
+        ({"v_D": "99.2"}, "a relative vector for the absolute one: v_D@4/D@3"),
+        ({"v_D": "48.3"}, "millimetres on paper"),
+    ],
+)
+def test_a_common_slip_is_called_by_its_name(values, name):
+    entry = judged(SIXBAR, **values)
+    assert "wrong" == entry["verdict"]
+    assert name in entry["looks_like"]
+
+
+def test_what_follows_from_an_earlier_wrong_value_is_told_with_it():
+    # at = 8998 is the Coriolis term reversed; a = hypot(3033, 8998) and alpha = at / BC are right on their own inputs
+    entry = judged(SIXBAR, an_B_at_3_to_C="3033", at_B_at_3_to_C="8998", alpha_3="23.58")
+    assert ("wrong", ["at_B@3/C"]) == (entry["verdict"], entry["follows_from"])
+
+
+def test_a_wrong_angular_velocity_is_followed_to_a_point_far_from_it():
+    entry = judged(SIXBAR, omega_3="-3.5", v_D_at_3="586.5")
+    assert "follows from an earlier wrong value: omega_3" == entry["looks_like"]
+
+
+def test_a_wrong_value_that_nothing_explains_has_no_name():
+    assert "looks_like" not in judged(SIXBAR, v_D="701")
+
+
+def test_slips_drawn_out_in_any_mechanism_are_found_again():
+    scene = read("shaper-scheme-2")
+    for phrase, _, values in _case(scene, [], None).altered:
+        wrong = abs(values[Symbol.parse("a_C")]) * 1e3
+        if "coriolis" in phrase.key and abs(wrong - 4137.5) > 300:
+            assert say(phrase) == judged(scene, a_C=f"{wrong:.5g}")["looks_like"]
+
+
+def test_half_a_unit_of_the_last_digit_is_right_and_more_is_not():
+    assert ["right", "within drafting accuracy"] == [judged(SIXBAR, v_D=t)["verdict"] for t in ("482.7", "482.8")]
+
+
+def test_digits_are_those_written():
+    printed = stated(Symbol.parse("v_D"), ["480.0"], 1e-3)
+    assert (4, pytest.approx(1e-4)) == (printed.digits, printed.step)
+
+
+def test_two_digits_exchanged_are_among_the_slips_of_the_pen():
+    assert 482.7 in [v for _, _, v in slips_of_the_pen(stated(Symbol.parse("omega_3"), ["428.7"], 1e-3))]
+
+
+def test_people_and_positions_are_read_from_a_table(tmp_path):
+    (tmp_path / "a.csv").write_bytes("姓名;at;v_D\n王;-60;1293.695\n李;-90;1466.08\n".encode("gb18030"))
+    found = graphkin.audit(TABLE, tmp_path / "a.csv").data["values"]
+    assert [("王", -60, "right"), ("李", -90, "right")] == [(v["person"], v["at"], v["verdict"]) for v in found]
+
+
+def test_everything_wrong_with_a_table_is_said_at_once(tmp_path):
+    (tmp_path / "a.csv").write_text("name,v_Q,v_D,a_D\nx,1,many,2\ny,1,2,nan\n")
+    with pytest.raises(CallError) as refusal:
+        graphkin.audit(TABLE, tmp_path / "a.csv")
+    assert 3 == len(refusal.value.problems)
+
+
+@pytest.mark.parametrize("text", ["", "v_D\n", "name,mark\nx,3\n"])
+def test_a_table_without_answers_is_refused(tmp_path, text):
+    (tmp_path / "a.csv").write_text(text)
+    with pytest.raises(CallError):
+        graphkin.audit(TABLE, tmp_path / "a.csv")
+
+
+def test_a_name_cannot_write_into_the_page():
+    page = graphkin.audit(SIXBAR, {"<script>": {"v_D": 480}})._repr_html_()
+    assert "<script>" not in page
+
+
+def test_the_command_prints_the_json_of_the_contract_and_exits_1(tmp_path):
+    main = [sys.executable, "-c", "from graphkin.cli import main; main()"]
+    call = [*main, "audit", "shaper-scheme-2", "--json", "-o", "o"]
+    done = subprocess.run(call, capture_output=True, text=True, cwd=tmp_path)
+    rows = {v["symbol"]: v for v in json.loads(done.stdout)["values"]}
+    assert (1, -13.47) == (done.returncode, pytest.approx(rows["a_C"]["deviation_pct"], abs=0.01))
+    assert (tmp_path / "o" / "audit.csv").exists()
+
+
+def test_a_scene_without_printed_values_is_refused():
+    with pytest.raises(CallError):
+        graphkin.audit("toggle-press")
