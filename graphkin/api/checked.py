@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from graphkin.api.called import At, SceneLike, as_scene, asked_symbols, driver_values, own_unit
 from graphkin.checking import Advice, Compared, Report, Uncertainty, advise, compare, predict, read_off
 from graphkin.drafting import EXACT, Cad, Instrument, Plan, Sheet, execute, pencil, plan
+from graphkin.drafting.sheet import DiagramName
 from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
 from graphkin.scene.model import Scene
 from graphkin.scene.symbol import Symbol
@@ -192,7 +193,11 @@ def checked(what: Plan, motion: Motion, hand: Instrument) -> Checked:
     sheet = execute(what, hand)
     readings = read_off(sheet, (), hand)
     if hand is EXACT:
-        return Checked(sheet, compare(sheet, readings, value, what.asked))
+        rounding: dict[DiagramName, float] = {
+            "velocity": float(motion.velocity_bound[0]),
+            "acceleration": float(motion.acceleration_bound[0]),
+        }
+        return Checked(sheet, compare(sheet, readings, value, what.asked, rounding=rounding))
     tools = what.structure.scene.sheet.tools
     predicted = predict(what, hand.name, tools)
     advice = advise(what, hand.name, tools, readings, predicted)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from graphkin.checking.readings import Reading
 from graphkin.checking.uncertainty import Uncertainty
-from graphkin.drafting.sheet import Scales, Sheet
+from graphkin.drafting.sheet import DiagramName, Scales, Sheet
 from graphkin.scene.symbol import Symbol
 
 __all__ = ["Compared", "Report", "compare"]
@@ -68,6 +68,7 @@ def compare(
     exact: Exact,
     asked: Sequence[Symbol] = (),
     predicted: Mapping[Symbol, Uncertainty] | None = None,
+    rounding: Mapping[DiagramName, float] | None = None,
 ) -> Report:
     """Hold readings against exact values.
 
@@ -76,6 +77,8 @@ def compare(
     exact : gives the exact value of a symbol at the drawn position (SI; a complex number for a vector)
     predicted : uncertainty of each reading, by which it is judged; without it (exact instrument) a reading may be off
         by 1e-9 of the largest vector of the diagram, a rate by 1e-9 of the largest rate or of that vector over the size
+    rounding : how far rounding may have moved the exact vectors of a diagram (m/s, m/s2): within a hair of a dead point
+        it exceeds 1e-9, and drawing and solver can agree no better
     """
     pairs = [(r, exact(r.symbol)) for r in readings]
     # a vector is judged by the largest of its diagram, a rate by the largest rate or by that vector over the size
@@ -98,7 +101,8 @@ def compare(
         if reading.symbol.is_vector and min(abs(reading.value), abs(value)) > 1e-7 * most:
             turned = cmath.phase(complex(reading.value) / complex(value))
         expected = (predicted or {}).get(reading.symbol)
-        tolerance = max(expected.bound if expected else 0.0, EXACT_TOLERANCE * most)
+        rounded = (rounding or {}).get(reading.diagram, 0.0) / (1.0 if reading.symbol.is_vector else sheet.scene.size)
+        tolerance = max(expected.bound if expected else 0.0, EXACT_TOLERANCE * most, rounded)
         rows.append(Compared(reading, value, error, tolerance, turned, expected))
     have = {r.symbol for r in readings}
     return Report(sheet.instrument, sheet.scales, tuple(rows), tuple(s for s in asked if s not in have))

@@ -152,3 +152,17 @@ def test_a_mechanism_of_which_nothing_can_be_drawn_is_said_not_crashed_on():
     }
     result = graphkin.check(trammel)
     assert not result.complete
+
+
+@pytest.mark.parametrize("angle", [-89.99, -89.9])
+def test_a_guide_bar_just_before_its_flip_is_judged_by_what_rounding_leaves(angle):
+    flip = {
+        "frame": {"points": {"A": [0, 0], "C": [0, -100]}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 100},
+            "2": {"points": ["B"], "on": "3"},
+            "3": {"points": ["C"]},
+        },
+        "driver": {"link": "1", "angle": angle, "omega": 10},
+    }
+    assert graphkin.check(flip).ok
