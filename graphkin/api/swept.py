@@ -139,8 +139,8 @@ def sweep(
     Parameters
     ----------
     scene, at, find : as for `check`; over designs a file, a name or a mapping
-    out : folder for table.csv (and table.parquet where pyarrow is installed), designs.csv and the figures; an interrupted
-        sweep into the same folder goes on where it stopped
+    out : folder for table.csv (and table.parquet where pyarrow is installed), designs.csv and the figures; an
+        interrupted sweep into the same folder goes on where it stopped
     positions : rows of the table, over a turn from the scene's own value on, or over the range of a driven slide
     designs : numbers to replace, by keys of the scene file with dots: {"links.1.length": "40:60:21"} is a grid of 21,
         "40,50,60" or a sequence a list; several keys give every combination

@@ -49,7 +49,8 @@ def _turn(turn: Turn, language: str) -> list[str]:
         lines.append("  " + say(Phrase("also assembles", (_between(scene, other.low, other.high),)), language))
     for loop in turn.loops:
         turning = say(Phrase("turns fully", (", ".join(loop.turns) or "–",)), language)
-        lines.append(f"{word('basic mechanism', language)} {', '.join(loop.links)}: {word(loop.name, language)}; {turning}")
+        names = ", ".join(loop.links)
+        lines.append(f"{word('basic mechanism', language)} {names}: {word(loop.name, language)}; {turning}")
     for output in turn.outputs:
         lines += _output(turn, output, language)
     for least in turn.transmission:
@@ -103,11 +104,13 @@ def _curves(turn: Turn, language: str) -> list[str]:
     moving = [t for t in turn.curves if t.constant is None and not t.quantity.is_position]
     for traced in moving[:MOST_CURVES]:
         quantity = traced.quantity
-        high, low = traced.greatest, traced.least
+        high = max((e for e in traced.extremes if e.kind == "max"), key=lambda e: e.value, default=None)
+        low = min((e for e in traced.extremes if e.kind == "min"), key=lambda e: e.value, default=None)
         parts = []
         for key, extreme in (("greatest", high), ("least", low)):
             if extreme is not None:
-                parts.append(f"{word(key, language)} {quantity.in_units(scene, extreme.value):.6g} @ {_at(scene, extreme)}")
+                value = quantity.in_units(scene, extreme.value)
+                parts.append(f"{word(key, language)} {value:.6g} @ {_at(scene, extreme)}")
         if traced.zeros:
             places = ", ".join(own_unit(scene, scene.drivers[0], z) for z in traced.zeros)
             parts.append(f"{word('zero at', language)} {places}")

@@ -150,10 +150,10 @@ def written(value: float, decimals: int, step: float) -> str:
     return f"{digits}·$10^{{{raised}}}$"
 
 
-def degree_axis(low: float, high: float, title: str = "") -> Axis:
+def degree_axis(low: float, high: float, title: str = "", most: int = 13) -> Axis:
     """An axis of angles in degrees, ticks at 30, 45, 60, 90 or at parts of them."""
     wide = high - low
-    step = next((s for s in (1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 60.0, 90.0, 180.0) if wide / s <= 13), 360.0)
+    step = next((s for s in (1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 60.0, 90.0, 180.0) if wide / s <= most), 360.0)
     first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
     ticks = tuple((k * step, f"{k * step:g}".replace("-", "−")) for k in range(first, last + 1))
     return Axis(low, high, ticks, title)

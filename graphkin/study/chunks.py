@@ -10,11 +10,11 @@ import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
 import numpy as np
 
-from graphkin import __version__
 from graphkin.errors import GraphkinError, Unsolvable
 from graphkin.exact import solve_structure, structure_of
 from graphkin.scene import read
@@ -27,6 +27,8 @@ from graphkin.study.table import Column, columns_of, csv_cell, csv_lines, driver
 from graphkin.study.turn import study_turn
 
 __all__ = ["Done", "Plan", "Task", "work"]
+
+Outcome = tuple[int, str, str, dict[str, float | str | None], int]
 
 BLOCK = 16384
 """Positions in a chunk, about."""
@@ -58,7 +60,7 @@ class Plan:
         """A key that two sweeps share only if they give the same results."""
         source = repr(self.source) if isinstance(self.source, Scene) else json.dumps(self.source, default=str)
         asked = [str(s) for s in self.asked]
-        parts = (__version__, FORMAT, BLOCK, source, self.name, self.designs, self.positions, asked, self.at)
+        parts = (_version(), FORMAT, BLOCK, source, self.name, self.designs, self.positions, asked, self.at)
         return hashlib.sha256(repr(parts).encode()).hexdigest()[:24]
 
     @property
@@ -96,9 +98,15 @@ class Plan:
             some = range(chunk * each, min((chunk + 1) * each, len(self.designs)))
             first, last = 0, self.positions
         designs = tuple((k, self.designs[k]) for k in some)
-        return Task(
-            self.key, self.source, self.designs.keys, designs, self.positions, first, last, self.columns, self.at, binary
-        )
+        keys = self.designs.keys
+        return Task(self.key, self.source, keys, designs, self.positions, first, last, self.columns, self.at, binary)
+
+
+def _version() -> str:
+    try:
+        return version("graphkin")
+    except PackageNotFoundError:  # run from a checkout that is not installed
+        return "unknown"
 
 
 @dataclass(frozen=True)
@@ -123,13 +131,15 @@ class Done:
 
     text : its lines of the table
     numbers : float64 bytes of the table's numbers, for binary tables
-    designs : (design, status, why, cells) of each design whose first position is in it
+    designs : for each design the chunk holds positions of: its number from 0, the status and the reason of the first
+        position that has none, its cells in the table of designs (where its first position is in the chunk), and
+        its positions that are ok
     good : positions that are ok
     """
 
     text: bytes
     numbers: bytes
-    designs: tuple[tuple[int, str, str, dict[str, float | str | None]], ...]
+    designs: tuple[Outcome, ...]
     good: int
 
 
@@ -174,26 +184,26 @@ def _design(task: Task, design: int, values: tuple[Value, ...]) -> Done:
     course = _course(task, design, values)
     lead = [str(design + 1), *(csv_cell(v) for v in values)] if task.keys else []
     n = task.last - task.first
-    made: tuple[tuple[int, str, str, dict[str, float | str | None]], ...] = ()
+    cells: dict[str, float | str | None] = {}
     if isinstance(course, tuple):
         status, why = course
         drivers = 1 if isinstance(task.source, Scene) else len(_driver_tables(task.source))
         numbers = np.full((n, drivers + len(task.columns)), np.nan)
         tail = [f"{csv_cell(status)},{csv_cell(why)}"] * n
-        made, good = ((design, status, why, {}),), 0
+        good = 0
     else:
         motion = course.motion(course.table_offsets(task.positions, task.first, task.last))
         numbers = table_numbers(course, task.columns, motion)
         tail = [f"{s},{csv_cell(w)}" if w else f"{s}," for s, w in zip(motion.status.tolist(), motion.why, strict=True)]
         good = int(motion.ok.sum())
+        bad = next((k for k in range(n) if motion.why[k]), None)
+        status, why = ("ok", "") if bad is None else (str(motion.status[bad]), motion.why[bad])
         if task.keys and task.first == 0:
             cells = row(study_turn(course, everything=False))
-            status = "ok" if good == task.last else "partly"
-            made = ((design, status, "" if status == "ok" else course.limit_why, cells),)
     head = [(*lead, str(k + 1)) for k in range(task.first, task.last)]
     text = csv_lines(head, numbers, tail).encode()
-    return Done(text, np.ascontiguousarray(numbers).tobytes() if task.binary else b"",
-                made if task.first == 0 else (), good)
+    binary = np.ascontiguousarray(numbers).tobytes() if task.binary else b""
+    return Done(text, binary, ((design, status, why, cells, good),) if task.keys else (), good)
 
 
 def _driver_tables(source: Mapping[str, Any]) -> list[Any]:

@@ -24,6 +24,7 @@ FIRST_PIECES = 8
 MOST_DEPTH = 12
 MOST_PIECES = 500
 RESOLVED = 2e-14
+PLATEAU = 1e-10
 OUTSIDE = 1e-9
 """A root this far outside its piece (in half widths) is still its own: two pieces meet there."""
 SAME = 1e-8
@@ -38,6 +39,7 @@ class Pieces:
 
     low, high : shape (pieces,), the ends of each piece, in increasing order
     coefficients : shape (pieces, points, curves)
+    weight : shape (curves,), the power of sin(parameter) that the curves were multiplied by to stay finite at the ends
     scale : shape (curves,), the largest value of each curve (the usual one, where it grows without bound), or the floor
     """
 
@@ -46,6 +48,7 @@ class Pieces:
     coefficients: Array
     scale: Array
     periodic: bool
+    weight: Array
 
     def zeros(self, curve: int) -> Array:
         """Parameters at which a curve is zero, in increasing order."""
@@ -53,7 +56,16 @@ class Pieces:
 
     def extremes(self, curve: int) -> Array:
         """Parameters at which the derivative of a curve is zero, in increasing order."""
-        slopes = np.stack([chebyshev.chebder(c) for c in self.coefficients[:, :, curve]])
+        c = self.coefficients[:, :, curve]
+        slopes = np.stack([chebyshev.chebder(piece) for piece in c])
+        power = self.weight[curve]
+        if power:
+            # f = g / sin^p is at rest where g' sin - p g cos = 0
+            half = (self.high - self.low)[:, None] / 2
+            at = (self.low + self.high)[:, None] / 2 + half * _NODES
+            g = c @ chebyshev.chebvander(_NODES, POINTS - 1).T
+            dg = slopes @ chebyshev.chebvander(_NODES, POINTS - 2).T / half
+            slopes = (half * (dg * np.sin(at) - power * g * np.cos(at))) @ _FIT.T
         # rounding of the values, seen in the derivative of a polynomial of this degree
         return self._roots(slopes, self.scale[curve] * POINTS)
 
@@ -101,8 +113,8 @@ def _real_roots(c: Array, rounding: float) -> list[float]:
             continue
         x = float(z.real)
         for _ in range(3):
-            rate = chebyshev.chebval(x, slope)
-            step = chebyshev.chebval(x, c) / rate if rate else 0.0
+            rate = float(chebyshev.chebval(x, slope))
+            step = float(chebyshev.chebval(x, c) / rate) if rate else 0.0
             x -= step if abs(step) < 1e-6 else 0.0
         # a pair of complex roots near the axis is a curve that comes close to zero without reaching it
         if abs(x) <= 1 + OUTSIDE and (abs(z.imag) < 1e-12 or _crosses(c, x, abs(z.imag))):
@@ -118,7 +130,12 @@ def _crosses(c: Array, x: float, reach: float) -> bool:
 
 
 def resolve(
-    curves: Callable[[Array], Array], low: float, high: float, periodic: bool = False, floor: Array | float = 0.0
+    curves: Callable[[Array], Array],
+    low: float,
+    high: float,
+    periodic: bool = False,
+    floor: Array | float = 0.0,
+    weight: Array | None = None,
 ) -> Pieces:
     """Represent curves to rounding.
 
@@ -127,10 +144,13 @@ def resolve(
     curves : function of parameters, shape (n,), to values, shape (n, curves); values that are not finite are taken as 0
     low, high : range of the parameter
     periodic : whether both ends are the same position
+    weight : shape (curves,), powers of sin(parameter) that the curves are multiplied by: over a range 0 .. pi, for
+        curves that grow without bound at its ends.  The zeros stay, the extremes found are those of the curve itself.
     floor : shape (curves,), values that are as good as zero relative to it are not looked into
     """
     edges = np.linspace(low, high, FIRST_PIECES + 1)
     waiting = np.stack([edges[:-1], edges[1:]], axis=1)
+    power = np.zeros(1) if weight is None else weight
     before = np.full((len(waiting), 1), np.inf)
     done: list[tuple[Array, Array]] = []
     scale = usual = np.zeros(1)
@@ -138,6 +158,8 @@ def resolve(
         middle, half = waiting.mean(axis=1), np.diff(waiting, axis=1)[:, 0] / 2
         at = middle[:, None] + half[:, None] * _NODES
         value = curves(at.ravel())
+        if weight is not None:
+            value = value * np.sin(at.ravel())[:, None] ** power
         value = np.where(np.isfinite(value), value, 0.0).reshape(len(waiting), POINTS, -1)
         local = np.abs(value).max(axis=1)
         if depth == 0:
@@ -146,9 +168,10 @@ def resolve(
             usual = scale
         c = np.einsum("kn,pnc->pkc", _FIT, value)
         tail = np.abs(c[:, -3:]).max(axis=1)
-        # what does not shrink when a piece is halved is rounding, which no halving takes away
-        shrinks = tail < 0.25 * before if depth > 2 else np.ones_like(tail, dtype=bool)
-        rough = np.any((tail > RESOLVED * np.maximum(np.maximum(local, usual), 1e-300)) & shrinks, axis=1)
+        size = np.maximum(np.maximum(local, usual), 1e-300)
+        # what is small and does not shrink when a piece is halved is rounding, which no halving takes away
+        rounding = (tail < PLATEAU * size) & (tail > 0.25 * before)
+        rough = np.any((tail > RESOLVED * size) & ~rounding, axis=1)
         if depth == MOST_DEPTH or len(done) + 2 * int(rough.sum()) > MOST_PIECES:
             rough[:] = False
         done += [(w, k) for w, k in zip(waiting[~rough], c[~rough], strict=True)]
@@ -164,4 +187,5 @@ def resolve(
         np.stack([k for _, k in done]),
         scale,
         periodic,
+        np.broadcast_to(power, scale.shape),
     )

@@ -25,8 +25,8 @@ MOST_ROWS = 1_000_000
 class Designs:
     """What is replaced in each design: keys of the scene file with dots, and their values.
 
-    Either every combination of the values of each key (``grid``; the last key changes fastest), or ``rows`` of one value
-    for each key.
+    ``rows`` give one value for the first keys each, ``grid`` the values of the others; every combination is a design,
+    the last key changes fastest.
     """
 
     keys: tuple[str, ...] = ()
@@ -47,7 +47,9 @@ class Designs:
         return (*(self.rows[index] if self.rows is not None else ()), *values)
 
 
-def designs_of(given: Mapping[str, str | Sequence[Value] | Value] | None, table: str | os.PathLike[str] | None) -> Designs:
+def designs_of(
+    given: Mapping[str, str | Sequence[Value] | Value] | None, table: str | os.PathLike[str] | None = None
+) -> Designs:
     """Designs from grids and lists, and from a CSV file; both together give every combination.
 
     Parameters
@@ -66,7 +68,8 @@ def designs_of(given: Mapping[str, str | Sequence[Value] | Value] | None, table:
             grid[key] = _values(values)
         except ValueError as error:
             problems.append(Problem(f"--set {key}", str(error), "write KEY=40:60:21, KEY=40,50,60 or KEY=50"))
-    rows, keys = None, ()
+    rows: tuple[tuple[Value, ...], ...] | None = None
+    keys: tuple[str, ...] = ()
     if table is not None:
         keys, rows = read_designs(table)
         twice = [key for key in grid if key in keys]
@@ -160,8 +163,8 @@ def read_designs(path: str | os.PathLike[str]) -> tuple[tuple[str, ...], tuple[t
 def applied(source: Mapping[str, Any], keys: Sequence[str], values: Sequence[Value]) -> dict[str, Any]:
     """A scene's mapping with some numbers replaced.
 
-    Keys are those of the file with dots: ``links.1.length``, ``frame.points.D.x`` (or ``.1``: items of lists are counted
-    from 1, as in messages), ``driver.omega``, ``driver.2.angle`` of the second ``[[driver]]``.
+    Keys are those of the file with dots: ``links.1.length``, ``frame.points.D.x`` (or ``.1``: items of lists are
+    counted from 1, as in messages), ``driver.omega``, ``driver.2.angle`` of the second ``[[driver]]``.
 
     Raises
     ------
@@ -176,6 +179,13 @@ def applied(source: Mapping[str, Any], keys: Sequence[str], values: Sequence[Val
     if problems:
         raise CallError(*problems)
     return made
+
+
+def _known_keys(parts: Sequence[str]) -> set[str]:
+    """Keys that the reader knows in a table."""
+    if parts and parts[0] == "driver":
+        return {k for kind in ("<angle>", "<slide>") for k in keys_at(("driver", "<one>", kind))}
+    return set(keys_at(tuple(parts)))
 
 
 def _put(made: dict[str, Any], key: str, value: Value) -> Problem | None:
@@ -195,7 +205,7 @@ def _put(made: dict[str, Any], key: str, value: Value) -> Problem | None:
             continue
         if not isinstance(place, dict):
             return Problem(f"--set {key}", f"{before} is {place!r:.40} and has nothing inside")
-        if last and part not in place and part in keys_at(tuple(parts[:-1])):
+        if last and part not in place and part in _known_keys(parts[:-1]):
             place[part] = value
             return None
         if part not in place:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -238,7 +237,10 @@ def _panel(
     low, high = _span(course, values)
     letter, name = quantity.kind, quantity.of.split("/")[0]
     greek = {"theta": "θ", "omega": "ω", "alpha": "α"}.get(letter, letter)
-    y_axis = linear_axis(low, high, f"${greek}_{{{name}}}$ ({_unit(quantity.unit(scene, degrees=True))})", most=6, margin=0.14)
+    title = f"${greek}_{{{name}}}$ ({_unit(quantity.unit(scene, degrees=True))})"
+    y_axis = linear_axis(low, high, title, margin=0.14)
+    if quantity.kind == "theta" and high - low > 60:
+        y_axis = degree_axis(y_axis.low, y_axis.high, title, most=7)
     marks: list[Marks] = []
     if dots:
         at = np.array([d[0] for d in dots])
@@ -284,7 +286,13 @@ def _curve_page(turn: Turn, point: str, link: str, language: str) -> Drawing:
     path = course.motion(offsets).position(point, link)
     first = _first(course) if course.full else low
     steps = TICKS * max(course.turns, 1)
-    ticks = (first + np.arange(steps) * (high - low) / steps) % high if course.full else np.linspace(low, high, TICKS + 1)
+    if course.full:
+        ticks = (first + np.arange(steps) * (high - low) / steps) % high
+    else:
+        at_axis = np.array([v for v, _ in _driver_axis(course, language).ticks])
+        angle = isinstance(course.driver, AngleDriver)
+        values = np.radians(at_axis) if angle else at_axis * scene.units.metres
+        ticks = (values - course.start[0]) * course.sense
     at = course.motion(ticks).position(point, link)
     here = course.motion(np.zeros(1))
     places = {p: complex(here.position(p)[0]) for p in scene.holders}
@@ -300,13 +308,12 @@ def _curve_page(turn: Turn, point: str, link: str, language: str) -> Drawing:
         return panel.centre + complex(w.real, -w.imag)
 
     skeleton = _skeleton(turn, places, page)
-    curve = [Polyline((page(a), page(b)), Stroke(0.5)) for a, b in pairwise(path.tolist())
-             if math.isfinite(abs(a)) and math.isfinite(abs(b))]
     dots = [marker(page(complex(z)), "disc") for z in at if math.isfinite(abs(z))]
     axis_unit = "°" if isinstance(course.driver, AngleDriver) else ""
     numbers = [_driver_number(scene, float(course.value(t))) for t in ticks]
+    numbers = [round(n, 9) + 0.0 for n in numbers]
     if course.full:
-        numbers = [n % (360 * course.turns) for n in np.round(numbers, 9)]
+        numbers = [n % (360 * course.turns) for n in numbers]
     labels = [
         Label(Text(0j, rich(f"{_number(n, 4)}{axis_unit}", 2.5)), page(complex(z)))
         for n, z in zip(numbers, at, strict=True) if math.isfinite(abs(z))
@@ -330,7 +337,7 @@ def _curve_page(turn: Turn, point: str, link: str, language: str) -> Drawing:
         (
             Group(_heading_rich(scene, title, facts, language), id="heading"),
             Group(tuple(skeleton), id="mechanism", layer="mechanism"),
-            Group((line, *dots) if course.full else (*curve, *dots), id=f"curve-{point}", layer="curve", title=plain),
+            Group((line, *dots), id=f"curve-{point}", layer="curve", title=plain),
             Group(tuple(words), id="labels", layer="labels"),
             *_check_bar(panel, language),
         ),

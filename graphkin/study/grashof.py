@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from graphkin.scene.model import Scene
-from graphkin.structure import Dyad, Slide, Structure, Turn
+from graphkin.structure import Dyad, Pair, Slide, Structure, Turn
 
 __all__ = ["Loop", "loops"]
 
@@ -241,9 +241,9 @@ def _joint(one: Turn, two: Turn, link: str) -> str:
 def _double_slider(structure: Structure, group: Dyad) -> Loop | None:
     scene = structure.scene
     frame = scene.frame.name
-    slides = [p for p in (group.outer_first, group.inner, group.outer_second) if isinstance(p, Slide)]
-    turns = [p for p in (group.outer_first, group.inner, group.outer_second) if isinstance(p, Turn)]
-    onto = {end for p in (*slides, *turns) for end in (p.a, p.b)} - set(group.links)
+    pairs: tuple[Pair, ...] = (group.outer_first, group.inner, group.outer_second)
+    turns = [p for p in pairs if isinstance(p, Turn)]
+    onto = {end for p in pairs for end in (p.a, p.b)} - set(group.links)
     if frame not in onto or len(onto) != 2:
         return None
     other = next(name for name in onto if name != frame)

@@ -6,6 +6,8 @@ import cmath
 import math
 from collections.abc import Sequence
 
+import numpy as np
+
 from graphkin.drafting import Sheet, draft
 from graphkin.errors import GraphkinError
 from graphkin.scene.model import Scene
@@ -14,8 +16,6 @@ from graphkin.study.course import Course
 from graphkin.study.quantities import Quantity
 
 __all__ = ["measured"]
-
-Value = float | None
 
 
 def measured(course: Course, outputs: Sequence[Quantity], count: int = 12) -> dict[Quantity, list[tuple[float, ...]]]:
@@ -36,7 +36,7 @@ def measured(course: Course, outputs: Sequence[Quantity], count: int = 12) -> di
     for k in range(count):
         offset = low + wide * (k / count if course.full else (k + 0.5) / count)
         values = {d.key: float(v) for d, v in zip(scene.drivers, course.start, strict=True)}
-        values[scene.drivers[0].key] = float(course.value(offset))
+        values[scene.drivers[0].key] = float(course.value(np.array(offset)))
         try:
             sheet = draft(scene, values, asked)
         except GraphkinError:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +17,7 @@ from graphkin.study.course import Course
 
 __all__ = ["Crossing", "Quantity", "link_quantities", "slide_quantities", "symbol_quantity", "transmission"]
 
-Array = NDArray[np.float64]
+Array = NDArray[Any]
 Kind = Literal["theta", "omega", "alpha", "s", "v", "a", "symbol"]
 Measure = Literal["angle", "length", "angular rate", "speed", "angular acceleration", "acceleration"]
 
@@ -55,6 +55,11 @@ class Quantity:
     def is_position(self) -> bool:
         """Whether it is an angle or a travel."""
         return self.kind in ("theta", "s")
+
+    @property
+    def is_speed(self) -> bool:
+        """Whether it is a velocity or an angular velocity."""
+        return self.measure in ("speed", "angular rate")
 
     @property
     def is_size(self) -> bool:

@@ -74,8 +74,23 @@ def scheduler(address: str) -> Executor:
         raise CallError(
             Problem(f"--scheduler {address}", f"no Dask scheduler answers: {error}", "give tcp://HOST:8786")
         ) from None
-    executor: Executor = client.get_executor(pure=False, retries=MOST_LOSSES)
-    return executor
+    return _Cluster(client)
+
+
+class _Cluster(Executor):
+    """A Dask cluster as an executor; to shut it down is to leave it."""
+
+    def __init__(self, client: Any) -> None:
+        self._client = client
+        # a task is computed anew where the worker that held its result is lost
+        self._inner: Executor = client.get_executor(pure=False, retries=MOST_LOSSES)
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
+        return self._inner.submit(fn, *args, **kwargs)
+
+    def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
+        self._inner.shutdown(wait)
+        self._client.close()
 
 
 def run(
@@ -239,12 +254,12 @@ class _Kept:
     def merge(self, folder: Path) -> Swept:
         """All chunks in their order as tables in the folder of results; the chunks are removed."""
         plan = self.plan
-        good, outcomes = 0, {}
+        outcomes: dict[str, int] = {}
         facts = [json.loads((self.place / f"{k:07d}.json").read_bytes()) for k in range(plan.chunks)]
         good = sum(f["good"] for f in facts)
-        designs = [d for f in facts for d in f["designs"]]
-        for _, status, _, _ in designs:
-            outcomes[status] = outcomes.get(status, 0) + 1
+        designs = _outcomes(plan, [d for f in facts for d in f["designs"]])
+        for entry in designs:
+            outcomes[entry[1]] = outcomes.get(entry[1], 0) + 1
         made: dict[str, Path] = {"table.csv": self._table_csv()}
         if plan.designs.keys:
             made["designs.csv"] = self.place / "designs"
@@ -271,7 +286,7 @@ class _Kept:
         from pyarrow import parquet
 
         plan = self.plan
-        before, names, after = plan.heads
+        _, names, after = plan.heads
         whole = [pa.int64()] * (2 if plan.designs.keys else 1)
         fields = [(n, pa.float64()) for n in names] + [(n, pa.string()) for n in after]
         lead = [("design", whole[0])] if plan.designs.keys else []
@@ -305,13 +320,27 @@ def _last_cells(line: str) -> tuple[str, str]:
     return cells[-2], cells[-1]
 
 
-def _designs_csv(plan: Plan, designs: Sequence[Any]) -> bytes:
+def _outcomes(plan: Plan, parts: Sequence[Any]) -> list[tuple[int, str, str, dict[str, float | str | None]]]:
+    """How each design came out, from what its chunks say: "ok", "partly" (some positions could not be given), or why
+    none could."""
+    entries: dict[int, tuple[int, list[str], dict[str, float | str | None]]] = {}
+    for design, status, why, cells, good in parts:
+        before, said, have = entries.get(design, (0, [], {}))
+        entries[design] = (before + good, said or ([status, why] if why else []), have or cells)
+    found = []
+    for design, (good, said, cells) in sorted(entries.items()):
+        status = "ok" if good == plan.positions else "partly" if good else said[0]
+        found.append((design, status, said[1] if said else "", cells))
+    return found
+
+
+def _designs_csv(plan: Plan, designs: Sequence[tuple[int, str, str, dict[str, float | str | None]]]) -> bytes:
     """A row for each design: what was replaced, how it came out, strokes, K, least transmission angles."""
     names: dict[str, None] = {}
     for _, _, _, cells in designs:
         names.update(dict.fromkeys(cells))
     lines = [["design", *plan.designs.keys, "status", *names, "why"]]
-    for index, status, why, cells in sorted(designs, key=lambda d: int(d[0])):
+    for index, status, why, cells in designs:
         values = [csv_cell(v) for v in plan.designs[index]]
         lines.append([str(index + 1), *values, status, *(csv_cell(cells.get(n)) for n in names), csv_cell(why)])
     head = [csv_cell(c) for c in lines[0]]

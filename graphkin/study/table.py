@@ -95,8 +95,8 @@ def table_numbers(course: Course, columns: Sequence[Column], motion: Motion) -> 
     scene = course.scene
     # a driver value is given, not found: without the last digit that the conversion to radians cost it
     drivers = [
-        np.round(np.degrees(motion.values[:, i]), 11) if isinstance(d, AngleDriver) else motion.values[:, i] / scene.units.metres
-        for i, d in enumerate(scene.drivers)
+        np.round(np.degrees(values), 11) if isinstance(d, AngleDriver) else values / scene.units.metres
+        for d, values in zip(scene.drivers, motion.values.T, strict=True)
     ]
     return np.stack([*drivers, *(c.values(course, motion) for c in columns)], axis=1)
 

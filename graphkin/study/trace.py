@@ -13,7 +13,7 @@ from graphkin.scene.model import AngleDriver
 from graphkin.structure import Dyad
 from graphkin.study.course import Course
 from graphkin.study.curves import Pieces, resolve
-from graphkin.study.quantities import Quantity, transmission
+from graphkin.study.quantities import Quantity, link_quantities, slide_quantities, transmission
 
 __all__ = ["Extreme", "Least", "Traced", "driver_value", "trace"]
 
@@ -22,6 +22,8 @@ Array = NDArray[np.float64]
 NEAR_END = 1e-5
 """Of the range: an extreme this near to an end of the motion is the end itself."""
 POLISH = 3
+NOTHING = 5e-11
+"""A driver value this small (rad, m) is 0: no extreme of an acceleration is placed better."""
 
 
 @dataclass(frozen=True)
@@ -74,8 +76,7 @@ def driver_value(course: Course, offset: float) -> float:
         whole = 2 * np.pi * course.turns
         value = value % whole
         value -= whole if whole - value < 1e-9 else 0.0
-        return 0.0 if abs(value) < 1e-11 else value
-    return value
+    return 0.0 if abs(value) < NOTHING else value
 
 
 def trace(course: Course, quantities: Sequence[Quantity]) -> tuple[tuple[Traced, ...], tuple[Least, ...]]:
@@ -105,7 +106,10 @@ def trace(course: Course, quantities: Sequence[Quantity]) -> tuple[tuple[Traced,
         found.update({q: _traced(way, pieces, k, q) for k, q in enumerate(places)})
         least = tuple(_least(way, pieces, len(places) + k, d) for k, d in enumerate(dyads))
     if rates:
-        pieces = resolve(speeds, *way.range, periodic=course.full, floor=_floor(course, rates))
+        # near the end of a motion, a distance x away, velocities grow as x^-1/2 and accelerations as x^-3/2
+        power = np.array([(1.0 if q.is_speed else 3.0) * (2 if q.is_size else 1) for q in rates])
+        weight = None if course.full else power
+        pieces = resolve(speeds, *way.range, periodic=course.full, floor=_floor(course, rates), weight=weight)
         found.update({q: _traced(way, pieces, k, q) for k, q in enumerate(rates)})
     return tuple(found[q] for q in quantities), least
 
@@ -157,12 +161,14 @@ class _Way:
 def _traced(way: _Way, pieces: Pieces, k: int, quantity: Quantity) -> Traced:
     course = way.course
     at_start = course.motion(np.zeros(1))
-    if pieces.is_constant(k):
+    if pieces.is_constant(k) or _is_constant(way, quantity):
         return Traced(quantity, (), (), float(quantity.values(course, at_start)[0]))
     offset = way.offset(way.inside(pieces.extremes(k)))
     zeros = way.offset(way.inside(pieces.zeros(k)))
     if quantity.is_position:
         offset = _polished(course, quantity, offset)
+    elif quantity.kind in ("omega", "v") and course.driver.values[2] == 0:
+        offset = _at_zero(course, quantity, offset)
     extremes = _extremes(way, pieces, k, quantity, offset)
     if quantity.is_size:
         most = max((e.value for e in extremes), default=0.0)
@@ -172,10 +178,37 @@ def _traced(way: _Way, pieces: Pieces, k: int, quantity: Quantity) -> Traced:
     return Traced(quantity, extremes, tuple(driver_value(course, float(z)) for z in zeros))
 
 
+def _is_constant(way: _Way, quantity: Quantity) -> bool:
+    """Whether a rate is the same wherever it is finite."""
+    if quantity.is_position:
+        return False
+    low, high = way.range
+    values = quantity.values(way.course, way.course.motion(way.offset(np.linspace(low, high, 34)[1:-1])))
+    values = values[np.isfinite(values)]
+    return bool(len(values) == 0 or np.ptp(values) <= 1e-12 * np.max(np.abs(values)))
+
+
+def _at_zero(course: Course, quantity: Quantity, offset: Array) -> Array:
+    """Where the driver runs evenly, a velocity is at rest where its acceleration is zero: the secant method on that."""
+    bend = link_quantities(quantity.of)[2] if quantity.kind == "omega" else slide_quantities(quantity.of)[2]
+    low, high = course.ends
+    if not len(offset):
+        return offset
+    before = _wrapped(course, offset - 1e-6 * (high - low))
+    value = bend.values(course, course.motion(before))
+    for _ in range(POLISH):
+        now = bend.values(course, course.motion(offset))
+        with np.errstate(all="ignore"):
+            step = now * (offset - before) / (now - value)
+        step = np.where(np.abs(step) < 1e-6 * (high - low), step, 0.0)
+        before, value, offset = offset, now, np.clip(offset - step, low, high)
+    return offset
+
+
 def _polished(course: Course, quantity: Quantity, offset: Array) -> Array:
     """Newton's method on the rate by the driver: the place of an extreme position to the last digits."""
-    first, second = ("omega", "alpha") if quantity.kind == "theta" else ("v", "a")
-    rate, bend = Quantity(first, quantity.of), Quantity(second, quantity.of)
+    of_position = link_quantities if quantity.kind == "theta" else slide_quantities
+    _, rate, bend = of_position(quantity.of)
     low, high = course.ends
     for _ in range(POLISH if len(offset) else 0):
         motion = course.motion(offset, unit=True)

@@ -1,0 +1,65 @@
+"""Zeros and extremes of curves whose values are known."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from graphkin.study.curves import resolve
+
+Array = NDArray[np.float64]
+
+
+def column(values: Array) -> Array:
+    return values[:, None]
+
+
+def test_zeros_of_a_sine() -> None:
+    pieces = resolve(lambda t: column(np.sin(3 * t)), 0.1, 4.0)
+    assert [np.pi / 3, 2 * np.pi / 3, np.pi] == pytest.approx(pieces.zeros(0).tolist(), abs=1e-14)
+
+
+def test_extremes_of_a_sharp_peak_between_the_nodes() -> None:
+    pieces = resolve(lambda t: column(1 / (1e-5 + (t - 0.123456789) ** 2)), 0.0, 1.0)
+    assert [0.123456789] == pytest.approx(pieces.extremes(0).tolist(), abs=1e-9)
+
+
+def test_two_zeros_close_together_are_both_found() -> None:
+    pieces = resolve(lambda t: column((t - 0.4) * (t - 0.4002)), 0.0, 1.0)
+    assert [0.4, 0.4002] == pytest.approx(pieces.zeros(0).tolist(), abs=1e-10)
+
+
+def test_a_curve_that_comes_close_to_zero_has_no_zero() -> None:
+    assert len(resolve(lambda t: column((t - 0.4) ** 2 + 1e-8), 0.0, 1.0).zeros(0)) == 0
+
+
+def test_an_extreme_where_a_turn_begins_is_counted_once() -> None:
+    assert len(resolve(lambda t: column(np.cos(t)), 0.0, 2 * np.pi, periodic=True).extremes(0)) == 2
+
+
+def test_rounding_about_a_constant_is_constant() -> None:
+    rng = np.random.default_rng(1)
+    pieces = resolve(lambda t: column(3.0 + 1e-16 * rng.normal(size=len(t))), 0.0, 1.0)
+    assert pieces.is_constant(0)
+
+
+def test_noise_about_zero_is_not_looked_into() -> None:
+    calls: list[int] = []
+
+    def noise(t: Array) -> Array:
+        calls.append(len(t))
+        return column(1e-17 * np.sin(1e9 * t))
+
+    resolve(noise, 0.0, 1.0, floor=np.ones(1))
+    assert len(calls) == 1
+
+
+def test_extremes_of_a_curve_that_grows_without_bound_at_its_ends() -> None:
+    # 1 / sin has its least value in the middle
+    pieces = resolve(lambda t: column(1 / np.sin(t)), 0.0, np.pi, weight=np.ones(1))
+    assert [np.pi / 2] == pytest.approx(pieces.extremes(0).tolist(), abs=1e-12)
+
+
+def test_value_at_an_end_comes_from_the_polynomial() -> None:
+    assert resolve(lambda t: column(np.exp(t)), 0.0, 1.0).at(1.0, 0) == pytest.approx(np.e, rel=1e-14)

@@ -1,0 +1,210 @@
+"""Limit positions, strokes, K, transmission, classes: held against published and independent values."""
+
+from __future__ import annotations
+
+import json
+import math
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from graphkin.errors import Unsolvable
+from graphkin.scene import library, read
+from graphkin.study import Output, Turn, course_of, study_turn, to_json
+
+TRUTH = json.loads((Path(__file__).parents[1] / "validation" / "limits.json").read_text())
+LIMITS = {
+    "shaper_ii": "shaper-scheme-2",
+    "slotter": "slotter-75-150",
+    "sixbar_rotating_guide_35rpm": "sixbar-rotating-guide-35rpm",
+    "sixbar_rotating_guide_s2": "sixbar-rotating-guide-scheme2",
+    "sixbar_420rpm": "sixbar-420rpm",
+    "sixbar_guide_40deg": "sixbar-guide-40deg",
+    "slider_crank_k12": "slider-crank-s50-e16-K1.2",
+}
+
+
+@lru_cache
+def turn_of(name: str) -> Turn:
+    return study_turn(course_of(read(name)))
+
+
+def slider(turn: Turn) -> Output:
+    return next(o for o in turn.outputs if o.quantity.kind == "s")
+
+
+@pytest.mark.parametrize(("case", "name"), LIMITS.items())
+def test_stroke_as_published(case: str, name: str) -> None:
+    truth = TRUTH["limits"][case]
+    metres = 1.0 if truth["unit"] == "m" else 1e-3
+    assert truth["stroke"] * metres == pytest.approx(slider(turn_of(name)).stroke, rel=1e-10)
+
+
+@pytest.mark.parametrize(("case", "name"), LIMITS.items())
+def test_K_as_published(case: str, name: str) -> None:
+    turn = turn_of(name)
+    back = turn.quick_return(slider(turn))
+    assert back is not None
+    assert TRUTH["limits"][case]["K"] == pytest.approx(back[0], rel=1e-10)
+
+
+@pytest.mark.parametrize(("case", "name"), LIMITS.items())
+def test_limit_positions_lie_where_published(case: str, name: str) -> None:
+    expected = [d["crank_deg"] for d in TRUTH["limits"][case]["dead_positions"]]
+    found = sorted(math.degrees(e.driver) for e in slider(turn_of(name)).position.extremes)
+    assert expected == pytest.approx(found, abs=1e-10)
+
+
+def test_slider_crank_gives_back_the_stroke_it_was_made_for() -> None:
+    assert slider(turn_of("slider-crank-s50-e16-K1.2")).stroke == pytest.approx(0.05, rel=1e-12)
+
+
+def test_K_of_a_driver_that_turns_clockwise_is_that_of_one_that_turns_the_other_way() -> None:
+    scene = dict(FOUR_BAR, driver={"link": "1", "angle": 60, "omega": -3})
+    both = [study_turn(course_of(read(s))) for s in (FOUR_BAR, scene)]
+    one, other = (t.quick_return(t.outputs[0]) for t in both)
+    assert one == pytest.approx(other, rel=1e-12)
+
+
+def test_least_transmission_angle_of_the_four_bar() -> None:
+    least = turn_of("fourbar-150-500-300-400").transmission[0]
+    assert TRUTH["fourbar_150_500_300_400"]["min_transmission_deg"] == pytest.approx(
+        math.degrees(least.angle), rel=1e-10
+    )
+
+
+def test_least_transmission_angle_of_the_slider_crank() -> None:
+    least = turn_of("slider-crank-s50-e16-K1.2").transmission[0]
+    assert TRUTH["slider_crank_synthesis"]["min_transmission_deg"] == pytest.approx(
+        math.degrees(least.angle), rel=1e-10
+    )
+
+
+def test_pressure_angle_of_the_rotating_guide_bar_is_30_degrees_at_most() -> None:
+    # asin(0.5 sin phi1)
+    assert turn_of("rotating-guide-bar").transmission[0].pressure == pytest.approx(math.radians(30), rel=1e-10)
+
+
+def test_swing_of_the_rocker() -> None:
+    swing = turn_of("fourbar-150-500-300-400").outputs[0].stroke
+    assert TRUTH["fourbar_150_500_300_400"]["rocker_swing_deg"] == pytest.approx(math.degrees(swing))
+
+
+def test_range_of_a_driver_without_full_turn_to_full_precision() -> None:
+    # the guide bar AF touches the circle of F
+    assert turn_of("sixbar-AE70").ranges[0].high == pytest.approx(math.asin(60 / 70), abs=1e-14)
+
+
+def test_another_range_in_which_it_assembles_is_told() -> None:
+    other = [r for r in turn_of("sixbar-AE70").ranges if not r.reached]
+    assert [math.asin(60 / 70) - math.pi] == pytest.approx([r.high for r in other], abs=1e-12)
+
+
+def test_position_at_the_end_of_the_motion_keeps_its_digits() -> None:
+    # at the end AF is square to EF: EF stands at 90 degrees more than the driver
+    high = turn_of("sixbar-AE70").outputs[0].high
+    assert high is not None
+    assert math.asin(60 / 70) + math.pi / 2 == pytest.approx(high.value, abs=1e-11)
+
+
+def test_rates_that_grow_without_bound_have_no_zeros_there() -> None:
+    alpha = next(t for t in turn_of("sixbar-AE70").curves if t.quantity.name == "alpha_4")
+    assert alpha.zeros == (0.0,)
+
+
+FOUR_BAR = {
+    "frame": {"name": "4", "points": {"A": [0, 0], "D": [400, 0]}},
+    "links": {
+        "1": {"points": ["A", "B"], "length": 150},
+        "2": {"points": ["B", "C"], "length": 500},
+        "3": {"points": ["D", "C"], "length": 300},
+    },
+    "driver": {"link": "1", "angle": 60, "omega": 10},
+}
+
+
+@pytest.mark.parametrize(
+    ("lengths", "name", "turning"),
+    [
+        ((150, 500, 300, 400), "crank-rocker", ("1",)),
+        ((300, 500, 150, 400), "crank-rocker", ("3",)),
+        ((300, 350, 330, 100), "double-crank", ("1", "3")),
+        ((300, 100, 330, 350), "double-rocker", ()),
+        ((300, 500, 250, 400), "triple-rocker", ()),
+        ((200, 400, 200, 400), "change point", ("1", "3")),
+    ],
+)
+def test_class_of_a_four_bar(lengths: tuple[float, ...], name: str, turning: tuple[str, ...]) -> None:
+    a, b, c, d = lengths
+    scene = json.loads(json.dumps(FOUR_BAR))
+    scene["frame"]["points"]["D"] = [d, 0]
+    for link, length in zip("123", (a, b, c), strict=True):
+        scene["links"][link]["length"] = length
+    loop = study_turn(course_of(read(scene)), everything=False).loops[0]
+    assert (loop.name, loop.turns) == (name, turning)
+
+
+@pytest.mark.parametrize(
+    ("scene", "name"),
+    [
+        ("whitworth", "rotating guide bar (Whitworth)"),
+        ("slotter-75-150", "swinging guide bar"),
+        ("swinging-block", "oscillating block"),
+        ("slider-crank-offset", "offset slider-crank"),
+        ("scotch-yoke", "Scotch yoke"),
+        ("cam-eccentric-flat-rocker", "swinging guide bar"),
+    ],
+)
+def test_inversion_is_named(scene: str, name: str) -> None:
+    assert turn_of(scene).loops[0].name == name
+
+
+@pytest.mark.parametrize("name", ["fourbar-150-500-300-400", "shaper-scheme-2", "slotter-75-150"])
+def test_extremes_of_velocity_lie_where_the_acceleration_is_zero(name: str) -> None:
+    turn = turn_of(name)
+    curves = {t.quantity.name: t for t in turn.curves}
+    key = slider(turn).quantity.of if name != "fourbar-150-500-300-400" else None
+    speed, push = (curves["v_" + key], curves["a_" + key]) if key else (curves["omega_3"], curves["alpha_3"])
+    assert sorted(push.zeros) == pytest.approx(sorted(e.driver for e in speed.extremes), abs=1e-12)
+
+
+def test_extremes_of_acceleration_are_found_off_the_grid() -> None:
+    # greatest |a| of a crank in line with its slot: at both ends of the stroke
+    curve = next(t for t in turn_of("sine-mechanism").curves if t.quantity.name == "a_3/4")
+    assert [math.pi / 2, 3 * math.pi / 2] == pytest.approx(sorted(e.driver for e in curve.extremes), abs=1e-10)
+
+
+@pytest.mark.parametrize("name", library())
+def test_no_value_of_a_fine_grid_exceeds_the_extremes(name: str) -> None:
+    turn = study_turn(course_of(read(name)), everything=False)
+    low, high = turn.course.ends
+    motion = turn.course.motion(np.linspace(low, high, 401)[1:-1])
+    for output in turn.outputs:
+        if output.low is None or output.high is None:
+            continue
+        values = output.quantity.values(turn.course, motion)
+        room = 1e-11 * max(1.0, abs(output.high.value))
+        assert output.low.value - room <= np.nanmin(values)
+        assert np.nanmax(values) <= output.high.value + room
+
+
+@pytest.mark.parametrize("name", ["sixbar-AE70", "elliptic-trammel", "swinging-block", "hit-two-RPR"])
+def test_json_holds_no_nan(name: str) -> None:
+    assert json.dumps(to_json(turn_of(name)), allow_nan=False)
+
+
+def test_parallelogram_repeats_after_one_turn_and_its_antiparallel_form_is_not_reached() -> None:
+    scene = json.loads(json.dumps(FOUR_BAR))
+    scene["links"]["1"]["length"] = scene["links"]["3"]["length"] = 150
+    scene["links"]["2"]["length"] = 400
+    turn = study_turn(course_of(read(scene)), everything=False)
+    assert (turn.course.turns, turn.outputs[0].swings) == (1, False)
+
+
+def test_wrong_mobility_is_refused_by_name() -> None:
+    scene = json.loads(json.dumps(FOUR_BAR))
+    scene["links"]["5"] = {"points": ["A", "C"], "length": 450}
+    with pytest.raises(Unsolvable):
+        course_of(read(scene))
