@@ -1,0 +1,65 @@
+"""Redraw the gallery: each folder holds a scene and the figures drawn from it.
+
+    python figures/make.py            all of them
+    python figures/make.py NAME ...   some of them
+
+The tests redraw all of them too; any difference from what is committed fails.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).parent
+
+POLYGONS = ("mechanism", "velocity", "acceleration")
+GALLERY: dict[str, tuple[str, ...]] = {
+    # each dyad, its polygons
+    "four-bar": POLYGONS,  # RRR, with a coupler point by image
+    "slider-crank": POLYGONS,  # RRP, US letters
+    "rotating-guide": POLYGONS,  # RPR with Coriolis, British letters
+    "scotch-yoke": POLYGONS,  # RPP, Russian letters
+    "elliptic-trammel": POLYGONS,  # RRP with a driven slide
+    "swinging-block": POLYGONS,
+    "oldham": POLYGONS,  # a block on two guides
+    "hydraulic-cylinder": POLYGONS,
+    "eccentric-cam": POLYGONS,  # a pin in an offset slot
+    # whole problems, one sheet each
+    "two-coriolis": ("velocity", "acceleration", "sheet"),  # RPR and PRP
+    "two-coriolis-zh": ("sheet",),
+    "shaper-zh": ("sheet",),
+    "bell-crank": ("sheet",),
+    "coupler-six-bar": ("sheet",),
+    "toggle-press-us": ("sheet",),
+    "slotter-british": ("sheet",),
+    "six-bar-russian": ("sheet",),
+    # instant centres
+    "centres-four-bar": ("centres",),
+    "centres-slider-crank": ("centres",),
+    "centres-shaper": ("centres",),
+    "centres-six-bar-us": ("centres",),
+    "centres-double-butterfly": ("centres",),
+}
+
+
+def redraw(name: str) -> dict[str, bytes]:
+    """The figures of a folder, as they should be: SVG by file name."""
+    from graphkin import draw
+    from graphkin.drawing import svg_bytes
+
+    figures = draw(HERE / name / "scene.toml").figures
+    return {f"{figure}.svg": svg_bytes(figures[figure]) for figure in GALLERY[name]}
+
+
+def main(names: list[str]) -> None:
+    for name in names or GALLERY:
+        for file, content in redraw(name).items():
+            path = HERE / name / file
+            if not path.exists() or path.read_bytes() != content:
+                path.write_bytes(content)
+                print(path.relative_to(HERE))
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

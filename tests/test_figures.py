@@ -1,0 +1,29 @@
+"""The committed gallery is what the program draws."""
+
+from __future__ import annotations
+
+import importlib.util
+from pathlib import Path
+
+import pytest
+
+FIGURES = Path(__file__).parent.parent / "figures"
+_spec = importlib.util.spec_from_file_location("make", FIGURES / "make.py")
+make = importlib.util.module_from_spec(_spec)
+_spec.loader.exec_module(make)
+
+
+@pytest.mark.parametrize("name", make.GALLERY)
+def test_a_committed_figure_is_redrawn_byte_by_byte(name):
+    drawn = make.redraw(name)
+    assert {f: (FIGURES / name / f).read_bytes() for f in drawn} == drawn
+
+
+def test_every_folder_of_the_gallery_is_redrawn():
+    assert set(make.GALLERY) | set(make.STUDIES) == {p.name for p in FIGURES.iterdir() if p.is_dir() and p.name[0] not in "_."}
+
+
+@pytest.mark.parametrize("name", make.GALLERY)
+def test_no_figure_is_left_over(name):
+    wanted = {"scene.toml", *(f"{figure}.svg" for figure in make.GALLERY[name])}
+    assert wanted == {p.name for p in (FIGURES / name).iterdir()}
