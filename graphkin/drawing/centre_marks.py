@@ -181,12 +181,15 @@ class _Marks:
                 start = middle + 1j * towards * aside
                 towards = self._towards(centre, start, sense)
                 for back in (0.0, 4.0, 10.0):
+                    off = 0.12 * abs(aside) + 0.5 * back + 3.0 * (sense < 0)
+                    if best is not None and off >= best[0]:
+                        continue
                     chord = self.inside.clip(start, start + 1e4 * towards)
                     if chord is None or abs(chord[1] - chord[0]) < ARROW + back:
                         continue
                     tip = chord[1] - back * towards
                     tail = tip - ARROW * towards
-                    cost = 0.12 * abs(aside) + 0.5 * back + 3.0 * (sense < 0) + self._crowd(tail, tip)
+                    cost = off + self._crowd(tail, tip)
                     if best is None or cost < best[0]:
                         best = cost, tail, tip
         assert best is not None, "a panel is larger than an arrow"
