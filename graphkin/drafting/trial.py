@@ -96,7 +96,9 @@ def _cluster_by_sketch(scene: Scene, structure: Structure, frame: Frame, cluster
     for stand in stand_ins(scene, cluster):
         by_driver.setdefault(stand.driver, stand)
     for stand in list(by_driver.values())[:TRIALS]:
-        found += [f for f in _fits(stand, frame) if not any(_near(f, g) for g in found)]
+        for fit in _fits(stand, frame):  # a fit at a value of the grid is met from both sides
+            if not any(_near(fit, other) for other in found):
+                found.append(fit)
     if not found:
         names = ", ".join(cluster.links)
         raise Unsolvable("not assembled", Problem(f"links {names}", "no trial position closes this group here"))
