@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 from graphkin.api.called import At, SceneLike, as_scene, driver_values
 from graphkin.api.checked import solved_here
+from graphkin.api.files import known_wishes, write_files
 from graphkin.drafting import Room
 from graphkin.drafting.centres import Centre, Centres, Turning, by_centres, find_centres, speeds
 from graphkin.drafting.centres.chart import normal, wedge
@@ -132,7 +133,6 @@ class Centred:
         ------
         CallError : an unknown format, a folder that cannot be written
         """
-        from graphkin.api.files import write_files
         from graphkin.drawing.save import drawing_bytes
 
         files = {f"centres.{kind}": drawing_bytes(self.figure, kind) for kind in formats}
@@ -154,8 +154,8 @@ class Centred:
 
 
 def found_centres(scene: Scene, values: Mapping[str, float] | None) -> Centres:
-    """All centres at driver values in SI, on a drawing that leaves room around the mechanism."""
-    return find_centres(scene, values, room=None if scene.sheet.length_scale else ROOM)
+    """All centres at driver values in SI, on a drawing of a scale of its own that leaves room around the mechanism."""
+    return find_centres(scene, values, room=ROOM)
 
 
 def _name(pair: Pair) -> str:
@@ -269,6 +269,7 @@ def centres(
     >>> round(found.data["velocities"]["omega_2"]["by_centres"], 5)
     2.63374
     """
+    known_wishes(formats, language, convention)
     given = as_scene(scene)
     values = driver_values(given, at)
     motion = solved_here(given, values)

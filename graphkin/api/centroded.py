@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from graphkin.api.called import At, SceneLike, as_scene, driver_values
 from graphkin.api.centred import found_centres
 from graphkin.api.checked import solved_here
+from graphkin.api.files import known_wishes, write_files
 from graphkin.drafting.centres import Centres
 from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.scene.model import Scene
@@ -89,7 +90,6 @@ class Centroded:
         ------
         CallError : an unknown format, a folder that cannot be written
         """
-        from graphkin.api.files import write_files
         from graphkin.drawing.save import drawing_bytes
 
         files = {f"centrode.{kind}": drawing_bytes(self.figure, kind) for kind in formats}
@@ -157,6 +157,7 @@ def centrodes(
     from graphkin.exact import solve
     from graphkin.exact.centrode import centrode
 
+    known_wishes(formats, language, convention)
     given = as_scene(scene)
     values = driver_values(given, at)
     _check_names(given, link, point)

@@ -10,12 +10,14 @@ from graphkin.drafting.centres import Centre, Centres
 from graphkin.drawing import strokes
 from graphkin.drawing.colours import colour_of_link
 from graphkin.drawing.metrics import text_box
-from graphkin.drawing.primitives import Circle, Group, Line, Primitive, Stroke, Text
+from graphkin.drawing.primitives import Arc, Circle, Group, Line, Primitive, Stroke, Text
 from graphkin.drawing.typeset import plain
 from graphkin.plane import cross
 
 __all__ = ["circle_diagram", "stroke_of"]
 
+HALF = 1.9  # mm of a line left out to either side of its number
+LEAST = 1.55  # mm from a number's middle to anything else
 PERMANENT, FOUND, OTHERWISE = Stroke(0.5), Stroke(0.25), Stroke(0.35, (2.4, 0.9))
 
 
@@ -29,8 +31,8 @@ def stroke_of(centre: Centre) -> Stroke | None:
 def circle_diagram(centres: Centres, middle: complex, radius: float) -> tuple[Primitive, ...]:
     """Draw the diagram about a page point.
 
-    Links stand clockwise in the order of counting, the first at the top; a line found bears its number, where along it
-    there is most room.
+    Links stand clockwise in the order of counting, the first at the top; a line found bears its number where along it
+    there is most room, none where there is too little.
     """
     names = sorted(centres.links.names, key=lambda n: (not n.isdigit(), int(n) if n.isdigit() else 0, n))
     ways = {n: cmath.rect(1.0, 2 * math.pi * k / len(names)) * -1j for k, n in enumerate(names)}
@@ -43,27 +45,36 @@ def circle_diagram(centres: Centres, middle: complex, radius: float) -> tuple[Pr
         if stroke is None:
             continue
         name = "-".join(sorted(centre.pair))
-        lines.append(Group((Line(a, b, stroke),), id=f"side-{name}", classes=("side", centre.kind)))
-        if centre.number:
-            at = _free(a, b, [(p, q) for _, p, q in sides if (p, q) != (a, b)], taken)
+        at = None if not centre.number else _free(
+            a, b, [(p, q) for _, p, q in sides if (p, q) != (a, b)], taken, middle, radius)
+        parts: tuple[Line, ...] = (Line(a, b, stroke),)
+        if at is not None:
             taken.append(at)
+            gap = HALF * (b - a) / abs(b - a)
+            parts = Line(a, at - gap, stroke), Line(at + gap, b, stroke)
             runs = plain(str(centre.number), 2.3)
-            numbers.append(Circle(at, 1.6, strokes.WHITE))
-            numbers.append(Text(at + 0.8j, runs, "middle", id=f"label-side-{name}", classes=("label",)))
-    outline = Circle(middle, radius, "", Stroke(0.18, (), strokes.GREY))
-    whole = (outline, *lines, *numbers, *_knots(centres, names, ways, middle, radius))
+            numbers.append(Text(at + 0.75j, runs, "middle", id=f"label-side-{name}", classes=("label",)))
+        lines.append(Group(parts, id=f"side-{name}", classes=("side", centre.kind)))
+    thin = Stroke(0.18, (), strokes.GREY)
+    outline = (Arc(middle, radius, 0.0, math.pi, thin), Arc(middle, radius, math.pi, 2 * math.pi, thin))
+    whole = (*outline, *lines, *numbers, *_knots(centres, names, ways, middle, radius))
     return (Group(whole, id="circle-diagram", classes=("circle-diagram",)),)
 
 
-def _free(a: complex, b: complex, others: Sequence[tuple[complex, complex]], taken: Sequence[complex]) -> complex:
-    """The place on a side that lies furthest from all other sides and from numbers that stand already."""
+def _free(
+    a: complex, b: complex, others: Sequence[tuple[complex, complex]], taken: Sequence[complex],
+    middle: complex, radius: float,
+) -> complex | None:  # fmt: skip
+    """The place on a side that lies furthest from all other sides, from the circle and from numbers that stand already;
+    None where a number would touch one of them."""
 
     def room(z: complex) -> float:
-        sides = (_distance(z, p, q) for p, q in others)
-        return min(min(sides, default=9.0), min((abs(z - w) - 2.0 for w in taken), default=9.0))
+        sides = min((_distance(z, p, q) for p, q in others), default=9.0)
+        return min(sides, radius - abs(z - middle), min((abs(z - w) - HALF for w in taken), default=9.0))
 
-    places = [a + (b - a) * (0.12 + 0.02 * k) for k in range(39)]
-    return max(places, key=lambda z: (min(room(z), 3.0), -abs(z - (a + b) / 2)))
+    places = [a + (b - a) * (0.1 + 0.01 * k) for k in range(81)]
+    best = max(places, key=lambda z: (min(room(z), 3.0), -abs(z - (a + b) / 2)))
+    return best if room(best) > LEAST else None
 
 
 def _distance(z: complex, a: complex, b: complex) -> float:

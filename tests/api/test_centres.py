@@ -1,0 +1,91 @@
+"""``graphkin centres``: what is printed, what is written, and the exit status."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import graphkin
+
+
+def run(*args: str, cwd: Path) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-c", "from graphkin.cli import main; main()", "centres", *args],
+        capture_output=True, text=True, encoding="utf-8", cwd=cwd, timeout=120, check=False,
+    )  # fmt: skip
+
+
+def test_the_json_has_the_frame_first_among_the_links(tmp_path: Path) -> None:
+    assert ["6", "1", "2", "3", "4", "5"] == json.loads(run("sixbar-420rpm", "--json", cwd=tmp_path).stdout)["links"]
+
+
+def test_a_pair_is_written_with_the_frame_last(tmp_path: Path) -> None:
+    assert "2-1" in json.loads(run("shaper-scheme-2", "--json", cwd=tmp_path).stdout)["centres"]
+
+
+def test_a_found_centre_says_which_lines_cross_in_it() -> None:
+    found = graphkin.centres("sixbar-420rpm").data["centres"]["1-3"]
+    assert ("found", [["1-6", "3-6"], ["1-2", "2-3"]]) == (found["kind"], found["by"])
+
+
+def test_a_centre_at_infinity_has_a_direction_and_no_point() -> None:
+    assert {"direction": [0.0, 1.0], "kind": "permanent"} == graphkin.centres("sixbar-420rpm").data["centres"]["5-6"]
+
+
+def test_a_centre_found_in_another_way_names_it_and_says_why() -> None:
+    found = graphkin.centres("double-butterfly").data["centres"]["3-1"]
+    assert ("superposition", True) == (found["by"], found["why"].startswith("Kennedy"))
+
+
+def test_a_check_has_velocities_by_centres_beside_those_of_the_polygon() -> None:
+    rows = {r["symbol"]: r for r in graphkin.check("sixbar-guide-40deg").data["readings"]}
+    assert rows["v_D"]["by_centres"] == pytest.approx(rows["v_D"]["exact"], rel=1e-12)
+
+
+def test_an_acceleration_has_no_value_by_centres() -> None:
+    rows = {r["symbol"]: r for r in graphkin.check("sixbar-guide-40deg").data["readings"]}
+    assert "by_centres" not in rows["a_D"]
+
+
+def test_the_figure_and_a_table_are_written(tmp_path: Path) -> None:
+    run("slider-crank-offset", cwd=tmp_path)
+    assert ["centres.csv", "centres.svg"] == sorted(p.name for p in (tmp_path / "slider-crank-offset").iterdir())
+
+
+def test_json_alone_writes_no_file(tmp_path: Path) -> None:
+    run("slider-crank-offset", "--json", cwd=tmp_path)
+    assert [] == list(tmp_path.iterdir())
+
+
+def test_draw_writes_the_centres_too(tmp_path: Path) -> None:
+    names = {p.name for p in graphkin.draw("slider-crank-offset").write(tmp_path)}
+    assert "centres.svg" in names
+
+
+def test_a_centrode_is_written_on_request(tmp_path: Path) -> None:
+    run("slider-crank-offset", "--centrode", "2", "--point", "S2", "-o", "out", cwd=tmp_path)
+    assert ["centrode.csv", "centrode.svg"] == sorted(p.name for p in (tmp_path / "out").iterdir())
+
+
+@pytest.mark.parametrize(
+    ("args", "status"),
+    [
+        (("four-bar-coupler-point",), 0),
+        (("four-bar-coupler-point", "--centrode", "9"), 2),
+        (("four-bar-coupler-point", "--point", "E"), 2),
+        (("four-bar-coupler-point", "--lang", "xx"), 2),
+        (("four-bar-coupler-point", "--format", "gif"), 2),
+        (("sixbar-AE70", "--at", "120"), 3),
+    ],
+)
+def test_the_exit_status_tells_what_went_wrong(args: tuple[str, ...], status: int, tmp_path: Path) -> None:
+    assert status == run(*args, cwd=tmp_path).returncode
+
+
+def test_a_position_out_of_reach_is_still_json(tmp_path: Path) -> None:
+    printed = json.loads(run("sixbar-AE70", "--at", "120", "--json", cwd=tmp_path).stdout)
+    assert "not assembled" == printed["status"]

@@ -1,0 +1,126 @@
+"""The figures of instant centres and of centrodes, read back."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+import pytest
+
+from graphkin.api.centred import found_centres
+from graphkin.api.centroded import centrodes
+from graphkin.drafting.centres import Centres, speeds
+from graphkin.drawing.centres import centres_figure
+from graphkin.drawing.metrics import text_box
+from graphkin.drawing.primitives import Drawing, Group, Line, Polyline, Primitive, Text, walk
+from graphkin.drawing.svg import svg_bytes
+from graphkin.errors import CallError
+from graphkin.scene import read
+
+CLASSROOM = ("fourbar-150-500-300-400", "slider-crank-offset", "shaper-scheme-2", "sixbar-420rpm", "whitworth")
+
+
+def figure(name: str, convention: str | None = None) -> tuple[Centres, Drawing]:
+    centres = found_centres(read(name), None)
+    return centres, centres_figure(centres, speeds(centres), convention=convention)
+
+
+def things(drawing: Drawing) -> Iterator[Primitive]:
+    return iter(tuple(walk(drawing.children)))
+
+
+def labels(drawing: Drawing) -> list[Text]:
+    return [t for t in things(drawing) if isinstance(t, Text) and "centre" in t.classes]
+
+
+@pytest.mark.parametrize("name", CLASSROOM)
+def test_every_centre_has_a_group_of_its_own(name: str) -> None:
+    centres, drawing = figure(name)
+    wanted = {"centre-" + "-".join(sorted(pair)) for pair in centres.table}
+    assert wanted <= {t.id for t in things(drawing) if isinstance(t, Group)}
+
+
+@pytest.mark.parametrize("name", CLASSROOM)
+def test_every_centre_is_named_once(name: str) -> None:
+    centres, drawing = figure(name)
+    written = ", ".join(t.string for t in labels(drawing))
+    assert [1] * len(centres.table) == [written.count("P" + "".join(sorted(pair))) for pair in centres.table]
+
+
+@pytest.mark.parametrize("name", CLASSROOM)
+def test_names_of_centres_do_not_overlap_each_other(name: str) -> None:
+    boxes = [text_box(t) for t in labels(figure(name)[1])]
+    assert not [1 for i, a in enumerate(boxes) for b in boxes[:i] if a.overlaps(b)]
+
+
+@pytest.mark.parametrize("name", CLASSROOM)
+def test_nothing_runs_off_the_page(name: str) -> None:
+    _, drawing = figure(name)
+    for thing in things(drawing):
+        if isinstance(thing, Line):
+            for z in (thing.start, thing.end):
+                assert 0 <= z.real <= drawing.width
+                assert 0 <= z.imag <= drawing.height
+
+
+@pytest.mark.parametrize("name", CLASSROOM)
+def test_no_label_of_the_figure_is_badly_placed(name: str, violations: Callable[[bytes], list[str]]) -> None:
+    assert [] == violations(svg_bytes(figure(name)[1]))
+
+
+def test_the_circle_diagram_has_a_side_for_every_centre() -> None:
+    centres, drawing = figure("sixbar-420rpm")
+    sides = [t for t in things(drawing) if isinstance(t, Group) and "side" in t.classes]
+    assert len(centres.table) == len(sides)
+
+
+def test_the_circle_diagram_numbers_the_centres_found() -> None:
+    _, drawing = figure("sixbar-420rpm")
+    written = [t.string for t in things(drawing) if isinstance(t, Text) and t.id.startswith("label-side-")]
+    assert ["1", "2", "3", "4", "5", "6", "7", "8"] == sorted(written)
+
+
+def test_the_us_convention_calls_a_centre_i() -> None:
+    assert {"I"} == {t.string[0] for t in labels(figure("slider-crank-offset", "us")[1])}
+
+
+def test_a_centre_far_away_is_shown_by_an_arrow_with_its_distance() -> None:
+    assert "AP24= 9369 mm" in [t.string for t in labels(figure("fourbar-150-500-300-400")[1])]
+
+
+def test_a_centre_at_infinity_is_shown_by_an_arrow() -> None:
+    assert "P34→ ∞" in [t.string for t in labels(figure("slider-crank-offset")[1])]
+
+
+def test_the_same_scene_gives_the_same_bytes() -> None:
+    assert svg_bytes(figure("whitworth")[1]) == svg_bytes(figure("whitworth")[1])
+
+
+def test_an_indeterminate_linkage_is_said_to_be_one_on_its_figure() -> None:
+    _, drawing = figure("single-flier")
+    assert any("indeterminate" in t.string for t in things(drawing) if isinstance(t, Text))
+
+
+def test_branches_of_a_centrode_end_where_the_centre_passes_through_infinity() -> None:
+    found = centrodes("fourbar-150-500-300-400", "2")
+    fixed = [g for g in things(found.figure) if isinstance(g, Group) and g.id == "centrode-fixed"]
+    assert 2 <= sum(isinstance(line, Polyline) for line in fixed[0].children)
+
+
+def test_no_stroke_of_a_centrode_leaps_across_the_figure() -> None:
+    found = centrodes("slider-crank-offset", "2", "S2")
+    curves = [t for t in things(found.figure) if isinstance(t, Polyline)]
+    assert 8.0 > max(abs(b - a) for c in curves for a, b in zip(c.points, c.points[1:], strict=False))
+
+
+def test_the_moving_centrode_touches_the_fixed_one_at_the_centre() -> None:
+    found = centrodes("slider-crank-offset", "2")
+    pose = found.centres.links.poses["2"]
+    mm = found.centres.links.mm
+    moving = pose.origin + pose.axis * complex(found.curves.moving[0]) * mm
+    assert abs(moving - complex(found.curves.fixed[0]) * mm) <= 1e-9 * abs(moving)
+
+
+@pytest.mark.parametrize("link", ["1", "3", "9"])
+def test_links_without_centrodes_are_refused_by_name(link: str) -> None:
+    with pytest.raises(CallError, match=f"centrode {link}"):
+        centrodes("slider-crank-offset", link)
