@@ -21,7 +21,7 @@ from graphkin.plane import cross, dot, unit
 __all__ = ["CentreLetters", "centre_marks", "mark_of", "near_box", "pale"]
 
 TOGETHER = 1.3  # mm: centres so near to each other share one mark
-REACH = 9.0  # mm of a construction line to either side of what it finds
+REACH = 7.0  # mm of a construction line to either side of what it finds
 ARROW = 11.0  # mm, to what lies off the figure
 THIN = strokes.CONSTRUCTION.coloured(strokes.GREY)
 
