@@ -5,7 +5,9 @@ from graphkin.api.centred import Centred, centres
 from graphkin.api.centroded import Centroded, centrodes
 from graphkin.api.checked import Checked, check
 from graphkin.api.drawn import Drawn, draw
+from graphkin.api.handed import Handout, handout
 from graphkin.api.listed import Listed, scenes
+from graphkin.api.problem_sets import ProblemSets, problem_set
 from graphkin.api.solved import Solved, solve
 from graphkin.api.swept import Swept, sweep
 
@@ -15,7 +17,9 @@ __all__ = [
     "Centroded",
     "Checked",
     "Drawn",
+    "Handout",
     "Listed",
+    "ProblemSets",
     "Solved",
     "Swept",
     "audit",
@@ -23,6 +27,8 @@ __all__ = [
     "centrodes",
     "check",
     "draw",
+    "handout",
+    "problem_set",
     "scenes",
     "solve",
     "sweep",

@@ -92,8 +92,11 @@ class _Composer:
 
     def piece(self) -> Piece:
         spots = self._spots()
-        rings = [Group((Circle(self.at(d.centre), d.radius + 0.8, stroke=strokes.CONSTRUCTION),), classes=("ring",))
-                 for d in self.enlarged]
+        rings = [
+            Group((Circle(self.at(d.centre), d.radius + 0.8, stroke=strokes.CONSTRUCTION),),
+                  id=f"ring-{self.diagram}-{number}", classes=("ring",))
+            for number, d in enumerate(self.enlarged, 1)
+        ]  # fmt: skip
         construction = [*rings, *self._images(), *self._bars(), *self._rays()]
         vectors = [self._vector(step, vector) for step, vector in self._in_order()]
         ends = [*self._ends(spots), *self._feet(spots), self._pole(spots)]

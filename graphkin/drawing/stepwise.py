@@ -83,7 +83,7 @@ def _insets(sheet: Sheet, diagram: DiagramName, born: dict[str, int]) -> None:
                     born[f"{part}-{symbol.id}"] = born[symbol.id]
     for number, detail in enumerate(details(sheet, diagram), 1):
         last = max(born[v.symbol.id] for v in detail.vectors)
-        born[f"detail-{diagram}-{number}"] = last
+        born[f"detail-{diagram}-{number}"] = born[f"ring-{diagram}-{number}"] = last
         born.update({f"detail-{v.symbol.id}": last for v in detail.vectors})
 
 
@@ -101,7 +101,7 @@ def stepped(children: Iterable[Primitive], born: dict[str, int]) -> tuple[Primit
     """The same figure with the class of its step on everything that has one; a leader takes that of its name."""
     found: list[Primitive] = []
     children = tuple(children)
-    for thing, after in zip(children, (*children[1:], None), strict=True):
+    for thing, after in zip(children, (*children[1:], None), strict=False):  # the last has none after it
         if isinstance(thing, Line) and isinstance(after, Text) and "label" in after.classes:
             step = born.get(after.id.removeprefix("label-"))
             thing = Group((thing,), classes=("leader", *(() if step is None else (f"step-{step:02d}",))))
@@ -128,7 +128,11 @@ def so_far(children: Iterable[Primitive], first: int, last: int) -> tuple[Primit
         elif step is not None and step < first:
             found.append(_faded(thing))
         elif step is not None and isinstance(thing, Group):
-            halo = () if "inset" in thing.classes else tuple(band for child in thing.children for band in _band(child))
+            halo = (
+                ()
+                if {"inset", "ring"} & set(thing.classes)
+                else tuple(band for child in thing.children for band in _band(child))
+            )
             found += [Group(halo, classes=("new",))] if halo else []
             found.append(thing)
         else:

@@ -13,8 +13,10 @@ from graphkin.drawing.headings import languages
 from graphkin.drawing.primitives import Drawing
 from graphkin.words import Phrase, say
 
-__all__ = ["Beside", "Block", "Document", "Fields", "Heading", "Paragraph", "Picture", "Said", "StepItem", "Steps", "Table",
-           "said", "spoken"]  # fmt: skip
+__all__ = [
+    "Beside", "Block", "Document", "Fields", "Heading", "Paragraph", "Picture", "Said", "StepItem", "Steps", "Table",
+    "said", "spoken",
+]  # fmt: skip
 
 Said: TypeAlias = tuple[tuple[str, str], ...]  # (language, words) for each language
 

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import re
-import unicodedata
 
-__all__ = ["clean", "file_stem"]
+__all__ = ["clean"]
 
 # control characters, halves of surrogates, what no file may hold, and marks that turn the direction of writing
 _UNFIT = re.compile(
@@ -20,13 +19,3 @@ def clean(text: str) -> str:
     'sheetgpj.exe'
     """
     return _UNFIT.sub("", text)
-
-
-def file_stem(name: str) -> str:
-    """A name as part of a file's name: letters, digits, ``-`` and ``_``; never empty, at most 60 characters.
-
-    >>> file_stem("../a b</x>")
-    'a-b-x'
-    """
-    plain = "".join(c if c.isalnum() or c in "-_" else "-" for c in unicodedata.normalize("NFKC", clean(name)))
-    return re.sub("-+", "-", plain).strip("-")[:60] or "scene"

@@ -43,14 +43,23 @@ def key_rows(lesson: Lesson) -> tuple[KeyRow, ...]:
 def _row(lesson: Lesson, row: Compared) -> KeyRow:
     symbol = row.symbol
     spread = lesson.tolerance.get(symbol)
-    bound = None if spread is None or not math.isfinite(spread.deviation) else lesson.in_unit(symbol, COVERAGE * spread.deviation)
+    bound = (
+        None
+        if spread is None or not math.isfinite(spread.deviation)
+        else lesson.in_unit(symbol, COVERAGE * spread.deviation)
+    )
     size = abs(row.exact) if symbol.is_vector else float(row.exact.real)
     angle = math.degrees(math.atan2(complex(row.exact).imag, complex(row.exact).real)) + 0.0
     has_way = symbol.is_vector and row.reading.on_paper > 1e-6
     return KeyRow(
-        str(symbol), lesson.unit(symbol), symbol in lesson.questions, row.reading.on_paper, lesson.in_unit(symbol, size),
-        bound, angle if has_way else None,
-    )  # fmt: skip
+        symbol=str(symbol),
+        unit=lesson.unit(symbol),
+        asked=symbol in lesson.questions,
+        on_paper=row.reading.on_paper,
+        exact=lesson.in_unit(symbol, size),
+        tolerance=bound,
+        direction=angle if has_way else None,
+    )
 
 
 def answer_key(lesson: Lesson) -> Document:
@@ -70,7 +79,9 @@ def answer_key(lesson: Lesson) -> Document:
         name = f"${lesson.letters.vector(row.symbol)}$"
         rows.append((name, f"{line.on_paper:.2f}", number(size, 5), *within, line.unit, way(row, language)))
     tools = lesson.sheet.scene.sheet.tools
-    words = said("key words", language, *(f"{x:g}" for x in (tools.line_width / 2, tools.ruler, tools.compass, tools.set_square)))
+    words = said(
+        "key words", language, *(f"{x:g}" for x in (tools.line_width / 2, tools.ruler, tools.compass, tools.set_square))
+    )
     title = f"{plain_words(scene_title(lesson)[0][1])}: {word('answer key', languages(language)[0])}"
     blocks = (
         Heading(scene_title(lesson), 1),

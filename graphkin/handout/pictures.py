@@ -22,8 +22,8 @@ from graphkin.drawing.stepwise import births, so_far, stepped
 from graphkin.drawing.typeset import rich, symbol
 
 __all__ = [
-    "HEIGHT", "NARROW", "WIDTH", "blank_equations", "cropped", "draw_frame", "equation_picture", "mechanism_picture", "parts",
-    "stage_picture",
+    "HEIGHT", "NARROW", "WIDTH", "blank_equations", "cropped", "draw_frame", "equation_picture", "mechanism_picture",
+    "parts", "stage_picture",
 ]  # fmt: skip
 
 WIDTH, HEIGHT = 180.0, 262.0  # mm: what a page of A4 holds between its margins
@@ -55,7 +55,11 @@ def parts(sheet: Sheet, diagram: DiagramName, letters: Letters, language: str, r
 
 
 def cropped(
-    children: Iterable[Primitive], title: str, desc: str, language: str, foot: tuple[Text, tuple[Primitive, ...]] | None = None
+    children: Iterable[Primitive],
+    title: str,
+    desc: str,
+    language: str,
+    foot: tuple[Text, tuple[Primitive, ...]] | None = None,
 ) -> Drawing:
     """Primitives as a drawing just as large as they are; below them the scale, and its check bar beside or under it."""
     children = tuple(children)
@@ -68,7 +72,10 @@ def cropped(
     width = max(box.width, BAR + 2.4)
     left = max(1.2, (width - lead - BAR) / 2) if wide else (width - BAR) / 2
     base = box.height + FOOT - 2.0
-    low = (*moved((words,), complex(left, base)), *moved(bar, complex(left + lead, base) if wide else complex(left, base + FOOT)))
+    low = (
+        *moved((words,), complex(left, base)),
+        *moved(bar, complex(left + lead, base) if wide else complex(left, base + FOOT)),
+    )
     whole = moved(children, complex((width - box.width) / 2, 0.0) - box.corners[0])
     height = box.height + (FOOT if wide else 2 * FOOT)
     return Drawing(width, height, (*whole, *low), title, desc, languages(language)[0])
@@ -111,8 +118,9 @@ def _without_results(layer: Group) -> Group:
     """Names of angular velocities and accelerations that are to be found go with their arcs; those of drivers stay."""
     kept = tuple(
         thing
-        for thing, after in zip(layer.children, (*layer.children[1:], None), strict=True)
-        if not _names_result(thing) and not (isinstance(thing, Group) and "leader" in thing.classes and _names_result(after))
+        for thing, after in zip(layer.children, (*layer.children[1:], None), strict=False)
+        if not _names_result(thing)
+        and not (isinstance(thing, Group) and "leader" in thing.classes and _names_result(after))
     )
     return Group(kept, layer.id, layer.classes, layer.layer, layer.title)
 
@@ -134,7 +142,9 @@ def equation_picture(sheet: Sheet, equation: Equation, letters: Letters, languag
     return cropped(written.children, words, "", language)
 
 
-def draw_frame(sheet: Sheet, diagram: DiagramName, letters: Letters, language: str, height: float | None = None) -> Drawing:
+def draw_frame(
+    sheet: Sheet, diagram: DiagramName, letters: Letters, language: str, height: float | None = None
+) -> Drawing:
     """A frame to draw a polygon in, with the pole where the polygon will have room, and its scale."""
     content = extent(sheet, diagram)
     tall = height or min(HEIGHT - 40.0, max(LEAST_FRAME, content.height + 2 * AROUND))
@@ -161,14 +171,20 @@ def _snapped(z: complex) -> complex:
 
 def blank_equations(equations: Iterable[Equation], letters: Letters, language: str) -> Drawing:
     """A blank for each equation: a box for each term, above boxes for its size and direction where they are rows."""
-    heads = (term("size", language), term("direction of", language)) if rows_of(letters.convention) in ("rows", "table") else ()
+    heads = (
+        (term("size", language), term("direction of", language))
+        if rows_of(letters.convention) in ("rows", "table")
+        else ()
+    )
     lead = max((runs_width(rich(h, 2.8)) for h in heads), default=0.0) + 2.0
     children: list[Primitive] = []
     y = 1.0
     for equation in equations:
         cells = [len(side) for side in equation.sides]
         count = max(2, sum(cells))
-        signs = ["="] if sum(cells) == 1 else [s for i, n in enumerate(cells) for s in ["="] * (i > 0) + ["+"] * (n - 1)]
+        signs = (
+            ["="] if sum(cells) == 1 else [s for i, n in enumerate(cells) for s in ["="] * (i > 0) + ["+"] * (n - 1)]
+        )
         width = min(38.0, (WIDTH - lead - 5.0 * (count - 1) - 0.4) / count)
         x = lead
         for i in range(count):
@@ -185,4 +201,3 @@ def blank_equations(equations: Iterable[Equation], letters: Letters, language: s
 
 def _box(x: float, y: float, width: float, height: float) -> Polygon:
     return Polygon(Box(x, y, x + width, y + height).corners, "", strokes.DIMENSION)
-

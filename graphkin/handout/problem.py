@@ -8,10 +8,23 @@ from collections.abc import Iterator
 from graphkin.drawing.conventions import pole
 from graphkin.drawing.headings import drivers, languages, number, titles
 from graphkin.drawing.tables import given_lengths
-from graphkin.handout.blocks import Beside, Block, Document, Fields, Heading, Paragraph, Picture, Said, Table, said, spoken
+from graphkin.handout.blocks import (
+    Beside,
+    Block,
+    Document,
+    Fields,
+    Heading,
+    Paragraph,
+    Picture,
+    Said,
+    Table,
+    said,
+    spoken,
+)
 from graphkin.handout.lesson import Lesson
 from graphkin.handout.pictures import NARROW, WORDS, blank_equations, draw_frame, mechanism_picture, parts
 from graphkin.handout.sentences import plain_words
+from graphkin.scene.model import Guide
 from graphkin.words import Phrase, say, word
 
 __all__ = ["given", "problem", "scene_title"]
@@ -26,15 +39,20 @@ def problem(lesson: Lesson) -> Document:
     blocks: list[Block] = [
         Heading(scene_title(lesson), 1),
         Fields((said("name of student", language), said("class of student", language), said("date", language))),
-        *((Beside(words, figure),) if figure.drawing.width <= NARROW else (*words, figure)),
     ]
+    if figure.drawing.width <= NARROW:
+        blocks.append(Beside(words, figure))
+    else:
+        blocks += [*words, figure]
     for diagram in ("velocity", "acceleration"):
         equations = [e for e in lesson.sheet.equations if e.diagram == diagram]
         if equations and lesson.sheet.vectors(diagram):
             blocks.append(Heading(said(WORDS[diagram], language), 2, fresh=True))
             blocks.append(Paragraph(said("your equations", language), small=True))
             blocks.append(Picture(blank_equations(equations, lesson.letters, language), joined=True))
-            blocks.append(Paragraph(said("your polygon", language, f"${pole(lesson.letters.convention, diagram)}$"), small=True))
+            blocks.append(
+                Paragraph(said("your polygon", language, f"${pole(lesson.letters.convention, diagram)}$"), small=True)
+            )
             blocks.append(Picture(draw_frame(lesson.sheet, diagram, lesson.letters, language)))
     blocks.append(Heading(said("your results", language), 2))
     blocks.append(_blank_table(lesson))
@@ -63,17 +81,12 @@ def given(lesson: Lesson) -> Iterator[Paragraph]:
             yield Paragraph(_labelled(lesson, key, text))
     guides = [g for g in scene.frame.guides.values() if g.name]
     if guides:
-        lines = []
-        for each in languages(lesson.language):
-            items = [
-                say(Phrase("guide at", (
-                    f"${letters.guide(g.name, scene.frame.name)}$", number(g.through.real / metres),
-                    number(g.through.imag / metres), unit, number(math.degrees(math.atan2(g.direction.imag, g.direction.real))),
-                )), each)
-                for g in guides
-            ]  # fmt: skip
-            lines.append((each, f"{word('guides', each)}: {'; '.join(items)}." if each == "en" else f"{word('guides', each)}：{'；'.join(items)}。"))
-        yield Paragraph(tuple(lines))
+        yield Paragraph(
+            tuple(
+                (each, _line("guides", "; ".join(_guide(lesson, g, each) for g in guides), each))
+                for each in languages(lesson.language)
+            )
+        )
     yield Paragraph(_labelled(lesson, "driver", drivers(lesson.sheet, letters)))
     asked = ", ".join(f"${letters.vector(s)}$" for s in lesson.questions)
     if asked:
@@ -82,9 +95,20 @@ def given(lesson: Lesson) -> Iterator[Paragraph]:
         yield Paragraph(_labelled(lesson, "source", scene.source.replace("$", "$$")), small=True)
 
 
+def _guide(lesson: Lesson, guide: Guide, language: str) -> str:
+    scene = lesson.sheet.scene
+    name = f"${lesson.letters.guide(guide.name, scene.frame.name)}$"
+    x, y = (number(part / scene.units.metres) for part in (guide.through.real, guide.through.imag))
+    angle = number(math.degrees(math.atan2(guide.direction.imag, guide.direction.real)))
+    return say(Phrase("guide at", (name, x, y, scene.units.length, angle)), language)
+
+
 def _labelled(lesson: Lesson, key: str, text: str) -> Said:
-    marks = {"en": (": ", "."), "zh": ("：", "。")}
-    return tuple((each, f"{word(key, each)}{marks[each][0]}{text}{marks[each][1]}") for each in languages(lesson.language))
+    return tuple((each, _line(key, text, each)) for each in languages(lesson.language))
+
+
+def _line(key: str, text: str, language: str) -> str:
+    return f"{word(key, language)}：{text}。" if language == "zh" else f"{word(key, language)}: {text}."
 
 
 def _joined(*several: Said) -> Said:
@@ -100,4 +124,3 @@ def _blank_table(lesson: Lesson) -> Table:
     heads = tuple(said(key, lesson.language) for key in ("quantity", "on paper", "value", "unit", "sense"))
     rows = tuple((f"${lesson.letters.vector(s)}$", "", "", lesson.unit(s), "") for s in lesson.questions)
     return Table(heads, rows, "lcclc", roomy=True)
-

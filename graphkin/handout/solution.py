@@ -9,30 +9,50 @@ from collections.abc import Iterator
 from graphkin.checking import Compared
 from graphkin.drafting.sheet import Equation
 from graphkin.drawing.headings import languages, number
-from graphkin.handout.blocks import Beside, Block, Document, Heading, Paragraph, Picture, Said, StepItem, Steps, Table, said
+from graphkin.handout.blocks import (
+    Beside,
+    Block,
+    Document,
+    Heading,
+    Paragraph,
+    Picture,
+    Said,
+    StepItem,
+    Steps,
+    Table,
+    said,
+)
 from graphkin.handout.lesson import Lesson, Stage
 from graphkin.handout.pictures import NARROW, WORDS, Layers, equation_picture, parts, stage_picture
 from graphkin.handout.problem import given, scene_title
 from graphkin.handout.sentences import plain_words
 from graphkin.words import Phrase, say, word
 
-__all__ = ["equation_words", "solution", "solution_blocks", "stage_title", "step_items"]
+__all__ = ["equation_words", "results_blocks", "solution", "solution_blocks", "stage_title", "step_items"]
 
 
 def solution(lesson: Lesson) -> Document:
     """The worked solution of a lesson."""
     title = f"{plain_words(scene_title(lesson)[0][1])}: {word('worked solution', languages(lesson.language)[0])}"
-    blocks = (Heading(scene_title(lesson), 1), *solution_blocks(lesson, tuple(given(lesson))))
+    blocks = (
+        Heading(scene_title(lesson), 1),
+        *solution_blocks(lesson, tuple(given(lesson))),
+        *results_blocks(lesson),
+    )
     return Document(title, languages(lesson.language), blocks)
 
 
 def solution_blocks(lesson: Lesson, lead: tuple[Paragraph, ...] = ()) -> Iterator[Block]:
-    """Stage by stage, then remarks, results and check; ``lead`` stands before the first stage."""
+    """Stage by stage; ``lead`` stands before the first."""
     layers: dict[str, Layers] = {}
     for stage in lesson.stages:
         if stage.diagram not in layers:
             layers[stage.diagram] = parts(lesson.sheet, stage.diagram, lesson.letters, lesson.language)
         yield from _stage(lesson, stage, layers[stage.diagram], lead if stage is lesson.stages[0] else ())
+
+
+def results_blocks(lesson: Lesson) -> Iterator[Block]:
+    """Remarks on the construction, results, and their check."""
     yield from _remarks(lesson)
     yield Heading(said("results", lesson.language))
     yield Paragraph(said("check words", lesson.language), small=True)
@@ -48,7 +68,12 @@ def stage_title(lesson: Lesson, stage: Stage) -> Said:
         return said("further vectors", lesson.language)
     marks = {"en": ": ", "zh": "："}
     return tuple(
-        (each, say(Phrase("equation numbered", (stage.equation.number,)), each) + marks[each] + word(f"for {stage.diagram}", each))
+        (
+            each,
+            say(Phrase("equation numbered", (stage.equation.number,)), each)
+            + marks[each]
+            + word(f"for {stage.diagram}", each),
+        )
         for each in languages(lesson.language)
     )
 
@@ -78,20 +103,25 @@ def _stage(lesson: Lesson, stage: Stage, layers: Layers, lead: tuple[Paragraph, 
     steps = Steps(step_items(lesson, stage))
     drawn = stage_picture(sheet, layers, stage.diagram, letters, language, stage.first, stage.last)
     start = next(step.number for step in sheet.steps if step.diagram == stage.diagram)
-    key, args = ("figure whole", (stage.last,)) if stage.first == start else ("figure so far", (stage.last, stage.first))
+    key, args = (
+        ("figure whole", (stage.last,)) if stage.first == start else ("figure so far", (stage.last, stage.first))
+    )
     caption = tuple(
         (each, say(Phrase(key, (word(WORDS[stage.diagram], each), *args)), each)) for each in languages(language)
     )
     figure = Picture(drawn, caption)
+    beside: tuple[Heading | Paragraph | Steps, ...] = (steps,)
     if stage.equation is not None:
         yield heading
         words = equation_words(lesson, stage.equation)
         yield Picture(equation_picture(sheet, stage.equation, letters, language, words), joined=True)
-        yield from (Beside((steps,), figure),) if drawn.width <= NARROW else (steps, figure)
-    elif drawn.width <= NARROW:
-        yield Beside((*lead, heading, steps), figure)
     else:
-        yield from (*lead, heading, steps, figure)
+        beside = (*lead, heading, steps)
+    if drawn.width <= NARROW:
+        yield Beside(beside, figure)
+    else:
+        yield from beside
+        yield figure
 
 
 def _remarks(lesson: Lesson) -> Iterator[Block]:

@@ -18,7 +18,18 @@ from pathlib import Path
 from typing import Any
 
 from graphkin.drawing.metrics import start_runs
-from graphkin.drawing.primitives import Arc, Circle, Drawing, Group, Line, Polygon, Polyline, Primitive, Stroke, Text, walk
+from graphkin.drawing.primitives import (
+    Arc,
+    Circle,
+    Drawing,
+    Group,
+    Line,
+    Polygon,
+    Primitive,
+    Stroke,
+    Text,
+    walk,
+)
 from graphkin.drawing.typeset import Atom, is_italic, parsed
 from graphkin.handout.blocks import Beside, Block, Document, Fields, Heading, Paragraph, Picture, Said, Steps
 from graphkin.handout.clean import clean
@@ -98,8 +109,11 @@ def _block(block: Block) -> dict[str, Any]:
         return {"kind": "steps", "items": items}
     if isinstance(block, Picture):
         return {
-            "kind": "picture", "drawing": _drawing(block.drawing), "caption": _said(block.caption), "joined": block.joined,
-        }  # fmt: skip
+            "kind": "picture",
+            "drawing": _drawing(block.drawing),
+            "caption": _said(block.caption),
+            "joined": block.joined,
+        }
     if isinstance(block, Beside):
         return {"kind": "beside", "blocks": [_block(b) for b in block.blocks], "picture": _block(block.picture)}
     return {

@@ -1,0 +1,161 @@
+"""``graphkin handout``: problem sheet, worked solution and answer key."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from graphkin.api.called import At, SceneLike, as_scene, asked_symbols, driver_values
+from graphkin.api.checked import solved_here
+from graphkin.api.files import write_files
+from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.handout.key import KeyRow, key_rows
+from graphkin.handout.lesson import Lesson
+from graphkin.handout.papers import FORMATS, Papers, handout_files
+from graphkin.handout.prepare import lesson_of, paper_plan, views_of
+from graphkin.handout.typeset_pdf import can_typeset
+from graphkin.handout.viewer import POSITIONS
+from graphkin.scene.model import Scene
+from graphkin.scene.source import safe_name
+from graphkin.scene.symbol import Symbol
+from graphkin.words import Phrase
+
+__all__ = ["Handout", "handout", "papers_of"]
+
+LANGUAGES = ("en", "zh", "both")
+CONVENTIONS = ("chinese", "us", "british", "russian")
+
+
+@dataclass(frozen=True)
+class Handout:
+    """A handout: its lesson, and its files by name (`files`).  In a notebook it shows the answer key."""
+
+    lesson: Lesson
+    values: Mapping[str, float] | None
+    formats: tuple[str, ...]
+    count: int
+
+    @property
+    def scene(self) -> Scene:
+        return self.lesson.sheet.scene
+
+    @property
+    def ok(self) -> bool:
+        """Whether every reading of the drawing agrees with the analytic solver."""
+        return self.lesson.report.ok
+
+    @property
+    def key(self) -> tuple[KeyRow, ...]:
+        """The answer key, in scene units."""
+        return key_rows(self.lesson)
+
+    @cached_property
+    def data(self) -> dict[str, Any]:
+        """The key for programs, in scene units."""
+        return {"ok": self.ok, "key": [asdict(row) for row in self.key]}
+
+    @property
+    def notes(self) -> tuple[Phrase, ...]:
+        """What was not done as asked: typeset PDF without the extra ``pdf``."""
+        return (Phrase("no pdf extra"),) if "pdf" in self.formats and not can_typeset() else ()
+
+    @cached_property
+    def files(self) -> Mapping[str, bytes]:
+        """Content of each file: problem.html, handout.html, problem.pdf, solution.pdf, key.pdf, key.csv."""
+        if "html" not in self.formats:
+            return handout_files(self.lesson, formats=self.formats)
+        lesson = self.lesson
+        views, start = views_of(self.scene, self.values, lesson.asked, lesson.language, lesson.convention, self.count)
+        return handout_files(lesson, views, start, self.formats)
+
+    def write(self, folder: str | os.PathLike[str] | None = None) -> list[Path]:
+        """Write the files into a folder (one named after the scene if none is given); returns their paths.
+
+        Raises
+        ------
+        CallError : the folder cannot be written
+        """
+        return write_files(Path(folder) if folder is not None else Path(safe_name(self.scene.name)), self.files)
+
+    def _repr_html_(self) -> str:
+        from graphkin.handout.html import blocks_html
+        from graphkin.handout.key import answer_key
+
+        return blocks_html(answer_key(self.lesson).blocks)
+
+
+def handout(
+    scene: SceneLike,
+    out: str | os.PathLike[str] | None = None,
+    at: At = None,
+    find: Iterable[str | Symbol] | None = None,
+    formats: Sequence[str] = FORMATS,
+    language: str | None = None,
+    convention: str | None = None,
+    positions: int = POSITIONS,
+) -> Handout:
+    """Problem sheet, worked solution and answer key of a scene.
+
+    Parameters
+    ----------
+    scene, at, find : as for `check`
+    out : folder for the files; none are written without it
+    formats : "html", "pdf" or both
+    language : "en", "zh" or "both"; the scene's own if None
+    convention : "chinese", "us", "british" or "russian"; the scene's own if None
+    positions : of the driver, for the second slider of the page
+
+    Raises
+    ------
+    SceneError, CallError : the file or the call is wrong
+    Unsolvable : wrong mobility, a position that cannot be assembled or reached, a dead point
+    """
+    _known(formats, language, convention)
+    if not 1 <= positions <= 72:
+        raise CallError(Problem("positions", f"{positions}", "give a number from 1 to 72"))
+    given = as_scene(scene)
+    asked = asked_symbols(given, find)
+    values = driver_values(given, at)
+    motion = solved_here(given, values)
+    what = paper_plan(given, values, asked)
+    lesson = lesson_of(what, motion, language or given.sheet.language, convention or given.sheet.convention)
+    made = Handout(lesson, values, tuple(dict.fromkeys(formats)), positions)
+    if out is not None:
+        made.write(out)
+    return made
+
+
+def papers_of(
+    scene: SceneLike, formats: Sequence[str] = FORMATS, language: str | None = None, convention: str | None = None
+) -> Papers:
+    """What writes the papers of each variant of a set: ``problem_set(scene, 30, render=papers_of(scene))``.
+
+    Raises
+    ------
+    SceneError, CallError : the file or the call is wrong
+    """
+    _known(formats, language, convention)
+    wishes = as_scene(scene).sheet
+    return Papers(language or wishes.language, convention or wishes.convention, tuple(dict.fromkeys(formats)))
+
+
+def _known(formats: Sequence[str], language: str | None, convention: str | None) -> None:
+    """Refuse options that are no words of theirs, all of them together."""
+    wrong = [
+        Problem(where, f'"{one}"', did_you_mean(one, table))
+        for where, words, table in (
+            ("format", list(formats), FORMATS),
+            ("lang", [language] if language else [], LANGUAGES),
+            ("convention", [convention] if convention else [], CONVENTIONS),
+        )
+        for one in words
+        if one not in table
+    ]
+    if not formats:
+        wrong.append(Problem("format", "none given", f"known here: {', '.join(FORMATS)}"))
+    if wrong:
+        raise CallError(*wrong)

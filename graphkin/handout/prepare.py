@@ -1,0 +1,119 @@
+"""From a scene to its lesson: scales that suit the paper, readings held against the solver, positions for a screen."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from graphkin import exact
+from graphkin.checking import Report, compare, predict, read_off
+from graphkin.drafting import Plan, Room, execute, plan
+from graphkin.drafting.centres import Centres, find_centres
+from graphkin.drafting.sheet import Scales, Sheet
+from graphkin.drawing.box import Box
+from graphkin.drawing.polygon import extent
+from graphkin.errors import Unsolvable
+from graphkin.exact import Motion
+from graphkin.handout.lesson import Lesson
+from graphkin.handout.viewer import POSITIONS, View, common_scales
+from graphkin.scene.model import Scene
+from graphkin.scene.symbol import Symbol
+
+__all__ = ["lesson_of", "paper_plan", "positions", "views_of"]
+
+PAPER = Room(mechanism=(160.0, 218.0), polygon=(157.0, 190.0))  # mm on A4
+
+
+def paper_plan(scene: Scene, values: Mapping[str, float] | None, asked: Sequence[Symbol]) -> Plan:
+    """What to draw, at the scene's own scales where the figures fit the paper so, at coarser ones where they do not."""
+    own = plan(scene, values, asked)
+    sheet = execute(own)
+    places = Box.around(sheet.points.values())
+    fits = [places.width <= PAPER.mechanism[0] and places.height <= PAPER.mechanism[1]]
+    for box in (extent(sheet, "velocity"), extent(sheet, "acceleration")):
+        fits.append(box.width <= PAPER.polygon[0] and box.height <= PAPER.polygon[1])
+    if all(fits):
+        return own
+    roomed = plan(scene, values, asked, PAPER).scales
+    pairs = zip(
+        fits,
+        (own.scales.length, own.scales.velocity, own.scales.acceleration),
+        (roomed.length, roomed.velocity, roomed.acceleration),
+        strict=True,
+    )
+    return replace(own, scales=Scales(*(mine if good else other for good, mine, other in pairs)))
+
+
+def lesson_of(what: Plan, motion: Motion, language: str, convention: str) -> Lesson:
+    """The lesson of a plan, with its check and with the tolerances of a pencil drawing."""
+
+    def value(symbol: Symbol) -> complex | float:
+        found = motion.value(symbol)[0]
+        return complex(found) if symbol.is_vector else float(found.real)
+
+    sheet = execute(what)
+    report = compare(sheet, read_off(sheet), value, what.asked)
+    tolerance = predict(what, "pencil", sheet.scene.sheet.tools)
+    return Lesson(sheet, report, tolerance, language, convention, what.asked)
+
+
+def positions(
+    scene: Scene, values: Mapping[str, float] | None, count: int = POSITIONS
+) -> tuple[list[dict[str, float]], int]:
+    """Driver values (rad, m) spread over a turn or over what the motion reaches, and which of them is the given one."""
+    keys = [d.key for d in scene.drivers]
+    own = {d.key: d.values[0] for d in scene.drivers} | dict(values or {})
+    motion = exact.solve(scene, at=values, sweep=count)
+    rows = [dict(zip(keys, map(float, row), strict=True)) for row in motion.values]
+    good = [bool(ok) for ok in motion.ok]
+    if not all(good):
+        # begin behind the gap, so that neighbours on the slider are neighbours in the motion
+        cut = next(i for i in range(len(good)) if good[i] and not good[i - 1]) if any(good) else 0
+        order = [*range(cut, len(good)), *range(cut)]
+        rows = [rows[i] for i in order if good[i]]
+    first = keys[0]
+    at = next((i for i, row in enumerate(rows) if np.isclose(row[first], own[first], rtol=0, atol=1e-9)), None)
+    if at is None:
+        at = sum(row[first] < own[first] for row in rows)
+        rows.insert(at, own)
+    rows[at] = own
+    return rows, at
+
+
+def views_of(
+    scene: Scene, values: Mapping[str, float] | None, asked: Sequence[Symbol], language: str, convention: str,
+    count: int = POSITIONS,
+) -> tuple[list[View], int]:  # fmt: skip
+    """The positions that the screen shows, each drawn and with its centres, and which of them is the given one.
+
+    Positions in which the construction fails (dead points) are left out.
+    """
+    rows, start = positions(scene, values, count)
+    plans: list[Plan] = []
+    given = 0
+    for i, row in enumerate(rows):
+        try:
+            found = plan(scene, row, asked)
+            execute(found)
+        except Unsolvable:
+            if i == start:
+                raise
+            continue
+        if i == start:
+            given = len(plans)
+        plans.append(found)
+    views = []
+    for what, scales in zip(plans, common_scales(plans), strict=True):
+        sheet = execute(replace(what, scales=scales))
+        empty = Report(sheet.instrument, sheet.scales, ())
+        views.append(View(Lesson(sheet, empty, {}, language, convention, tuple(asked)), _centres(scene, sheet)))
+    return views, given
+
+
+def _centres(scene: Scene, sheet: Sheet) -> Centres | None:
+    try:
+        return find_centres(scene, sheet.drivers, sheet=sheet)
+    except Unsolvable:
+        return None

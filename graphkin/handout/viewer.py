@@ -1,0 +1,184 @@
+"""Figures and steps for the screen: every position of the driver drawn in the same frames, every part with its step."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+from graphkin.drafting import Plan, execute
+from graphkin.drafting.centres import Centres
+from graphkin.drafting.sheet import DiagramName, Scales
+from graphkin.drawing.box import Box
+from graphkin.drawing.centre_marks import CentreLetters, centre_marks, near_box
+from graphkin.drawing.centres import background
+from graphkin.drawing.conventions import scale_statement
+from graphkin.drawing.headings import drivers, languages, term
+from graphkin.drawing.insets import polygon_with_insets, strip_height
+from graphkin.drawing.layout import Piece, ink_box, joined, layer_groups, moved_piece, settled
+from graphkin.drawing.mechanism import mechanism_piece
+from graphkin.drawing.polygon import extent
+from graphkin.drawing.primitives import Drawing
+from graphkin.drawing.stepwise import births, stepped
+from graphkin.handout.html import figure_svg, said_html, words_html
+from graphkin.handout.lesson import Lesson, Stage
+from graphkin.handout.pictures import ROOM, WORDS, equation_picture
+from graphkin.handout.sentences import plain_words
+from graphkin.handout.solution import equation_words, stage_title, step_items
+
+__all__ = ["POSITIONS", "View", "common_scales", "positions_data"]
+
+POSITIONS = 24
+MECHANISM, POLYGON = (115.0, 150.0), 115.0  # mm that figures of all positions together may fill
+USUAL = 0.85  # share of the positions that the common scale must suit; the others are drawn at a coarser one
+SERIES = (1.0, 2.0, 2.5, 5.0)
+
+
+@dataclass(frozen=True)
+class View:
+    """One position on the screen: its drawing, and its centres where they can be had."""
+
+    lesson: Lesson
+    centres: Centres | None = None
+
+
+def common_scales(plans: Sequence[Plan]) -> list[Scales]:
+    """Scales for several positions: one for all of them but for those few whose polygons would dwarf the rest."""
+    sheets = [execute(plan) for plan in plans]
+    metres = sheets[0].scene.units.metres
+    boxes = [Box.around(sheet.points.values()) for sheet in sheets]
+    whole = boxes[0]
+    for box in boxes[1:]:
+        whole = whole.joined(box)
+    length = _coarser(plans[0].scales.length * 1e3, max(whole.width / MECHANISM[0], whole.height / MECHANISM[1])) * 1e-3
+    found: dict[str, list[float]] = {}
+    for diagram in ("velocity", "acceleration"):
+        name: DiagramName = "velocity" if diagram == "velocity" else "acceleration"
+        reaches = [_size(extent(sheet, name)) * sheet.scales.of(name) for sheet in sheets]
+        usual = sorted(reaches)[math.ceil(USUAL * (len(reaches) - 1))]
+        own = plans[0].scales.of(name)
+        base = _coarser(own / metres, usual / own / POLYGON) * metres
+        found[diagram] = [_coarser(base / metres, r / base / POLYGON) * metres for r in reaches]
+    return [Scales(length, v, a) for v, a in zip(found["velocity"], found["acceleration"], strict=True)]
+
+
+def _size(box: Box) -> float:
+    return max(box.width, box.height)
+
+
+def _coarser(scale: float, factor: float) -> float:
+    """The scale itself where it is coarse enough, else the first of the series so many times coarser."""
+    if factor <= 1.0:
+        return scale
+    power = 10.0 ** math.floor(math.log10(scale * factor))
+    return next(s * power for s in (*SERIES, 10.0) if s * power >= scale * factor * (1 - 1e-9))
+
+
+def positions_data(views: Sequence[View]) -> dict[str, Any]:
+    """For each position its name, figures and steps, ready for the page, and the stages of all of them, each once."""
+    frames = _Frames(views)
+    positions = [frames.data(view) for view in views]
+    return {"positions": positions, "stages": frames.stages}
+
+
+class _Frames:
+    """The frames that hold the figures of all positions: equally large, and the fixed pivots always at their places."""
+
+    def __init__(self, views: Sequence[View]) -> None:
+        self.pieces = [
+            mechanism_piece(v.lesson.sheet, v.lesson.letters, (MECHANISM[0] + 40, MECHANISM[1] + 40)) for v in views
+        ]
+        self.mechanism = _joined(box for _, box in self.pieces).grown(ROOM)
+        self.polygons = {d: self._largest(views, d) for d in ("velocity", "acceleration")}
+        self.views = list(views)
+        self.stages: list[dict[str, str]] = []
+        backs = [ink_box(background(piece).drawn) or box for piece, box in self.pieces]
+        shown = [(v.centres, back) for v, back in zip(views, backs, strict=True) if v.centres is not None]
+        self.centres = _joined(near_box(c, back, MECHANISM) for c, back in shown).grown(ROOM) if shown else None
+
+    def data(self, view: View) -> dict[str, Any]:
+        lesson = view.lesson
+        born = births(lesson.sheet)
+        figures = []
+        for name, drawing in self._figures(view):
+            layers = replace(drawing, children=stepped(drawing.children, born)) if name != "centres" else drawing
+            caption = f"{words_html(term(WORDS.get(name, name), lesson.language))} "
+            figures.append({
+                "name": name,
+                "svg": figure_svg(layers, named=name != "centres"),
+                "caption": caption + f'<span class="scale">{words_html(self._scale(lesson, name))}</span>',
+            })  # fmt: skip
+        stages = lesson.stages
+        return {
+            "name": plain_words(drivers(lesson.sheet, lesson.letters)),
+            "label": words_html(drivers(lesson.sheet, lesson.letters)),
+            "figures": figures,
+            "stages": [self._stage(lesson, stage) for stage in stages],
+            "steps": [
+                {"d": stage.diagram, "e": number, "n": item.number, "html": said_html(item.words, "p")
+                 + "".join(f'<p class="work">{words_html(line)}</p>' for line in item.work),
+                 "text": " ".join(plain_words(markup) for _, markup in item.words)}
+                for number, stage in enumerate(stages) for item in step_items(lesson, stage)
+            ],
+        }  # fmt: skip
+
+    def _stage(self, lesson: Lesson, stage: Stage) -> int:
+        """Place of a stage in the table of all: most of them are the same in every position."""
+        svg = ""
+        if stage.equation is not None:
+            words = equation_words(lesson, stage.equation)
+            svg = figure_svg(equation_picture(lesson.sheet, stage.equation, lesson.letters, lesson.language, words))
+        whole = {"title": said_html(stage_title(lesson, stage)), "svg": svg}
+        if whole not in self.stages:
+            self.stages.append(whole)
+        return self.stages.index(whole)
+
+    def _scale(self, lesson: Lesson, name: str) -> str:
+        diagram: DiagramName = name if name in ("velocity", "acceleration") else "mechanism"  # type: ignore[assignment]
+        return scale_statement(lesson.sheet, lesson.letters.convention, diagram)
+
+    def _figures(self, view: View) -> Iterator[tuple[str, Drawing]]:
+        lesson = view.lesson
+        sheet, letters = lesson.sheet, lesson.letters
+        piece, _ = self.pieces[self.views.index(view)]
+        yield "mechanism", self._page(lesson, "mechanism", settled(piece, self.mechanism), self.mechanism)
+        for name in ("velocity", "acceleration"):
+            diagram: DiagramName = "velocity" if name == "velocity" else "acceleration"
+            if not sheet.vectors(diagram):
+                continue
+            half = self.polygons[name] / 2
+            middle = extent(sheet, diagram).centre
+            panel = Box.around((middle - half, middle + half))
+            strip = Box(panel.left, panel.bottom, panel.right, panel.bottom + self._strip(diagram))
+            made, _ = polygon_with_insets(sheet, diagram, letters, lesson.language, panel, 0j, strip)
+            yield name, self._page(lesson, name, made, panel.joined(strip))
+        if view.centres is not None and self.centres is not None:
+            back = background(piece)
+            marks = centre_marks(view.centres, CentreLetters(letters.convention), self.centres, back.drawn)
+            yield "centres", self._page(lesson, "centres", settled(joined((back, marks)), self.centres), self.centres)
+
+    def _largest(self, views: Sequence[View], name: str) -> complex:
+        """Width and height (mm) in which the polygon of every position has room: all are shown equally large."""
+        diagram: DiagramName = "velocity" if name == "velocity" else "acceleration"
+        boxes = [extent(v.lesson.sheet, diagram).grown(ROOM) for v in views]
+        return complex(max(max(b.width for b in boxes), 70.0), max(b.height for b in boxes))
+
+    def _strip(self, diagram: DiagramName) -> float:
+        width = self.polygons[diagram].real
+        return max(strip_height(v.lesson.sheet, diagram, width) for v in self.views)
+
+    def _page(self, lesson: Lesson, name: str, piece: Piece, panel: Box) -> Drawing:
+        moved = moved_piece(piece, -panel.corners[0])
+        title = term(WORDS.get(name, name), lesson.language)
+        desc = drivers(lesson.sheet, lesson.letters)
+        return Drawing(
+            panel.width, panel.height, layer_groups(moved), title, plain_words(desc), languages(lesson.language)[0]
+        )
+
+
+def _joined(boxes: Iterator[Box]) -> Box:
+    first, *rest = boxes
+    for box in rest:
+        first = first.joined(box)
+    return first
