@@ -47,10 +47,30 @@ QuietOption = Annotated[bool, typer.Option("-q", "--quiet", help="Print nothing 
 InstrumentOption = Annotated[
     str, typer.Option("--instrument", metavar="exact|cad|pencil", help="What draws and reads.")
 ]
+ConventionOption = Annotated[
+    str | None, typer.Option("--convention", metavar="chinese|us|british|russian", help="Letters and marks.")
+]
 SeedOption = Annotated[int, typer.Option("--seed", help="Seed of the pencil's errors.")]
 LangOption = Annotated[
     str | None, typer.Option("--lang", metavar="en|zh", help="Language of the figures and the report.")
 ]
+
+
+def _known_words(lang: str | None, convention: str | None, instrument: str = "exact") -> None:
+    """Refuse common options that are no words of theirs, all of them together."""
+    from graphkin.api.checked import INSTRUMENTS
+    from graphkin.api.files import CONVENTIONS
+    from graphkin.errors import did_you_mean
+    from graphkin.words import LANGUAGES
+
+    given = [
+        ("lang", lang, LANGUAGES),
+        ("convention", convention, CONVENTIONS),
+        ("instrument", instrument, INSTRUMENTS),
+    ]
+    wrong = [Problem(o, f'"{w}"', did_you_mean(w, known)) for o, w, known in given if w is not None and w not in known]
+    if wrong:
+        raise CallError(*wrong)
 
 
 def _version(wanted: bool) -> None:
@@ -196,16 +216,36 @@ def check(
     scene: SceneArgument,
     at: AtOption = None,
     find: FindOption = None,
+    out: Annotated[
+        Path | None, typer.Option("-o", "--out", metavar="DIR", help="Folder for readings.csv and report.txt.")
+    ] = None,
     instrument: InstrumentOption = "exact",
     seed: SeedOption = 0,
     lang: LangOption = None,
+    convention: ConventionOption = None,
     as_json: JsonOption = False,
     quiet: QuietOption = False,
 ) -> None:
     """Measure the drawn diagrams and compare every reading with the analytic solver."""
     from graphkin.api import check as checking
 
-    _report(lambda: checking(scene, _values(at), find or None, instrument, seed), as_json, quiet, lang)
+    def run() -> Checked:
+        checked = checking(scene, _values(at), find or None, instrument, seed)
+        if out is not None:
+            _write_check(out, checked, lang)
+        return checked
+
+    _known_words(lang, convention, instrument)
+    _report(run, as_json, quiet, lang)
+
+
+def _write_check(folder: Path, checked: Checked, lang: str | None) -> None:
+    from graphkin.api.drawn import readings_csv
+    from graphkin.api.files import write_files
+    from graphkin.api.told import told
+
+    report = told(checked, lang or checked.scene.sheet.language)
+    write_files(folder, {"readings.csv": readings_csv(checked).encode(), "report.txt": report.encode()})
 
 
 def _report(run: Callable[[], Checked], as_json: bool, quiet: bool, lang: str | None) -> None:
@@ -253,17 +293,33 @@ def solve(
     sweep: Annotated[
         int | None, typer.Option("--sweep", metavar="N", help="N positions over a turn of the driver.")
     ] = None,
+    out: Annotated[Path | None, typer.Option("-o", "--out", metavar="DIR", help="Folder for solution.json.")] = None,
+    lang: LangOption = None,
+    convention: ConventionOption = None,
+    instrument: InstrumentOption = "exact",
     as_json: JsonOption = False,
     quiet: QuietOption = False,
 ) -> None:
     """The analytic solution alone, at one position or over a turn."""
     from graphkin.api import solve as solving
+    from graphkin.api.solved import refused
 
-    solved = solving(scene, _values(at), sweep)
+    _known_words(lang, convention, instrument)
+    try:
+        solved = solving(scene, _values(at), sweep)
+    except Unsolvable as error:
+        if as_json:
+            _dump(refused(scene, _values(at), error))
+        raise
+    if out is not None:
+        from graphkin.api.files import write_files
+
+        text = json.dumps(solved.data, ensure_ascii=False, allow_nan=False) + "\n"
+        write_files(out, {"solution.json": text.encode()})
     if as_json:
         _dump(solved.data)
     elif not quiet:
-        _print_solution(solved)
+        _print_solution(solved, lang)
     if not solved.ok:
         first = solved.data["positions"][0]
         typer.echo(f"graphkin: {first['status']}: {first['why']}", err=True)
@@ -324,10 +380,17 @@ def centres(
         raise typer.Exit(1)
 
 
-def _print_solution(solved: Solved) -> None:
-    data = solved.data
-    unit = data["units"]["length"]
-    typer.echo(f"{data['title']}   F = {data['mobility']}")
+_PARTS = ("links", "points", "slides")
+
+
+def _print_solution(solved: Solved, lang: str | None) -> None:
+    from graphkin.words import Phrase, say
+
+    data, scene = solved.data, solved.motion.scene
+    language = lang or scene.sheet.language
+    heads = {k: say(Phrase(f"heads of {k}", (scene.units.length,)), language).split("|") for k in _PARTS}
+    title = scene.title_zh if language == "zh" and scene.title_zh else scene.title
+    typer.echo(f"{title}   F = {data['mobility']}")
     for group in data["groups"]:
         typer.echo(f"links {', '.join(group['links'])}: {group['kind']}, class {group['class']}; {group['assembly']}")
     for position in data["positions"]:
@@ -337,19 +400,19 @@ def _print_solution(solved: Solved) -> None:
             typer.echo(f"{position['status']}: {position['why']}")
             continue
         _table(
-            ["link", "angle (deg)", "omega (rad/s)", "alpha (rad/s2)"],
+            heads["links"],
             [[n, _deg(v["angle"]), _num(v["omega"]), _num(v["alpha"])] for n, v in position["links"].items()],
             right=(1, 2, 3),
         )
         _table(
-            ["point", f"x, y ({unit})", f"velocity ({unit}/s)", f"acceleration ({unit}/s2)"],
+            heads["points"],
             [
                 [n, *(_pair(v[k]) for k in ("position", "velocity", "acceleration"))]
                 for n, v in position["points"].items()
             ],
         )
         _table(
-            ["slide", f"travel ({unit})", f"velocity ({unit}/s)", f"acceleration ({unit}/s2)", "Coriolis"],
+            heads["slides"],
             [_slide_row(n, v) for n, v in position["slides"].items()],
             right=(1, 2, 3),
         )

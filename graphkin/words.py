@@ -223,6 +223,20 @@ _TABLE: dict[str, tuple[str, str]] = {
     "direction of": ("direction", "方向"),
     "check passed": ("All {0} readings agree with the analytic solution.", "{0} 个量取值均与解析解一致。"),
     "check failed": ("Out of tolerance: {0}.", "超出允许误差：{0}。"),
+    "nothing checked": ("Nothing of it is drawn, so nothing is checked.", "未能作图，无可校核。"),
+    # tables of the solution
+    "heads of links": (
+        "link|angle (deg)|omega (rad/s)|alpha (rad/s2)",
+        "构件|转角 (°)|角速度 (rad/s)|角加速度 (rad/s²)",
+    ),
+    "heads of points": (
+        "point|x, y ({0})|velocity ({0}/s)|acceleration ({0}/s2)",
+        "点|x, y ({0})|速度 ({0}/s)|加速度 ({0}/s²)",
+    ),
+    "heads of slides": (
+        "slide|travel ({0})|velocity ({0}/s)|acceleration ({0}/s2)|Coriolis",
+        "移动副|位移 ({0})|速度 ({0}/s)|加速度 ({0}/s²)|哥氏加速度",
+    ),
     # figures
     "mechanism": ("Mechanism", "机构运动简图"),
     "velocity polygon": ("Velocity polygon", "速度多边形"),

@@ -8,12 +8,14 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from graphkin.api.called import At, SceneLike, as_scene, driver_values
-from graphkin.errors import CallError, Problem
+from graphkin.errors import CallError, Problem, Unsolvable
+from graphkin.scene.model import SlideDriver
+from graphkin.structure import mobility_of
 
 if TYPE_CHECKING:
     from graphkin.exact import Motion
 
-__all__ = ["Solved", "solve"]
+__all__ = ["Solved", "refused", "solve"]
 
 
 @dataclass(frozen=True)
@@ -48,6 +50,23 @@ class Solved:
                 rows.append(f"<tr><td>{html.escape(driver)}</td><td>{html.escape(name)}</td>{cells}</tr>")
         head = "<tr><th>driver</th><th>link</th><th>angle</th><th>&omega;</th><th>&alpha;</th></tr>"
         return f"<table>{head}{''.join(rows)}</table>"
+
+
+def refused(scene: SceneLike, at: At, stop: Unsolvable) -> dict[str, Any]:
+    """The object of ``solve --json`` for a mechanism that is refused as a whole: its count, and why."""
+    given = as_scene(scene)
+    values = driver_values(given, at) or {}
+    driver = {
+        d.key: values.get(d.key, d.values[0]) / (given.units.metres if isinstance(d, SlideDriver) else 1.0)
+        for d in given.drivers
+    }
+    return {
+        "title": given.title,
+        "units": {"length": given.units.length, "time": "s", "angle": "rad"},
+        "mobility": mobility_of(given).value,
+        "groups": [],
+        "positions": [{"driver": driver, "status": stop.status, "why": stop.why}],
+    }
 
 
 def solve(scene: SceneLike, at: At = None, sweep: int | None = None) -> Solved:

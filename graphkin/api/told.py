@@ -70,6 +70,8 @@ def verdict(checked: Checked, language: str) -> str:
     off = [str(r.symbol) for r in checked.report.rows if not r.ok]
     if off:
         return say(Phrase("check failed", (", ".join(off),)), language)
+    if not checked.report.rows:
+        return say(Phrase("nothing checked"), language)
     return say(Phrase("check passed", (len(checked.report.rows),)), language)
 
 

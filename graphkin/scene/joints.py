@@ -9,6 +9,7 @@ from graphkin.plane import direction
 from graphkin.scene.file import LinkTable, SceneFile
 from graphkin.scene.model import PinInSlot, SlidingPair
 from graphkin.scene.names import Names
+from graphkin.scene.reading import Flaws
 
 __all__ = ["islands", "pins_in_slots", "sliding_pairs"]
 
@@ -17,12 +18,14 @@ def _as_list(refs: str | list[str]) -> list[str]:
     return [refs] if isinstance(refs, str) else refs
 
 
-def sliding_pairs(file: SceneFile, names: Names, problems: list[Problem]) -> tuple[SlidingPair, ...]:
+def sliding_pairs(
+    file: SceneFile, names: Names, flaws: Flaws, problems: list[Problem]
+) -> tuple[SlidingPair, ...]:
     """The sliding pairs of the file; what is wrong with them is added to ``problems``."""
     pairs: list[SlidingPair] = []
     for name, link in file.links.items():
         if link.on is None:
-            if link.angle_on is not None and name not in names.unsure:
+            if link.angle_on is not None and name not in names.unsure and not flaws.under("links", name, "on"):
                 problems.append(Problem(f"links.{name}.angle_on", "stands without on", "say what the link slides on"))
             continue
         refs = _as_list(link.on)

@@ -60,8 +60,8 @@ def resolve(file: SceneFile, name: str, problems: list[Problem], flaws: Flaws) -
     metres = METRES[file.units.length]
     names = Names.of(file, flaws)
     problems += unwritable_texts(file)
-    problems += wrong_own_points(file, names)
-    slidings = sliding_pairs(file, names, problems)
+    problems += wrong_own_points(file, names, flaws)
+    slidings = sliding_pairs(file, names, flaws, problems)
     pins = pins_in_slots(file, names, slidings, problems)
     driven = drives(file, names, flaws, slidings, pins, metres, problems)
     problems += unknown_places(file, names)

@@ -23,7 +23,7 @@ def unwritable_texts(file: SceneFile) -> list[Problem]:
     return found
 
 
-def wrong_own_points(file: SceneFile, names: Names) -> list[Problem]:
+def wrong_own_points(file: SceneFile, names: Names, flaws: Flaws) -> list[Problem]:
     """What is wrong with the own points of the links."""
     found = []
     if names.frame in file.links:
@@ -40,7 +40,7 @@ def wrong_own_points(file: SceneFile, names: Names) -> list[Problem]:
         if link.length is not None and len(own) < 2 and name not in names.unsure:
             found.append(Problem(f"{where}.length", f"found {link.length:g} with {len(own)} own point"
                                  f"{'' if len(own) == 1 else 's'}", "a length needs two names in points"))
-        if not own and link.on is None and name not in names.unsure:
+        if not own and link.on is None and name not in names.unsure and not flaws.under("links", name, "on"):
             found.append(Problem(where, "has neither points nor on, so nothing places or holds it",
                                  'write points = ["A", "B"], or on = "..." for a link that slides'))
     return found

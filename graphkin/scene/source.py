@@ -73,6 +73,9 @@ def read_text(text: str, name: str) -> Scene:
     except RecursionError:
         raise SceneError(Problem("the file", "is nested too deeply", "a scene needs at most four levels")) from None
     except ValueError as error:
+        if "int_max_str_digits" in str(error):
+            raise SceneError(Problem("the file", "is not TOML: a number of thousands of digits",
+                                     "no number of a scene may exceed 1e+15")) from None
         raise SceneError(Problem("the file", f"is not TOML: {error}", "see https://toml.io")) from None
     return _scene(raw, name)
 

@@ -1,6 +1,6 @@
 """Mobility and its traps, Assur groups, order of solution."""
 
-from graphkin.structure.analysis import analyse
+from graphkin.structure.analysis import analyse, mobility_of
 from graphkin.structure.assembly import Choice, pick
 from graphkin.structure.model import (
     Body,
@@ -32,5 +32,6 @@ __all__ = [
     "Weld",
     "analyse",
     "driver_pair",
+    "mobility_of",
     "pick",
 ]

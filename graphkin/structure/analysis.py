@@ -23,7 +23,7 @@ from graphkin.structure.model import (
     driver_pair,
 )
 
-__all__ = ["analyse"]
+__all__ = ["analyse", "mobility_of"]
 
 Node = tuple[str, str]  # ("link" | "point", name)
 Unknown = tuple[Node, str]  # a node and one of its coordinates x, y, t
@@ -67,6 +67,11 @@ def analyse(scene: Scene) -> Structure:
         elements.append(_element(parts, members, known))
         known.update(members)
     return Structure(scene, parts.links, parts.slides, parts.hinges, mobility, tuple(elements))
+
+
+def mobility_of(scene: Scene) -> Mobility:
+    """Links, pairs and F of a scene, whatever its drivers are."""
+    return _Parts(scene).mobility()
 
 
 class _Parts:
@@ -142,6 +147,10 @@ def _wrong_count(scene: Scene, mobility: Mobility, parts: _Parts) -> Problem:
         else f"F = 3*{mobility.links} - 2*{mobility.lower} = {mobility.value}"
     )
     wanted = f"a mechanism of mobility {mobility.value} needs as many drivers"
+    idle = [link.name for link in scene.links if link.redundant]
+    if idle and mobility.value > found:
+        named = f"links {', '.join(idle)}, marked" if len(idle) > 1 else f"link {idle[0]}, marked"
+        wanted += f"; {named} redundant, is not counted: only a link that repeats what others hold may be marked so"
     if mobility.value <= 0:
         wanted = "it is a structure, no driver can move it"
         loop = _sliding_loop(parts)

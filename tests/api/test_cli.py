@@ -167,3 +167,34 @@ def test_a_truss_is_refused_as_immobile(tmp_path):
     done = run("check", "truss.toml", cwd=tmp_path)
     assert 3 == done.returncode
     assert "mobility" in done.stderr
+
+
+NO_DRIVER = '[frame]\npoints = { A = [0, 0] }\n[links.1]\npoints = ["A", "B"]\nlength = 80\n'
+
+
+def test_solve_prints_its_object_for_a_wrong_mobility_too(tmp_path):
+    (tmp_path / "loose.toml").write_text(NO_DRIVER)
+    done = run("solve", "loose.toml", "--json", cwd=tmp_path)
+    assert 3 == done.returncode
+    data = json.loads(done.stdout)
+    assert 1 == data["mobility"]
+    assert "no driver" in data["positions"][0]["why"]
+
+
+@pytest.mark.parametrize("command", ["solve", "check", "draw"])
+def test_an_unknown_language_and_an_unknown_convention_are_told(command, tmp_path):
+    for option, word in (("--lang", "de"), ("--convention", "german")):
+        done = run(command, SIXBAR, option, word, cwd=tmp_path)
+        assert 2 == done.returncode
+        assert f'"{word}"; known here' in done.stderr
+    assert [] == list(tmp_path.iterdir())
+
+
+def test_check_and_solve_write_what_they_found_into_the_folder_given(tmp_path):
+    assert 0 == run("check", SIXBAR, "-q", "-o", "out", cwd=tmp_path).returncode
+    assert 0 == run("solve", SIXBAR, "-q", "-o", "out", cwd=tmp_path).returncode
+    assert {"readings.csv", "report.txt", "solution.json"} == {p.name for p in (tmp_path / "out").iterdir()}
+
+
+def test_solve_speaks_chinese():
+    assert "角加速度" in run("solve", SIXBAR, "--lang", "zh").stdout

@@ -272,3 +272,13 @@ def test_a_wrong_angle_of_the_driver_is_not_reported_as_missing() -> None:
 def test_the_second_of_several_drivers_is_named_by_its_number() -> None:
     text = changed(FOUR_BAR, ("[driver]", "[[driver]]")) + '[[driver]]\nlink = "2"\nangle = true\nomega = 0\n'
     assert [s.split(":")[0] for s in messages(text)] == ["driver.2.angle"]
+
+
+def test_a_wrong_list_of_guides_is_not_reported_as_missing() -> None:
+    block = '[links.5]\non = ["2", "3", "4"]\nangle_on = [0, 90]\n[driver]'
+    assert [s.split(":")[0] for s in messages(changed(FOUR_BAR, ("[driver]", block)))] == ["links.5.on"]
+
+
+def test_a_number_of_thousands_of_digits_is_told_in_words_of_the_scene() -> None:
+    (sentence,) = messages(changed(FOUR_BAR, ("length = 150", "length = 1" + "0" * 5000)))
+    assert "1e+15" in sentence

@@ -176,3 +176,8 @@ def test_a_part_held_too_much_is_named_with_the_part_that_is_free() -> None:
     more = '[links.4]\npoints = ["A", "C"]\nlength = 420\n[links.5]\npoints = ["D", "E"]\nlength = 50\n'
     with pytest.raises(Unsolvable, match="links left free: 5"):
         structure(FOUR_BAR.replace("[driver]", more + "[driver]"))
+
+
+def test_a_link_marked_redundant_that_is_needed_is_named() -> None:
+    with pytest.raises(Unsolvable, match="link 3, marked redundant, is not counted"):
+        structure(FOUR_BAR.replace("[links.3]\n", "[links.3]\nredundant = true\n"))
