@@ -128,10 +128,9 @@ class Course:
         poses = {name: _masked(pose.spread(n), ok) for name, pose in state.poses.items()}
         poses[self.scene.frame.name] = rest().spread(n)
         self._place_redundant(poses)
-        bounds = [
-            np.max([np.broadcast_to(getattr(b, what), (n,)) for b in state.bounds.values()], axis=0)
-            for what in ("velocity", "acceleration")
-        ]
+        bounds, rough = state.bounds, state.rough
+        assert bounds is not None
+        assert rough is not None
         return Motion(
             self.structure,
             values,
@@ -140,9 +139,11 @@ class Course:
             poses,
             all_slides(self.structure),
             self.assembly,
-            np.where(ok, bounds[0], np.nan),
-            np.where(ok, bounds[1], np.nan),
+            np.where(ok, bounds.velocity, np.nan),
+            np.where(ok, bounds.acceleration, np.nan),
             turned,
+            position_bound=np.where(ok, bounds.position, np.nan),
+            rough=(np.where(ok, rough.velocity, np.nan), np.where(ok, rough.acceleration, np.nan)),
         )
 
     @cached_property

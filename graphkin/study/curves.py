@@ -23,6 +23,8 @@ POINTS = 24
 FIRST_PIECES = 8
 MOST_DEPTH = 12
 MOST_PIECES = 500
+MOST_ROOTS = 400
+"""A curve with more roots over its range is rounding."""
 RESOLVED = 2e-14
 PLATEAU = 1e-10
 OUTSIDE = 1e-9
@@ -91,6 +93,8 @@ class Pieces:
                 continue
             for x in _real_roots(c, rounding):
                 found.append(float((low + high) / 2 + (high - low) / 2 * x))
+        if len(found) > MOST_ROOTS:
+            return np.zeros(0)
         found.sort()
         kept: list[float] = []
         for t in found:

@@ -210,8 +210,9 @@ def _shown(course: Course, quantity: Quantity, offset: Array, values: Array) -> 
     scene = course.scene
     values = np.asarray(values, dtype=float)
     if quantity.kind == "theta" and course.full:
-        ends = quantity.values(course, course.motion(np.array(course.ends)))
-        values = np.where(offset < _first(course) - 1e-12, values + (ends[1] - ends[0]), values)
+        low, high, left = quantity.values(course, course.motion(np.array([*course.ends, _first(course)])))
+        values = np.where(offset < _first(course) - 1e-12, values + (high - low), values)
+        values = values - 2 * np.pi * np.rint(left / (2 * np.pi))
     return np.array([quantity.in_units(scene, v, degrees=True) for v in values])
 
 

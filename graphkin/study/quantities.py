@@ -99,8 +99,17 @@ class Quantity:
         return {"s": slide.travel, "v": slide.velocity, "a": slide.acceleration}[self.kind]
 
     def smooth(self, course: Course, motion: Motion) -> Array:
-        """What is smooth where the quantity may not be: the square of a vector's size, else the quantity itself."""
+        """What is smooth where the quantity may not be: the square of a vector's size, else the quantity itself.
+
+        A rate that is nothing but rounding (no larger than the solver's own bound of its error) is 0.
+        """
         value = self.values(course, motion)
+        if not self.is_position:
+            bound = motion.velocity_bound if self.is_speed else motion.acceleration_bound
+            if self.measure.startswith("angular"):
+                lengths = [link.length for link in course.scene.links if link.length]
+                bound = bound / min(lengths, default=course.scene.size)
+            value = np.where(np.abs(value) <= bound, 0.0, value)
         return value**2 if self.is_size else value
 
 

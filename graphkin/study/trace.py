@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -162,17 +162,19 @@ def _traced(way: _Way, pieces: Pieces, k: int, quantity: Quantity) -> Traced:
     course = way.course
     at_start = course.motion(np.zeros(1))
     if pieces.is_constant(k) or _is_constant(way, quantity):
-        return Traced(quantity, (), (), float(quantity.values(course, at_start)[0]))
+        nothing = quantity.smooth(course, at_start)[0] == 0.0
+        return Traced(quantity, (), (), 0.0 if nothing else float(quantity.values(course, at_start)[0]))
     offset = way.offset(way.inside(pieces.extremes(k)))
     zeros = way.offset(way.inside(pieces.zeros(k)))
     if quantity.is_position:
         offset = _polished(course, quantity, offset)
-    elif quantity.kind in ("omega", "v") and course.driver.values[2] == 0:
+    elif quantity.kind in ("omega", "v") and len(course.scene.drivers) == 1 and course.driver.values[2] == 0:
         offset = _at_zero(course, quantity, offset)
     extremes = _extremes(way, pieces, k, quantity, offset)
     if quantity.is_size:
         most = max((e.value for e in extremes), default=0.0)
-        zeros = np.array([e.offset for e in extremes if e.value <= 1e-11 * most])
+        extremes = tuple(replace(e, value=0.0) if e.value <= 1e-11 * most else e for e in extremes)
+        zeros = np.array([e.offset for e in extremes if e.value == 0.0])
     elif quantity.kind == "theta":
         zeros = np.zeros(0)
     return Traced(quantity, extremes, tuple(driver_value(course, float(z)) for z in zeros))
@@ -183,7 +185,8 @@ def _is_constant(way: _Way, quantity: Quantity) -> bool:
     if quantity.is_position:
         return False
     low, high = way.range
-    values = quantity.values(way.course, way.course.motion(way.offset(np.linspace(low, high, 34)[1:-1])))
+    motion = way.course.motion(way.offset(np.linspace(low, high, 34)[1:-1]))
+    values = quantity.smooth(way.course, motion)
     values = values[np.isfinite(values)]
     return bool(len(values) == 0 or np.ptp(values) <= 1e-12 * np.max(np.abs(values)))
 
