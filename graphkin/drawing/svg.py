@@ -80,6 +80,8 @@ def svg_bytes(drawing: Drawing, debug: bool = False) -> bytes:
     for tag, words in (("title", drawing.title), ("desc", drawing.desc), ("metadata", facts)):
         if words:
             page.elements.append(_words(tag, words))
+    # white paper, so that black lines show on a dark screen too
+    page.add(page.rect((0, 0), ("100%", "100%"), fill="#ffffff", class_="paper"))
     ink = _Ink(page, drawing.lang)
     for child in drawing.children:
         ink.draw(page, child)
