@@ -80,7 +80,7 @@ class Case:
 
 def _assemblies(plan: Plan) -> Iterator[tuple[Phrase, float, Plan, Slip]]:
     for i, branch in plan.branches.items():
-        yield Phrase("slip assembly"), 0.05, replace(plan, branches={**plan.branches, i: 1 - branch}), Slip()
+        yield Phrase("slip assembly"), 0.05, replace(plan, branches={**plan.branches, i: 1 - branch}, chains={}), Slip()
 
 
 def _terms(plan: Plan, sheet: Sheet) -> Iterator[tuple[Phrase, float, Plan, Slip]]:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from graphkin.drafting.asked import needed, show
 from graphkin.drafting.board import Board
+from graphkin.drafting.chains import Chain
 from graphkin.drafting.dyads import Frame, drive
 from graphkin.drafting.instrument import EXACT, Instrument
 from graphkin.drafting.polygons import Polygons
@@ -34,7 +35,7 @@ class Room:
 
 @dataclass(frozen=True)
 class Plan:
-    """What is to be drawn, at which position and scales, and in which assembly."""
+    """What is to be drawn, at which position and scales, in which assembly, and by which equation for each dyad."""
 
     structure: Structure
     asked: tuple[Symbol, ...]
@@ -43,6 +44,7 @@ class Plan:
     branches: Mapping[int, int]
     scales: Scales
     stopped: Phrase | None
+    chains: Mapping[Dyad, Chain] = field(default_factory=dict)
 
 
 def plan(
@@ -58,8 +60,9 @@ def plan(
     elements = _drawable(wanted)
     values = {d.key: d.values[0] for d in scene.drivers} | dict(at or {})
     branches = branches_at(structure, elements, values)
-    scales = _scales(structure, elements, values, branches, room)
-    return Plan(structure, asked, tuple(elements), values, branches, scales, _stopped(wanted))
+    trial = _trial(structure, elements, values, branches)
+    scales = _scales(trial, room)
+    return Plan(structure, asked, tuple(elements), values, branches, scales, _stopped(wanted), trial.chains)
 
 
 def execute(what: Plan, instrument: Instrument = EXACT, slip: Slip = NO_SLIP) -> Sheet:
@@ -70,6 +73,7 @@ def execute(what: Plan, instrument: Instrument = EXACT, slip: Slip = NO_SLIP) ->
     assembly = _draw_position(board, structure, elements, position, what.branches)
     board.causes[:] = position.causes
     polygons = Polygons(board, structure, position.frame, scales, slip)
+    polygons.chains.update(what.chains)
     for order in ("velocity", "acceleration"):
         for element in elements:
             polygons.draw(order, element)
@@ -215,22 +219,26 @@ def _assembly_names(dyad: Dyad) -> tuple[object, ...]:
     return name(dyad.outer_first), name(dyad.inner), name(dyad.outer_second)
 
 
-def _scales(
+def _trial(
     structure: Structure,
     elements: Sequence[Driven | Dyad],
     values: Mapping[str, float],
     branches: Mapping[int, int],
-    room: Room | None,
-) -> Scales:
-    """The scene's own scales, and for those it does not give the finest of the series that fit the room."""
-    scene = structure.scene
-    wishes, unit = scene.sheet, scene.units.metres
-    trial = Scales(scene.size / 100.0, 1.0, 1.0)
+) -> Polygons:
+    """Both polygons drawn once at any scale, to see how large they come out."""
+    trial = Scales(structure.scene.size / 100.0, 1.0, 1.0)
     frame = place(structure, elements, 1.0 / trial.length, values, branches).frame
     polygons = Polygons(Board(EXACT), structure, frame, trial)
     for order in ("velocity", "acceleration"):
         for element in elements:
             polygons.draw(order, element)
+    return polygons
+
+
+def _scales(polygons: Polygons, room: Room | None) -> Scales:
+    """The scene's own scales, and for those it does not give the finest of the series that fit the room."""
+    scene, trial = polygons.structure.scene, polygons.scales
+    wishes, unit = scene.sheet, scene.units.metres
     space = room or Room()
     tips = {
         order: [0j, *(z for v in polygons.drawn[order].values() for z in (v.tail, v.tip))]
