@@ -154,13 +154,17 @@ def _choose(structure: Structure, elements: Sequence[Element], own: Mapping[str,
 
 
 def _ways(drivers: Sequence[Driver], own: Mapping[str, float], values: Mapping[str, float]) -> list[dict[str, float]]:
-    """The straight way, and for angles the other way round."""
-    around = {}
+    """The straight way, whole turns left out, and for angles the other way round."""
+    straight: dict[str, float] = {}
+    around: dict[str, float] = {}
     for d in drivers:
         way = values[d.key] - own[d.key]
-        other = values[d.key] - math.copysign(2 * math.pi, way) if isinstance(d, AngleDriver) and way else values[d.key]
-        around[d.key] = other
-    return [dict(values)] if around == dict(values) else [dict(values), around]
+        turns = isinstance(d, AngleDriver) and way != 0.0
+        if turns and abs(way) > 2 * math.pi:
+            way = math.remainder(way, 2 * math.pi)
+        straight[d.key] = own[d.key] + way
+        around[d.key] = straight[d.key] - (math.copysign(2 * math.pi, way) if turns else 0.0)
+    return [straight] if around == straight else [straight, around]
 
 
 def _follow(

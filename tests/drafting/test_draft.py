@@ -184,3 +184,9 @@ def test_a_parallelogram_goes_on_as_one_through_its_change_point():
     }
     sheet = draft(read(mapping), at={"1": cmath.pi * 4 / 3})
     assert sheet.poses["1"].axis == pytest.approx(sheet.poses["3"].axis, abs=1e-9)
+
+
+def test_whole_turns_are_left_out_of_the_way_to_a_position():
+    scene = read("sixbar-AE70")
+    once, thrice = (draft(scene, at={"1": 0.5 + turns * 2 * cmath.pi}) for turns in (0, 3))
+    assert once.points[PointRef("C")] == pytest.approx(thrice.points[PointRef("C")], abs=1e-9)
