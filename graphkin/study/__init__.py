@@ -4,8 +4,9 @@ from graphkin.study.chunks import Plan
 from graphkin.study.course import Course, course_of
 from graphkin.study.designs import Designs, designs_of
 from graphkin.study.diagrams import diagrams
+from graphkin.study.kept import Swept
 from graphkin.study.summary import to_json
-from graphkin.study.sweeping import Progress, Swept, have_parquet, run, scheduler
+from graphkin.study.sweeping import Progress, have_parquet, run, scheduler
 from graphkin.study.trace import Extreme, Traced
 from graphkin.study.turn import Output, Turn, study_turn
 

@@ -130,8 +130,7 @@ class Course:
         self._place_redundant(poses)
         bounds, rough = state.bounds, state.rough
         assert bounds is not None
-        assert rough is not None
-        return Motion(
+            return Motion(
             self.structure,
             values,
             status,
@@ -143,7 +142,7 @@ class Course:
             np.where(ok, bounds.acceleration, np.nan),
             turned,
             position_bound=np.where(ok, bounds.position, np.nan),
-            rough=(np.where(ok, rough.velocity, np.nan), np.where(ok, rough.acceleration, np.nan)),
+            rough=(np.where(ok, rough[0], np.nan), np.where(ok, rough[1], np.nan)),
         )
 
     @cached_property

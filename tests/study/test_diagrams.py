@@ -12,7 +12,7 @@ from graphkin.drawing.metrics import text_box
 from graphkin.drawing.primitives import walk
 from graphkin.scene import read
 from graphkin.study import course_of, diagrams, study_turn
-from graphkin.study.diagrams import coupler_points
+from graphkin.study.coupler import coupler_points
 from graphkin.study.measured import measured
 from graphkin.study.quantities import link_quantities, slide_quantities
 
