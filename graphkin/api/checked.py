@@ -194,8 +194,8 @@ def checked(what: Plan, motion: Motion, hand: Instrument) -> Checked:
     readings = read_off(sheet, (), hand)
     if hand is EXACT:
         rounding: dict[DiagramName, float] = {
-            "velocity": float(motion.velocity_bound[0]),
-            "acceleration": float(motion.acceleration_bound[0]),
+            "velocity": float(motion.rough[0][0]),
+            "acceleration": float(motion.rough[1][0]),
         }
         return Checked(sheet, compare(sheet, readings, value, what.asked, rounding=rounding))
     tools = what.structure.scene.sheet.tools

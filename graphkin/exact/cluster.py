@@ -7,13 +7,13 @@ Dynamics of Mechanical Systems, ch. 3).  Lengths are counted in the size of the 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
-from graphkin.exact.joints import Drive, joint_place
+from graphkin.exact.joints import Drive, joint_place, turned
 from graphkin.exact.pose import Array, Pose
 from graphkin.scene.model import AngleDriver
 from graphkin.structure import Cluster, Slide, Structure, Turn
@@ -21,6 +21,7 @@ from graphkin.structure import Cluster, Slide, Structure, Turn
 __all__ = ["ClusterSolved", "System", "as_place", "solve_all", "solve_cluster"]
 
 ROUNDS = 40
+_ZERO = np.zeros(1)
 
 
 class ClusterSolved(NamedTuple):
@@ -33,6 +34,7 @@ class ClusterSolved(NamedTuple):
     condition : of the scaled constraints, one over the least singular value: how much an error grows
     matrix : derivative of the constraints by the scaled unknowns, shape (n, rows, columns)
     load : rate of the constraints with the group held still, shape (n, rows)
+    error : bounds of place, rate and second rate, lengths in the size, each of shape (n,)
     """
 
     poses: Mapping[str, Pose]
@@ -42,6 +44,7 @@ class ClusterSolved(NamedTuple):
     condition: Array
     matrix: Array
     load: Array
+    error: tuple[Array, Array, Array]
 
 
 @dataclass(frozen=True)
@@ -90,7 +93,7 @@ class System:
             value, rate, second = self.drive.value[:, i], self.drive.rate[:, i], self.drive.second[:, i]
             if isinstance(driver, AngleDriver):
                 seen = poses[driver.relative_to].inverse().of(poses[driver.link])
-                turn = seen.u * np.conj(self.drive.turn(i).u)
+                turn = seen.u * np.conj(turned(value))
                 rows.append((np.angle(turn), seen.omega - rate, seen.alpha - second))
             else:
                 pair = self.structure.slide(driver.key)
@@ -162,9 +165,21 @@ class System:
 
 
 def solve_cluster(
-    structure: Structure, group: Cluster, known: Mapping[str, Pose], drive: Drive, start: Array, rates: bool = True
+    structure: Structure,
+    group: Cluster,
+    known: Mapping[str, Pose],
+    drive: Drive,
+    start: Array,
+    rates: bool = True,
+    before: Sequence[Array] = (_ZERO,) * 3,
+    turning: Sequence[Array] = (_ZERO,) * 3,
 ) -> ClusterSolved:
-    """Solve a group by Newton's method from given places, shape (n, members, 3)."""
+    """Solve a group by Newton's method from given places, shape (n, members, 3).
+
+    Parameters
+    ----------
+    before, turning : how far what it hangs on may be off, points (m, m/s, m/s2) and angles (rad, rad/s, rad/s2)
+    """
     n = len(drive)
     system = System(structure, group, known, drive)
     place = np.array(np.broadcast_to(start, (n, len(group.members), 3)), dtype=float)
@@ -197,7 +212,42 @@ def solve_cluster(
     values = np.linalg.svd(np.asarray(np.where(whole[:, None, None], matrix, 0.0), dtype=float), compute_uv=False)
     condition = np.where(whole, 1 / np.maximum(values[:, -1], 1e-300), np.inf)
     missed = np.where(whole, missed, np.inf)
-    return ClusterSolved(members, place, missed, np.linalg.det(matrix), condition, matrix, load)
+    size = structure.scene.size
+    off = [b / size + t for b, t in zip(before, turning, strict=True)]
+    error = _bounds(system, members, condition, off)
+    return ClusterSolved(members, place, missed, np.linalg.det(matrix), condition, matrix, load, error)
+
+
+def _bounds(
+    system: System, members: Mapping[str, Pose], condition: Array, off: Sequence[Array]
+) -> tuple[Array, Array, Array]:
+    """Bounds of place, rate and second rate of a group, lengths in the size.
+
+    Each is the solution of equations with the same matrix, so an error of the right side counts by its condition; an
+    error of place is an error of the matrix for the rates, and an error of the rates one of the centripetal terms.
+    """
+    size, rows = system.structure.scene.size, 3 * len(system.group.members)
+    ends = {end for pair in system.group.pairs for end in (pair.a, pair.b)}
+    poses = [*members.values(), *(p for n, p in system.known.items() if n in ends)]
+    reach = 1 + _most([np.abs(p.z) / size for p in poses])
+    speed = _most([np.abs(p.v) / size + np.abs(p.omega) * reach for p in poses])
+    push = _most([np.abs(p.a) / size + (np.abs(p.alpha) + p.omega**2) * reach for p in poses])
+    gain = condition * rows**0.5 * 2
+    place = gain * (2 * off[0] + ROUNDINGS * reach)
+    turned_by = 4 * place * reach + ROUNDINGS
+    rate = gain * (2 * off[1] + turned_by * speed)
+    second = gain * (2 * off[2] + turned_by * push + 4 * (speed + rate) * rate * reach)
+    return place, rate, second
+
+
+ROUNDINGS = 32 * 2.0**-53
+
+
+def _most(values: list[Array]) -> Array:
+    most = values[0]
+    for value in values[1:]:
+        most = np.maximum(most, value)
+    return np.asarray(most)
 
 
 def solve_all(matrix: Array, right: Array) -> Array:

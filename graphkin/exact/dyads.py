@@ -1,4 +1,4 @@
-"""The dyads in closed form: position, velocity and acceleration, as arrays over positions.
+"""The dyads in closed form: formulas of position, velocity and acceleration.
 
 A dyad is two bodies; each has an outer joint to a known frame and an inner joint to the other body.  Every joint
 is a frame of axes: of a turning pair only the origin counts; at a sliding pair the two frames have one direction, that
@@ -7,18 +7,20 @@ offsets, angles between block and rod, or which side carries the guide.  A body 
 (a driven cylinder) has moving joint frames.
 
 Sources: circle with circle, circle with line, right triangle, line with line as in Waldron and Kinzel,
-Kinematics, Dynamics and Design of Machinery, ch. 5; velocity and acceleration by one 2 x 2 system each.
+Kinematics, Dynamics and Design of Machinery, ch. 5; velocity and acceleration by one 2 x 2 system each, its determinant
+taken from the triangle itself, where nothing cancels, not from the directions found.
+
+The functions compute with formulas (``graphkin.exact.formula``) as well as with arrays.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
-import numpy as np
-
-from graphkin.exact.pose import Array, Pose, cross
+from graphkin.exact.formula import root, two_sum
+from graphkin.exact.pose import Pose, cross, dot
 
 __all__ = ["Joints", "Solved", "solve_dyad"]
 
@@ -39,7 +41,7 @@ class Joints:
     outer2: Pose
     inner2: Pose
     sense: float
-    size: float
+    size: Any
 
 
 class Solved(NamedTuple):
@@ -54,154 +56,173 @@ class Solved(NamedTuple):
 
     first: Pose
     second: Pose
-    discriminant: Array
-    sine: Array
-    e1: Array
-    e2: Array
-    load: Array
+    discriminant: Any
+    sine: Any
+    e1: Any
+    e2: Any
+    load: Any
 
 
-def solve_dyad(kind: str, joints: Joints, sign: Array, rates: bool = True) -> Solved:
+def solve_dyad(kind: str, joints: Joints, sign: Any) -> Solved:
     """Solve a dyad of the given kind.
 
     Parameters
     ----------
-    sign : real, shape (positions,) or scalar: +1 or -1, the assembly.  RRR: the inner point left or right of the line
-        from the first known point to the second; RRP: the greater or smaller travel; RPR: the travel positive or
-        negative (but for offsets).  PRP and RPP have one assembly; there it is the sign of the sine that is watched.
-    rates : False leaves velocity and acceleration out (they are then those of the joints at standstill)
+    sign : +1 or -1, the assembly.  RRR: the inner point left or right of the line from the first known point to the
+        second; RRP: the greater or smaller travel; RPR: the travel positive or negative (but for offsets).  PRP and
+        RPP have one assembly; there it is the sign of the sine that is watched.
     """
-    return _SOLVERS[kind](joints, sign, rates)
+    return _SOLVERS[kind](joints, sign)
 
 
-def _two(e1: Array, e2: Array, w: Array) -> tuple[Array, Array]:
-    """Solve x e1 + y e2 = w for real x, y."""
-    det = cross(e1, e2)
-    return cross(w, e2) / det, cross(e1, w) / det
+def _square(z: Any) -> Any:
+    return z.real * z.real + z.imag * z.imag
 
 
-def _arm(body_u: Array, outer: Pose, inner: Pose) -> tuple[Array, Callable[[Array], Array], Array]:
-    """Vector from the outer to the inner joint in the world: itself, its own second rate at given omega, its slip."""
-    r, dr, ddr = inner.z - outer.z, inner.v - outer.v, inner.a - outer.a
-
-    def bent(omega: Array) -> Array:
-        return np.asarray(body_u * (ddr + omega * (2j * dr - omega * r)))
-
-    return body_u * r, bent, body_u * dr
+def _length(z: Any) -> Any:
+    return root(_square(z))
 
 
-def _rrr(j: Joints, sign: Array, rates: bool) -> Solved:
+def _by(arm: Any, local: Any, long: Any) -> Any:
+    """The direction of a body from one of its vectors in the world and in its own axes."""
+    return arm * (local * (1.0 / (long * long))).conjugate()
+
+
+def _slip(u: Any, outer: Pose, inner: Pose) -> Any:
+    """Rate of the vector from the outer to the inner joint, seen from the body itself."""
+    return u * (inner.v - outer.v)
+
+
+def _bent(arm: Any, u: Any, outer: Pose, inner: Pose, omega: Any) -> Any:
+    """Second rate of that vector in the world when the body turns with ``omega`` and no angular acceleration."""
+    return u * (inner.a - outer.a + omega * (2j * (inner.v - outer.v))) - (omega * omega) * arm
+
+
+def _rrr(j: Joints, sign: Any) -> Solved:
     r1, r2 = j.inner1.z - j.outer1.z, j.inner2.z - j.outer2.z
-    long1, long2 = np.abs(r1), np.abs(r2)
+    long1, long2 = _length(r1), _length(r2)
     line = j.known2.z - j.known1.z
-    c = np.abs(line)
-    lo, mid, hi = np.sort(np.stack(np.broadcast_arrays(long1, long2, c)), axis=0)
-    product = (hi + (mid + lo)) * (lo - (hi - mid)) * (lo + (hi - mid)) * (hi + (mid - lo))
-    discriminant = product / (2 * long1 * long2) ** 2
-    height = np.sqrt(np.maximum(product, 0.0)) / (2 * c)
-    along = ((long1 - long2) * (long1 + long2) / c + c) / 2
-    e = line / c
-    to1 = e * (along + 1j * sign * height)
-    to2 = e * (along - c + 1j * sign * height)
-    u1, u2 = _unit(to1 * np.conj(r1)), _unit(to2 * np.conj(r2))
-    arm1, bent1, slip1 = _arm(u1, j.outer1, j.inner1)
-    arm2, bent2, slip2 = _arm(u2, j.outer2, j.inner2)
-    e1, e2 = 1j * arm1, -1j * arm2
-    load = j.known2.v - j.known1.v + slip2 - slip1
-    w1, w2, al1, al2 = _still(c)
-    if rates:
-        w1, w2 = _two(e1, e2, load)
-        al1, al2 = _two(e1, e2, j.known2.a - j.known1.a + bent2(w2) - bent1(w1))
+    square = _square(line)
+    c = root(square)
+    # Heron's product of four sums, the small ones formed without loss
+    both, both_rest = two_sum(long1, long2)
+    less, less_rest = two_sum(long1, -long2)
+    product = ((both - c + both_rest) * (both + c)) * ((c - less - less_rest) * (c + less + less_rest))
+    area = sign * root(product)  # four times that of the triangle, signed
+    half = 0.5 / square
+    to1 = line * (both * less * half + 0.5 + 1j * (area * half))
+    to2 = to1 - line
+    u1, u2 = _by(to1, r1, long1), _by(to2, r2, long2)
+    # w1 i to1 - w2 i to2 = load
+    over = 2.0 / area
+    load = j.known2.v - j.known1.v + _slip(u2, j.outer2, j.inner2) - _slip(u1, j.outer1, j.inner1)
+    w1, w2 = dot(load, to2) * over, dot(load, to1) * over
+    bend = j.known2.a - j.known1.a + _bent(to2, u2, j.outer2, j.inner2, w2) - _bent(to1, u1, j.outer1, j.inner1, w1)
+    al1, al2 = dot(bend, to2) * over, dot(bend, to1) * over
+    whole = 1.0 / (2.0 * (long1 * long2))
     return Solved(
         j.known1.hung(j.outer1, u1, w1, al1),
         j.known2.hung(j.outer2, u2, w2, al2),
-        discriminant,
-        cross(arm1, arm2) / (long1 * long2),
-        e1,
-        e2,
+        product * (whole * whole),
+        area * whole,
+        1j * to1,
+        -1j * to2,
         load,
     )
 
 
-def _rrp(j: Joints, sign: Array, rates: bool) -> Solved:
+def _rrp(j: Joints, sign: Any) -> Solved:
     guide = j.known2
-    u2 = guide.u * np.conj(j.outer2.u)
+    u2 = guide.u * j.outer2.u.conjugate()
     w2, al2 = guide.omega - j.outer2.omega, guide.alpha - j.outer2.alpha
-    arm2, bent2, slip2 = _arm(u2, j.outer2, j.inner2)
+    arm2 = u2 * (j.inner2.z - j.outer2.z)
     r1 = j.inner1.z - j.outer1.z
-    radius = np.abs(r1)
+    radius = _length(r1)
     # in the axes of the guide: from the foot of the circle's centre on the path of the inner point
-    foot = (j.known1.z - (guide.z + arm2)) * np.conj(guide.u)
-    inside = (radius - np.abs(foot.imag)) * (radius + np.abs(foot.imag))
-    half = sign * j.sense * np.sqrt(np.maximum(inside, 0.0))
+    foot = (j.known1.z - (guide.z + arm2)) * guide.u.conjugate()
+    inside = (radius - abs(foot.imag)) * (radius + abs(foot.imag))
+    half = sign * j.sense * root(inside)
     t = foot.real + half
-    u1 = _unit(guide.u * (half - 1j * foot.imag) * np.conj(r1))
-    arm1, bent1, slip1 = _arm(u1, j.outer1, j.inner1)
-    e1, e2 = 1j * arm1, -guide.u
-    moved = guide.along(t, np.zeros(1), np.zeros(1))
-    load = moved.v + 1j * w2 * arm2 + slip2 - j.known1.v - slip1
-    w1, dt, al1, ddt = _still(radius)
-    if rates:
-        w1, dt = _two(e1, e2, load)
-        moved = guide.along(t, dt, np.zeros(1))
-        al1, ddt = _two(e1, e2, moved.a + 1j * al2 * arm2 + bent2(w2) - j.known1.a - bent1(w1))
+    arm1 = guide.u * (half - 1j * foot.imag)
+    u1 = _by(arm1, r1, radius)
+    none = 0.0 * half
+    moved = guide.along(t, none, none)
+    load = moved.v + 1j * w2 * arm2 + _slip(u2, j.outer2, j.inner2) - j.known1.v - _slip(u1, j.outer1, j.inner1)
+    # w1 (i arm1) - dt guide.u = load
+    over = 1.0 / half
+    w1, dt = cross(guide.u, load) * over, -dot(arm1, load) * over
+    moved = guide.along(t, dt, none)
+    bend = moved.a + 1j * al2 * arm2 + _bent(arm2, u2, j.outer2, j.inner2, w2)
+    bend = bend - j.known1.a - _bent(arm1, u1, j.outer1, j.inner1, w1)
+    al1, ddt = cross(guide.u, bend) * over, -dot(arm1, bend) * over
     return Solved(
         j.known1.hung(j.outer1, u1, w1, al1),
         guide.along(t, dt, ddt).hung(j.outer2, u2, w2, al2),
-        inside / radius**2,
-        half / radius,
-        e1,
-        e2,
+        inside * (1.0 / (radius * radius)),
+        half * (1.0 / radius),
+        1j * arm1,
+        -guide.u,
         load,
     )
 
 
-def _rpr(j: Joints, sign: Array, rates: bool) -> Solved:
+def _rpr(j: Joints, sign: Any) -> Solved:
     # both outer points in the axes of the guide: q is what the shapes of the bodies add to the travel
     one, two = j.inner1.inverse().of(j.outer1), j.inner2.inverse().of(j.outer2)
     q, dq, ddq = one.z - two.z, one.v - two.v, one.a - two.a
     line = j.known1.z - j.known2.z
     dline, ddline = j.known1.v - j.known2.v, j.known1.a - j.known2.a
-    c = np.abs(line)
-    inside = (c - np.abs(q.imag)) * (c + np.abs(q.imag))
-    leg = sign * np.sqrt(np.maximum(inside, 0.0))
-    d = _unit(line * (leg - 1j * q.imag))
-    e1, e2 = d, 1j * line
+    square = _square(line)
+    c = root(square)
+    inside = (c - abs(q.imag)) * (c + abs(q.imag))
+    leg = sign * root(inside)
+    d = line * ((leg - 1j * q.imag) * (1.0 / square))
+    # ds d + w i line = load, where d leads line by an angle of cosine leg / c
+    over = 1.0 / leg
     load = dline - d * dq
-    ds, w, _, al = _still(c)
-    if rates:
-        ds, w = _two(e1, e2, load)
-        _, al = _two(e1, e2, ddline + w * w * line - d * (ddq + 2j * w * (ds + dq)))
+    ds, w = dot(load, line) * over, cross(d, load) * over
+    bend = ddline + (w * w) * line - d * (ddq + 2j * w * (ds + dq))
+    al = cross(d, bend) * over
     return Solved(
-        j.known1.hung(j.outer1, d * np.conj(j.inner1.u), w - j.inner1.omega, al - j.inner1.alpha),
-        j.known2.hung(j.outer2, d * np.conj(j.inner2.u), w - j.inner2.omega, al - j.inner2.alpha),
-        inside / j.size**2,
-        leg / np.maximum(c, j.size),
-        e1,
-        e2,
+        j.known1.hung(j.outer1, d * j.inner1.u.conjugate(), w - j.inner1.omega, al - j.inner1.alpha),
+        j.known2.hung(j.outer2, d * j.inner2.u.conjugate(), w - j.inner2.omega, al - j.inner2.alpha),
+        inside * (1.0 / (j.size * j.size)),
+        leg / _greater(c, j.size),
+        d,
+        1j * line,
         load,
     )
 
 
-def _prp(j: Joints, sign: Array, rates: bool) -> Solved:
+def _greater(a: Any, b: Any) -> Any:
+    """A smooth stand-in for the greater of two lengths, at most 1.42 times as large."""
+    return root(a * a + b * b)
+
+
+def _two(e1: Any, e2: Any, over: Any, w: Any) -> tuple[Any, Any]:
+    """Solve x e1 + y e2 = w for real x, y, with over = 1 / (e1 x e2)."""
+    return cross(w, e2) * over, cross(e1, w) * over
+
+
+def _prp(j: Joints, sign: Any) -> Solved:
     g1, g2 = j.known1, j.known2
-    u1, u2 = g1.u * np.conj(j.outer1.u), g2.u * np.conj(j.outer2.u)
+    u1, u2 = g1.u * j.outer1.u.conjugate(), g2.u * j.outer2.u.conjugate()
     w1, w2 = g1.omega - j.outer1.omega, g2.omega - j.outer2.omega
     al1, al2 = g1.alpha - j.outer1.alpha, g2.alpha - j.outer2.alpha
-    arm1, bent1, slip1 = _arm(u1, j.outer1, j.inner1)
-    arm2, bent2, slip2 = _arm(u2, j.outer2, j.inner2)
+    arm1, arm2 = u1 * (j.inner1.z - j.outer1.z), u2 * (j.inner2.z - j.outer2.z)
+    slip = _slip(u2, j.outer2, j.inner2) - _slip(u1, j.outer1, j.inner1)
     e1, e2 = g1.u, -g2.u
-    none = np.zeros(1)
-    t1, t2 = _two(e1, e2, g2.z + arm2 - g1.z - arm1)
-    moved1, moved2 = g1.along(t1, none, none), g2.along(t2, none, none)
-    load = moved2.v + 1j * w2 * arm2 + slip2 - moved1.v - 1j * w1 * arm1 - slip1
-    dt1, dt2, ddt1, ddt2 = _still(t1)
-    if rates:
-        dt1, dt2 = _two(e1, e2, load)
-        moved1, moved2 = g1.along(t1, dt1, none), g2.along(t2, dt2, none)
-        ends = moved2.a + 1j * al2 * arm2 + bent2(w2) - moved1.a - 1j * al1 * arm1 - bent1(w1)
-        ddt1, ddt2 = _two(e1, e2, ends)
     sine = cross(e1, e2)
+    over = 1.0 / sine
+    none = 0.0 * sine
+    t1, t2 = _two(e1, e2, over, g2.z + arm2 - g1.z - arm1)
+    moved1, moved2 = g1.along(t1, none, none), g2.along(t2, none, none)
+    load = moved2.v + 1j * w2 * arm2 - moved1.v - 1j * w1 * arm1 + slip
+    dt1, dt2 = _two(e1, e2, over, load)
+    moved1, moved2 = g1.along(t1, dt1, none), g2.along(t2, dt2, none)
+    ends = moved2.a + 1j * al2 * arm2 + _bent(arm2, u2, j.outer2, j.inner2, w2)
+    ends = ends - moved1.a - 1j * al1 * arm1 - _bent(arm1, u1, j.outer1, j.inner1, w1)
+    ddt1, ddt2 = _two(e1, e2, over, ends)
     return Solved(
         g1.along(t1, dt1, ddt1).hung(j.outer1, u1, w1, al1),
         g2.along(t2, dt2, ddt2).hung(j.outer2, u2, w2, al2),
@@ -213,41 +234,31 @@ def _prp(j: Joints, sign: Array, rates: bool) -> Solved:
     )
 
 
-def _rpp(j: Joints, sign: Array, rates: bool) -> Solved:
+def _rpp(j: Joints, sign: Any) -> Solved:
     guide = j.known2
-    u2 = guide.u * np.conj(j.outer2.u)
+    u2 = guide.u * j.outer2.u.conjugate()
     w2, al2 = guide.omega - j.outer2.omega, guide.alpha - j.outer2.alpha
     d, w, al = u2 * j.inner2.u, w2 + j.inner2.omega, al2 + j.inner2.alpha
-    u1, w1, al1 = d * np.conj(j.inner1.u), w - j.inner1.omega, al - j.inner1.alpha
+    u1, w1, al1 = d * j.inner1.u.conjugate(), w - j.inner1.omega, al - j.inner1.alpha
     first = j.known1.hung(j.outer1, u1, w1, al1)
     end1 = first.of(j.inner1)
-    none = np.zeros(1)
     # with no travel at the outer guide the inner joint of the second body would be here
     e1, e2 = guide.u, d
+    sine = cross(e1, e2)
+    over = 1.0 / sine
+    none = 0.0 * sine
 
-    def inner_at(t: Array, dt: Array) -> Pose:
+    def inner_at(t: Any, dt: Any) -> Pose:
         return guide.along(t, dt, none).hung(j.outer2, u2, w2, al2).of(j.inner2)
 
-    t, s = _two(e1, e2, end1.z - inner_at(none, none).z)
+    t, s = _two(e1, e2, over, end1.z - inner_at(none, none).z)
     load = end1.v - inner_at(t, none).v - 1j * w * s * d
-    dt, ds, ddt, _ = _still(t)
-    if rates:
-        dt, ds = _two(e1, e2, load)
-        ddt, _ = _two(e1, e2, end1.a - inner_at(t, dt).a - (2j * w * ds + (1j * al - w * w) * s) * d)
-    sine = cross(e1, e2)
+    dt, ds = _two(e1, e2, over, load)
+    ddt, _ = _two(e1, e2, over, end1.a - inner_at(t, dt).a - (2j * w * ds + (1j * al - w * w) * s) * d)
     return Solved(first, guide.along(t, dt, ddt).hung(j.outer2, u2, w2, al2), sign * sine, sine, e1, e2, load)
 
 
-def _unit(z: Array) -> Array:
-    return np.asarray(z / np.abs(z))
-
-
-def _still(like: Array) -> tuple[Array, Array, Array, Array]:
-    zero = np.zeros(np.shape(like))
-    return zero, zero, zero, zero
-
-
-_SOLVERS: dict[str, Callable[[Joints, Array, bool], Solved]] = {
+_SOLVERS: dict[str, Callable[[Joints, Any], Solved]] = {
     "RRR": _rrr,
     "RRP": _rrp,
     "RPR": _rpr,

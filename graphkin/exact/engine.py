@@ -2,22 +2,47 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from graphkin.exact.bounds import Bound, enlarged
 from graphkin.exact.cluster import ClusterSolved, solve_cluster
-from graphkin.exact.dyads import Solved, solve_dyad
-from graphkin.exact.joints import Drive, body_shape, driven, dyad_joints, members
+from graphkin.exact.dyads import Solved
+from graphkin.exact.finer import Finer
+from graphkin.exact.formula import Real, Vec
+from graphkin.exact.joints import Drive, turned
 from graphkin.exact.pose import Array, Pose, rest
-from graphkin.structure import Driven, Dyad, Pair, Structure
+from graphkin.exact.program import FIELDS, GIVEN, program_of
+from graphkin.exact.rendering import Code
+from graphkin.exact.rounding import UNIT
+from graphkin.scene.model import AngleDriver
+from graphkin.structure import Cluster, Driven, Dyad, Structure
 
-__all__ = ["SINGULAR", "State", "positions"]
+__all__ = ["SINGULAR", "Bounds", "State", "positions"]
 
 SINGULAR = 1e-7
 """A group whose two loci cross at a smaller sine than this is at a dead point."""
+SLACK = 1.001
+"""For the rounding of the bounds themselves."""
+FEW = 4
+"""As many positions are computed one by one in plain floats."""
+
+
+class Bounds(NamedTuple):
+    """How far rounding may have moved any point of any link (m, m/s, m/s2) and the angles and their rates (rad, rad/s,
+    rad/s2), each of shape (n,)."""
+
+    position: Array
+    velocity: Array
+    acceleration: Array
+    angle: Array
+    omega: Array
+    alpha: Array
+
+
+_ZERO = np.zeros(1)
 
 
 @dataclass(frozen=True)
@@ -26,12 +51,15 @@ class State:
 
     poses : each link by its name, fields of shape (n,) or broadcasting to it
     groups : what each group gave, by its place among the elements
-    bounds : how far rounding may have put each link
+    bounds : how far rounding may have put the links; None where rates were left out
+    rough : bounds of velocity and acceleration, of points as far off as the mechanism is large, for a computation in 16
+        digits throughout, such as a drawing; greater where more digits were used
     """
 
     poses: Mapping[str, Pose]
     groups: Mapping[int, Solved | ClusterSolved] = field(default_factory=dict)
-    bounds: Mapping[str, Bound] = field(default_factory=dict)
+    bounds: Bounds | None = None
+    rough: tuple[Array, Array] = (_ZERO, _ZERO)
 
 
 def positions(
@@ -41,48 +69,173 @@ def positions(
 
     Parameters
     ----------
+    drive : the rates of each driver are the same at all positions
     forms : the assembly of each group, by its place among the elements: for a dyad the sign, shape (n,); for a larger
         group the poses from which Newton's method starts, shape (n, members, 3)
     upto : solve only the elements before this one
-    rates : False leaves out velocity and acceleration
+    rates : False leaves out velocity, acceleration and bounds
 
     Returns
     -------
     State; at a position that cannot be assembled the discriminant of a group is negative and the poses mean nothing
     """
-    frame = structure.scene.frame.name
-    poses: dict[str, Pose] = {frame: rest()}
-    bounds: dict[str, Bound] = {frame: Bound.none()}
-    groups: dict[int, Solved | ClusterSolved] = {}
-    size = structure.scene.size
-
-    def bound(names: Iterable[str], pairs: Iterable[Pair], gain: Array) -> None:
-        radius = {name: max(map(abs, structure.links[name].points.values()), default=0.0) for name in names}
-        bases = {end for pair in pairs for end in (pair.a, pair.b)} - set(radius)
-        found = enlarged(bounds, poses, radius, bases, gain, size)
-        bounds.update(dict.fromkeys(radius, found))
-
     with np.errstate(all="ignore"):
-        for i, element in enumerate(structure.elements[:upto]):
-            if isinstance(element, Driven):
-                poses[element.link] = driven(structure, element, poses, drive)
-                if rates:
-                    bound([element.link], [element.pair], np.ones(1))
-            elif isinstance(element, Dyad):
-                shapes = body_shape(structure, element.first, drive), body_shape(structure, element.second, drive)
-                joints = dyad_joints(structure, element, shapes, poses)
-                solved = solve_dyad(element.kind, joints, np.asarray(forms[i]), rates)
-                groups[i] = solved
-                poses.update(members(shapes[0], solved.first))
-                poses.update(members(shapes[1], solved.second))
-                if rates:
-                    bound(
-                        [*shapes[0], *shapes[1]], [element.outer_first, element.outer_second], 1 / np.abs(solved.sine)
-                    )
+        return _Run(structure, drive, forms, rates).state(len(structure.elements) if upto is None else upto)
+
+
+class _Run:
+    """One evaluation: larger groups one after the other, each from what it hangs on, then all formulas together."""
+
+    def __init__(self, structure: Structure, drive: Drive, forms: Mapping[int, Array], rates: bool) -> None:
+        self.structure, self.drive, self.forms, self.rates = structure, drive, forms, rates
+        self.n = len(drive)
+        self.rate, self.second = (x[0] if self.n else np.zeros(x.shape[1]) for x in (drive.rate, drive.second))
+        self.fitted = program_of(structure, tuple(bool(s) for s in self.second))
+        most = np.abs(drive.value).max(axis=0, initial=0.0)
+        self.rates_of: dict[Any, float] = {}
+        for k, wide in enumerate(most.tolist()):
+            for name, value in (("rate", float(self.rate[k])), ("second", float(self.second[k]))):
+                self.rates_of[name, k] = value
+                self.rates_of["error", name, k] = GIVEN * abs(value)
+            self.rates_of["error", "angle", k] = GIVEN * wide + 2 * UNIT
+            self.rates_of["error", "travel", k] = GIVEN * wide
+        self.clusters: dict[int, ClusterSolved] = {}
+        self.given = self._drivers()
+
+    def _drivers(self) -> dict[Any, Array]:
+        given: dict[Any, Array] = {}
+        for k, driver in enumerate(self.structure.scene.drivers):
+            value = self.drive.value[:, k]
+            if isinstance(driver, AngleDriver):
+                u = turned(value)
+                given["cos", k], given["sin", k] = u.real, u.imag
             else:
-                together = solve_cluster(structure, element, poses, drive, np.asarray(forms[i]), rates)
-                groups[i] = together
-                poses.update(together.poses)
-                if rates:
-                    bound(element.members, element.pairs, together.condition)
-    return State(poses, groups, bounds)
+                given["travel", k] = value
+        for i, form in self.forms.items():
+            if isinstance(self.structure.elements[i], Dyad):
+                given["sign", i] = np.broadcast_to(form, (self.n,))
+        return given
+
+    def state(self, upto: int) -> State:
+        elements = self.structure.elements[:upto]
+        for i, element in enumerate(elements):
+            if isinstance(element, Cluster):
+                self._together(i, element)
+        program = self.fitted.program
+        names = [n for e in elements for n in _members(e)]
+        dyads = [i for i, e in enumerate(elements) if isinstance(e, Dyad)]
+        parts = ("discriminant", "sine", *(("e1", "e2", "load") if self.rates else ()))
+        fields = FIELDS if self.rates else FIELDS[:2]
+        asked = [getattr(program.poses[n], f) for n in names for f in fields]
+        asked += [getattr(program.groups[i], p) for i in dyads for p in parts]
+        asked += program.bounds(names) if self.rates else []
+        columns = self._values((upto, self.rates), asked)
+        size = self.structure.scene.size
+        rough = _ZERO, _ZERO
+        if self.rates:
+            velocity, acceleration, _, omega, alpha = columns[-5:]
+            rough = _sure(np.maximum(velocity, size * omega)), _sure(np.maximum(acceleration, size * alpha))
+        if self.rates and names and not self.clusters:
+            self._finer(program.code((upto, self.rates), ())).refine(asked, columns, len(names))
+        values = iter(columns)
+        poses = {self.structure.scene.frame.name: rest()}
+        poses |= {n: _pose(dict(zip(fields, values, strict=False))) for n in names}
+        groups: dict[int, Solved | ClusterSolved] = dict(self.clusters)
+        for i in dyads:
+            given = dict(zip(parts, values, strict=False))
+            groups[i] = Solved(
+                *(poses[body.links[0]] for body in elements[i].bodies),  # type: ignore[union-attr]
+                *(given.get(p, _LOST) for p in Solved._fields[2:]),
+            )
+        bounds = Bounds(*(_sure(b) for b in values)) if self.rates else None
+        return State(poses, dict(sorted(groups.items())), bounds, rough)
+
+    def _together(self, i: int, group: Cluster) -> None:
+        """Solve a larger group, and give its poses to the formulas of what follows."""
+        program = self.fitted.program
+        known = [n for n in self.structure.links if n in _ends(group) and n in program.poses]
+        known = [n for n in known if n not in group.members and n != self.structure.scene.frame.name]
+        asked = [getattr(program.poses[n], f) for n in known for f in FIELDS]
+        values = iter(self._values(("known", i), [*asked, *program.bounds(known)]))
+        poses = {n: _pose(dict(zip(FIELDS, values, strict=False))) for n in known}
+        poses[self.structure.scene.frame.name] = rest()
+        bounds = Bounds(*(_sure(b) for b in values))
+        solved = solve_cluster(
+            self.structure, group, poses, self.drive, np.asarray(self.forms[i]), self.rates, bounds[:3], bounds[3:]
+        )
+        self.clusters[i] = solved
+        size = self.structure.scene.size
+        for name in group.members:
+            pose = solved.poses[name]
+            for k, (f, wide) in enumerate(zip(FIELDS, (size, 1, size, 1, size, 1), strict=True)):
+                value = np.broadcast_to(getattr(pose, f), (self.n,))
+                self.given["pose", name, f, "x"] = np.ascontiguousarray(value.real)
+                if np.iscomplexobj(value):
+                    self.given["pose", name, f, "y"] = np.ascontiguousarray(value.imag)
+                self.given["error", name, f] = np.broadcast_to(wide * solved.error[k // 2], (self.n,))
+
+    def _values(self, key: Any, asked: list[Any]) -> list[Array]:
+        """Formulas at all positions: vectors as complex arrays, numbers as real ones."""
+        reals: list[Real] = []
+        for x in asked:
+            reals += [x.real, x.imag] if isinstance(x, Vec) else [x]
+        program = self.fitted.program
+        code = program.code(key, reals)
+        params = self.fitted.params(code.params, self.rates_of)
+        inputs = [self.given[name] for name in code.inputs]
+        if self.n <= FEW:
+            columns = self._one_by_one(code, params, inputs)
+            found: list[Array] = []
+            for x in asked:
+                found.append(columns.pop(0) + 1j * columns.pop(0) if isinstance(x, Vec) else columns.pop(0))
+            return found
+        out: list[Array] = []
+        found = []
+        for x in asked:
+            found.append(np.empty(self.n, dtype=np.complex128 if isinstance(x, Vec) else np.float64))
+            out += [found[-1].real, found[-1].imag] if isinstance(x, Vec) else [found[-1]]
+        code.arrays(params, inputs, out)
+        return found
+
+    def _finer(self, code: Code) -> Finer:
+        signs = {name: column for name, column in self.given.items() if name[0] == "sign"}
+        drivers = self.structure.scene.drivers
+        return Finer(self.fitted, code, drivers, self.drive.value, self.rate, self.second, signs)
+
+    def _one_by_one(self, code: Code, params: list[float], inputs: list[Array]) -> list[Array]:
+        rows = np.empty((self.n, len(code.asked)))
+        for k in range(self.n):
+            try:
+                rows[k] = code.floats(params, [float(x[k]) for x in inputs])
+            except (ZeroDivisionError, OverflowError):
+                code.arrays(params, [x[k : k + 1] for x in inputs], list(rows[k : k + 1].T))
+        return list(rows.T)
+
+
+_LOST = np.full(1, np.nan)
+
+
+def _pose(given: Mapping[str, Array]) -> Pose:
+    zero, none = np.zeros(1), np.zeros(1, dtype=np.complex128)
+    still = {"z": none, "u": none, "v": none, "omega": zero, "a": none, "alpha": zero}
+    return Pose(**{**still, **given})
+
+
+def _sure(bound: Array) -> Array:
+    """A bound, infinite where it is not known."""
+    return np.asarray(np.where(np.isnan(bound), np.inf, bound * SLACK))
+
+
+def _members(element: Driven | Dyad | Cluster) -> tuple[str, ...]:
+    if isinstance(element, Driven):
+        return (element.link,)
+    if isinstance(element, Dyad):
+        return (*element.first.links, *element.second.links)
+    return element.members
+
+
+def _ends(group: Cluster) -> set[str]:
+    found = {end for pair in group.pairs for end in (pair.a, pair.b)}
+    for driver in group.drivers:
+        found |= {getattr(driver, "link", ""), getattr(driver, "relative_to", "")}
+    return found

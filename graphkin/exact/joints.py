@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any, Protocol
 
 import numpy as np
 
 from graphkin.exact.dyads import Joints
-from graphkin.exact.pose import Array, Pose, rest
+from graphkin.exact.pose import Array, Pose
 from graphkin.scene.model import AngleDriver, Driver, Scene
 from graphkin.structure import Body, Driven, Dyad, Pair, Structure, Turn
 
-__all__ = ["Drive", "body_shape", "driven", "driver_text", "dyad_joints", "joint_place", "members"]
+__all__ = ["Drive", "Frames", "body_shape", "driven", "driver_text", "dyad_joints", "joint_place", "members", "turned"]
 
 
 @dataclass(frozen=True)
@@ -36,22 +37,15 @@ class Drive:
     def __getitem__(self, which: Array | slice) -> Drive:
         return Drive(self.value[which], self.rate[which], self.second[which])
 
-    def turn(self, column: int) -> Pose:
-        """The rotation that an angle driver gives."""
-        none = np.zeros(1, dtype=np.complex128)
-        return Pose(none, turned(self.value[:, column]), none, self.rate[:, column], none, self.second[:, column])
-
-    def slid(self, column: int, base: Pose) -> Pose:
-        """A frame moved along itself as a slide driver gives."""
-        return base.along(self.value[:, column], self.rate[:, column], self.second[:, column])
-
 
 def turned(angle: Array) -> Array:
     """Unit complex numbers at angles, exact at multiples of 90 degrees (within the rounding of the angle itself)."""
-    quarters = np.rint(angle / (np.pi / 2))
-    rest_of = angle - quarters * (np.pi / 2)
-    rest_of = np.where(np.abs(rest_of) <= 4e-16 * np.abs(angle), 0.0, rest_of)
-    return np.array([1, 1j, -1, -1j])[quarters.astype(np.int64) % 4] * (np.cos(rest_of) + 1j * np.sin(rest_of))
+    u = np.empty(np.shape(angle), dtype=np.complex128)
+    zero = np.abs(angle) * 4e-16
+    for part, function in ((u.real, np.cos), (u.imag, np.sin)):
+        function(angle, part)
+        part[np.abs(part) <= zero] = 0.0
+    return u
 
 
 def driver_text(scene: Scene, driver: Driver, value: float) -> str:
@@ -70,56 +64,70 @@ def joint_place(structure: Structure, pair: Pair, link: str) -> tuple[complex, c
     return pair.guide.through, pair.guide.direction
 
 
-def _column(structure: Structure, driver: Driver) -> int:
-    return structure.scene.drivers.index(driver)
+class Frames(Protocol):
+    """Where frames of axes come from: those of joints on their links, and what the drivers give."""
+
+    structure: Structure
+
+    def rest(self, pair: Pair, link: str) -> Pose:
+        """The joint's frame in the axes of one of its links."""
+
+    def turn(self, driver: AngleDriver) -> Pose:
+        """The rotation that an angle driver gives."""
+
+    def travel(self, driver: Driver) -> tuple[Any, Any, Any]:
+        """Value, rate and second rate of a slide driver."""
 
 
-def driven(structure: Structure, element: Driven, poses: Mapping[str, Pose], drive: Drive) -> Pose:
+def driven(frames: Frames, element: Driven, poses: Mapping[str, Pose]) -> Pose:
     """The pose of a link that a driver moves from known links: crank, driven slider."""
     pair, link = element.pair, element.link
-    column = _column(structure, element.driver)
     base = pair.b if pair.a == link else pair.a
-    mine, theirs = joint_place(structure, pair, link), joint_place(structure, pair, base)
-    at = poses[base].fixed(*theirs)
+    mine, theirs = frames.rest(pair, link), frames.rest(pair, base)
+    at = poses[base].fixed(theirs.z, theirs.u)
     if isinstance(element.driver, AngleDriver):
-        given = drive.turn(column)
+        given = frames.turn(element.driver)
         forward = element.driver.link == link
         from_ = poses[element.driver.relative_to if forward else element.driver.link]
         seen = from_.of(given if forward else given.inverse())
-        return at.hung(rest(mine[0]), seen.u, seen.omega, seen.alpha)
-    given = drive.slid(column, rest())
-    return at.of(given if pair.a == link else given.inverse()).of(rest(*mine).inverse())
+        return at.hung(mine, seen.u, seen.omega, seen.alpha)
+    travel, rate, second = frames.travel(element.driver)
+    if pair.a == link:
+        return at.along(travel, rate, second).of(mine.inverse())
+    return at.along(-travel, -rate, -second).of(mine.inverse())
 
 
-def body_shape(structure: Structure, body: Body, drive: Drive) -> dict[str, Pose]:
-    """Every link of a body in the axes of its base."""
-    shape = {body.links[0]: rest()}
+def body_shape(frames: Frames, body: Body, rest: Pose) -> dict[str, Pose]:
+    """Every link of a body in the axes of its base; ``rest`` are axes that do not move."""
+    shape = {body.links[0]: rest}
     for weld in body.welds:
-        column = _column(structure, weld.driver)
-        on, by = joint_place(structure, weld.pair, weld.a), joint_place(structure, weld.pair, weld.b)
+        joint = shape[weld.a].of(frames.rest(weld.pair, weld.a))
         if isinstance(weld.driver, AngleDriver):
-            given = drive.turn(column)
-            between = given if weld.sign > 0 else given.inverse()
+            given = frames.turn(weld.driver)
+            joint = joint.of(given if weld.sign > 0 else given.inverse())
         else:
-            given = drive.slid(column, rest())
-            between = given if weld.b == weld.pair.a else given.inverse()
-        joint = rest(*on).of(between)
-        shape[weld.b] = shape[weld.a].of(joint).of(rest(*by).inverse())
+            travel, rate, second = frames.travel(weld.driver)
+            if weld.b != weld.pair.a:
+                travel, rate, second = -travel, -rate, -second
+            joint = joint.along(travel, rate, second)
+        shape[weld.b] = joint.of(frames.rest(weld.pair, weld.b).inverse())
     return shape
 
 
 def dyad_joints(
-    structure: Structure, dyad: Dyad, shapes: tuple[dict[str, Pose], dict[str, Pose]], poses: Mapping[str, Pose]
+    frames: Frames, dyad: Dyad, shapes: tuple[dict[str, Pose], dict[str, Pose]], poses: Mapping[str, Pose], size: Any
 ) -> Joints:
     """The six joint frames of a dyad."""
 
     def inside(pair: Pair, shape: Mapping[str, Pose]) -> tuple[Pose, str]:
         link = pair.a if pair.a in shape else pair.b
-        return shape[link].fixed(*joint_place(structure, pair, link)), link
+        at = frames.rest(pair, link)
+        return shape[link].fixed(at.z, at.u), link
 
     def known(pair: Pair, link: str) -> Pose:
         base = pair.b if link == pair.a else pair.a
-        return poses[base].fixed(*joint_place(structure, pair, base))
+        at = frames.rest(pair, base)
+        return poses[base].fixed(at.z, at.u)
 
     outer1, link1 = inside(dyad.outer_first, shapes[0])
     outer2, link2 = inside(dyad.outer_second, shapes[1])
@@ -131,7 +139,7 @@ def dyad_joints(
         outer2,
         inside(dyad.inner, shapes[1])[0],
         1.0 if link2 == dyad.outer_second.a else -1.0,
-        structure.scene.size,
+        size,
     )
 
 

@@ -39,6 +39,8 @@ class Motion:
     slides : the sliding pairs and pins in slots, those of redundant links included
     assembly : for each group, in the order of ``structure.groups``, which assembly was taken
     velocity_bound, acceleration_bound : real, shape (n,), how far rounding may have moved a value (m/s, m/s2)
+    position_bound : the same for places (m)
+    rough : what the bounds of velocity and acceleration would be if all were computed in 16 digits, as a drawing is
     turned : over a sweep how far each link has turned since its start, to a few degrees (rad): tells whole turns
     """
 
@@ -52,6 +54,8 @@ class Motion:
     velocity_bound: Array
     acceleration_bound: Array
     turned: Mapping[str, Array] = field(default_factory=dict)
+    position_bound: Array = field(default_factory=lambda: np.zeros(0))
+    rough: tuple[Array, Array] = (np.zeros(0), np.zeros(0))
 
     @property
     def scene(self) -> Scene:
@@ -100,15 +104,15 @@ class Motion:
 
     def position(self, point: str, link: str = "") -> Array:
         """complex, shape (n,) (m)."""
-        return self.point(point, link).z
+        return np.asarray(self.point(point, link).z)
 
     def velocity(self, point: str, link: str = "") -> Array:
         """complex, shape (n,) (m/s)."""
-        return self.point(point, link).v
+        return np.asarray(self.point(point, link).v)
 
     def acceleration(self, point: str, link: str = "") -> Array:
         """complex, shape (n,) (m/s2)."""
-        return self.point(point, link).a
+        return np.asarray(self.point(point, link).a)
 
     def angle(self, link: str) -> Array:
         """Angle of the link's own x axis (rad): in (-pi, pi] at the first ok position, continuous from there."""
@@ -128,11 +132,11 @@ class Motion:
 
     def omega(self, link: str) -> Array:
         """real, shape (n,) (rad/s), counter-clockwise positive."""
-        return self.poses[self.link(link).name].omega
+        return np.asarray(self.poses[self.link(link).name].omega)
 
     def alpha(self, link: str) -> Array:
         """real, shape (n,) (rad/s2), counter-clockwise positive."""
-        return self.poses[self.link(link).name].alpha
+        return np.asarray(self.poses[self.link(link).name].alpha)
 
     def slide(self, key: str) -> Sliding:
         """A sliding pair or pin in slot by its key ("2/3", "B/3").  Raises CallError for an unknown one."""

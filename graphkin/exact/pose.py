@@ -13,35 +13,36 @@ __all__ = ["Array", "Pose", "cross", "dot", "rest"]
 Array = NDArray[Any]
 
 
-def dot(a: Array, b: Array) -> Array:
+def dot(a: Any, b: Any) -> Any:
     """Scalar product of plane vectors."""
-    return np.asarray(a.real * b.real + a.imag * b.imag)
+    return a.real * b.real + a.imag * b.imag
 
 
-def cross(a: Array, b: Array) -> Array:
+def cross(a: Any, b: Any) -> Any:
     """Vector product (its z part) of plane vectors."""
-    return np.asarray(a.real * b.imag - a.imag * b.real)
+    return a.real * b.imag - a.imag * b.real
 
 
 @dataclass(frozen=True)
 class Pose:
     """A moving frame of axes, in other axes (the world's, or those of another link).
 
-    Every field is an array of shape (positions,), or one that broadcasts to it.
+    Every field is an array of shape (positions,), or one that broadcasts to it; or a formula (``Vec``, ``Real``), so
+    that the same lines here make the formulas of a mechanism and compute with their results.
 
     z, v, a : complex, origin (m) and its rates (m/s, m/s2)
     u : complex, direction of the x axis, of unit length
     omega, alpha : real, rates of the direction (rad/s, rad/s2)
     """
 
-    z: Array
-    u: Array
-    v: Array
-    omega: Array
-    a: Array
-    alpha: Array
+    z: Any
+    u: Any
+    v: Any
+    omega: Any
+    a: Any
+    alpha: Any
 
-    def fixed(self, place: complex, direction: complex = 1 + 0j) -> Pose:
+    def fixed(self, place: Any, direction: Any = 1 + 0j) -> Pose:
         """The axes fixed to this frame at ``place``, turned by ``direction``."""
         if place == 0:
             u = self.u if direction == 1 else self.u * direction
@@ -74,7 +75,7 @@ class Pose:
 
     def inverse(self) -> Pose:
         """The outer axes as seen from this frame."""
-        back = np.conj(self.u)
+        back = self.u.conjugate()
         spin = 1j * self.omega
         return Pose(
             -back * self.z,
@@ -85,7 +86,7 @@ class Pose:
             -self.alpha,
         )
 
-    def along(self, travel: Array, velocity: Array, acceleration: Array) -> Pose:
+    def along(self, travel: Any, velocity: Any, acceleration: Any) -> Pose:
         """This frame moved along its own direction by a travel with rates."""
         spin = 1j * self.omega
         return Pose(
@@ -97,7 +98,7 @@ class Pose:
             self.alpha,
         )
 
-    def hung(self, joint: Pose, u: Array, omega: Array, alpha: Array) -> Pose:
+    def hung(self, joint: Pose, u: Any, omega: Any, alpha: Any) -> Pose:
         """The link whose direction is known and whose ``joint`` (in its axes) lies at the origin of this frame."""
         spin = 1j * omega
         return Pose(

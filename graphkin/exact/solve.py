@@ -187,9 +187,8 @@ def _solved(
     poses = {name: _masked(pose.spread(n), ok) for name, pose in state.poses.items()}
     poses[structure.scene.frame.name] = rest().spread(n)
     _place_redundant(structure, poses, ok)
-    # positions are in order; links may be at different bounds: the largest counts
-    velocity = np.max([np.broadcast_to(b.velocity, (n,)) for b in state.bounds.values()], axis=0)
-    acceleration = np.max([np.broadcast_to(b.acceleration, (n,)) for b in state.bounds.values()], axis=0)
+    bounds, rough = state.bounds, state.rough
+    assert bounds is not None
     return Motion(
         structure,
         values,
@@ -198,8 +197,10 @@ def _solved(
         poses,
         all_slides(structure),
         assembly_words(structure, forms),
-        np.where(ok, velocity, np.nan),
-        np.where(ok, acceleration, np.nan),
+        np.where(ok, bounds.velocity, np.nan),
+        np.where(ok, bounds.acceleration, np.nan),
+        position_bound=np.where(ok, bounds.position, np.nan),
+        rough=(np.where(ok, rough[0], np.nan), np.where(ok, rough[1], np.nan)),
     )
 
 
@@ -243,4 +244,7 @@ def _nowhere(structure: Structure, values: Array, status: str, why: str) -> Moti
     poses[structure.scene.frame.name] = none
     nan = np.full(n, np.nan)
     unknown = tuple("" for _ in structure.groups)
-    return Motion(structure, values, np.full(n, status), (why,) * n, poses, all_slides(structure), unknown, nan, nan)
+    slides = all_slides(structure)
+    return Motion(
+        structure, values, np.full(n, status), (why,) * n, poses, slides, unknown, nan, nan, {}, nan, (nan, nan)
+    )

@@ -26,9 +26,9 @@ def evaluate(motion: Motion, symbol: Symbol) -> Array:
     if symbol.kind in ("v", "a"):
         one = motion.point(symbol.of.point, symbol.of.link)
         if symbol.to is None:
-            return one.v if symbol.kind == "v" else one.a
+            return np.asarray(one.v if symbol.kind == "v" else one.a)
         two = motion.point(symbol.to.point, symbol.to.link)
-        return one.v - two.v if symbol.kind == "v" else one.a - two.a
+        return np.asarray(one.v - two.v if symbol.kind == "v" else one.a - two.a)
     if symbol.kind in ("an", "at"):
         return _turning(motion, symbol, symbol.of)
     assert symbol.to is not None

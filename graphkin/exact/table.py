@@ -65,6 +65,7 @@ def to_json(motion: Motion) -> dict[str, Any]:
         for part, table in columns.items():
             entry[part] = {key: {what: values[k] for what, values in row.items()} for key, row in table.items()}
         entry["error_bound"] = {
+            "position": float(motion.position_bound[k]) / metres,
             "velocity": float(motion.velocity_bound[k]) / metres,
             "acceleration": float(motion.acceleration_bound[k]) / metres,
         }

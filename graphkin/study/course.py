@@ -130,7 +130,7 @@ class Course:
         self._place_redundant(poses)
         bounds, rough = state.bounds, state.rough
         assert bounds is not None
-            return Motion(
+        return Motion(
             self.structure,
             values,
             status,

@@ -106,6 +106,6 @@ def test_height_of_a_needle_keeps_its_digits() -> None:
     gap = 2.0 - 1e-13
     half = (2.0 - gap) / 2
     found = solve_dyad(
-        "RRR", Joints(axes(0), axes(0), axes(1), axes(gap), axes(0), axes(1), 1.0, 1.0), np.ones(1), rates=False
+        "RRR", Joints(axes(0), axes(0), axes(1), axes(gap), axes(0), axes(1), 1.0, 1.0), np.ones(1)
     )
     assert found.first.of(axes(1)).z[0].imag == pytest.approx(np.sqrt(half * (2 - half)), rel=1e-15)

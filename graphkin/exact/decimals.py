@@ -1,0 +1,63 @@
+"""Formulas in 50 decimal digits, for positions so near to a singular one that 16 are not enough."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from decimal import ROUND_HALF_EVEN, Context, Decimal, DivisionByZero, InvalidOperation, Overflow, localcontext
+from typing import Any
+
+__all__ = ["DIGITS", "PI", "cos_sin", "decimal_function", "meant", "meant_angle", "working"]
+
+DIGITS = 50
+PI = Decimal("3.14159265358979323846264338327950288419716939937510582097494459230781640628620899863")
+SHORT = 12
+"""A float that agrees in its last digits with a decimal of this many places is taken for that decimal."""
+
+
+def working() -> Any:
+    """The arithmetic of this module, as a context manager."""
+    return localcontext(
+        Context(prec=DIGITS + 10, rounding=ROUND_HALF_EVEN, traps=[DivisionByZero, InvalidOperation, Overflow])
+    )
+
+
+def meant(value: float) -> tuple[Decimal, bool]:
+    """The decimal that was written in the file for a float, and whether there is one; else the float itself."""
+    short = f"{value:.{SHORT}g}"
+    if abs(float(short) - value) <= 4.5e-16 * abs(value):
+        return Decimal(short), True
+    return Decimal(value), False
+
+
+def meant_angle(value: float) -> tuple[Decimal, bool]:
+    """The angle (rad) of the decimal degrees that were written for it."""
+    with working():
+        degrees, known = meant(float(Decimal(value) * 180 / PI))
+        return (degrees * PI / 180 if known else Decimal(value)), known
+
+
+def cos_sin(angle: Decimal) -> tuple[Decimal, Decimal]:
+    """Cosine and sine by their series, after the angle is brought within 45 degrees of a quarter turn."""
+    quarter = PI / 2
+    turns = (angle / quarter).to_integral_value(rounding=ROUND_HALF_EVEN)
+    x = angle - turns * quarter
+    if abs(x) < Decimal(10) ** -(DIGITS + 5):
+        x = Decimal(0)
+    term = Decimal(1)
+    parts = [Decimal(0), Decimal(0)]
+    k = 0
+    while term and abs(term) > Decimal(10) ** -(DIGITS + 15):
+        parts[k % 2] += term if k % 4 < 2 else -term
+        k += 1
+        term = term * x / k
+    c, s = parts
+    return ((c, s), (-s, c), (-c, -s), (s, -c))[int(turns) % 4]
+
+
+def decimal_function(text: str, constants: Sequence[float]) -> Callable[..., tuple[Decimal, ...]]:
+    """The function that a text defines, computing with decimals; ``k0``, ``k1``, ... are its constants."""
+    space: dict[str, Any] = {"sqrt": Decimal.sqrt, "fmin": min, "fmax": max}
+    space |= {f"k{n}": Decimal(x) for n, x in enumerate(constants)}
+    exec(compile(text, "<formulas>", "exec"), space)
+    made: Callable[..., tuple[Decimal, ...]] = space["made"]
+    return made

@@ -1,0 +1,279 @@
+"""Formulas as data: every operation once, in order, ready to be written out as code or followed by their rounding.
+
+A formula is built by computing with ``Real`` and ``Vec`` in place of floats and complex numbers.  What is known to be 0
+or 1 is folded away, what is computed twice is computed once, and what leads to nothing asked is never written out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+
+__all__ = ["LEAVES", "Line", "Real", "Sheet", "Vec", "fmax", "fmin", "operands", "root", "two_sum"]
+
+Line = tuple[Any, ...]
+"""One operation: ("add", i, j), ("root", i), ("const", 2.0), ("param", name), ("input", name)."""
+
+LEAVES = ("const", "param", "input")
+
+
+class Sheet:
+    """The lines of all formulas built on it; equal lines are one line."""
+
+    def __init__(self) -> None:
+        self.lines: list[Line] = []
+        self._place: dict[Line, int] = {}
+
+    def line(self, *line: Any) -> Real:
+        """The formula of one operation."""
+        at = self._place.get(line)
+        if at is None:
+            at = self._place[line] = len(self.lines)
+            self.lines.append(line)
+        return Real(self, at)
+
+    def const(self, value: float) -> Real:
+        """A number that is the same for all mechanisms."""
+        return self.line("const", float(value) + 0.0)
+
+    def param(self, name: Any) -> Real:
+        """A number that is the same at all positions."""
+        return self.line("param", name)
+
+    def input(self, name: Any) -> Real:
+        """A number that changes from position to position."""
+        return self.line("input", name)
+
+    def needed(self, asked: Iterable[Real]) -> list[int]:
+        """The lines that lead to what is asked, each after those it needs, near to where it is used."""
+        done: set[int] = set()
+        order: list[int] = []
+        for real in asked:
+            stack = [(real.at, False)]
+            while stack:
+                at, ready = stack.pop()
+                if ready:
+                    order.append(at)
+                elif at not in done:
+                    done.add(at)
+                    stack.append((at, True))
+                    stack += [(k, False) for k in reversed(operands(self.lines[at])) if k not in done]
+        return order
+
+
+def operands(line: Line) -> tuple[int, ...]:
+    """The lines that a line takes its numbers from."""
+    return () if line[0] in LEAVES else line[1:]
+
+
+class Real:
+    """A real number given by a formula."""
+
+    __array_ufunc__ = None
+    __slots__ = ("at", "sheet")
+
+    def __init__(self, sheet: Sheet, at: int) -> None:
+        self.sheet = sheet
+        self.at = at
+
+    @property
+    def line(self) -> Line:
+        return self.sheet.lines[self.at]
+
+    @property
+    def value(self) -> float | None:
+        """The number, where it is the same for all mechanisms."""
+        return self.line[1] if self.line[0] == "const" else None
+
+    def _of(self, other: Real | float) -> Real:
+        return other if isinstance(other, Real) else self.sheet.const(other)
+
+    def __neg__(self) -> Real:
+        if self.value is not None:
+            return self.sheet.const(-self.value)
+        if self.line[0] == "neg":
+            return Real(self.sheet, self.line[1])
+        if self.line[0] == "sub":
+            return self.sheet.line("sub", self.line[2], self.line[1])
+        return self.sheet.line("neg", self.at)
+
+    def __add__(self, other: Any) -> Any:
+        if isinstance(other, Vec | complex):
+            return Vec(self, self.sheet.const(0)) + other
+        b = self._of(other)
+        if self.value is not None and b.value is not None:
+            return self.sheet.const(self.value + b.value)
+        if self.value == 0 or b.value == 0:
+            return b if self.value == 0 else self
+        if b.line[0] == "neg":
+            return self - Real(self.sheet, b.line[1])
+        if self.line[0] == "neg":
+            return b - Real(self.sheet, self.line[1])
+        return self.sheet.line("add", *sorted((self.at, b.at)))
+
+    __radd__ = __add__
+
+    def __sub__(self, other: Any) -> Any:
+        if isinstance(other, Vec | complex):
+            return Vec(self, self.sheet.const(0)) - other
+        b = self._of(other)
+        if self.value is not None and b.value is not None:
+            return self.sheet.const(self.value - b.value)
+        if b.value == 0 or self.value == 0:
+            return self if b.value == 0 else -b
+        if self.at == b.at:
+            return self.sheet.const(0)
+        if b.line[0] == "neg":
+            return self + Real(self.sheet, b.line[1])
+        return self.sheet.line("sub", self.at, b.at)
+
+    def __rsub__(self, other: Any) -> Any:
+        return -(self - other) if isinstance(other, complex) else self._of(other) - self
+
+    def __mul__(self, other: Any) -> Any:
+        if isinstance(other, Vec | complex):
+            return Vec(self, self.sheet.const(0)) * other
+        b = self._of(other)
+        for one, two in ((self, b), (b, self)):
+            if one.value is not None and two.value is not None:
+                return self.sheet.const(one.value * two.value)
+            if one.value == 0:
+                return one
+            if one.value == 1:
+                return two
+            if one.value == -1:
+                return -two
+            if one.line[0] == "neg":
+                return -(Real(self.sheet, one.line[1]) * two)
+        if self.at == b.at and self.line[0] == "root":
+            return abs(Real(self.sheet, self.line[1]))
+        return self.sheet.line("mul", *sorted((self.at, b.at)))
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, other: Any) -> Any:
+        b = self._of(other)
+        if self.value == 0 or b.value == 1:
+            return self
+        if self.value is not None and b.value:
+            return self.sheet.const(self.value / b.value)
+        return self.sheet.line("div", self.at, b.at)
+
+    def __rtruediv__(self, other: Any) -> Any:
+        return self._of(other) / self
+
+    def __abs__(self) -> Real:
+        if self.value is not None:
+            return self.sheet.const(abs(self.value))
+        if self.line[0] == "neg":
+            return abs(Real(self.sheet, self.line[1]))
+        return self if self.never_negative else self.sheet.line("abs", self.at)
+
+    @property
+    def never_negative(self) -> bool:
+        """Whether the number cannot be below zero, by the form of the formula."""
+        kind = self.line[0]
+        if kind in ("abs", "root"):
+            return True
+        if kind == "mul":
+            return bool(self.line[1] == self.line[2])
+        if kind in ("add", "fmax"):
+            return all(Real(self.sheet, k).never_negative for k in self.line[1:])
+        return bool(kind == "const" and self.line[1] >= 0)
+
+    def conjugate(self) -> Real:
+        return self
+
+    @property
+    def real(self) -> Real:
+        return self
+
+    @property
+    def imag(self) -> Real:
+        return self.sheet.const(0)
+
+
+class Vec:
+    """A plane vector given by the formulas of its components: computes as a complex number does."""
+
+    __array_ufunc__ = None
+    __slots__ = ("imag", "real")
+
+    def __init__(self, real: Real, imag: Real) -> None:
+        self.real = real
+        self.imag = imag
+
+    def _of(self, other: Any) -> Vec:
+        if isinstance(other, Vec):
+            return other
+        sheet = self.real.sheet
+        if isinstance(other, Real):
+            return Vec(other, sheet.const(0))
+        return Vec(sheet.const(complex(other).real), sheet.const(complex(other).imag))
+
+    def __neg__(self) -> Vec:
+        return Vec(-self.real, -self.imag)
+
+    def __add__(self, other: Any) -> Vec:
+        b = self._of(other)
+        return Vec(self.real + b.real, self.imag + b.imag)
+
+    __radd__ = __add__
+
+    def __sub__(self, other: Any) -> Vec:
+        b = self._of(other)
+        return Vec(self.real - b.real, self.imag - b.imag)
+
+    def __rsub__(self, other: Any) -> Vec:
+        return self._of(other) - self
+
+    def __mul__(self, other: Any) -> Vec:
+        b = self._of(other)
+        return Vec(self.real * b.real - self.imag * b.imag, self.real * b.imag + self.imag * b.real)
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, other: Any) -> Vec:
+        """By a real number."""
+        return Vec(self.real / other, self.imag / other)
+
+    def __eq__(self, other: object) -> bool:
+        """Whether it is that number in every mechanism."""
+        if not isinstance(other, int | float | complex):
+            return NotImplemented
+        return self.real.value == complex(other).real and self.imag.value == complex(other).imag
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def conjugate(self) -> Vec:
+        return Vec(self.real, -self.imag)
+
+
+def root(x: Any) -> Any:
+    """Square root of the size of a number: where rounding has put a zero below zero it stays near zero."""
+    if not isinstance(x, Real):
+        return np.sqrt(np.abs(x))
+    if x.value is not None:
+        return x.sheet.const(abs(x.value) ** 0.5)
+    if x.line[0] == "mul" and x.line[1] == x.line[2]:
+        return abs(Real(x.sheet, x.line[1]))
+    return x.sheet.line("root", x.at)
+
+
+def fmin(x: Real, y: Real) -> Real:
+    """The smaller of two numbers; the other one where one is not a number."""
+    return x.sheet.line("fmin", x.at, y.at)
+
+
+def fmax(x: Real, y: Real) -> Real:
+    """The greater of two numbers."""
+    return x if x.at == y.at or y.value == 0 else x.sheet.line("fmax", *sorted((x.at, y.at)))
+
+
+def two_sum(a: Any, b: Any) -> tuple[Any, Any]:
+    """A sum as it is rounded, and what rounding has taken from it (Knuth, The Art of Computer Programming, vol. 2)."""
+    s = a + b
+    back = s - a
+    return s, (a - (s - back)) + (b - back)

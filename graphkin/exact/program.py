@@ -1,0 +1,290 @@
+"""The formulas of a structure: every link and group by the values of the drivers, with the bounds of their rounding.
+
+Lengths and places are left open in them, so that one program serves every mechanism that differs in these only.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from decimal import Decimal
+from typing import Any
+from weakref import finalize
+
+from graphkin.exact.decimals import DIGITS, meant
+from graphkin.exact.dyads import Solved, solve_dyad
+from graphkin.exact.formula import Real, Sheet, Vec, fmax
+from graphkin.exact.joints import body_shape, driven, dyad_joints, members
+from graphkin.exact.pose import Pose
+from graphkin.exact.rendering import Code
+from graphkin.exact.rounding import UNIT, Rounding
+from graphkin.scene.model import AngleDriver, Driver
+from graphkin.structure import Cluster, Driven, Dyad, Pair, Structure, Turn
+
+__all__ = ["FIELDS", "GIVEN", "Fitted", "Program", "program_of"]
+
+FIELDS = ("z", "u", "v", "omega", "a", "alpha")
+GIVEN = 3 * UNIT
+"""Relative error of a number of the file after its conversion from decimals and units."""
+FEW = 8.0
+
+
+class Program:
+    """The formulas of all mechanisms of one form.
+
+    poses : each link by its name, fields are formulas
+    groups : what each dyad gives, by its place among the elements
+    """
+
+    def __init__(self, structure: Structure, moving: Sequence[bool]) -> None:
+        self.sheet = Sheet()
+        self.structure = structure
+        self._moving = moving
+        self._numbers = _numbers(structure)
+        self.poses: dict[str, Pose] = {structure.scene.frame.name: self.at_rest(0j, 1 + 0j)}
+        self.groups: dict[int, Solved] = {}
+        for i, element in enumerate(structure.elements):
+            self._add(i, element)
+        self.unit = self.sheet.param(("unit",))
+        self.rounding = Rounding(self.sheet, self._error, self.unit)
+        self._codes: dict[Any, Code] = {}
+
+    # numbers
+
+    def at_rest(self, place: Any, direction: Any) -> Pose:
+        """Axes that do not move."""
+        zero = self.sheet.const(0)
+        none = Vec(zero, zero)
+        return Pose(none + place, none + direction, none, zero, none, zero)
+
+    def _number(self, name: tuple[Any, ...]) -> Vec:
+        z = self._numbers[name]
+        return Vec(*(self._part(name, axis, x) for axis, x in (("x", z.real), ("y", z.imag))))
+
+    def _part(self, name: tuple[Any, ...], axis: str, value: float) -> Real:
+        return self.sheet.const(value) if value in (0.0, 1.0, -1.0) else self.sheet.param((*name, axis))
+
+    def rest(self, pair: Pair, link: str) -> Pose:
+        """The joint's frame in the axes of one of its links."""
+        if isinstance(pair, Turn):
+            return self.at_rest(self._number(("point", link, pair.point)), 1 + 0j)
+        if link == pair.a:
+            return self.at_rest(0j, self._number(("turn", pair.key)).conjugate())
+        return self.at_rest(self._number(("through", pair.key)), self._number(("direction", pair.key)))
+
+    def _rates(self, driver: Driver) -> tuple[Real, Real]:
+        k = self.structure.scene.drivers.index(driver)
+        second = self.sheet.param(("second", k)) if self._moving[k] else self.sheet.const(0)
+        return self.sheet.param(("rate", k)), second
+
+    def turn(self, driver: AngleDriver) -> Pose:
+        """The rotation that an angle driver gives."""
+        k = self.structure.scene.drivers.index(driver)
+        rate, second = self._rates(driver)
+        none = Vec(self.sheet.const(0), self.sheet.const(0))
+        return Pose(none, Vec(self.sheet.input(("cos", k)), self.sheet.input(("sin", k))), none, rate, none, second)
+
+    def travel(self, driver: Driver) -> tuple[Real, Real, Real]:
+        """Value, rate and second rate of a slide driver."""
+        k = self.structure.scene.drivers.index(driver)
+        return self.sheet.input(("travel", k)), *self._rates(driver)
+
+    # elements
+
+    def _add(self, i: int, element: Driven | Dyad | Cluster) -> None:
+        if isinstance(element, Driven):
+            self.poses[element.link] = driven(self, element, self.poses)
+        elif isinstance(element, Cluster):
+            for name in element.members:
+                self.poses[name] = self._placed(name)
+        else:
+            rest = self.at_rest(0j, 1 + 0j)
+            shapes = body_shape(self, element.first, rest), body_shape(self, element.second, rest)
+            joints = dyad_joints(self, element, shapes, self.poses, self.sheet.param(("size",)))
+            solved = solve_dyad(element.kind, joints, self.sheet.input(("sign", i)))
+            self.groups[i] = solved
+            self.poses.update(members(shapes[0], solved.first))
+            self.poses.update(members(shapes[1], solved.second))
+
+    def _placed(self, name: str) -> Pose:
+        """A link of a larger group, whose pose is given."""
+        parts: dict[str, Any] = {}
+        for part in FIELDS:
+            real = self.sheet.input(("pose", name, part, "x"))
+            flat = part in ("omega", "alpha")
+            parts[part] = real if flat else Vec(real, self.sheet.input(("pose", name, part, "y")))
+        return Pose(**parts)
+
+    # rounding
+
+    def _error(self, x: Real) -> Real:
+        name = x.line[1]
+        if name[0] in ("size", "sign", "unit", "reach"):
+            return self.sheet.const(0)
+        if name[0] == "pose":
+            return self.sheet.input(("error", *name[1:3]))
+        if name[0] in ("cos", "sin"):
+            return self.sheet.param(("error", "angle", name[1]))
+        if name[0] == "travel":
+            return self.sheet.param(("error", *name))
+        return self.sheet.param(("error", *(name[:-1] if name[-1] in ("x", "y") else name)))
+
+    def error(self, z: Any) -> Real:
+        """How far a number or a vector may be off."""
+        if isinstance(z, Real):
+            return self.rounding.of(z)
+        both = self.rounding.of(z.real) + self.rounding.of(z.imag)
+        assert isinstance(both, Real)
+        return both
+
+    def bounds(self, links: Iterable[str]) -> list[Real]:
+        """How far rounding may have moved any point of these links and their turning: position (m), velocity (m/s),
+        acceleration (m/s2), angle (rad), its rate (rad/s) and second rate (rad/s2)."""
+        most = [self.sheet.const(0)] * 6  # points, then turning
+        for link in links:
+            for k, bound in enumerate(self._bounds(link)):
+                most[k] = fmax(bound, most[k])
+        return most
+
+    def _bounds(self, link: str) -> tuple[Real, ...]:
+        pose = self.poses[link]
+        z, u, v, omega, a, alpha = (self.error(getattr(pose, field)) for field in FIELDS)
+        r = self.sheet.param(("reach", link))
+        for slide in self.structure.slides:
+            # the coincident point under what slides on this link
+            if slide.b == link and slide.a in self.poses:
+                away = self.poses[slide.a].z - pose.z
+                r = fmax(abs(away.real) + abs(away.imag), r)
+        spin, bend = abs(pose.omega), abs(pose.alpha) + pose.omega * pose.omega
+        place = abs(pose.z.real) + abs(pose.z.imag) + r
+        speed = abs(pose.v.real) + abs(pose.v.imag) + spin * r
+        push = abs(pose.a.real) + abs(pose.a.imag) + bend * r
+        few = FEW * self.unit
+        # what a point of the link adds to its origin, and the roundings of adding it
+        return (
+            z + r * u + few * place,
+            v + r * (omega + spin * u) + few * speed,
+            a + r * (alpha + bend * u + (2.0 * spin + omega) * omega) + few * push,
+            u + few,
+            omega,
+            alpha,
+        )
+
+    # code
+
+    def code(self, key: Any, asked: Sequence[Real]) -> Code:
+        """The code for some formulas, made once."""
+        if key not in self._codes:
+            self._codes[key] = Code(self.sheet, asked)
+        return self._codes[key]
+
+
+def _numbers(structure: Structure) -> dict[tuple[Any, ...], complex]:
+    """Every place and direction that a structure gives, by name."""
+    found: dict[tuple[Any, ...], complex] = {}
+    for name, link in structure.links.items():
+        for point, z in link.points.items():
+            found["point", name, point] = z
+    for s in structure.slides:
+        found["turn", s.key] = s.turn
+        found["through", s.key] = s.guide.through
+        found["direction", s.key] = s.guide.direction
+    return found
+
+
+def _form(structure: Structure) -> Any:
+    """What a program depends on: elements, joints and drivers by name, and which numbers are 0, 1 or -1."""
+    drivers = tuple((type(d).__name__, d.key, getattr(d, "relative_to", "")) for d in structure.scene.drivers)
+    special = tuple(
+        (name, *(x if x in (0.0, 1.0, -1.0) else None for x in (z.real, z.imag)))
+        for name, z in _numbers(structure).items()
+    )
+    return structure.scene.frame.name, drivers, special, tuple(_element_form(e) for e in structure.elements)
+
+
+def _element_form(element: Driven | Dyad | Cluster) -> Any:
+    if isinstance(element, Driven):
+        return element.link, _pair_form(element.pair), element.driver.key
+    if isinstance(element, Cluster):
+        return element.members
+    bodies = [
+        (b.links, tuple((_pair_form(w.pair), w.driver.key, w.a, w.b, w.sign) for w in b.welds)) for b in element.bodies
+    ]
+    pairs = (element.inner, element.outer_first, element.outer_second)
+    return element.kind, *bodies, *(_pair_form(p) for p in pairs)
+
+
+def _pair_form(pair: Pair) -> Any:
+    return (pair.point if isinstance(pair, Turn) else pair.key), pair.a, pair.b
+
+
+@dataclass
+class Fitted:
+    """A program with the numbers of one mechanism."""
+
+    program: Program
+    structure: Structure
+    _found: dict[Any, float] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self._numbers = _numbers(self.structure)
+
+    def params(self, names: Iterable[Any], drivers: Mapping[Any, float]) -> list[float]:
+        """Numbers by their names, with the rates of the drivers and the greatest of their values."""
+        found: list[float] = []
+        for name in names:
+            changing = drivers.get(name)
+            if changing is None and name not in self._found:
+                self._found[name] = self._fixed(name)
+            found.append(self._found[name] if changing is None else changing)
+        return found
+
+    def decimals(self, names: Iterable[Any], drivers: Mapping[Any, Decimal]) -> list[Decimal]:
+        """The same as decimals; numbers that stand so in the file are without error."""
+        return [drivers[name] if name in drivers else self._decimal(name) for name in names]
+
+    def _fixed(self, name: tuple[Any, ...]) -> float:
+        if name[0] == "unit":
+            return UNIT
+        if name[0] == "size":
+            return self.structure.scene.size
+        if name[0] == "reach":
+            return max(map(abs, self.structure.links[name[1]].points.values()), default=0.0)
+        if name[0] == "error":
+            return GIVEN * abs(self._numbers[name[1:]])
+        z = self._numbers[name[:-1]]
+        return z.real if name[-1] == "x" else z.imag
+
+    def _decimal(self, name: tuple[Any, ...]) -> Decimal:
+        if name[0] == "unit":
+            return Decimal(10) ** -DIGITS
+        if name[0] == "error":
+            z = self._numbers[name[1:]]
+            exact = meant(z.real)[1] and meant(z.imag)[1]
+            return Decimal(0 if exact else self._fixed(name))
+        return meant(self._fixed(name))[0]
+
+
+_PROGRAMS: dict[Any, Program] = {}
+_FITTED: dict[tuple[int, tuple[bool, ...]], Fitted] = {}
+MOST = 200
+
+
+def program_of(structure: Structure, moving: tuple[bool, ...]) -> Fitted:
+    """The program of a structure, made once for all of its form.
+
+    Parameters
+    ----------
+    moving : for each driver whether it has a second rate
+    """
+    key = (id(structure), moving)
+    if key in _FITTED:
+        return _FITTED[key]
+    form = _form(structure), moving
+    program = _PROGRAMS.pop(form, None) or Program(structure, moving)
+    _PROGRAMS[form] = program
+    while len(_PROGRAMS) > MOST:
+        del _PROGRAMS[next(iter(_PROGRAMS))]
+    fitted = _FITTED[key] = Fitted(program, structure)
+    finalize(structure, _FITTED.pop, key, None)
+    return fitted
