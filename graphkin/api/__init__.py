@@ -7,7 +7,7 @@ from graphkin.api.checked import Checked, check
 from graphkin.api.drawn import Drawn, draw
 from graphkin.api.handed import Handout, handout
 from graphkin.api.listed import Listed, scenes
-from graphkin.api.problem_sets import ProblemSets, problem_set
+from graphkin.api.problem_sets import ProblemSet, problem_set
 from graphkin.api.solved import Solved, solve
 from graphkin.api.swept import Swept, sweep
 
@@ -19,7 +19,7 @@ __all__ = [
     "Drawn",
     "Handout",
     "Listed",
-    "ProblemSets",
+    "ProblemSet",
     "Solved",
     "Swept",
     "audit",

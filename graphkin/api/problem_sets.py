@@ -1,0 +1,196 @@
+"""Sets of problems: a variant for each student, drawn from a seed or given by the rows of a table."""
+
+from __future__ import annotations
+
+import csv
+import io
+import os
+import tomllib
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import Executor, ProcessPoolExecutor
+from dataclasses import dataclass
+from multiprocessing import get_context
+from pathlib import Path
+from typing import Any
+
+from graphkin.api.answers import table_of
+from graphkin.api.called import SceneLike, as_scene
+from graphkin.api.files import write_files
+from graphkin.errors import CallError, GraphkinError, Problem
+from graphkin.handout.data_rows import Columns, columns_of, replaced
+from graphkin.handout.problem_set import Job, MadeSet, Render, jobs_of_rows, jobs_of_seed, make
+from graphkin.handout.variants import Range, Variant, asked_of, varied_keys
+from graphkin.scene import library, library_text
+from graphkin.scene.model import Scene
+from graphkin.scene.source import safe_name
+from graphkin.scene.writing import as_mapping, toml_text
+from graphkin.study.designs import applied
+
+__all__ = ["ProblemSet", "problem_set"]
+
+MOST = 100_000
+
+
+@dataclass(frozen=True)
+class ProblemSet:
+    """A set of problems: what became of each variant, the table of all answers, and the files written."""
+
+    scene: Scene
+    made: MadeSet
+    unused: tuple[str, ...] = ()
+    folder: Path | None = None
+
+    @property
+    def ok(self) -> bool:
+        """Whether every variant was made."""
+        return self.made.ok
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """All answers, remarks and failures, for programs."""
+        variants = [
+            {
+                "name": name,
+                "answers": [{"symbol": a.symbol, "value": a.value, "tolerance": a.tolerance} for a in answers],
+                **({"remarks": list(self.made.remarks[name])} if name in self.made.remarks else {}),
+            }
+            for name, answers in self.made.answers.items()
+        ]
+        failures = [{"name": f.name, "why": f.why} for f in self.made.failures]
+        return {"ok": self.ok, "variants": variants, "failures": failures, "unused": list(self.unused)}
+
+    def csv(self) -> str:
+        """One row for each variant: its name, and each answer with its tolerance; failures at the end."""
+        out = io.StringIO()
+        writer = csv.writer(out, lineterminator="\n")
+        symbols = [str(s) for s in asked_of(self.scene)]
+        writer.writerow(["name", *(c for s in symbols for c in (s, f"{s} +-")), "remarks"])
+        for name, answers in self.made.answers.items():
+            cells = [f"{x:.6g}" for a in answers for x in (a.value, a.tolerance)]
+            writer.writerow([name, *cells, "; ".join(self.made.remarks.get(name, ()))])
+        for failure in self.made.failures:
+            writer.writerow([failure.name, *[""] * (2 * len(symbols)), f"failed: {failure.why}"])
+        return out.getvalue()
+
+    def _repr_html_(self) -> str:
+        from html import escape
+
+        lines = csv.reader(io.StringIO(self.csv()))
+        cells = ("".join(f"<td>{escape(cell)}</td>" for cell in line) for line in lines)
+        return "<table>" + "".join(f"<tr>{line}</tr>" for line in cells) + "</table>"
+
+
+def problem_set(
+    scene: SceneLike,
+    variants: int | None = None,
+    seed: int = 0,
+    rows: str | os.PathLike[str] | None = None,
+    out: str | os.PathLike[str] | None = None,
+    spread: Range | None = None,
+    executor: Executor | None = None,
+    workers: int | None = None,
+    render: Render | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> ProblemSet:
+    """Make a set of problems from one scene: the same mechanism with other numbers for everyone.
+
+    Parameters
+    ----------
+    variants, seed : how many, drawn afresh; each assembles, has round numbers, crosses no lines under 20 degrees,
+        shows every asked reading over 10 mm long, and differs in its answers from all others by more than one may err
+    rows : instead, a CSV file with a row of data for each group or student (see `graphkin.handout.data_rows`)
+    out : folder for a scene file of each variant, the rendered files and answers.csv; an interrupted set goes on
+    spread : how far the numbers vary
+    executor, workers : any that follows ``concurrent.futures.Executor``; or so many processes of one's own
+    render : gives files by name for a variant, called where the variants are made (so it must be picklable)
+    progress : called with the variants done and all
+
+    Returns
+    -------
+    ProblemSet; a variant that cannot be made is among its failures, with the reason
+
+    Raises
+    ------
+    SceneError, CallError : the scene, the table or the call is wrong
+    """
+    if (variants is None) == (rows is None):
+        raise CallError(Problem("variants", "neither or both of variants and rows", "give one of them"))
+    source, name = _source(scene)
+    given = as_scene(source)
+    jobs, unused = _jobs(source, variants, seed, rows, spread or Range())
+    folder = Path(out) if out is not None else None
+    own = ProcessPoolExecutor(workers, get_context("spawn")) if executor is None and (workers or 1) > 1 else None
+    if folder is not None:
+        write_files(folder, {})
+
+    def keep(variant: Variant, files: Mapping[str, bytes]) -> None:
+        if folder is not None:
+            stem = f"{name}-{variant.name}"
+            scene_file = {f"{stem}.toml": toml_text(variant.source).encode()}
+            write_files(folder, {**scene_file, **{f"{stem}-{safe_name(n)}": f for n, f in files.items()}})
+
+    try:
+        made = make(jobs, folder, executor or own, workers or 1, keep, render, progress)
+    finally:
+        if own is not None:
+            own.shutdown(cancel_futures=True)
+    found = ProblemSet(given, made, unused, folder)
+    if folder is not None:
+        write_files(folder, {"answers.csv": found.csv().encode("utf-8-sig")})
+    return found
+
+
+def _source(scene: SceneLike) -> tuple[dict[str, Any], str]:
+    """The mapping of a scene file, as it was written where that is possible, and the scene's name."""
+    read = as_scene(scene)
+    if isinstance(scene, Scene) or read.drawn:
+        # drawn points tie every number to the position: lengths stand on their own
+        return as_mapping(read), read.name
+    if isinstance(scene, Mapping):
+        return dict(scene), read.name
+    text = os.fspath(scene)
+    if text in library() and not os.path.isfile(text):
+        return tomllib.loads(library_text(text)), read.name
+    return tomllib.loads(Path(text).read_text(encoding="utf-8-sig")), read.name
+
+
+def _jobs(
+    source: Mapping[str, Any], variants: int | None, seed: int, rows: str | os.PathLike[str] | None, spread: Range
+) -> tuple[Sequence[Job], tuple[str, ...]]:
+    if rows is None:
+        if not 1 <= (variants or 0) <= MOST:
+            raise CallError(Problem("variants", f"{variants}", f"give a number from 1 to {MOST}"))
+        if not varied_keys(source):
+            raise CallError(Problem("variants", "nothing in the scene can vary", "give lengths and a driver"))
+        return list(jobs_of_seed(source, variants or 0, seed, spread)), ()
+    table = table_of(rows)
+    columns = columns_of(source, table.heads)
+    if not columns.data:
+        raise CallError(
+            Problem(str(rows), f"no column is a datum of the scene: {', '.join(table.heads)[:200]}",
+                    "write heads like links.1.length, O4B, n2 or phi1")
+        )
+    return list(jobs_of_rows(_rows(source, columns, table.rows))), columns.unused
+
+
+def _rows(
+    source: Mapping[str, Any], columns: Columns, lines: Sequence[tuple[int, tuple[str, ...]]]
+) -> Iterator[tuple[str, dict[str, Any], dict[str, Any] | None, str]]:
+    used: set[str] = set()
+    for line, cells in lines:
+        known = columns.name is not None and columns.name < len(cells)
+        name = safe_name(cells[columns.name or 0]) if known else f"line-{line}"
+        while name in used:
+            name = f"{name}-{line}"
+        used.add(name)
+        try:
+            settings = replaced(source, columns, cells)
+            made = _with(source, settings)
+            before = [s for s in settings if not s[0].startswith("driver") or not s[0].endswith((".angle", ".travel"))]
+            yield name, made, _with(source, before) if before != settings else None, ""
+        except (ValueError, GraphkinError) as error:
+            yield name, {}, None, str(error).splitlines()[0]
+
+
+def _with(source: Mapping[str, Any], settings: Sequence[tuple[str, float]]) -> dict[str, Any]:
+    return applied(source, [k for k, _ in settings], [v for _, v in settings])
