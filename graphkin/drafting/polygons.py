@@ -14,6 +14,7 @@ from graphkin.drafting.parts import Part, bar, parts_of, symbol_of, turn_sign
 from graphkin.drafting.plot import ZERO_MM, Order, Plot, letter
 from graphkin.drafting.sheet import Bar, Direction, Equation, Mark, Rate, Ray, Scales, Term, Vector
 from graphkin.drafting.slip import NO_SLIP, Slip
+from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import PointRef, Symbol
@@ -105,7 +106,13 @@ class Polygons(Plot):
             _same_turn(dyad),
             self.tiny,
         )
-        assert chain is not None, "every dyad has an equation with two unknowns"
+        if chain is None:
+            # every dyad has an equation with two unknowns, but its points must be apart on the sheet
+            names = ", ".join(dyad.links)
+            raise Unsolvable(
+                "not drawn",
+                Problem(f"links {names}", "points of theirs fall together on any sheet that shows the whole mechanism"),
+            )
         return chain
 
     def _known_turns(self, order: Order, dyad: Dyad) -> None:

@@ -166,3 +166,17 @@ def test_a_guide_bar_just_before_its_flip_is_judged_by_what_rounding_leaves(angl
         "driver": {"link": "1", "angle": angle, "omega": 10},
     }
     assert graphkin.check(flip).ok
+
+
+def test_links_too_short_to_be_seen_beside_the_others_are_told_by_name():
+    dots = {
+        "frame": {"points": {"A": [0, 0], "D": [100, 0]}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 1e-9},
+            "2": {"points": ["B", "C"], "length": 100},
+            "3": {"points": ["C", "D"], "length": 1e-9},
+        },
+        "driver": {"link": "1", "angle": 40, "omega": 10},
+    }
+    with pytest.raises(Unsolvable, match="links 2, 3: points of theirs fall together"):
+        graphkin.check(dots)
