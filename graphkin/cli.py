@@ -279,9 +279,10 @@ def _report(run: Callable[[], Checked], as_json: bool, quiet: bool, lang: str | 
         if checked.advice:
             typer.echo(say(checked.advice.phrase(), language, show))
         typer.echo(verdict(checked, language))
-    if checked.sheet.stopped is not None and not checked.complete:
+    if checked.sheet.stopped is not None:
         typer.echo(f"graphkin: {say(checked.sheet.stopped, language, show)}", err=True)
-        raise typer.Exit(3)
+        if checked.report.missing or not checked.report.rows:
+            raise typer.Exit(3)
     if not checked.ok:
         raise typer.Exit(1)
 
@@ -589,3 +590,80 @@ def _bar(shown: bool) -> Iterator[Callable[[int, int], None] | None]:
         yield tell
     finally:
         bar.stop()
+
+
+@app.command()
+def handout(
+    scene: SceneArgument,
+    out: Annotated[
+        Path | None, typer.Option("-o", "--out", metavar="DIR", help="Folder for the files; ./NAME if not given.")
+    ] = None,
+    formats: Annotated[str, typer.Option("--format", metavar="html,pdf", help="Formats of the papers.")] = "html,pdf",
+    at: AtOption = None,
+    find: FindOption = None,
+    lang: Annotated[
+        str | None, typer.Option("--lang", metavar="en|zh|both", help="Language of the papers.")
+    ] = None,
+    convention: ConventionOption = None,
+    positions: Annotated[
+        int, typer.Option("--positions", metavar="N", help="Positions of the driver on the page to step through.")
+    ] = 24,
+    variants: Annotated[
+        int | None, typer.Option("--variants", metavar="N", help="A set of N problems with other numbers instead.")
+    ] = None,
+    seed: Annotated[int, typer.Option("--seed", help="Seed of the variants.")] = 0,
+    rows: Annotated[
+        Path | None, typer.Option("--rows", metavar="FILE.csv", help="A set of problems, one for each row of data.")
+    ] = None,
+    workers: Annotated[
+        int | None, typer.Option("--workers", metavar="N", help="Processes for a set; as many as there are cores.")
+    ] = None,
+    as_json: JsonOption = False,
+    quiet: QuietOption = False,
+) -> None:
+    """Problem sheet, worked solution with every step, and answer key; or a set of them with other numbers."""
+    from graphkin.api import handout as handing
+    from graphkin.words import say
+
+    wanted = [f.strip().lower() for f in formats.split(",") if f.strip()]
+    if variants is not None or rows is not None:
+        _problem_set(scene, out, wanted, lang, convention, variants, seed, rows, workers, as_json, quiet)
+        return
+    made = handing(scene, None, _values(at), find or None, wanted, lang, convention, positions)
+    paths = made.write(out)
+    if as_json:
+        _dump(made.data | {"files": [str(p) for p in paths]})
+    elif not quiet:
+        typer.echo("\n".join(str(p) for p in paths))
+    for note in made.notes:
+        typer.echo(f"graphkin: {say(note, 'zh' if made.lesson.language == 'zh' else 'en')}", err=True)
+    if not made.ok:
+        raise typer.Exit(1)
+
+
+def _problem_set(
+    scene: str, out: Path | None, formats: list[str], lang: str | None, convention: str | None, variants: int | None,
+    seed: int, rows: Path | None, workers: int | None, as_json: bool, quiet: bool,
+) -> None:  # fmt: skip
+    from graphkin.api import problem_set
+    from graphkin.api.handed import papers_of
+    from graphkin.scene import read
+
+    target = out if out is not None else Path(read(scene).name)
+    papers = papers_of(scene, formats, lang, convention)
+    try:
+        with _bar(not as_json and not quiet) as progress:
+            made = problem_set(
+                scene, variants, seed, rows, target, workers=_processes(workers, None), render=papers, progress=progress
+            )
+    except KeyboardInterrupt:
+        typer.echo(f"graphkin: interrupted; what is done is kept in {target}, the same command goes on", err=True)
+        raise
+    if as_json:
+        _dump(made.data)
+    elif not quiet:
+        typer.echo(f"{len(made.made.names)} problems in {target}, all answers in {target / 'answers.csv'}")
+    for failure in made.made.failures:
+        typer.echo(f"graphkin: {failure.name}: {failure.why}", err=True)
+    if not made.ok:
+        raise typer.Exit(3)

@@ -69,7 +69,9 @@ class Handout:
         if "html" not in self.formats:
             return handout_files(self.lesson, formats=self.formats)
         lesson = self.lesson
-        views, start = views_of(self.scene, self.values, lesson.asked, lesson.language, lesson.convention, self.count)
+        views, start = views_of(
+            self.scene, self.values, lesson.asked, lesson.language, lesson.convention, lesson.sheet.scales, self.count
+        )
         return handout_files(lesson, views, start, self.formats)
 
     def write(self, folder: str | os.PathLike[str] | None = None) -> list[Path]:

@@ -15,6 +15,7 @@ from graphkin.drawing import strokes
 from graphkin.drawing.detail import details
 from graphkin.drawing.lengths import LENGTHS
 from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Stroke, Text
+from graphkin.scene.symbol import Symbol
 
 __all__ = ["births", "so_far", "step_of", "stepped"]
 
@@ -66,6 +67,8 @@ def _polygon(diagram: DiagramName, steps: list[Step]) -> dict[str, int]:
     born: dict[str, int] = {}
     for step in steps:
         born[f"direction-{step.number:02d}"] = step.number
+        if step.phrase.key == "carry" and isinstance(step.phrase.args[0], Symbol):
+            born[f"carried-{step.phrase.args[0].id}"] = step.number
         for stroke in step.strokes:
             if isinstance(stroke, Mark):
                 born.setdefault(f"{diagram}-{stroke.ref}".replace("@", ""), step.number)

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 from html import escape
 
-from graphkin.drawing.primitives import Drawing, Group, Line, Primitive
+from graphkin.drawing.primitives import Drawing, Group, Line, Primitive, Stroke
 from graphkin.drawing.svg import svg_bytes
 from graphkin.drawing.typeset import Atom, is_italic, parsed
 from graphkin.handout.blocks import Beside, Block, Fields, Heading, Paragraph, Picture, Said, Steps, Table
@@ -15,6 +15,7 @@ from graphkin.handout.clean import clean
 
 __all__ = ["blocks_html", "figure_svg", "said_html", "words_html"]
 
+HIT = 3.0  # mm
 _PROLOG = re.compile(r"^<\?xml[^>]*\?>\s*")
 _LAYER = re.compile(r' inkscape:(?:groupmode|label)="[^"]*"| xmlns:(?:inkscape|ev|xlink)="[^"]*"| baseProfile="[^"]*"')
 _ID = re.compile(r' id="[^"]*"')
@@ -55,7 +56,8 @@ def figure_svg(drawing: Drawing, named: bool = False) -> str:
 
     Lines end under their arrowheads by a dash and not by a clip, whose name would have to be unique in the page.
     """
-    bare = replace(drawing, metadata={}, children=tuple(map(_dashed, drawing.children)))
+    children = tuple(map(_dashed, drawing.children))
+    bare = replace(drawing, metadata={}, children=tuple(map(_wide, children)) if named else children)
     text = _PROLOG.sub("", svg_bytes(bare).decode()).strip()
     head, body = text.split(">", 1)
     head = _LAYER.sub("", re.sub(r' font-family="[^"]*"', "", head))  # the page's style names the faces
@@ -73,6 +75,17 @@ def _dashed(thing: Primitive) -> Primitive:
         inked = abs(thing.inked_end - thing.start)
         return Line(thing.start, thing.end, replace(thing.stroke, dash=(inked, abs(thing.end - thing.start) + 1.0)))
     return thing
+
+
+def _wide(thing: Primitive) -> Primitive:
+    """Vectors with a band of a finger's width that is not seen but felt by the pointer."""
+    if not isinstance(thing, Group):
+        return thing
+    children = tuple(map(_wide, thing.children))
+    shaft = children[0] if "vector" in thing.classes else None
+    if isinstance(shaft, Line) and shaft.start != shaft.end:
+        children += (Group((Line(shaft.start, shaft.end, Stroke(HIT)),), classes=("hit",)),)
+    return replace(thing, children=children)
 
 
 def blocks_html(blocks: Iterable[Block]) -> str:

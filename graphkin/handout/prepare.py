@@ -83,12 +83,18 @@ def positions(
 
 
 def views_of(
-    scene: Scene, values: Mapping[str, float] | None, asked: Sequence[Symbol], language: str, convention: str,
+    scene: Scene,
+    values: Mapping[str, float] | None,
+    asked: Sequence[Symbol],
+    language: str,
+    convention: str,
+    paper: Scales,
     count: int = POSITIONS,
-) -> tuple[list[View], int]:  # fmt: skip
+) -> tuple[list[View], int]:
     """The positions that the screen shows, each drawn and with its centres, and which of them is the given one.
 
-    Positions in which the construction fails (dead points) are left out.
+    ``paper`` are the scales of the solution on paper, kept wherever the figures fit.  Positions in which the
+    construction fails (dead points) are left out.
     """
     rows, start = positions(scene, values, count)
     plans: list[Plan] = []
@@ -105,7 +111,7 @@ def views_of(
             given = len(plans)
         plans.append(found)
     views = []
-    for what, scales in zip(plans, common_scales(plans), strict=True):
+    for what, scales in zip(plans, common_scales(plans, paper), strict=True):
         sheet = execute(replace(what, scales=scales))
         empty = Report(sheet.instrument, sheet.scales, ())
         views.append(View(Lesson(sheet, empty, {}, language, convention, tuple(asked)), _centres(scene, sheet)))

@@ -92,7 +92,8 @@ def given(lesson: Lesson) -> Iterator[Paragraph]:
     if asked:
         yield Paragraph(_labelled(lesson, "find", asked))
     if scene.source:
-        yield Paragraph(_labelled(lesson, "source", scene.source.replace("$", "$$")), small=True)
+        label = " ".join(word("source", each) for each in languages(lesson.language))
+        yield Paragraph(spoken(f"{label}: {scene.source.replace('$', '$$')}", lesson.language), small=True)
 
 
 def _guide(lesson: Lesson, guide: Guide, language: str) -> str:

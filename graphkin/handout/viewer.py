@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 from graphkin.drafting import Plan, execute
 from graphkin.drafting.centres import Centres
-from graphkin.drafting.sheet import DiagramName, Scales
+from graphkin.drafting.sheet import DiagramName, Scales, Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.centre_marks import CentreLetters, centre_marks, near_box
 from graphkin.drawing.centres import background
@@ -30,8 +30,7 @@ from graphkin.handout.solution import equation_words, stage_title, step_items
 __all__ = ["POSITIONS", "View", "common_scales", "positions_data"]
 
 POSITIONS = 24
-MECHANISM, POLYGON = (115.0, 150.0), 115.0  # mm that figures of all positions together may fill
-USUAL = 0.85  # share of the positions that the common scale must suit; the others are drawn at a coarser one
+MECHANISM, POLYGON = (160.0, 218.0), 190.0  # mm that the mechanism in all positions and a polygon may fill
 SERIES = (1.0, 2.0, 2.5, 5.0)
 
 
@@ -43,24 +42,25 @@ class View:
     centres: Centres | None = None
 
 
-def common_scales(plans: Sequence[Plan]) -> list[Scales]:
-    """Scales for several positions: one for all of them but for those few whose polygons would dwarf the rest."""
+def common_scales(plans: Sequence[Plan], paper: Scales) -> list[Scales]:
+    """Scales for several positions: those of the paper, and coarser ones for the polygons that would be too large.
+
+    The mechanism has one scale in all positions.
+    """
     sheets = [execute(plan) for plan in plans]
     metres = sheets[0].scene.units.metres
-    boxes = [Box.around(sheet.points.values()) for sheet in sheets]
-    whole = boxes[0]
-    for box in boxes[1:]:
-        whole = whole.joined(box)
-    length = _coarser(plans[0].scales.length * 1e3, max(whole.width / MECHANISM[0], whole.height / MECHANISM[1])) * 1e-3
-    found: dict[str, list[float]] = {}
-    for diagram in ("velocity", "acceleration"):
-        name: DiagramName = "velocity" if diagram == "velocity" else "acceleration"
-        reaches = [_size(extent(sheet, name)) * sheet.scales.of(name) for sheet in sheets]
-        usual = sorted(reaches)[math.ceil(USUAL * (len(reaches) - 1))]
-        own = plans[0].scales.of(name)
-        base = _coarser(own / metres, usual / own / POLYGON) * metres
-        found[diagram] = [_coarser(base / metres, r / base / POLYGON) * metres for r in reaches]
-    return [Scales(length, v, a) for v, a in zip(found["velocity"], found["acceleration"], strict=True)]
+    whole = _joined(Box.around(sheet.points.values()) for sheet in sheets)
+    on_paper = sheets[0].scales.length / paper.length
+    length = (
+        _coarser(paper.length * 1e3, on_paper * max(whole.width / MECHANISM[0], whole.height / MECHANISM[1])) * 1e-3
+    )
+
+    def fitting(sheet: Sheet, diagram: DiagramName) -> float:
+        own = paper.of(diagram)
+        size = _size(extent(sheet, diagram)) * sheet.scales.of(diagram)
+        return _coarser(own / metres, size / own / POLYGON) * metres
+
+    return [Scales(length, fitting(sheet, "velocity"), fitting(sheet, "acceleration")) for sheet in sheets]
 
 
 def _size(box: Box) -> float:
@@ -87,7 +87,7 @@ class _Frames:
 
     def __init__(self, views: Sequence[View]) -> None:
         self.pieces = [
-            mechanism_piece(v.lesson.sheet, v.lesson.letters, (MECHANISM[0] + 40, MECHANISM[1] + 40)) for v in views
+            mechanism_piece(v.lesson.sheet, v.lesson.letters, (MECHANISM[0] + 20, MECHANISM[1] + 20)) for v in views
         ]
         self.mechanism = _joined(box for _, box in self.pieces).grown(ROOM)
         self.polygons = {d: self._largest(views, d) for d in ("velocity", "acceleration")}
@@ -177,8 +177,8 @@ class _Frames:
         )
 
 
-def _joined(boxes: Iterator[Box]) -> Box:
-    first, *rest = boxes
+def _joined(boxes: Iterable[Box]) -> Box:
+    first, *rest = list(boxes)
     for box in rest:
         first = first.joined(box)
     return first

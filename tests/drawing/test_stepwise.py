@@ -1,0 +1,51 @@
+from __future__ import annotations
+
+import pytest
+
+from graphkin.drafting import draft
+from graphkin.drawing.conventions import letters_of
+from graphkin.drawing.primitives import Group, Text, walk
+from graphkin.drawing.stepwise import births, so_far, step_of, stepped
+from graphkin.handout.pictures import parts
+from graphkin.scene import library, read
+
+
+def _layers(name, diagram):
+    sheet = draft(read(name))
+    return sheet, parts(sheet, diagram, letters_of(sheet, "chinese"), "en")
+
+
+@pytest.mark.parametrize("name", library())
+@pytest.mark.parametrize("diagram", ["mechanism", "velocity", "acceleration"])
+def test_every_part_bears_the_step_that_draws_it(name, diagram):
+    _, layers = _layers(name, diagram)
+    bare = [thing for layer in layers for thing in layer.children if step_of(thing) is None]
+    # names of guides belong to what is given
+    assert [] == [b for b in bare if not (isinstance(b, Text) and b.id.startswith("label-guide-"))]
+
+
+def test_a_name_appears_with_what_it_names():
+    _, layers = _layers("sixbar-guide-40deg", "acceleration")
+    steps = {t.id: step_of(t) for t in walk(layers) if isinstance(t, Group | Text) and t.id}
+    assert steps["ak_B3-B2"] == steps["label-ak_B3-B2"] == steps["sense-ak_B3-B2"] == 26
+
+
+def test_what_comes_later_is_not_there():
+    sheet, layers = _layers("sixbar-guide-40deg", "velocity")
+    ids = {t.id for t in walk(so_far(layers, 9, 16)) if isinstance(t, Group)}
+    assert "v_D3" in ids
+    assert "v_D" not in ids
+    assert 20 == births(sheet)["v_D"]
+
+
+def test_what_was_there_before_is_faded_and_what_is_new_is_not():
+    _, layers = _layers("sixbar-guide-40deg", "velocity")
+    before = {t.id: t for t in walk(layers) if isinstance(t, Group) and t.id}
+    after = {t.id: t for t in walk(so_far(layers, 9, 16)) if isinstance(t, Group) and t.id}
+    assert before["v_B3"] == after["v_B3"]
+    assert before["v_B"] != after["v_B"]
+
+
+def test_steps_are_given_once():
+    sheet, layers = _layers("sixbar-guide-40deg", "velocity")
+    assert layers == stepped(layers, births(sheet))

@@ -1,0 +1,215 @@
+"""The page in a real browser: Debian's Chromium (``CHROMIUM`` names another).
+
+Without it these tests skip, unless ``GRAPHKIN_BROWSER=required``.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+
+import pytest
+
+FLAGS = [
+    "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
+    "--disable-component-update", "--disable-sync",
+]  # fmt: skip
+
+
+def _missing(why: str) -> None:
+    if os.environ.get("GRAPHKIN_BROWSER") == "required":
+        pytest.fail(why)
+    pytest.skip(why)
+
+
+@pytest.fixture(scope="module")
+def browser():
+    chromium = os.environ.get("CHROMIUM") or shutil.which("chromium")
+    if not chromium:
+        _missing("Chromium is not installed (Debian: chromium); set CHROMIUM to name another place")
+    try:
+        from playwright.sync_api import sync_playwright
+    except ImportError:
+        _missing("playwright is not installed (pip install playwright)")
+    with sync_playwright() as play:
+        started = play.chromium.launch(executable_path=chromium, args=FLAGS)
+        yield started
+        started.close()
+
+
+@pytest.fixture(scope="module")
+def file(shaper, tmp_path_factory):
+    path = tmp_path_factory.mktemp("page") / "handout.html"
+    path.write_bytes(shaper.files["handout.html"])
+    return path
+
+
+@pytest.fixture
+def page(browser, file):
+    tab = browser.new_page(viewport={"width": 1400, "height": 900})
+    tab.said, tab.asked = [], []
+    tab.on("console", lambda message: tab.said.append(message.text))
+    tab.on("pageerror", lambda error: tab.said.append(str(error)))
+    tab.on("request", lambda request: tab.asked.append(request.url))
+    tab.goto(file.as_uri())
+    yield tab
+    tab.close()
+
+
+def _step(page) -> int:
+    return int(page.locator("#list button.now").get_attribute("data-step"))
+
+
+def test_no_request_leaves_the_file_and_nothing_is_complained_of(page, file):
+    for key in ("End", "PageUp", "ArrowRight", "Home"):
+        page.keyboard.press(key)
+    page.locator("#place").fill("2")
+    assert [file.as_uri()] == page.asked
+    assert [] == page.said
+
+
+def test_a_script_that_is_not_the_pages_own_does_not_run(page):
+    page.evaluate("""() => {
+      const script = document.createElement("script");
+      script.textContent = "document.title = 'owned'";
+      document.body.append(script);
+      document.body.insertAdjacentHTML("beforeend", "<img src='x:' onerror=\\"document.title='owned'\\">");
+    }""")
+    page.wait_for_timeout(100)
+    assert "owned" != page.title()
+
+
+@pytest.mark.parametrize(
+    ("keys", "expected"),
+    [
+        (["ArrowRight"], 2),
+        (["ArrowRight", "ArrowRight", "ArrowLeft"], 2),
+        (["End"], 47),
+        (["End", "Home"], 1),
+        (["PageDown"], 9),
+        (["]", "]"], 11),
+        (["]", "]", "["], 9),
+        (["PageDown", "PageDown", "PageUp"], 9),
+    ],
+)
+def test_keys_go_through_steps_and_equations(page, keys, expected):
+    for key in keys:
+        page.keyboard.press(key)
+    assert expected == _step(page)
+
+
+def test_the_slider_goes_to_a_step_and_says_it(page):
+    page.locator("#step").fill("14")
+    assert 14 == _step(page)
+    assert "Step 14 of 47" in page.locator("#step").get_attribute("aria-valuetext")
+    assert "56.67 mm" in page.locator("#live").inner_text()
+
+
+def test_only_what_is_drawn_by_then_is_seen(page):
+    page.locator("#step").fill("14")
+    assert page.locator("#figures #v_A4").is_visible()
+    assert not page.locator("#figures #v_C").is_visible()
+
+
+def test_arrow_keys_on_the_slider_move_one_step(page):
+    page.locator("#step").focus()
+    page.keyboard.press("ArrowRight")
+    assert 2 == _step(page)
+
+
+def test_the_second_slider_moves_mechanism_polygons_centres_and_steps(page):
+    names = ("mechanism", "velocity", "acceleration", "centres")
+    before = [page.locator(f"#figure-{n} svg").inner_html() for n in names]
+    words = page.locator("#list").inner_text()
+    page.locator("#place").fill("1")
+    after = [page.locator(f"#figure-{n} svg").inner_html() for n in names]
+    assert all(one != two for one, two in zip(before, after, strict=True))
+    assert words != page.locator("#list").inner_text()
+
+
+def test_the_step_stays_when_the_position_moves(page):
+    page.locator("#step").fill("14")
+    page.locator("#place").fill("1")
+    assert 14 == _step(page)
+
+
+def test_hovering_a_step_lights_its_vector(page):
+    page.keyboard.press("End")
+    page.locator("#list button[data-step='14']").hover()
+    assert "lit" in page.locator("#v_A4").get_attribute("class")
+    assert "lit" not in page.locator("#v_C").get_attribute("class")
+
+
+def test_hovering_a_vector_lights_its_step(page):
+    page.keyboard.press("End")
+    page.locator("#v_A .hit line").hover()
+    assert "lit" in page.locator("#list button[data-step='9']").get_attribute("class")
+
+
+def test_a_vector_clicked_is_the_step(page):
+    page.keyboard.press("End")
+    page.locator("#v_A .hit line").click()
+    assert 9 == _step(page)
+
+
+def test_every_control_is_reached_by_tab_and_has_a_name(page):
+    seen = []
+    for _ in range(10):
+        page.keyboard.press("Tab")
+        seen.append(
+            page.evaluate("""() => {
+          const e = document.activeElement;
+          return [e.id || e.dataset.go || e.dataset.step, (e.labels?.[0] ?? e).innerText.trim()];
+        }""")
+        )
+    reached = dict(seen)
+    assert ["first", "previous", "next", "last", "equation", "step", "place", "1"] == [name for name, _ in seen[:8]]
+    assert all(reached[name] for name in ("first", "previous", "next", "last", "equation", "step", "place", "1"))
+
+
+def test_a_step_in_the_list_is_taken_with_the_keyboard(page):
+    page.locator("#list button[data-step='1']").focus()
+    for key in ("ArrowDown", "ArrowDown"):
+        page.keyboard.press(key)
+    assert "3" == page.evaluate("document.activeElement.dataset.step")
+    assert 3 == _step(page)
+
+
+def test_the_step_is_announced(page):
+    page.keyboard.press("ArrowRight")
+    live = page.locator("[role=status][aria-live=polite]")
+    assert "link 2" in live.inner_text()
+    assert "step" == page.locator("#list button.now").get_attribute("aria-current")
+
+
+def test_figures_have_names_for_readers_of_screens(page):
+    for figure in page.locator("#figures svg").all():
+        assert "img" == figure.get_attribute("role")
+        assert figure.get_attribute("aria-label")
+
+
+def test_printing_gives_the_worked_solution_on_a4(page, tmp_path):
+    if not shutil.which("pdfinfo"):
+        pytest.skip("pdfinfo is not installed (Debian: poppler-utils)")
+    path = tmp_path / "print.pdf"
+    page.pdf(path=path, prefer_css_page_size=True)
+    facts = subprocess.run(["pdfinfo", str(path)], capture_output=True, check=True).stdout.decode()
+    words = subprocess.run(["pdftotext", str(path), "-"], capture_output=True, check=True).stdout.decode()
+    assert "(A4)" in facts
+    assert "Equation 6: acceleration" in words
+    assert "Next step" not in words
+
+
+def test_without_scripts_the_worked_solution_stands_there(browser, file):
+    context = browser.new_context(java_script_enabled=False)
+    tab = context.new_page()
+    tab.goto(file.as_uri())
+    assert tab.locator("article.paper ol.steps li").first.is_visible()
+    assert not tab.locator("#viewer").is_visible()
+    context.close()
+
+
+def test_nothing_runs_off_a_narrow_screen(page):
+    page.set_viewport_size({"width": 380, "height": 800})
+    assert 380 >= page.evaluate("document.documentElement.scrollWidth")

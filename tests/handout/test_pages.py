@@ -1,0 +1,80 @@
+from __future__ import annotations
+
+import base64
+import hashlib
+import json
+import re
+
+import pytest
+
+from graphkin.api import handout
+
+
+def _data(page: str) -> dict:
+    return json.loads(re.search(r'<script type="application/json" id="positions">(.*?)</script>', page, re.DOTALL)[1])
+
+
+def _page(made, name="handout.html") -> str:
+    return made.files[name].decode()
+
+
+@pytest.mark.parametrize("name", ["handout.html", "problem.html"])
+def test_a_page_refers_to_nothing_outside_itself(shaper, name):
+    page = re.sub(r'xmlns(:\w+)?=\\?"[^"]*"', "", _page(shaper, name))
+    assert not re.findall(r"https?://|//\w|url\((?!#)|@import|<link|<img|<iframe|<object| src=", page)
+
+
+@pytest.mark.parametrize("name", ["handout.html", "problem.html"])
+def test_the_policy_allows_just_the_scripts_and_styles_that_are_there(shaper, name):
+    page = _page(shaper, name)
+    policy = re.search(r'Content-Security-Policy" content="([^"]*)"', page)[1]
+    inside = re.findall(r"<style>(.*?)</style>|<script>(.*?)</script>", page, re.DOTALL)
+    hashes = {f"sha256-{base64.b64encode(hashlib.sha256((a or b).encode()).digest()).decode()}" for a, b in inside}
+    assert "default-src 'none'" in policy
+    assert hashes == set(re.findall(r"'(sha256-[^']*)'", policy))
+
+
+def test_no_part_has_a_style_or_a_handler_of_its_own(shaper):
+    assert not re.findall(r"<[^>]*\s(?:style|on\w+)=", _page(shaper))
+
+
+def test_the_page_is_not_large(shaper):
+    assert len(handout("sixbar-guide-40deg", language="both", formats=("html",)).files["handout.html"]) < 3_000_000
+
+
+def test_every_step_lights_something_or_is_a_step_of_words(shaper):
+    position = _data(_page(shaper))["positions"][0]
+    drawn = set(map(int, re.findall(r"step-(\d+)", "".join(f["svg"] for f in position["figures"]))))
+    vectors = {s["n"] for s in position["steps"] if "found" in s["text"] or "Lay off" in s["text"]}
+    assert vectors <= drawn
+
+
+def test_ids_are_unique_in_a_position(shaper):
+    for position in _data(_page(shaper))["positions"]:
+        ids = re.findall(r' id="([^"]*)"', "".join(f["svg"] for f in position["figures"]))
+        assert len(ids) == len(set(ids))
+
+
+def test_all_positions_show_the_fixed_pivots_at_one_place(shaper):
+    places = set()
+    for position in _data(_page(shaper))["positions"]:
+        svg = next(f["svg"] for f in position["figures"] if f["name"] == "mechanism")
+        group = re.search(r'<g[^>]*id="point-O4".*?<circle[^>]*cx="([^"]*)" cy="([^"]*)"', svg)
+        places.add(group.groups())
+    assert 1 == len(places)
+
+
+def test_the_positions_hold_mechanism_polygons_and_centres(shaper):
+    for position in _data(_page(shaper))["positions"]:
+        assert ["mechanism", "velocity", "acceleration", "centres"] == [f["name"] for f in position["figures"]]
+
+
+def test_a_driver_that_cannot_turn_fully_shows_the_positions_that_it_reaches():
+    made = handout("hydraulic-cylinder", formats=("html",), positions=6)
+    assert 4 <= len(_data(_page(made))["positions"]) <= 7
+
+
+def test_both_languages_stand_on_one_page():
+    page = _page(handout("slotter-75-150", language="both", formats=("html",), positions=1))
+    assert 'lang="en"' in page
+    assert 'lang="zh-Hans"' in page
