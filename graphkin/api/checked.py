@@ -73,6 +73,7 @@ class Checked:
             },
             "readings": [{**reading_row(self.scene, row), **self._by_centres(row)} for row in self.report.rows],
             **({"advice": say(self.advice.phrase())} if self.advice else {}),
+            **({"stopped": say(self.sheet.stopped)} if self.sheet.stopped else {}),
         }
 
     @cached_property

@@ -198,3 +198,16 @@ def test_check_and_solve_write_what_they_found_into_the_folder_given(tmp_path):
 
 def test_solve_speaks_chinese():
     assert "角加速度" in run("solve", SIXBAR, "--lang", "zh").stdout
+
+
+def test_a_larger_group_is_said_and_what_was_drawn_before_it_counts():
+    done = run("check", "double-butterfly", "--json")
+    assert 0 == done.returncode
+    assert "class" in done.stderr
+    assert "stopped" in json.loads(done.stdout)
+
+
+def test_asking_for_what_the_drawing_does_not_reach_is_status_3():
+    done = run("check", "double-butterfly", "--find", "omega_3")
+    assert 3 == done.returncode
+    assert "class" in done.stderr
