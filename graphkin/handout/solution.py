@@ -55,9 +55,9 @@ def results_blocks(lesson: Lesson) -> Iterator[Block]:
     """Remarks on the construction, results, and their check."""
     yield from _remarks(lesson)
     yield Heading(said("results", lesson.language))
-    yield Paragraph(said("check words", lesson.language), small=True)
     yield _results(lesson)
     yield Paragraph(_verdict(lesson))
+    yield Paragraph(said("check words", lesson.language), small=True)
 
 
 def stage_title(lesson: Lesson, stage: Stage) -> Said:
