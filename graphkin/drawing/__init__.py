@@ -1,7 +1,11 @@
 """Drawing: primitives on a page in mm, texts, kinematic symbols, placed labels, and the writers that draw them all."""
 
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
 from graphkin.drawing.box import Box
-from graphkin.drawing.figures import acceleration_figure, figures, mechanism_figure, velocity_figure
 from graphkin.drawing.primitives import (
     Arc,
     Circle,
@@ -16,8 +20,11 @@ from graphkin.drawing.primitives import (
     Text,
 )
 from graphkin.drawing.save import save
-from graphkin.drawing.sheet_page import sheet_page, sheet_room
 from graphkin.drawing.svg import svg_bytes
+
+if TYPE_CHECKING:
+    from graphkin.drawing.figure_pages import acceleration_figure, figures, mechanism_figure, velocity_figure
+    from graphkin.drawing.whole_sheet import sheet_page, sheet_room
 
 __all__ = [
     "Arc",
@@ -41,3 +48,19 @@ __all__ = [
     "svg_bytes",
     "velocity_figure",
 ]
+
+# Composing needs numpy and shapely, which whoever only writes a drawing does not wait for.
+_COMPOSED = {
+    "acceleration_figure": "figure_pages",
+    "figures": "figure_pages",
+    "mechanism_figure": "figure_pages",
+    "velocity_figure": "figure_pages",
+    "sheet_page": "whole_sheet",
+    "sheet_room": "whole_sheet",
+}
+
+
+def __getattr__(name: str) -> Any:
+    if name in _COMPOSED:
+        return getattr(import_module(f"graphkin.drawing.{_COMPOSED[name]}"), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -109,7 +109,8 @@ class Letters:
             return ""
         if self.convention == "british":
             letter, rest = _parted(end.point)
-            return f"{letter.lower()}_{{{rest}{',' if rest else ''}{number}}}'"
+            index = ",".join(filter(None, (rest, end.link or self.blocks.get(end.point, ""), str(number))))
+            return f"{letter.lower()}_{{{index}}}'"
         mark = _PARTS[self.convention][_ROLES[role]]
         prime = "'" if self.convention == "chinese" else ""
         return mark + (f"_{{{link}}}" if link else "") + prime

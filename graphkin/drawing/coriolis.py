@@ -12,6 +12,7 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.colours import colour_of_vector
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.layout import Name, Piece, fitted
+from graphkin.drawing.metrics import runs_width
 from graphkin.drawing.placing import Label
 from graphkin.drawing.primitives import Circle, Group, Polygon, Primitive, Text
 from graphkin.drawing.symbols import sense_arc
@@ -49,7 +50,7 @@ def coriolis_inset(
     vector, velocity, rule = term
     slip, turned = unit(velocity.span), unit(vector.span)
     sense = 1 if cross(slip, turned) > 0 else -1
-    inner = Box(box.left + 0.6, box.top + 0.6, box.right - 0.6, box.bottom - 5.6)
+    inner = Box(box.left + 0.6, box.top + 0.6, box.right - 0.6, box.bottom - 6.2)
     centre = inner.centre - REACH / 2 * (slip + turned).conjugate()
     colour = colour_of_vector(sheet, vector.symbol)
     tips = [centre + REACH * way.conjugate() for way in (slip, turned)]
@@ -70,9 +71,11 @@ def coriolis_inset(
     if links:
         middle = centre + 3.6 * (slip + turned).conjugate() / abs(slip + turned)
         names.append(Name(_label(f"ω_{{{links}}}", f"label-inset-omega-{id}", middle, phase(slip + turned)), 1))
-    markup = f"${letters.vector(vector.symbol)}$" + (f" = ${letters.size(rule)}$" if rule else "")
-    caption = fitted(markup, 2.8, box.width - 1.6)
-    words = Text(complex(box.centre.real, box.bottom - 1.7), caption, "middle", id=f"label-sense-{id}")
+    name = f"${letters.vector(vector.symbol)}$"
+    caption = fitted(f"{name} = ${letters.size(rule)}$" if rule else name, 2.8, box.width - 1.6)
+    if runs_width(caption) > box.width - 1.6:
+        caption = fitted(name, 2.8, box.width - 1.6)
+    words = Text(complex(box.centre.real, box.bottom - 2.3), caption, "middle", id=f"label-sense-{id}")
     group = Group((frame, *parts), id=f"sense-{id}", classes=("inset",))
     return Piece({"acceleration": (group,), "labels": (words,)}, tuple(names)), inner
 

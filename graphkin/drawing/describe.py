@@ -9,7 +9,7 @@ from graphkin.drawing.headings import languages, number, titles
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, say, word
 
-__all__ = ["describe", "figure_title", "plain_symbol", "spoken_ref", "spoken_vector"]
+__all__ = ["describe", "figure_title", "plain_symbol", "remarks", "spoken_ref", "spoken_vector"]
 
 
 def spoken_ref(ref: PointRef, language: str) -> str:
@@ -58,13 +58,17 @@ def _sentences(sheet: Sheet, diagrams: tuple[DiagramName, ...], language: str) -
     for diagram in diagrams:
         for step in sheet.steps:
             if step.diagram == diagram:
-                said.append(f"{step.number}. {_capital(say(step.phrase, language, plain_symbol))}.")
+                said.append(f"{step.number}. {_sentence(say(step.phrase, language, plain_symbol), language)}")
         if diagram != "mechanism":
             said += _vectors(sheet, diagram, language)
-    for note in (*sheet.notes, *((sheet.stopped,) if sheet.stopped else ())):
-        if note.key != "zero vector":
-            said.append(_capital(say(note, language, plain_symbol)) + ".")
-    return [sentence.replace("。.", "。") for sentence in said]
+    said += remarks(sheet, language)
+    return said
+
+
+def remarks(sheet: Sheet, language: str) -> list[str]:
+    """What is to be said of the drawing as a whole: badly conditioned crossings, a group that stopped it."""
+    notes = [*sheet.notes, *((sheet.stopped,) if sheet.stopped else ())]
+    return [_sentence(say(n, language, plain_symbol), language) for n in notes if n.key != "zero vector"]
 
 
 def _mechanism(sheet: Sheet, language: str) -> list[str]:
@@ -104,5 +108,12 @@ def _ref(ref: PointRef, language: str) -> str:
     return say(Phrase("point of link", (ref.point, ref.link)), language) if ref.link else ref.point
 
 
+def _sentence(text: str, language: str) -> str:
+    stop = "。" if language == "zh" else "."
+    return _capital(text.replace("{", "").replace("}", "")).rstrip("。.") + stop
+
+
 def _capital(text: str) -> str:
-    return text[:1].upper() + text[1:]
+    """The first letter large, unless it is that of a symbol."""
+    letter = text[:1].isascii() and text[1:2] != "_"
+    return (text[:1].upper() if letter else text[:1]) + text[1:]

@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from graphkin.drafting.sheet import Equation, Sheet, Term
 from graphkin.drawing import strokes
-from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, rows_of
 from graphkin.drawing.headings import number, term
-from graphkin.drawing.metrics import runs_width
+from graphkin.drawing.layout import moved
+from graphkin.drawing.metrics import run_box, runs_width
 from graphkin.drawing.primitives import Line, Primitive, Run, Text
 from graphkin.drawing.typeset import rich, symbol
 
 __all__ = ["Written", "write_equation", "write_equations"]
 
 SIZES = (3.2, 2.9, 2.6, 2.3, 2.0)  # mm, of the letters; the largest that fits is taken
-GAP = 1.3  # mm beside a column
+CLEAR, UNDERLINE = 0.55, 0.6  # mm between two rows, and between two lines under a term
+GAP = 1.3  # mm beside a column of terms
+COLUMN_GAP = 5.0  # mm between two columns of equations
 
 
 @dataclass(frozen=True)
@@ -46,20 +49,38 @@ class _Cell:
 
 def write_equations(
     sheet: Sheet, letters: Letters, language: str, width: float, height: float
-) -> tuple[list[Written], int]:
-    """All equations of a sheet as large as they fit an area (mm) below each other, and how many had to be left out."""
+) -> tuple[tuple[Primitive, ...], int]:
+    """All equations of a sheet as large as they fit an area (mm), in one column or two, about its left upper corner;
+    and how many had to be left out."""
     for size in SIZES:
-        blocks = [write_equation(sheet, e, letters, language, width, size) for e in sheet.equations]
-        if sum(b.height for b in blocks) <= height and all(b.width <= width + 1e-9 for b in blocks):
-            return blocks, 0
-    kept: list[Written] = []
-    left = height - 4.0  # for the remark on those left out
+        for columns in (1, 2):
+            wide = (width - (columns - 1) * COLUMN_GAP) / columns
+            blocks = [write_equation(sheet, e, letters, language, wide, size) for e in sheet.equations]
+            places = _in_columns(blocks, wide, height, columns)
+            if places is not None:
+                return tuple(p for block, at in zip(blocks, places, strict=True) for p in moved(block.children, at)), 0
+    kept: list[Primitive] = []
+    y, count = 0.0, 0
     for block in blocks:
-        left -= block.height
-        if left < 0.0:
+        if y + block.height > height - 4.0:  # room for the remark on those left out
             break
-        kept.append(block)
-    return kept, len(blocks) - len(kept)
+        kept += moved(block.children, complex(0, y))
+        y, count = y + block.height, count + 1
+    return tuple(kept), len(blocks) - count
+
+
+def _in_columns(blocks: Sequence[Written], wide: float, height: float, columns: int) -> list[complex] | None:
+    """Corners of blocks below each other in columns; None where they do not fit."""
+    places: list[complex] = []
+    column, y = 0, 0.0
+    for block in blocks:
+        if y + block.height > height:
+            column, y = column + 1, 0.0
+        if column == columns or block.height > height or block.width > wide + 1e-9:
+            return None
+        places.append(complex(column * (wide + COLUMN_GAP), y))
+        y += block.height
+    return places
 
 
 def write_equation(
@@ -161,43 +182,54 @@ def _set(
     top: float,
 ) -> Written:  # fmt: skip
     rows = rows_of(letters.convention)
-    pitch = 1.45 * size
-    base = top + size + (pitch * 0.85 if rows == "over" else 0.0)
-    children: list[Primitive] = []
-    for i, head in enumerate(heads):
-        children.append(Text(complex(0, base + (i + 1) * pitch), head))
+    stack = [[c.over for c in line], [c.runs for c in line], [c.size for c in line], [c.direction for c in line]]
+    lines = max((c.underlines for c in line), default=0)
+    room = UNDERLINE * (lines + 0.5) if rows == "underlines" else 2 * CLEAR if rows == "table" else CLEAR
+    bases, edges_down = _baselines(stack, heads, top, room)
+    children: list[Primitive] = [
+        Text(complex(0, y), head) for head, y in zip(heads, bases[2:], strict=False)
+    ]
     x = lead
-    edges = [x - gap / 2]
+    across = []
     for cell in line:
         middle = x + cell.width / 2
-        for runs, y in (
-            (cell.runs, base),
-            (cell.over, base - 1.15 * size),
-            (cell.size, base + pitch),
-            (cell.direction, base + (2 if heads else 1) * pitch + (0.0 if heads else 0.25 * size)),
-        ):
+        for runs, y in zip((cell.over, cell.runs, cell.size, cell.direction), bases, strict=True):
             if runs:
                 children.append(Text(complex(middle, y), runs, "middle"))
+        half = runs_width(cell.runs) / 2
         for i in range(cell.underlines):
-            half = runs_width(cell.runs) / 2
-            y = base + size * (0.52 + 0.2 * i)
+            y = edges_down[1] + UNDERLINE * (0.5 + i)
             children.append(Line(complex(middle - half, y), complex(middle + half, y), strokes.DIMENSION))
         if not cell.is_term:
-            edges.append(middle)
+            across.append(middle)
         x += cell.width + gap
-    edges.append(x)
-    depth = {"rows": 2, "table": 2, "over": 0, "underlines": 1}[rows]
-    bottom = base + depth * pitch + 0.35 * size
     if rows == "table":
-        children += _grid(edges, base, pitch, size)
-    return Written(tuple(children), x + 0.2, bottom - top + 0.55 * size)
+        children += _grid([-0.8, lead - gap / 2, *across, x], [y + CLEAR for y in edges_down[1:]])
+    return Written(tuple(children), x + 0.2, max(edges_down) - top + 0.55 * size)
 
 
-def _grid(edges: list[float], base: float, pitch: float, size: float) -> list[Primitive]:
-    """Rules of the table under an equation."""
-    box = Box(-0.8, base + 0.42 * size, edges[-1], base + 2 * pitch + 0.42 * size)
-    across = [box.top, box.top + pitch, box.bottom]
-    lines: list[Primitive] = [Line(complex(box.left, y), complex(box.right, y), strokes.DIMENSION) for y in across]
-    for x in (box.left, *edges):
-        lines.append(Line(complex(x, box.top), complex(x, box.bottom), strokes.DIMENSION))
-    return lines
+def _baselines(
+    stack: list[list[tuple[Run, ...]]], heads: tuple[tuple[Run, ...], ...], top: float, room: float
+) -> tuple[list[float], list[float]]:
+    """Baselines of the rows of an equation, marks above it first, and the lower edge of each; ``room`` mm between."""
+    bases: list[float] = []
+    down: list[float] = []
+    y = top
+    for i, row in enumerate(stack):
+        boxes = [run_box(run) for runs in (*row, *heads[max(0, i - 2) : max(0, i - 1)]) for run in runs]
+        if not boxes:
+            bases.append(y)
+            down.append(y)
+            continue
+        y += -min(b.top for b in boxes) + (room if i > 1 else CLEAR if i == 1 and bases[0] > top else 0.0)
+        bases.append(y)
+        y += max(b.bottom for b in boxes)
+        down.append(y)
+    return bases, down
+
+
+def _grid(across: list[float], down: list[float]) -> list[Primitive]:
+    """Rules of the table under an equation, at some x and y."""
+    level = [Line(complex(across[0], y), complex(across[-1], y), strokes.DIMENSION) for y in down]
+    upright = [Line(complex(x, down[0]), complex(x, down[-1]), strokes.DIMENSION) for x in across]
+    return [*level, *upright]

@@ -16,10 +16,12 @@ __all__ = [
     "LAYERS",
     "Name",
     "Piece",
+    "cut_to",
     "fitted",
     "ink_box",
     "joined",
     "layer_groups",
+    "middle_of",
     "moved",
     "moved_piece",
     "settled",
@@ -70,7 +72,7 @@ def settled(piece: Piece, panel: Box, fences: Sequence[Box] = ()) -> Piece:
 
     No name leaves the panel or enters a fence.
     """
-    names = list(piece.names)
+    names = [name for name in piece.names if name.rank < _most(len(piece.names))]
     obstacles = obstacles_of(piece.drawn) + Obstacles(areas=tuple(fences))
     placed: tuple[Placed, ...] = ()
     while True:
@@ -88,6 +90,11 @@ def settled(piece: Piece, panel: Box, fences: Sequence[Box] = ()) -> Piece:
     return Piece({**piece.layers, "labels": (*piece.layers.get("labels", ()), *written)}, (), piece.marks)
 
 
+def _most(count: int) -> int:
+    """The rank from which names are left out at once, because there are so many that none would be read."""
+    return 5 if count < 45 else 4 if count < 60 else 2
+
+
 def _given_up(names: Sequence[Name], placed: Sequence[Placed], losers: Sequence[Placed]) -> set[int]:
     """Names to leave out: those that stand badly, or where such a one must stand the least important near it."""
     out = {i for i, p in enumerate(placed) if not p.clear and names[i].rank}
@@ -103,6 +110,23 @@ def _given_up(names: Sequence[Name], placed: Sequence[Placed], losers: Sequence[
 def layer_groups(piece: Piece) -> tuple[Group, ...]:
     """The layers of a page as groups with names, in the order of drawing."""
     return tuple(Group(piece.layers[name], id=name, layer=name) for name in LAYERS if piece.layers.get(name))
+
+
+def cut_to(children: Iterable[Primitive], box: Box) -> tuple[Primitive, ...]:
+    """What of some primitives lies in a box: lines are cut at its edge, other things left out where they cross it."""
+    kept: list[Primitive] = []
+    for thing in children:
+        if isinstance(thing, Group):
+            kept.append(replace(thing, children=cut_to(thing.children, box)))
+        elif isinstance(thing, Line):
+            inside = box.clip(thing.start, thing.end)
+            if inside is not None and inside[0] != inside[1]:
+                kept.append(replace(thing, start=inside[0], end=inside[1]))
+        else:
+            reach = _reach(thing)
+            if reach is not None and box.holds(reach):
+                kept.append(thing)
+    return tuple(kept)
 
 
 def ink_box(children: Iterable[Primitive]) -> Box | None:
@@ -177,6 +201,11 @@ def moved_piece(piece: Piece, by: complex) -> Piece:
     names = tuple(replace(n, label=replace(n.label, mark=_moved_mark(n.label.mark, by))) for n in piece.names)
     layers = {layer: moved(things, by) for layer, things in piece.layers.items()}
     return Piece(layers, names, tuple(_moved_mark(mark, by) for mark in piece.marks))
+
+
+def middle_of(mark: Mark) -> complex:
+    """The middle of a mark."""
+    return (mark[0] + mark[1]) / 2 if isinstance(mark, tuple) else mark
 
 
 def _moved_mark(mark: Mark, by: complex) -> Mark:

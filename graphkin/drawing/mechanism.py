@@ -13,7 +13,7 @@ from graphkin.drawing.arrows import POINTER, arrowhead
 from graphkin.drawing.box import Box
 from graphkin.drawing.colours import colour_of_link
 from graphkin.drawing.conventions import Letters
-from graphkin.drawing.layout import Name, Piece, ink_box
+from graphkin.drawing.layout import Name, Piece, cut_to, ink_box, middle_of
 from graphkin.drawing.lengths import LENGTHS, drawn_lengths
 from graphkin.drawing.placing import Label
 from graphkin.drawing.primitives import Arc, Group, Line, Polygon, Primitive, Stroke, Text
@@ -31,21 +31,35 @@ FOOT = {-math.pi / 2: 0.0, 0.0: 0.5, math.pi: 0.5, math.pi / 2: 0.7}  # where fe
 
 
 def mechanism_piece(sheet: Sheet, letters: Letters, room: tuple[float, float] | None = None) -> tuple[Piece, Box]:
-    """Draw the mechanism about the world's origin; the piece, and the box (mm, y down) around it, names left out.
+    """Draw the mechanism about the world's origin.
 
-    ``room`` is the width and height (mm) that dimensions may take up at most; None for any.
+    Parameters
+    ----------
+    room : width and height (mm) of its panel; None for as much as it takes
+
+    Returns
+    -------
+    the piece, and the box (mm, y down) that it takes up, names left out.  Where it does not fit the room, dimensions
+    are left out first, then bars are cut at the edge of a room about its points.
     """
     piece = _Composer(sheet, letters, None).piece()
     box = ink_box(piece.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
-    if room is None or (box.width <= room[0] and box.height <= room[1]):
+    if room is None or _fits(box, room):
         return piece, box
     lengths = [thing for thing in piece.drawn if isinstance(thing, Group) and thing.id == LENGTHS]
-    bare = ink_box(thing for thing in piece.drawn if thing not in lengths)
-    middle = (bare or box).centre
+    bare = ink_box(thing for thing in piece.drawn if thing not in lengths) or box
+    if not _fits(bare, room):
+        bare = Box.around(z.conjugate() for z in sheet.points.values())
     half = complex(*room) / 2
-    panel = Box.around((middle - half, middle + half))
+    panel = Box.around((bare.centre - half, bare.centre + half))
     piece = _Composer(sheet, letters, panel).piece()
-    return piece, panel
+    layers = {name: cut_to(things, panel) for name, things in piece.layers.items()}
+    names = tuple(n for n in piece.names if panel.distance(middle_of(n.label.mark)) == 0.0)
+    return Piece(layers, names, piece.marks), panel
+
+
+def _fits(box: Box, room: tuple[float, float]) -> bool:
+    return box.width <= room[0] and box.height <= room[1]
 
 
 class _Composer:

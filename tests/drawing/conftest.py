@@ -8,8 +8,8 @@ import xml.etree.ElementTree as ET
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import lru_cache
-from itertools import combinations
 
+import numpy as np
 import pytest
 import shapely
 
@@ -93,7 +93,7 @@ def _arc(start: complex, end: complex, radius: float, large: bool, sweep: bool) 
     half = (end - start) / 2
     rise = math.sqrt(max(radius**2 - abs(half) ** 2, 0.0))
     side = 1j if large != sweep else -1j
-    centre = start + half - side * rise * half / abs(half)
+    centre = start + half + side * rise * half / abs(half)
     first = math.atan2((start - centre).imag, (start - centre).real)
     turn = math.atan2(((end - centre) / (start - centre)).imag, ((end - centre) / (start - centre)).real)
     if sweep and turn < 0:
@@ -149,15 +149,16 @@ def count_violations(svg: bytes) -> list[str]:
     """Every fault of the placing of labels in a finished file, in words."""
     figure = read_figure(svg)
     found = []
-    for (one, box), (other, rival) in combinations(figure.texts, 2):
-        if box.buffer(-TOUCH).intersects(rival.buffer(-TOUCH)):
-            found.append(f"{one!r} overlaps {other!r}")
+    names = [text for text, _ in figure.texts]
+    inner = shapely.buffer(np.array([box for _, box in figure.texts], dtype=object), -TOUCH)
+    for one, other in shapely.STRtree(inner).query(inner, predicate="intersects").T:
+        if one < other:
+            found.append(f"{names[one]!r} overlaps {names[other]!r}")
     kinds = (("is crossed by a line", figure.solid), ("covers an arrowhead", figure.arrowheads),
              ("covers a joint", figure.joints))  # fmt: skip
     for words, shapes in kinds:
         tree = shapely.STRtree(shapes)
-        for text, box in figure.texts:
-            found += [f"{text!r} {words}"] * len(tree.query(box.buffer(-TOUCH), predicate="intersects"))
+        found += [f"{names[i]!r} {words}" for i in tree.query(inner, predicate="intersects")[0]]
     for text, box in figure.texts:
         if not figure.page.contains(box):
             found.append(f"{text!r} runs off the page")

@@ -187,15 +187,10 @@ def _equations(sheet: Sheet, letters: Letters, language: str, box: Box, senses: 
     """The equations, and below them the insets of Coriolis terms that found no room in their panel."""
     insets = INSET[1] + GUTTER if senses else 0.0
     blocks, left_out = write_equations(sheet, letters, language, box.width, box.height - insets)
-    pieces = []
-    y = box.top
-    for block in blocks:
-        pieces.append(moved(block.children, complex(box.left, y)))
-        y += block.height
-    written: list[Primitive] = [Group(tuple(p for piece in pieces for p in piece), id="equations")]
+    written: list[Primitive] = [Group(moved(blocks, complex(box.left, box.top)), id="equations")]
     if left_out:
         text = say(Phrase("more equations", (left_out,)), languages(language)[0])
-        written.append(Text(complex(box.left, y + 2.6), rich(text, 2.4)))
+        written.append(Text(complex(box.left, box.bottom - insets - 0.6), rich(text, 2.4)))
     parts = [_captioned(box, term("equations", language), "labels", tuple(written))]
     if senses:
         row = Box(box.left, box.bottom - INSET[1], box.right, box.bottom)
@@ -210,8 +205,10 @@ def _title_block(sheet: Sheet, report: Report | None, letters: Letters, language
     words: list[Primitive] = []
     names = titles(sheet, language)
     left = box.left + 2.0
-    for i, runs in enumerate(_title_lines(names, one - left - 1.5)):
-        words.append(Text(complex(left, box.top + 4.6 + 3.8 * i), runs))
+    y = box.top + 1.4
+    for runs in _title_lines(names, one - left - 1.5):
+        y += 1.25 * runs[0].size
+        words.append(Text(complex(left, y), runs))
     second = f"{sheet.scene.name},  {term('instrument', language)}: {sheet.instrument}"
     words.append(Text(complex(left, box.bottom - 2.0), fitted(second, 2.6, one - left - 1.5)))
     for i, diagram in enumerate(("mechanism", "velocity", "acceleration")):
@@ -230,9 +227,10 @@ def _title_block(sheet: Sheet, report: Report | None, letters: Letters, language
 
 
 def _title_lines(names: tuple[str, ...], width: float) -> list[tuple[Run, ...]]:
-    """Titles in at most three lines."""
+    """Titles in lines, as large as they fit the block."""
+    lines: list[tuple[Run, ...]] = []
     for size in (3.2, 2.8, 2.4, 2.0):
         lines = [line for name in names for line in wrapped(name, size, width, bold=True)]
-        if len(lines) <= 2:
-            return lines
+        if 1.25 * size * len(lines) <= BLOCK - 7.0:
+            break
     return lines[:3]

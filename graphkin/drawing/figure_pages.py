@@ -6,7 +6,7 @@ from graphkin.checking import Report
 from graphkin.drafting.sheet import DiagramName, Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, letters_of, scale_statement
-from graphkin.drawing.describe import describe, figure_title
+from graphkin.drawing.describe import describe, figure_title, remarks
 from graphkin.drawing.dimensions import check_bar
 from graphkin.drawing.headings import drivers, facts, languages, term, titles
 from graphkin.drawing.insets import polygon_with_insets, strip_height
@@ -14,8 +14,8 @@ from graphkin.drawing.layout import Piece, joined, layer_groups, moved_piece, se
 from graphkin.drawing.mechanism import mechanism_piece
 from graphkin.drawing.polygon import extent
 from graphkin.drawing.primitives import Drawing, Primitive, Run, Text
-from graphkin.drawing.sheet_page import sheet_page
 from graphkin.drawing.typeset import rich
+from graphkin.drawing.whole_sheet import sheet_page
 
 __all__ = ["acceleration_figure", "figures", "mechanism_figure", "velocity_figure"]
 
@@ -23,6 +23,7 @@ LEAST_WIDTH = 130.0
 MARGIN = 8.0  # of the page
 ROOM = 12.0  # around the figure, for names
 LINE = 5.0  # from one line of the heading to the next
+SMALL_LINE = 3.7
 FOOT = 14.0
 
 
@@ -53,7 +54,11 @@ def _figure(sheet: Sheet, diagram: DiagramName, language: str | None, convention
     piece, content = mechanism_piece(sheet, letters) if diagram == "mechanism" else (Piece(), extent(sheet, diagram))
     width = max(LEAST_WIDTH, content.width + 2 * (ROOM + MARGIN))
     head = _heading(sheet, diagram, letters, spoken, width - 2 * MARGIN)
-    top = MARGIN + LINE * len(head) + 2.0
+    notes = [
+        runs for each in languages(spoken) for note in remarks(sheet, each)
+        for runs in wrapped(note.replace("$", "$$"), 2.5, width - 2 * MARGIN)
+    ]  # fmt: skip
+    top = MARGIN + LINE * len(head) + SMALL_LINE * len(notes) + 2.0
     panel = Box(MARGIN, top, width - MARGIN, top + content.height + 2 * ROOM)
     origin = panel.centre - content.centre
     bottom = panel.bottom
@@ -67,6 +72,8 @@ def _figure(sheet: Sheet, diagram: DiagramName, language: str | None, convention
     words: list[Primitive] = [
         Text(complex(MARGIN, MARGIN + 3.5 + LINE * i), runs, classes=("heading",)) for i, runs in enumerate(head)
     ]
+    y = MARGIN + LINE * len(head) + 2.6
+    words += [Text(complex(MARGIN, y + SMALL_LINE * i), runs, classes=("remark",)) for i, runs in enumerate(notes)]
     words.append(Text(complex(MARGIN, height - 6.0), rich(scale_statement(sheet, letters.convention, diagram), 3.5)))
     words += check_bar(complex(width - MARGIN - 50.0, height - 6.0), rich(term("check bar", spoken), 2.5))
     page = joined((piece, Piece({"labels": tuple(words)})))

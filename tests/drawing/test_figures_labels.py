@@ -1,0 +1,43 @@
+"""Every scene that comes along at several driver positions: no label overlaps, nothing runs off, both languages."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Callable
+
+import pytest
+
+from graphkin.checking import compare, read_off
+from graphkin.drafting import draft
+from graphkin.drawing import figures, sheet_room, svg_bytes
+from graphkin.errors import Unsolvable
+from graphkin.scene import library, read
+from graphkin.scene.model import AngleDriver
+
+# All 24 positions take minutes; without this only some are drawn.
+POSITIONS = 24 if os.environ.get("GRAPHKIN_ALL_POSITIONS") else 3
+CONVENTIONS = ("chinese", "us", "british", "russian")
+
+
+@pytest.mark.parametrize("name", library())
+@pytest.mark.parametrize("turn", range(POSITIONS))
+def test_no_label_is_overlapped_crossed_or_cut(
+    name: str, turn: int, violations: Callable[[bytes], list[str]]
+) -> None:
+    scene = read(name)
+    driver = scene.drivers[0]
+    value = driver.values[0]
+    step = 2 * math.pi / POSITIONS if isinstance(driver, AngleDriver) else 0.06 * abs(value) / POSITIONS
+    at = {driver.key: value + turn * step}
+    try:
+        own, on_sheet = draft(scene, at=at), draft(scene, at=at, room=sheet_room(scene))
+    except Unsolvable:
+        pytest.skip("the motion does not reach this position")
+    readings = read_off(on_sheet)
+    measured = {r.symbol: r.value for r in readings}
+    report = compare(on_sheet, readings, lambda symbol: measured[symbol])
+    language = ("en", "zh", "both")[turn % 3]
+    convention = CONVENTIONS[turn % 4]
+    drawn = figures(own, on_sheet, report, language, convention)
+    assert {figure: [] for figure in drawn} == {figure: violations(svg_bytes(d)) for figure, d in drawn.items()}
