@@ -323,8 +323,8 @@ _TABLE: dict[str, tuple[str, str]] = {
     "key words": (
         "Tolerances are three standard deviations of a pencil drawing at these scales, predicted from the construction "
         "(points {0} mm, ruler {1} mm, compass {2} mm, directions {3}°). Quantities asked for are in bold.",
-        "允差为按上述比例尺铅笔作图时预计标准差的三倍，由作图过程推算（点 {0} mm，直尺 {1} mm，圆规 {2} mm，方向 {3}°）。"
-        "所求各量用粗体表示。",
+        "允差为按上述比例尺铅笔作图时预计标准差的三倍，由作图过程推算"
+        "（点 {0} mm，直尺 {1} mm，圆规 {2} mm，方向 {3}°）。所求各量用粗体表示。",
     ),
     "not promised": ("–", "–"),
     # pages of a handout on screen
