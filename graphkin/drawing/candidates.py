@@ -30,6 +30,7 @@ LEADER_FROM = 5.0  # a label further off than this has a leader
 LEADER_LEAST = 2.0  # a leader shorter than this would not be seen
 # What a place costs beside its distance (mm): a leader, whatever the leader crosses, a dashed line under the label.
 LEADER_COST, CROSSED_COST, DASHED_COST = 4.0, 3.0, 1.6
+AREA_WEIGHT = 3.0
 # What lies nearer to the foot of a leader is the mark itself: a point with its symbol, or the line of a vector, mm.
 POINT_REACH, LINE_REACH = 1.5, 0.4
 _ANGLES = 2 * np.pi * np.arange(24) / 24
@@ -190,14 +191,19 @@ class Field:
         return (near & rivals).any(axis=1)
 
     def _crossed(self, feet: Any, centres: Any, half: Any, reach: Any) -> Any:
-        """How many obstacles each leader runs over once it has left its own mark; an area counts by its diagonal."""
+        """How many obstacles each leader runs over once it has left its own mark; an area, crossed where one of its
+        diagonals is, counts for several: it is a number, a joint or an arrowhead."""
         to = feet + _held(centres.real - feet.real, half.real) + 1j * _held(centres.imag - feet.imag, half.imag)
         way = (to - feet)[:, None]
         start = feet[:, None] + way / np.maximum(np.abs(way), 1e-9) * reach[:, None]
-        a, b = self.things[None, :, 0], self.things[None, :, 1]
+        areas = self.things[: self.areas]
+        other = areas.real[:, ::-1] + 1j * areas.imag  # the other diagonals
+        lines, weights = np.concatenate((self.things, other)), np.ones(len(self.things) + self.areas)
+        weights[: self.areas] = weights[len(self.things) :] = AREA_WEIGHT
+        a, b = lines[None, :, 0], lines[None, :, 1]
         apart = _turn(way, a - start) * _turn(way, b - start)
         across = _turn(b - a, start - a) * _turn(b - a, to[:, None] - a)
-        return ((apart < 0) & (across < 0)).sum(axis=1)
+        return ((apart < 0) & (across < 0)) @ weights
 
 
 def _around(asker: Asker, gaps: Any) -> tuple[Any, Any, Any, Any]:

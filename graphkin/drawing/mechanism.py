@@ -78,17 +78,19 @@ class _Composer:
         return z.conjugate()
 
     def piece(self) -> Piece:
+        areas = [self._link(shape) for shape in self.shapes if shape.corners]
+        bars = [self._link(shape) for shape in sorted(self.shapes, key=self._depth) if not shape.corners]
         fixed = list(self._frame())
-        links = [self._link(shape) for shape in sorted(self.shapes, key=self._depth)]
+        links = [*areas, *fixed, *bars]  # feet of pivots stand on the areas of links
         joints = list(self._joints())
         drivers = list(self._drivers())
         found = list(self._found())
-        lengths = drawn_lengths(self.sheet, (*fixed, *links, *joints, *drivers, *found), self.panel)
+        lengths = drawn_lengths(self.sheet, (*links, *joints, *drivers, *found), self.panel)
         self._name_links()
         marks = tuple(self.at(z) for z in self.places.values())
         layers: dict[str, tuple[Primitive, ...]] = {
             "construction": tuple(self._construction()),
-            "mechanism": (*fixed, *links, *joints, *drivers, lengths),
+            "mechanism": (*links, *joints, *drivers, lengths),
             "answers": tuple(found),
         }
         return Piece(layers, tuple(self.names), marks)
@@ -140,7 +142,9 @@ class _Composer:
 
         def cost(angle: float) -> float:
             nearest = min((_turn(angle, way) for way in ways), default=math.pi)
-            return FOOT[angle] + max(0.0, 0.9 - nearest) * 3
+            end = here + (symbols.FOOT_HEIGHT + 1.0) * complex(math.cos(angle), math.sin(angle))
+            covered = sum(_inside(end, shape.corners) for shape in self.shapes)
+            return FOOT[angle] + max(0.0, 0.9 - nearest) * 3 + 0.9 * covered
 
         return min(FOOT, key=cost)
 
@@ -224,6 +228,7 @@ class _Composer:
             parts: list[Primitive] = []
             if len(held) > 1 and moving:
                 radius = symbols.JOINT_RADIUS * (0.85 if point in blocks else 1.0)
+                parts += self._over_block(z) if point in blocks else []
                 parts += symbols.turning_pair(self.at(z), radius=radius)
                 parts += self._through(z, held)
             elif any(p.point == point for p in self.scene.pins):
@@ -241,6 +246,18 @@ class _Composer:
     def _cross(self, z: complex) -> list[Primitive]:
         thin = strokes.OUTLINE
         return [Line(self.at(z - 1.2), self.at(z + 1.2), thin), Line(self.at(z - 1.2j), self.at(z + 1.2j), thin)]
+
+    def _over_block(self, z: complex) -> list[Primitive]:
+        """Edges of areas that end in the pin of a block, drawn on over it."""
+        parts: list[Primitive] = []
+        for shape in self.shapes:
+            for i, corner in enumerate(shape.corners):
+                if abs(corner - z) < 1e-6:
+                    stroke = strokes.LINK.coloured(self.colour(shape.link))
+                    for other in (shape.corners[i - 1], shape.corners[(i + 1) % len(shape.corners)]):
+                        reach = min(symbols.BLOCK_LENGTH * 0.7, abs(other - z))
+                        parts.append(Line(self.at(z), self.at(z + reach * (other - z) / abs(other - z)), stroke))
+        return parts
 
     def _through(self, z: complex, held: list[str]) -> list[Primitive]:
         """A bar that goes on beyond a joint is drawn through its circle."""
@@ -390,6 +407,12 @@ class _Composer:
                 middle, half = phase(arc.at - arc.centre), min(COMPASS / arc.radius, math.pi * 0.9)
                 shape = Arc(self.at(arc.centre), arc.radius, middle - half, middle + half, strokes.CONSTRUCTION)
                 yield Group((shape,), classes=("compass", f"step-{step.number:02d}"))
+
+
+def _inside(z: complex, corners: tuple[complex, ...]) -> bool:
+    """Whether a place lies in a convex area whose corners run counter-clockwise."""
+    ends = zip(corners, (*corners[1:], *corners[:1]), strict=True)
+    return len(corners) > 2 and all(cross(b - a, z - a) > 0 for a, b in ends)
 
 
 def _turn(a: float, b: float) -> float:
