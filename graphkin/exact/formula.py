@@ -269,7 +269,9 @@ def fmin(x: Real, y: Real) -> Real:
 
 def fmax(x: Real, y: Real) -> Real:
     """The greater of two numbers."""
-    return x if x.at == y.at or y.value == 0 else x.sheet.line("fmax", *sorted((x.at, y.at)))
+    if x.at == y.at or (y.value == 0 and x.never_negative):
+        return x
+    return x.sheet.line("fmax", *sorted((x.at, y.at)))
 
 
 def two_sum(a: Any, b: Any) -> tuple[Any, Any]:

@@ -43,7 +43,7 @@ _UFUNCS = {
     "neg": np.negative,
     "abs": np.absolute,
     "fmin": np.fmin,
-    "fmax": np.fmax,
+    "fmax": np.maximum,  # unlike np.fmax it hands on nan: what one term does not know, the greatest does not
     "sqrt": np.sqrt,
 }
 
@@ -53,7 +53,7 @@ def _fmin(a: float, b: float) -> float:
 
 
 def _fmax(a: float, b: float) -> float:
-    return b if a != a or b > a else a
+    return a if a != a or a > b else b
 
 
 class Code:
@@ -193,7 +193,7 @@ class Code:
                 body += [f"absolute({sources[0]}, {out})"] if not _plain(sheet, line[1]) else []
                 body.append(f"sqrt({out if body and not _plain(sheet, line[1]) else sources[0]}, {out})")
             elif line[0] in ("fmin", "fmax"):
-                body.append(f"{line[0]}({sources[0]}, {sources[1]}, out={out})")
+                body.append(f"{_UFUNCS[line[0]].__name__}({sources[0]}, {sources[1]}, out={out})")
             else:
                 body.append(f"{_UFUNCS[line[0]].__name__}({', '.join([*sources, out])})")
         head = [
