@@ -23,6 +23,7 @@ from graphkin.words import Phrase
 __all__ = ["Plan", "Room", "draft", "execute", "plan"]
 
 SERIES = (1.0, 2.0, 2.5, 5.0)
+SHORT = 3.0  # mm on paper; a direction drawn through two points nearer than this errs by a pencil's width in ten
 
 
 @dataclass(frozen=True)
@@ -182,6 +183,7 @@ def _draw_position(
         else:
             meeting = position.meetings[i]
             board.warn(min(meeting.sine, 1.0), _inner_name(element))
+            _warn_short(board, element, frame)
             index = branches.get(i, 0) % len(meeting.poses)
             story = meeting.stories[index]
             key = ", ".join(element.links)
@@ -203,6 +205,15 @@ def _draw_position(
             elif marks:
                 board.do("mechanism", Phrase("points", (name, ", ".join(fresh))), *marks)
     return assembly
+
+
+def _warn_short(board: Board, dyad: Dyad, frame: Frame) -> None:
+    """Say where a guide is directed by two points that lie too near to each other."""
+    one, two = dyad.outer_first, dyad.outer_second
+    if dyad.kind == "RPR" and isinstance(one, Turn) and isinstance(two, Turn):
+        apart = abs(frame.point(one.b, one.point) - frame.point(two.b, two.point))
+        if apart < SHORT:
+            board.note(Phrase("short arm", (", ".join(dyad.links), one.point, f"{apart:.2g}", two.point)))
 
 
 def _inner_name(dyad: Dyad) -> str:

@@ -1,0 +1,114 @@
+"""``graphkin study``: the methods against each other, as charts: speed and accuracy, and where each fails."""
+
+from __future__ import annotations
+
+import html
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from graphkin.api.files import known_wishes, write_files
+from graphkin.errors import CallError, Problem, did_you_mean
+
+if TYPE_CHECKING:
+    from graphkin.drawing import Drawing
+    from graphkin.study.limits import Trial
+
+__all__ = ["Stability", "stability"]
+
+
+@dataclass(frozen=True)
+class Stability:
+    """The error of each method against the distance from each kind of singular position, with fitted slopes."""
+
+    trials: tuple[Trial, ...]
+    language: str
+
+    def __getitem__(self, kind: str) -> Trial:
+        return next(trial for trial in self.trials if trial.key == kind)
+
+    @cached_property
+    def figures(self) -> Mapping[str, Drawing]:
+        """The charts by name, six singularities on each."""
+        from graphkin.study.limits import pages
+
+        return pages(self.trials, self.language)
+
+    @property
+    def table(self) -> str:
+        """All points of all curves, as the text of a CSV file."""
+        from graphkin.study.limits import laws_csv
+
+        return laws_csv(self.trials)
+
+    @cached_property
+    def data(self) -> dict[str, Any]:
+        """The object that ``graphkin study stability --json`` prints."""
+        from graphkin.study.limits import to_json
+
+        return to_json(self.trials, self.language)
+
+    def write(self, folder: str | os.PathLike[str] = "stability", formats: Sequence[str] = ("svg",)) -> list[Path]:
+        """Write the charts and stability.csv; returns the paths.  Raises CallError for an unknown format or a folder
+        that cannot be written."""
+        return _written(Path(folder), self.figures, "stability.csv", self.table, formats)
+
+    def _repr_html_(self) -> str:
+        return _shown(self.figures)
+
+
+def stability(
+    kinds: Iterable[str] = (), samples: int = 4, language: str = "en", out: str | os.PathLike[str] | None = None
+) -> Stability:
+    """Measure how the error of each method grows beside singular positions, and where it stops giving an answer.
+
+    Parameters
+    ----------
+    kinds : which singularities, by name ("dead point RRR", "parallel lines", ...); all if none is named
+    samples : distances to each half of a decade; the largest error of them counts
+    language : "en" or "zh"
+    out : folder for the charts (SVG) and stability.csv
+
+    Raises
+    ------
+    CallError : an unknown name, or mpmath is not installed (extra ``study``)
+
+    Examples
+    --------
+    >>> found = stability(["crossing height"], samples=2)
+    >>> round(found["crossing height"]["height by squares"].slope, 1)
+    -1.0
+    """
+    from graphkin.study.limits import KINDS, run_trials
+
+    wanted = tuple(kinds)
+    wrong = [Problem("kind", f'"{kind}"', did_you_mean(kind, KINDS)) for kind in wanted if kind not in KINDS]
+    if not 1 <= samples <= 100:
+        wrong.append(Problem("samples", f"{samples}", "give a number from 1 to 100"))
+    if wrong:
+        raise CallError(*wrong)
+    known_wishes(("svg",), language, None)
+    found = Stability(run_trials(wanted, samples), language)
+    if out is not None:
+        found.write(out)
+    return found
+
+
+def _written(
+    folder: Path, figures: Mapping[str, Drawing], name: str, table: str, formats: Sequence[str]
+) -> list[Path]:
+    from graphkin.drawing.save import drawing_bytes
+
+    known_wishes(formats, None, None)
+    files = {f"{n}.{kind}": drawing_bytes(f, kind) for n, f in figures.items() for kind in formats}
+    return write_files(folder, {**files, name: table.encode()})
+
+
+def _shown(figures: Mapping[str, Drawing]) -> str:
+    from graphkin.drawing import svg_bytes
+
+    return "".join(f"<figure>{svg_bytes(f).decode()}<figcaption>{html.escape(f.title)}</figcaption></figure>"
+                   for f in figures.values())

@@ -1,0 +1,327 @@
+"""Beside the dead point of each dyad: crank a little before the position where the links of the dyad come into line.
+
+There the place goes with the root of the distance, so that its error grows as distance^-1/2, those of velocity and
+acceleration (relative) as distance^-1, whatever the method; unless the distance itself is given, not the crank's angle.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from graphkin import exact
+from graphkin.checking import predict
+from graphkin.drafting import EXACT, execute, plan
+from graphkin.errors import Unsolvable
+from graphkin.exact import Motion
+from graphkin.scene import read_text
+from graphkin.scene.model import AngleDriver, Scene
+from graphkin.scene.symbol import Symbol
+from graphkin.study.equations import Equations, Solution
+from graphkin.study.limits.law import Law, Trial, binned, grid
+from graphkin.study.reference import reference, refined
+from graphkin.words import Phrase
+
+__all__ = ["dead_point"]
+
+_RRR = """
+[frame]
+points = { A = [0, 0], D = [400, 0] }
+[links.1]
+points = ["A", "B"]
+length = 310
+[links.2]
+points = ["B", "C"]
+length = 210
+[links.3]
+points = ["D", "C"]
+length = 290
+[driver]
+link = "1"
+angle = 60
+omega = 10
+[sketch]
+C = [300, 280]
+"""
+_RRP = """
+[frame]
+points = { A = [0, 0] }
+guides = { h = { through = [0, 0], angle = 0 } }
+[links.1]
+points = ["A", "B"]
+length = 310
+[links.2]
+points = ["B", "C"]
+length = 210
+[links.3]
+points = ["C"]
+on = "0.h"
+[driver]
+link = "1"
+angle = 30
+omega = 10
+"""
+_RPR = """
+[frame]
+points = { A = [0, 0], C = [310, 0] }
+[links.1]
+points = ["A", "B"]
+length = 110
+[links.2]
+points = ["B"]
+on = "3.s"
+[links.3]
+points = ["C"]
+at = { E = [0, 250] }
+guides = { s = { through = "E", angle = 0 } }
+[driver]
+link = "1"
+angle = 120
+omega = 10
+"""
+
+
+@dataclass(frozen=True)
+class _Case:
+    """A mechanism with its dead point.
+
+    ``follower`` is the link whose motion is looked at; ``side`` is +1 where the crank comes to the dead point from
+    greater angles.
+    """
+
+    kind: str
+    text: str
+    follower: str
+    side: int
+
+    @cached_property
+    def scene(self) -> Scene:
+        return read_text(self.text, self.kind)
+
+    def at(self, angle: float) -> Scene:
+        """The scene with its crank at another angle."""
+        driver = self.scene.drivers[0]
+        assert isinstance(driver, AngleDriver)
+        return replace(self.scene, drivers=(replace(driver, angle=angle),))
+
+    @property
+    def _lengths(self) -> tuple[float, float, float]:
+        """Crank, ground (0 where it takes no part) and the reach of the dyad."""
+        links = self.scene.by_name
+        crank = links["1"].length
+        assert crank is not None
+        if self.kind == "RRR":
+            return crank, links["0"].points["D"].real, (links["2"].length or 0.0) + (links["3"].length or 0.0)
+        if self.kind == "RRP":
+            return crank, 0.0, links["2"].length or 0.0
+        return crank, links["0"].points["C"].real, links["3"].guides["s"].through.imag
+
+    def dead(self, mp: Any) -> Any:
+        """The crank's angle at the dead point, by the law of cosines or the sine."""
+        a, d, reach = (mp.mpf(x) for x in self._lengths)
+        if self.kind == "RRP":
+            return mp.asin(reach / a)
+        if self.kind == "RRR":
+            links = self.scene.by_name
+            reach = mp.mpf(links["2"].length) + mp.mpf(links["3"].length)
+        return mp.acos((a * a + d * d - reach * reach) / (2 * a * d))
+
+    def bend(self, e: Any, dead: Any, sin: Any, cos: Any, sqrt: Any) -> tuple[Any, Any, Any]:
+        """How far the dyad is bent at a distance e from the dead point: sine of half the angle left (RRR, RRP), leg of
+        the right triangle (RPR); and its two rates by e.
+
+        Its square is a product of sines of the distance, none of which cancels.
+        """
+        a, d, _ = self._lengths
+        if self.kind == "RRP":
+            scale = a / (self.scene.by_name["2"].length or 0.0)
+            p, dp, ddp = cos(dead - e / 2) * sin(e / 2), cos(dead - e) / 2, sin(dead - e) / 2
+        elif self.kind == "RRR":
+            links = self.scene.by_name
+            scale = a * d / ((links["2"].length or 0.0) * (links["3"].length or 0.0))
+            p, dp, ddp = sin(dead - e / 2) * sin(e / 2), sin(dead - e) / 2, -cos(dead - e) / 2
+        else:
+            scale = 4 * a * d
+            p, dp, ddp = sin(dead + e / 2) * sin(e / 2), sin(dead + e) / 2, cos(dead + e) / 2
+        s = sqrt(scale * p)
+        rate = scale * dp / (2 * s)
+        return s, rate, (scale * ddp / 2 - rate * rate) / s
+
+
+_CASES = {
+    "RRR": _Case("RRR", _RRR, "3", -1),
+    "RRP": _Case("RRP", _RRP, "2", -1),
+    "RPR": _Case("RPR", _RPR, "3", 1),
+}
+NEAR, FAR = 1e-15, 0.3
+STEP = 0.02  # rad; where Newton's method comes from
+PATIENCE = 60
+
+
+def dead_point(kind: str, mp: Any, samples: int = 4) -> Trial:
+    """Errors of all methods beside the dead point of a dyad, "RRR", "RRP" or "RPR".
+
+    Parameters
+    ----------
+    mp : mpmath context of the reference
+    samples : distances to each half of a decade
+    """
+    case = _CASES[kind]
+    x = grid(FAR, NEAR, samples)
+    truth = _truth(case, mp, x)
+    laws = [*_closed(case, mp, x, truth, samples), _newton(case, mp, x, truth, samples), _given(case, mp, x, samples)]
+    laws += [_drawn(case, mp, x[::samples], [truth[k] for k in range(0, len(x), samples)]), _pencil(case, mp)]
+    found = {law.key: law for law in laws}
+    ends = (
+        ("fate dead closed", found["velocity closed form"].stops),
+        ("fate dead newton", found["velocity Newton"].told),
+        ("fate dead drawn", found["velocity pencil"].stops),
+    )
+    fates = [Phrase(key, (_power(x),)) for key, x in ends if x is not None]
+    return Trial(f"dead point {kind}", "crank before", tuple(laws), tuple(fates))
+
+
+def _power(x: float) -> str:
+    return f"$10^{{{str(round(math.log10(x))).replace('-', '−')}}}$"
+
+
+@dataclass(frozen=True)
+class _Exactly:
+    """The follower's motion to 50 digits: its direction as cosine and sine, its rates."""
+
+    cos: Any
+    sin: Any
+    omega: Any
+    alpha: Any
+
+    def off(self, u: complex, omega: float, alpha: float) -> tuple[float, float, float]:
+        """Errors of a direction (rad), and of its rates (relative)."""
+        turned = abs(u.imag * self.cos - u.real * self.sin)
+        return float(turned), float(abs(omega / self.omega - 1)), float(abs(alpha / self.alpha - 1))
+
+
+def _truth(case: _Case, mp: Any, x: Sequence[float]) -> list[_Exactly]:
+    """The reference at falling distances, each from the one before: on the same side Newton's method cannot miss."""
+    motion = exact.solve(case.at(float(case.dead(mp) + case.side * mp.mpf(x[0]))))
+    equations = reference(motion.structure, mp)
+    rates = [d.values for d in case.scene.drivers]
+    at: Sequence[Any] = list(equations.start(motion)[:, 0])
+    found = []
+    for e in x:
+        value = case.dead(mp) + case.side * mp.mpf(e)
+        solution = refined(equations, mp, at, [value], [rates[0][1]], [rates[0][2]])
+        at = list(solution.place)
+        k = equations.column[case.follower] + 2
+        angle = solution.place[k]
+        found.append(_Exactly(mp.cos(angle), mp.sin(angle), solution.rate[k], solution.second[k]))
+    return found
+
+
+def _closed(case: _Case, mp: Any, x: Sequence[float], truth: Sequence[_Exactly], samples: int) -> list[Law]:
+    rows: list[tuple[float, float, float]] = []
+    bounds: list[float] = []
+    stops: float | None = None
+    for e, right in zip(x, truth, strict=True):
+        motion = exact.solve(case.at(float(case.dead(mp) + case.side * mp.mpf(e))))
+        if motion.status[0] != "ok":
+            stops = stops or e
+            rows.append((math.nan,) * 3)
+            bounds.append(math.nan)
+            continue
+        pose = motion.poses[case.follower]
+        rows.append(right.off(complex(pose.u[0]), float(pose.omega[0]), float(pose.alpha[0])))
+        bounds.append(_stated(case, motion))
+    errors = list(zip(*rows, strict=True))
+    names = ("place closed form", "velocity closed form", "acceleration closed form")
+    stated = binned(x, bounds, samples)[1]
+    laws = []
+    for name, error, theory in zip(names, errors, (-0.5, -1.0, -1.0), strict=True):
+        xs, es = binned(x, error, samples)
+        laws.append(Law(name, xs, es, theory, None, stops, stated if name[0] == "v" else (), (1e-12, 1e-2)))
+    return laws
+
+
+def _stated(case: _Case, motion: Motion) -> float:
+    """The bound that the solver states for the velocities of points, as one of the follower's rate (relative): both
+    ends of its longest line may err."""
+    reach = max(abs(z) for z in case.scene.by_name[case.follower].points.values())
+    return 2 * float(motion.velocity_bound[0]) / (abs(float(motion.omega(case.follower)[0])) * reach)
+
+
+def _newton(case: _Case, mp: Any, x: Sequence[float], truth: Sequence[_Exactly], samples: int) -> Law:
+    """Newton's method on the closure equations, from the position a degree away, until it moves no more."""
+    dead = case.dead(mp)
+    structure = exact.structure_of(case.scene)
+    equations = Equations(structure)
+    starts = [exact.solve(case.at(float(dead + case.side * mp.mpf(e + STEP)))) for e in x]
+    at = np.concatenate([equations.start(m) for m in starts], axis=1)
+    values = [np.array([float(dead + case.side * mp.mpf(e)) for e in x])]
+    waiting = np.ones(len(x), dtype=bool)
+    for _ in range(PATIENCE):
+        new = equations.improved(at, values)
+        moved = np.max(np.abs(new - at), axis=0)
+        at = np.where(waiting, new, at)
+        waiting &= ~(moved < 1e-12)
+    solution: Solution = equations.rates(at, values, [case.scene.drivers[0].values[1]], [0.0])
+    k = equations.column[case.follower] + 2
+    error = [
+        right.off(complex(math.cos(p), math.sin(p)), float(w), float(b))[1]
+        for right, p, w, b in zip(truth, at[k], solution.rate[k], solution.second[k], strict=True)
+    ]
+    lost = [e for e, w in zip(x, waiting, strict=True) if w]
+    xs, es = binned(x, error, samples)
+    return Law("velocity Newton", xs, es, -1.0, max(lost, default=None), window=(1e-12, 1e-2))
+
+
+def _given(case: _Case, mp: Any, x: Sequence[float], samples: int) -> Law:
+    """The distance from the dead point given, in place of the crank's angle."""
+    dead = case.dead(mp)
+    error = []
+    for e in x:
+        one = case.bend(e, float(dead), math.sin, math.cos, math.sqrt)
+        two = case.bend(mp.mpf(e), dead, mp.sin, mp.cos, mp.sqrt)
+        error.append(max(float(abs(a / b - 1)) for a, b in zip(one, two, strict=True)))
+    xs, es = binned(x, error, samples)
+    return Law("all from the dead point", xs, es, 0.0)
+
+
+def _drawn(case: _Case, mp: Any, x: Sequence[float], truth: Sequence[_Exactly]) -> Law:
+    """The exact drawing board."""
+    error: list[float] = []
+    told: float | None = None
+    stops: float | None = None
+    for e, right in zip(x, truth, strict=True):
+        try:
+            sheet = execute(plan(case.at(float(case.dead(mp) + case.side * mp.mpf(e)))), EXACT)
+        except Unsolvable:
+            told, stops = told or e, stops or e
+            error.append(math.nan)
+            continue
+        if any(note.key == "sharp crossing" for note in sheet.notes):
+            told = told or e
+        error.append(float(abs(sheet.omega[case.follower].value / right.omega - 1)))
+    return Law("velocity exact drawing", tuple(x), tuple(error), -1.0, told, stops, window=(1e-12, 1e-2))
+
+
+def _pencil(case: _Case, mp: Any) -> Law:
+    """The uncertainty that is predicted for a pencil, relative."""
+    x = grid(FAR, 1e-4, 1)
+    symbol = Symbol("omega", link=case.follower)
+    error: list[float] = []
+    told: float | None = None
+    stops: float | None = None
+    for e in x:
+        what = plan(case.at(float(case.dead(mp) + case.side * mp.mpf(e))))
+        size = abs(execute(what, EXACT).omega[case.follower].value)
+        if any(note.key == "sharp crossing" for note in execute(what, EXACT).notes):
+            told = told or e
+        part = predict(what, "pencil", case.scene.sheet.tools)[symbol].deviation / size
+        if not math.isfinite(part):
+            stops = stops or e
+        error.append(part if math.isfinite(part) else math.nan)
+    return Law("velocity pencil", tuple(x), tuple(error), -1.0, told, stops, window=(2e-3, 0.4), lost=2.0)

@@ -1,0 +1,160 @@
+"""Formulas that lose digits where geometry degenerates, beside those that do not; and differences in place of rates."""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from graphkin import exact
+from graphkin.exact.choice import choose_forms
+from graphkin.exact.engine import positions
+from graphkin.exact.joints import Drive
+from graphkin.plane import cross_arcs
+from graphkin.scene import read
+from graphkin.study.equations import Equations
+from graphkin.study.limits.law import Law, Trial, binned, grid
+from graphkin.study.reference import reference, refined
+from graphkin.words import Phrase
+
+__all__ = ["angle_formulas", "crossing_height", "differences"]
+
+
+def crossing_height(mp: Any, samples: int = 4) -> Trial:
+    """The height of the crossing of two arcs over the line of their centres, radii nearly reaching across.
+
+    c2 - m2 against Heron's product with the small factor formed first (Kahan, Miscalculating area and angles of a
+    needle-like triangle); the error of the square of the height, relative.
+    """
+    dice = random.Random(1)
+    x = grid(0.1, 1e-15, samples)
+    errors: dict[str, list[float]] = {"height by squares": [], "height by Heron": []}
+    for e in x:
+        worst = dict.fromkeys(errors, 0.0)
+        for _ in range(6):
+            r, s = dice.uniform(0.1, 1.0), dice.uniform(0.1, 1.0)
+            c = (r + s) * (1 - e)
+            right = _height2(mp.mpf(r), mp.mpf(s), mp.mpf(c))
+            middle = (c * c + r * r - s * s) / (2 * c)
+            crossing = cross_arcs(0j, r, complex(c), s)
+            found = {"height by squares": r * r - middle * middle,
+                     "height by Heron": crossing[0].imag ** 2 if crossing else math.nan}
+            for key, value in found.items():
+                worst[key] = max(worst[key], float(abs(value / right - 1)))
+        for key, value in worst.items():
+            errors[key].append(value)
+    laws = []
+    for key, theory in zip(errors, (-1.0, 0.0), strict=True):
+        xs, es = binned(x, errors[key], samples)
+        laws.append(Law(key, xs, es, theory, window=(1e-13, 1e-1)))
+    return Trial("crossing height", "gap of radii", tuple(laws), (Phrase("fate height"),))
+
+
+def _height2(r: Any, s: Any, c: Any) -> Any:
+    return (r + s + c) * (r + s - c) * (c + r - s) * (c - r + s) / (4 * c * c)
+
+
+def angle_formulas(mp: Any, samples: int = 4) -> Trial:
+    """An angle near 0 or 180 degrees from the vectors of its sides: by arccos of their product, and by atan2."""
+    dice = random.Random(2)
+    x = grid(1.0, 1e-15, samples)
+    errors: dict[str, list[float]] = {"angle by arccos": [], "angle by atan2": []}
+    for phi in x:
+        worst = dict.fromkeys(errors, 0.0)
+        for _ in range(6):
+            turn = dice.uniform(0, 2 * math.pi)
+            a, b = _ray(turn), _ray(turn + phi)
+            over = a.real * b.imag - a.imag * b.real
+            along = a.real * b.real + a.imag * b.imag
+            right = mp.arg(mp.mpc(b) / mp.mpc(a))
+            by_arccos = math.acos(max(-1.0, min(1.0, along / (abs(a) * abs(b)))))
+            worst["angle by arccos"] = max(worst["angle by arccos"], float(abs(by_arccos - right)))
+            worst["angle by atan2"] = max(worst["angle by atan2"], float(abs(math.atan2(over, along) - right)))
+        for key, value in worst.items():
+            errors[key].append(value)
+    xs, one = binned(x, errors["angle by arccos"], samples)
+    _, two = binned(x, errors["angle by atan2"], samples)
+    laws = (
+        Law("angle by arccos", xs, one, -1.0, window=(1e-7, 0.5)),
+        Law("angle by atan2", xs, two, 0.0, window=(1e-7, 0.5)),
+    )
+    return Trial("angle near zero", "angle of two lines", laws, (Phrase("fate arccos"),))
+
+
+def _ray(angle: float) -> complex:
+    return complex(math.cos(angle), math.sin(angle))
+
+
+def differences(mp: Any, samples: int = 4, name: str = "slider-crank-offset") -> Trial:
+    """Velocity and acceleration of a slider by central differences of its places, over the step; and by complex step.
+
+    The error of differences falls as step^2 and grows again as u/step and u/step^2 (Numerical Recipes, 5.7); a
+    complex step does not subtract (Squire and Trapp, SIAM Review 40, 1998).  The worst of four positions to a sample.
+    """
+    places = 4 * samples
+    scene = read(name)
+    structure = exact.structure_of(scene)
+    forms = {i: f[None] for i, f in choose_forms(structure).items()}
+    (_, rate, second), equations = scene.drivers[0].values, Equations(structure)
+    q = 2 * math.pi * (np.arange(places) + 0.3) / places
+    link = scene.links[-1].name
+
+    def at(value: Any) -> Any:
+        state = positions(structure, Drive.at(structure, value[:, None]), forms, rates=False)
+        return np.broadcast_to(state.poses[link].z, value.shape)
+
+    here = positions(structure, Drive.at(structure, q[:, None]), forms)
+    x0 = np.array([f(np.broadcast_to(here.poses[n].z, q.shape)) if f is not np.angle
+                   else np.angle(np.broadcast_to(here.poses[n].u, q.shape))
+                   for n in equations.names for f in (np.real, np.imag, np.angle)])
+    precise = reference(structure, mp)
+    k = equations.column[link]
+    v, a = np.empty(places, dtype=complex), np.empty(places, dtype=complex)
+    for i in range(places):
+        s = refined(precise, mp, list(x0[:, i]), [mp.mpf(float(q[i]))], [rate], [second])
+        v[i], a[i] = complex(s.rate[k], s.rate[k + 1]), complex(s.second[k], s.second[k + 1])
+    w = abs(rate)
+    steps = [10.0 ** (-j / 4) for j in range(2, 45)]
+    speeds, pushes = [], []
+    for h in steps:
+        before, after = at(q - h), at(q + h)
+        sense = math.copysign(1.0, rate)
+        speeds.append(_worst((after - before) * (w * sense / (2 * h)), v))
+        pushes.append(_worst((after - 2 * at(q) + before) * (w / h) ** 2, a - second * v / rate))
+    laws = [
+        _part("velocity differences", steps, speeds, 2.0, (3e-4, 1e-1)),
+        _part("velocity differences", steps, speeds, -1.0, (1e-10, 1e-7)),
+        _part("acceleration differences", steps, pushes, 2.0, (3e-3, 1e-1)),
+        _part("acceleration differences", steps, pushes, -2.0, (1e-7, 2e-5)),
+    ]
+    by_step = [_complex_step(equations, x0, q, (rate, second), k, h, (v, a)) for h in steps[::4]]
+    laws.append(Law("velocity complex step", tuple(steps[::4]), tuple(e[0] for e in by_step), 2.0, window=(1e-6, 0.2)))
+    return Trial("differences", "step", tuple(laws), (Phrase("fate differences"),))
+
+
+def _part(key: str, x: Sequence[float], error: Sequence[float], theory: float, window: tuple[float, float]) -> Law:
+    return Law(key, tuple(x), tuple(error), theory, window=window)
+
+
+def _worst(found: Any, right: Any) -> float:
+    return float(np.max(np.abs(found - right)) / np.max(np.abs(right)))
+
+
+def _complex_step(
+    equations: Equations, x0: Any, q: Any, rates: tuple[float, float], k: int, h: float, right: tuple[Any, Any]
+) -> tuple[float, float]:
+    """Closure equations solved at a driver value with a small imaginary part; its share in the place is the rate."""
+    rate, second = rates
+    x, t = x0.astype(complex), 1j * h / abs(rate)
+    values = [q + rate * t + second * t * t / 2]
+    for _ in range(6):
+        x = equations.improved(x, values)
+    speed = equations.velocities(x, values, [rate + second * t])
+    v = (x[k].imag + 1j * x[k + 1].imag) / t.imag
+    a = (speed[k].imag + 1j * speed[k + 1].imag) / t.imag
+    return _worst(v, right[0]), _worst(a, right[1])
+
+

@@ -1,0 +1,228 @@
+"""Guide bars: the flip of a bar whose pivot the crank pin passes through, and sliding that nearly stops."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+from graphkin import exact
+from graphkin.checking import predict
+from graphkin.drafting import EXACT, execute, plan
+from graphkin.errors import Unsolvable
+from graphkin.exact import Motion
+from graphkin.exact.formula import Real
+from graphkin.exact.program import Program
+from graphkin.scene import read_text
+from graphkin.scene.model import AngleDriver, Scene
+from graphkin.scene.symbol import Symbol
+from graphkin.study.closed import Formulas
+from graphkin.study.limits.law import LOST, Law, Trial, binned, grid
+from graphkin.words import Phrase
+
+__all__ = ["flip", "near_ground", "slow_sliding"]
+
+FLOOR = 1e-17  # of the charts
+
+_BAR = """
+[frame]
+points = {{ A = [0, {ground}], C = [0, 0] }}
+[links.1]
+points = ["A", "B"]
+length = {crank}
+[links.2]
+points = ["B"]
+on = "3"
+[links.3]
+points = ["C"]
+[driver]
+link = "1"
+angle = {angle}
+omega = 10
+"""
+
+
+def _at(scene: Scene, angle: float) -> Scene:
+    driver = scene.drivers[0]
+    assert isinstance(driver, AngleDriver)
+    return replace(scene, drivers=(replace(driver, angle=angle),))
+
+
+@dataclass(frozen=True)
+class _Bar:
+    """The motion of a bar that swings about C on the pin of the crank: direction, rate, second rate, Coriolis."""
+
+    u: Any
+    omega: Any
+    alpha: Any
+    coriolis: Any
+
+    def off(self, found: _Bar) -> tuple[float, float, float]:
+        """Errors of another: of the direction (rad), of Coriolis and of the second rate (relative)."""
+        turned = abs(found.u.imag * self.u.real - found.u.real * self.u.imag)
+        return float(turned), float(abs(found.coriolis / self.coriolis - 1)), float(abs(found.alpha / self.alpha - 1))
+
+
+def _right(mp: Any, a: Any, d: Any, rate: float, angle: Any) -> _Bar:
+    """By the way w from C to the pin B: omega = Im w'/w, sliding = Re w'/w |w|."""
+    b = a * mp.expj(angle)
+    w, dw, ddw = mp.mpc(0, d) + b, 1j * rate * b, -rate * rate * b
+    turn = dw / w
+    omega, slip = turn.imag, turn.real * abs(w)
+    return _Bar(w / abs(w), omega, (ddw / w - turn * turn).imag, 2 * omega * slip)
+
+
+def _doubles(scene: Scene, angle: float) -> _Bar:
+    """The closed form in doubles."""
+
+    def choose(program: Program) -> list[Real]:
+        bar, block = program.poses["3"], program.poses["2"]
+        slip = bar.inverse().of(block).v.real
+        return [bar.u.real, bar.u.imag, bar.omega, bar.alpha, 2.0 * bar.omega * slip]
+
+    x, y, omega, alpha, coriolis = Formulas(exact.structure_of(scene), choose).one_by_one()([angle])
+    return _Bar(complex(x, y), omega, alpha, coriolis)
+
+
+def _solved(scene: Scene) -> tuple[_Bar, Motion] | None:
+    """What the solver gives; None where it refuses."""
+    motion = exact.solve(scene)
+    if motion.status[0] != "ok":
+        return None
+    slide = motion.slide("2/3")
+    u, omega = complex(motion.poses["3"].u[0]), float(motion.omega("3")[0])
+    return _Bar(u, omega, float(motion.alpha("3")[0]), 2 * omega * float(slide.velocity[0])), motion
+
+
+def near_ground(mp: Any, samples: int = 4) -> Trial:
+    """Crank nearly as long as the ground, its pin beside the bar's pivot C, both at a distance of the same order.
+
+    Coriolis grows as distance^-1, the second rate of the bar as distance^-2, their relative errors as distance^-1.
+    """
+    x = grid(0.3, 1e-8, samples)
+    rows, sizes = [], []
+    for e in x:
+        scene = read_text(_BAR.format(ground=100, crank=repr(100 * (1 - e)), angle=-90), "near")
+        rate, a = scene.drivers[0].values[1], abs(scene.by_name["1"].points["B"])
+        angle = -math.pi / 2 + e
+        right = _right(mp, mp.mpf(a), mp.mpf(scene.frame.points["A"].imag), rate, mp.mpf(angle))
+        rows.append(right.off(_doubles(_at(scene, angle), angle)))
+        sizes.append((float(abs(right.coriolis / (a * rate**2))), float(abs(right.alpha / rate**2))))
+    laws = _laws(("place bar", "acceleration Coriolis", "acceleration bar"), x, rows, (-1.0,) * 3, samples)
+    growth = _laws(("size Coriolis", "size bar"), x, sizes, (-1.0, -2.0), samples, math.inf, (1e-12, 0.03))
+    grown = Phrase("grows", tuple(f"{law.slope:.2f}".replace("-", "−") for law in growth))
+    return Trial("near ground", "crank from ground", tuple(laws), (grown, Phrase("fate near ground")), tuple(growth))
+
+
+def _laws(
+    names: Sequence[str], x: Sequence[float], rows: Sequence[Sequence[float]], theory: Sequence[float], samples: int,
+    lost: float = LOST, window: tuple[float, float] = (1e-8, 0.03),
+) -> list[Law]:  # fmt: skip
+    laws = []
+    for name, error, slope in zip(names, zip(*rows, strict=True), theory, strict=True):
+        xs, es = binned(x, error, samples)
+        laws.append(Law(name, xs, es, slope, window=window, lost=lost))
+    return laws
+
+
+def flip(mp: Any, samples: int = 4) -> Trial:
+    """Crank as long as the ground: its pin B passes through the bar's pivot C, and the bar flips over.
+
+    With the crank turned by e from there, CB = 2 a sin(e/2) and the bar turns at half the speed of the crank: nothing
+    grows, but the direction of CB is told by a length that goes to zero, the rate by that and once more by the length.
+    """
+    scene = read_text(_BAR.format(ground=100, crank=100, angle=-80), "flip")
+    rate, a = scene.drivers[0].values[1], abs(scene.by_name["1"].points["B"])
+    x = grid(0.5, 1e-9, samples)
+    plain, refined, bounds, drawn = [], [], [], []
+    stops: dict[str, float] = {}
+    for k, e in enumerate(x):
+        angle = -math.pi / 2 + e
+        right = _right(mp, mp.mpf(a), mp.mpf(a), rate, mp.mpf(angle))
+        one = _doubles(scene, angle)
+        ordinary = _Bar(right.u, right.omega, mp.mpf(rate) ** 2, right.coriolis)
+        plain.append((*ordinary.off(one)[:2], abs(one.alpha) / rate**2))
+        solved = _solved(_at(scene, angle))
+        if solved is None:
+            stops.setdefault("solved", e)
+        refined.append(abs(solved[0].alpha) / rate**2 if solved else math.nan)
+        bounds.append(float(solved[1].acceleration_bound[0]) / (rate**2 * a) if solved else math.nan)
+        if k % samples == 0:
+            drawn.append(_drawn(_at(scene, angle)) / rate**2)
+            if math.isnan(drawn[-1]):
+                stops.setdefault("drawn", e)
+    names = ("place bar", "acceleration Coriolis", "acceleration bar")
+    laws = _laws(names, x, plain, (-1.0, -2.0, -3.0), samples)
+    laws[-1] = replace(laws[-1], lost=math.inf)  # in parts of the crank's own rate squared: it goes on growing
+    xs, es = binned(x, refined, samples)
+    stated = binned(x, bounds, samples)[1]
+    told = next((e for e in x[::samples] if _told(_at(scene, -math.pi / 2 + e))), stops.get("drawn"))
+    laws += [
+        Law("acceleration bar solved", xs, tuple(max(e, FLOOR) for e in es), None, None, stops.get("solved"), stated),
+        Law("acceleration bar drawn", tuple(x[::samples]), tuple(drawn), -3.0, told, stops.get("drawn"),
+            window=(1e-8, 0.1), lost=math.inf),
+    ]  # fmt: skip
+    return Trial("guide flip", "crank from flip", tuple(laws), (Phrase("fate flip"),))
+
+
+def _drawn(scene: Scene) -> float:
+    """The second rate of the bar off the exact drawing; nan where it refuses."""
+    try:
+        return abs(execute(plan(scene), EXACT).alpha["3"].value)
+    except Unsolvable:
+        return math.nan
+
+
+def _told(scene: Scene) -> bool:
+    """Whether the drawing warns of the short arm."""
+    try:
+        return any(note.key == "short arm" for note in execute(plan(scene), EXACT).notes)
+    except Unsolvable:
+        return True
+
+
+def slow_sliding(mp: Any, samples: int = 4) -> Trial:
+    """Crank and ground in line: the block stands still on its bar.  The sliding velocity goes to zero and loses its
+    digits; what it is only a part of does not."""
+    scene = read_text(_BAR.format(ground=350, crank=90, angle=90), "slow")
+    rate = scene.drivers[0].values[1]
+    a, d = mp.mpf(scene.by_name["1"].length), mp.mpf(scene.frame.points["A"].imag)
+    x = grid(0.3, 1e-15, samples)
+    slips, turns = [], []
+    for e in x:
+        motion = exact.solve(_at(scene, float(mp.pi / 2 + mp.mpf(e))))
+        slip, omega = _in_line(mp, a, d, rate, e)
+        slips.append(float(abs(float(motion.slide("2/3").velocity[0]) / slip - 1)))
+        turns.append(float(abs(float(motion.omega("3")[0]) / omega - 1)))
+    xs, one = binned(x, slips, samples)
+    _, two = binned(x, turns, samples)
+    laws = [
+        Law("velocity sliding", xs, one, -1.0, window=(1e-13, 0.1)),
+        Law("velocity bar", xs, two, 0.0),
+        *_pencil_sliding(scene, mp, rate),
+    ]
+    return Trial("slow sliding", "crank from line", tuple(laws), (Phrase("fate sliding"),))
+
+
+def _in_line(mp: Any, a: Any, d: Any, rate: float, e: float) -> tuple[Any, Any]:
+    """Sliding velocity and rate of the bar, the crank turned by e from the prolongation of the ground: c2 = a2 + d2 +
+    2 a d cos e."""
+    c = mp.sqrt(a * a + d * d + 2 * a * d * mp.cos(e))
+    return -a * d * mp.sin(e) * rate / c, rate * a * (a + d * mp.cos(e)) / (c * c)
+
+
+def _pencil_sliding(scene: Scene, mp: Any, rate: float) -> list[Law]:
+    symbols = {"velocity sliding pencil": Symbol.parse("v_B@3/B@2"), "velocity bar pencil": Symbol("omega", link="3")}
+    x = grid(0.3, 1e-4, 1)
+    errors: dict[str, list[float]] = {key: [] for key in symbols}
+    a, d = mp.mpf(scene.by_name["1"].length), mp.mpf(scene.frame.points["A"].imag)
+    for e in x:
+        predicted = predict(plan(_at(scene, float(mp.pi / 2 + mp.mpf(e)))), "pencil", scene.sheet.tools)
+        slip, omega = _in_line(mp, a, d, rate, e)
+        for (key, symbol), size in zip(symbols.items(), (slip, omega), strict=True):
+            errors[key].append(float(predicted[symbol].deviation / abs(size)))
+    return [
+        Law(key, tuple(x), tuple(errors[key]), theory, lost=2.0)
+        for key, theory in zip(symbols, (-1.0, 0.0), strict=True)
+    ]

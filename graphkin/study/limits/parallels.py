@@ -1,0 +1,123 @@
+"""An instant centre where two nearly parallel lines cross: its place runs away, velocities through it do not."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from graphkin import exact
+from graphkin.drafting import EXACT, pencil
+from graphkin.drafting.centres import by_centres, find_centres, speeds
+from graphkin.drafting.instrument import Instrument
+from graphkin.scene import read_text
+from graphkin.scene.model import Scene
+from graphkin.scene.symbol import Symbol
+from graphkin.study.equations import Equations
+from graphkin.study.limits.law import Law, Trial, binned, grid
+from graphkin.study.reference import reference, refined
+from graphkin.words import Phrase
+
+__all__ = ["parallel_lines"]
+
+SEEDS = 12
+
+
+def _four_bar(phi: float) -> Scene:
+    """Crank AB upright, rocker DC at an angle phi to it: their lines cross in the centre of the coupler."""
+    c = complex(300, 0) + 120 * complex(math.sin(phi), math.cos(phi))
+    return read_text(
+        f"""
+[frame]
+points = {{ A = [0, 0], D = [300, 0] }}
+[links.1]
+points = ["A", "B"]
+[links.2]
+points = ["B", "C"]
+[links.3]
+points = ["D", "C"]
+[driver]
+link = "1"
+omega = 10
+[drawn]
+B = [0, 100]
+C = [{c.real!r}, {c.imag!r}]
+""",
+        "parallel",
+    )
+
+
+@dataclass(frozen=True)
+class _Right:
+    """The centre of the coupler (m) and the velocity of C (m/s), 50 digits."""
+
+    place: Any
+    velocity: Any
+
+
+def _right(scene: Scene, mp: Any) -> _Right:
+    motion = exact.solve(scene)
+    equations = reference(motion.structure, mp)
+    value, rate, second = scene.drivers[0].values
+    start = list(Equations(motion.structure).start(motion)[:, 0])
+    found = refined(equations, mp, start, [mp.mpf(value)], [rate], [second])
+    k = equations.column["2"]
+    z, v, omega = (
+        mp.mpc(found.place[k], found.place[k + 1]), mp.mpc(found.rate[k], found.rate[k + 1]), found.rate[k + 2],
+    )  # fmt: skip
+    _, _, vx, vy, _, _ = equations.point(found, "3", scene.by_name["3"].points["C"])
+    return _Right(z + 1j * v / omega if omega else None, mp.mpc(vx, vy))
+
+
+def _found(scene: Scene, right: _Right, hand: Instrument) -> tuple[float, float, bool]:
+    """Errors of the centre's place (of its distance) and of the velocity of C through it (relative); whether the
+    centre is given as a direction only."""
+    centres = find_centres(scene, instrument=hand)
+    velocity = by_centres(centres, speeds(centres), Symbol.parse("v_C"))
+    off = float(abs(velocity - right.velocity) / abs(right.velocity)) if velocity is not None else math.nan
+    point = centres.of("2", "0").point
+    if point is None:
+        return math.nan, off, True
+    place = point / centres.links.mm
+    return float(abs(place - right.place) / abs(right.place)), off, False
+
+
+def parallel_lines(mp: Any, samples: int = 2) -> Trial:
+    """Errors against the angle of the two lines that cross in the centre."""
+    x = grid(0.5, 1e-15, samples)
+    places, velocities = [], []
+    stops: float | None = None
+    for phi in x:
+        scene = _four_bar(phi)
+        place, velocity, far = _found(scene, _right(scene, mp), EXACT)
+        stops = stops or (phi if far else None)
+        places.append(place)
+        velocities.append(velocity)
+    xs, one = binned(x, places, samples)
+    _, two = binned(x, velocities, samples)
+    laws = [
+        Law("centre place", xs, one, -1.0, stops, stops, window=(1e-12, 0.1)),
+        Law("centre velocity", xs, two, 0.0),
+        *_by_pencil(mp),
+    ]
+    return Trial("parallel lines", "angle of two lines", tuple(laws), (Phrase("fate centre"),))
+
+
+def _by_pencil(mp: Any) -> list[Law]:
+    """Root of the mean square over some drawings."""
+    x = grid(0.5, 1e-5, 1)
+    places, velocities = [], []
+    for phi in x:
+        scene = _four_bar(phi)
+        right = _right(scene, mp)
+        rows = [_found(scene, right, pencil(scene.sheet.tools, seed)) for seed in range(SEEDS)]
+        places.append(_rms([row[0] for row in rows]))
+        velocities.append(_rms([row[1] for row in rows]))
+    return [
+        Law("centre place pencil", tuple(x), tuple(places), -1.0, window=(1e-3, 0.2), lost=1.0),
+        Law("centre velocity pencil", tuple(x), tuple(velocities), 0.0),
+    ]
+
+
+def _rms(values: list[float]) -> float:
+    return math.sqrt(sum(v * v for v in values) / len(values))

@@ -1,0 +1,129 @@
+"""Where methods fail: how fast is as theory tells, and nothing that graphkin gives is wrong without saying so."""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+
+import pytest
+
+from graphkin.study.limits import KINDS, Law, Trial, laws_csv, pages, run_trials, to_json
+
+SLOPE = 0.15
+MEANINGFUL = 0.05  # an error beyond this is no answer
+
+
+@cache
+def trial(kind: str) -> Trial:
+    return run_trials([kind], samples=2)[0]
+
+
+LAWS = [
+    *[(f"dead point {kind}", law) for kind in ("RRR", "RRP", "RPR") for law in (
+        "place closed form", "velocity closed form", "acceleration closed form", "velocity Newton",
+        "all from the dead point", "velocity exact drawing", "velocity pencil",
+    )],
+    ("crossing height", "height by squares"), ("crossing height", "height by Heron"),
+    ("angle near zero", "angle by arccos"), ("angle near zero", "angle by atan2"),
+    ("differences", "velocity complex step"),
+    ("parallel lines", "centre place"), ("parallel lines", "centre velocity"),
+    ("parallel lines", "centre place pencil"), ("parallel lines", "centre velocity pencil"),
+    ("near ground", "place bar"), ("near ground", "acceleration Coriolis"), ("near ground", "acceleration bar"),
+    ("guide flip", "place bar"), ("guide flip", "acceleration Coriolis"), ("guide flip", "acceleration bar"),
+    ("guide flip", "acceleration bar drawn"),
+    ("slow sliding", "velocity sliding"), ("slow sliding", "velocity bar"),
+    ("slow sliding", "velocity sliding pencil"), ("slow sliding", "velocity bar pencil"),
+    ("small scale", "pencil points"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("kind", "law"), LAWS)
+def test_an_error_grows_as_theory_tells(kind: str, law: str) -> None:
+    found = trial(kind)[law]
+    assert found.theory == pytest.approx(found.slope, abs=SLOPE)
+
+
+@pytest.mark.parametrize(("which", "theory"), [(0, 2.0), (1, -1.0), (2, 2.0), (3, -2.0)])
+def test_differences_lose_to_truncation_on_one_side_and_to_rounding_on_the_other(which: int, theory: float) -> None:
+    assert theory == pytest.approx(trial("differences").laws[which].slope, abs=SLOPE)
+
+
+def test_a_crank_near_the_ground_length_makes_coriolis_grow_as_the_first_power() -> None:
+    assert -1.0 == pytest.approx(trial("near ground").growth[0].slope, abs=SLOPE)
+
+
+def test_a_crank_near_the_ground_length_makes_the_bar_accelerate_as_the_second_power() -> None:
+    assert -2.0 == pytest.approx(trial("near ground").growth[1].slope, abs=SLOPE)
+
+
+def every_law() -> list[tuple[str, Law]]:
+    return [(kind, law) for kind in KINDS for law in trial(kind).laws]
+
+
+def test_every_law_that_has_a_theory_is_asserted() -> None:
+    named = {(kind, law.key) for kind, law in every_law() if law.theory is not None}
+    assert named - {("differences", "velocity differences"), ("differences", "acceleration differences")} == set(LAWS)
+
+
+@pytest.mark.parametrize("kind", ["dead point RRR", "dead point RRP", "dead point RPR"])
+def test_the_solver_states_a_bound_that_its_velocity_keeps(kind: str) -> None:
+    law = trial(kind)["velocity closed form"]
+    kept = [e <= b for e, b in zip(law.error, law.bound, strict=True) if math.isfinite(e)]
+    assert all(kept)
+
+
+def test_the_solver_states_a_bound_that_its_acceleration_keeps_before_a_flip() -> None:
+    law = trial("guide flip")["acceleration bar solved"]
+    assert all(e <= max(b, 1e-17) for e, b in zip(law.error, law.bound, strict=True) if math.isfinite(e))
+
+
+@pytest.mark.parametrize("kind", ["dead point RRR", "dead point RRP", "dead point RPR", "guide flip"])
+def test_the_solver_refuses_before_its_rates_mean_nothing(kind: str) -> None:
+    laws = [law for law in trial(kind).laws if "closed form" in law.key or "solved" in law.key]
+    assert all(e < MEANINGFUL for law in laws for e in law.error if math.isfinite(e))
+
+
+@pytest.mark.parametrize("kind", ["dead point RRR", "dead point RRP", "dead point RPR", "guide flip"])
+def test_the_solver_refuses_in_the_end(kind: str) -> None:
+    assert all(law.stops for law in trial(kind).laws if "closed form" in law.key or "solved" in law.key)
+
+
+@pytest.mark.parametrize("kind", ["dead point RRR", "dead point RRP", "dead point RPR", "guide flip"])
+def test_a_drawing_warns_before_its_reading_means_nothing(kind: str) -> None:
+    law = next(law for law in trial(kind).laws if "draw" in law.key)
+    assert law.told is not None
+    assert all(x <= law.told for x, e in zip(law.x, law.error, strict=True) if e > 1e-6)
+
+
+@pytest.mark.parametrize("kind", ["dead point RRR", "dead point RRP", "dead point RPR"])
+def test_a_pencil_refuses_before_its_arcs_could_miss_each_other(kind: str) -> None:
+    law = trial(kind)["velocity pencil"]
+    assert law.stops is not None
+    assert all(math.isnan(e) for x, e in zip(law.x, law.error, strict=True) if x <= law.stops)
+
+
+def test_a_centre_is_given_as_a_direction_before_its_place_means_nothing() -> None:
+    law = trial("parallel lines")["centre place"]
+    assert max(e for e in law.error if math.isfinite(e)) < MEANINGFUL
+
+
+def test_a_velocity_through_a_centre_at_infinity_is_right() -> None:
+    assert max(trial("parallel lines")["centre velocity"].error) < 1e-14
+
+
+def test_the_chart_says_the_slopes_on_its_curves() -> None:
+    from graphkin.drawing import svg_bytes
+
+    text = svg_bytes(pages([trial("crossing height")])["stability"]).decode()
+    assert "(−1)" in text
+
+
+def test_the_table_has_a_row_for_each_point() -> None:
+    found = [trial("crossing height"), trial("near ground")]
+    points = sum(len(law.x) for t in found for law in (*t.laws, *t.growth))
+    assert 1 + points == len(laws_csv(found).splitlines())
+
+
+def test_a_refusal_is_null_in_the_data() -> None:
+    laws = to_json([trial("guide flip")])["singularities"][0]["laws"]
+    assert laws[3]["points"][-1][1] is None
