@@ -42,6 +42,9 @@ GALLERY: dict[str, tuple[str, ...]] = {
     "centres-double-butterfly": ("centres",),
 }
 
+# charts of one machine on one day: kept as examples, not compared
+STUDIES = ("speed-accuracy", "stability")
+
 
 def redraw(name: str) -> dict[str, bytes]:
     """The figures of a folder, as they should be: SVG by file name."""

@@ -11,6 +11,7 @@ from graphkin.drafting.board import Board
 from graphkin.drafting.chains import Chain
 from graphkin.drafting.dyads import Frame, drive
 from graphkin.drafting.instrument import EXACT, Instrument
+from graphkin.drafting.plot import Order
 from graphkin.drafting.polygons import Polygons
 from graphkin.drafting.position import Position, branches_at, place
 from graphkin.drafting.sheet import Mark, Scales, Sheet
@@ -47,6 +48,12 @@ class Plan:
     stopped: Phrase | None
     chains: Mapping[Dyad, Chain] = field(default_factory=dict)
 
+    @property
+    def orders(self) -> tuple[Order, ...]:
+        """The polygons that what is asked needs: no accelerations for velocities."""
+        slow = bool(self.asked) and all(s.kind in ("v", "omega") for s in self.asked)
+        return ("velocity",) if slow else ("velocity", "acceleration")
+
 
 def plan(
     scene: Scene,
@@ -75,7 +82,7 @@ def execute(what: Plan, instrument: Instrument = EXACT, slip: Slip = NO_SLIP) ->
     board.causes[:] = position.causes
     polygons = Polygons(board, structure, position.frame, scales, slip)
     polygons.chains.update(what.chains)
-    for order in ("velocity", "acceleration"):
+    for order in what.orders:
         for element in elements:
             polygons.draw(order, element)
     show(polygons, what.asked)

@@ -106,13 +106,14 @@ def figures(
     language: str | None = None,
     convention: str | None = None,
 ) -> dict[str, Drawing]:
-    """All figures of a scene by name: "mechanism", "velocity", "acceleration", and "sheet" where its own drawing is
-    given (``sheet_a4``, drafted in ``sheet_room(scene)``); ``report`` is the check of that drawing."""
+    """All figures of a scene by name: "mechanism", "velocity", "acceleration" where it was drawn, and "sheet" where its
+    own drawing is given (``sheet_a4``, drafted in ``sheet_room(scene)``); ``report`` is the check of that drawing."""
     made = {
         "mechanism": mechanism_figure(sheet, language=language, convention=convention),
         "velocity": velocity_figure(sheet, language=language, convention=convention),
-        "acceleration": acceleration_figure(sheet, language=language, convention=convention),
     }
+    if sheet.vectors("acceleration"):
+        made["acceleration"] = acceleration_figure(sheet, language=language, convention=convention)
     if sheet_a4 is not None:
         made["sheet"] = sheet_page(sheet_a4, report, language=language, convention=convention)
     return made

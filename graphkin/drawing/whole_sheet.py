@@ -116,15 +116,19 @@ def sheet_page(
     letters = letters_of(sheet, convention or scene.sheet.convention)  # type: ignore[arg-type]
     plan = _plan(scene)
     velocity, _ = _polygon(sheet, "velocity", letters, spoken, plan.velocity)
-    acceleration, homeless = _polygon(sheet, "acceleration", letters, spoken, plan.acceleration)
-    pieces = [
+    drawn: list[DiagramName] = ["mechanism", "velocity"]
+    homeless: list[CoriolisTerm] = []
+    pieces = []
+    if sheet.vectors("acceleration"):
+        drawn.append("acceleration")
+        acceleration, homeless = _polygon(sheet, "acceleration", letters, spoken, plan.acceleration)
+        pieces += [_panel(plan.acceleration, _caption(sheet, letters, spoken, "acceleration")), acceleration]
+    pieces += [
         _heading(sheet, letters, spoken, plan),
         _panel(plan.mechanism, _caption(sheet, letters, spoken, "mechanism")),
         _panel(plan.velocity, _caption(sheet, letters, spoken, "velocity")),
-        _panel(plan.acceleration, _caption(sheet, letters, spoken, "acceleration")),
         _mechanism(sheet, letters, plan.mechanism),
         velocity,
-        acceleration,
         _equations(sheet, letters, spoken, plan.equations, homeless),
         _captioned(plan.given, term("given", spoken), "labels", given_data(sheet, letters, spoken, plan.given)),
         _captioned(plan.readings, term("readings", spoken), "answers",
@@ -136,7 +140,7 @@ def sheet_page(
         plan.height,
         layer_groups(joined(pieces)),
         figure_title(sheet, "sheet", spoken),
-        describe(sheet, ("mechanism", "velocity", "acceleration"), spoken),
+        describe(sheet, tuple(drawn), spoken),
         languages(spoken)[0],
         facts(sheet, "sheet"),
     )

@@ -14,11 +14,11 @@ from concurrent.futures import BrokenExecutor, Executor, Future
 from contextlib import suppress
 from dataclasses import asdict, dataclass, field, is_dataclass
 from functools import partial
+from importlib.metadata import version
 from itertools import islice
 from pathlib import Path
 from typing import Any, TypeVar
 
-from graphkin import __version__
 from graphkin.errors import GraphkinError
 from graphkin.handout.variants import Answer, Range, Unfit, Variant, candidate, examined, varied_keys
 
@@ -233,8 +233,7 @@ def _given(made: Made) -> Made:
 
 
 def _started(executor: Executor | None, task: Callable[..., Result], *args: Any) -> Callable[[], Result]:
-    """Start a task in an executor; what is returned gives its result.  Where there is none or it broke, it is done here.
-    """
+    """Start a task in an executor: what is returned gives its result.  Without one it is done here."""
     future: Future[Result] | None = None
     if executor is not None and task is not _no_files:
         with suppress(BrokenExecutor):
@@ -257,7 +256,7 @@ class _Notes:
         if folder is not None and jobs:
             # other papers are another set
             papers = repr(render) if is_dataclass(render) else getattr(render, "__qualname__", "")
-            key = hashlib.sha256(repr((__version__, ATTEMPTS, papers)).encode())
+            key = hashlib.sha256(repr((version("graphkin"), ATTEMPTS, papers)).encode())
             for job in jobs:
                 # jobs drawn from one seed share their scene: only the first is written out
                 whole = asdict(job) if job.spread is None or job.number == 1 else (job.name, job.number)

@@ -24,9 +24,20 @@ def run(*args, cwd=None):
     )
 
 
+HELP_ONLY = """
+import sys
+sys.argv = ["graphkin", "--help"]
+from graphkin.cli import main
+try:
+    main()
+except SystemExit:
+    pass
+assert "numpy" not in sys.modules
+"""
+
+
 def test_help_imports_no_numpy():
-    code = "import sys; sys.argv = ['graphkin', '--help']\nfrom graphkin.cli import main\ntry:\n main()\nexcept SystemExit:\n pass\nassert 'numpy' not in sys.modules"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    done = subprocess.run([sys.executable, "-c", HELP_ONLY], capture_output=True, text=True)
     assert 0 == done.returncode, done.stderr
 
 
@@ -141,7 +152,9 @@ def test_a_wrong_call_is_status_2_and_a_sentence(args, said, tmp_path):
 
 
 def test_all_problems_of_a_file_are_told_at_once(tmp_path):
-    (tmp_path / "bad.toml").write_text('[links.1]\npoints = ["A", "B"]\nlenght = -5\n[driver]\nlink = "7"\nomega = 1\nrpm = 2\n')
+    (tmp_path / "bad.toml").write_text(
+        '[links.1]\npoints = ["A", "B"]\nlenght = -5\n[driver]\nlink = "7"\nomega = 1\nrpm = 2\n'
+    )
     done = run("check", "bad.toml", cwd=tmp_path)
     assert 2 == done.returncode
     assert 'did you mean "length"' in done.stderr

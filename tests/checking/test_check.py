@@ -74,7 +74,9 @@ def test_a_guide_turned_by_a_tenth_of_a_degree_is_caught(monkeypatch):
     def turned(scene):
         structure = right(scene)
         off = cmath.rect(1, math.radians(0.1))
-        slides = {s.key: replace(s, guide=replace(s.guide, direction=s.guide.direction * off)) for s in structure.slides}
+        slides = {
+            s.key: replace(s, guide=replace(s.guide, direction=s.guide.direction * off)) for s in structure.slides
+        }
         slides = {k: v if k == "5/6" else structure.slide(k) for k, v in slides.items()}
         elements = []
         for e in structure.elements:
@@ -112,7 +114,8 @@ def test_a_reading_is_length_on_paper_times_the_scale():
 
 
 @pytest.mark.parametrize(
-    "symbol", ["v_D", "a_B@3", "v_B@2/B@3", "ak_B@2/B@3", "ar_D@5/D@3", "an_B/A", "omega_3", "alpha_4", "v_B@5", "v_D/B"]
+    "symbol",
+    ["v_D", "a_B@3", "v_B@2/B@3", "ak_B@2/B@3", "ar_D@5/D@3", "an_B/A", "omega_3", "alpha_4", "v_B@5", "v_D/B"],
 )
 def test_whatever_is_asked_for_is_read_off(symbol):
     result = graphkin.check(SIXBAR, find=[symbol])

@@ -65,7 +65,9 @@ def test_a_coarser_ruler_makes_readings_less_certain():
 def test_pricking_errors_fall_with_the_size_of_the_figures():
     what = plan(read(SIXBAR), find=())
     s = what.scales
-    double = replace(what, scales=replace(s, length=s.length / 2, velocity=s.velocity / 2, acceleration=s.acceleration / 2))
+    double = replace(
+        what, scales=replace(s, length=s.length / 2, velocity=s.velocity / 2, acceleration=s.acceleration / 2)
+    )
     tools = Tools(ruler=0, compass=0, set_square=0, protractor=0)
     symbol = Symbol.parse("a_D")
     small, large = (predict(w, "pencil", tools)[symbol].deviation for w in (what, double))

@@ -190,3 +190,9 @@ def test_whole_turns_are_left_out_of_the_way_to_a_position():
     scene = read("sixbar-AE70")
     once, thrice = (draft(scene, at={"1": 0.5 + turns * 2 * cmath.pi}) for turns in (0, 3))
     assert once.points[PointRef("C")] == pytest.approx(thrice.points[PointRef("C")], abs=1e-9)
+
+
+def test_velocities_need_no_acceleration_polygon():
+    sheet = draft(read(SIXBAR), find=[Symbol.parse("v_D")])
+    assert {} == sheet.vectors("acceleration")
+    assert _vector(sheet, "v_D") == _vector(draft(read(SIXBAR)), "v_D")
