@@ -141,7 +141,7 @@ def _column(
             if runs_width(runs) > limit:
                 runs = _shrunk(runs, limit)
             children.append(_cell(runs, edges, i, y))
-    foot = rule + (len(rows) + 0.12) * row
+    foot = rule + (len(rows) + 0.3) * row
     children.append(Line(complex(edges[0], foot), complex(edges[-1], foot), strokes.DIMENSION))
     return children
 
