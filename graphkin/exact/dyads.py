@@ -19,7 +19,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from graphkin.exact.formula import root, two_sum
+from graphkin.exact.formula import fmax, fmin, root, two_sum
 from graphkin.exact.pose import Pose, cross, dot
 
 __all__ = ["Joints", "Solved", "solve_dyad"]
@@ -106,15 +106,15 @@ def _rrr(j: Joints, sign: Any) -> Solved:
     c = root(square)
     # Heron's product of four sums, the small ones formed without loss
     both, both_rest = two_sum(long1, long2)
-    less, less_rest = two_sum(long1, -long2)
-    product = ((both - c + both_rest) * (both + c)) * ((c - less - less_rest) * (c + less + less_rest))
-    area = sign * root(product)  # four times that of the triangle, signed
-    half = 0.5 / square
-    to1 = line * (both * less * half + 0.5 + 1j * (area * half))
+    less, less_rest = two_sum(fmax(long1, long2), -fmin(long1, long2))
+    product = ((both - c + both_rest) * (both + c)) * ((c - less - less_rest) * (c + less))
+    area = root(product)  # four times that of the triangle
+    half = (0.5 * sign) / square
+    to1 = line * ((both * (long1 - long2) * sign) * half + 0.5 + 1j * (area * half))
     to2 = to1 - line
     u1, u2 = _by(to1, r1, long1), _by(to2, r2, long2)
     # w1 i to1 - w2 i to2 = load
-    over = 2.0 / area
+    over = (2.0 * sign) / area
     load = j.known2.v - j.known1.v + _slip(u2, j.outer2, j.inner2) - _slip(u1, j.outer1, j.inner1)
     w1, w2 = dot(load, to2) * over, dot(load, to1) * over
     bend = j.known2.a - j.known1.a + _bent(to2, u2, j.outer2, j.inner2, w2) - _bent(to1, u1, j.outer1, j.inner1, w1)
@@ -124,7 +124,7 @@ def _rrr(j: Joints, sign: Any) -> Solved:
         j.known1.hung(j.outer1, u1, w1, al1),
         j.known2.hung(j.outer2, u2, w2, al2),
         product * (whole * whole),
-        area * whole,
+        area * (sign * whole),
         1j * to1,
         -1j * to2,
         load,

@@ -194,7 +194,7 @@ class _Run:
         for x in asked:
             found.append(np.empty(self.n, dtype=np.complex128 if isinstance(x, Vec) else np.float64))
             out += [found[-1].real, found[-1].imag] if isinstance(x, Vec) else [found[-1]]
-        code.arrays(params, inputs, out)
+        code.arrays(code.same(params), inputs, out)
         return found
 
     def _finer(self, code: Code) -> Finer:
@@ -208,7 +208,7 @@ class _Run:
             try:
                 rows[k] = code.floats(params, [float(x[k]) for x in inputs])
             except (ZeroDivisionError, OverflowError):
-                code.arrays(params, [x[k : k + 1] for x in inputs], list(rows[k : k + 1].T))
+                code.arrays(code.same(params), [x[k : k + 1] for x in inputs], list(rows[k : k + 1].T))
         return list(rows.T)
 
 

@@ -262,13 +262,15 @@ def root(x: Any) -> Any:
     return x.sheet.line("root", x.at)
 
 
-def fmin(x: Real, y: Real) -> Real:
+def fmin(x: Any, y: Any) -> Any:
     """The smaller of two numbers; the other one where one is not a number."""
-    return x.sheet.line("fmin", x.at, y.at)
+    return x.sheet.line("fmin", x.at, y.at) if isinstance(x, Real) else np.fmin(x, y)
 
 
-def fmax(x: Real, y: Real) -> Real:
+def fmax(x: Any, y: Any) -> Any:
     """The greater of two numbers."""
+    if not isinstance(x, Real):
+        return np.fmax(x, y)
     if x.at == y.at or (y.value == 0 and x.never_negative):
         return x
     return x.sheet.line("fmax", *sorted((x.at, y.at)))

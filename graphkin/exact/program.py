@@ -19,7 +19,7 @@ from graphkin.exact.pose import Pose
 from graphkin.exact.rendering import Code
 from graphkin.exact.rounding import UNIT, Rounding
 from graphkin.scene.model import AngleDriver, Driver
-from graphkin.structure import Cluster, Driven, Dyad, Pair, Structure, Turn
+from graphkin.structure import Cluster, Driven, Dyad, Pair, Slide, Structure, Turn
 
 __all__ = ["FIELDS", "GIVEN", "Fitted", "Program", "program_of"]
 
@@ -57,7 +57,8 @@ class Program:
         none = Vec(zero, zero)
         return Pose(none + place, none + direction, none, zero, none, zero)
 
-    def _number(self, name: tuple[Any, ...]) -> Vec:
+    def number(self, *name: str) -> Vec:
+        """A place or direction of the scene: ("point", link, point), ("turn", slide), ("through", slide), ..."""
         z = self._numbers[name]
         return Vec(*(self._part(name, axis, x) for axis, x in (("x", z.real), ("y", z.imag))))
 
@@ -67,10 +68,14 @@ class Program:
     def rest(self, pair: Pair, link: str) -> Pose:
         """The joint's frame in the axes of one of its links."""
         if isinstance(pair, Turn):
-            return self.at_rest(self._number(("point", link, pair.point)), 1 + 0j)
+            return self.at_rest(self.number("point", link, pair.point), 1 + 0j)
         if link == pair.a:
-            return self.at_rest(0j, self._number(("turn", pair.key)).conjugate())
-        return self.at_rest(self._number(("through", pair.key)), self._number(("direction", pair.key)))
+            return self.at_rest(0j, self.number("turn", pair.key).conjugate())
+        return self.at_rest(self.number("through", pair.key), self.number("direction", pair.key))
+
+    def guide(self, slide: Slide) -> Pose:
+        """The guide of a sliding pair in the world."""
+        return self.poses[slide.b].fixed(self.number("through", slide.key), self.number("direction", slide.key))
 
     def _rates(self, driver: Driver) -> tuple[Real, Real]:
         k = self.structure.scene.drivers.index(driver)
@@ -140,11 +145,11 @@ class Program:
     def bounds(self, links: Iterable[str]) -> list[Real]:
         """How far rounding may have moved any point of these links and their turning: position (m), velocity (m/s),
         acceleration (m/s2), angle (rad), its rate (rad/s) and second rate (rad/s2)."""
-        most: list[Real] = []
+        most = [self.sheet.const(0)] * 6  # points, then turning
         for link in links:
-            own = self._bounds(link)
-            most = [fmax(a, b) for a, b in zip(own, most, strict=True)] if most else list(own)
-        return most or [self.sheet.const(0)] * 6
+            for k, bound in enumerate(self._bounds(link)):
+                most[k] = fmax(bound, most[k])
+        return most
 
     def _bounds(self, link: str) -> tuple[Real, ...]:
         pose = self.poses[link]

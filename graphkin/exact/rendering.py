@@ -8,20 +8,21 @@ numbers to the last bit.  Names in the code are made from numbers only.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Container, Mapping, Sequence
 from decimal import Decimal
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
+from graphkin.exact.compiled import turn_lines
 from graphkin.exact.decimals import decimal_function
 from graphkin.exact.formula import LEAVES, Real, Sheet, operands
 from graphkin.exact.pose import Array
 
 __all__ = ["BLOCK", "Code"]
 
-BLOCK = 2048
+BLOCK = 8192
 """Positions that are computed together: some dozens of columns of this length stay in the cache."""
 
 _WRITTEN = {
@@ -34,6 +35,7 @@ _WRITTEN = {
     "root": "sqrt(abs({}))",
     "fmin": "fmin({}, {})",
     "fmax": "fmax({}, {})",
+    "atan2": "atan2({}, {})",
 }
 _UFUNCS = {
     "add": np.add,
@@ -43,8 +45,9 @@ _UFUNCS = {
     "neg": np.negative,
     "abs": np.absolute,
     "fmin": np.fmin,
-    "fmax": np.maximum,  # unlike np.fmax it hands on nan: what one term does not know, the greatest does not
+    "fmax": np.fmax,
     "sqrt": np.sqrt,
+    "atan2": np.arctan2,
 }
 
 
@@ -53,7 +56,7 @@ def _fmin(a: float, b: float) -> float:
 
 
 def _fmax(a: float, b: float) -> float:
-    return a if a != a or a > b else b
+    return b if a != a or b > a else a
 
 
 class Code:
@@ -62,24 +65,27 @@ class Code:
     Parameters
     ----------
     asked : what to compute
+    fixed : inputs that are the same at all positions too, and are given among the params
 
     ``params`` and ``inputs`` name the numbers that it needs: those that are the same at all positions, and those that
     change, in the order in which they are to be given.
     """
 
-    def __init__(self, sheet: Sheet, asked: Sequence[Real]) -> None:
+    def __init__(self, sheet: Sheet, asked: Sequence[Real], fixed: Container[Any] = ()) -> None:
         self.sheet = sheet
         self.asked = [real.at for real in asked]
         self.order = sheet.needed(asked)
         leaves = [sheet.lines[at] for at in self.order]
-        self.params = tuple(line[1] for line in leaves if line[0] == "param")
-        self.inputs = tuple(line[1] for line in leaves if line[0] == "input")
+        given = [line[1] for line in leaves if line[0] in ("param", "input")]
+        changing = {line[1] for line in leaves if line[0] == "input" and line[1] not in fixed}
+        self.params = tuple(name for name in given if name not in changing)
+        self.inputs = tuple(name for name in given if name in changing)
         self._param = {name: f"p[{k}]" for k, name in enumerate(self.params)}
         self._input = {name: k for k, name in enumerate(self.inputs)}
         self.varying: set[int] = set()
         for at in self.order:
             line = sheet.lines[at]
-            if line[0] == "input" or any(k in self.varying for k in operands(line)):
+            if line[1] in self._input if line[0] in LEAVES else any(k in self.varying for k in operands(line)):
                 self.varying.add(at)
 
     # one position
@@ -103,9 +109,15 @@ class Code:
         return "\n    ".join(["def made(p, i):", *body, _tuple(names[at] for at in self.asked)])
 
     def _straight(
-        self, order: Sequence[int], inputs: Mapping[Any, str], constants: Mapping[float, str]
+        self,
+        order: Sequence[int],
+        inputs: Mapping[Any, str],
+        constants: Mapping[float, str],
+        kept: Container[int] = (),
+        before: Mapping[int, str] | None = None,
     ) -> tuple[list[str], dict[int, str]]:
-        """Assignments, one for each line that is used more than once, and what to write for each line."""
+        """Assignments, one for each line that is used more than once or is to be kept, and what to write for each line;
+        ``before`` are lines that are written already."""
         uses: dict[int, int] = {}
         for at in order:
             for k in operands(self.sheet.lines[at]):
@@ -113,7 +125,7 @@ class Code:
         for at in self.asked:
             uses[at] = uses.get(at, 0) + 1
         body: list[str] = []
-        names: dict[int, str] = {}
+        names: dict[int, str] = dict(before or {})
         depth: dict[int, int] = {}
         for at in order:
             line = self.sheet.lines[at]
@@ -121,11 +133,11 @@ class Code:
                 names[at] = constants.get(line[1], repr(line[1]))
                 continue
             if line[0] in LEAVES:
-                text, deep = (self._param if line[0] == "param" else inputs)[line[1]], 0
+                text, deep = inputs.get(line[1]) or self._param[line[1]], 0
             else:
                 text = _WRITTEN[line[0]].format(*(names[k] for k in line[1:]))
                 deep = 1 + max(depth.get(k, 0) for k in line[1:])
-            if uses.get(at, 0) > 1 or deep > 12:
+            if uses.get(at, 0) > 1 or deep > 12 or at in kept:
                 body.append(f"x{at} = {text}")
                 text, deep = f"x{at}", 0
             names[at], depth[at] = text, deep
@@ -166,7 +178,7 @@ class Code:
         for k, at in enumerate(self.asked):
             if at not in self.varying:
                 copies.append(f"o{k}[...] = {place[at]}")
-            elif at in given or sheet.lines[at][0] == "input":
+            elif at in given or sheet.lines[at][0] in LEAVES:
                 source = f"o{given[at]}" if at in given else f"i{self._input[sheet.lines[at][1]]}"
                 copies.append(f"o{k}[...] = {source}")
             else:
@@ -176,7 +188,7 @@ class Code:
         body: list[str] = []
         for n, at in enumerate(order):
             line = sheet.lines[at]
-            if line[0] == "input":
+            if line[0] in LEAVES:
                 place[at] = f"i{self._input[line[1]]}"
                 continue
             sources = [place[k] for k in line[1:]]
@@ -193,7 +205,7 @@ class Code:
                 body += [f"absolute({sources[0]}, {out})"] if not _plain(sheet, line[1]) else []
                 body.append(f"sqrt({out if body and not _plain(sheet, line[1]) else sources[0]}, {out})")
             elif line[0] in ("fmin", "fmax"):
-                body.append(f"{_UFUNCS[line[0]].__name__}({sources[0]}, {sources[1]}, out={out})")
+                body.append(f"{line[0]}({sources[0]}, {sources[1]}, out={out})")
             else:
                 body.append(f"{_UFUNCS[line[0]].__name__}({', '.join([*sources, out])})")
         head = [
@@ -205,25 +217,31 @@ class Code:
         ]
         return _made("\n    ".join([*head, *body, *copies, "return None"])), count
 
+    def same(self, params: Sequence[float]) -> list[Array] | None:
+        """What is the same at all positions; None where it cannot be computed."""
+        try:
+            return [np.array(x) for x in self._same[0](params)]
+        except (ZeroDivisionError, OverflowError):
+            return None
+
     def arrays(
-        self, params: Sequence[float], inputs: Sequence[Array], out: Sequence[Array], block: int = BLOCK
+        self, same: list[Array] | None, inputs: Sequence[Array], out: Sequence[Array], block: int = BLOCK
     ) -> None:
         """Compute columns.
 
         Parameters
         ----------
+        same : as ``Code.same`` gives it
         inputs : real arrays of shape (n,)
         out : real arrays of shape (n,), filled; where a position is singular with inf or nan
         """
+        if same is None:
+            for column in out:
+                column[...] = np.nan
+            return
         n = len(out[0]) if len(out) else 0
+        made, count = self._blocks
         with np.errstate(all="ignore"):
-            try:
-                same = [np.array(x) for x in self._same[0](params)]
-            except (ZeroDivisionError, OverflowError):
-                for column in out:
-                    column[...] = np.nan
-                return
-            made, count = self._blocks
             work = np.empty((count, min(n, block)))
             if n <= block:
                 made(same, inputs, out, work)
@@ -234,6 +252,31 @@ class Code:
                 if high > n:
                     rows = list(work[:, : n - low])
                 made(same, [x[low:high] for x in inputs], [x[low:high] for x in out], rows)
+
+    # many positions, compiled
+
+    def loop(self, turning: bool, even: bool, columns: int) -> str:
+        """The text of a function to be compiled: of params p, the n values of the first driver, sign columns g and the
+        columns o and o2 to fill, the first so many asked for in o, the rest in o2.
+
+        Parameters
+        ----------
+        turning : whether the driver is an angle
+        even : whether its values are a0 + da k, or a column v
+        """
+        names: dict[Any, str] = {("cos", 0): "c0", ("sin", 0): "s0", ("travel", 0): "a"}
+        signs = [name for name in self.inputs if name[0] == "sign"]
+        names |= {name: f"g[{k}, k]" for k, name in enumerate(signs)}
+        same = [at for at in self.order if at not in self.varying]
+        head, made = self._straight(same, {}, {}, set(self._same[1]))
+        body, made = self._straight([at for at in self.order if at in self.varying], names, {}, set(), made)
+        inner = ["a = a0 + da * k" if even else "a = v[k]"]
+        inner += turn_lines("a", "c0", "s0") if turning else []
+        inner += body
+        for n, at in enumerate(self.asked):
+            inner.append(f"{f'o[{n}' if n < columns else f'o2[{n - columns}'}, k] = {made[at]}")
+        lines = ["def made(p, a0, da, v, n, g, o, o2):", *(f"    {x}" for x in head), "    for k in prange(n):"]
+        return "\n".join([*lines, *(f"        {x}" for x in inner)])
 
 
 def _plain(sheet: Sheet, at: int) -> bool:
@@ -252,6 +295,6 @@ def _tuple(texts: Any) -> str:
 def _made(text: str) -> Any:
     space: dict[str, Any] = {f.__name__: f for f in _UFUNCS.values()}
     if "def made(p" in text:
-        space = {"sqrt": math.sqrt, "fmin": _fmin, "fmax": _fmax, "nan": math.nan, "inf": math.inf}
+        space = {"sqrt": math.sqrt, "fmin": _fmin, "fmax": _fmax, "atan2": math.atan2}
     exec(compile(text, "<formulas>", "exec"), space)
     return space["made"]

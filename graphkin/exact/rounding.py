@@ -61,6 +61,9 @@ class Rounding:
             moved = one if one.value == 0 else fmin(one / x, root(one))
             return _sum(moved, self.unit * abs(x))
         two = errors[1]
+        if kind in ("fmin", "fmax"):
+            most: Real = fmax(one, two)
+            return most
         a, b = parts
         rounded = self.unit * abs(x)
         if kind in ("add", "sub"):
