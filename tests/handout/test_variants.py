@@ -1,4 +1,4 @@
-"""Sets of problems: valid, different, the same whatever makes them, none lost; tables of data as exercises have them."""
+"""Sets of problems: valid, different, the same whatever makes them, none lost; tables of data as exercises do."""
 
 from __future__ import annotations
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from graphkin.drafting.centres.chart import Chart, Place
-from graphkin.drafting.centres.kennedy import SURE, Crossing, Known, Relation, Search, closure
+from graphkin.drafting.centres.kennedy import Crossing, Known, Relation, Search, closure
 from graphkin.drafting.centres.measured import Motion, measured, relative_centre
 from graphkin.drafting.centres.pairs import Links, Normal, Pair, links_on_paper, normals, permanent
 from graphkin.drafting.centres.superposed import Way, Worked, work
@@ -118,18 +118,57 @@ def _search(
         table[p.pair] = Centre(p.pair, "permanent", p.place, p.point, direction, joint=p.joint)
         search.learn(p.pair, Known(p.place))
     number = 0
-    least = SURE
+    reach = _Reach(links, [normal.pair for normal in slots], motions, set(table))
     while len(table) < len(links.pairs):
         number += 1
-        crossing = search.next(least)
+        crossing = search.next()
         if crossing is not None:
             centre = _crossed(crossing, chart, number, instrument)
         else:
-            centre = _otherwise(links, chart, motions, search, table, number, way)
+            centre = _otherwise(chart, motions, search, reach.best(table), number, way)
         table[centre.pair] = centre
         if centre.place is not None:
             search.learn(centre.pair, Known(centre.place, max(centre.error, 2e-16)))
+            reach.found(centre.pair)
     return {pair: table[pair] for pair in links.pairs}, slots
+
+
+class _Reach:
+    """Which centres the known ones lead to by triangles, were no two lines to fall together."""
+
+    def __init__(self, links: Links, slots: list[Pair], motions: Mapping[str, Motion], known: set[Pair]) -> None:
+        self.links, self.slots, self.motions = links, slots, motions
+        self.order = sorted(links.pairs, key=self._plain, reverse=True)
+        self.done = 0  # of the order
+        self.reached: set[Pair] = set()
+        self._grow(known)
+
+    def _plain(self, pair: Pair) -> tuple[bool, bool]:
+        return pair[0] in self.motions and pair[1] in self.motions, self.links.scene.frame.name in pair
+
+    def _grow(self, known: set[Pair]) -> None:
+        self.reached = closure(self.links.pairs, self.links.names, self.reached | known, self.slots)
+        self.beyond = [pair for pair in self.links.pairs if pair not in self.reached]
+
+    def found(self, pair: Pair) -> None:
+        """Take in a centre whose place is known."""
+        if pair not in self.reached:
+            self._grow({pair})
+
+    def best(self, table: Mapping[Pair, Centre]) -> Pair:
+        """The missing centre that gives most others; measured ones before those that are not, then the frame's."""
+        while self.order[self.done] in table:
+            self.done += 1
+        self.beyond = [pair for pair in self.beyond if pair not in table]
+        # one that the triangles reach, if not surely, gives no more than they do
+        return max([*self.beyond, self.order[self.done]], key=self._gain)
+
+    def _gain(self, pair: Pair) -> tuple[bool, int, bool]:
+        measurable, of_frame = self._plain(pair)
+        if pair in self.reached:
+            return measurable, 0, of_frame
+        more = closure(self.links.pairs, self.links.names, self.reached | {pair}, self.slots)
+        return measurable, len(more) - len(self.reached), of_frame
 
 
 def _crossed(crossing: Crossing, chart: Chart, number: int, instrument: Instrument) -> Centre:
@@ -146,20 +185,9 @@ def _crossed(crossing: Crossing, chart: Chart, number: int, instrument: Instrume
 
 
 def _otherwise(
-    links: Links, chart: Chart, motions: Mapping[str, Motion], search: Search, table: Mapping[Pair, Centre],
-    number: int, way: Way,
-) -> Centre:  # fmt: skip
-    """A centre that Kennedy's theorem does not give now: that one from which it gives most others."""
-    missing = [pair for pair in links.pairs if pair not in table]
-    frame = links.scene.frame.name
-    slots = [p for p, lines in search.lines.items() for line in lines if not line.via]
-    usable = {p for p, c in table.items() if c.place is not None}
-
-    def gain(pair: Pair) -> tuple[bool, int, bool]:
-        measurable = pair[0] in motions and pair[1] in motions
-        return measurable, len(closure(links.pairs, links.names, usable | {pair}, slots)), frame in pair
-
-    pair = max(missing, key=gain)
+    chart: Chart, motions: Mapping[str, Motion], search: Search, pair: Pair, number: int, way: Way
+) -> Centre:
+    """A centre that Kennedy's theorem does not give now."""
     why = _why(search, pair)
     place = None
     if pair[0] in motions and pair[1] in motions:

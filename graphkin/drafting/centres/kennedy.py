@@ -8,8 +8,10 @@ side of two closed triangles is a centre that can be found.
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
+from heapq import heappop, heappush
 
 from graphkin.drafting.centres.chart import Line, Place, wedge
 from graphkin.drafting.centres.pairs import Normal, Pair
@@ -19,6 +21,7 @@ __all__ = ["SURE", "Crossing", "Known", "Relation", "Search", "closure"]
 ROUNDING = 2e-16
 SURE = 1e-10
 """A crossing whose place may err by more than this (of the mechanism's size) is not taken."""
+MOST_LINES = 24  # for one centre; a mechanism of many links has hundreds, and a few of them cross well
 TOGETHER = 1e-9  # two centres nearer to each other (on the unit sphere) give no line
 
 
@@ -62,6 +65,8 @@ class Search:
         self.pairs, self.names, self.known = pairs, names, dict[Pair, Known]()
         self.lines: dict[Pair, list[Relation]] = {pair: [] for pair in pairs}
         self.best: dict[Pair, Crossing] = {}
+        self._place = {pair: i for i, pair in enumerate(pairs)}
+        self._ranked: list[tuple[int, int]] = []  # powers of ten of the errors, with the place of the pair: a heap
         self._as_written = {frozenset(pair): pair for pair in pairs}
         for normal in normals:
             self._add(Relation(normal.pair, normal.line, ROUNDING, "", (normal.key,)))
@@ -78,16 +83,17 @@ class Search:
                 if side in self.known and missing not in self.known:
                     self._relate(missing, b, pair, side)
 
-    def next(self, least: float = SURE) -> Crossing | None:
+    def next(self) -> Crossing | None:
         """The missing centre that is found best: the least error to be expected, counted in powers of ten, and among
         those the first in the order of the links.  None where no two lines cross so well that the place errs by no
-        more than ``least`` (on the unit sphere)."""
-        ranked = [
-            (math.ceil(math.log10(self.best[pair].error)), i)
-            for i, pair in enumerate(self.pairs)
-            if pair in self.best and pair not in self.known and self.best[pair].error <= least
-        ]
-        return self.best[self.pairs[min(ranked)[1]]] if ranked else None
+        more than ``SURE`` (on the unit sphere)."""
+        while self._ranked:
+            pair = self.pairs[self._ranked[0][1]]
+            if pair in self.known:
+                heappop(self._ranked)
+            else:
+                return self.best[pair]
+        return None
 
     def _relate(self, missing: Pair, via: str, one: Pair, two: Pair) -> None:
         a, b = self.known[one], self.known[two]
@@ -99,10 +105,14 @@ class Search:
 
     def _add(self, relation: Relation) -> None:
         pair = relation.pair
+        if len(self.lines[pair]) == MOST_LINES:
+            return
         for other in self.lines[pair]:
             crossing = _cross(other, relation)
             if crossing and (pair not in self.best or crossing.error < self.best[pair].error):
                 self.best[pair] = crossing
+                if crossing.error <= SURE:
+                    heappush(self._ranked, (math.ceil(math.log10(crossing.error)), self._place[pair]))
         self.lines[pair].append(relation)
 
 
@@ -118,19 +128,30 @@ def _cross(a: Relation, b: Relation) -> Crossing | None:
 def closure(pairs: Sequence[Pair], names: Sequence[str], known: set[Pair], slots: Sequence[Pair]) -> set[Pair]:
     """The centres that two closed triangles of the circle diagram can give, one after the other, lines never falling
     together.  ``slots`` are pairs with a common normal: one line each."""
-    have = {frozenset(p) for p in known}
+    place = {name: i for i, name in enumerate(names)}
+    slotted = Counter(slots)
+    joined = [0] * len(names)  # for each link, a bit for every other whose centre with it is known
+
+    def join(pair: Pair) -> None:
+        a, b = place[pair[0]], place[pair[1]]
+        joined[a] |= 1 << b
+        joined[b] |= 1 << a
+
+    have = set(known)
+    for pair in have:
+        join(pair)
+    left = [pair for pair in pairs if pair not in have]
     grown = True
     while grown:
         grown = False
-        for pair in pairs:
-            if frozenset(pair) in have:
-                continue
-            count = sum(p == pair for p in slots)
-            count += sum(
-                frozenset((pair[0], via)) in have and frozenset((via, pair[1])) in have
-                for via in names if via not in pair
-            )  # fmt: skip
-            if count >= 2:
-                have.add(frozenset(pair))
+        missing = []
+        for pair in left:
+            triangles = (joined[place[pair[0]]] & joined[place[pair[1]]]).bit_count()
+            if slotted[pair] + triangles >= 2:
+                have.add(pair)
+                join(pair)
                 grown = True
-    return {p for p in pairs if frozenset(p) in have}
+            else:
+                missing.append(pair)
+        left = missing
+    return {pair for pair in pairs if pair in have}

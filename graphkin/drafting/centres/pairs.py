@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import combinations
 
 from graphkin.drafting.centres.chart import Chart, Line, Place
@@ -33,7 +34,7 @@ class Links:
         named = (self.scene.frame.name, *(link.name for link in self.scene.links))
         return tuple(name for name in named if name in self.poses)
 
-    @property
+    @cached_property
     def pairs(self) -> tuple[Pair, ...]:
         """All pairs, each written in the order of the file, the frame last."""
         return tuple(self.pair(a, b) for a, b in combinations(self.names, 2))
