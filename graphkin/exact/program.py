@@ -145,11 +145,11 @@ class Program:
     def bounds(self, links: Iterable[str]) -> list[Real]:
         """How far rounding may have moved any point of these links and their turning: position (m), velocity (m/s),
         acceleration (m/s2), angle (rad), its rate (rad/s) and second rate (rad/s2)."""
-        most = [self.sheet.const(0)] * 6  # points, then turning
+        most: list[Real] = []
         for link in links:
-            for k, bound in enumerate(self._bounds(link)):
-                most[k] = fmax(bound, most[k])
-        return most
+            own = self._bounds(link)
+            most = [fmax(a, b) for a, b in zip(own, most, strict=True)] if most else list(own)
+        return most or [self.sheet.const(0)] * 6
 
     def _bounds(self, link: str) -> tuple[Real, ...]:
         pose = self.poses[link]

@@ -45,7 +45,7 @@ _UFUNCS = {
     "neg": np.negative,
     "abs": np.absolute,
     "fmin": np.fmin,
-    "fmax": np.fmax,
+    "fmax": np.maximum,  # unlike np.fmax it hands on nan: what one term does not know, the greatest does not
     "sqrt": np.sqrt,
     "atan2": np.arctan2,
 }
@@ -56,7 +56,7 @@ def _fmin(a: float, b: float) -> float:
 
 
 def _fmax(a: float, b: float) -> float:
-    return b if a != a or b > a else a
+    return a if a != a or a > b else b
 
 
 class Code:
@@ -205,7 +205,7 @@ class Code:
                 body += [f"absolute({sources[0]}, {out})"] if not _plain(sheet, line[1]) else []
                 body.append(f"sqrt({out if body and not _plain(sheet, line[1]) else sources[0]}, {out})")
             elif line[0] in ("fmin", "fmax"):
-                body.append(f"{line[0]}({sources[0]}, {sources[1]}, out={out})")
+                body.append(f"{_UFUNCS[line[0]].__name__}({sources[0]}, {sources[1]}, out={out})")
             else:
                 body.append(f"{_UFUNCS[line[0]].__name__}({', '.join([*sources, out])})")
         head = [
@@ -217,10 +217,10 @@ class Code:
         ]
         return _made("\n    ".join([*head, *body, *copies, "return None"])), count
 
-    def same(self, params: Sequence[float]) -> list[Array] | None:
+    def same(self, params: Sequence[float], dtype: Any = np.float64) -> list[Array] | None:
         """What is the same at all positions; None where it cannot be computed."""
         try:
-            return [np.array(x) for x in self._same[0](params)]
+            return [np.array(x, dtype=dtype) for x in self._same[0](params)]
         except (ZeroDivisionError, OverflowError):
             return None
 
@@ -242,7 +242,7 @@ class Code:
         n = len(out[0]) if len(out) else 0
         made, count = self._blocks
         with np.errstate(all="ignore"):
-            work = np.empty((count, min(n, block)))
+            work = np.empty((count, min(n, block)), dtype=out[0].dtype if n else float)
             if n <= block:
                 made(same, inputs, out, work)
                 return

@@ -103,7 +103,7 @@ class Formulas:
     def arrays(self, values: Array) -> Array:
         """All positions at once, shape (columns, n), in the precision of the values."""
         out = np.empty((len(self.code.asked), len(values)), dtype=values.dtype)
-        self.code.arrays(self.params, self.inputs(values), list(out))
+        self.code.arrays(self.code.same(self.params, values.dtype), self.inputs(values), list(out))
         return out
 
     def one_by_one(self) -> Callable[[Sequence[float]], tuple[float, ...]]:
