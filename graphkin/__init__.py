@@ -44,6 +44,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from graphkin.errors import CallError, GraphkinError, SceneError, Unsolvable
+from graphkin.version import __version__
 
 if TYPE_CHECKING:
     from graphkin.api import (
@@ -70,8 +71,6 @@ if TYPE_CHECKING:
     )
     from graphkin.scene import read
     from graphkin.scene.model import Scene
-
-__version__ = "0.1.0"
 
 __all__ = [
     "Audited",

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from importlib.metadata import PackageNotFoundError, version
 
 from graphkin.drafting.sheet import DiagramName, Sheet
 from graphkin.drawing.conventions import Letters
 from graphkin.scene.model import AngleDriver
+from graphkin.version import __version__
 from graphkin.words import word
 
 __all__ = ["drivers", "facts", "languages", "number", "rates", "term", "titles"]
@@ -107,15 +107,8 @@ def facts(sheet: Sheet, figure: str) -> dict[str, object]:
         "at": at,
         "scales": scales,
         "instrument": sheet.instrument,
-        "graphkin": _version(),
+        "graphkin": __version__,
     }
-
-
-def _version() -> str:
-    try:
-        return version("graphkin")
-    except PackageNotFoundError:  # run from a checkout that is not installed
-        return "unknown"
 
 
 def _plain(text: str) -> str:

@@ -14,13 +14,13 @@ from concurrent.futures import BrokenExecutor, Executor, Future
 from contextlib import suppress
 from dataclasses import asdict, dataclass, field, is_dataclass
 from functools import partial
-from importlib.metadata import version
 from itertools import islice
 from pathlib import Path
 from typing import Any, TypeVar
 
 from graphkin.errors import GraphkinError
 from graphkin.handout.variants import Answer, Range, Unfit, Variant, candidate, examined, varied_keys
+from graphkin.version import __version__
 
 __all__ = ["Failure", "Job", "Made", "MadeSet", "distinct", "jobs_of_rows", "jobs_of_seed", "make"]
 
@@ -256,7 +256,7 @@ class _Notes:
         if folder is not None and jobs:
             # other papers are another set
             papers = repr(render) if is_dataclass(render) else getattr(render, "__qualname__", "")
-            key = hashlib.sha256(repr((version("graphkin"), ATTEMPTS, papers)).encode())
+            key = hashlib.sha256(repr((__version__, ATTEMPTS, papers)).encode())
             for job in jobs:
                 # jobs drawn from one seed share their scene: only the first is written out
                 whole = asdict(job) if job.spread is None or job.number == 1 else (job.name, job.number)

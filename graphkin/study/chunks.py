@@ -10,7 +10,6 @@ import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
 import numpy as np
@@ -25,6 +24,7 @@ from graphkin.study.designs import Designs, Value, applied
 from graphkin.study.summary import row
 from graphkin.study.table import Column, columns_of, csv_cell, csv_lines, driver_columns, table_numbers
 from graphkin.study.turn import study_turn
+from graphkin.version import __version__
 
 __all__ = ["Done", "Plan", "Task", "work"]
 
@@ -60,7 +60,7 @@ class Plan:
         """A key that two sweeps share only if they give the same results."""
         source = repr(self.source) if isinstance(self.source, Scene) else json.dumps(self.source, default=str)
         asked = [str(s) for s in self.asked]
-        parts = (_version(), FORMAT, BLOCK, source, self.name, self.designs, self.positions, asked, self.at)
+        parts = (__version__, FORMAT, BLOCK, source, self.name, self.designs, self.positions, asked, self.at)
         return hashlib.sha256(repr(parts).encode()).hexdigest()[:24]
 
     @property
@@ -101,12 +101,6 @@ class Plan:
         keys = self.designs.keys
         return Task(self.key, self.source, keys, designs, self.positions, first, last, self.columns, self.at, binary)
 
-
-def _version() -> str:
-    try:
-        return version("graphkin")
-    except PackageNotFoundError:  # run from a checkout that is not installed
-        return "unknown"
 
 
 @dataclass(frozen=True)
