@@ -205,13 +205,15 @@ class _Composer:
                 taken.append(at)
                 found.append((vector, at))
         per_role: dict[str, int] = {}
-        per_end: dict[PointRef, int] = {}
+        per_end: dict[str, int] = {}
         for vector, _ in found:
             per_role[vector.role] = per_role.get(vector.role, 0) + 1
         used: set[str] = set()
         for vector, at in found:
             assert vector.symbol.of is not None
-            per_end[vector.symbol.of] = number = per_end.get(vector.symbol.of, 0) + 1
+            # counted by the letter that is written: B and B@2 are one end point
+            end = self.letters.end(self.diagram, vector.symbol.of)
+            per_end[end] = number = per_end.get(end, 0) + 1
             link = link_of_vector(self.sheet, vector.symbol) if per_role[vector.role] > 1 else ""
             markup = self.letters.foot(vector.role, vector.symbol.of, number, link)
             if markup in used:

@@ -253,3 +253,11 @@ def test_the_inset_of_a_coriolis_part_shows_the_sliding_velocity_turned_with_the
     turned = [s / abs(s) for s in spans]
     wanted = [symbols[n] / abs(symbols[n]) for n in ("v_B@3/B@2", "ak_B@3/B@2")]
     assert turned == pytest.approx(wanted, abs=1e-3)
+
+
+@pytest.mark.parametrize("convention", ["chinese", "british", "russian"])
+def test_no_two_feet_of_components_bear_the_same_name(convention):
+    page = root("rotating-guide-bar", "acceleration", convention=convention)
+    feet = [g for g in page.iter() if g.get("id", "").startswith("label-foot-")]
+    names = ["".join(g.itertext()) for g in feet]
+    assert 2 == len(set(names)) == len(names)
