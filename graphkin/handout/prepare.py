@@ -23,7 +23,7 @@ from graphkin.scene.symbol import Symbol
 
 __all__ = ["lesson_of", "paper_plan", "positions", "views_of"]
 
-PAPER = Room(mechanism=(160.0, 218.0), polygon=(157.0, 190.0))  # mm on A4
+PAPER = Room(mechanism=(160.0, 180.0), polygon=(157.0, 190.0))  # mm on A4, under a heading in two languages
 
 
 def paper_plan(scene: Scene, values: Mapping[str, float] | None, asked: Sequence[Symbol]) -> Plan:
