@@ -12,15 +12,26 @@ from graphkin.scene import read
 from graphkin.scene.model import AngleDriver, Driver, Scene
 from graphkin.scene.symbol import Symbol
 
-__all__ = ["At", "SceneLike", "as_scene", "asked_symbols", "driver_values", "own_unit"]
+__all__ = ["At", "SceneLike", "as_scene", "asked_symbols", "driver_values", "for_paper", "own_unit"]
 
 SceneLike = Scene | str | os.PathLike[str] | Mapping[str, Any]
 At = float | Mapping[str, float] | None
+
+MOST_DRAWN = 20
 
 
 def as_scene(scene: SceneLike) -> Scene:
     """A scene from a file, a name of one that comes along, a mapping, or a scene itself."""
     return scene if isinstance(scene, Scene) else read(scene)
+
+
+def for_paper(scene: SceneLike) -> Scene:
+    """The same, if it is small enough to be read on paper.  Raises CallError for more than 20 moving links."""
+    given = as_scene(scene)
+    if len(given.links) > MOST_DRAWN:
+        wanted = f"a sheet shows at most {MOST_DRAWN}; solve and check take it as it is"
+        raise CallError(Problem("links", f"{len(given.links)} moving links are too many for a figure", wanted))
+    return given
 
 
 def driver_values(scene: Scene, at: At) -> dict[str, float] | None:

@@ -13,7 +13,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from graphkin.api.called import At, SceneLike, as_scene, driver_values
+from graphkin.api.called import At, SceneLike, as_scene, driver_values, for_paper
 from graphkin.api.checked import solved_here
 from graphkin.api.files import known_wishes, write_files
 from graphkin.drafting import Room
@@ -124,6 +124,7 @@ class Centred:
         """The mechanism with all its centres, and the circle diagram."""
         from graphkin.drawing.centres import centres_figure
 
+        for_paper(self.scene)
         return centres_figure(self.centres, self.turning, language=self.language, convention=self.convention)
 
     def write(self, folder: str | os.PathLike[str] | None = None, formats: Sequence[str] = ("svg",)) -> list[Path]:

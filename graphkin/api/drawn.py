@@ -11,7 +11,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from graphkin.api.called import At, SceneLike, as_scene, asked_symbols, driver_values
+from graphkin.api.called import At, SceneLike, asked_symbols, driver_values, for_paper
 from graphkin.api.checked import Checked, checked, hand_of, reading_row, solved_here
 from graphkin.api.told import told
 from graphkin.drafting import plan
@@ -154,7 +154,7 @@ def draw(
     _known("format", formats, FORMATS)
     _known("lang", [language] if language else [], LANGUAGES)
     _known("convention", [convention] if convention else [], CONVENTIONS)
-    given = as_scene(scene)
+    given = for_paper(scene)
     asked = asked_symbols(given, find)
     values = driver_values(given, at)
     hand = hand_of(given, instrument, seed)

@@ -9,7 +9,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from graphkin.api.called import At, SceneLike, as_scene, asked_symbols, driver_values
+from graphkin.api.called import At, SceneLike, as_scene, asked_symbols, driver_values, for_paper
 from graphkin.api.checked import solved_here
 from graphkin.api.files import write_files
 from graphkin.errors import CallError, Problem, did_you_mean
@@ -119,7 +119,7 @@ def handout(
     _known(formats, language, convention)
     if not 1 <= positions <= 72:
         raise CallError(Problem("positions", f"{positions}", "give a number from 1 to 72"))
-    given = as_scene(scene)
+    given = for_paper(scene)
     asked = asked_symbols(given, find)
     values = driver_values(given, at)
     motion = solved_here(given, values)

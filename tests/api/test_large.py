@@ -1,0 +1,61 @@
+"""Scenes at and beyond the limits end in a result or a sentence, soon and in bounded memory."""
+
+from __future__ import annotations
+
+import math
+import time
+
+import pytest
+
+import graphkin
+from graphkin.errors import CallError, SceneError
+from graphkin.scene import read_text
+
+
+def chain(dyads):
+    """A crank that drives a row of rockers, each by a rod from the last."""
+    frame, links, sketch = {"A0": [0.0, 0.0]}, {"L0": {"points": ["A0", "B0"], "length": 20.0}}, {}
+    last = (20 * math.cos(1.0), 20 * math.sin(1.0))
+    for k in range(1, dyads + 1):
+        foot = (60.0 * k, 0.0)
+        end = (foot[0] + 30 * math.cos(1.2), 30 * math.sin(1.2))
+        frame[f"A{k}"] = list(foot)
+        links[f"C{k}"] = {"points": [f"B{k - 1}", f"B{k}"], "length": math.dist(last, end)}
+        links[f"R{k}"] = {"points": [f"A{k}", f"B{k}"], "length": math.dist(foot, end)}
+        sketch[f"B{k}"] = list(end)
+        last = end
+    driver = {"link": "L0", "angle": math.degrees(1.0), "omega": 10.0}
+    return {"frame": {"name": "0", "points": frame}, "links": links, "driver": driver, "sketch": sketch}
+
+
+def test_a_chain_of_33_dyads_is_drawn_and_agrees_within_seconds():
+    began = time.process_time()
+    assert graphkin.check(chain(33)).ok
+    assert time.process_time() - began < 20
+
+
+def test_the_centres_of_16_dyads_are_found_within_seconds():
+    began = time.process_time()
+    centres = graphkin.check(chain(16)).centres
+    assert len(centres.table) == 33 * 34 // 2
+    assert time.process_time() - began < 10
+
+
+@pytest.mark.parametrize("command", [graphkin.draw, graphkin.handout])
+def test_a_figure_of_too_many_links_is_refused_in_a_sentence(command):
+    with pytest.raises(CallError, match="49 moving links are too many"):
+        command(chain(24))
+
+
+def test_ten_thousand_links_are_refused_at_once():
+    began = time.process_time()
+    with pytest.raises(SceneError):
+        graphkin.solve(chain(5000))
+    assert time.process_time() - began < 10
+
+
+@pytest.mark.parametrize("text", ["a = " + "[" * 100_000, "[" + "a." * 5000 + "a]\nb = 1", "x = 1" + "0" * 6000])
+def test_deep_and_gigantic_texts_are_refused_in_sentences(text):
+    with pytest.raises(SceneError) as refusal:
+        read_text(text, "hostile")
+    assert all(len(str(p)) < 500 for p in refusal.value.problems)
