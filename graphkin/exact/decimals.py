@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import cmath
 from collections.abc import Callable, Sequence
 from decimal import ROUND_HALF_EVEN, Context, Decimal, DivisionByZero, InvalidOperation, Overflow, localcontext
 from typing import Any
 
-__all__ = ["DIGITS", "PI", "cos_sin", "decimal_function", "meant", "meant_angle", "working"]
+__all__ = ["DIGITS", "PI", "cos_sin", "decimal_function", "meant", "meant_angle", "meant_direction", "working"]
 
 DIGITS = 50
 PI = Decimal("3.14159265358979323846264338327950288419716939937510582097494459230781640628620899863")
@@ -34,6 +35,17 @@ def meant_angle(value: float) -> tuple[Decimal, bool]:
     with working():
         degrees, known = meant(float(Decimal(value) * 180 / PI))
         return (degrees * PI / 180 if known else Decimal(value)), known
+
+
+def meant_direction(z: complex) -> tuple[tuple[Decimal, Decimal], bool]:
+    """The unit vector at the decimal degrees that were written for it."""
+    angle, known = meant_angle(cmath.phase(z))
+    if known:
+        with working():
+            u = cos_sin(angle)
+        if max(abs(float(u[0]) - z.real), abs(float(u[1]) - z.imag)) < 4.5e-16:
+            return u, True
+    return (Decimal(z.real), Decimal(z.imag)), False
 
 
 def cos_sin(angle: Decimal) -> tuple[Decimal, Decimal]:

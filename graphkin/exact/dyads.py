@@ -110,7 +110,7 @@ def _rrr(j: Joints, sign: Any) -> Solved:
     product = ((both - c + both_rest) * (both + c)) * ((c - less - less_rest) * (c + less))
     area = root(product)  # four times that of the triangle
     half = (0.5 * sign) / square
-    to1 = line * ((both * (long1 - long2) * sign) * half + 0.5 + 1j * (area * half))
+    to1 = line * (((long1 + long2) * (long1 - long2) * sign) * half + 0.5 + 1j * (area * half))
     to2 = to1 - line
     u1, u2 = _by(to1, r1, long1), _by(to2, r2, long2)
     # w1 i to1 - w2 i to2 = load

@@ -97,7 +97,7 @@ class _Run:
             for name, value in (("rate", float(self.rate[k])), ("second", float(self.second[k]))):
                 self.rates_of[name, k] = value
                 self.rates_of["error", name, k] = GIVEN * abs(value)
-            self.rates_of["error", "angle", k] = GIVEN * wide + 2 * UNIT
+            self.rates_of["error", "angle", k] = GIVEN / 2 * wide + UNIT
             self.rates_of["error", "travel", k] = GIVEN * wide
         self.clusters: dict[int, ClusterSolved] = {}
         self.given = self._drivers()

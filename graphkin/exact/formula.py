@@ -20,10 +20,14 @@ LEAVES = ("const", "param", "input")
 
 
 class Sheet:
-    """The lines of all formulas built on it; equal lines are one line."""
+    """The lines of all formulas built on it; equal lines are one line.
+
+    ``rests`` are the lines that hold what rounding has taken from a sum ("sum" in place of "add").
+    """
 
     def __init__(self) -> None:
         self.lines: list[Line] = []
+        self.rests: set[int] = set()
         self._place: dict[Line, int] = {}
 
     def line(self, *line: Any) -> Real:
@@ -277,7 +281,16 @@ def fmax(x: Any, y: Any) -> Any:
 
 
 def two_sum(a: Any, b: Any) -> tuple[Any, Any]:
-    """A sum as it is rounded, and what rounding has taken from it (Knuth, The Art of Computer Programming, vol. 2)."""
-    s = a + b
+    """A sum as it is rounded, and what rounding has taken from it (Knuth, The Art of Computer Programming, vol. 2).
+
+    Of formulas the two are meant to be used together: as a pair they have no rounding.
+    """
+    if not isinstance(a, Real) or (a.value is not None and b.value is not None):
+        s = a + b
+    else:
+        s = a.sheet.line("sum", a.at, b.at)
     back = s - a
-    return s, (a - (s - back)) + (b - back)
+    rest = (a - (s - back)) + (b - back)
+    if isinstance(rest, Real):
+        rest.sheet.rests.add(rest.at)
+    return s, rest

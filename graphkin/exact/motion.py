@@ -38,8 +38,9 @@ class Motion:
     poses : each moving link, the frame, and the blocks of pins, by name; NaN where the status is not ok
     slides : the sliding pairs and pins in slots, those of redundant links included
     assembly : for each group, in the order of ``structure.groups``, which assembly was taken
-    velocity_bound, acceleration_bound : real, shape (n,), how far rounding may have moved a value (m/s, m/s2)
+    velocity_bound, acceleration_bound : real, shape (n,), how far rounding may have moved any point (m/s, m/s2)
     position_bound : the same for places (m)
+    turning_bound : the same for the angles of links and their first and second rates (rad, rad/s, rad/s2)
     rough : what the bounds of velocity and acceleration would be if all were computed in 16 digits, as a drawing is
     turned : over a sweep how far each link has turned since its start, to a few degrees (rad): tells whole turns
     """
@@ -56,6 +57,7 @@ class Motion:
     turned: Mapping[str, Array] = field(default_factory=dict)
     position_bound: Array = field(default_factory=lambda: np.zeros(0))
     rough: tuple[Array, Array] = (np.zeros(0), np.zeros(0))
+    turning_bound: tuple[Array, Array, Array] = (np.zeros(0), np.zeros(0), np.zeros(0))
 
     @property
     def scene(self) -> Scene:

@@ -11,9 +11,9 @@ from decimal import Decimal
 from typing import Any
 from weakref import finalize
 
-from graphkin.exact.decimals import DIGITS, meant
+from graphkin.exact.decimals import DIGITS, meant, meant_direction
 from graphkin.exact.dyads import Solved, solve_dyad
-from graphkin.exact.formula import Real, Sheet, Vec, fmax
+from graphkin.exact.formula import Real, Sheet, Vec, fmax, root
 from graphkin.exact.joints import body_shape, driven, dyad_joints, members
 from graphkin.exact.pose import Pose
 from graphkin.exact.rendering import Code
@@ -26,7 +26,7 @@ __all__ = ["FIELDS", "GIVEN", "Fitted", "Program", "program_of"]
 FIELDS = ("z", "u", "v", "omega", "a", "alpha")
 GIVEN = 3 * UNIT
 """Relative error of a number of the file after its conversion from decimals and units."""
-FEW = 8.0
+FEW = 3.0
 
 
 class Program:
@@ -138,9 +138,9 @@ class Program:
         """How far a number or a vector may be off."""
         if isinstance(z, Real):
             return self.rounding.of(z)
-        both = self.rounding.of(z.real) + self.rounding.of(z.imag)
-        assert isinstance(both, Real)
-        return both
+        x, y = self.rounding.of(z.real), self.rounding.of(z.imag)
+        far: Real = root(x * x + y * y)
+        return far
 
     def bounds(self, links: Iterable[str]) -> list[Real]:
         """How far rounding may have moved any point of these links and their turning: position (m), velocity (m/s),
@@ -230,6 +230,7 @@ class Fitted:
     program: Program
     structure: Structure
     _found: dict[Any, float] = field(default_factory=dict)
+    _written: dict[Any, tuple[tuple[Decimal, Decimal], bool]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self._numbers = _numbers(self.structure)
@@ -256,7 +257,12 @@ class Fitted:
         if name[0] == "reach":
             return max(map(abs, self.structure.links[name[1]].points.values()), default=0.0)
         if name[0] == "error":
-            return GIVEN * abs(self._numbers[name[1:]])
+            z = self._numbers[name[1:]]
+            exact, known = self._meant(name[1:])
+            if not known:
+                return GIVEN * abs(z)
+            # what the conversion from decimals and units has really changed
+            return max(abs(float(Decimal(z.real) - exact[0])), abs(float(Decimal(z.imag) - exact[1])))
         z = self._numbers[name[:-1]]
         return z.real if name[-1] == "x" else z.imag
 
@@ -264,10 +270,21 @@ class Fitted:
         if name[0] == "unit":
             return Decimal(10) ** -DIGITS
         if name[0] == "error":
-            z = self._numbers[name[1:]]
-            exact = meant(z.real)[1] and meant(z.imag)[1]
-            return Decimal(0 if exact else self._fixed(name))
-        return meant(self._fixed(name))[0]
+            return Decimal(0 if self._meant(name[1:])[1] else self._fixed(name))
+        if name[0] in ("size", "reach"):
+            return Decimal(self._fixed(name))
+        return self._meant(name[:-1])[0][0 if name[-1] == "x" else 1]
+
+    def _meant(self, name: tuple[Any, ...]) -> tuple[tuple[Decimal, Decimal], bool]:
+        """What was written in the file for a place or direction, and whether it can be told."""
+        if name not in self._written:
+            z = self._numbers[name]
+            if name[0] in ("turn", "direction"):
+                self._written[name] = meant_direction(z)
+            else:
+                (x, known_x), (y, known_y) = meant(z.real), meant(z.imag)
+                self._written[name] = (x, y), known_x and known_y
+        return self._written[name]
 
 
 _PROGRAMS: dict[Any, Program] = {}

@@ -27,6 +27,7 @@ BLOCK = 8192
 
 _WRITTEN = {
     "add": "({} + {})",
+    "sum": "({} + {})",
     "sub": "({} - {})",
     "mul": "({} * {})",
     "div": "({} / {})",
@@ -39,6 +40,7 @@ _WRITTEN = {
 }
 _UFUNCS = {
     "add": np.add,
+    "sum": np.add,
     "sub": np.subtract,
     "mul": np.multiply,
     "div": np.divide,

@@ -47,7 +47,7 @@ class Rounding:
 
     def _bound(self, x: Real) -> Real:
         kind = x.line[0]
-        if kind == "const":
+        if kind == "const" or x.at in self.sheet.rests:
             return self.sheet.const(0)
         if kind in ("param", "input"):
             return self._given(x)
@@ -66,6 +66,8 @@ class Rounding:
             return most
         a, b = parts
         rounded = self.unit * abs(x)
+        if kind == "sum":
+            return _sum(one, two)
         if kind in ("add", "sub"):
             return _sum(_sum(one, two), rounded)
         if kind == "mul":
@@ -89,5 +91,5 @@ def _sum(a: Real, b: Real) -> Real:
 
 
 def _exact(x: Real) -> bool:
-    """Whether multiplying by this only changes the exponent."""
-    return x.value in (0.5, 2.0, -0.5, -2.0)
+    """Whether multiplying by this only changes sign and exponent."""
+    return x.value in (0.5, 2.0, -0.5, -2.0) or (x.line[0] == "input" and x.line[1][0] == "sign")

@@ -201,6 +201,11 @@ def _solved(
         np.where(ok, bounds.acceleration, np.nan),
         position_bound=np.where(ok, bounds.position, np.nan),
         rough=(np.where(ok, rough[0], np.nan), np.where(ok, rough[1], np.nan)),
+        turning_bound=(
+            np.where(ok, bounds.angle, np.nan),
+            np.where(ok, bounds.omega, np.nan),
+            np.where(ok, bounds.alpha, np.nan),
+        ),
     )
 
 
@@ -244,7 +249,7 @@ def _nowhere(structure: Structure, values: Array, status: str, why: str) -> Moti
     poses[structure.scene.frame.name] = none
     nan = np.full(n, np.nan)
     unknown = tuple("" for _ in structure.groups)
-    slides = all_slides(structure)
+    slides, said = all_slides(structure), (why,) * n
     return Motion(
-        structure, values, np.full(n, status), (why,) * n, poses, slides, unknown, nan, nan, {}, nan, (nan, nan)
+        structure, values, np.full(n, status), said, poses, slides, unknown, nan, nan, {}, nan, (nan,) * 2, (nan,) * 3
     )

@@ -68,6 +68,7 @@ def to_json(motion: Motion) -> dict[str, Any]:
             "position": float(motion.position_bound[k]) / metres,
             "velocity": float(motion.velocity_bound[k]) / metres,
             "acceleration": float(motion.acceleration_bound[k]) / metres,
+            **{name: float(b[k]) for name, b in zip(("angle", "omega", "alpha"), motion.turning_bound, strict=True)},
         }
         positions.append(entry)
     groups = [_group(g, words) for g, words in zip(motion.structure.groups, motion.assembly, strict=True)]

@@ -143,6 +143,11 @@ class Course:
             turned,
             position_bound=np.where(ok, bounds.position, np.nan),
             rough=(np.where(ok, rough[0], np.nan), np.where(ok, rough[1], np.nan)),
+            turning_bound=(
+                np.where(ok, bounds.angle, np.nan),
+                np.where(ok, bounds.omega, np.nan),
+                np.where(ok, bounds.alpha, np.nan),
+            ),
         )
 
     @cached_property

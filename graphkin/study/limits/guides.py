@@ -12,12 +12,9 @@ from graphkin.checking import predict
 from graphkin.drafting import EXACT, execute, plan
 from graphkin.errors import Unsolvable
 from graphkin.exact import Motion
-from graphkin.exact.formula import Real
-from graphkin.exact.program import Program
 from graphkin.scene import read_text
 from graphkin.scene.model import AngleDriver, Scene
 from graphkin.scene.symbol import Symbol
-from graphkin.study.closed import Formulas
 from graphkin.study.limits.law import LOST, Law, Trial, binned, grid
 from graphkin.words import Phrase
 
@@ -74,15 +71,14 @@ def _right(mp: Any, a: Any, d: Any, rate: float, angle: Any) -> _Bar:
 
 
 def _doubles(scene: Scene, angle: float) -> _Bar:
-    """The closed form in doubles."""
-
-    def choose(program: Program) -> list[Real]:
-        bar, block = program.poses["3"], program.poses["2"]
-        slip = bar.inverse().of(block).v.real
-        return [bar.u.real, bar.u.imag, bar.omega, bar.alpha, 2.0 * bar.omega * slip]
-
-    x, y, omega, alpha, coriolis = Formulas(exact.structure_of(scene), choose).one_by_one()([angle])
-    return _Bar(complex(x, y), omega, alpha, coriolis)
+    """The closed form in doubles, no more digits where these do not suffice; nan where it refuses."""
+    asked = ("theta_3", "omega_3", "alpha_3", "v_B@2/B@3")
+    found = exact.prepare(_at(scene, angle), asked).at(angle)
+    if found is None:
+        return _Bar(complex(math.nan, math.nan), math.nan, math.nan, math.nan)
+    theta, omega, alpha, x, y = found
+    u = complex(math.cos(theta), math.sin(theta))
+    return _Bar(u, omega, alpha, 2 * omega * (x * u.real + y * u.imag))
 
 
 def _solved(scene: Scene) -> tuple[_Bar, Motion] | None:
@@ -147,7 +143,7 @@ def flip(mp: Any, samples: int = 4) -> Trial:
         if solved is None:
             stops.setdefault("solved", e)
         refined.append(abs(solved[0].alpha) / rate**2 if solved else math.nan)
-        bounds.append(float(solved[1].acceleration_bound[0]) / (rate**2 * a) if solved else math.nan)
+        bounds.append(float(solved[1].turning_bound[2][0]) / rate**2 if solved else math.nan)
         if k % samples == 0:
             drawn.append(_drawn(_at(scene, angle)) / rate**2)
             if math.isnan(drawn[-1]):

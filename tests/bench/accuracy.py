@@ -1,0 +1,242 @@
+"""Stated error bounds against 50 digits, on random mechanisms, half of the positions near singular ones.
+
+Run by hand, ``python -m tests.bench.accuracy 100000``; the test-suite runs a few hundred positions of it.  For each
+position the largest true error of any point of any link in velocity and acceleration is held against the bound: it must
+never exceed it, and the bound should be within 1000 times of it for nine in ten.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from decimal import Decimal, localcontext
+from typing import Any
+from unittest.mock import patch
+
+import numpy as np
+
+from graphkin.errors import GraphkinError
+from graphkin.exact import engine, finer
+from graphkin.exact.choice import choose_forms, own_values
+from graphkin.exact.decimals import PI, meant, working
+from graphkin.exact.formula import Vec
+from graphkin.exact.joints import Drive
+from graphkin.exact.path import follow_path
+from graphkin.exact.program import FIELDS
+from graphkin.scene import read
+from graphkin.scene.model import Scene
+from graphkin.structure import Structure, analyse
+
+__all__ = ["Tally", "measure", "random_scene"]
+
+EACH = 40
+
+
+def _mm(rng: np.random.Generator, low: float, high: float) -> float:
+    return float(round(rng.uniform(low, high), 3))
+
+
+def _point(rng: np.random.Generator, wide: float) -> list[float]:
+    return [_mm(rng, -wide, wide), _mm(rng, -wide, wide)]
+
+
+def random_scene(rng: np.random.Generator) -> Scene:
+    """A crank and one to three dyads on it, each of a random kind, hung on a point of what is there already."""
+    links: dict[str, Any] = {"1": {"points": ["A", "B"], "length": _mm(rng, 20, 120)}}
+    points: dict[str, list[float]] = {"A": [0.0, 0.0]}
+    guides: dict[str, Any] = {}
+    free = ["B"]
+    number = 1
+    for k in range(int(rng.integers(1, 4))):
+        kind = str(rng.choice(["RRR", "RRP", "RPR"]))
+        hang = str(rng.choice(free))
+        number += 2
+        one, two, pivot, inner = str(number - 1), str(number), f"P{k}", f"Q{k}"
+        if kind == "RRR":
+            points[pivot] = _point(rng, 300)
+            links[one] = {"points": [hang, inner], "length": _mm(rng, 50, 400), "at": {f"E{k}": _point(rng, 150)}}
+            links[two] = {"points": [pivot, inner], "length": _mm(rng, 50, 400)}
+            free += [f"E{k}", inner]
+        elif kind == "RRP":
+            guides[f"g{k}"] = {"through": _point(rng, 150), "angle": _mm(rng, -180, 180)}
+            links[one] = {"points": [hang, inner], "length": _mm(rng, 100, 400), "at": {f"E{k}": _point(rng, 150)}}
+            links[two] = {"points": [inner], "on": f"0.g{k}", "angle_on": _mm(rng, -90, 90)}
+            free += [f"E{k}"]
+        else:
+            points[pivot] = _point(rng, 200)
+            links[one] = {"points": [hang], "on": f"{two}.s"}
+            links[two] = {
+                "points": [pivot, f"E{k}"], "length": _mm(rng, 50, 300),
+                "guides": {"s": {"through": _point(rng, 40), "angle": _mm(rng, -180, 180)}},
+            }  # fmt: skip
+            free += [f"E{k}"]
+    driver = {"link": "1", "angle": _mm(rng, -180, 180), "omega": _mm(rng, -20, 20), "alpha": _mm(rng, -50, 50)}
+    return read({"frame": {"points": points, "guides": guides}, "links": links, "driver": driver})
+
+
+@dataclass
+class Tally:
+    """What was found: by how much bounds exceed true errors, in velocity and acceleration."""
+
+    ratios: list[tuple[float, float]] = field(default_factory=list)
+    refused: int = 0
+    broken: list[str] = field(default_factory=list)
+
+    @property
+    def within(self) -> float:
+        """Part of the bounds that are within 1000 times the true error."""
+        every = np.array(self.ratios)
+        return float(np.mean(every <= 1000.0)) if len(every) else 1.0
+
+    def text(self) -> str:
+        every = np.array(self.ratios)
+        middle = ", ".join(f"{x:.3g}" for x in np.quantile(every, [0.1, 0.5, 0.9, 0.99], axis=0).ravel())
+        return (
+            f"{len(every)} positions, {self.refused} refused, {len(self.broken)} bounds broken, within 1000 times: "
+            f"{100 * self.within:.1f} %\nbound over true error at 10, 50, 90, 99 % (velocity, acceleration): {middle}"
+        )
+
+
+def _values(rng: np.random.Generator, structure: Structure, forms: dict[int, Any], n: int) -> np.ndarray:
+    """Driver values (degrees) the motion reaches: half anywhere, half 1e-1 to 1e-12 of it from its ends."""
+    start = own_values(structure.scene)
+    ahead = follow_path(structure, forms, start, start + 2 * np.pi)
+    behind = follow_path(structure, forms, start, start - 2 * np.pi)
+    low, high = (-behind.reach, ahead.reach) if ahead.limit is not None else (0.0, 1.0)
+    share = rng.uniform(low, high, n)
+    near = 10.0 ** rng.uniform(-12, -1, n) * (high - low)
+    ends = np.where(rng.random(n) < 0.5, low + near, high - near)
+    close = (rng.random(n) < 0.5) & (ahead.limit is not None)
+    return np.degrees(start[0] + 2 * np.pi * np.where(close, ends, share))
+
+
+
+
+def measure(positions: int, seed: int, refine: bool = False, each: int = EACH) -> Tally:
+    """Hold bounds against true errors at about so many positions.
+
+    Parameters
+    ----------
+    each : positions of one mechanism
+    refine : True looks at the results as they are given out, False at those of 16 digits throughout
+    """
+    rng = np.random.default_rng(seed)
+    tally = Tally()
+    with patch.object(finer, "ROUGH", finer.ROUGH if refine else np.inf):
+        while len(tally.ratios) + tally.refused < positions:
+            try:
+                scene = random_scene(rng)
+                structure = analyse(scene)
+                forms = choose_forms(structure)
+                values = _values(rng, structure, forms, each)
+            except GraphkinError:
+                continue
+            for pair in _held(structure, forms, values, tally):
+                tally.ratios.append(pair)
+    return tally
+
+
+def _held(
+    structure: Structure, forms: dict[int, Any], values: np.ndarray, tally: Tally
+) -> Iterator[tuple[float, float]]:
+    drive = Drive.at(structure, np.radians(values)[:, None])
+    state = engine.positions(structure, drive, forms)
+    program_row = _exact_rows(structure, drive, forms, values)
+    names = [n for n in structure.links if n != structure.scene.frame.name]
+    sines = [np.broadcast_to(g.sine, values.shape) for g in state.groups.values()]
+    assert state.bounds is not None
+    for k in range(len(values)):
+        if min(abs(s[k]) for s in sines) < engine.SINGULAR:
+            tally.refused += 1
+            continue
+        bounds = float(state.bounds.velocity[k]), float(state.bounds.acceleration[k])
+        if not np.isfinite(bounds).all():
+            tally.refused += 1
+            continue
+        try:
+            row = program_row(k)
+        except ArithmeticError:
+            tally.refused += 1
+            continue
+        worst = [0.0, 0.0]
+        for name in names:
+            pose = state.poses[name]
+            exact = row[name]
+            for place in [0j, *structure.links[name].points.values()]:
+                mine = pose.fixed(place) if place else pose
+                for order, (got, want) in enumerate(
+                    ((mine.v, exact.velocity(place)), (mine.a, exact.acceleration(place)))
+                ):
+                    z = complex(np.broadcast_to(got, values.shape)[k])
+                    off = abs(complex(float(Decimal(z.real) - want[0]), float(Decimal(z.imag) - want[1])))
+                    worst[order] = max(worst[order], off)
+        for what, bound, off in zip(("velocity", "acceleration"), bounds, worst, strict=True):
+            if not off <= bound:
+                where = f"at {values[k]!r} of {structure.scene}"
+                tally.broken.append(f"{what} off by {off:.3g}, bound {bound:.3g}, {where}")
+        tiny = 1e-300
+        yield bounds[0] / max(worst[0], tiny), bounds[1] / max(worst[1], tiny)
+
+
+class _Exact:
+    """A link in 50 digits."""
+
+    def __init__(self, parts: dict[str, tuple[Decimal, Decimal]]) -> None:
+        self.parts = parts
+
+    def _turned(self, place: complex) -> tuple[Decimal, Decimal]:
+        (ux, uy), x, y = self.parts["u"], meant(place.real)[0], meant(place.imag)[0]
+        return ux * x - uy * y, uy * x + ux * y
+
+    def velocity(self, place: complex) -> tuple[Decimal, Decimal]:
+        with working():
+            (vx, vy), (w, _), (rx, ry) = self.parts["v"], self.parts["omega"], self._turned(place)
+            return vx - w * ry, vy + w * rx
+
+    def acceleration(self, place: complex) -> tuple[Decimal, Decimal]:
+        with working():
+            (ax, ay), (w, _), (rx, ry) = self.parts["a"], self.parts["omega"], self._turned(place)
+            al = self.parts["alpha"][0]
+            return ax - al * ry - w * w * rx, ay + al * rx - w * w * ry
+
+
+def _exact_rows(structure: Structure, drive: Drive, forms: dict[int, Any], degrees: np.ndarray) -> Any:
+    """Function of the number of a position to its links in 50 digits, with the driver at just these degrees."""
+    run = engine._Run(structure, drive, forms, True)
+    program = run.fitted.program
+    names = [n for n in structure.links if n != structure.scene.frame.name]
+    asked = [getattr(program.poses[n], f) for n in names for f in FIELDS]
+    reals = [x for z in asked for x in ((z.real, z.imag) if isinstance(z, Vec) else (z,))]
+    again = run._finer(program.code(("accuracy",), reals))
+
+    def row(k: int) -> dict[str, _Exact]:
+        with working(), patch.object(finer, "meant_angle", lambda _: (Decimal(float(degrees[k])) * PI / 180, True)):
+            numbers = list(again._row(k))
+        found: dict[str, _Exact] = {}
+        for name in names:
+            parts: dict[str, tuple[Decimal, Decimal]] = {}
+            for f in FIELDS:
+                x = numbers.pop(0)
+                parts[f] = (x, numbers.pop(0)) if f not in ("omega", "alpha") else (x, Decimal(0))
+            found[name] = _Exact(parts)
+        return found
+
+    return row
+
+
+def main() -> None:
+    count = int(sys.argv[1]) if len(sys.argv) > 1 else 100_000
+    for refine in (False, True):
+        begin = time.perf_counter()
+        tally = measure(count, 1, refine)
+        print("as given out" if refine else "in 16 digits throughout", f"({time.perf_counter() - begin:.0f} s)")
+        print(tally.text())
+        for line in tally.broken[:10]:
+            print("BROKEN", line[:300])
+
+
+if __name__ == "__main__":
+    with localcontext():
+        main()
