@@ -35,7 +35,7 @@ def followed(plan: Plan, base: Sheet, own: Mapping[Symbol, Value], of: Symbol) -
     inputs = _Inputs(plan, base, {s: v for s, v in own.items() if _step(base, s) < _step(base, of)})
     try:
         sheet = execute(plan, slip=Slip(inputs.term, inputs.found, inputs.rate))
-    except (GraphkinError, ZeroDivisionError):
+    except (GraphkinError, ArithmeticError):
         return ()  # a drawing that cannot be gone on with
     values = [r.value for r in read_off(sheet, [of])]
     for equation in sheet.equations:

@@ -72,7 +72,7 @@ class Case:
         for phrase, share, plan, slip in (*_assemblies(self.plan), *_terms(self.plan, self.sheet)):
             try:
                 values = {r.symbol: r.value for r in read_off(execute(plan, slip=slip))}
-            except (GraphkinError, ZeroDivisionError):
+            except (GraphkinError, ArithmeticError):
                 continue  # with this slip nothing can be drawn, so nobody's value comes from it
             found.append((phrase, share, values))
         return tuple(found)

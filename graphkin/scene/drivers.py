@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from graphkin.errors import Problem, did_you_mean
-from graphkin.scene.file import AngleDriverTable, SceneFile, SlideDriverTable
+from graphkin.scene.file import SMALLEST, AngleDriverTable, SceneFile, SlideDriverTable
 from graphkin.scene.model import PinInSlot, SlidingPair
 from graphkin.scene.names import Names
 from graphkin.scene.reading import Flaws
@@ -53,6 +53,7 @@ def drives(
             reasons, key = _slide_problems(where, table, file, names, slidings, pins, lost)
             base = ""
         reasons += _driven_twice(where, key, base, found)
+        reasons += _too_slow(where, table)
         problems += reasons
         if reasons or lost & {"angle", "travel"}:
             continue
@@ -64,6 +65,13 @@ def drives(
             travel = None if table.travel is None else table.travel * metres
             found.append(Drive(where, key, base, travel, (table.velocity or 0.0) * metres, table.acceleration * metres))
     return tuple(found)
+
+
+def _too_slow(where: str, table: AngleDriverTable | SlideDriverTable) -> Iterator[Problem]:
+    for key in ("omega", "rpm", "alpha", "velocity", "acceleration"):
+        rate = getattr(table, key, None)
+        if rate and abs(rate) < SMALLEST:
+            yield Problem(f"{where}.{key}", f"found {rate:g}", f"write 0, or at least {SMALLEST:g}")
 
 
 def _angle_problems(

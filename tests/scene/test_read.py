@@ -7,6 +7,7 @@ import re
 
 import pytest
 
+from graphkin.errors import SceneError
 from graphkin.scene import read_text
 from graphkin.scene.model import AngleDriver, PinInSlot, Scene, SlideDriver, SlidingPair
 from graphkin.scene.symbol import Symbol
@@ -289,3 +290,11 @@ def test_a_scene_can_be_read_from_any_line_ending() -> None:
 def test_names_are_not_mistaken_for_keys() -> None:
     text = re.sub(r'"3"|links\.3', lambda m: m[0].replace("3", "on"), FOUR_BAR)
     assert read_text(text, "x").by_name["on"].bar == ("C", "D")
+
+
+@pytest.mark.parametrize("key", ["omega", "rpm"])
+def test_a_rate_whose_square_is_lost_is_refused(key):
+    crank = '[frame]\npoints = { A = [0, 0] }\n[links.1]\npoints = ["A", "B"]\nlength = 1\n'
+    text = f'{crank}[driver]\nlink = "1"\nangle = 0\n'
+    with pytest.raises(SceneError, match="write 0, or at least 1e-15"):
+        read_text(f"{text}{key} = 1e-300", "slow")
