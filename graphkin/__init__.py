@@ -57,6 +57,8 @@ if TYPE_CHECKING:
         Listed,
         ProblemSet,
         Solved,
+        SpeedAccuracy,
+        Stability,
         Swept,
         audit,
         centres,
@@ -67,6 +69,8 @@ if TYPE_CHECKING:
         problem_set,
         scenes,
         solve,
+        speed_accuracy,
+        stability,
         sweep,
     )
     from graphkin.scene import read
@@ -86,6 +90,8 @@ __all__ = [
     "Scene",
     "SceneError",
     "Solved",
+    "SpeedAccuracy",
+    "Stability",
     "Swept",
     "Unsolvable",
     "__version__",
@@ -99,6 +105,8 @@ __all__ = [
     "read",
     "scenes",
     "solve",
+    "speed_accuracy",
+    "stability",
     "sweep",
 ]
 

@@ -16,7 +16,7 @@ from graphkin import __version__
 from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable
 
 if TYPE_CHECKING:
-    from graphkin.api import Checked, Solved
+    from graphkin.api import Checked, Solved, SpeedAccuracy, Stability
 
 __all__ = ["app", "main"]
 
@@ -590,6 +590,52 @@ def _bar(shown: bool) -> Iterator[Callable[[int, int], None] | None]:
         yield tell
     finally:
         bar.stop()
+
+
+study = typer.Typer(no_args_is_help=True, help="The charts of the methods against each other.")
+app.add_typer(study, name="study")
+
+
+@study.command("speed-accuracy")
+def speed_accuracy(
+    scene: SceneArgument,
+    out: Annotated[
+        Path, typer.Option("-o", "--out", metavar="DIR", help="Folder for the chart (SVG, CSV); ./speed-accuracy.")
+    ] = Path("speed-accuracy"),
+    repeats: Annotated[int, typer.Option("--repeats", metavar="N", help="Runs of each method; the best counts.")] = 5,
+    formats: Annotated[str, typer.Option("--format", metavar="svg,pdf,png", help="Formats of the chart.")] = "svg",
+    lang: LangOption = None,
+    as_json: JsonOption = False,
+    quiet: QuietOption = False,
+) -> None:
+    """Cost of a position against the largest error, for all methods, measured on this machine."""
+    from graphkin.api import speed_accuracy as racing
+
+    _study(racing(scene, repeats, lang), out, formats, as_json, quiet)
+
+
+@study.command("stability")
+def stability(
+    out: Annotated[
+        Path, typer.Option("-o", "--out", metavar="DIR", help="Folder for the charts (SVG, CSV); ./stability.")
+    ] = Path("stability"),
+    formats: Annotated[str, typer.Option("--format", metavar="svg,pdf,png", help="Formats of the charts.")] = "svg",
+    lang: LangOption = None,
+    as_json: JsonOption = False,
+    quiet: QuietOption = False,
+) -> None:
+    """Errors beside every kind of singular position: how fast they grow, where methods stop and how they say so."""
+    from graphkin.api import stability as measuring
+
+    _study(measuring(language=lang or "en"), out, formats, as_json, quiet)
+
+
+def _study(found: SpeedAccuracy | Stability, out: Path, formats: str, as_json: bool, quiet: bool) -> None:
+    paths = found.write(out, [f.strip().lower() for f in formats.split(",") if f.strip()])
+    if as_json:
+        _dump(found.data)
+    elif not quiet:
+        typer.echo("\n".join(str(p) for p in paths))
 
 
 @app.command()

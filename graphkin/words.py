@@ -569,8 +569,8 @@ _TABLE: dict[str, tuple[str, str]] = {
     ),
     "lesson": ("What to take from it", "结论"),
     "lesson place": (
-        "At a dead point the input itself is lost: no method and no number of digits helps, unless the distance from the "
-        "dead point is what is given.",
+        "At a dead point the input itself is lost: no method and no number of digits helps, unless the distance from "
+        "the dead point is what is given.",
         "在死点附近丢失的是输入本身：任何方法、任何位数都无济于事，除非直接给定到死点的距离。",
     ),
     "lesson digits": (
@@ -578,7 +578,8 @@ _TABLE: dict[str, tuple[str, str]] = {
         "其他情形是公式丢失了位数：应选无相消的公式（海伦、atan2），或增加位数。",
     ),
     "lesson pencil": (
-        "A pencil loses $10^{13}$ times as much by the same laws: what it shows at 0.1 rad, doubles show at $10^{−14}$.",
+        "A pencil loses $10^{13}$ times as much by the same laws: what it shows at 0.1 rad, doubles show at "
+        "$10^{−14}$.",
         "铅笔按同样的规律损失，只是大 $10^{13}$ 倍：它在 0.1 rad 处的情形，双精度在 $10^{−14}$ 处才出现。",
     ),
     "lesson centres": (
@@ -592,5 +593,70 @@ _TABLE: dict[str, tuple[str, str]] = {
     "fate scale": (
         "Points gain with size, set squares do not: beyond a crank of 50 mm nothing is won.",
         "点位误差随图增大而减小，三角板误差不变：曲柄超过 50 mm 再放大无益。",
+    ),
+    # speed against accuracy
+    "speed title": ("Speed against accuracy", "速度与精度"),
+    "speed of velocity": ("velocity", "速度分析"),
+    "speed of acceleration": ("acceleration", "加速度分析"),
+    "cost of a position": ("cost of one position (s)", "一个位置的耗时（s）"),
+    "largest error": ("largest error, in parts of the largest value", "最大误差（与最大值之比）"),
+    "copying": ("copying the output", "复制输出所需"),
+    "closed arrays": ("closed form, arrays", "解析式，数组"),
+    "closed floats": ("closed form, one by one", "解析式，逐个位置"),
+    "closed single": ("closed form, single precision", "解析式，单精度"),
+    "closed compiled": ("closed form, compiled (1 core)", "解析式，编译（单核）"),
+    "whole solve": ("graphkin solve, with bounds", "graphkin solve，含误差界"),
+    "Newton": ("Newton, number of steps", "牛顿法，迭代次数"),
+    "differences of": ("differences, step", "差分，步长"),
+    "complex step": ("complex step", "复数步长"),
+    "exact drawing": ("exact drawing", "精确作图"),
+    "cad drawing": ("read off a CAD screen", "CAD 屏幕读数"),
+    "instant centres": ("instant centres", "瞬心法"),
+    "pencil": ("pencil, simulated, size", "铅笔（模拟），图幅"),
+    "by hand": ("pencil and ruler, by hand, size", "铅笔直尺手工，图幅"),
+    "pylinkage": ("pylinkage", "pylinkage"),
+    "scipy root": ("scipy.optimize.root", "scipy.optimize.root"),
+    "only asked": ("{0}: {1} alone", "{0}：只求 {1}"),
+    "speed facts": (
+        "{0} cores, {1}; {2}; best of {3} runs over {4} positions; errors at {5} positions against 50 digits",
+        "{0} 核，{1}；{2}；{4} 个位置取 {3} 次中最快；误差在 {5} 个位置与 50 位结果比较",
+    ),
+    "speed hand": (
+        "By hand: {0} acts counted, 20 s each taken for granted. Size 1 fills the sheet.",
+        "手工：计 {0} 次操作，每次按 20 s 计。图幅 1 为充满图纸。",
+    ),
+    "skipped": ("Left out: {0}.", "未列入：{0}。"),
+    "skip not installed": ("is not installed", "未安装"),
+    "skip one crank": ("knows only one crank on the frame that turns fully", "只能处理机架上一个整转曲柄"),
+    "skip steady": ("knows no acceleration of the crank in a sweep", "扫掠时不能给曲柄角加速度"),
+    "skip points": ("cannot place these points", "不能给出这些点"),
+    "skip group": ("has no {0} group of this kind in its compiled sweep", "其编译扫掠没有这种 {0} 杆组"),
+    "speed lesson draw": (
+        "Draw one position, to see where its numbers come from: a pencil gives about 1 % in half an hour and no more "
+        "on larger paper; the same construction drawn exactly gives all 15 digits in a millisecond.",
+        "作图适用于单个位置，用来看清数值从何而来：铅笔半小时约得 1 %，图纸再大也不多；"
+        "同一作图由机器精确完成，一毫秒即得 15 位。",
+    ),
+    "speed lesson compute": (
+        "Compute a whole turn, or many designs: the closed form takes less than a thousandth of the exact drawing's "
+        "time.",
+        "整周或多方案应当计算：解析式耗时不到精确作图的千分之一。",
+    ),
+    "speed lesson lose": (
+        "Differences take longer than the formula and lose a third to half of its digits; single precision halves the "
+        "time for 7 digits; Newton's method takes some hundred times as long for the same digits.",
+        "差分比解析式更慢，却丢掉三分之一到一半的位数；单精度耗时减半，只有 7 位；牛顿法得到同样位数约慢百倍。",
+    ),
+    "left out elements": (
+        "Left out, since nothing asked for needs it: links {0}",
+        "所求的量不需要，故略去：构件 {0}",
+    ),
+    "left out accelerations": (
+        "Left out, since nothing asked for needs it: the accelerations of links {0}",
+        "所求的量不需要，故略去：构件 {0} 的加速度",
+    ),
+    "steps saved": (
+        "{0} steps drawn instead of {1}, {2} equations instead of {3}",
+        "作图 {0} 步（全部为 {1} 步），方程 {2} 个（全部为 {3} 个）",
     ),
 }

@@ -9,6 +9,7 @@ from graphkin.api.handed import Handout, handout
 from graphkin.api.listed import Listed, scenes
 from graphkin.api.problem_sets import ProblemSet, problem_set
 from graphkin.api.solved import Solved, solve
+from graphkin.api.studied import SpeedAccuracy, Stability, speed_accuracy, stability
 from graphkin.api.swept import Swept, sweep
 
 __all__ = [
@@ -21,6 +22,8 @@ __all__ = [
     "Listed",
     "ProblemSet",
     "Solved",
+    "SpeedAccuracy",
+    "Stability",
     "Swept",
     "audit",
     "centres",
@@ -31,5 +34,7 @@ __all__ = [
     "problem_set",
     "scenes",
     "solve",
+    "speed_accuracy",
+    "stability",
     "sweep",
 ]

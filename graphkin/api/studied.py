@@ -10,14 +10,86 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from graphkin.api.called import SceneLike, as_scene
 from graphkin.api.files import known_wishes, write_files
 from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.words import LANGUAGES
 
 if TYPE_CHECKING:
     from graphkin.drawing import Drawing
     from graphkin.study.limits import Trial
+    from graphkin.study.speed import Race
 
-__all__ = ["Stability", "stability"]
+__all__ = ["SpeedAccuracy", "Stability", "speed_accuracy", "stability"]
+
+
+@dataclass(frozen=True)
+class SpeedAccuracy:
+    """What each method costs for one position, and how far it is off: measured in one run on this machine."""
+
+    race: Race
+    language: str
+
+    @cached_property
+    def figures(self) -> Mapping[str, Drawing]:
+        """The chart: velocity and acceleration side by side."""
+        from graphkin.study.speed import page
+
+        return {"speed-accuracy": page(self.race, self.language)}
+
+    @property
+    def table(self) -> str:
+        """A row for each method, as the text of a CSV file."""
+        from graphkin.study.speed import race_csv
+
+        return race_csv(self.race)
+
+    @cached_property
+    def data(self) -> dict[str, Any]:
+        """The object that ``graphkin study speed-accuracy --json`` prints."""
+        from graphkin.study.speed import to_json
+
+        return to_json(self.race, self.language)
+
+    def write(self, folder: str | os.PathLike[str] = "speed-accuracy", formats: Sequence[str] = ("svg",)) -> list[Path]:
+        """Write the chart and speed-accuracy.csv; returns the paths.  Raises CallError as for `Stability.write`."""
+        return _written(Path(folder), self.figures, "speed-accuracy.csv", self.table, formats)
+
+    def _repr_html_(self) -> str:
+        return _shown(self.figures)
+
+
+def speed_accuracy(
+    scene: SceneLike, repeats: int = 5, language: str | None = None, out: str | os.PathLike[str] | None = None
+) -> SpeedAccuracy:
+    """Let every method work the same scene: cost of a position against the largest error.
+
+    Drawing with pencil, on a CAD screen and exactly, instant centres, the closed form in its several dresses, Newton's
+    method, differences, a complex step, and peers where they are installed.
+
+    Parameters
+    ----------
+    scene : as for `solve`; a mechanism without groups larger than a dyad
+    repeats : runs of each method, of which the fastest counts
+    language : "en" or "zh"; the scene's own if None
+    out : folder for the chart (SVG) and speed-accuracy.csv
+
+    Raises
+    ------
+    SceneError, CallError : the scene or the call is wrong, or mpmath is not installed (extra ``study``)
+    Unsolvable : wrong mobility, no position can be assembled
+    """
+    from graphkin.study.speed import race
+
+    given = as_scene(scene)
+    if not 1 <= repeats <= 1000:
+        raise CallError(Problem("repeats", f"{repeats}", "give a number from 1 to 1000"))
+    spoken = language or given.sheet.language
+    _known_language(spoken)
+    found = SpeedAccuracy(race(given, repeats), spoken)
+    if out is not None:
+        found.write(out)
+    return found
 
 
 @dataclass(frozen=True)
@@ -90,11 +162,16 @@ def stability(
         wrong.append(Problem("samples", f"{samples}", "give a number from 1 to 100"))
     if wrong:
         raise CallError(*wrong)
-    known_wishes(("svg",), language, None)
+    _known_language(language)
     found = Stability(run_trials(wanted, samples), language)
     if out is not None:
         found.write(out)
     return found
+
+
+def _known_language(language: str) -> None:
+    if language not in LANGUAGES:
+        raise CallError(Problem("lang", f'"{language}"', did_you_mean(language, LANGUAGES)))
 
 
 def _written(

@@ -251,7 +251,8 @@ def _axes(chart: Chart) -> tuple[Primitive, ...]:
         x = chart.at(value, chart.y.low).real
         made.append(Line(complex(x, panel.bottom), complex(x, panel.bottom - TICK), FRAME))
         if chart.x_words:
-            made.append(Text(complex(x, panel.bottom + 1.2 + NUMBER * 0.8), rich(words, NUMBER), "middle"))
+            below = 1.2 + NUMBER * 0.8 + (0.8 if chart.x.log else 0.0)  # exponents stand clear of the other axis
+            made.append(Text(complex(x, panel.bottom + below), rich(words, NUMBER), "middle"))
     for value, words in chart.y.ticks:
         y = chart.at(chart.x.low, value).imag
         made.append(Line(complex(panel.left, y), complex(panel.left + TICK, y), FRAME))
@@ -260,7 +261,7 @@ def _axes(chart: Chart) -> tuple[Primitive, ...]:
         made.append(Text(complex(panel.left, panel.top - 1.8), rich(chart.y.title, TITLE)))
     if chart.x.title and chart.x_words:
         made.append(
-            Text(complex(panel.right, panel.bottom + 2.4 + NUMBER + TITLE * 0.8), rich(chart.x.title, TITLE), "end")
+            Text(complex(panel.right, panel.bottom + 3.0 + NUMBER + TITLE * 0.8), rich(chart.x.title, TITLE), "end")
         )
     return tuple(made)
 

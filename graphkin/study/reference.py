@@ -15,7 +15,7 @@ from graphkin.errors import CallError, Problem
 from graphkin.structure import Structure
 from graphkin.study.equations import Equations, Numbers, Solution
 
-__all__ = ["DIGITS", "Split", "context", "reference", "split"]
+__all__ = ["DIGITS", "Split", "context", "reference", "refined", "split"]
 
 DIGITS = 50
 STEPS = 60
@@ -106,6 +106,9 @@ class Split:
     def off(self, values: Array) -> Array:
         """How far values lie off."""
         return np.asarray(np.abs((values - self.high) - self.low))
+
+    def __getitem__(self, which: Any) -> Split:
+        return Split(self.high[which], self.low[which])
 
 
 def split(numbers: Any, mp: Any) -> Split:

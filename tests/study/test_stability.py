@@ -127,3 +127,14 @@ def test_the_table_has_a_row_for_each_point() -> None:
 def test_a_refusal_is_null_in_the_data() -> None:
     laws = to_json([trial("guide flip")])["singularities"][0]["laws"]
     assert laws[3]["points"][-1][1] is None
+
+
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_no_two_labels_of_the_charts_overlap(language: str) -> None:
+    from graphkin.drawing import Text
+    from graphkin.drawing.metrics import text_box
+    from graphkin.drawing.primitives import walk
+
+    for drawing in pages([trial(kind) for kind in KINDS], language).values():
+        boxes = [text_box(t) for t in walk(drawing.children) if isinstance(t, Text)]
+        assert [] == [(a, b) for i, a in enumerate(boxes) for b in boxes[:i] if a.grown(-0.2).overlaps(b)]

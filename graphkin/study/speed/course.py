@@ -1,0 +1,158 @@
+"""The work that all methods are given: some positions of a scene, what is looked at there, and the 50-digit truth."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphkin import exact
+from graphkin.errors import CallError, Problem
+from graphkin.exact import Motion
+from graphkin.scene.model import AngleDriver, Scene
+from graphkin.scene.symbol import Symbol
+from graphkin.structure import Dyad, Structure
+from graphkin.study.outputs import Output, outputs_of
+from graphkin.study.reference import Split, reference, refined, split
+
+__all__ = ["Work", "work_of"]
+
+Array = NDArray[Any]
+PLACES = 24
+FINE = 720
+
+
+@dataclass(frozen=True)
+class Work:
+    """A scene, the positions at which errors are taken, and what is right there.
+
+    values : driver values, shape (places, drivers)
+    count : how many positions the time is taken of, for methods that compute many at once
+    full : whether the driver turns fully
+    velocity, acceleration : 50 digits, of shape (outputs, places)
+    motion : the solver's, at the places
+    """
+
+    structure: Structure
+    outputs: tuple[Output, ...]
+    values: Array
+    count: int
+    full: bool
+    velocity: Split
+    acceleration: Split
+    motion: Motion
+
+    @property
+    def scene(self) -> Scene:
+        return self.structure.scene
+
+    def errors(self, velocity: Array | None, acceleration: Array | None) -> tuple[float | None, float | None]:
+        """The largest errors of vectors of shape (outputs, places), in parts of the largest value; None for None."""
+        return _error(self.velocity, velocity), _error(self.acceleration, acceleration)
+
+    def some(self, every: int) -> tuple[list[int], Work]:
+        """Every so many of the places alone, with their numbers."""
+        kept = list(range(0, len(self.values), every))
+        return kept, self._only(kept, range(len(self.outputs)))
+
+    def only(self, outputs: Sequence[Output]) -> Work:
+        """Some of the outputs alone."""
+        return self._only(range(len(self.values)), [self.outputs.index(o) for o in outputs])
+
+    def _only(self, places: Sequence[int], outputs: Sequence[int]) -> Work:
+        at = np.ix_(list(outputs), list(places))
+        return Work(
+            self.structure, tuple(self.outputs[k] for k in outputs), self.values[list(places)], self.count, self.full,
+            self.velocity[at], self.acceleration[at], self.motion,
+        )  # fmt: skip
+
+    def at(self, place: int) -> dict[str, float]:
+        """Driver values of a place by the driver's key."""
+        return {d.key: float(v) for d, v in zip(self.scene.drivers, self.values[place], strict=True)}
+
+    @property
+    def asked(self) -> tuple[Symbol, ...]:
+        """What the scene asks for; of a scene that asks for everything, the motion of a point of its first group."""
+        if self.scene.find:
+            return self.scene.find
+        group = next((e for e in self.structure.elements if isinstance(e, Dyad)), None)
+        links = group.links if group is not None else tuple(self.structure.links)
+        first = next((o for o in self.outputs if o.link in links), self.outputs[0])
+        return Symbol("v", first.ref), Symbol("a", first.ref)
+
+    def asked_outputs(self) -> tuple[Output, ...]:
+        """The outputs that are asked for: their points, or points of links whose turning is asked for."""
+        refs = {ref for s in self.asked for ref in (s.of, s.to) if ref is not None}
+        turning = {s.link for s in self.asked if s.link}
+        found = [
+            o for o in self.outputs
+            if o.ref in refs or (o.link in turning and o.own)
+        ]  # fmt: skip
+        return tuple(found or self.outputs)
+
+
+def _error(right: Split, found: Array | None) -> float | None:
+    if found is None:
+        return None
+    return float(np.max(right.off(found)) / np.max(np.abs(right.high)))
+
+
+def work_of(scene: Scene, mp: Any, count: int) -> Work:
+    """Positions over the turn of the driver (over its range, for one that does not turn fully), and the truth there.
+
+    Parameters
+    ----------
+    count : positions of which the time is taken
+
+    Raises
+    ------
+    CallError : nothing moves
+    Unsolvable : as for ``exact.solve``
+    """
+    structure = exact.structure_of(scene)
+    outputs = outputs_of(structure)
+    if not outputs or not any(d.values[1] for d in scene.drivers):
+        what = "nothing moves that could be looked at"
+        raise CallError(Problem(scene.name or "scene", what, "give the driver a rate"))
+    fine = exact.solve(structure.scene, sweep=FINE).require()
+    good = np.flatnonzero(fine.ok)
+    full = len(good) == FINE and isinstance(scene.drivers[0], AngleDriver)
+    margin = 0 if full else len(good) // 24  # ends of a motion are dead points, which are another study
+    inner = good[margin : len(good) - margin] if margin else good
+    picked = inner[np.linspace(0, len(inner), min(PLACES, len(inner)), endpoint=False).astype(int)]
+    values = fine.values[picked]
+    velocity, acceleration = _truth(structure, outputs, fine, picked, mp)
+    return Work(structure, outputs, values, count, full, velocity, acceleration, fine)
+
+
+def _truth(
+    structure: Structure, outputs: Sequence[Output], motion: Motion, picked: Array, mp: Any
+) -> tuple[Split, Split]:
+    equations = reference(structure, mp)
+    start = equations.start(motion)
+    rates = [d.values[1] for d in structure.scene.drivers], [d.values[2] for d in structure.scene.drivers]
+    rows_v, rows_a = [], []
+    for k in picked:
+        found = refined(equations, mp, list(start[:, k]), [mp.mpf(float(v)) for v in motion.values[k]], *rates)
+        own_v, own_a = [], []
+        for output in outputs:
+            own = structure.links[output.link].points
+            local = own[output.point] if output.own else _under(equations, found, structure, output, mp)
+            _, _, vx, vy, ax, ay = equations.point(found, output.link, local)
+            own_v.append(mp.mpc(vx, vy))
+            own_a.append(mp.mpc(ax, ay))
+        rows_v.append(own_v)
+        rows_a.append(own_a)
+    return split(np.array(rows_v, dtype=object).T, mp), split(np.array(rows_a, dtype=object).T, mp)
+
+
+def _under(equations: Any, found: Any, structure: Structure, output: Output, mp: Any) -> Any:
+    """The place of a link that lies under a pin, in its own axes."""
+    holder = next(n for n in equations.names if output.point in structure.links[n].points)
+    x, y = equations.point(found, holder, structure.links[holder].points[output.point])[:2]
+    k = equations.column[output.link]
+    own_x, own_y, angle = found.place[k : k + 3]
+    return mp.mpc(x - own_x, y - own_y) * mp.expj(-angle)

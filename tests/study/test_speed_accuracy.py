@@ -1,0 +1,137 @@
+"""Speed against accuracy: what every method gets right, never how long it takes."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+
+import graphkin
+from graphkin.scene import read
+from graphkin.study.speed import Race, page, race, race_csv, to_json
+from graphkin.study.speed import entry as timing
+from graphkin.study.speed.peers import Skipped, pylinkage
+
+SIXBAR = "sixbar-guide-40deg"
+
+
+@pytest.fixture(autouse=True)
+def quick(monkeypatch):
+    monkeypatch.setattr(timing, "ENOUGH", 0.0)
+
+
+@cache
+def raced(name: str = SIXBAR) -> Race:
+    return race(read(name), repeats=1, count=480)
+
+
+def errors(key: str, tag: str = "", name: str = SIXBAR) -> tuple[float | None, float | None]:
+    found = raced(name).of(key, tag)
+    return found.velocity_error, found.acceleration_error
+
+
+@pytest.mark.parametrize("key", ["closed arrays", "closed floats", "whole solve", "complex step", "exact drawing"])
+@pytest.mark.parametrize("name", [SIXBAR, "hydraulic-cylinder"])
+def test_methods_that_lose_nothing_give_15_digits(key: str, name: str) -> None:
+    if key == "whole solve" and name == "hydraulic-cylinder":
+        pytest.skip("a limited motion has no turn")
+    assert all(e < 2e-14 for e in errors(key, name=name))
+
+
+def test_single_precision_gives_7_digits() -> None:
+    assert all(1e-8 < e < 1e-5 for e in errors("closed single"))
+
+
+def test_newton_squares_its_error_with_every_step() -> None:
+    one, two, three = (errors("Newton", k)[0] for k in "123")
+    assert two == pytest.approx(one**2, rel=10)
+    assert three < 100 * two**2
+
+
+def test_four_steps_of_newton_are_enough() -> None:
+    assert all(e < 1e-14 for e in errors("Newton", "4"))
+
+
+def test_differences_of_velocity_are_best_at_a_step_of_1e_5() -> None:
+    found = {k: errors("differences", f"1e-{k}")[0] for k in range(1, 10)}
+    assert 5 == min(found, key=found.get)
+
+
+def test_differences_of_acceleration_are_best_at_a_step_of_1e_4() -> None:
+    found = {k: errors("differences", f"1e-{k}")[1] for k in range(1, 10)}
+    assert 4 == min(found, key=found.get)
+
+
+def test_instant_centres_give_velocities_to_15_digits() -> None:
+    assert errors("instant centres")[0] < 1e-14
+
+
+def test_instant_centres_give_no_accelerations() -> None:
+    assert errors("instant centres")[1] is None
+
+
+def test_a_cad_screen_gives_four_digits() -> None:
+    assert all(1e-6 < e < 1e-3 for e in errors("cad drawing"))
+
+
+def test_a_pencil_on_a_quarter_of_the_paper_errs_more_than_on_all_of_it() -> None:
+    assert errors("pencil", "0.25")[0] > 2 * errors("pencil", "1")[0]
+
+
+def test_by_hand_errs_as_the_simulated_pencil_does() -> None:
+    assert errors("pencil", "1") == errors("by hand", "1")
+
+
+def test_what_is_asked_for_alone_is_as_exact_as_all_of_it() -> None:
+    assert all(e < 1e-14 for key in ("exact drawing", "closed floats") for e in errors(key, "asked"))
+
+
+def test_pylinkage_agrees_with_the_reference_where_it_is_installed() -> None:
+    pytest.importorskip("pylinkage")
+    assert all(e < 1e-11 for e in errors("pylinkage", name="fourbar-150-500-300-400"))
+
+
+def test_a_peer_that_is_not_installed_is_left_out_by_name(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
+    with pytest.raises(Skipped, match="not installed"):
+        next(pylinkage(None, 1))
+
+
+def test_a_mechanism_without_closed_form_is_refused_by_name() -> None:
+    with pytest.raises(graphkin.CallError, match="no closed form"):
+        graphkin.speed_accuracy("double-butterfly")
+
+
+def test_without_mpmath_the_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    import sys
+
+    monkeypatch.setitem(sys.modules, "mpmath", None)
+    with pytest.raises(graphkin.CallError, match=r"graphkin\[study\]"):
+        graphkin.stability(["crossing height"])
+
+
+def test_the_caption_tells_cores_versions_and_repeats() -> None:
+    found = raced()
+    told = page(found).desc
+    assert f"{found.machine.cores} cores" in told
+    assert dict(found.machine.versions)["numpy"] in told
+    assert "best of 1 runs" in told
+
+
+def test_no_two_labels_of_the_chart_overlap() -> None:
+    from graphkin.drawing import Text
+    from graphkin.drawing.metrics import text_box
+    from graphkin.drawing.primitives import walk
+
+    for language in ("en", "zh"):
+        boxes = [text_box(t) for t in walk(page(raced(), language).children) if isinstance(t, Text)]
+        assert [] == [(a, b) for i, a in enumerate(boxes) for b in boxes[:i] if a.grown(-0.2).overlaps(b)]
+
+
+def test_the_table_has_a_row_for_every_method_and_the_floor() -> None:
+    assert 2 + len(raced().entries) == len(race_csv(raced()).splitlines())
+
+
+def test_the_data_name_every_method_once() -> None:
+    found = [(m["method"], m["tag"]) for m in to_json(raced())["methods"]]
+    assert len(set(found)) == len(found)
