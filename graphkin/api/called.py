@@ -21,8 +21,14 @@ MOST_DRAWN = 20
 
 
 def as_scene(scene: SceneLike) -> Scene:
-    """A scene from a file, a name of one that comes along, a mapping, or a scene itself."""
-    return scene if isinstance(scene, Scene) else read(scene)
+    """A scene from a file, a name of one that comes along, a mapping, or a scene itself; a value of its driver that is
+    given from a dead point is found."""
+    given = scene if isinstance(scene, Scene) else read(scene)
+    if any(d.dead_point and not d.dead_point.exact for d in given.drivers):
+        from graphkin.exact import structure_of
+
+        return structure_of(given).scene
+    return given
 
 
 def for_paper(scene: SceneLike) -> Scene:

@@ -9,7 +9,7 @@ import numpy as np
 from graphkin.errors import Problem, Unsolvable
 from graphkin.exact.cluster import ClusterSolved, System, as_place, solve_all, solve_cluster
 from graphkin.exact.dyads import Solved
-from graphkin.exact.engine import SINGULAR, State, positions
+from graphkin.exact.engine import State, positions
 from graphkin.exact.joints import Drive, driver_text
 from graphkin.exact.pose import Array, Pose
 from graphkin.scene.model import AngleDriver, Scene
@@ -63,7 +63,7 @@ def _choose_sign(structure: Structure, i: int, dyad: Dyad, drive: Drive, forms: 
     assert isinstance(solved, Solved)
     if dyad.kind in ("PRP", "RPP"):
         sign = float(np.sign(solved.sine[0])) or 1.0
-        if abs(solved.sine[0]) >= SINGULAR:
+        if abs(solved.sine[0]) >= states[0].singular[0]:
             pick(scene, dyad.links, [_places(structure, i, dyad.links, states[0])], 0)
         return np.array(sign)
     if not solved.discriminant[0] >= -TOUCH:
@@ -75,7 +75,7 @@ def _choose_sign(structure: Structure, i: int, dyad: Dyad, drive: Drive, forms: 
                 _nearest(structure, i, drive, forms),
             ),
         )
-    if not abs(solved.sine[0]) >= SINGULAR:
+    if not abs(solved.sine[0]) >= states[0].singular[0]:
         return np.array(1.0)
     candidates = [_places(structure, i, dyad.links, state) for state in states]
     return np.array((1.0, -1.0)[pick(scene, dyad.links, candidates, 0).index])

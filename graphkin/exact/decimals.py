@@ -7,7 +7,19 @@ from collections.abc import Callable, Sequence
 from decimal import ROUND_HALF_EVEN, Context, Decimal, DivisionByZero, InvalidOperation, Overflow, localcontext
 from typing import Any
 
-__all__ = ["DIGITS", "PI", "cos_sin", "decimal_function", "meant", "meant_angle", "meant_direction", "working"]
+from graphkin.scene.model import AngleDriver, Driver
+
+__all__ = [
+    "DIGITS",
+    "PI",
+    "cos_sin",
+    "decimal_function",
+    "meant",
+    "meant_angle",
+    "meant_direction",
+    "meant_value",
+    "working",
+]
 
 DIGITS = 50
 PI = Decimal("3.14159265358979323846264338327950288419716939937510582097494459230781640628620899863")
@@ -35,6 +47,11 @@ def meant_angle(value: float) -> tuple[Decimal, bool]:
     with working():
         degrees, known = meant(float(Decimal(value) * 180 / PI))
         return (degrees * PI / 180 if known else Decimal(value)), known
+
+
+def meant_value(driver: Driver, value: float) -> Decimal:
+    """The value of a driver that was written for a float."""
+    return (meant_angle if isinstance(driver, AngleDriver) else meant)(value)[0]
 
 
 def meant_direction(z: complex) -> tuple[tuple[Decimal, Decimal], bool]:

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from graphkin.errors import GraphkinError, Problem, Unsolvable
 from graphkin.exact.choice import choose_forms, own_values
+from graphkin.exact.dead_points import settled
 from graphkin.exact.engine import positions
 from graphkin.exact.findings import singular
 from graphkin.exact.joints import Drive
@@ -19,7 +20,7 @@ NEARBY = 0.01
 
 
 def structure_of(scene: Scene) -> Structure:
-    """The structure of a scene.
+    """The structure of a scene, a driver's value that is given from a dead point found.
 
     Raises
     ------
@@ -28,12 +29,14 @@ def structure_of(scene: Scene) -> Structure:
         and the link is laid back into it, in position, velocity and acceleration, here and at a position nearby
     """
     try:
-        return analyse(scene)
+        structure = analyse(scene)
     except Unsolvable as stop:
         found = _diagnosis(scene)
         if found is None:
             raise
         raise Unsolvable("mobility", *stop.problems, found) from None
+    unsettled = any(d.dead_point and not d.dead_point.exact for d in scene.drivers)
+    return settled(structure) if unsettled else structure
 
 
 def _diagnosis(scene: Scene) -> Problem | None:

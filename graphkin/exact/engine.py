@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
@@ -14,16 +14,18 @@ from graphkin.exact.finer import Finer
 from graphkin.exact.formula import Real, Vec
 from graphkin.exact.joints import Drive, turned
 from graphkin.exact.pose import Array, Pose, rest
-from graphkin.exact.program import FIELDS, GIVEN, program_of
+from graphkin.exact.program import FIELDS, GIVEN, Program, program_of
 from graphkin.exact.rendering import Code
 from graphkin.exact.rounding import UNIT
 from graphkin.scene.model import AngleDriver
 from graphkin.structure import Cluster, Driven, Dyad, Structure
 
-__all__ = ["SINGULAR", "Bounds", "State", "positions"]
+__all__ = ["SINGULAR", "Bounds", "State", "finer_of", "positions"]
 
 SINGULAR = 1e-7
 """A group whose two loci cross at a smaller sine than this is at a dead point."""
+TINY = 1e-25
+"""The same where the driver's distance from the dead point is known to fifty digits."""
 SLACK = 1.001
 """For the rounding of the bounds themselves."""
 FEW = 4
@@ -54,12 +56,14 @@ class State:
     bounds : how far rounding may have put the links; None where rates were left out
     rough : bounds of velocity and acceleration, of points as far off as the mechanism is large, for a computation in 16
         digits throughout, such as a drawing; greater where more digits were used
+    singular : the sine below which a group is at a dead point, smaller where the driver is given from a dead point
     """
 
     poses: Mapping[str, Pose]
     groups: Mapping[int, Solved | ClusterSolved] = field(default_factory=dict)
     bounds: Bounds | None = None
     rough: tuple[Array, Array] = (_ZERO, _ZERO)
+    singular: Array = field(default_factory=lambda: np.full(1, SINGULAR))
 
 
 def positions(
@@ -81,6 +85,16 @@ def positions(
     """
     with np.errstate(all="ignore"):
         return _Run(structure, drive, forms, rates).state(len(structure.elements) if upto is None else upto)
+
+
+def finer_of(
+    structure: Structure, forms: Mapping[int, Array], key: Any, choose: Callable[[Program], list[Real]]
+) -> Finer:
+    """What computes some formulas of a mechanism of dyads in fifty digits, at any value of its drivers."""
+    own = np.array([[d.values[0] for d in structure.scene.drivers]])
+    run = _Run(structure, Drive.at(structure, own), forms, False)
+    program = run.fitted.program
+    return run._finer(program.code(key, choose(program)))
 
 
 class _Run:
@@ -135,8 +149,14 @@ class _Run:
         if self.rates:
             velocity, acceleration, _, omega, alpha = columns[-5:]
             rough = _sure(np.maximum(velocity, size * omega)), _sure(np.maximum(acceleration, size * alpha))
-        if self.rates and names and not self.clusters:
-            self._finer(program.code((upto, self.rates), ())).refine(asked, columns, len(names))
+        fine = np.zeros(self.n, dtype=bool)
+        if names and not self.clusters:
+            finer = self._finer(program.code((upto, self.rates), ()))
+            fine = finer.exact()
+            if self.rates:
+                finer.refine(asked, columns, len(names))
+            elif fine.any():
+                finer.place(asked, columns)
         values = iter(columns)
         poses = {self.structure.scene.frame.name: rest()}
         poses |= {n: _pose(dict(zip(fields, values, strict=False))) for n in names}
@@ -148,7 +168,7 @@ class _Run:
                 *(given.get(p, _LOST) for p in Solved._fields[2:]),
             )
         bounds = Bounds(*(_sure(b) for b in values)) if self.rates else None
-        return State(poses, dict(sorted(groups.items())), bounds, rough)
+        return State(poses, dict(sorted(groups.items())), bounds, rough, np.where(fine, TINY, SINGULAR))
 
     def _together(self, i: int, group: Cluster) -> None:
         """Solve a larger group, and give its poses to the formulas of what follows."""

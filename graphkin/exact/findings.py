@@ -7,6 +7,8 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from graphkin.exact.cluster import ClusterSolved
+from graphkin.exact.dead_points import nearest_dead_point
+from graphkin.exact.decimals import meant_value
 from graphkin.exact.dyads import Solved
 from graphkin.exact.engine import SINGULAR, State, positions
 from graphkin.exact.joints import Drive, driver_text
@@ -24,7 +26,7 @@ def singular(structure: Structure, state: State, n: int) -> Iterator[tuple[int, 
     """For each group where it stands in a dead point, shape (n,)."""
     for i, solved in state.groups.items():
         if isinstance(solved, Solved):
-            yield i, np.broadcast_to(~(np.abs(solved.sine) >= SINGULAR), (n,))
+            yield i, np.broadcast_to(~(np.abs(solved.sine) >= state.singular), (n,))
         else:
             yield i, (~(solved.condition * SINGULAR <= 1)) | ~(solved.missed < OPEN)
 
@@ -85,7 +87,23 @@ def dead_why(structure: Structure, i: int, values: Array, forms: Mapping[int, Ar
         else:
             how = _in_line(group)
     end = "the velocity is not unique here, the motion can branch" if branch else "a rate is infinite here"
-    return f"links {names} {how}: dead point, {end}"
+    return f"links {names} {how}: dead point, {end}{_where(structure, i, values, forms)}"
+
+
+def _where(structure: Structure, i: int, values: Array, forms: Mapping[int, Array]) -> str:
+    """Where the dead point lies, and how far away."""
+    signs = {j: float(np.ravel(f)[0]) for j, f in forms.items() if isinstance(structure.elements[j], Dyad) and j < i}
+    value = float(values[0])
+    point = nearest_dead_point(structure, i, signs, value)
+    if point is None:
+        return ""
+    scene, driver = structure.scene, structure.scene.drivers[0]
+    away = float(abs(point.value - meant_value(driver, value)))
+    away = away if away > 1e-30 else 0.0
+    unit = ("deg", np.degrees(away)) if isinstance(driver, AngleDriver) else (
+        scene.units.length, away / scene.units.metres
+    )
+    return f"; it lies at {driver.key} = {driver_text(scene, driver, float(point.value))}, {unit[1]:.3g} {unit[0]} away"
 
 
 def _outer(group: Dyad) -> str:

@@ -41,21 +41,40 @@ class Finer:
     second: Array
     signs: Mapping[Any, Array]
 
+    def exact(self) -> Array:
+        """Positions whose driver values are known to fifty digits, shape (n,)."""
+        found = np.zeros(len(self.value), dtype=bool)
+        for j, driver in enumerate(self.drivers):
+            if driver.dead_point and driver.dead_point.exact:
+                found |= self.value[:, j] == driver.values[0]
+        return found
+
+    def place(self, asked: Sequence[Any], columns: Sequence[Array]) -> None:
+        """Compute these positions in 50 digits, in ``columns`` of ``asked``."""
+        with working():
+            for k in np.flatnonzero(self.exact()).tolist():
+                self._put(k, asked, columns)
+
+    def _put(self, k: int, asked: Sequence[Any], columns: Sequence[Array]) -> bool:
+        try:
+            row = [float(x) for x in self.row(k)]
+        except ArithmeticError:
+            return False
+        for x, column in zip(asked, columns, strict=True):
+            column[k] = complex(row.pop(0), row.pop(0)) if isinstance(x, Vec) else row.pop(0)
+        return True
+
     def refine(self, asked: Sequence[Any], columns: Sequence[Array], links: int) -> None:
         """Replace the rough positions in ``columns``: those of ``asked``, which begin with the fields of so many links
         and end with their bounds."""
         speed, push = (self._largest(columns, links, k) for k in (1, 2))
         size = self.fitted.structure.scene.size
         velocity, acceleration = columns[-5] + size * columns[-2], columns[-4] + size * columns[-1]
-        rough = ~(np.maximum(velocity / speed, acceleration / push) < ROUGH)
+        rough = ~(np.maximum(velocity / speed, acceleration / push) < ROUGH) | self.exact()
         with working():
             for k in np.flatnonzero(rough).tolist():
-                try:
-                    row = [float(x) for x in self._row(k)]
-                except ArithmeticError:
+                if not self._put(k, asked, columns):
                     continue
-                for x, column in zip(asked, columns, strict=True):
-                    column[k] = complex(row.pop(0), row.pop(0)) if isinstance(x, Vec) else row.pop(0)
                 one = [column[k : k + 1] for column in columns]
                 spin, bend = (max(float(np.abs(one[6 * n + f][0])) for n in range(links)) for f in (3, 5))
                 wide = [*(float(self._largest(one, links, f)[0]) for f in range(3)), 1.0, spin, bend]
@@ -72,12 +91,18 @@ class Finer:
             most = np.fmax(most, np.abs(own[2 * order]) + turning * size)
         return most
 
-    def _row(self, k: int) -> tuple[Decimal, ...]:
+    def row(self, k: int, at: Mapping[int, Decimal] | None = None) -> tuple[Decimal, ...]:
+        """What the code computes at position ``k``, or with drivers at other values."""
         given: dict[Any, Decimal] = {name: Decimal(float(column[k])) for name, column in self.signs.items()}
         for j, driver in enumerate(self.drivers):
             value = float(self.value[k, j])
             turns = isinstance(driver, AngleDriver)
             number, exact = meant_angle(value) if turns else meant(value)
+            dead = driver.dead_point
+            if dead and dead.exact and value == driver.values[0]:
+                number, exact = Decimal(dead.exact), True
+            if at and j in at:
+                number, exact = at[j], True
             if turns:
                 given["cos", j], given["sin", j] = cos_sin(number)
             else:

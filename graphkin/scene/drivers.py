@@ -1,4 +1,10 @@
-"""Which link or sliding pair a driver drives, and how fast."""
+"""Which link or sliding pair a driver drives, and how fast.
+
+With ``from = "dead point"`` the angle or travel is the distance from a dead point of the mechanism, given without loss
+however small it is: positive beyond a dead point at which the motion begins (as the driver's value grows), negative
+before one where it ends; at a change point, through which the motion goes on, either.  ``near`` (degrees, or travel)
+tells which one is meant where there are several.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +14,7 @@ from dataclasses import dataclass
 
 from graphkin.errors import Problem, did_you_mean
 from graphkin.scene.file import SMALLEST, AngleDriverTable, SceneFile, SlideDriverTable
-from graphkin.scene.model import PinInSlot, SlidingPair
+from graphkin.scene.model import FromDeadPoint, PinInSlot, SlidingPair
 from graphkin.scene.names import Names
 from graphkin.scene.reading import Flaws
 
@@ -29,6 +35,7 @@ class Drive:
     value: float | None
     rate: float
     second: float
+    dead_point: FromDeadPoint | None = None
 
 
 def drives(
@@ -52,6 +59,7 @@ def drives(
         else:
             reasons, key = _slide_problems(where, table, file, names, slidings, pins, lost)
             base = ""
+        reasons += _origin_problems(where, table, file)
         reasons += _driven_twice(where, key, base, found)
         reasons += _too_slow(where, table)
         problems += reasons
@@ -60,10 +68,13 @@ def drives(
         if isinstance(table, AngleDriverTable):
             omega = table.omega if table.omega is not None else (table.rpm or 0.0) * math.pi / 30
             angle = None if table.angle is None else math.radians(table.angle)
-            found.append(Drive(where, key, base, angle, omega, table.alpha))
+            unit = math.pi / 180
+            found.append(Drive(where, key, base, angle, omega, table.alpha, _from_dead_point(table, angle, unit)))
         else:
             travel = None if table.travel is None else table.travel * metres
-            found.append(Drive(where, key, base, travel, (table.velocity or 0.0) * metres, table.acceleration * metres))
+            dead = _from_dead_point(table, travel, metres)
+            rate, second = (table.velocity or 0.0) * metres, table.acceleration * metres
+            found.append(Drive(where, key, base, travel, rate, second, dead))
     return tuple(found)
 
 
@@ -72,6 +83,33 @@ def _too_slow(where: str, table: AngleDriverTable | SlideDriverTable) -> Iterato
         rate = getattr(table, key, None)
         if rate and abs(rate) < SMALLEST:
             yield Problem(f"{where}.{key}", f"found {rate:g}", f"write 0, or at least {SMALLEST:g}")
+
+
+def _from_dead_point(
+    table: AngleDriverTable | SlideDriverTable, value: float | None, unit: float
+) -> FromDeadPoint | None:
+    if table.origin is None or value is None:
+        return None
+    return FromDeadPoint(value, None if table.near is None else table.near * unit)
+
+
+def _origin_problems(
+    where: str, table: AngleDriverTable | SlideDriverTable, file: SceneFile
+) -> Iterator[Problem]:
+    value = table.angle if isinstance(table, AngleDriverTable) else table.travel
+    what = "angle" if isinstance(table, AngleDriverTable) else "travel"
+    if table.origin is None:
+        if table.near is not None:
+            yield Problem(f"{where}.near", "tells which dead point", 'write from = "dead point" with it')
+        return
+    if value is None or value == 0.0:
+        yield Problem(f"{where}.{what}", "is missing" if value is None else "0 is the dead point itself",
+                      "write the distance from the dead point")
+    if len(file.drivers) > 1:
+        yield Problem(f"{where}.from", "a dead point is found for a single driver only", "give the value itself")
+    if file.drawn:
+        yield Problem(f"{where}.from", "with [drawn] the value of the driver follows from the points",
+                      "leave one of the two out")
 
 
 def _angle_problems(

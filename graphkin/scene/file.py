@@ -187,6 +187,10 @@ class AngleDriverTable(_Table):
     omega: Number | None = Field(default=None, description="rad/s, counter-clockwise positive.")
     rpm: Number | None = Field(default=None, description="Instead of omega: turns per minute.")
     alpha: Number = Field(default=0.0, description="rad/s2.")
+    origin: Literal["dead point"] | None = Field(
+        default=None, alias="from", description='"dead point": the angle counts from a dead point of the mechanism.'
+    )
+    near: Number | None = Field(default=None, description="Degrees: which dead point, where there are several.")
 
 
 class SlideDriverTable(_Table):
@@ -199,6 +203,10 @@ class SlideDriverTable(_Table):
     )
     velocity: Number | None = Field(default=None, description="Length unit/s along the guide's sense.")
     acceleration: Number = Field(default=0.0, description="Length unit/s2 along the guide's sense.")
+    origin: Literal["dead point"] | None = Field(
+        default=None, alias="from", description='"dead point": the travel counts from a dead point of the mechanism.'
+    )
+    near: Number | None = Field(default=None, description="Travel: which dead point, where there are several.")
 
 
 DriverTable = Annotated[

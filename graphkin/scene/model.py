@@ -17,6 +17,7 @@ __all__ = [
     "AngleDriver",
     "Convention",
     "Driver",
+    "FromDeadPoint",
     "Guide",
     "Language",
     "Link",
@@ -110,6 +111,20 @@ class PinInSlot:
 
 
 @dataclass(frozen=True)
+class FromDeadPoint:
+    """A driver's value given as the distance from a dead point (rad, m): ``angle`` or ``travel`` is that distance until
+    the dead point has been found, and then the value itself, of which ``exact`` holds fifty digits.
+
+    A positive distance is beyond a dead point at which the motion begins, a negative one before one where it ends.
+    ``near`` tells which dead point, where there are several.
+    """
+
+    distance: float
+    near: float | None = None
+    exact: str = ""
+
+
+@dataclass(frozen=True)
 class AngleDriver:
     """The angle of ``link``'s own x axis from that of ``relative_to`` (the frame's name by default)."""
 
@@ -118,6 +133,7 @@ class AngleDriver:
     angle: float
     omega: float
     alpha: float
+    dead_point: FromDeadPoint | None = None
 
     @property
     def key(self) -> str:
@@ -137,6 +153,7 @@ class SlideDriver:
     travel: float
     velocity: float
     acceleration: float
+    dead_point: FromDeadPoint | None = None
 
     @property
     def values(self) -> tuple[float, float, float]:

@@ -170,7 +170,7 @@ def _driver(drive: Drive, position: Position, problems: list[Problem]) -> Driver
     if not drive.base:
         travel = drive.value if drive.value is not None else travel_of(position, drive.key)
         if travel is not None:
-            return SlideDriver(drive.key, travel, drive.rate, drive.second)
+            return SlideDriver(drive.key, travel, drive.rate, drive.second, drive.dead_point)
         problems.append(Problem(f"{drive.where}.travel", "is missing",
                                 "write travel = ..., or draw the points that give it in [drawn]"))
         return None
@@ -179,7 +179,7 @@ def _driver(drive: Drive, position: Position, problems: list[Problem]) -> Driver
     if angle is None and driven and base and driven.turn is not None and base.turn is not None:
         angle = cmath.phase(driven.turn / base.turn)
     if angle is not None:
-        return AngleDriver(drive.key, drive.base, angle, drive.rate, drive.second)
+        return AngleDriver(drive.key, drive.base, angle, drive.rate, drive.second, drive.dead_point)
     problems.append(Problem(f"{drive.where}.angle", "is missing",
                             f"write angle = ... in degrees, or draw two points of link {drive.key} in [drawn]"))
     return None

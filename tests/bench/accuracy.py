@@ -213,7 +213,7 @@ def _exact_rows(structure: Structure, drive: Drive, forms: dict[int, Any], degre
 
     def row(k: int) -> dict[str, _Exact]:
         with working(), patch.object(finer, "meant_angle", lambda _: (Decimal(float(degrees[k])) * PI / 180, True)):
-            numbers = list(again._row(k))
+            numbers = list(again.row(k))
         found: dict[str, _Exact] = {}
         for name in names:
             parts: dict[str, tuple[Decimal, Decimal]] = {}

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import math
+
 import pytest
 
 from graphkin.errors import SceneError
 from graphkin.scene import read_text
+from graphkin.scene.model import FromDeadPoint
 
 from .scenes import FOUR_BAR, SIX_BAR, changed
 
@@ -198,7 +201,7 @@ def test_a_driven_slide_without_velocity_asks_for_it() -> None:
 def test_a_driven_slide_has_no_omega() -> None:
     text = changed(SIX_BAR, ('link  = "1"\nangle = 50', 'slide = "5"\ntravel = 3\nvelocity = 1'))
     assert messages(text) == [
-        "driver.omega: unknown key; known here: acceleration, relative_to, slide, travel, velocity"]
+        "driver.omega: unknown key; known here: acceleration, from, near, relative_to, slide, travel, velocity"]
 
 
 def test_a_redundant_link_does_not_drive_by_its_slide() -> None:
@@ -282,3 +285,26 @@ def test_a_wrong_list_of_guides_is_not_reported_as_missing() -> None:
 def test_a_number_of_thousands_of_digits_is_told_in_words_of_the_scene() -> None:
     (sentence,) = messages(changed(FOUR_BAR, ("length = 150", "length = 1" + "0" * 5000)))
     assert "1e+15" in sentence
+
+
+DEAD = ('angle = 50', 'angle = 1e-9\nfrom = "dead point"')
+
+
+def test_an_angle_may_count_from_a_dead_point() -> None:
+    driver = read_text(changed(SIX_BAR, DEAD), "scene").drivers[0]
+    assert driver.dead_point == FromDeadPoint(math.radians(1e-9))
+
+
+def test_a_dead_point_is_told_by_what_it_is_near_to() -> None:
+    driver = read_text(changed(SIX_BAR, (DEAD[0], DEAD[1] + "\nnear = 90")), "scene").drivers[0]
+    assert driver.dead_point == FromDeadPoint(math.radians(1e-9), math.radians(90))
+
+
+def test_near_alone_means_nothing() -> None:
+    assert messages(changed(SIX_BAR, (DEAD[0], "angle = 50\nnear = 90"))) == [
+        'driver.near: tells which dead point; write from = "dead point" with it']
+
+
+def test_no_distance_is_the_dead_point_itself() -> None:
+    [sentence] = messages(changed(SIX_BAR, (DEAD[0], DEAD[1].replace("1e-9", "0"))))
+    assert sentence == "driver.angle: 0 is the dead point itself; write the distance from the dead point"
