@@ -655,8 +655,4 @@ _TABLE: dict[str, tuple[str, str]] = {
         "Left out, since nothing asked for needs it: the accelerations of links {0}",
         "所求的量不需要，故略去：构件 {0} 的加速度",
     ),
-    "steps saved": (
-        "{0} steps drawn instead of {1}, {2} equations instead of {3}",
-        "作图 {0} 步（全部为 {1} 步），方程 {2} 个（全部为 {3} 个）",
-    ),
 }

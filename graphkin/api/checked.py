@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import html
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +15,7 @@ from graphkin.drafting.sheet import DiagramName
 from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
 from graphkin.scene.model import Scene
 from graphkin.scene.symbol import Symbol
+from graphkin.structure import analyse, part_of
 from graphkin.words import say
 
 if TYPE_CHECKING:
@@ -30,16 +31,23 @@ INSTRUMENTS = ("exact", "cad", "pencil")
 class Checked:
     """A drawing, its readings, and how they compare with the exact values.
 
-    ``advice`` names the least certain reading of a drawing with finite tools, and what would help it.
+    ``advice`` names the least certain reading of a drawing with finite tools, and what would help it; ``asked`` is
+    what the drawing was limited to, empty where it was not.
     """
 
     sheet: Sheet
     report: Report
     advice: Advice | None = None
+    asked: tuple[Symbol, ...] = ()
 
     @property
     def scene(self) -> Scene:
         return self.sheet.scene
+
+    @cached_property
+    def part(self) -> Scene:
+        """The scene as far as it leads to the asked."""
+        return part_of(self.sheet.structure, self.asked)
 
     @property
     def ok(self) -> bool:
@@ -78,10 +86,12 @@ class Checked:
 
     @cached_property
     def centres(self) -> Centres:
-        """All instant centres at this position, from which velocities come by a third way."""
+        """The instant centres of what leads to the asked, from which velocities come by a third way."""
         from graphkin.drafting.centres import find_centres
 
-        return find_centres(self.scene, self.sheet.drivers, sheet=self.sheet)
+        part = self.part
+        sheet = replace(self.sheet, scene=part, structure=analyse(part)) if part is not self.scene else self.sheet
+        return find_centres(part, {d.key: self.sheet.drivers[d.key] for d in part.drivers}, sheet=sheet)
 
     @cached_property
     def _turning(self) -> Mapping[str, Turning]:
@@ -180,7 +190,7 @@ def check(
     asked = asked_symbols(given, find)
     values = driver_values(given, at)
     hand = hand_of(given, instrument, seed)
-    motion = solved_here(given, values)
+    motion = solved_here(given, values, asked)
     return checked(plan(given, values, asked), motion, hand)
 
 
@@ -198,11 +208,11 @@ def checked(what: Plan, motion: Motion, hand: Instrument) -> Checked:
             "velocity": float(motion.rough[0][0]),
             "acceleration": float(motion.rough[1][0]),
         }
-        return Checked(sheet, compare(sheet, readings, value, what.asked, rounding=rounding))
+        return Checked(sheet, compare(sheet, readings, value, what.asked, rounding=rounding), None, what.asked)
     tools = what.structure.scene.sheet.tools
     predicted = predict(what, hand.name, tools)
     advice = advise(what, hand.name, tools, readings, predicted)
-    return Checked(sheet, compare(sheet, readings, value, what.asked, predicted), advice)
+    return Checked(sheet, compare(sheet, readings, value, what.asked, predicted), advice, what.asked)
 
 
 def hand_of(scene: Scene, name: str, seed: int) -> Instrument:
@@ -216,13 +226,17 @@ def hand_of(scene: Scene, name: str, seed: int) -> Instrument:
     raise CallError(Problem("instrument", f'"{name}"', did_you_mean(name, INSTRUMENTS)))
 
 
-def solved_here(scene: Scene, values: Mapping[str, float] | None) -> Motion:
-    """The exact motion at one position.
+def solved_here(scene: Scene, values: Mapping[str, float] | None, asked: Sequence[Symbol] = ()) -> Motion:
+    """The exact motion at one position, of what leads to the asked.
 
     It comes before the drawing, because it tells best why a position cannot be had.
     """
     from graphkin import exact
 
+    if asked:
+        scene = part_of(exact.structure_of(scene), asked)
+        kept = [d.key for d in scene.drivers]
+        values = {k: v for k, v in values.items() if k in kept} if values else values
     motion = exact.solve(scene, at=values)
     if motion.status[0] != "ok":
         driver = ", ".join(

@@ -58,7 +58,8 @@ class Drawn:
                 self.checked.sheet, self.small.sheet, self.small.report, language=spoken, convention=letters
             )
         )
-        found = found_centres(self.checked.scene, self.checked.sheet.drivers)
+        part = self.checked.part
+        found = found_centres(part, {d.key: self.checked.sheet.drivers[d.key] for d in part.drivers})
         made["centres"] = centres_figure(found, speeds(found), language=spoken, convention=letters)
         return made
 
@@ -158,7 +159,7 @@ def draw(
     asked = asked_symbols(given, find)
     values = driver_values(given, at)
     hand = hand_of(given, instrument, seed)
-    motion = solved_here(given, values)
+    motion = solved_here(given, values, asked)
     whole = checked(plan(given, values, asked), motion, hand)
     # the sheet is drawn anew at the scales that fit it, and bears its own readings
     small = checked(plan(given, values, asked, sheet_room(given)), motion, hand_of(given, instrument, seed))

@@ -58,7 +58,7 @@ def told(checked: Checked, language: str) -> str:
         mark = "" if row.ok else "  !"
         lines.append(f"{r['symbol']:<16}{r['on_paper_mm']:>12.3f}{r['measured']:>16.6g}{r['exact']:>16.6g}{mark}")
     lines.append("")
-    lines += [say(note, language, show) for note in sheet.notes]
+    lines += [say(note, language, show) for note in (*sheet.left_out, *sheet.notes)]
     if sheet.stopped:
         lines.append(say(sheet.stopped, language, show))
     lines.append(verdict(checked, language))

@@ -1,4 +1,4 @@
-"""What a question needs: the elements on the way to it, and the vectors that only it asks for."""
+"""The vectors that only a question asks for."""
 
 from __future__ import annotations
 
@@ -7,70 +7,12 @@ from collections.abc import Sequence
 from graphkin.drafting.chains import node
 from graphkin.drafting.plot import Order, Plot
 from graphkin.drafting.sheet import Vector
-from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.errors import CallError, Problem
 from graphkin.plane import dot, unit
-from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Cluster, Driven, Element, Structure
 from graphkin.words import Phrase
 
-__all__ = ["needed", "show"]
-
-
-def needed(structure: Structure, asked: Sequence[Symbol]) -> list[Element]:
-    """The elements on the way to what is asked, in the order of solution; all of them if nothing is asked."""
-    if not asked:
-        return list(structure.elements)
-    wanted: set[str] = set()
-    for symbol in asked:
-        wanted.update(_links_for(structure, symbol))
-    kept: list[Element] = []
-    for element in reversed(structure.elements):
-        inside = _inside(element)
-        if inside & wanted:
-            kept.append(element)
-            wanted |= _outside(element)
-    return kept[::-1]
-
-
-def _links_for(structure: Structure, symbol: Symbol) -> set[str]:
-    if symbol.link:
-        return {symbol.link}
-    found: set[str] = set()
-    for ref in (symbol.of, symbol.to):
-        if ref is None:
-            continue
-        holders = [n for n, link in structure.links.items() if ref.point in link.points]
-        if not holders or (ref.link and ref.link not in structure.links):
-            wanted = did_you_mean(ref.point, structure.scene.holders)
-            raise CallError(Problem(str(symbol), f'"{ref}" names no point of a link here', wanted))
-        if ref.link:
-            found.add(ref.link)
-        if not ref.link or ref.point not in structure.links[ref.link].points:
-            # the pin itself must be placed too: by the first link of the order of solution that has it
-            order = {n: i for i, e in enumerate(structure.elements) for n in _inside(e)}
-            found.add(min(holders, key=lambda n: order.get(n, -1)))
-    return found
-
-
-def _inside(element: Element) -> set[str]:
-    if isinstance(element, Driven):
-        return {element.link}
-    if isinstance(element, Cluster):
-        return set(element.members)
-    return {n for body in element.bodies for n in body.links}
-
-
-def _outside(element: Element) -> set[str]:
-    if isinstance(element, Driven):
-        pairs, drivers = [element.pair], [element.driver]
-    elif isinstance(element, Cluster):
-        pairs, drivers = list(element.pairs), list(element.drivers)
-    else:
-        pairs, drivers = [element.outer_first, element.outer_second], []
-    names = {n for pair in pairs for n in (pair.a, pair.b)}
-    names |= {n for d in drivers if isinstance(d, AngleDriver) for n in (d.link, d.relative_to)}
-    return names - _inside(element)
+__all__ = ["show"]
 
 
 def show(plot: Plot, asked: Sequence[Symbol]) -> None:

@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 
-from graphkin.drafting.asked import needed, show
+from graphkin.drafting.asked import show
 from graphkin.drafting.board import Board
 from graphkin.drafting.chains import Chain
 from graphkin.drafting.dyads import Frame, drive
@@ -18,12 +19,13 @@ from graphkin.drafting.sheet import Mark, Scales, Sheet
 from graphkin.drafting.slip import NO_SLIP, Slip
 from graphkin.scene.model import AngleDriver, Scene
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Cluster, Driven, Dyad, Element, Structure, Turn, analyse
+from graphkin.structure import Cluster, Driven, Dyad, Element, Structure, Turn, analyse, links_of, needed
 from graphkin.words import Phrase
 
 __all__ = ["Plan", "Room", "draft", "execute", "plan"]
 
 SERIES = (1.0, 2.0, 2.5, 5.0)
+ORDERS: tuple[Order, ...] = ("velocity", "acceleration")
 SHORT = 3.0  # mm on paper; a direction drawn through two points nearer than this errs by a pencil's width in ten
 
 
@@ -48,11 +50,32 @@ class Plan:
     stopped: Phrase | None
     chains: Mapping[Dyad, Chain] = field(default_factory=dict)
 
-    @property
-    def orders(self) -> tuple[Order, ...]:
-        """The polygons that what is asked needs: no accelerations for velocities."""
-        slow = bool(self.asked) and all(s.kind in ("v", "omega") for s in self.asked)
-        return ("velocity",) if slow else ("velocity", "acceleration")
+    @cached_property
+    def drawn(self) -> Mapping[Order, tuple[Driven | Dyad, ...]]:
+        """What each polygon needs for what is asked: accelerations only of what leads to accelerations."""
+        return {order: _drawn(self.structure, self.elements, self.asked, order) for order in ORDERS}
+
+    @cached_property
+    def left_out(self) -> tuple[Phrase, ...]:
+        """What nothing asked for needs."""
+        wanted = needed(self.structure, self.asked)
+        placed = {n for e in self.elements for n in links_of(e)}
+        pushed = {n for e in self.drawn["acceleration"] for n in links_of(e)}
+        gone = {n for e in self.structure.elements if e not in wanted for n in links_of(e)}
+        names = [link.name for link in self.structure.scene.links]
+        without = [n for n in names if n in gone], [n for n in names if n in placed - pushed]
+        keys = "left out elements", "left out accelerations"
+        return tuple(Phrase(key, (", ".join(links),)) for key, links in zip(keys, without, strict=True) if links)
+
+
+def _drawn(
+    structure: Structure, elements: Sequence[Driven | Dyad], asked: Sequence[Symbol], order: Order
+) -> tuple[Driven | Dyad, ...]:
+    if order == "velocity" or not asked:
+        return tuple(elements)
+    pushes = [s for s in asked if s.kind not in ("v", "omega")]
+    wanted = needed(structure, pushes) if pushes else []
+    return tuple(e for e in elements if e in wanted)
 
 
 def plan(
@@ -68,7 +91,8 @@ def plan(
     elements = _drawable(wanted)
     values = {d.key: d.values[0] for d in scene.drivers} | dict(at or {})
     branches = branches_at(structure, elements, values)
-    trial = _trial(structure, elements, values, branches)
+    orders = {order: _drawn(structure, elements, asked, order) for order in ORDERS}
+    trial = _trial(structure, orders, values, branches)
     scales = _scales(trial, room)
     return Plan(structure, asked, tuple(elements), values, branches, scales, _stopped(wanted), trial.chains)
 
@@ -82,8 +106,8 @@ def execute(what: Plan, instrument: Instrument = EXACT, slip: Slip = NO_SLIP) ->
     board.causes[:] = position.causes
     polygons = Polygons(board, structure, position.frame, scales, slip)
     polygons.chains.update(what.chains)
-    for order in what.orders:
-        for element in elements:
+    for order in ORDERS:
+        for element in what.drawn[order]:
             polygons.draw(order, element)
     show(polygons, what.asked)
     return Sheet(
@@ -102,6 +126,7 @@ def execute(what: Plan, instrument: Instrument = EXACT, slip: Slip = NO_SLIP) ->
         assembly=assembly,
         notes=tuple(board.notes),
         stopped=what.stopped,
+        left_out=what.left_out,
         causes=tuple(board.causes),
     )
 
@@ -239,16 +264,16 @@ def _assembly_names(dyad: Dyad) -> tuple[object, ...]:
 
 def _trial(
     structure: Structure,
-    elements: Sequence[Driven | Dyad],
+    drawn: Mapping[Order, Sequence[Driven | Dyad]],
     values: Mapping[str, float],
     branches: Mapping[int, int],
 ) -> Polygons:
     """Both polygons drawn once at any scale, to see how large they come out."""
     trial = Scales(structure.scene.size / 100.0, 1.0, 1.0)
-    frame = place(structure, elements, 1.0 / trial.length, values, branches).frame
+    frame = place(structure, drawn["velocity"], 1.0 / trial.length, values, branches).frame
     polygons = Polygons(Board(EXACT), structure, frame, trial)
-    for order in ("velocity", "acceleration"):
-        for element in elements:
+    for order in ORDERS:
+        for element in drawn[order]:
             polygons.draw(order, element)
     return polygons
 

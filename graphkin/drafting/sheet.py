@@ -198,6 +198,7 @@ class Sheet:
     ``omega`` and ``alpha`` hold the measured rates by link.  ``stopped`` names the group that could not be drawn and
     why; everything before it stands.  ``notes`` are remarks on the construction (lines that meet off the sheet,
     zero vectors).  ``causes`` tells to which step the acts of the hand belong: (acts made when it was done, the step).
+    ``left_out`` says what nothing asked for needs.
     """
 
     scene: Scene
@@ -216,6 +217,7 @@ class Sheet:
     notes: tuple[Phrase, ...] = ()
     stopped: Phrase | None = None
     causes: tuple[tuple[int, Phrase], ...] = ()
+    left_out: tuple[Phrase, ...] = ()
 
     def vectors(self, diagram: DiagramName) -> dict[Symbol, Vector]:
         """All vectors of a diagram by symbol."""

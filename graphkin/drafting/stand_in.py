@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
-from graphkin.drafting.asked import needed
 from graphkin.drafting.closing import Closing, Moved
 from graphkin.drafting.dyads import Frame
 from graphkin.drafting.sheet import Pose
@@ -18,7 +17,7 @@ from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot
 from graphkin.scene.model import AngleDriver, Driver, Scene, SlideDriver
 from graphkin.scene.symbol import Symbol
-from graphkin.structure import Cluster, Driven, Dyad, Element, Structure, Turn, analyse
+from graphkin.structure import Cluster, Driven, Dyad, Element, Structure, Turn, analyse, needed
 
 __all__ = ["StandIn", "clusters", "links_of", "stand_ins"]
 

@@ -16,6 +16,7 @@ from graphkin.structure.model import (
     Weld,
     driver_pair,
 )
+from graphkin.structure.part import links_of, needed, part_of
 
 __all__ = [
     "Body",
@@ -32,6 +33,9 @@ __all__ = [
     "Weld",
     "analyse",
     "driver_pair",
+    "links_of",
     "mobility_of",
+    "needed",
+    "part_of",
     "pick",
 ]

@@ -1,0 +1,107 @@
+"""The part of a mechanism that leads to what is asked for, and nothing more."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.scene.model import AngleDriver, Driver, Scene
+from graphkin.scene.symbol import Symbol
+from graphkin.structure.model import Cluster, Driven, Element, Structure
+
+__all__ = ["links_of", "needed", "part_of"]
+
+
+def needed(structure: Structure, asked: Sequence[Symbol]) -> list[Element]:
+    """The elements on the way to what is asked, in the order of solution; all of them if nothing is asked.
+
+    Raises
+    ------
+    CallError : a symbol that names no point of a link here
+    """
+    if not asked:
+        return list(structure.elements)
+    wanted: set[str] = set()
+    for symbol in asked:
+        wanted.update(_links_for(structure, symbol))
+    kept: list[Element] = []
+    for element in reversed(structure.elements):
+        inside = links_of(element)
+        if inside & wanted:
+            kept.append(element)
+            wanted |= _outside(element)
+    return kept[::-1]
+
+
+def links_of(element: Element) -> set[str]:
+    """The links that an element places."""
+    if isinstance(element, Driven):
+        return {element.link}
+    if isinstance(element, Cluster):
+        return set(element.members)
+    return {n for body in element.bodies for n in body.links}
+
+
+def part_of(structure: Structure, asked: Sequence[Symbol]) -> Scene:
+    """The scene with only the links, pairs and drivers on the way to what is asked; itself if nothing is asked or
+    nothing is left out.
+
+    A link that only repeats others is not on the way to anything, unless it is asked for itself: then all is kept.
+    """
+    scene = structure.scene
+    named = {s.link for s in asked} | {r.link for s in asked for r in (s.of, s.to) if r is not None}
+    if not asked or any(link.redundant and link.name in named for link in scene.links):
+        return scene
+    kept = {scene.frame.name, *(n for e in needed(structure, asked) for n in links_of(e))}
+    if all(link.name in kept for link in scene.links):
+        return scene
+    return replace(
+        scene,
+        links=tuple(link for link in scene.links if link.name in kept),
+        slidings=tuple(s for s in scene.slidings if {s.link, s.on} <= kept),
+        pins=tuple(p for p in scene.pins if {p.of, p.on} <= kept),
+        drivers=tuple(d for d in scene.drivers if _ends(scene, d) <= kept),
+        find=tuple(asked),
+        printed={},
+    )
+
+
+def _ends(scene: Scene, driver: Driver) -> set[str]:
+    """The links that a driver acts between."""
+    if isinstance(driver, AngleDriver):
+        return {driver.link, driver.relative_to}
+    pin = next((p for p in scene.pins if p.key == driver.key), None)
+    return {pin.of, pin.on} if pin else set(driver.key.split("/"))
+
+
+def _links_for(structure: Structure, symbol: Symbol) -> set[str]:
+    if symbol.link:
+        return {symbol.link}
+    found: set[str] = set()
+    for ref in (symbol.of, symbol.to):
+        if ref is None:
+            continue
+        holders = [n for n, link in structure.links.items() if ref.point in link.points]
+        if not holders or (ref.link and ref.link not in structure.links):
+            wanted = did_you_mean(ref.point, structure.scene.holders)
+            raise CallError(Problem(str(symbol), f'"{ref}" names no point of a link here', wanted))
+        if ref.link:
+            found.add(ref.link)
+        if not ref.link or ref.point not in structure.links[ref.link].points:
+            # the pin itself must be placed too: by the first link of the order of solution that has it
+            order = {n: i for i, e in enumerate(structure.elements) for n in links_of(e)}
+            found.add(min(holders, key=lambda n: order.get(n, -1)))
+    return found
+
+
+def _outside(element: Element) -> set[str]:
+    if isinstance(element, Driven):
+        pairs, drivers = [element.pair], [element.driver]
+    elif isinstance(element, Cluster):
+        pairs, drivers = list(element.pairs), list(element.drivers)
+    else:
+        pairs, drivers = [element.outer_first, element.outer_second], []
+    names = {n for pair in pairs for n in (pair.a, pair.b)}
+    names |= {n for d in drivers if isinstance(d, AngleDriver) for n in (d.link, d.relative_to)}
+    return names - links_of(element)
