@@ -570,8 +570,9 @@ _TABLE: dict[str, tuple[str, str]] = {
     "lesson": ("What to take from it", "结论"),
     "lesson place": (
         "At a dead point the input itself is lost: no method and no number of digits helps, unless the distance from "
-        "the dead point is what is given.",
-        "在死点附近丢失的是输入本身：任何方法、任何位数都无济于事，除非直接给定到死点的距离。",
+        "the dead point is what the scene gives (from = \"dead point\").",
+        "在死点附近丢失的是输入本身：任何方法、任何位数都无济于事，"
+        "除非题目直接给定到死点的距离（from = \"dead point\"）。",
     ),
     "lesson digits": (
         "Elsewhere digits are lost by the formula: choose one without cancelling (Heron, atan2), or more digits.",

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import csv
 import math
 from functools import cache
+from pathlib import Path
 
 import pytest
 
@@ -138,3 +140,16 @@ def test_no_two_labels_of_the_charts_overlap(language: str) -> None:
     for drawing in pages([trial(kind) for kind in KINDS], language).values():
         boxes = [text_box(t) for t in walk(drawing.children) if isinstance(t, Text)]
         assert [] == [(a, b) for i, a in enumerate(boxes) for b in boxes[:i] if a.grown(-0.2).overlaps(b)]
+
+
+@pytest.mark.parametrize("kind", ["dead point RRR", "dead point RRP", "dead point RPR"])
+def test_a_distance_given_from_the_dead_point_loses_nothing(kind: str) -> None:
+    assert max(trial(kind)["all from the dead point"].error) < 1e-14
+
+
+def test_the_committed_example_shows_the_slopes_of_theory() -> None:
+    table = Path(__file__).parents[2] / "figures" / "stability" / "stability.csv"
+    with table.open(encoding="utf-8") as file:
+        rows = [row for row in csv.DictReader(file) if row["theory"]]
+    assert {"singularity": 11} == {"singularity": len({row["singularity"] for row in rows})}
+    assert all(abs(float(row["slope"]) - float(row["theory"])) <= SLOPE for row in rows)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from decimal import Decimal
 from functools import cached_property
 from typing import Any
 
@@ -19,8 +20,10 @@ from graphkin.checking import predict
 from graphkin.drafting import EXACT, execute, plan
 from graphkin.errors import Unsolvable
 from graphkin.exact import Motion
+from graphkin.exact.dead_points import dead_points
+from graphkin.exact.decimals import working
 from graphkin.scene import read_text
-from graphkin.scene.model import AngleDriver, Scene
+from graphkin.scene.model import AngleDriver, FromDeadPoint, Scene
 from graphkin.scene.symbol import Symbol
 from graphkin.study.equations import Equations, Solution
 from graphkin.study.limits.law import Law, Trial, binned, grid
@@ -131,27 +134,6 @@ class _Case:
             reach = mp.mpf(links["2"].length) + mp.mpf(links["3"].length)
         return mp.acos((a * a + d * d - reach * reach) / (2 * a * d))
 
-    def bend(self, e: Any, dead: Any, sin: Any, cos: Any, sqrt: Any) -> tuple[Any, Any, Any]:
-        """How far the dyad is bent at a distance e from the dead point: sine of half the angle left (RRR, RRP), leg of
-        the right triangle (RPR); and its two rates by e.
-
-        Its square is a product of sines of the distance, none of which cancels.
-        """
-        a, d, _ = self._lengths
-        if self.kind == "RRP":
-            scale = a / (self.scene.by_name["2"].length or 0.0)
-            p, dp, ddp = cos(dead - e / 2) * sin(e / 2), cos(dead - e) / 2, sin(dead - e) / 2
-        elif self.kind == "RRR":
-            links = self.scene.by_name
-            scale = a * d / ((links["2"].length or 0.0) * (links["3"].length or 0.0))
-            p, dp, ddp = sin(dead - e / 2) * sin(e / 2), sin(dead - e) / 2, -cos(dead - e) / 2
-        else:
-            scale = 4 * a * d
-            p, dp, ddp = sin(dead + e / 2) * sin(e / 2), sin(dead + e) / 2, cos(dead + e) / 2
-        s = sqrt(scale * p)
-        rate = scale * dp / (2 * s)
-        return s, rate, (scale * ddp / 2 - rate * rate) / s
-
 
 _CASES = {
     "RRR": _Case("RRR", _RRR, "3", -1),
@@ -174,8 +156,9 @@ def dead_point(kind: str, mp: Any, samples: int = 4) -> Trial:
     case = _CASES[kind]
     x = grid(FAR, NEAR, samples)
     truth = _truth(case, mp, x)
-    laws = [*_closed(case, mp, x, truth, samples), _newton(case, mp, x, truth, samples), _given(case, mp, x, samples)]
-    laws += [_drawn(case, mp, x[::samples], [truth[k] for k in range(0, len(x), samples)]), _pencil(case, mp)]
+    laws = [*_closed(case, mp, x, truth, samples), _newton(case, mp, x, truth, samples)]
+    laws.append(_drawn(case, mp, x[::samples], truth[::samples]))
+    laws += [_given(case, x, truth, samples), _pencil(case, mp)]
     found = {law.key: law for law in laws}
     ends = (
         ("fate dead closed", found["velocity closed form"].stops),
@@ -278,14 +261,24 @@ def _newton(case: _Case, mp: Any, x: Sequence[float], truth: Sequence[_Exactly],
     return Law("velocity Newton", xs, es, -1.0, max(lost, default=None), window=(1e-12, 1e-2))
 
 
-def _given(case: _Case, mp: Any, x: Sequence[float], samples: int) -> Law:
-    """The distance from the dead point given, in place of the crank's angle."""
-    dead = case.dead(mp)
+def _given(case: _Case, x: Sequence[float], truth: Sequence[_Exactly], samples: int) -> Law:
+    """The solver with the distance from the dead point given, in place of the crank's angle; the largest of the errors
+    of direction, rate and second rate."""
+    structure = exact.structure_of(case.scene)
+    near = next(p for p in dead_points(structure) if case.side in p.sides and p.value > 0)
+    driver = case.scene.drivers[0]
+    assert isinstance(driver, AngleDriver)
     error = []
-    for e in x:
-        one = case.bend(e, float(dead), math.sin, math.cos, math.sqrt)
-        two = case.bend(mp.mpf(e), dead, mp.sin, mp.cos, mp.sqrt)
-        error.append(max(float(abs(a / b - 1)) for a, b in zip(one, two, strict=True)))
+    for e, right in zip(x, truth, strict=True):
+        with working():
+            value = near.value + Decimal(case.side * e)
+        there = replace(driver, angle=float(value), dead_point=FromDeadPoint(case.side * e, None, str(value)))
+        motion = exact.solve(replace(case.scene, drivers=(there,)))
+        if motion.status[0] != "ok":
+            error.append(math.nan)
+            continue
+        pose = motion.poses[case.follower]
+        error.append(max(right.off(complex(pose.u[0]), float(pose.omega[0]), float(pose.alpha[0]))))
     xs, es = binned(x, error, samples)
     return Law("all from the dead point", xs, es, 0.0)
 

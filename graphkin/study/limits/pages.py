@@ -139,7 +139,7 @@ def _labels(
         inside = inside if len(inside) > 1 else list(points)
         if not inside:
             continue
-        k = len(inside) * (i + 1) // (len(wishes) + 1)  # each at another height, for those that lie together
+        k = len(inside) * (len(wishes) - i) // (len(wishes) + 1)  # each at another height, for those that lie together
         near = inside[max(k - 1, 0) : k + 2]
         ends = chart.at(*near[0]), chart.at(*near[-1])
         asked.append(Label(Text(0j, rich(_words(law, language), LETTERS)), ends))
