@@ -34,6 +34,7 @@ class ClusterSolved(NamedTuple):
     condition : of the scaled constraints, one over the least singular value: how much an error grows
     matrix : derivative of the constraints by the scaled unknowns, shape (n, rows, columns)
     load : rate of the constraints with the group held still, shape (n, rows)
+    certificate : less than 1/2 where Newton's method has converged quadratically to a position
     error : bounds of place, rate and second rate, lengths in the size, each of shape (n,)
     """
 
@@ -44,6 +45,7 @@ class ClusterSolved(NamedTuple):
     condition: Array
     matrix: Array
     load: Array
+    certificate: Array
     error: tuple[Array, Array, Array]
 
 
@@ -215,7 +217,21 @@ def solve_cluster(
     size = structure.scene.size
     off = [b / size + t for b, t in zip(before, turning, strict=True)]
     error = _bounds(system, members, condition, off)
-    return ClusterSolved(members, place, missed, np.linalg.det(matrix), condition, matrix, load, error)
+    certificate = _certificate(system, members, condition, missed)
+    return ClusterSolved(members, place, missed, np.linalg.det(matrix), condition, matrix, load, certificate, error)
+
+
+def _certificate(system: System, members: Mapping[str, Pose], condition: Array, missed: Array) -> Array:
+    """Kantorovich's number: |J^-1| |step| times how fast the matrix J changes, with step <= |J^-1| |open|.
+
+    Below 1/2 there is a position, the only one within twice the step, and Newton's method converges to it quadratically
+    (Ortega and Rheinboldt, Iterative Solution of Nonlinear Equations in Several Variables, 12.6).
+    """
+    size, rows = system.structure.scene.size, 3 * len(system.group.members)
+    poses = [*members.values(), *system.known.values()]
+    reach = 1 + _most([np.abs(p.z) / size for p in poses])
+    step = condition * np.maximum(missed, ROUNDINGS) * rows**0.5
+    return np.asarray(condition * step * 4 * reach * rows**0.5)
 
 
 def _bounds(

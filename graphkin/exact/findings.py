@@ -20,6 +20,7 @@ from graphkin.structure import Cluster, Dyad, Pair, Slide, Structure
 __all__ = ["assembly_words", "dead_why", "limit_why", "singular"]
 
 OPEN = 1e-9
+CERTIFIED = 0.5
 
 
 def singular(structure: Structure, state: State, n: int) -> Iterator[tuple[int, Array]]:
@@ -28,7 +29,8 @@ def singular(structure: Structure, state: State, n: int) -> Iterator[tuple[int, 
         if isinstance(solved, Solved):
             yield i, np.broadcast_to(~(np.abs(solved.sine) >= state.singular), (n,))
         else:
-            yield i, (~(solved.condition * SINGULAR <= 1)) | ~(solved.missed < OPEN)
+            refused = ~(solved.missed < OPEN) | ~(solved.certificate < CERTIFIED)
+            yield i, ~(solved.condition * SINGULAR <= 1) | refused
 
 
 def limit_why(
@@ -73,6 +75,8 @@ def dead_why(structure: Structure, i: int, values: Array, forms: Mapping[int, Ar
     solved = positions(structure, Drive(values[None], one, 0 * one), forms, i + 1).groups[i]
     names = ", ".join(group.links)
     if isinstance(solved, ClusterSolved):
+        if not (solved.missed[0] < OPEN and solved.certificate[0] < CERTIFIED) and solved.condition[0] * SINGULAR <= 1:
+            return f"links {names}: refused, Newton's method has not converged quadratically to a position"
         u, _, _ = np.linalg.svd(np.nan_to_num(solved.matrix[0]))
         branch = abs(float(u[:, -1] @ solved.load[0])) <= 1e-5 * float(np.linalg.norm(solved.load[0]))
         how = "have a singular position"

@@ -12,6 +12,7 @@ from graphkin.exact.dyads import Solved
 from graphkin.exact.engine import positions
 from graphkin.exact.joints import Drive
 from graphkin.exact.pose import Array
+from graphkin.exact.walk import walk_cluster
 from graphkin.scene.model import SlideDriver
 from graphkin.structure import Cluster, Dyad, Structure
 from graphkin.structure.continuity import Passage, follow
@@ -23,7 +24,6 @@ TRAVEL_STEP = 1 / 200
 CLUSTER_STEP = np.radians(4.0)
 SWING = 0.09
 """Between two nodes no link turns by more than this (about 5 degrees)."""
-CLOSE = 2e-13
 BESIDE = 1e-6
 """At a change point a group tells nothing; what follows it is watched this far beside it."""
 
@@ -143,45 +143,17 @@ def _refined(path: Path, i: int, grid: Array) -> Array:
 
 
 def _follow_cluster(path: Path, i: int, group: Cluster, place: Array) -> Path:
-    """Walk with a tangent predictor; a step is taken only if Newton's method confirms what was predicted."""
-    span = np.abs(path.end - path.start)
-    most = min(0.125, CLUSTER_STEP / TURN_STEP / _steps(path.structure, span))
-    weight = np.array([path.structure.scene.size, path.structure.scene.size, 1.0])
-
-    def at(t: float, start: Array) -> tuple[ClusterSolved, Array]:
+    def solved(t: float, start: Array) -> tuple[ClusterSolved, Array]:
         t_ = _beside(path.flips, np.array([t]))
         state = positions(path.structure, path.drive(t_), {**path.form(t_), i: start[None]}, i + 1)
-        solved = state.groups[i]
-        assert isinstance(solved, ClusterSolved)
+        found = state.groups[i]
+        assert isinstance(found, ClusterSolved)
         slope = [[state.poses[k].v.real[0], state.poses[k].v.imag[0], state.poses[k].omega[0]] for k in group.members]
-        return solved, np.array(slope)
+        return found, np.array(slope)
 
-    here, slope = at(0.0, place)
-    sense = np.sign(here.determinant[0])
-    t, step, end = 0.0, most / 2, path.reach
-    nodes, places = [0.0], [here.place[0]]
-    while t < end:
-        step = min(step, end - t)
-        guess = places[-1] + step * slope
-        there, new_slope = at(t + step, guess)
-        off = float(np.max(np.abs((there.place[0] - guess) / weight)))
-        moved = float(np.max(np.abs((there.place[0] - places[-1]) / weight)))
-        good = there.missed[0] < CLOSE and np.sign(there.determinant[0]) == sense
-        if good and off < min(0.03, 0.003 + 0.3 * moved) and np.all(np.isfinite(new_slope)):
-            t, slope = t + step, new_slope
-            nodes.append(t)
-            places.append(there.place[0])
-            step = min(most, step * (2.0 if off < 0.005 else 1.2))
-            continue
-        step /= 2
-        if step < 1e-13:
-            break
-    table, values = np.array(nodes), np.array(places)
-
-    def start(s: Array) -> Array:
-        flat = values.reshape(len(table), -1)
-        columns = [np.interp(s, table, flat[:, k]) for k in range(flat.shape[1])]
-        return np.stack(columns, axis=1).reshape(len(s), -1, 3)
-
-    limit, by = (path.limit, path.by) if t >= end else (t, i)
-    return replace(path, forms={**path.forms, i: start}, limit=limit, by=by)
+    steps = _steps(path.structure, np.abs(path.end - path.start))
+    most = min(0.125, CLUSTER_STEP / TURN_STEP / steps)
+    walk = walk_cluster(solved, place, path.structure.scene.size, path.reach, most)
+    limit, by = (path.limit, path.by) if walk.end is None else (walk.end, i)
+    flips = np.sort(np.append(path.flips, walk.flips))
+    return replace(path, forms={**path.forms, i: walk.start}, flips=flips, limit=limit, by=by)

@@ -368,3 +368,35 @@ link = "1"
 angle = 10
 omega = 2
 """
+
+# a parallelogram whose plate is moved through a rod by a slider: one group of four links, in line at travel 392.25
+MOVED_PARALLELOGRAM = """
+[frame]
+points = { A = [0, 0], D = [300, 0] }
+guides = { v = { through = [500, 0], angle = 90 } }
+[links.1]
+points = ["A", "B"]
+length = 100
+[links.2]
+points = ["B", "C"]
+length = 300
+at = { E = [150, 80] }
+[links.3]
+points = ["D", "C"]
+length = 100
+[links.5]
+points = ["E", "F"]
+length = 400
+[links.6]
+points = ["F"]
+on = "0.v"
+[driver]
+slide = "6"
+travel = 421.5263726893667
+velocity = 30
+[sketch]
+B = [95, 30]
+C = [395, 30]
+E = [245, 110]
+F = [500, 421]
+"""

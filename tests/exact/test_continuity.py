@@ -172,3 +172,24 @@ def test_a_larger_group_comes_back_to_where_it_was() -> None:
     )
     again = solve(read_text(text, "scene"), at={"1": np.radians(50)})
     assert again.position("E")[0] == pytest.approx(solve(scene).position("E")[0], abs=1e-14)
+
+
+def moved(degrees: float) -> Motion:
+    """The parallelogram whose plate is moved by a slider, with its cranks at an angle."""
+    crank = np.radians(degrees)
+    travel = 80 + 100 * np.sin(crank) + np.sqrt(400**2 - (500 - 150 - 100 * np.cos(crank)) ** 2)
+    return solve(read_text(scenes.MOVED_PARALLELOGRAM, "moved"), at={"6/0": float(travel) / 1000})
+
+
+@pytest.mark.parametrize("degrees", [10, 0.01, -0.01, -1, -60])
+def test_a_larger_group_passes_its_change_point_on_the_same_assembly(degrees: float) -> None:
+    assert np.degrees(moved(degrees).angle("3")[0]) == pytest.approx(degrees, abs=1e-6)
+
+
+def test_a_larger_group_at_its_change_point_is_dead() -> None:
+    assert "not unique" in moved(0).why[0]
+
+
+def test_a_sweep_of_a_larger_group_never_leaves_its_assembly() -> None:
+    motion = solve(read_text(scenes.MOVED_PARALLELOGRAM, "moved"), sweep=60)
+    assert np.abs(motion.omega("2")[motion.ok]).max() < 1e-9
