@@ -1,4 +1,4 @@
-"""graphkin against its peers on the same mechanisms: run by hand, ``python tests/bench/compare.py``.
+"""graphkin against its peers on the same mechanisms: run by hand, ``python -m tests.bench.compare``.
 
 Position, velocity and acceleration of two points of a four-bar, a slider-crank and a shaper (twelve columns) over a
 turn.  Everyone's values are checked against each other first.  Times depend on the machine, ratios within one run much
