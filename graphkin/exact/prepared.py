@@ -23,6 +23,7 @@ from graphkin.exact.pose import Array
 from graphkin.exact.program import Fitted, program_of
 from graphkin.exact.quantities import formulas
 from graphkin.exact.rendering import Code
+from graphkin.exact.way import Even, Listed, quarter
 from graphkin.scene.model import AngleDriver, Scene
 from graphkin.structure import Cluster, Structure
 
@@ -30,100 +31,11 @@ __all__ = ["Prepared", "prepare"]
 
 CHUNK = 16384
 """Positions in a piece, so that all columns of one stay in the cache."""
-NEAR = 1e-14
-HALF_PI = math.pi / 2
-FULL = 7.0
-"""In a longer range of angles (rad) quarter turns are sought among the values."""
-MANY = 2000
-"""From so many even steps on cosines are products."""
 LONG = 100_000
 """From so many positions on the threads of compiled code pay."""
 FAR = 4.0
 CLEAR = 0.2
 """Where no sine at the nodes of a path is less than this, none between them is near zero."""
-
-
-@dataclass(frozen=True)
-class _Listed:
-    """Values of the first driver as they come."""
-
-    values: Array
-
-    def __len__(self) -> int:
-        return len(self.values)
-
-    def __getitem__(self, part: slice) -> _Listed:
-        return _Listed(self.values[part])
-
-    @property
-    def given(self) -> tuple[float, float, Array]:
-        """Start, step, and the values themselves, for compiled code."""
-        return 0.0, 0.0, self.values
-
-    @property
-    def turn(self) -> tuple[Array, Array]:
-        """Cosines and sines, exact at quarter turns."""
-        c, s = np.cos(self.values), np.sin(self.values)
-        near = np.flatnonzero(np.abs(c * s) < NEAR)
-        if len(near):
-            u = turned(self.values[near])
-            c[near], s[near] = u.real, u.imag
-        return c, s
-
-
-@dataclass(frozen=True)
-class _Even:
-    """Values at even steps: start + step k for k from ``first`` to ``last`` (not included)."""
-
-    start: float
-    step: float
-    first: int
-    last: int
-
-    def __len__(self) -> int:
-        return self.last - self.first
-
-    def __getitem__(self, part: slice) -> _Even:
-        return _Even(self.start, self.step, self.first + part.start, self.first + part.stop)
-
-    @property
-    def values(self) -> Array:
-        return np.asarray(self.start + self.step * np.arange(self.first, self.last))
-
-    @property
-    def given(self) -> tuple[float, float, Array]:
-        """Start, step, and no values."""
-        return self.start + self.step * self.first, self.step, np.zeros(0)
-
-    @property
-    def turn(self) -> tuple[Array, Array]:
-        """Cosines and sines, exact at quarter turns; of many each as the product of a coarse and a fine turn: two
-        roundings more."""
-        n = len(self)
-        begin, end = self.start + self.step * self.first, self.start + self.step * (self.last - 1)
-        if n < MANY or abs(end - begin) > FULL:
-            values = self.values
-            c, s = np.cos(values), np.sin(values)
-            if abs(end - begin) > FULL:
-                return _Listed(values).turn
-        else:
-            fine = 1 << (n.bit_length() + 1) // 2
-            coarse, inner = begin + self.step * np.arange(0, n, fine), self.step * np.arange(fine)
-            u = np.multiply.outer(np.cos(coarse) + 1j * np.sin(coarse), np.cos(inner) + 1j * np.sin(inner))
-            flat = u.reshape(-1)[:n]
-            c, s = np.ascontiguousarray(flat.real), np.ascontiguousarray(flat.imag)
-        low, high = min(begin, end) / HALF_PI, max(begin, end) / HALF_PI
-        for quarter in range(math.ceil(low - 1e-6), math.floor(high + 1e-6) + 1):
-            k = round((quarter * HALF_PI - begin) / self.step) if self.step else 0
-            if 0 <= k < n:
-                c[k], s[k] = _quarter(self.start + self.step * (self.first + k))
-        return c, s
-
-
-def _quarter(angle: float) -> tuple[float, float]:
-    """Cosine and sine, as ``turned`` gives them."""
-    c, s, zero = math.cos(angle), math.sin(angle), 4e-16 * abs(angle)
-    return 0.0 if abs(c) <= zero else c, 0.0 if abs(s) <= zero else s
 
 
 @dataclass(frozen=True)
@@ -240,7 +152,7 @@ class Prepared:
         def one(value: float) -> tuple[float, ...] | None:
             if not everywhere and not self._offset(np.array([value]))[1][0]:
                 return None
-            given = (*_quarter(value), value)
+            given = (*quarter(value), value)
             if steady:
                 inputs = [given[k] for k in order]
             else:
@@ -277,7 +189,7 @@ class Prepared:
 
     def _compiled(self, kind: type) -> Callable[..., None]:
         if kind not in self._loops:
-            self._loops[kind] = compiled(self._code.loop(self.turns, kind is _Even, len(self.asked)))
+            self._loops[kind] = compiled(self._code.loop(self.turns, kind is Even, len(self.asked)))
         return self._loops[kind]
 
     def columns(self, values: Array, out: Array | None = None, fast: bool = False) -> tuple[Array, Array]:
@@ -301,9 +213,9 @@ class Prepared:
         """
         values = np.asarray(values, dtype=float)
         out = np.empty((len(self.asked), len(values))) if out is None else out
-        return out, self._all(_Listed(values), out, fast)
+        return out, self._all(Listed(values), out, fast)
 
-    def _all(self, way: _Listed | _Even, out: Array, fast: bool) -> Array:
+    def _all(self, way: Listed | Even, out: Array, fast: bool) -> Array:
         n = len(way)
         if fast and n >= LONG:
             return self._some(way, out, True)
@@ -312,7 +224,7 @@ class Prepared:
         parts = [slice(k, min(k + CHUNK, n)) for k in range(0, n, CHUNK)]
         return np.concatenate([self._some(way[p], out[:, p], False) for p in parts])
 
-    def _some(self, way: _Listed | _Even, out: Array, fast: bool) -> Array:
+    def _some(self, way: Listed | Even, out: Array, fast: bool) -> Array:
         n, count = len(way), len(self.asked)
         ok = np.ones(n, dtype=bool) if self._whole else self._offset(way.values)[1]
         given: dict[Any, Array] = {} if self._signs is not None else self._signs_at(way.values)
@@ -334,14 +246,14 @@ class Prepared:
             out[:, ~ok] = 0.0
         return ok
 
-    def _even_way(self, n: int, first: int = 0, last: int | None = None) -> _Even:
+    def _even_way(self, n: int, first: int = 0, last: int | None = None) -> Even:
         last = n if last is None else last
         sense = math.copysign(1.0, self.wide)
         if self.turns:
-            return _Even(float(self.start[0]), sense * 2 * math.pi / n, first, last)
+            return Even(float(self.start[0]), sense * 2 * math.pi / n, first, last)
         low, high = self.reach
         step = (high + low) / n
-        return _Even(float(self.start[0]) + sense * (step / 2 - low), sense * step, first, last)
+        return Even(float(self.start[0]) + sense * (step / 2 - low), sense * step, first, last)
 
     def values(self, n: int, first: int = 0, last: int | None = None) -> Array:
         """Values of the first driver at positions ``first`` to ``last`` (not included) of n over the whole range: a
