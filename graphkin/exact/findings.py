@@ -21,17 +21,20 @@ __all__ = ["assembly_words", "dead_why", "limit_why", "singular"]
 
 OPEN = 1e-9
 CERTIFIED = 0.5
+WEAK = 1e-3
+"""Sine below which a group is near its dead point."""
 
 
 def singular(structure: Structure, state: State, n: int) -> Iterator[tuple[int, Array]]:
-    """For each group where it stands in a dead point, shape (n,); where no bound of the error is known too."""
+    """For each group where it stands in a dead point, shape (n,); near one, where no bound of the error is known, too."""
     dyads = [i for i, solved in state.groups.items() if isinstance(solved, Solved)]
     if state.bounds is not None and dyads:
         lost = ~np.isfinite(sum(np.broadcast_to(b, (n,)) for b in state.bounds))
         sines = [np.broadcast_to(np.abs(state.groups[i].sine), (n,)) for i in dyads]  # type: ignore[union-attr]
         weakest = np.argmin(np.nan_to_num(sines, nan=0.0), axis=0)
         for k, i in enumerate(dyads):
-            yield i, lost & (weakest == k)
+            # far from any dead point a bound is lost only by the length of a chain: there it is given as unknown
+            yield i, lost & (weakest == k) & ~(sines[k] >= WEAK)
     for i, solved in state.groups.items():
         if isinstance(solved, Solved):
             yield i, np.broadcast_to(~(np.abs(solved.sine) >= state.singular), (n,))
