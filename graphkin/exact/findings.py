@@ -26,7 +26,7 @@ WEAK = 1e-3
 
 
 def singular(structure: Structure, state: State, n: int) -> Iterator[tuple[int, Array]]:
-    """For each group where it stands in a dead point, shape (n,); near one, where no bound of the error is known, too."""
+    """For each group where it stands in a dead point, shape (n,); near one, where no bound is known, too."""
     dyads = [i for i, solved in state.groups.items() if isinstance(solved, Solved)]
     if state.bounds is not None and dyads:
         lost = ~np.isfinite(sum(np.broadcast_to(b, (n,)) for b in state.bounds))

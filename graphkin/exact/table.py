@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from graphkin.exact.motion import Motion
 from graphkin.exact.pose import Array
 from graphkin.scene.model import SlideDriver
@@ -64,12 +66,7 @@ def to_json(motion: Motion) -> dict[str, Any]:
             continue
         for part, table in columns.items():
             entry[part] = {key: {what: values[k] for what, values in row.items()} for key, row in table.items()}
-        entry["error_bound"] = {
-            "position": float(motion.position_bound[k]) / metres,
-            "velocity": float(motion.velocity_bound[k]) / metres,
-            "acceleration": float(motion.acceleration_bound[k]) / metres,
-            **{name: float(b[k]) for name, b in zip(("angle", "omega", "alpha"), motion.turning_bound, strict=True)},
-        }
+        entry["error_bound"] = _bounds(motion, k)
         positions.append(entry)
     groups = [_group(g, words) for g, words in zip(motion.structure.groups, motion.assembly, strict=True)]
     return {
@@ -79,6 +76,20 @@ def to_json(motion: Motion) -> dict[str, Any]:
         "groups": groups,
         "positions": positions,
     }
+
+
+def _bounds(motion: Motion, k: int) -> dict[str, Any]:
+    metres = motion.scene.units.metres
+    moving = (motion.position_bound, motion.velocity_bound, motion.acceleration_bound)
+    found: dict[str, Any] = {
+        name: float(b[k]) / metres if np.isfinite(b[k]) else None
+        for name, b in zip(("position", "velocity", "acceleration"), moving, strict=True)
+    }
+    for name, b in zip(("angle", "omega", "alpha"), motion.turning_bound, strict=True):
+        found[name] = float(b[k]) if np.isfinite(b[k]) else None
+    if None in found.values():
+        found["why"] = "the worst case of rounding, multiplied along so many groups, says nothing"
+    return found
 
 
 def _group(group: Dyad | Cluster, words: str) -> dict[str, Any]:
