@@ -390,7 +390,7 @@ def _print_solution(solved: Solved, lang: str | None) -> None:
     data, scene = solved.data, solved.motion.scene
     language = lang or scene.sheet.language
     heads = {k: say(Phrase(f"heads of {k}", (scene.units.length,)), language).split("|") for k in _PARTS}
-    title = scene.title_zh if language == "zh" and scene.title_zh else scene.title
+    title = scene.title_in(language)
     typer.echo(f"{title}   F = {data['mobility']}")
     for group in data["groups"]:
         typer.echo(f"links {', '.join(group['links'])}: {group['kind']}, class {group['class']}; {group['assembly']}")

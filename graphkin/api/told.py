@@ -26,7 +26,7 @@ def show(argument: object) -> str:
 def told(checked: Checked, language: str) -> str:
     """The whole report."""
     sheet, scene = checked.sheet, checked.scene
-    title = scene.title_zh if language == "zh" and scene.title_zh else scene.title
+    title = scene.title_in(language)
     lines = [title, "=" * sum(2 if ord(c) > 0x2E7F else 1 for c in title), ""]
     if scene.source:
         lines.append(f"{word('source', language)}: {scene.source}")

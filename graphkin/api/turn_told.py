@@ -22,7 +22,7 @@ def told_turn(swept: Swept) -> str:
     """The whole summary as lines of text."""
     language = swept.language
     scene = swept.plan.scene
-    title = scene.title_zh if language == "zh" and scene.title_zh else scene.title
+    title = scene.title_in(language)
     lines = [title]
     if swept.turn is not None:
         lines += _turn(swept.turn, language)

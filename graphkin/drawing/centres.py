@@ -13,12 +13,12 @@ from graphkin.drawing.circle_diagram import circle_diagram
 from graphkin.drawing.conventions import letters_of, scale_statement
 from graphkin.drawing.describe import describe, figure_title
 from graphkin.drawing.dimensions import check_bar
-from graphkin.drawing.headings import drivers, facts, languages, term, titles
+from graphkin.drawing.headings import drivers, facts, term, titles
 from graphkin.drawing.layout import Piece, ink_box, joined, layer_groups, moved_piece, settled, wrapped
 from graphkin.drawing.mechanism import mechanism_piece
 from graphkin.drawing.primitives import Drawing, Group, Primitive, Run, Text
 from graphkin.drawing.typeset import rich
-from graphkin.words import Phrase, say
+from graphkin.words import Phrase, languages, say
 
 __all__ = ["background", "centres_figure"]
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 from graphkin.drafting.sheet import DiagramName, Direction, Sheet
-from graphkin.drawing.headings import languages, number, titles
+from graphkin.drawing.headings import number, titles
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import Phrase, say, word
+from graphkin.words import Phrase, languages, say, word
 
 __all__ = ["describe", "figure_title", "plain_symbol", "remarks", "spoken_ref", "spoken_vector"]
 
@@ -109,8 +109,7 @@ def _ref(ref: PointRef, language: str) -> str:
 
 
 def _sentence(text: str, language: str) -> str:
-    stop = "。" if language == "zh" else "."
-    return _capital(text.replace("{", "").replace("}", "")).rstrip("。.") + stop
+    return _capital(text.replace("{", "").replace("}", "")).rstrip("。.") + word("full stop", language)
 
 
 def _capital(text: str) -> str:

@@ -8,7 +8,7 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, letters_of, scale_statement
 from graphkin.drawing.describe import describe, figure_title, remarks
 from graphkin.drawing.dimensions import check_bar
-from graphkin.drawing.headings import drivers, facts, languages, term, titles
+from graphkin.drawing.headings import drivers, facts, term, titles
 from graphkin.drawing.insets import polygon_with_insets, strip_height
 from graphkin.drawing.layout import Piece, joined, layer_groups, moved_piece, settled, wrapped
 from graphkin.drawing.mechanism import mechanism_piece
@@ -16,6 +16,7 @@ from graphkin.drawing.polygon import extent
 from graphkin.drawing.primitives import Drawing, Primitive, Run, Text
 from graphkin.drawing.typeset import rich
 from graphkin.drawing.whole_sheet import sheet_page
+from graphkin.words import languages
 
 __all__ = ["acceleration_figure", "figures", "mechanism_figure", "velocity_figure"]
 

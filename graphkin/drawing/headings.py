@@ -8,14 +8,9 @@ from graphkin.drafting.sheet import DiagramName, Sheet
 from graphkin.drawing.conventions import Letters
 from graphkin.scene.model import AngleDriver
 from graphkin.version import __version__
-from graphkin.words import word
+from graphkin.words import languages, word
 
-__all__ = ["drivers", "facts", "languages", "number", "rates", "term", "titles"]
-
-
-def languages(language: str) -> tuple[str, ...]:
-    """The languages that stand on a sheet: "both" are two."""
-    return ("en", "zh") if language == "both" else (language,)
+__all__ = ["drivers", "facts", "number", "rates", "term", "titles"]
 
 
 def term(key: str, language: str) -> str:
@@ -26,8 +21,7 @@ def term(key: str, language: str) -> str:
 def titles(sheet: Sheet, language: str) -> tuple[str, ...]:
     """Title of the scene, one for each language that it has one in."""
     scene = sheet.scene
-    own = {"en": scene.title, "zh": scene.title_zh or scene.title}
-    return tuple(dict.fromkeys(_plain(own[each] or scene.name) for each in languages(language)))
+    return tuple(dict.fromkeys(_plain(scene.title_in(each) or scene.name) for each in languages(language)))
 
 
 def number(value: float, digits: int = 6) -> str:

@@ -12,14 +12,14 @@ from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.describe import remarks
-from graphkin.drawing.headings import drivers, languages, number, term
+from graphkin.drawing.headings import drivers, number, term
 from graphkin.drawing.layout import wrapped
 from graphkin.drawing.metrics import runs_width
 from graphkin.drawing.primitives import Line, Primitive, Run, Text
 from graphkin.drawing.typeset import rich
 from graphkin.plane import degrees
 from graphkin.scene.model import Link, Scene
-from graphkin.words import Phrase, say, word
+from graphkin.words import Phrase, languages, say, word
 
 __all__ = ["given_data", "given_lengths", "readings_table"]
 
@@ -63,7 +63,7 @@ def readings_table(
             corner = complex(area.left + c * (width + 4.0), area.top)
             children += _column(sheet, part, letters, language, corner, width, row_height)
     if left_out:
-        text = rich(say(Phrase("more readings", (left_out,)), language.replace("both", "en")), 2.2)
+        text = rich(say(Phrase("more readings", (left_out,)), languages(language)[0]), 2.2)
         children.append(Text(complex(area.right, area.bottom - 0.4), text, "end"))
     return tuple(children)
 

@@ -14,7 +14,7 @@ from graphkin.drawing.coriolis import CoriolisTerm
 from graphkin.drawing.describe import describe, figure_title
 from graphkin.drawing.dimensions import check_bar
 from graphkin.drawing.equations import write_equations
-from graphkin.drawing.headings import drivers, facts, languages, term, titles
+from graphkin.drawing.headings import drivers, facts, term, titles
 from graphkin.drawing.insets import INSET, coriolis_row, polygon_with_insets
 from graphkin.drawing.layout import Piece, fitted, joined, layer_groups, moved, moved_piece, settled, wrapped
 from graphkin.drawing.mechanism import mechanism_piece
@@ -23,7 +23,7 @@ from graphkin.drawing.primitives import Drawing, Group, Line, Polygon, Primitive
 from graphkin.drawing.tables import given_data, readings_table
 from graphkin.drawing.typeset import rich
 from graphkin.scene.model import Scene
-from graphkin.words import Phrase, say
+from graphkin.words import Phrase, languages, say
 
 __all__ = ["sheet_page", "sheet_room"]
 

@@ -9,9 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from graphkin.drawing.headings import languages
 from graphkin.drawing.primitives import Drawing
-from graphkin.words import Phrase, say
+from graphkin.words import Phrase, languages, say
 
 __all__ = [
     "Beside", "Block", "Document", "Fields", "Heading", "Paragraph", "Picture", "Said", "StepItem", "Steps", "Table",

@@ -12,6 +12,7 @@ from graphkin.drawing.svg import svg_bytes
 from graphkin.drawing.typeset import Atom, is_italic, parsed
 from graphkin.handout.blocks import Beside, Block, Fields, Heading, Paragraph, Picture, Said, Steps, Table
 from graphkin.handout.clean import clean
+from graphkin.words import word
 
 __all__ = ["blocks_html", "figure_svg", "said_html", "words_html"]
 
@@ -44,11 +45,7 @@ def _atoms(atoms: tuple[Atom, ...]) -> str:
 
 def said_html(said: Said, tag: str = "span") -> str:
     """Words in each language, each in an element that names it."""
-    return "".join(f'<{tag} lang="{_lang(each)}">{words_html(markup)}</{tag}>' for each, markup in said)
-
-
-def _lang(language: str) -> str:
-    return "zh-Hans" if language == "zh" else language
+    return "".join(f'<{tag} lang="{word("code in pages", each)}">{words_html(markup)}</{tag}>' for each, markup in said)
 
 
 def figure_svg(drawing: Drawing, named: bool = False) -> str:

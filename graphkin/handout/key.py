@@ -8,13 +8,13 @@ import math
 from dataclasses import dataclass
 
 from graphkin.checking import COVERAGE, Compared
-from graphkin.drawing.headings import languages, number
+from graphkin.drawing.headings import number
 from graphkin.handout.blocks import Document, Heading, Paragraph, Table, said
 from graphkin.handout.lesson import Lesson
 from graphkin.handout.problem import scene_title
 from graphkin.handout.sentences import plain_words
 from graphkin.handout.solution import way
-from graphkin.words import word
+from graphkin.words import languages, word
 
 __all__ = ["KeyRow", "answer_key", "key_csv", "key_rows"]
 

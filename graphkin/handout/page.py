@@ -18,6 +18,7 @@ from graphkin.handout.lesson import Lesson
 from graphkin.handout.problem import given, scene_title
 from graphkin.handout.solution import results_blocks, solution, solution_blocks
 from graphkin.handout.viewer import View, positions_data
+from graphkin.words import word
 
 __all__ = ["document_page", "handout_page"]
 
@@ -92,10 +93,9 @@ def _page(title: str, languages: tuple[str, ...], body: str, script: str = "") -
         f"default-src 'none'; style-src '{_hash(style)}'; script-src {allowed}; "
         "img-src data:; base-uri 'none'; form-action 'none'"
     )
-    language = "zh-Hans" if languages[0] == "zh" else languages[0]
     tail = f"\n<script>{script}</script>" if script else ""
     return f"""<!DOCTYPE html>
-<html lang="{language}">
+<html lang="{word("code in pages", languages[0])}">
 <head>
 <meta charset="utf-8">
 <meta http-equiv="Content-Security-Policy" content="{policy}">

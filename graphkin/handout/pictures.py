@@ -11,7 +11,7 @@ from graphkin.drawing.conventions import Letters, pole, rows_of, scale_statement
 from graphkin.drawing.describe import describe
 from graphkin.drawing.dimensions import check_bar
 from graphkin.drawing.equations import write_equation
-from graphkin.drawing.headings import languages, term
+from graphkin.drawing.headings import term
 from graphkin.drawing.insets import polygon_with_insets, strip_height
 from graphkin.drawing.layout import ink_box, joined, layer_groups, moved, moved_piece, settled
 from graphkin.drawing.mechanism import mechanism_piece
@@ -20,6 +20,7 @@ from graphkin.drawing.polygon import extent
 from graphkin.drawing.primitives import Circle, Drawing, Group, Polygon, Primitive, Text
 from graphkin.drawing.stepwise import births, so_far, stepped
 from graphkin.drawing.typeset import rich, symbol
+from graphkin.words import languages
 
 __all__ = [
     "HEIGHT", "NARROW", "WIDTH", "blank_equations", "cropped", "draw_frame", "equation_picture", "mechanism_picture",

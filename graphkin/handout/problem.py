@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 
 from graphkin.drawing.conventions import pole
-from graphkin.drawing.headings import drivers, languages, number, titles
+from graphkin.drawing.headings import drivers, number, titles
 from graphkin.drawing.tables import given_lengths
 from graphkin.handout.blocks import (
     Beside,
@@ -25,7 +25,7 @@ from graphkin.handout.lesson import Lesson
 from graphkin.handout.pictures import NARROW, WORDS, blank_equations, draw_frame, mechanism_picture, parts
 from graphkin.handout.sentences import plain_words
 from graphkin.scene.model import Guide
-from graphkin.words import Phrase, say, word
+from graphkin.words import Phrase, languages, say, word
 
 __all__ = ["given", "problem", "scene_title"]
 
@@ -109,7 +109,7 @@ def _labelled(lesson: Lesson, key: str, text: str) -> Said:
 
 
 def _line(key: str, text: str, language: str) -> str:
-    return f"{word(key, language)}：{text}。" if language == "zh" else f"{word(key, language)}: {text}."
+    return word(key, language) + word("colon", language) + text + word("full stop", language)
 
 
 def _joined(*several: Said) -> Said:
@@ -118,7 +118,7 @@ def _joined(*several: Said) -> Said:
     for one in several:
         for each, text in one:
             by_language.setdefault(each, []).append(text)
-    return tuple((each, ("" if each == "zh" else " ").join(parts)) for each, parts in by_language.items())
+    return tuple((each, word("between sentences", each).join(parts)) for each, parts in by_language.items())
 
 
 def _blank_table(lesson: Lesson) -> Table:

@@ -44,9 +44,8 @@ class Speaker:
             parts[i] = _RATE.sub(f"{_OPEN}\\g<0>{_CLOSE}", parts[i])
         parts[1::2] = [f"{_OPEN}{symbol}{_CLOSE}" for symbol in parts[1::2]]
         said = "".join(parts).replace(_CLOSE + _OPEN, "").replace(_OPEN, "$").replace(_CLOSE, "$")
-        if language == "zh":
-            return said.rstrip("。") + "。"
-        return said[:1].upper() + said[1:].rstrip(".") + "."
+        stop = word("full stop", language)
+        return said[:1].upper() + said[1:].rstrip(stop) + stop
 
     def _show(self, thing: object, language: str) -> str:
         if isinstance(thing, Symbol):

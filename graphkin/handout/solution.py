@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 from graphkin.checking import Compared
 from graphkin.drafting.sheet import Equation
-from graphkin.drawing.headings import languages, number
+from graphkin.drawing.headings import number
 from graphkin.handout.blocks import (
     Beside,
     Block,
@@ -26,7 +26,7 @@ from graphkin.handout.lesson import Lesson, Stage
 from graphkin.handout.pictures import NARROW, WORDS, Layers, equation_picture, parts, stage_picture
 from graphkin.handout.problem import given, scene_title
 from graphkin.handout.sentences import plain_words
-from graphkin.words import Phrase, say, word
+from graphkin.words import Phrase, languages, say, word
 
 __all__ = ["equation_words", "results_blocks", "solution", "solution_blocks", "stage_title", "step_items"]
 
@@ -66,12 +66,11 @@ def stage_title(lesson: Lesson, stage: Stage) -> Said:
         return said("the position", lesson.language)
     if stage.equation is None:
         return said("further vectors", lesson.language)
-    marks = {"en": ": ", "zh": "："}
     return tuple(
         (
             each,
             say(Phrase("equation numbered", (stage.equation.number,)), each)
-            + marks[each]
+            + word("colon", each)
             + word(f"for {stage.diagram}", each),
         )
         for each in languages(lesson.language)

@@ -14,7 +14,7 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.centre_marks import CentreLetters, centre_marks, near_box
 from graphkin.drawing.centres import background
 from graphkin.drawing.conventions import scale_statement
-from graphkin.drawing.headings import drivers, languages, term
+from graphkin.drawing.headings import drivers, term
 from graphkin.drawing.insets import polygon_with_insets, strip_height
 from graphkin.drawing.layout import Piece, ink_box, joined, layer_groups, moved_piece, settled
 from graphkin.drawing.mechanism import mechanism_piece
@@ -26,6 +26,7 @@ from graphkin.handout.lesson import Lesson, Stage
 from graphkin.handout.pictures import ROOM, WORDS, equation_picture
 from graphkin.handout.sentences import plain_words
 from graphkin.handout.solution import equation_words, stage_title, step_items
+from graphkin.words import languages
 
 __all__ = ["POSITIONS", "View", "common_scales", "positions_data"]
 

@@ -6,9 +6,11 @@ meet is asked by the modules that resolve a scene.  The JSON schema for editors 
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, StringConstraints, Tag
+
+from graphkin.words import LANGUAGES
 
 __all__ = [
     "AngleDriverTable",
@@ -30,6 +32,11 @@ __all__ = [
 LARGEST = 1e15
 SMALLEST = 1e-15
 LONGEST_TEXT = 300
+
+if TYPE_CHECKING:
+    Language = str
+else:
+    Language = Literal[LANGUAGES]  # as many as there are tables of words
 
 Number = Annotated[float, Field(allow_inf_nan=False, ge=-LARGEST, le=LARGEST)]
 Magnitude = Annotated[float, Field(allow_inf_nan=False, ge=SMALLEST, le=LARGEST)]
@@ -236,7 +243,7 @@ class SheetTable(_Table):
     velocity_scale: Magnitude | None = Field(default=None, description="(length unit/s) per mm of paper.")
     acceleration_scale: Magnitude | None = Field(default=None, description="(length unit/s2) per mm of paper.")
     convention: Literal["chinese", "us", "british", "russian"] = "chinese"
-    language: Literal["en", "zh"] = "en"
+    language: Language = "en"
     instrument: InstrumentTable = InstrumentTable()
 
 

@@ -19,7 +19,6 @@ __all__ = [
     "Driver",
     "FromDeadPoint",
     "Guide",
-    "Language",
     "Link",
     "PinInSlot",
     "Scene",
@@ -31,7 +30,6 @@ __all__ = [
 ]
 
 Convention = Literal["chinese", "us", "british", "russian"]
-Language = Literal["en", "zh"]
 
 
 @dataclass(frozen=True)
@@ -192,7 +190,7 @@ class SheetWishes:
     velocity_scale: float | None = None
     acceleration_scale: float | None = None
     convention: Convention = "chinese"
-    language: Language = "en"
+    language: str = "en"
     tools: Tools = Tools()
 
 
@@ -220,6 +218,10 @@ class Scene:
     find: tuple[Symbol, ...] = ()
     printed: Mapping[Symbol, float | complex] = field(default_factory=dict)
     sheet: SheetWishes = SheetWishes()
+
+    def title_in(self, language: str) -> str:
+        """The title in a language: the Chinese one where there is one, else the one there is."""
+        return self.title_zh if language == "zh" and self.title_zh else self.title
 
     @cached_property
     def by_name(self) -> Mapping[str, Link]:

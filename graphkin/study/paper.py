@@ -41,7 +41,7 @@ POINTS = 721
 
 def title_of(scene: Scene, language: str) -> str:
     """The scene's title as markup."""
-    return (scene.title_zh if language == "zh" and scene.title_zh else scene.title).replace("$", "$$")
+    return scene.title_in(language).replace("$", "$$")
 
 
 def heading(scene: Scene, title: str, facts: Sequence[str], language: str) -> tuple[Primitive, ...]:

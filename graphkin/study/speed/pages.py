@@ -51,7 +51,7 @@ def page(race: Race, language: str = "en") -> Drawing:
     """One page for both."""
     title = word("speed title", language)
     scene = race.scene
-    name = scene.title_zh if language == "zh" and scene.title_zh else scene.title
+    name = scene.title_in(language)
     versions = ", ".join(f"{n} {v}" for n, v in race.machine.versions)
     facts = say(
         Phrase("speed facts", (race.machine.cores, race.machine.processor, versions, race.repeats, race.count,

@@ -1,0 +1,62 @@
+"""Words in each language: one table for each, of all sentences for steps, notes and headings.
+
+A phrase is a key with its arguments; the sentence is made where it is shown, in the reader's language.
+The tables are the files of this folder, ``en.toml`` and ``zh.toml``: a further language is one more of them, with the
+same keys, and every command knows it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+__all__ = ["BOTH", "LANGUAGES", "Phrase", "languages", "say", "word"]
+
+
+_TABLES = {path.stem: path for path in Path(__file__).parent.glob("*.toml")}
+LANGUAGES = tuple(sorted(_TABLES, key=lambda name: (name != "en", name)))
+"""Languages that have a table; English, which the others translate, first."""
+BOTH = "both"
+"""English and Chinese on one sheet."""
+
+
+@cache
+def _table(language: str) -> Mapping[str, str]:
+    import tomllib  # here, since ``graphkin --help`` wants to know the languages only
+
+    areas = tomllib.loads(_TABLES[language].read_text(encoding="utf-8"))
+    return {key: text for area in areas.values() for key, text in area.items()}
+
+
+@dataclass(frozen=True)
+class Phrase:
+    """A sentence to be: its key in the table and what stands in its gaps (names, symbols, numbers, phrases)."""
+
+    key: str
+    args: tuple[object, ...] = ()
+
+
+def say(phrase: Phrase, language: str = "en", show: Callable[[object], str] = str) -> str:
+    """The sentence in a language.  ``show`` writes each argument (plain text, or markup of a convention).
+
+    >>> say(Phrase("points", ("2", "B, C")))
+    'mark B, C on link 2'
+    """
+    parts = (say(a, language, show) if isinstance(a, Phrase) else show(a) for a in phrase.args)
+    return _table(language)[phrase.key].format(*parts)
+
+
+def word(key: str, language: str = "en") -> str:
+    """A heading or a term in a language."""
+    return _table(language)[key]
+
+
+def languages(language: str) -> tuple[str, ...]:
+    """The languages that stand on a sheet: `BOTH` are two.
+
+    >>> languages("both"), languages("zh")
+    (('en', 'zh'), ('zh',))
+    """
+    return ("en", "zh") if language == BOTH else (language,)
