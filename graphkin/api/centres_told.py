@@ -6,8 +6,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from graphkin.api.centred import Centred
-from graphkin.drafting.centres import Centre
+from graphkin.drafting.centres import Centre, velocity_sentences
 from graphkin.drafting.centres.pairs import Pair
+from graphkin.scene.symbol import PointRef
 from graphkin.words import Phrase, say, word
 
 __all__ = ["ToldCentres", "told_centres"]
@@ -29,14 +30,15 @@ def told_centres(centred: Centred) -> ToldCentres:
 
     def name(pair: object) -> str:
         if not isinstance(pair, tuple):
-            return str(pair)
+            return pair.point if isinstance(pair, PointRef) else str(pair)
         a, b = sorted(pair, key=lambda n: (not n.isdigit(), int(n) if n.isdigit() else 0, n))
         return f"{letter}{a}{',' if len(a + b) > 2 else ''}{b}"
 
     rows = []
     for pair, centre in sorted(centred.centres.table.items(), key=lambda item: item[1].number):
         row = centred.data["centres"]["-".join(pair)]
-        place = ", ".join(f"{x:.6g}" for x in row.get("point", row.get("direction", [])))
+        least = 1e-12 * centred.scene.size / centred.scene.units.metres
+        place = ", ".join(f"{x if abs(x) > least else 0.0:.6g}" for x in row.get("point", row.get("direction", [])))
         if "direction" in row:
             place = f"∞ ({place})"
         how = say(_phrase(centre, name, ", ".join(centred.centres.kept)), language, name)
@@ -44,9 +46,8 @@ def told_centres(centred: Centred) -> ToldCentres:
     sentences = [say(c.why, language, str) for c in centred.centres.indeterminate if c.why]
     sentences += [""] if sentences else []
     sentences.append(word("velocities by centres", language))
-    for turning in centred.turning.values():
-        if turning.told is not None:
-            sentences.append(say(turning.told, language, name).replace("_{", "").replace("}", ""))
+    for phrase in velocity_sentences(centred.centres, centred.turning):
+        sentences.append(say(phrase, language, name).replace("_{", "").replace("}", ""))
     off = [name(p) for p, e in centred.errors.items() if e is not None and e > 1e-9]
     off += [str(v.symbol) for v in centred.velocities if not v.ok]
     count = sum(e is not None for e in centred.errors.values())

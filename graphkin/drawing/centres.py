@@ -3,14 +3,15 @@ centre was found, and the velocities taken through them."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 
-from graphkin.drafting.centres import Centre, Centres, Turning
+from graphkin.drafting.centres import Centre, Centres, Turning, velocity_sentences
 from graphkin.drafting.centres.kennedy import Relation
 from graphkin.drawing.box import Box
 from graphkin.drawing.centre_marks import CentreLetters, centre_marks, mark_of, near_box, pale
 from graphkin.drawing.circle_diagram import circle_diagram
-from graphkin.drawing.conventions import letters_of, scale_statement
+from graphkin.drawing.conventions import Letters, letters_of, scale_statement
 from graphkin.drawing.describe import describe, figure_title
 from graphkin.drawing.dimensions import check_bar
 from graphkin.drawing.headings import drivers, facts, term, titles
@@ -18,6 +19,7 @@ from graphkin.drawing.layout import Piece, ink_box, joined, layer_groups, moved_
 from graphkin.drawing.mechanism import mechanism_piece
 from graphkin.drawing.primitives import Drawing, Group, Primitive, Run, Text
 from graphkin.drawing.typeset import rich
+from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, languages, say
 
 __all__ = ["background", "centres_figure"]
@@ -58,7 +60,7 @@ def centres_figure(
     around = panel.moved(-origin)  # about the world's origin, as the mechanism is drawn
     piece = settled(joined((back, centre_marks(centres, named, around, back.drawn))), around)
     piece = moved_piece(piece, origin)
-    told = _told(centres, turning, named, spoken, width - 2 * MARGIN)
+    told = _told(centres, turning, named, letters, spoken, width - 2 * MARGIN)
     below = panel.bottom + 6.0
     words: list[Primitive] = [
         Text(complex(MARGIN, MARGIN + 3.5 + LINE * i), runs, classes=("heading",)) for i, runs in enumerate(head)
@@ -74,7 +76,7 @@ def centres_figure(
         height,
         layer_groups(page),
         figure_title(sheet, "centres", spoken),
-        describe(sheet, ("mechanism",), spoken) + "\n" + _description(centres, turning, named, spoken),
+        describe(sheet, ("mechanism",), spoken) + "\n" + _description(centres, turning, named, letters, spoken),
         languages(spoken)[0],
         facts(sheet, "centres"),
     )
@@ -160,39 +162,46 @@ def _line(relation: Relation, letters: CentreLetters) -> str:
 
 
 def _told(
-    centres: Centres, turning: Mapping[str, Turning], letters: CentreLetters, language: str, width: float
+    centres: Centres,
+    turning: Mapping[str, Turning],
+    letters: CentreLetters,
+    points: Letters,
+    language: str,
+    width: float,
 ) -> list[tuple[Run, ...]]:
     """What Kennedy's theorem does not give and why, and the velocities by centres, as lines of text."""
     lines: list[tuple[Run, ...]] = []
     for each in languages(language):
         for centre in centres.indeterminate:
-            sentences = [_say(centre.why, each, letters)] if centre.why else []
+            sentences = [_say(centre.why, each, letters, points)] if centre.why else []
             if centre.way:
                 kept = ", ".join(centres.kept)
-                sentences.append(_say(Phrase(f"centre {centre.way}", (centre.pair, kept)), each, letters))
-            lines += wrapped("; ".join(sentences), 3.0, width)
-        spoken = [t.told for t in turning.values() if t.told is not None]
+                sentences.append(_say(Phrase(f"centre {centre.way}", (centre.pair, kept)), each, letters, points))
+            lines += wrapped(term("sentence joint", each).join(sentences), 3.0, width)
+        spoken = velocity_sentences(centres, turning)
         if spoken:
             lines += wrapped(term("velocities by centres", each), 3.2, width, bold=True)
         for phrase in spoken:
-            lines += wrapped(_say(phrase, each, letters), 3.0, width)
+            lines += wrapped(_say(phrase, each, letters, points), 3.0, width)
     return lines
 
 
-def _say(phrase: Phrase, language: str, letters: CentreLetters) -> str:
+def _say(phrase: Phrase, language: str, letters: CentreLetters, points: Letters) -> str:
     """A sentence with its symbols between dollar signs."""
 
     def show(argument: object) -> str:
+        if isinstance(argument, Symbol):
+            return f"${points.vector(argument)}$"
+        if isinstance(argument, PointRef):
+            return f"${points.point(argument.point)}$"
         return f"${letters.name(argument)}$" if isinstance(argument, tuple) else str(argument)
 
-    said = say(phrase, language, show)
-    parts = said.split("ω_{")
-    said = parts[0] + "".join(f"$ω_{{{p.split('}', 1)[0]}}}${p.split('}', 1)[1]}" for p in parts[1:])
+    said = re.sub(r"ω_{[^}]*}", r"$\g<0>$", say(phrase, language, show))
     return said.replace("$$", "")  # two symbols side by side are one
 
 
 def _description(
-    centres: Centres, turning: Mapping[str, Turning], letters: CentreLetters, language: str
+    centres: Centres, turning: Mapping[str, Turning], letters: CentreLetters, points: Letters, language: str
 ) -> str:
     """Every centre in words, for those who do not see the figure."""
     said = []
@@ -208,9 +217,9 @@ def _description(
             how = how_found(centre, letters, each, centres) if centre.number else centre.joint
             said.append(f"{name} {place}: {how.replace('$', '').replace('_{', '').replace('}', '')}")
         said += [
-            _say(t.told, each, letters).replace("$", "").replace("_{", "").replace("}", "")
-            for t in turning.values() if t.told
-        ]  # fmt: skip
+            _say(phrase, each, letters, points).replace("$", "").replace("_{", "").replace("}", "")
+            for phrase in velocity_sentences(centres, turning)
+        ]
     return "\n".join(said)
 
 

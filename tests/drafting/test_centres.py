@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from graphkin.api.centred import centres as checked_centres
-from graphkin.drafting.centres import Centres, by_centres, find_centres, speeds
+from graphkin.drafting.centres import Centres, by_centres, find_centres, speeds, velocity_sentences
 from graphkin.scene import library, read
 from graphkin.scene.symbol import Symbol
 
@@ -208,9 +208,25 @@ def test_the_shortest_chain_leads_from_the_driver_in_one_step(name: str) -> None
 
 def test_the_sense_is_opposite_where_the_common_centre_lies_between() -> None:
     centres = find_centres(read("sixbar-420rpm"))
-    told = speeds(centres)["2"].told
-    assert told is not None
-    assert "centre opposite sense" == told.key
+    assert "centre opposite sense" in [p.key for p in velocity_sentences(centres, speeds(centres))]
+
+
+@pytest.mark.parametrize("name", sorted(library()))
+def test_the_told_rates_multiply_up_to_the_exact_ones(name: str) -> None:
+    found = checked_centres(name)
+    exact = {f"v_{v.symbol.of}": abs(v.exact) for v in found.velocities if v.symbol.kind == "v"}
+    metres = found.scene.units.metres
+    for phrase in velocity_sentences(found.centres, found.turning):
+        if phrase.key == "centre speed":
+            symbol, _, _, _, rate, arm, scale, _ = phrase.args
+            told = float(str(rate)) * float(str(arm)) * float(str(scale).split()[0]) * metres
+            assert told == pytest.approx(exact[str(symbol)], rel=2e-2 if float(str(arm)) < 1 else 2e-3)
+
+
+def test_a_clockwise_link_is_told_with_its_sign() -> None:
+    centres = find_centres(read("shaper-scheme-2"))
+    told = {p.args[0]: p.args[-1] for p in velocity_sentences(centres, speeds(centres)) if "sense" in p.key}
+    assert "−0.739601" == told["4"]
 
 
 def test_a_slider_has_the_velocity_of_the_crank_at_their_centre() -> None:

@@ -13,12 +13,10 @@ from dataclasses import dataclass
 
 from graphkin.drafting.centres.chart import Place, product, wedge
 from graphkin.drafting.centres.find import Centres
-from graphkin.drafting.centres.pairs import Pair
 from graphkin.plane import dot
 from graphkin.scene.model import AngleDriver, Driver
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import driver_pair
-from graphkin.words import Phrase
 
 __all__ = ["Turning", "by_centres", "speeds"]
 
@@ -30,15 +28,13 @@ class Turning:
     """The motion of a link by centres.
 
     ``strength`` (1/s) belongs to the centre's homogeneous coordinates (`Chart.velocity`), ``omega`` is the angular
-    velocity (rad/s).  ``chain`` names the links from the driver to this one; ``told`` says in words how it was measured
-    from the link before.
+    velocity (rad/s).  ``chain`` names the links from the driver to this one, each measured from the one before.
     """
 
     link: str
     strength: float
     omega: float
     chain: tuple[str, ...]
-    told: Phrase | None = None
 
 
 def speeds(centres: Centres) -> dict[str, Turning]:
@@ -139,26 +135,7 @@ def _step(centres: Centres, turning: Turning, name: str) -> tuple[Turning, float
         return None
     ratio, apart = _ratio(its, common, own)
     strength = turning.strength * ratio
-    told = _told(centres, turning.link, name, strength * own[2])
-    return Turning(name, strength, strength * own[2], (*turning.chain, name), told), apart
-
-
-def _told(centres: Centres, known: str, name: str, omega: float) -> Phrase:
-    """How a link's motion is read off the figure."""
-    frame = centres.links.scene.frame.name
-    own, its, common = centres.of(name, frame), centres.of(known, frame), centres.of(name, known)
-    pairs: tuple[Pair, ...] = (common.pair, its.pair, own.pair)
-    if own.point is None:
-        return Phrase("centre slides", (name, known, *pairs))
-    if common.point is None:
-        return Phrase("centre turns alike", (name, known, *pairs))
-    if its.point is None:
-        arm = f"{abs(own.point - common.point):.2f}"
-        return Phrase("centre from slider", (name, known, *pairs, arm, f"{abs(omega):.6g}"))
-    far, near = abs(common.point - its.point), abs(common.point - own.point)
-    same = dot(its.point - common.point, own.point - common.point) >= 0.0
-    key = "centre same sense" if same else "centre opposite sense"
-    return Phrase(key, (name, known, *pairs, f"{far:.2f}", f"{near:.2f}", f"{abs(omega):.6g}"))
+    return Turning(name, strength, strength * own[2], (*turning.chain, name)), apart
 
 
 def by_centres(centres: Centres, moving: Mapping[str, Turning], symbol: Symbol) -> complex | float | None:
