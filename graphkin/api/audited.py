@@ -32,7 +32,7 @@ __all__ = ["Audited", "audit"]
 POSITIONS = 72
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Audited:
     """The values of each person with their verdicts; of a scene's ``[printed]`` values the person is ""."""
 
@@ -94,6 +94,12 @@ class Audited:
     def write(self, folder: str | os.PathLike[str]) -> list[Path]:
         """Write audit.csv into a folder.  Raises CallError where it cannot be written."""
         return write_files(Path(folder), {"audit.csv": self.csv().encode("utf-8-sig")})
+
+    def __repr__(self) -> str:
+        return (
+            f"<Audited {self.scene.name}: {sum(len(judged) for _, judged in self.people)} values, "
+            f"{sum(j.verdict == 'wrong' for _, judged in self.people for j in judged)} wrong>"
+        )
 
     def _repr_html_(self) -> str:
         def line(cells: Sequence[str], tag: str) -> str:

@@ -46,7 +46,7 @@ class Velocity:
     ok: bool
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Centred:
     """All instant centres of a scene at one position, with their check.
 
@@ -139,6 +139,9 @@ class Centred:
         files = {f"centres.{kind}": drawing_bytes(self.figure, kind) for kind in formats}
         files["centres.csv"] = centres_csv(self).encode()
         return write_files(Path(folder) if folder is not None else Path(self.scene.name), files)
+
+    def __repr__(self) -> str:
+        return f"<Centred {self.scene.name}: {len(self.centres.table)} centres>"
 
     def _repr_html_(self) -> str:
         rows = "".join(

@@ -33,7 +33,7 @@ POSITIONS = 3600
 STILL = 1e-9
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Centroded:
     """The fixed and the moving centrode of a link, and the path of a point of it (complex arrays over the turn, m)."""
 
@@ -106,6 +106,9 @@ class Centroded:
             cells = [f"{x / unit:.12g}" if np.isfinite(x) else "" for z in (one, two) for x in (z.real, z.imag)]
             writer.writerow([f"{value:.12g}", *cells])
         return out.getvalue()
+
+    def __repr__(self) -> str:
+        return f"<Centroded {self.scene.name}: link {self.link}>"
 
     def _repr_svg_(self) -> str:
         from graphkin.drawing import svg_bytes

@@ -27,7 +27,7 @@ __all__ = ["INSTRUMENTS", "Checked", "check", "checked", "hand_of", "reading_row
 INSTRUMENTS = ("exact", "cad", "pencil")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Checked:
     """A drawing, its readings, and how they compare with the exact values.
 
@@ -58,6 +58,12 @@ class Checked:
     def complete(self) -> bool:
         """Whether all that is asked was drawn."""
         return not self.report.missing and (self.sheet.stopped is None or bool(self.report.rows and self.scene.find))
+
+    def __repr__(self) -> str:
+        return (
+            f"<Checked {self.scene.name}: {len(self.report.rows)} readings, "
+            f"{sum(not row.ok for row in self.report.rows)} out of tolerance>"
+        )
 
     def __getitem__(self, symbol: str) -> Compared:
         return self._table[symbol]

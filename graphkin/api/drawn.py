@@ -28,7 +28,7 @@ LANGUAGES = ("en", "zh")
 CONVENTIONS = ("chinese", "us", "british", "russian")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Drawn:
     """The figures of a scene by name, with the check of everything on them.
 
@@ -89,6 +89,9 @@ class Drawn:
                 Problem(str(target), f"cannot be written: {error.strerror}", "give another folder with -o")
             ) from None
         return [target / name for name in files]
+
+    def __repr__(self) -> str:
+        return f"<Drawn {self.checked.scene.name}: {', '.join(self.figures)}>"
 
     def _repr_svg_(self) -> str:
         from graphkin.drawing import svg_bytes

@@ -30,7 +30,7 @@ LANGUAGES = ("en", "zh", "both")
 CONVENTIONS = ("chinese", "us", "british", "russian")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Handout:
     """A handout: its lesson, and its files by name (`files`).  In a notebook it shows the answer key."""
 
@@ -82,6 +82,9 @@ class Handout:
         CallError : the folder cannot be written
         """
         return write_files(Path(folder) if folder is not None else Path(safe_name(self.scene.name)), self.files)
+
+    def __repr__(self) -> str:
+        return f"<Handout {self.scene.name}: {', '.join(self.formats)}>"
 
     def _repr_html_(self) -> str:
         from graphkin.handout.html import blocks_html

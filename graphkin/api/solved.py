@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 __all__ = ["Solved", "refused", "solve"]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Solved:
     """The motion of every link, point and sliding pair at one position or over a turn.
 
@@ -26,6 +26,9 @@ class Solved:
     """
 
     motion: Motion
+
+    def __repr__(self) -> str:
+        return f"<Solved {self.motion.scene.name}: {int(self.motion.ok.sum())} of {len(self.motion)} positions>"
 
     @cached_property
     def data(self) -> dict[str, Any]:

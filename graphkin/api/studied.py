@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 __all__ = ["SpeedAccuracy", "Stability", "speed_accuracy", "stability"]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class SpeedAccuracy:
     """What each method costs for one position, and how far it is off: measured in one run on this machine."""
 
@@ -54,6 +54,9 @@ class SpeedAccuracy:
     def write(self, folder: str | os.PathLike[str] = "speed-accuracy", formats: Sequence[str] = ("svg",)) -> list[Path]:
         """Write the chart and speed-accuracy.csv; returns the paths.  Raises CallError as for `Stability.write`."""
         return _written(Path(folder), self.figures, "speed-accuracy.csv", self.table, formats)
+
+    def __repr__(self) -> str:
+        return f"<SpeedAccuracy {self.race.scene.name}: {len(self.race.entries)} methods>"
 
     def _repr_html_(self) -> str:
         return _shown(self.figures)
@@ -92,7 +95,7 @@ def speed_accuracy(
     return found
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Stability:
     """The error of each method against the distance from each kind of singular position, with fitted slopes."""
 
@@ -127,6 +130,9 @@ class Stability:
         """Write the charts and stability.csv; returns the paths.  Raises CallError for an unknown format or a folder
         that cannot be written."""
         return _written(Path(folder), self.figures, "stability.csv", self.table, formats)
+
+    def __repr__(self) -> str:
+        return f"<Stability: {', '.join(trial.key for trial in self.trials)}>"
 
     def _repr_html_(self) -> str:
         return _shown(self.figures)

@@ -32,7 +32,7 @@ IN_MEMORY = 2_000_000
 """Rows of a table that are kept in memory where no folder is given."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Swept:
     """The motion over a turn of one scene, or of many designs of it.
 
@@ -96,6 +96,9 @@ class Swept:
         except OSError as error:
             raise _unwritable(target, error) from None
         return [target / name for name in files]
+
+    def __repr__(self) -> str:
+        return f"<Swept {self.plan.scene.name}: {self.good} of {self.rows} positions>"
 
     def _repr_html_(self) -> str:
         from graphkin.api.turn_told import told_turn
