@@ -1,0 +1,83 @@
+"""``graphkin centres``: instant centres, velocities by them, and centrodes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from graphkin.cli.options import (
+    AtOption,
+    ConventionOption,
+    FormatOption,
+    JsonOption,
+    LangOption,
+    QuietOption,
+    SceneArgument,
+    driver_values,
+    listed,
+)
+from graphkin.cli.output import print_json, print_paths, print_table, unsolvable_as_json
+from graphkin.errors import CallError, Problem, Unsolvable
+
+__all__ = ["centres"]
+
+
+def centres(
+    scene: SceneArgument,
+    out: Annotated[
+        Path | None,
+        typer.Option("-o", "--out", metavar="DIR", help="Folder for the files; ./NAME if not given, none with --json."),
+    ] = None,
+    formats: FormatOption = "svg",
+    at: AtOption = None,
+    centrode: Annotated[
+        str | None, typer.Option("--centrode", metavar="LINK", help="The centrodes of a link over a turn instead.")
+    ] = None,
+    point: Annotated[str, typer.Option("--point", metavar="P", help="With --centrode: the path of this point.")] = "",
+    lang: LangOption = None,
+    convention: ConventionOption = None,
+    as_json: JsonOption = False,
+    quiet: QuietOption = False,
+) -> None:
+    """All instant centres, how each was found, and the velocities by centres."""
+    from graphkin.api import centres as finding
+    from graphkin.api.centres_told import told_centres
+
+    wanted, values = listed(formats), driver_values(at)
+    if point and centrode is None:
+        raise CallError(Problem("--point", "without --centrode", "write --centrode LINK --point P"))
+    if centrode is not None:
+        _roll(scene, centrode, point, values, out, wanted, lang, convention, quiet)
+        return
+    with unsolvable_as_json(as_json, _none_found):
+        found = finding(scene, values, None, wanted, lang, convention)
+    paths = [] if as_json and out is None else found.write(out, wanted)
+    if as_json:
+        print_json(found.data)
+    elif not quiet:
+        print_paths(paths)
+        told = told_centres(found)
+        print_table(told.heads, told.rows)
+        typer.echo("\n".join(told.sentences))
+    if not found.ok:
+        raise typer.Exit(1)
+
+
+def _none_found(error: Unsolvable) -> dict[str, object]:
+    return {"links": [], "centres": {}, "ok": False, "status": error.status, "why": error.why}
+
+
+def _roll(
+    scene: str, link: str, point: str, values: float | dict[str, float] | None, out: Path | None, formats: list[str],
+    lang: str | None, convention: str | None, quiet: bool,
+) -> None:  # fmt: skip
+    from graphkin.api import centrodes
+
+    rolled = centrodes(scene, link, point, values, None, formats, lang, convention)
+    paths = rolled.write(out, formats)
+    if not quiet:
+        print_paths(paths)
+    if not rolled.ok:
+        raise typer.Exit(1)

@@ -1,0 +1,48 @@
+"""``graphkin draw``: figures, readings and the check."""
+
+from __future__ import annotations
+
+from graphkin.cli.check import print_check, unchecked
+from graphkin.cli.options import (
+    AtOption,
+    ConventionOption,
+    FindOption,
+    FormatOption,
+    InstrumentOption,
+    JsonOption,
+    LangOption,
+    OutOption,
+    QuietOption,
+    SceneArgument,
+    SeedOption,
+    driver_values,
+    listed,
+)
+from graphkin.cli.output import print_paths, unsolvable_as_json
+
+__all__ = ["draw"]
+
+
+def draw(
+    scene: SceneArgument,
+    out: OutOption = None,
+    formats: FormatOption = "svg",
+    at: AtOption = None,
+    find: FindOption = None,
+    lang: LangOption = None,
+    convention: ConventionOption = None,
+    instrument: InstrumentOption = "exact",
+    seed: SeedOption = 0,
+    as_json: JsonOption = False,
+    quiet: QuietOption = False,
+) -> None:
+    """Draw the mechanism, the velocity and the acceleration polygon; measure and check them."""
+    from graphkin.api import draw as drawing
+
+    wanted = listed(formats)
+    with unsolvable_as_json(as_json, unchecked):
+        drawn = drawing(scene, None, driver_values(at), find or None, wanted, lang, convention, instrument, seed)
+        paths = drawn.write(out, wanted)
+    if not as_json and not quiet:
+        print_paths(paths)
+    print_check(drawn.checked, lang or drawn.checked.scene.sheet.language, as_json, quiet)

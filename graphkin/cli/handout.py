@@ -1,0 +1,93 @@
+"""``graphkin handout``: problem sheet, worked solution and key, of one problem or of a set."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from graphkin.cli.options import (
+    AtOption,
+    ConventionOption,
+    FindOption,
+    JsonOption,
+    OutOption,
+    PaperLangOption,
+    QuietOption,
+    SceneArgument,
+    driver_values,
+    listed,
+    processes,
+)
+from graphkin.cli.output import print_json, print_paths, progress_bar
+
+__all__ = ["handout"]
+
+
+def handout(
+    scene: SceneArgument,
+    out: OutOption = None,
+    formats: Annotated[str, typer.Option("--format", metavar="html,pdf", help="Formats of the papers.")] = "html,pdf",
+    at: AtOption = None,
+    find: FindOption = None,
+    lang: PaperLangOption = None,
+    convention: ConventionOption = None,
+    positions: Annotated[
+        int, typer.Option("--positions", metavar="N", help="Positions of the driver on the page to step through.")
+    ] = 24,
+    variants: Annotated[
+        int | None, typer.Option("--variants", metavar="N", help="A set of N problems with other numbers instead.")
+    ] = None,
+    seed: Annotated[int, typer.Option("--seed", help="Seed of the variants.")] = 0,
+    rows: Annotated[
+        Path | None, typer.Option("--rows", metavar="FILE.csv", help="A set of problems, one for each row of data.")
+    ] = None,
+    workers: Annotated[
+        int | None, typer.Option("--workers", metavar="N", help="Processes for a set; as many as there are cores.")
+    ] = None,
+    as_json: JsonOption = False,
+    quiet: QuietOption = False,
+) -> None:
+    """Problem sheet, worked solution with every step, and answer key; or a set of them with other numbers."""
+    from graphkin.api import handout as handing
+    from graphkin.words import languages, say
+
+    wanted = listed(formats)
+    if variants is not None or rows is not None:
+        _problem_set(scene, out, wanted, lang, convention, variants, seed, rows, workers, as_json, quiet)
+        return
+    made = handing(scene, None, driver_values(at), find or None, wanted, lang, convention, positions)
+    paths = made.write(out)
+    if as_json:
+        print_json(made.data | {"files": [str(p) for p in paths]})
+    elif not quiet:
+        print_paths(paths)
+    for note in made.notes:
+        typer.echo(f"graphkin: {say(note, languages(made.lesson.language)[0])}", err=True)
+    if not made.ok:
+        raise typer.Exit(1)
+
+
+def _problem_set(
+    scene: str, out: Path | None, formats: list[str], lang: str | None, convention: str | None, variants: int | None,
+    seed: int, rows: Path | None, workers: int | None, as_json: bool, quiet: bool,
+) -> None:  # fmt: skip
+    from graphkin.api import problem_set
+    from graphkin.api.handed import papers_of
+    from graphkin.scene import read
+
+    target = out if out is not None else Path(read(scene).name)
+    papers = papers_of(scene, formats, lang, convention)
+    with progress_bar(not as_json and not quiet, target) as progress:
+        made = problem_set(
+            scene, variants, seed, rows, target, workers=processes(workers), render=papers, progress=progress
+        )
+    if as_json:
+        print_json(made.data)
+    elif not quiet:
+        typer.echo(f"{len(made.made.names)} problems in {target}, all answers in {target / 'answers.csv'}")
+    for failure in made.made.failures:
+        typer.echo(f"graphkin: {failure.name}: {failure.why}", err=True)
+    if not made.ok:
+        raise typer.Exit(3)

@@ -1,0 +1,92 @@
+"""What commands print: JSON objects, tables, paths of files, and a progress bar for what takes long."""
+
+from __future__ import annotations
+
+import json
+import sys
+import time
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+
+import typer
+
+from graphkin.errors import Unsolvable
+
+__all__ = ["print_json", "print_paths", "print_table", "progress_bar", "unsolvable_as_json"]
+
+
+def print_json(data: object) -> None:
+    typer.echo(json.dumps(data, ensure_ascii=False, allow_nan=False))
+
+
+def print_paths(paths: Iterable[Path]) -> None:
+    """One path a line."""
+    typer.echo("\n".join(str(path) for path in paths))
+
+
+def print_table(heads: Sequence[str], rows: Sequence[Sequence[str]], right: tuple[int, ...] = ()) -> None:
+    """A table, if there are rows; the columns of numbers named in ``right`` stand to the right."""
+    if not rows:
+        return
+    from rich import box
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
+    for i, head in enumerate(heads):
+        table.add_column(head, justify="right" if i in right else "left", no_wrap=i != 1)
+    for row in rows:
+        table.add_row(*(Text(cell) for cell in row))
+    console = Console()
+    if not console.is_terminal:
+        console = Console(width=160)
+    console.print(table)
+
+
+@contextmanager
+def unsolvable_as_json(wanted: bool, answer: Callable[[Unsolvable], object]) -> Iterator[None]:
+    """Print the answer to a program also where the mechanism cannot be solved, before that ends the command."""
+    try:
+        yield
+    except Unsolvable as error:
+        if wanted:
+            print_json(answer(error))
+        raise
+
+
+@contextmanager
+def progress_bar(shown: bool, target: Path) -> Iterator[Callable[[int, int], None] | None]:
+    """Progress of a run that keeps what it has done in a folder; where it is interrupted, it is said how to go on."""
+    with _bar(shown) as tell:
+        try:
+            yield tell
+        except KeyboardInterrupt:
+            typer.echo(f"graphkin: interrupted; what is done is kept in {target}, the same command goes on", err=True)
+            raise
+
+
+@contextmanager
+def _bar(shown: bool) -> Iterator[Callable[[int, int], None] | None]:
+    """A bar on stderr, where that is a terminal and it takes longer than a second."""
+    if not shown or not sys.stderr.isatty():
+        yield None
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
+
+    columns = BarColumn(), MofNCompleteColumn(), TimeRemainingColumn()
+    bar = Progress(*columns, console=Console(stderr=True), transient=True)
+    task = bar.add_task("", total=None)
+    started = time.monotonic()
+
+    def tell(done: int, total: int) -> None:
+        if time.monotonic() - started > 1.0 and not bar.live.is_started:
+            bar.start()
+        bar.update(task, completed=done, total=total)
+
+    try:
+        yield tell
+    finally:
+        bar.stop()

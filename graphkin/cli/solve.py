@@ -1,0 +1,109 @@
+"""``graphkin solve``: the analytic solution in tables."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from graphkin.cli.options import (
+    AtOption,
+    ConventionOption,
+    InstrumentOption,
+    JsonOption,
+    LangOption,
+    QuietOption,
+    SceneArgument,
+    driver_values,
+    known_words,
+)
+from graphkin.cli.output import print_json, print_table, unsolvable_as_json
+
+if TYPE_CHECKING:
+    from graphkin.api import Solved
+
+__all__ = ["solve"]
+
+
+def solve(
+    scene: SceneArgument,
+    at: AtOption = None,
+    sweep: Annotated[
+        int | None, typer.Option("--sweep", metavar="N", help="N positions over a turn of the driver.")
+    ] = None,
+    out: Annotated[Path | None, typer.Option("-o", "--out", metavar="DIR", help="Folder for solution.json.")] = None,
+    lang: LangOption = None,
+    convention: ConventionOption = None,
+    instrument: InstrumentOption = "exact",
+    as_json: JsonOption = False,
+    quiet: QuietOption = False,
+) -> None:
+    """The analytic solution alone, at one position or over a turn."""
+    from graphkin.api import solve as solving
+    from graphkin.api.solved import refused
+
+    known_words(lang, convention, instrument)
+    values = driver_values(at)
+    with unsolvable_as_json(as_json, lambda error: refused(scene, values, error)):
+        solved = solving(scene, values, sweep)
+    if out is not None:
+        from graphkin.api.files import write_files
+
+        text = json.dumps(solved.data, ensure_ascii=False, allow_nan=False) + "\n"
+        write_files(out, {"solution.json": text.encode()})
+    if as_json:
+        print_json(solved.data)
+    elif not quiet:
+        _print_solution(solved, lang)
+    if not solved.ok:
+        first = solved.data["positions"][0]
+        typer.echo(f"graphkin: {first['status']}: {first['why']}", err=True)
+        raise typer.Exit(3)
+
+
+def _print_solution(solved: Solved, lang: str | None) -> None:
+    data, scene = solved.data, solved.motion.scene
+    language = lang or scene.sheet.language
+    typer.echo(f"{scene.title_in(language)}   F = {data['mobility']}")
+    for group in data["groups"]:
+        typer.echo(f"links {', '.join(group['links'])}: {group['kind']}, class {group['class']}; {group['assembly']}")
+    for position in data["positions"]:
+        typer.echo("")
+        typer.echo("driver " + ", ".join(f"{k} = {v:.6g}" for k, v in position["driver"].items()))
+        if position["status"] != "ok":
+            typer.echo(f"{position['status']}: {position['why']}")
+            continue
+        _print_position(position, scene.units.length, language)
+
+
+def _print_position(position: Mapping[str, Any], unit: str, language: str) -> None:
+    from graphkin.words import Phrase, say
+
+    heads = {k: say(Phrase(f"heads of {k}", (unit,)), language).split("|") for k in ("links", "points", "slides")}
+    links = [
+        [name, _number(math.degrees(link["angle"])), _number(link["omega"]), _number(link["alpha"])]
+        for name, link in position["links"].items()
+    ]
+    points = [
+        [name, *(_pair(point[k]) for k in ("position", "velocity", "acceleration"))]
+        for name, point in position["points"].items()
+    ]
+    slides = [
+        [name, *(_number(slide[k]) for k in ("travel", "velocity", "acceleration")), _pair(slide["coriolis"])]
+        for name, slide in position["slides"].items()
+    ]
+    print_table(heads["links"], links, right=(1, 2, 3))
+    print_table(heads["points"], points)
+    print_table(heads["slides"], slides, right=(1, 2, 3))
+
+
+def _number(value: float) -> str:
+    return f"{value:.6g}"
+
+
+def _pair(value: list[float]) -> str:
+    return f"{value[0]:.6g}, {value[1]:.6g}"

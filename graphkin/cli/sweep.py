@@ -1,0 +1,93 @@
+"""``graphkin sweep``: tables and motion diagrams over a turn, and over designs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from graphkin.cli.options import (
+    AtOption,
+    FindOption,
+    FormatOption,
+    JsonOption,
+    LangOption,
+    OutOption,
+    QuietOption,
+    SceneArgument,
+    driver_values,
+    listed,
+    processes,
+)
+from graphkin.cli.output import print_json, print_paths, progress_bar, unsolvable_as_json
+from graphkin.errors import CallError, Problem
+
+__all__ = ["sweep"]
+
+
+def sweep(
+    scene: SceneArgument,
+    out: OutOption = None,
+    positions: Annotated[
+        int, typer.Option("--positions", metavar="12|36|N", help="Rows of the table over a turn of the driver.")
+    ] = 36,
+    replace: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--set",
+            metavar="KEY=VALUES",
+            help="Designs: links.1.length=40:60:21 (a grid), =40,50,60 (a list); several give every combination.",
+        ),
+    ] = None,
+    designs: Annotated[
+        Path | None, typer.Option("--designs", metavar="FILE.csv", help="Designs: a CSV file whose head names keys.")
+    ] = None,
+    workers: Annotated[
+        int | None, typer.Option("--workers", metavar="N", help="Processes; as many as there are cores if long.")
+    ] = None,
+    scheduler: Annotated[
+        str | None, typer.Option("--scheduler", metavar="ADDRESS", help="Run on a Dask cluster (extra cluster).")
+    ] = None,
+    formats: FormatOption = "svg",
+    at: AtOption = None,
+    find: FindOption = None,
+    lang: LangOption = None,
+    as_json: JsonOption = False,
+    quiet: QuietOption = False,
+) -> None:
+    """Tables and motion diagrams over a turn, limit positions, strokes and K; and the same over designs."""
+    from graphkin.api import sweep as sweeping
+    from graphkin.api.turn_told import told_turn
+    from graphkin.scene import read
+
+    target = out if out is not None else Path(read(scene).name)
+    with (
+        unsolvable_as_json(as_json, lambda error: {"status": error.status, "why": error.why}),
+        progress_bar(not as_json and not quiet, target) as progress,
+    ):
+        swept = sweeping(
+            scene, target, positions, find or None, driver_values(at), _replaced(replace), designs, None,
+            None if scheduler else processes(workers), scheduler, listed(formats), lang, progress,
+        )  # fmt: skip
+    if as_json:
+        print_json(swept.data)
+    elif not quiet:
+        typer.echo(told_turn(swept))
+        print_paths(sorted(p for p in target.iterdir() if not p.name.startswith(".")))
+    if not swept.ok:
+        typer.echo("graphkin: no position could be solved; designs.csv or table.csv says why", err=True)
+        raise typer.Exit(3)
+
+
+def _replaced(given: list[str] | None) -> dict[str, str]:
+    """Designs as given on the command line: KEY=VALUES."""
+    found: dict[str, str] = {}
+    for text in given or []:
+        key, sign, values = text.partition("=")
+        if not sign or not key.strip():
+            raise CallError(Problem(f"--set {text}", "says no key or no values", "write --set links.1.length=40:60:21"))
+        if key.strip() in found:
+            raise CallError(Problem(f"--set {text}", "the key is given twice", "write KEY=40,50,60"))
+        found[key.strip()] = values
+    return found
