@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from graphkin.errors import CallError, Problem, did_you_mean
 
-__all__ = ["known_wishes", "write_files"]
+__all__ = ["half_written", "known_wishes", "write_files"]
 
 FORMATS = ("svg", "pdf", "png")
 LANGUAGES = ("en", "zh", "both")
@@ -46,3 +47,9 @@ def write_files(folder: Path, files: Mapping[str, bytes]) -> list[Path]:
         where = Problem(str(folder), f"cannot be written: {error.strerror}", "give another folder with -o")
         raise CallError(where) from None
     return [folder / name for name in files]
+
+
+def half_written(folder: Path, stem: str) -> list[Path]:
+    """What a process that was killed while writing files of this stem has left in a folder."""
+    pattern = re.compile(rf"\.{re.escape(stem)}-.*\.[a-z0-9_]{{8}}")
+    return [path for path in folder.glob(".*") if pattern.fullmatch(path.name)]

@@ -7,31 +7,32 @@ import io
 import os
 import tomllib
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import Executor, ProcessPoolExecutor
+from concurrent.futures import Executor
 from dataclasses import dataclass
-from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
 from graphkin.api.answers import table_of
 from graphkin.api.called import SceneLike, as_scene
-from graphkin.api.files import write_files
+from graphkin.api.files import half_written, write_files
 from graphkin.errors import CallError, GraphkinError, Problem
 from graphkin.handout.data_rows import Columns, columns_of, replaced
-from graphkin.handout.problem_set import Job, MadeSet, Render, jobs_of_rows, jobs_of_seed, make
+from graphkin.handout.jobs import Job, jobs_of_rows, jobs_of_seed
+from graphkin.handout.problem_set import MadeSet, Render, make
 from graphkin.handout.variants import Range, Variant, asked_of, varied_keys
 from graphkin.scene import library, library_text
 from graphkin.scene.model import Scene
 from graphkin.scene.source import safe_name
 from graphkin.scene.writing import as_mapping, toml_text
 from graphkin.study.designs import applied
+from graphkin.study.processes import process_pool
 
 __all__ = ["ProblemSet", "problem_set"]
 
 MOST = 100_000
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class ProblemSet:
     """A set of problems: what became of each variant, the table of all answers, and the files written."""
 
@@ -71,6 +72,9 @@ class ProblemSet:
         for failure in self.made.failures:
             writer.writerow([failure.name, *[""] * (2 * len(symbols)), f"failed: {failure.why}"])
         return out.getvalue()
+
+    def __repr__(self) -> str:
+        return f"<ProblemSet {self.scene.name}>"
 
     def _repr_html_(self) -> str:
         from html import escape
@@ -119,25 +123,32 @@ def problem_set(
     given = as_scene(source)
     jobs, unused = _jobs(source, variants, seed, rows, spread or Range())
     folder = Path(out) if out is not None else None
-    own = ProcessPoolExecutor(workers, get_context("spawn")) if executor is None and (workers or 1) > 1 else None
+    own = process_pool(workers) if executor is None and workers and workers > 1 else None
+    left: list[Path] = []
     if folder is not None:
         write_files(folder, {})
+        left = half_written(folder, name)
 
-    def keep(variant: Variant, files: Mapping[str, bytes]) -> None:
+    def keep(variant: Variant, files: Mapping[str, bytes]) -> list[str]:
+        if folder is None:
+            return []
+        stem = f"{name}-{variant.name}"
+        scene_file = {f"{stem}.toml": toml_text(variant.source).encode()}
+        paths = write_files(folder, {**scene_file, **{f"{stem}-{safe_name(n)}": f for n, f in files.items()}})
+        return [path.name for path in paths]
+
+    def finish(made: MadeSet) -> None:
         if folder is not None:
-            stem = f"{name}-{variant.name}"
-            scene_file = {f"{stem}.toml": toml_text(variant.source).encode()}
-            write_files(folder, {**scene_file, **{f"{stem}-{safe_name(n)}": f for n, f in files.items()}})
+            write_files(folder, {"answers.csv": ProblemSet(given, made, unused).csv().encode("utf-8-sig")})
+            for path in left:
+                path.unlink(missing_ok=True)
 
     try:
-        made = make(jobs, folder, executor or own, workers or 1, keep, render, progress)
+        made = make(jobs, folder, executor or own, workers or 1, keep, render, progress, finish)
     finally:
         if own is not None:
             own.shutdown(cancel_futures=True)
-    found = ProblemSet(given, made, unused, folder)
-    if folder is not None:
-        write_files(folder, {"answers.csv": found.csv().encode("utf-8-sig")})
-    return found
+    return ProblemSet(given, made, unused, folder)
 
 
 def _source(scene: SceneLike) -> tuple[dict[str, Any], str]:
@@ -167,8 +178,11 @@ def _jobs(
     columns = columns_of(source, table.heads)
     if not columns.data:
         raise CallError(
-            Problem(str(rows), f"no column is a datum of the scene: {', '.join(table.heads)[:200]}",
-                    "write heads like links.1.length, O4B, n2 or phi1")
+            Problem(
+                str(rows),
+                f"no column is a datum of the scene: {', '.join(table.heads)[:200]}",
+                "write heads like links.1.length, O4B, n2 or phi1",
+            )
         )
     return list(jobs_of_rows(_rows(source, columns, table.rows))), columns.unused
 

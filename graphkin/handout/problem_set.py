@@ -1,28 +1,24 @@
-"""A set of problems: a variant for each student, made by any executor, kept as it grows, none lost.
-
-In the folder of results a hidden file holds the finished variants, a line each, until the set is whole; a set that was
-interrupted finds them there and goes on.  Its name is the key of the set, so nothing of another set is ever used.
-"""
+"""A set of problems: a variant for each student, made by any executor, kept as it grows, none lost."""
 
 from __future__ import annotations
 
-import hashlib
 import json
 from collections import Counter, deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from concurrent.futures import BrokenExecutor, Executor, Future
+from concurrent.futures import Executor, Future
 from contextlib import suppress
-from dataclasses import asdict, dataclass, field, is_dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from itertools import islice
 from pathlib import Path
 from typing import Any, TypeVar
 
 from graphkin.errors import GraphkinError
-from graphkin.handout.variants import Answer, Range, Unfit, Variant, candidate, examined, varied_keys
-from graphkin.version import __version__
+from graphkin.handout.jobs import Job, Made
+from graphkin.handout.notes import Notes
+from graphkin.handout.variants import Answer, Unfit, Variant, candidate, examined, varied_keys
 
-__all__ = ["Failure", "Job", "Made", "MadeSet", "distinct", "jobs_of_rows", "jobs_of_seed", "make"]
+__all__ = ["Failure", "MadeSet", "distinct", "make"]
 
 ATTEMPTS = 60  # tries at one variant before it is given up
 AHEAD = 4  # variants handed out for each worker, so that memory stays bounded and none waits
@@ -30,32 +26,6 @@ AHEAD = 4  # variants handed out for each worker, so that memory stays bounded a
 Source = Mapping[str, Any]
 Render = Callable[[Variant], Mapping[str, bytes]]
 Result = TypeVar("Result")
-
-
-@dataclass(frozen=True)
-class Job:
-    """One variant to make: drawn from a seed within a range, or a row of given data.
-
-    ``source`` is the scene file to vary, or that of the row; ``base`` the row's with the driver where it was;
-    ``trouble`` what is wrong with a row.
-    """
-
-    name: str
-    number: int
-    source: Source
-    spread: Range | None = None
-    seed: int = 0
-    base: Source | None = None
-    trouble: str = ""
-
-
-@dataclass(frozen=True)
-class Made:
-    """What became of a job: a variant with the attempt that gave it, or why there is none."""
-
-    variant: Variant | None
-    attempt: int = 0
-    why: str = ""
 
 
 @dataclass(frozen=True)
@@ -81,30 +51,19 @@ class MadeSet:
         return not self.failures
 
 
-def jobs_of_seed(source: Source, count: int, seed: int, spread: Range) -> Iterator[Job]:
-    """One job for each of so many variants of a scene file."""
-    digits = max(2, len(str(count)))
-    for number in range(1, count + 1):
-        yield Job(f"{number:0{digits}d}", number, source, spread, seed)
-
-
-def jobs_of_rows(rows: Iterable[tuple[str, Source, Source | None, str]]) -> Iterator[Job]:
-    """One job for each row of data: name, scene file, the file with the driver where it was, what is wrong with it."""
-    for number, (name, source, base, trouble) in enumerate(rows, 1):
-        yield Job(name, number, source, base=base, trouble=trouble)
-
-
 def work(job: Job, attempt: int) -> Made:
     """The first good variant of a job from an attempt on; depends on nothing else, so it runs anywhere."""
     if job.spread is None:
         return _row(job)
     why: Counter[str] = Counter()
     for k in range(attempt, ATTEMPTS):
-        source = _named(candidate(job.source, job.spread, job.seed, job.number, k), job.name)
         try:
+            source = _named(candidate(job.source, job.spread, job.seed, job.number, k), job.name)
             return Made(examined(source, _where_it_was(source, job.source), job.name), k)
         except Unfit as unfit:
             why[str(unfit)] += 1
+        except Exception as error:  # whatever goes wrong with one must not take the others along
+            why[_reason(error)] += 1
     reason = why.most_common(1)[0][0] if why else "every attempt has the answers of another variant"
     return Made(None, ATTEMPTS, f"none of {ATTEMPTS} attempts is a good problem, for example: {reason}")
 
@@ -119,14 +78,16 @@ def _row(job: Job) -> Made:
             return Made(examined(_named(job.source, job.name), base, job.name, strict=False))
         except Unfit as unfit:
             why = str(unfit)
+        except Exception as error:
+            why = _reason(error)
     return Made(None, 0, why)
 
 
 def _named(source: Source, name: str) -> dict[str, Any]:
     title, zh = source.get("title", ""), source.get("title_zh", "")
     named = {"title": f"{title} (no. {name})"[:300], **({"title_zh": f"{zh}（第 {name} 题）"[:300]} if zh else {})}
-    # published values and scales belong to the problem as it was
-    kept = {k: v for k, v in source.items() if k not in ("printed", "title", "title_zh", "sheet")}
+    # where it comes from, published values and scales belong to the problem as it was
+    kept = {k: v for k, v in source.items() if k not in ("printed", "source", "title", "title_zh", "sheet")}
     sheet = {k: v for k, v in source.get("sheet", {}).items() if not k.endswith("_scale")}
     return {**named, **kept, **({"sheet": sheet} if sheet else {})}
 
@@ -156,28 +117,33 @@ def make(
     folder: Path | None = None,
     executor: Executor | None = None,
     workers: int = 1,
-    keep: Callable[[Variant, Mapping[str, bytes]], None] | None = None,
+    keep: Callable[[Variant, Mapping[str, bytes]], Iterable[str]] | None = None,
     render: Render | None = None,
     progress: Callable[[int, int], None] | None = None,
+    finish: Callable[[MadeSet], None] | None = None,
 ) -> MadeSet:
     """Make every variant of a set, in order, each different in its answers from those before.
 
     Parameters
     ----------
     folder : where finished variants are noted down, so that an interrupted set goes on
-    executor : any that follows ``concurrent.futures.Executor``; without one the work is done here
+    executor : any that follows ``concurrent.futures.Executor``; without one, and where it fails, the work is done here
     workers : how many variants it can work on at once
-    keep : called with each variant in order, and with its rendered files
+    keep : called with each variant in order, and with its rendered files; gives the names of the files it wrote
     render : called in the executor for each variant accepted; gives files by name
     progress : called with the number done and the number of all
+    finish : called with the whole set, before the notes of what is done are taken away
+
+    A variant whose papers cannot be made or written is a failure, and the next call tries it again.
     """
     made = MadeSet()
-    notes = _Notes(folder, jobs, render)
+    notes = Notes(folder, jobs, render, ATTEMPTS)
     seen = notes.read()
     ahead = AHEAD * max(workers, 1)
     waiting = iter(jobs)
+    taken: list[tuple[Answer, ...]] = []  # answers of every variant accepted, whatever becomes of its papers
     queue: deque[tuple[Job, Callable[[], Made]]] = deque()
-    rendering: deque[tuple[Job, Made, Variant, Callable[[], Mapping[str, bytes]]]] = deque()
+    rendering: deque[tuple[Job, Made, Variant, Callable[[], _Papers]]] = deque()
 
     def refill() -> None:
         for job in islice(waiting, ahead - len(queue)):
@@ -185,47 +151,91 @@ def make(
             queue.append((job, partial(_given, noted) if noted else _started(executor, work, job, 0)))
 
     def settled(job: Job, result: Made) -> Made:
-        while job.spread and result.variant and not distinct(result.variant.answers, iter(made.answers.values())):
+        while job.spread and result.variant and not distinct(result.variant.answers, iter(taken)):
             result = _started(executor, work, job, result.attempt + 1)()
         return result
 
+    def fail(job: Job, why: str) -> None:
+        made.failures.append(Failure(job.name, why))
+        count()
+
+    def succeed(job: Job, variant: Variant) -> None:
+        made.names.append(job.name)
+        made.answers[job.name] = variant.answers
+        if variant.remarks:
+            made.remarks[job.name] = variant.remarks
+        count()
+
+    def count() -> None:
+        if progress is not None:
+            progress(len(made.names) + len(made.failures), len(jobs))
+
+    whole = True
+
     def hand_over(most: int) -> None:
+        nonlocal whole
         while len(rendering) > most:
-            job, result, variant, files = rendering.popleft()
-            try:
-                if keep is not None:
-                    keep(variant, files())
-            except GraphkinError as error:
-                made.failures.append(Failure(job.name, str(error).splitlines()[0]))
-            notes.add(job, result)
+            job, result, variant, started = rendering.popleft()
+            papers = started()
+            why = papers.why
+            written: tuple[str, ...] = ()
+            if not why and keep is not None:
+                try:
+                    written = tuple(keep(variant, papers.files))
+                except Exception as error:
+                    why = _reason(error)
+            if why:
+                whole = False
+                fail(job, why)
+            else:
+                notes.add(job, result, written)
+                succeed(job, variant)
 
     refill()
     while queue:
         job, started = queue.popleft()
         result = started() if job.number in seen else settled(job, started())
         if result.variant is None:
-            made.failures.append(Failure(job.name, result.why))
+            hand_over(0)
             if job.number not in seen:
                 notes.add(job, result)
+            fail(job, result.why)
         else:
-            made.names.append(job.name)
-            made.answers[job.name] = result.variant.answers
-            if result.variant.remarks:
-                made.remarks[job.name] = result.variant.remarks
-            if job.number not in seen:
-                files = _started(executor, render or _no_files, result.variant)
-                rendering.append((job, result, result.variant, files))
+            taken.append(result.variant.answers)
+            if job.number in seen:
+                hand_over(0)
+                succeed(job, result.variant)
+            else:
+                rendering.append((job, result, result.variant, _started(executor, _rendered, render, result.variant)))
                 hand_over(ahead if executor is not None and render is not None else 0)
-        if progress is not None:
-            progress(len(made.names) + len(made.failures), len(jobs))
         refill()
     hand_over(0)
-    notes.close()
+    if finish is not None:
+        finish(made)
+    if whole:
+        notes.close()
     return made
 
 
-def _no_files(_: Variant) -> Mapping[str, bytes]:
-    return {}
+@dataclass(frozen=True)
+class _Papers:
+    """Rendered files by name, or why there are none."""
+
+    files: Mapping[str, bytes] = field(default_factory=dict)
+    why: str = ""
+
+
+def _rendered(render: Render | None, variant: Variant) -> _Papers:
+    try:
+        return _Papers(render(variant)) if render is not None else _Papers()
+    except Exception as error:  # whatever goes wrong with one must not take the others along
+        return _Papers(why=_reason(error))
+
+
+def _reason(error: Exception) -> str:
+    """What went wrong in one line; what the program did not foresee with the kind of error."""
+    text = (str(error).splitlines() or [""])[0][:300]
+    return text if isinstance(error, GraphkinError) else f"{type(error).__name__}: {text}"
 
 
 def _given(made: Made) -> Made:
@@ -233,69 +243,20 @@ def _given(made: Made) -> Made:
 
 
 def _started(executor: Executor | None, task: Callable[..., Result], *args: Any) -> Callable[[], Result]:
-    """Start a task in an executor: what is returned gives its result.  Without one it is done here."""
+    """Start a task that raises nothing: what is returned gives its result.
+
+    Without an executor it is done here, and where the executor fails it (a broken pool, a lost worker, what cannot be
+    sent there).
+    """
     future: Future[Result] | None = None
-    if executor is not None and task is not _no_files:
-        with suppress(BrokenExecutor):
+    if executor is not None:
+        with suppress(Exception):
             future = executor.submit(task, *args)
 
     def result() -> Result:
         if future is not None:
-            with suppress(BrokenExecutor):
+            with suppress(Exception):
                 return future.result()
         return task(*args)
 
     return result
-
-
-class _Notes:
-    """Finished variants, a line of JSON each."""
-
-    def __init__(self, folder: Path | None, jobs: Sequence[Job], render: Render | None) -> None:
-        self.path: Path | None = None
-        if folder is not None and jobs:
-            # other papers are another set
-            papers = repr(render) if is_dataclass(render) else getattr(render, "__qualname__", "")
-            key = hashlib.sha256(repr((__version__, ATTEMPTS, papers)).encode())
-            for job in jobs:
-                # jobs drawn from one seed share their scene: only the first is written out
-                whole = asdict(job) if job.spread is None or job.number == 1 else (job.name, job.number)
-                key.update(json.dumps(whole, sort_keys=True, default=str).encode())
-            self.path = folder / f".set-{key.hexdigest()[:24]}.jsonl"
-
-    def read(self) -> dict[int, Made]:
-        """Finished jobs by number; a line that was cut off is dropped."""
-        found: dict[int, Made] = {}
-        if self.path is None or not self.path.exists():
-            return found
-        whole = 0
-        with self.path.open("r+b") as stream:
-            for line in stream:
-                try:
-                    note = json.loads(line)
-                    found[note["number"]] = _made(note)
-                except (ValueError, TypeError, KeyError):
-                    break
-                whole += len(line)
-            stream.truncate(whole)
-        return found
-
-    def add(self, job: Job, made: Made) -> None:
-        if self.path is None:
-            return
-        variant = asdict(made.variant) if made.variant else None
-        note = {"number": job.number, "variant": variant, "attempt": made.attempt, "why": made.why}
-        with self.path.open("a", encoding="utf-8") as stream:
-            stream.write(json.dumps(note, ensure_ascii=False) + "\n")
-
-    def close(self) -> None:
-        if self.path is not None:
-            self.path.unlink(missing_ok=True)
-
-
-def _made(note: Mapping[str, Any]) -> Made:
-    v = note["variant"]
-    if v is None:
-        return Made(None, note["attempt"], note["why"])
-    answers = tuple(Answer(**a) for a in v["answers"])
-    return Made(Variant(v["name"], v["source"], answers, tuple(v["remarks"])), note["attempt"], note["why"])

@@ -250,9 +250,7 @@ def _measured(sheet: Sheet, symbol: Symbol) -> bool:
     return rate is not None and rate.vector is not None
 
 
-def _answers(
-    scene: Scene, motion: Motion, sheet: Sheet, asked: tuple[Symbol, ...]
-) -> Iterator[tuple[Symbol, float]]:
+def _answers(scene: Scene, motion: Motion, sheet: Sheet, asked: tuple[Symbol, ...]) -> Iterator[tuple[Symbol, float]]:
     """The exact answers; the drawing must agree with each of them."""
     drawn = {r.symbol: r.value for r in read_off(sheet, asked)}
     for symbol in asked:

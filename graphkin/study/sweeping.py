@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, ProcessPoolExecutor, wait
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
 from contextlib import suppress
-from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
 from graphkin.errors import CallError, Problem
 from graphkin.study.chunks import Done, Plan, work
 from graphkin.study.kept import Kept, Swept
+from graphkin.study.processes import process_pool
 
 __all__ = ["Progress", "have_parquet", "run", "scheduler"]
 
@@ -134,8 +134,7 @@ def _own_pool(plan: Plan, missing: list[int], workers: int, binary: bool) -> Ite
     losses = 0
     while left:
         before = len(left)
-        # fresh processes, not copies of this one: safe beside threads, the same on every system
-        with ProcessPoolExecutor(min(workers, len(left)), mp_context=get_context("spawn")) as pool:
+        with process_pool(min(workers, len(left))) as pool:
             for chunk, done in _through(plan, list(left), pool, binary):
                 left.remove(chunk)
                 yield chunk, done

@@ -4,6 +4,11 @@ from __future__ import annotations
 
 import json
 import math
+import os
+import signal
+import subprocess
+import sys
+import time
 import tomllib
 from concurrent.futures import BrokenExecutor, ThreadPoolExecutor
 from pathlib import Path
@@ -226,3 +231,76 @@ def test_variants_and_rows_together_are_refused(tmp_path):
 
 def test_the_data_of_a_set_is_json(made):
     assert json.loads(json.dumps(made.data, allow_nan=False))["ok"]
+
+
+def test_whatever_goes_wrong_with_one_the_others_are_made(tmp_path):
+    def render(variant):
+        if variant.name == "01":
+            raise RuntimeError("out of ink")
+        return {"sheet.txt": b"x"}
+
+    made = problem_set(FOUR_BAR, 2, 1, out=tmp_path, render=render)
+    assert (["02"], [("01", "RuntimeError: out of ink")]) == (
+        made.made.names,
+        [(f.name, f.why) for f in made.made.failures],
+    )
+
+
+def test_papers_that_failed_are_tried_again_and_the_others_are_not(tmp_path):
+    worked = []
+
+    def render(variant):
+        worked.append(variant.name)
+        if worked == ["01"]:
+            raise CallError(Problem("papers", "no"))
+        return {"sheet.txt": b"x"}
+
+    problem_set(FOUR_BAR, 2, 1, out=tmp_path, render=render)
+    assert problem_set(FOUR_BAR, 2, 1, out=tmp_path, render=render).ok
+    assert ["01", "02", "01"] == worked
+
+
+def test_a_variant_whose_file_is_gone_is_made_again(tmp_path):
+    def stop(done, _):
+        if done == 2:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        problem_set(FOUR_BAR, 3, 1, out=tmp_path, progress=stop)
+    (tmp_path / f"{FOUR_BAR}-01.toml").unlink()
+    problem_set(FOUR_BAR, 3, 1, out=tmp_path)
+    assert (tmp_path / f"{FOUR_BAR}-01.toml").exists()
+
+
+def test_an_executor_that_loses_its_workers_loses_no_variant(tmp_path):
+    class Lossy(ThreadPoolExecutor):
+        def submit(self, *_, **__):
+            future = super().submit(lambda: None)
+            future.result()
+            lost = type(future)()
+            lost.set_exception(RuntimeError("the worker is gone"))
+            return lost
+
+    made = problem_set(FOUR_BAR, 3, 1, executor=Lossy(1), workers=2)
+    assert problem_set(FOUR_BAR, 3, 1).csv() == made.csv()
+
+
+def test_what_a_killed_process_left_half_written_is_removed(tmp_path):
+    (tmp_path / f".{FOUR_BAR}-01.toml.k3j_x9a1").write_text("title = ")
+    problem_set(FOUR_BAR, 1, 1, out=tmp_path)
+    assert {f"{FOUR_BAR}-01.toml", "answers.csv"} == {p.name for p in tmp_path.iterdir()}
+
+
+def test_a_killed_set_goes_on(tmp_path):
+    call = [sys.executable, "-c", "from graphkin.cli import main; main()", "handout", FOUR_BAR, "--variants", "6",
+            "--format", "html", "--workers", "2", "-q", "-o", str(tmp_path)]  # fmt: skip
+    first = subprocess.Popen(call, start_new_session=True)
+    deadline = time.monotonic() + 60
+    while not list(tmp_path.glob("*-01.toml")) and time.monotonic() < deadline:
+        time.sleep(0.05)
+    os.kill(first.pid, signal.SIGKILL)
+    first.wait()
+    done = subprocess.run(call, capture_output=True, text=True, timeout=120)
+    assert 0 == done.returncode, done.stderr
+    assert 6 == len(list(tmp_path.glob("*.toml")))
+    assert [] == list(tmp_path.glob(".*"))
