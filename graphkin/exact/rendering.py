@@ -24,6 +24,8 @@ __all__ = ["BLOCK", "Code"]
 
 BLOCK = 8192
 """Positions that are computed together: some dozens of columns of this length stay in the cache."""
+CHECKS = 128
+"""A loop with more checks of its columns against each other is not compiled for several positions at once (LLVM)."""
 
 _WRITTEN = {
     "add": "({} + {})",
@@ -270,15 +272,27 @@ class Code:
         signs = [name for name in self.inputs if name[0] == "sign"]
         names |= {name: f"g[{k}, k]" for k, name in enumerate(signs)}
         same = [at for at in self.order if at not in self.varying]
-        head, made = self._straight(same, {}, {}, set(self._same[1]))
-        body, made = self._straight([at for at in self.order if at in self.varying], names, {}, set(), made)
-        inner = ["a = a0 + da * k" if even else "a = v[k]"]
-        inner += turn_lines("a", "c0", "s0") if turning else []
-        inner += body
-        for n, at in enumerate(self.asked):
-            inner.append(f"{f'o[{n}' if n < columns else f'o2[{n - columns}'}, k] = {made[at]}")
-        lines = ["def made(p, a0, da, v, n, g, o, o2):", *(f"    {x}" for x in head), "    for k in prange(n):"]
-        return "\n".join([*lines, *(f"        {x}" for x in inner)])
+        head, before = self._straight(same, {}, {}, set(self._same[1]))
+        lines = ["def made(p, a0, da, v, n, g, o, o2):", *(f"    {x}" for x in head)]
+        each = _together(len(signs) + (not even))
+        for first in range(0, len(self.asked), each):
+            some = self.asked[first : first + each]
+            order = [at for at in self.sheet.needed([Real(self.sheet, at) for at in some]) if at in self.varying]
+            body, made = self._straight(order, names, {}, set(), before)
+            inner = ["a = a0 + da * k" if even else "a = v[k]"]
+            inner += turn_lines("a", "c0", "s0") if turning else []
+            inner += body
+            for n, at in enumerate(some, start=first):
+                inner.append(f"{f'o[{n}' if n < columns else f'o2[{n - columns}'}, k] = {made[at]}")
+            lines += ["    for k in prange(n):", *(f"        {x}" for x in inner)]
+        return "\n".join(lines)
+
+
+def _together(read: int) -> int:
+    """How many columns are filled in one loop that reads so many: each pair of columns, of which one is written, takes
+    a check that they lie apart, and with more than 128 checks the loop would be compiled for one position at a time.
+    What several loops need is computed in each: that takes less time than the memory does."""
+    return max(w for w in range(1, 17) if w * (w - 1) // 2 + w * read <= CHECKS or w == 1)
 
 
 def _plain(sheet: Sheet, at: int) -> bool:

@@ -65,7 +65,10 @@ class Even:
 
     @property
     def values(self) -> Array:
-        return np.asarray(self.start + self.step * np.arange(self.first, self.last))
+        steps = np.arange(float(self.first), float(self.last))
+        steps *= self.step
+        steps += self.start
+        return steps
 
     @property
     def given(self) -> tuple[float, float, Array]:
@@ -92,8 +95,9 @@ class Even:
         low, high = min(begin, end) / HALF_PI, max(begin, end) / HALF_PI
         for m in range(math.ceil(low - 1e-6), math.floor(high + 1e-6) + 1):
             k = round((m * HALF_PI - begin) / self.step) if self.step else 0
-            if 0 <= k < n:
-                c[k], s[k] = quarter(self.start + self.step * (self.first + k))
+            value = self.start + self.step * (self.first + k)
+            if 0 <= k < n and abs(value - m * HALF_PI) <= NEAR * (1 + abs(value)):
+                c[k], s[k] = quarter(value)
         return c, s
 
 

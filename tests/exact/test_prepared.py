@@ -66,6 +66,23 @@ def test_compiled_columns_are_those_of_numpy() -> None:
     assert np.abs(fast - slow).max() < 2e-14 * np.abs(slow).max()
 
 
+MANY = ("B", "C", "B@3", "v_B", "v_C", "a_B", "a_C", "v_C/B", "omega_2", "omega_3", "alpha_2", "alpha_3")
+
+
+@pytest.mark.skipif(find_spec("numba") is None, reason="the extra fast is not installed")
+def test_many_compiled_columns_are_those_of_numpy() -> None:
+    ready = prepare(read_text(scenes.FOUR_BAR, "four-bar"), MANY)
+    slow, _ = ready.sweep(120_000)
+    fast, _ = ready.sweep(120_000, fast=True)
+    assert np.abs(fast - slow).max() < 2e-14 * np.abs(slow).max()
+
+
+def test_no_compiled_loop_fills_more_columns_than_can_be_told_apart() -> None:
+    ready = prepare(read_text(scenes.FOUR_BAR, "four-bar"), MANY)
+    loops = ready._code.loop(True, True, len(ready.names)).split("prange")[1:]
+    assert [loop.count("o[") for loop in loops] == [16, 4]
+
+
 def test_positions_out_of_reach_are_marked() -> None:
     _, ok = prepare(read("sixbar-AE70"), ("v_C",)).columns(np.radians([50, 58.9, 59.1, 180, 301.1]))
     assert ok.tolist() == [True, True, False, False, True]
