@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from graphkin.drawing.box import Box
 from graphkin.drawing.metrics import runs_width, text_box
 from graphkin.drawing.obstacles import Obstacles, obstacles_of
-from graphkin.drawing.placing import Label, Mark, Placed, place
+from graphkin.drawing.placing import Label, Mark, place_those_that_fit
 from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Run, Text, walk
 from graphkin.drawing.typeset import SMALLEST, rich
 
@@ -30,7 +30,6 @@ __all__ = [
 
 # In the order of drawing.
 LAYERS = ("construction", "mechanism", "velocity", "acceleration", "centres", "answers", "labels")
-_NEAR = 15.0  # mm: how far around a label without a place others may be given up for it
 
 
 @dataclass(frozen=True)
@@ -73,38 +72,18 @@ def settled(piece: Piece, panel: Box, fences: Sequence[Box] = ()) -> Piece:
     No name leaves the panel or enters a fence.
     """
     names = [name for name in piece.names if name.rank < _most(len(piece.names))]
-    obstacles = obstacles_of(piece.drawn) + Obstacles(areas=tuple(fences))
-    placed: tuple[Placed, ...] = ()
-    while True:
-        placed = place([name.label for name in names], panel, obstacles, piece.marks)
-        losers = [p for p in placed if not p.clear]
-        given_up = _given_up(names, placed, losers)
-        if not given_up:
-            break
-        names = [name for i, name in enumerate(names) if i not in given_up]
+    obstacles = obstacles_of(piece.drawn) + Obstacles(areas=tuple(fences), writing=tuple(fences))
+    labels, ranks = [name.label for name in names], [name.rank for name in names]
     written: list[Primitive] = []
-    for one in placed:
-        if one.leader is not None:
-            written.append(one.leader)
-        written.append(one.text)
+    for one in place_those_that_fit(labels, ranks, panel, obstacles, piece.marks):
+        if one is not None:
+            written += (one.text,) if one.leader is None else (one.leader, one.text)
     return Piece({**piece.layers, "labels": (*piece.layers.get("labels", ()), *written)}, (), piece.marks)
 
 
 def _most(count: int) -> int:
     """The rank from which names are left out at once, because there are so many that none would be read."""
     return 5 if count < 45 else 4 if count < 60 else 2
-
-
-def _given_up(names: Sequence[Name], placed: Sequence[Placed], losers: Sequence[Placed]) -> set[int]:
-    """Names to leave out: those that stand badly, or where such a one must stand the least important near it."""
-    out = {i for i, p in enumerate(placed) if not p.clear and names[i].rank}
-    if out or not losers:
-        return out
-    for loser in losers:
-        near = [i for i, p in enumerate(placed) if names[i].rank and p.box.grown(_NEAR).overlaps(loser.box)]
-        if near:
-            out.add(max(near, key=lambda i: (names[i].rank, i)))
-    return out
 
 
 def layer_groups(piece: Piece) -> tuple[Group, ...]:

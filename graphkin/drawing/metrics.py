@@ -18,6 +18,7 @@ __all__ = ["has_cjk", "is_cjk", "run_box", "runs_width", "start_runs", "text_box
 ASCENT, DESCENT = 0.70, 0.22  # of the size; accents and CJK reach further
 CJK_ASCENT, CJK_DESCENT = 0.86, 0.14
 CAP_HEIGHT = 0.66
+_TALL = {"∥": 0.83, "√": 0.83}  # signs that reach higher
 
 _ROMAN = {
     18: "'", 20: "|", 25: " ,.·", 28: "/:;\\ijltιîï", 29: "′", 33: "!()-I[]`fr‘’", 39: "Js", 40: "°", 41: '"', 43: "″",
@@ -41,6 +42,11 @@ _BOLD = {
     72: "ACDNRUVXYwΔΛæ", 73: "ω", 75: "≈≤≥½≠", 76: "ψ", 77: "±", 78: "GHKOQΠΘ", 79: "∠", 80: "Ω", 81: "Ψ",
     83: "&m", 84: "Φ", 91: "∑", 93: "@", 94: "M", 96: "√∞", 100: "%W→←…—",
 }  # fmt: skip
+# How far the ink of some letters reaches beyond their advance, to the left and to the right, in hundredths of the size.
+_OVER_LEFT = {15: "f", 12: "j", 8: "y", 7: "p/", 6: "A", 5: ")", 3: "xμX"}
+_OVER_RIGHT = {
+    15: "f", 11: "/", 10: "V", 9: "Y", 8: "TW", 6: "KN", 5: "HIJMUZ(", 4: "X7[", 3: "dEFτπ'",
+}  # fmt: skip
 
 
 def _by_character(table: dict[int, str]) -> dict[str, float]:
@@ -48,6 +54,7 @@ def _by_character(table: dict[int, str]) -> dict[str, float]:
 
 
 _WIDTHS = (_by_character(_ROMAN), _by_character(_ITALIC), _by_character(_BOLD))
+_LEFT, _RIGHT = _by_character(_OVER_LEFT), _by_character(_OVER_RIGHT)
 
 
 def is_cjk(character: str) -> bool:
@@ -78,13 +85,16 @@ def width(text: str, size: float, italic: bool = False, bold: bool = False) -> f
 
 
 def run_box(run: Run) -> Box:
-    """Box of one run about its text's own point: from ascender to descender, from start to advance."""
+    """Box of one run about its text's own point: from ascender to descender, from start to advance, and further where
+    slanted letters reach further."""
     cjk = has_cjk(run.text)
     ascent, descent = (CJK_ASCENT, DESCENT) if cjk else (ASCENT, DESCENT)
+    ascent = max((ascent, *(_TALL[sign] for sign in _TALL if sign in run.text)))
+    before, after = (_LEFT.get(run.text[:1], 0.0), _RIGHT.get(run.text[-1:], 0.0)) if run.italic else (0.0, 0.0)
     return Box(
-        run.x,
+        run.x - before * run.size,
         run.y - ascent * run.size,
-        run.x + width(run.text, run.size, run.italic, run.bold),
+        run.x + width(run.text, run.size, run.italic, run.bold) + after * run.size,
         run.y + descent * run.size,
     )
 

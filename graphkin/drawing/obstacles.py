@@ -22,14 +22,21 @@ _ARC_STEP = math.radians(12)
 
 @dataclass(frozen=True)
 class Obstacles:
-    """Segments, and areas as upright boxes, on the page in mm."""
+    """Segments, and areas as upright boxes, on the page in mm; ``writing`` are those of the areas that leaders may not
+    run over either."""
 
     solid: tuple[Segment, ...] = ()
     dashed: tuple[Segment, ...] = ()
     areas: tuple[Box, ...] = ()
+    writing: tuple[Box, ...] = ()
 
     def __add__(self, other: Obstacles) -> Obstacles:
-        return Obstacles(self.solid + other.solid, self.dashed + other.dashed, self.areas + other.areas)
+        return Obstacles(
+            self.solid + other.solid,
+            self.dashed + other.dashed,
+            self.areas + other.areas,
+            self.writing + other.writing,
+        )
 
 
 def obstacles_of(children: tuple[Primitive, ...]) -> Obstacles:
@@ -38,10 +45,11 @@ def obstacles_of(children: tuple[Primitive, ...]) -> Obstacles:
     solid: list[Segment] = []
     dashed: list[Segment] = []
     areas: list[Box] = []
+    writing: list[Box] = []
     for thing in walk(children):
         if isinstance(thing, Text):
             if thing.runs:
-                areas.append(text_box(thing))
+                writing.append(text_box(thing))
         elif isinstance(thing, Circle):
             reach = thing.radius + (thing.stroke.width / 2 if thing.stroke else 0.0)
             areas.append(Box.around((thing.centre,)).grown(reach))
@@ -54,7 +62,7 @@ def obstacles_of(children: tuple[Primitive, ...]) -> Obstacles:
                 solid.extend((thing.points[i], thing.points[(i + count // 2) % count]) for i in range(count // 2))
         elif isinstance(thing, Line | Polyline | Polygon | Arc) and thing.stroke is not None:
             (solid if thing.stroke.solid else dashed).extend(pairwise(_course(thing)))
-    return Obstacles(tuple(solid), tuple(dashed), tuple(areas))
+    return Obstacles(tuple(solid), tuple(dashed), (*writing, *areas), tuple(writing))
 
 
 def _course(thing: Line | Polyline | Polygon | Arc) -> tuple[complex, ...]:

@@ -2,31 +2,34 @@
 other of its kind, or tied to it by a leader.
 
 Each label has candidate places in rings of growing distance around its mark.  Those that the drawing forbids are sorted
-out for all labels at once; then labels take places, the most constrained first, and labels left without one push a
-neighbour to another of its own places (greedy point labelling with repair, after Christensen, Marks and Shieber, An
-empirical study of algorithms for point-feature label placement, ACM Trans. Graphics 14, 1995).
+out for all labels at once; then labels take places, the most constrained first, and labels left without one drive out
+others (greedy point labelling with repair, after Christensen, Marks and Shieber, An empirical study of algorithms for
+point-feature label placement, ACM Trans. Graphics 14, 1995).
 """
 
 from __future__ import annotations
 
-import heapq
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import islice, pairwise
+
+import numpy as np
 
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
-from graphkin.drawing.candidates import RINGS, Asker, Candidate, Field, Mark, Places, least_cost
+from graphkin.drawing.candidates import RINGS, Asker, Mark, ends
+from graphkin.drawing.free_room import Field, least_cost
 from graphkin.drawing.metrics import text_box
 from graphkin.drawing.obstacles import Obstacles
 from graphkin.drawing.primitives import Line, Text
+from graphkin.drawing.seats import Seat, Seats
 
-__all__ = ["Label", "Mark", "Placed", "place"]
+__all__ = ["Label", "Mark", "Placed", "place", "place_those_that_fit"]
 
 # Rings looked at, one stage after the other, for the labels that have no place yet.
-_STAGES = (0, 2, 4, 7, len(RINGS))
-# How often labels may drive out others, and that each considers only one in so many of its places, near ones and far.
-_DRIVES, _STRIDE = 120, 3
+_STAGES = (0, 2, 5, len(RINGS))
+# What a label is worth by its rank: so much more must others be worth together before it gives way to them.
+_WORTH = (12, 5, 4, 3, 2, 1)
+_DRIVES = 4  # how often labels may drive out others, for each label
 _SPACE = 0.5  # between two labels, mm
 _NOTHING = Obstacles()
 
@@ -73,143 +76,134 @@ def place(
     obstacles : what is drawn already
     marks : further points and segments that a reader could take a label for, besides those of the labels
     """
+    placed = place_those_that_fit(labels, (0,) * len(labels), panel, obstacles, marks)
+    return tuple(one for one in placed if one is not None)
+
+
+def place_those_that_fit(
+    labels: Sequence[Label], ranks: Sequence[int], panel: Box, obstacles: Obstacles = _NOTHING,
+    marks: Sequence[Mark] = (),
+) -> tuple[Placed | None, ...]:  # fmt: skip
+    """As `place`, with None for labels given up; one of rank 0 stands in any case, the others give way to what is
+    worth more, the highest rank first."""
     if not labels:
         return ()
     texts = [replace(label.text, at=0j, anchor="start") for label in labels]
     boxes = [text_box(text) for text in texts]
     field = Field(panel, obstacles, (*(label.mark for label in labels), *marks))
     askers = [
-        Asker(label.mark, complex(box.width, box.height) / 2, label.toward)
+        Asker(*ends(label.mark), complex(box.width, box.height) / 2, label.toward)
         for label, box in zip(labels, boxes, strict=True)
     ]
-    board = _Board(askers, field)
+    board = _Board(askers, ranks, field)
     board.settle()
-    placed = []
-    for text, box, candidate, clear in zip(texts, boxes, board.taken, board.clear, strict=True):
-        leader = None if candidate.leader is None else Line(*candidate.leader, strokes.LEADER)
-        at = complex(candidate.box.left - box.left, candidate.box.top - box.top)
-        placed.append(Placed(replace(text, at=at), candidate.box, leader, clear))
-    return tuple(placed)
+    return tuple(
+        _placed(text, box, board.standing[i], board.clear[i]) if i in board.standing else None
+        for i, (text, box) in enumerate(zip(texts, boxes, strict=True))
+    )
+
+
+def _placed(text: Text, box: Box, seat: Seat, clear: bool) -> Placed:
+    leader = None if seat.leader is None else Line(*seat.leader, strokes.LEADER)
+    at = complex(seat.left - box.left, seat.top - box.top)
+    return Placed(replace(text, at=at), seat.box, leader, clear)
 
 
 class _Board:
     """Who stands where."""
 
-    def __init__(self, askers: Sequence[Asker], field: Field) -> None:
-        self.askers, self.field = askers, field
-        self.found: list[list[Places]] = [[] for _ in askers]
+    def __init__(self, askers: Sequence[Asker], ranks: Sequence[int], field: Field) -> None:
+        self.askers, self.ranks, self.field = askers, ranks, field
+        self.found: dict[int, Seats] = {}
         self.seen = [0] * len(askers)  # rings looked at
-        self.standing: dict[int, Candidate] = {}
+        self.standing: dict[int, Seat] = {}
         self.clear = [True] * len(askers)
 
-    @property
-    def taken(self) -> list[Candidate]:
-        return [self.standing[i] for i in range(len(self.askers))]
-
     def settle(self) -> None:
-        """Give every label a place."""
+        """Give every label a place, or give it up."""
         left = list(range(len(self.askers)))
-        for first, last in pairwise(_STAGES):
-            self._look(left, first, last)
-            order = sorted(left, key=lambda i: (sum(map(len, self.found[i])), i))
-            left = sorted(i for i in order if not self._stand(i))
-            left = [i for i in left if not self._push(i)]
+        for last in _STAGES[1:]:
+            self._look(left, last)
+            left.sort(key=lambda i: (self.ranks[i] > 3, len(self.found[i]), i))
+            left = [i for i in left if not self._stand(i)]
             if not left:
                 break
-        left = self._drive_out(left)
+        left = self._drive_out(sorted(left))
         self._ease()
         for i in left:
-            self.clear[i] = False
-            self.standing[i] = self._least_bad(i)
+            if self.ranks[i] == 0:
+                self._insist(i)
+
+    def _look(self, who: Sequence[int], last: int) -> None:
+        """Look for places in the rings up to ``last`` that some labels have not yet seen."""
+        for first in sorted({self.seen[i] for i in who if self.seen[i] < last}):
+            some = [i for i in who if self.seen[i] == first]
+            for i, seats in zip(some, self.field.free([self.askers[i] for i in some], first, last), strict=True):
+                self.found[i] = self.found[i].joined(seats) if first else seats
+                self.seen[i] = last
+
+    def _stand(self, i: int) -> bool:
+        """Take the cheapest place that no other label holds."""
+        seats, others = self.found[i], tuple(self.standing.values())
+        for seat in seats.first:
+            if not any(seat.meets(other, _SPACE) for other in others):
+                self.standing[i] = seat
+                return True
+        if len(seats) <= len(seats.first):
+            return False
+        free = np.flatnonzero(~seats.met(others, _SPACE).any(axis=1))
+        if free.size:
+            self.standing[i] = seats.seat(int(free[0]))
+        return bool(free.size)
 
     def _drive_out(self, left: list[int]) -> list[int]:
         """Seat labels in a crowd by driving out whoever is in the way, who then seats itself the same way; each time
         that a label is driven out it grows harder to drive out.  Returns those that stand nowhere in the end."""
-        weight = [1] * len(self.askers)
+        worth = [_WORTH[min(rank, len(_WORTH) - 1)] for rank in self.ranks]
+        weight = [*worth]
         queue, hopeless = list(left), []
-        best, state = list(left), dict(self.standing)
-        for _ in range(_DRIVES):
+        best, state = sum(worth[i] for i in left), (list(left), dict(self.standing))
+        for _ in range(_DRIVES * len(self.askers)):
             if not queue:
                 break
             i = queue.pop(0)
-            self._look([i], self.seen[i], len(RINGS))
-            choices = [
-                (sum(weight[j] for j in rivals), at.cost, n, at, rivals)
-                for n, at in enumerate(islice(self._places(i), 0, None, _STRIDE))
-                for rivals in (self._rivals(at, len(self.askers)),)
-            ]
-            if not choices:
+            self._look([i], len(RINGS))
+            seats, standing = self.found[i], list(self.standing)
+            met = seats.met([self.standing[j] for j in standing], _SPACE)
+            lost = met @ np.array([weight[j] for j in standing], dtype=float)
+            if not len(seats) or (self.ranks[i] and lost.min() > weight[i]):
                 hopeless.append(i)
                 continue
-            _, _, _, at, rivals = min(choices)
-            for j in rivals:
+            chosen = int(np.lexsort((seats.costs, lost))[0])
+            for j in (standing[k] for k in np.flatnonzero(met[chosen])):
                 del self.standing[j]
-                weight[j] += 1
+                weight[j] += worth[j]
                 queue.append(j)
-            self.standing[i] = at
-            if len(queue) + len(hopeless) < len(best):
-                best, state = sorted(queue + hopeless), dict(self.standing)
-        self.standing = state
-        return best
+            self.standing[i] = seats.seat(chosen)
+            missing = sum(worth[j] for j in (*queue, *hopeless))
+            if missing < best:
+                best, state = missing, (sorted(queue + hopeless), dict(self.standing))
+        lacking, self.standing = state
+        return lacking
 
     def _ease(self) -> None:
         """Move labels to better places: such as have come free, and such as are further off but cost less."""
-        for first, last in pairwise(_STAGES[1:]):
-            uneasy = [i for i in sorted(self.standing) if self.standing[i].cost > least_cost(first)]
-            self._look([i for i in uneasy if self.seen[i] == first], first, last)
+        uneasy = [i for i, seat in self.standing.items() if seat.cost > least_cost(_STAGES[-2])]
+        self._look(sorted(uneasy), _STAGES[-1])
         for i in sorted(self.standing):
-            del self.standing[i]
-            self._stand(i)
+            seat = self.standing[i]
+            if seat.cost > self.found[i].costs[0]:
+                del self.standing[i]
+                self._stand(i)
 
-    def _look(self, who: list[int], first: int, last: int) -> None:
-        if first == last or not who:
-            return
-        for i, places in zip(who, self.field.free([self.askers[i] for i in who], first, last), strict=True):
-            self.found[i].append(places)
-            self.seen[i] = last
-
-    def _places(self, i: int) -> Iterator[Candidate]:
-        """Places found so far, cheapest first."""
-        return heapq.merge(*self.found[i], key=lambda candidate: candidate.cost)
-
-    def _stand(self, i: int) -> bool:
-        for candidate in self._places(i):
-            if not self._rivals(candidate, 1):
-                self.standing[i] = candidate
-                return True
-        return False
-
-    def _push(self, i: int) -> bool:
-        """Take a place that one other label holds, where that one finds another."""
-        for candidate in self._places(i):
-            rivals = self._rivals(candidate, 2)
-            if len(rivals) != 1:
-                continue
-            rival = rivals[0]
-            was = self.standing.pop(rival)
-            self.standing[i] = candidate
-            if self._stand(rival):
-                return True
-            self.standing[rival] = was
-            del self.standing[i]
-        return False
-
-    def _rivals(self, candidate: Candidate, enough: int) -> list[int]:
-        """Labels that stand in the way, as many as are enough to know."""
-        rivals = []
-        for j, other in self.standing.items():
-            if candidate.meets(other, _SPACE):
-                rivals.append(j)
-                if len(rivals) == enough:
-                    break
-        return rivals
-
-    def _least_bad(self, i: int) -> Candidate:
-        places = self.field.everywhere(self.askers[i])
-        return min(
-            places,
-            key=lambda place: (
-                place.faults + sum(place.meets(other, 0.0) for other in self.standing.values()),
-                place.cost,
-            ),
-        )
+    def _insist(self, i: int) -> None:
+        """Put a label where it does least harm, and give up those in its way that may be given up."""
+        seats, standing = self.field.everywhere(self.askers[i]), list(self.standing)
+        met = seats.met([self.standing[j] for j in standing], 0.0)
+        important = np.array([self.ranks[j] == 0 for j in standing], dtype=bool)
+        faults = seats.faults + met[:, important].sum(axis=1)
+        chosen = int(np.lexsort((seats.costs, met.sum(axis=1), faults))[0])
+        for k in np.flatnonzero(met[chosen] & ~important):
+            del self.standing[standing[k]]
+        self.clear[i] = bool(faults[chosen] == 0)
+        self.standing[i] = seats.seat(chosen)

@@ -15,6 +15,7 @@ from graphkin.drawing.conventions import Letters, pole
 from graphkin.drawing.describe import spoken_ref, spoken_vector
 from graphkin.drawing.detail import Detail
 from graphkin.drawing.layout import Name, Piece
+from graphkin.drawing.metrics import runs_width
 from graphkin.drawing.placing import Label
 from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Primitive, Stroke, Text
 from graphkin.drawing.typeset import symbol
@@ -28,7 +29,7 @@ SAME = 0.02  # mm: nearer end points fall together on paper
 FAR = 60.0  # mm: construction further outside than this is cut off
 SHORT = 8.0  # mm: a shorter vector from the pole is named by its end points alone
 ZERO = 0.02  # mm: a shorter vector is drawn as a dot
-
+MOST_AT_POLE = 24.0  # mm of names of points at rest beside the letter of the pole
 
 
 @dataclass(frozen=True)
@@ -86,6 +87,7 @@ class _Composer:
                 if isinstance(stroke, Vector):
                     self.vectors[stroke.symbol] = (step.number, stroke)
         self.names: list[Name] = []
+        self.marks: list[complex] = []  # points with a dot, named or not
 
     def at(self, z: complex) -> complex:
         return self.origin + z.conjugate()
@@ -101,7 +103,8 @@ class _Composer:
         vectors = [self._vector(step, vector) for step, vector in self._in_order()]
         ends = [*self._ends(spots), *self._feet(spots), self._pole(spots)]
         self._name_vectors()
-        return Piece({"construction": tuple(construction), self.diagram: (*vectors, *ends)}, tuple(self.names))
+        layers = {"construction": tuple(construction), self.diagram: (*vectors, *ends)}
+        return Piece(layers, tuple(self.names), tuple(self.marks))
 
     def _in_order(self) -> Iterator[tuple[int, Vector]]:
         """Long vectors first, so that short ones lie on top."""
@@ -135,8 +138,9 @@ class _Composer:
                 continue
             vectors = sorted(groups[key], key=lambda v: self.vectors[v.symbol][0])
             if lengths[key] < ZERO:
-                vectors = [v for v in vectors if v.role != "resultant" or self.letters.convention == "us"
-                           or abs(v.tip) < SAME]
+                vectors = [
+                    v for v in vectors if v.role != "resultant" or self.letters.convention == "us" or abs(v.tip) < SAME
+                ]
             if not vectors:
                 continue
             markup = " = ".join(self.letters.vector(v.symbol) for v in vectors)
@@ -183,6 +187,7 @@ class _Composer:
                 shape = self._dot(spot.at, i + (number == 0))
                 id = f"{self.diagram}-{ref}".replace("@", "")
                 yield Group((shape,), id=id, classes=("end",), title=spoken_ref(ref, self.language))
+                self.marks.append(self.at(spot.at))
             if number and moving:
                 markup = ", ".join(filter(None, (self.letters.end(self.diagram, ref) for ref in moving)))
                 self._name_point(markup, spot.at, f"label-{self.diagram}-{moving[0]}", 0, away=spot.at)
@@ -223,13 +228,14 @@ class _Composer:
             used.add(markup)
             dot = Circle(self.at(at), FOOT_RADIUS, fill=strokes.BLACK)
             yield Group((dot,), id=f"foot-{vector.symbol.id}", classes=("foot",))
+            self.marks.append(self.at(at))
             self._name_point(markup, at, f"label-foot-{vector.symbol.id}", 1, away=at)
 
     def _pole(self, spots: Sequence[_Spot]) -> Group:
         ends = [self.letters.end(self.diagram, ref) for ref in spots[0].refs]
         shown = ", ".join(filter(None, ends))
         letter = pole(self.letters.convention, self.diagram)
-        markup = f"{letter} ({shown})" if shown and len(ends) < 6 else letter
+        markup = f"{letter} ({shown})" if shown and runs_width(symbol(shown)) < MOST_AT_POLE else letter
         away = -sum((v.span for _, v in self.vectors.values() if abs(v.tail) < SAME), 0j)
         self._name_point(markup, 0j, f"label-pole-{self.diagram}", 0, away)
         shape = Circle(self.at(0j), POLE_RADIUS, fill=strokes.WHITE, stroke=strokes.OUTLINE)
@@ -268,8 +274,14 @@ class _Composer:
                     key = (markup, _rounded(end))
                     if key not in named and abs(clipped[1] - clipped[0]) > 1.0:
                         named.add(key)
-                        text = Text(0j, symbol(markup, 3.0), "start", strokes.GREY,
-                                    f"label-direction-{step.number:02d}", ("label", "direction"))
+                        text = Text(
+                            0j,
+                            symbol(markup, 3.0),
+                            "start",
+                            strokes.GREY,
+                            f"label-direction-{step.number:02d}",
+                            ("label", "direction"),
+                        )
                         self.names.append(Name(Label(text, clipped), 4))
                 yield Group(tuple(lines), classes=("direction", f"step-{step.number:02d}"))
 
@@ -288,8 +300,11 @@ class _Composer:
                 tail = f"-{count[image.link]}" if count[image.link] > 1 else ""
                 outline = strokes.CONSTRUCTION.coloured(colour_of_link(self.sheet.scene, image.link))
                 shape = Polygon(tuple(map(self.at, image.corners)), "", outline)
-                yield Group((shape,), id=f"image-{self.diagram}-{image.link}{tail}",
-                            classes=("image", f"step-{step.number:02d}"))
+                yield Group(
+                    (shape,),
+                    id=f"image-{self.diagram}-{image.link}{tail}",
+                    classes=("image", f"step-{step.number:02d}"),
+                )
 
     def _bars(self) -> Iterator[Primitive]:
         for step in self.steps:
@@ -312,8 +327,14 @@ class _Composer:
             head = min(POINTER.head_length, 0.7 * length)
             yield arrowhead(tip, line[1] - line[0], head, POINTER.head_width, strokes.BLACK)
         if isinstance(moved, Symbol) and length > 4.0:
-            text = Text(0j, symbol(self.letters.vector(moved), 3.0), "start", strokes.GREY,
-                        f"label-carried-{moved.id}", ("label",))
+            text = Text(
+                0j,
+                symbol(self.letters.vector(moved), 3.0),
+                "start",
+                strokes.GREY,
+                f"label-carried-{moved.id}",
+                ("label",),
+            )
             self.names.append(Name(Label(text, line), 4))
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 import math
 import re
+from itertools import chain, count
 from typing import Any
 from zlib import crc32
 
@@ -90,11 +91,12 @@ def svg_bytes(drawing: Drawing, debug: bool = False) -> bytes:
 
 
 class _Ink:
-    """Turns primitives into elements of one page; knows the clips that it has already given."""
+    """Turns primitives into elements of one page; knows the clips and names that it has already given."""
 
     def __init__(self, page: Any, lang: str) -> None:
         self.page, self.lang = page, lang
         self.clips: set[str] = set()
+        self.ids: set[str] = set()
 
     def draw(self, parent: Any, thing: Primitive) -> None:
         element = parent.add(self._element(thing))
@@ -131,7 +133,7 @@ class _Ink:
 
     def _group(self, group: Group) -> Any:
         element = self.page.g()
-        _name(element, group.id, group.classes)
+        self._name(element, group.id, group.classes)
         if group.layer:
             # Set past svgwrite's check, which knows no Inkscape.
             element.attribs["inkscape:groupmode"] = "layer"
@@ -154,7 +156,7 @@ class _Ink:
             places = [(run.x, run.y) for run in runs]
         element = self.page.text("", insert=tuple(map(number, places[0])), fill=text.colour)
         element["font-size"] = number(max(run.size for run in runs))
-        _name(element, text.id, text.classes)
+        self._name(element, text.id, text.classes)
         if anchor:
             element["text-anchor"] = anchor
         if not self.lang.startswith("zh") and has_cjk(text.string):
@@ -169,6 +171,15 @@ class _Ink:
             element.add(span)
         return element
 
+    def _name(self, element: Any, id: str, classes: tuple[str, ...]) -> None:
+        """Id and classes; an id that is taken (B1 of link 2 and B12 are written alike) is told apart by a number."""
+        if id:
+            free = next(name for name in chain((id,), (f"{id}-{n}" for n in count(2))) if name not in self.ids)
+            self.ids.add(free)
+            element["id"] = free
+        if classes:
+            element["class"] = " ".join(classes)
+
 
 def _clean(text: str) -> str:
     return _UNFIT.sub("", text)
@@ -176,13 +187,6 @@ def _clean(text: str) -> str:
 
 def _pair(point: complex) -> tuple[str, str]:
     return number(point.real), number(point.imag)
-
-
-def _name(element: Any, id: str, classes: tuple[str, ...]) -> None:
-    if id:
-        element["id"] = id
-    if classes:
-        element["class"] = " ".join(classes)
 
 
 def _stroke(element: Any, stroke: Stroke) -> None:
