@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import json
 import re
+import shutil
+import subprocess
+import sys
 import tomllib
 from collections import Counter
 from pathlib import Path
@@ -12,6 +16,7 @@ import pytest
 import graphkin
 from graphkin.words import LANGUAGES
 
+MARK = "¤"
 TABLES = Path(graphkin.__file__).parent / "words"
 
 
@@ -47,3 +52,36 @@ def test_a_sentence_has_the_same_gaps_in_every_language(language):
 
 def test_english_is_the_first_language():
     assert "en" == LANGUAGES[0]
+
+
+@pytest.fixture(scope="module")
+def with_another_language(tmp_path_factory):
+    """A copy of graphkin with one file more: a table that says everything in English, with a mark before it."""
+    folder = tmp_path_factory.mktemp("languages")
+    shutil.copytree(Path(graphkin.__file__).parent, folder / "graphkin", ignore=shutil.ignore_patterns("__pycache__"))
+    marked = [f"{json.dumps(key)} = {json.dumps(MARK + text)}" for key, text in words("en").items()]
+    (folder / "graphkin" / "words" / "xx.toml").write_text("[words]\n" + "\n".join(marked), encoding="utf-8")
+    return folder
+
+
+@pytest.mark.parametrize(
+    ("command", "said_in"),
+    [("check", "report.txt"), ("draw", "sheet.svg"), ("centres", "centres.svg"), ("handout", "problem.html")],
+)
+def test_a_further_language_is_one_more_table(with_another_language, command, said_in):
+    run = [sys.executable, "-c", "from graphkin.cli import main; main()", command, "slider-crank-s50-e16-K1.2"]
+    done = subprocess.run([*run, "--lang", "xx", "-o", command], cwd=with_another_language, capture_output=True)
+    assert 0 == done.returncode, done.stderr
+    assert MARK in (with_another_language / command / said_in).read_text(encoding="utf-8")
+
+
+def test_the_help_names_every_language(with_another_language):
+    run = [sys.executable, "-c", "from graphkin.cli import main; main()", "check", "--help"]
+    assert "en|xx|zh" in subprocess.run(run, cwd=with_another_language, capture_output=True, text=True).stdout
+
+
+def test_a_scene_may_ask_for_a_further_language(with_another_language):
+    scene = {"frame": {"points": {"A": [0, 0]}}, "links": {"1": {"points": ["A"]}}, "sheet": {"language": "xx"}}
+    asking = f"from graphkin.scene import read; print(read({scene}).sheet.language)"
+    done = subprocess.run([sys.executable, "-c", asking], cwd=with_another_language, capture_output=True, text=True)
+    assert "xx" == done.stdout.strip(), done.stderr

@@ -16,13 +16,14 @@ from graphkin.api.answers import Answers, AnswersLike, as_answers
 from graphkin.api.called import At, SceneLike, as_scene, driver_values, own_unit
 from graphkin.api.checked import in_scene_units, solved_here
 from graphkin.api.files import write_files
+from graphkin.api.wishes import known_words
 from graphkin.checking import Case, Judged, judge, predict, printed_values
 from graphkin.checking.suspects import Table
 from graphkin.drafting import plan
-from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.errors import CallError, Problem
 from graphkin.scene.model import AngleDriver, Scene
 from graphkin.scene.symbol import Symbol
-from graphkin.words import LANGUAGES, say, word
+from graphkin.words import say, word
 
 if TYPE_CHECKING:
     from graphkin.exact import Motion
@@ -166,8 +167,7 @@ def audit(
     ['within drafting accuracy', 'wrong']
     """
     given = as_scene(scene)
-    if language is not None and language not in LANGUAGES:
-        raise CallError(Problem("lang", f'"{language}"', did_you_mean(language, LANGUAGES)))
+    known_words(language=language)
     if answers is None and not given.printed:
         raise CallError(
             Problem("printed", "the scene has no printed values", "write them in [printed], or give answers as CSV")

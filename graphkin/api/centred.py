@@ -15,14 +15,15 @@ from typing import TYPE_CHECKING, Any
 
 from graphkin.api.called import At, SceneLike, as_scene, driver_values, for_paper
 from graphkin.api.checked import solved_here
-from graphkin.api.files import known_wishes, write_files
+from graphkin.api.files import write_files
+from graphkin.api.wishes import ON_SHEETS, known_words
 from graphkin.drafting import Room
 from graphkin.drafting.centres import Centre, Centres, Turning, by_centres, find_centres, speeds
 from graphkin.drafting.centres.chart import normal, wedge
 from graphkin.drafting.centres.pairs import Pair
 from graphkin.scene.model import Scene
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import say
+from graphkin.words import languages, say
 
 if TYPE_CHECKING:
     from graphkin.drawing import Drawing
@@ -111,7 +112,7 @@ class Centred:
         if centre.number and centre.kind == "found":
             row["number"] = centre.number
         if centre.why:
-            row["why"] = say(centre.why, self.language or self.scene.sheet.language)
+            row["why"] = say(centre.why, languages(self.language or self.scene.sheet.language)[0])
         return row
 
     def _velocity(self, v: Velocity) -> dict[str, Any]:
@@ -273,7 +274,7 @@ def centres(
     >>> round(found.data["velocities"]["omega_2"]["by_centres"], 5)
     2.63374
     """
-    known_wishes(formats, language, convention)
+    known_words(formats, language, convention, known_languages=ON_SHEETS)
     given = as_scene(scene)
     values = driver_values(given, at)
     motion = solved_here(given, values)

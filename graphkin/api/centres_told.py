@@ -9,7 +9,7 @@ from graphkin.api.centred import Centred
 from graphkin.drafting.centres import Centre, velocity_sentences
 from graphkin.drafting.centres.pairs import Pair
 from graphkin.scene.symbol import PointRef
-from graphkin.words import Phrase, say, word
+from graphkin.words import Phrase, languages, say, word
 
 __all__ = ["ToldCentres", "told_centres"]
 
@@ -25,7 +25,7 @@ class ToldCentres:
 
 def told_centres(centred: Centred) -> ToldCentres:
     """All centres of a position in words, in the language of the result."""
-    language = centred.language or centred.scene.sheet.language
+    language = languages(centred.language or centred.scene.sheet.language)[0]
     letter = "P" if (centred.convention or centred.scene.sheet.convention) in ("chinese", "russian") else "I"
 
     def name(pair: object) -> str:

@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 from graphkin.api.called import At, SceneLike, as_scene, driver_values
 from graphkin.api.centred import found_centres
 from graphkin.api.checked import solved_here
-from graphkin.api.files import known_wishes, write_files
+from graphkin.api.files import write_files
+from graphkin.api.wishes import ON_SHEETS, known_words
 from graphkin.drafting.centres import Centres
 from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.scene.model import Scene
@@ -160,7 +161,7 @@ def centrodes(
     from graphkin.exact import solve
     from graphkin.exact.centrode import centrode
 
-    known_wishes(formats, language, convention)
+    known_words(formats, language, convention, known_languages=ON_SHEETS)
     given = as_scene(scene)
     values = driver_values(given, at)
     _check_names(given, link, point)

@@ -9,6 +9,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from graphkin.api.called import At, SceneLike, as_scene, asked_symbols, driver_values, own_unit
+from graphkin.api.wishes import INSTRUMENTS
 from graphkin.checking import Advice, Compared, Report, Uncertainty, advise, compare, predict, read_off
 from graphkin.drafting import EXACT, Cad, Instrument, Plan, Sheet, execute, pencil, plan
 from graphkin.drafting.sheet import DiagramName
@@ -22,9 +23,7 @@ if TYPE_CHECKING:
     from graphkin.drafting.centres import Centres, Turning
     from graphkin.exact import Motion
 
-__all__ = ["INSTRUMENTS", "Checked", "check", "checked", "hand_of", "reading_row", "solved_here"]
-
-INSTRUMENTS = ("exact", "cad", "pencil")
+__all__ = ["Checked", "check", "checked", "hand_of", "reading_row", "solved_here"]
 
 
 @dataclass(frozen=True, repr=False)

@@ -13,19 +13,17 @@ from typing import TYPE_CHECKING
 
 from graphkin.api.called import At, SceneLike, asked_symbols, driver_values, for_paper
 from graphkin.api.checked import Checked, checked, hand_of, reading_row, solved_here
+from graphkin.api.files import write_files
 from graphkin.api.told import told
+from graphkin.api.wishes import ON_SHEETS, known_words
 from graphkin.drafting import plan
-from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.scene.symbol import Symbol
+from graphkin.words import languages
 
 if TYPE_CHECKING:
     from graphkin.drawing import Drawing
 
 __all__ = ["Drawn", "draw"]
-
-FORMATS = ("svg", "pdf", "png")
-LANGUAGES = ("en", "zh")
-CONVENTIONS = ("chinese", "us", "british", "russian")
 
 
 @dataclass(frozen=True, repr=False)
@@ -70,25 +68,18 @@ class Drawn:
         ------
         CallError : an unknown format, a folder that cannot be written
         """
-        from graphkin.drawing.save import drawing_bytes, write_whole
+        from graphkin.drawing.save import drawing_bytes
 
-        _known("format", formats, FORMATS)
+        known_words(formats)
         target = Path(folder) if folder is not None else Path(self.checked.scene.name)
         files: dict[str, bytes] = {}
         for name, figure in self.figures.items():
             for kind in formats:
                 files[f"{name}.{kind}"] = drawing_bytes(figure, kind)
         files["readings.csv"] = readings_csv(self.checked).encode()
-        files["report.txt"] = told(self.checked, self.language or self.checked.scene.sheet.language).encode()
-        try:
-            target.mkdir(parents=True, exist_ok=True)
-            for name, content in files.items():
-                write_whole(target / name, content)
-        except OSError as error:
-            raise CallError(
-                Problem(str(target), f"cannot be written: {error.strerror}", "give another folder with -o")
-            ) from None
-        return [target / name for name in files]
+        spoken = languages(self.language or self.checked.scene.sheet.language)[0]
+        files["report.txt"] = told(self.checked, spoken).encode()
+        return write_files(target, files)
 
     def __repr__(self) -> str:
         return f"<Drawn {self.checked.scene.name}: {', '.join(self.figures)}>"
@@ -145,7 +136,7 @@ def draw(
     ----------
     scene, at, find, instrument, seed : as for `check`
     out : folder for mechanism, velocity, acceleration and sheet in each of the ``formats``, readings.csv and report.txt
-    language : "en" or "zh"; the scene's own if None
+    language : "en", "zh" or "both" (on the figures; the report is in English then); the scene's own if None
     convention : "chinese", "us", "british" or "russian"; the scene's own if None
 
     Raises
@@ -155,9 +146,7 @@ def draw(
     """
     from graphkin.drawing import sheet_room
 
-    _known("format", formats, FORMATS)
-    _known("lang", [language] if language else [], LANGUAGES)
-    _known("convention", [convention] if convention else [], CONVENTIONS)
+    known_words(formats, language, convention, instrument, known_languages=ON_SHEETS)
     given = for_paper(scene)
     asked = asked_symbols(given, find)
     values = driver_values(given, at)
@@ -170,9 +159,3 @@ def draw(
     if out is not None:
         drawn.write(out, formats)
     return drawn
-
-
-def _known(where: str, words: Sequence[str], table: Sequence[str]) -> None:
-    wrong = [Problem(where, f'"{word}"', did_you_mean(word, table)) for word in words if word not in table]
-    if wrong or (where == "format" and not words):
-        raise CallError(*(wrong or [Problem(where, "none given", f"known here: {', '.join(table)}")]))

@@ -1,33 +1,14 @@
-"""What callers wish of figures, and files of a result: all of them in one folder, each whole or not at all."""
+"""Files of a result: all of them in one folder, each whole or not at all."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 
-from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.errors import CallError, Problem
 
-__all__ = ["half_written", "known_wishes", "write_files"]
-
-FORMATS = ("svg", "pdf", "png")
-LANGUAGES = ("en", "zh", "both")
-CONVENTIONS = ("chinese", "us", "british", "russian")
-
-
-def known_wishes(formats: Sequence[str], language: str | None, convention: str | None) -> None:
-    """Refuse formats, languages and conventions that there are not; None stands for the scene's own.
-
-    Raises
-    ------
-    CallError : every wrong word, with the nearest right one
-    """
-    wishes: list[tuple[str, str, tuple[str, ...]]] = [("format", word, FORMATS) for word in formats or ("",)]
-    wishes += [("lang", language, LANGUAGES)] if language is not None else []
-    wishes += [("convention", convention, CONVENTIONS)] if convention is not None else []
-    wrong = [(where, word, known) for where, word, known in wishes if word not in known]
-    if wrong:
-        raise CallError(*(Problem(where, f'"{word}"', did_you_mean(word, known)) for where, word, known in wrong))
+__all__ = ["half_written", "write_files"]
 
 
 def write_files(folder: Path, files: Mapping[str, bytes]) -> list[Path]:

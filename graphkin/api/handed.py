@@ -12,7 +12,8 @@ from typing import Any
 from graphkin.api.called import At, SceneLike, as_scene, asked_symbols, driver_values, for_paper
 from graphkin.api.checked import solved_here
 from graphkin.api.files import write_files
-from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.api.wishes import ON_SHEETS, known_words
+from graphkin.errors import CallError, Problem
 from graphkin.handout.key import KeyRow, key_rows
 from graphkin.handout.lesson import Lesson
 from graphkin.handout.papers import FORMATS, Papers, handout_files
@@ -25,9 +26,6 @@ from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase
 
 __all__ = ["Handout", "handout", "papers_of"]
-
-LANGUAGES = ("en", "zh", "both")
-CONVENTIONS = ("chinese", "us", "british", "russian")
 
 
 @dataclass(frozen=True, repr=False)
@@ -119,7 +117,7 @@ def handout(
     SceneError, CallError : the file or the call is wrong
     Unsolvable : wrong mobility, a position that cannot be assembled or reached, a dead point
     """
-    _known(formats, language, convention)
+    known_words(formats, language, convention, known_formats=FORMATS, known_languages=ON_SHEETS)
     if not 1 <= positions <= 72:
         raise CallError(Problem("positions", f"{positions}", "give a number from 1 to 72"))
     given = for_paper(scene)
@@ -143,24 +141,6 @@ def papers_of(
     ------
     SceneError, CallError : the file or the call is wrong
     """
-    _known(formats, language, convention)
+    known_words(formats, language, convention, known_formats=FORMATS, known_languages=ON_SHEETS)
     wishes = as_scene(scene).sheet
     return Papers(language or wishes.language, convention or wishes.convention, tuple(dict.fromkeys(formats)))
-
-
-def _known(formats: Sequence[str], language: str | None, convention: str | None) -> None:
-    """Refuse options that are no words of theirs, all of them together."""
-    wrong = [
-        Problem(where, f'"{one}"', did_you_mean(one, table))
-        for where, words, table in (
-            ("format", list(formats), FORMATS),
-            ("lang", [language] if language else [], LANGUAGES),
-            ("convention", [convention] if convention else [], CONVENTIONS),
-        )
-        for one in words
-        if one not in table
-    ]
-    if not formats:
-        wrong.append(Problem("format", "none given", f"known here: {', '.join(FORMATS)}"))
-    if wrong:
-        raise CallError(*wrong)

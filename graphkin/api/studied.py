@@ -11,9 +11,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from graphkin.api.called import SceneLike, as_scene
-from graphkin.api.files import known_wishes, write_files
+from graphkin.api.files import write_files
+from graphkin.api.wishes import known_words
 from graphkin.errors import CallError, Problem, did_you_mean
-from graphkin.words import LANGUAGES
 
 if TYPE_CHECKING:
     from graphkin.drawing import Drawing
@@ -88,7 +88,7 @@ def speed_accuracy(
     if not 1 <= repeats <= 1000:
         raise CallError(Problem("repeats", f"{repeats}", "give a number from 1 to 1000"))
     spoken = language or given.sheet.language
-    _known_language(spoken)
+    known_words(language=spoken)
     found = SpeedAccuracy(race(given, repeats), spoken)
     if out is not None:
         found.write(out)
@@ -168,16 +168,11 @@ def stability(
         wrong.append(Problem("samples", f"{samples}", "give a number from 1 to 100"))
     if wrong:
         raise CallError(*wrong)
-    _known_language(language)
+    known_words(language=language)
     found = Stability(run_trials(wanted, samples), language)
     if out is not None:
         found.write(out)
     return found
-
-
-def _known_language(language: str) -> None:
-    if language not in LANGUAGES:
-        raise CallError(Problem("lang", f'"{language}"', did_you_mean(language, LANGUAGES)))
 
 
 def _written(
@@ -185,7 +180,7 @@ def _written(
 ) -> list[Path]:
     from graphkin.drawing.save import drawing_bytes
 
-    known_wishes(formats, None, None)
+    known_words(formats)
     files = {f"{n}.{kind}": drawing_bytes(f, kind) for n, f in figures.items() for kind in formats}
     return write_files(folder, {**files, name: table.encode()})
 

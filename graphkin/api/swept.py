@@ -14,7 +14,9 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 from graphkin.api.called import At, SceneLike, as_scene, asked_symbols, driver_values
-from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.api.files import write_files
+from graphkin.api.wishes import known_words
+from graphkin.errors import CallError, Problem
 from graphkin.scene import library, library_text
 from graphkin.scene.model import Scene
 from graphkin.scene.symbol import Symbol
@@ -26,7 +28,6 @@ if TYPE_CHECKING:
 
 __all__ = ["Swept", "sweep"]
 
-FORMATS = ("svg", "pdf", "png")
 MOST_POSITIONS = 1_000_000_000
 IN_MEMORY = 2_000_000
 """Rows of a table that are kept in memory where no folder is given."""
@@ -84,18 +85,11 @@ class Swept:
     def write_figures(self, folder: str | os.PathLike[str], formats: Sequence[str] = ("svg",)) -> list[Path]:
         """Write the figures; returns the paths.  Raises CallError for an unknown format or a folder that cannot be
         written."""
-        from graphkin.drawing.save import drawing_bytes, write_whole
+        from graphkin.drawing.save import drawing_bytes
 
-        _known_formats(formats)
-        target = Path(folder)
+        known_words(formats)
         files = {f"{n}.{kind}": drawing_bytes(f, kind) for n, f in self.figures.items() for kind in formats}
-        try:
-            target.mkdir(parents=True, exist_ok=True)
-            for name, content in files.items():
-                write_whole(target / name, content)
-        except OSError as error:
-            raise _unwritable(target, error) from None
-        return [target / name for name in files]
+        return write_files(Path(folder), files)
 
     def __repr__(self) -> str:
         return f"<Swept {self.plan.scene.name}: {self.good} of {self.rows} positions>"
@@ -110,16 +104,6 @@ class Swept:
         from graphkin.drawing import svg_bytes
 
         return shown + "".join(svg_bytes(f).decode() for f in list(self.figures.values())[:2])
-
-
-def _unwritable(target: Path, error: OSError) -> CallError:
-    return CallError(Problem(str(target), f"cannot be written: {error.strerror}", "give another folder with -o"))
-
-
-def _known_formats(formats: Sequence[str]) -> None:
-    wrong = [f for f in formats if f not in FORMATS]
-    if wrong or not formats:
-        raise CallError(*(Problem("format", f'"{f}"', did_you_mean(f, FORMATS)) for f in wrong or [""]))
 
 
 def sweep(
@@ -167,8 +151,8 @@ def sweep(
     from graphkin.study import Plan, course_of, designs_of, have_parquet, run, study_turn
     from graphkin.study import scheduler as cluster
 
-    _known_formats(formats)
-    _checked_call(positions, workers, language, executor, scheduler)
+    known_words(formats, language)
+    _checked_call(positions, workers, executor, scheduler)
     made = designs_of(designs, designs_file)
     source = _mapping(scene) if made.keys else as_scene(scene)
     given = as_scene(source)
@@ -211,15 +195,13 @@ def _swept(plan: Plan, turn: Turn | None, tables: Mapping[str, str | Path], done
 
 
 def _checked_call(
-    positions: int, workers: int | None, language: str | None, executor: Executor | None, scheduler: str | None
+    positions: int, workers: int | None, executor: Executor | None, scheduler: str | None
 ) -> None:
     problems = []
     if not 1 <= positions <= MOST_POSITIONS:
         problems.append(Problem("positions", f"{positions}", f"give a number from 1 to {MOST_POSITIONS}"))
     if workers is not None and not 1 <= workers <= 1024:
         problems.append(Problem("workers", f"{workers}", "give a number from 1 to 1024"))
-    if language not in (None, "en", "zh"):
-        problems.append(Problem("language", f'"{language}"', "known here: en, zh"))
     if sum(x is not None for x in (executor, scheduler)) > 1:
         problems.append(Problem("executor", "is given beside a scheduler", "give one of them"))
     if problems:

@@ -12,9 +12,9 @@ from graphkin.cli.options import (
     ConventionOption,
     FormatOption,
     JsonOption,
-    LangOption,
     QuietOption,
     SceneArgument,
+    SheetLangOption,
     driver_values,
     listed,
 )
@@ -36,7 +36,7 @@ def centres(
         str | None, typer.Option("--centrode", metavar="LINK", help="The centrodes of a link over a turn instead.")
     ] = None,
     point: Annotated[str, typer.Option("--point", metavar="P", help="With --centrode: the path of this point.")] = "",
-    lang: LangOption = None,
+    lang: SheetLangOption = None,
     convention: ConventionOption = None,
     as_json: JsonOption = False,
     quiet: QuietOption = False,

@@ -18,7 +18,6 @@ from graphkin.cli.options import (
     SceneArgument,
     SeedOption,
     driver_values,
-    known_words,
 )
 from graphkin.cli.output import print_json, print_table, unsolvable_as_json
 from graphkin.errors import Unsolvable
@@ -45,8 +44,9 @@ def check(
 ) -> None:
     """Measure the drawn diagrams and compare every reading with the analytic solver."""
     from graphkin.api import check as checking
+    from graphkin.api.wishes import known_words
 
-    known_words(lang, convention, instrument)
+    known_words(None, lang, convention, instrument)
     with unsolvable_as_json(as_json, unchecked):
         checked = checking(scene, driver_values(at), find or None, instrument, seed)
     language = lang or checked.scene.sheet.language

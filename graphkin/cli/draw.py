@@ -10,15 +10,16 @@ from graphkin.cli.options import (
     FormatOption,
     InstrumentOption,
     JsonOption,
-    LangOption,
     OutOption,
     QuietOption,
     SceneArgument,
     SeedOption,
+    SheetLangOption,
     driver_values,
     listed,
 )
 from graphkin.cli.output import print_paths, unsolvable_as_json
+from graphkin.words import languages
 
 __all__ = ["draw"]
 
@@ -29,7 +30,7 @@ def draw(
     formats: FormatOption = "svg",
     at: AtOption = None,
     find: FindOption = None,
-    lang: LangOption = None,
+    lang: SheetLangOption = None,
     convention: ConventionOption = None,
     instrument: InstrumentOption = "exact",
     seed: SeedOption = 0,
@@ -45,4 +46,4 @@ def draw(
         paths = drawn.write(out, wanted)
     if not as_json and not quiet:
         print_paths(paths)
-    print_check(drawn.checked, lang or drawn.checked.scene.sheet.language, as_json, quiet)
+    print_check(drawn.checked, languages(lang or drawn.checked.scene.sheet.language)[0], as_json, quiet)

@@ -13,9 +13,9 @@ from graphkin.cli.options import (
     FindOption,
     JsonOption,
     OutOption,
-    PaperLangOption,
     QuietOption,
     SceneArgument,
+    SheetLangOption,
     driver_values,
     listed,
     processes,
@@ -31,7 +31,7 @@ def handout(
     formats: Annotated[str, typer.Option("--format", metavar="html,pdf", help="Formats of the papers.")] = "html,pdf",
     at: AtOption = None,
     find: FindOption = None,
-    lang: PaperLangOption = None,
+    lang: SheetLangOption = None,
     convention: ConventionOption = None,
     positions: Annotated[
         int, typer.Option("--positions", metavar="N", help="Positions of the driver on the page to step through.")

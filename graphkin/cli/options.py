@@ -19,12 +19,11 @@ __all__ = [
     "JsonOption",
     "LangOption",
     "OutOption",
-    "PaperLangOption",
     "QuietOption",
     "SceneArgument",
     "SeedOption",
+    "SheetLangOption",
     "driver_values",
-    "known_words",
     "listed",
     "processes",
 ]
@@ -51,8 +50,9 @@ FindOption = Annotated[
 LangOption = Annotated[
     str | None, typer.Option("--lang", metavar="|".join(LANGUAGES), help="Language of the figures and the report.")
 ]
-PaperLangOption = Annotated[
-    str | None, typer.Option("--lang", metavar="|".join((*LANGUAGES, BOTH)), help="Language of the papers.")
+SheetLangOption = Annotated[
+    str | None,
+    typer.Option("--lang", metavar="|".join((*LANGUAGES, BOTH)), help="Language of what is drawn and written."),
 ]
 ConventionOption = Annotated[
     str | None, typer.Option("--convention", metavar="chinese|us|british|russian", help="Letters and marks.")
@@ -63,22 +63,6 @@ InstrumentOption = Annotated[
 SeedOption = Annotated[int, typer.Option("--seed", help="Seed of the pencil's errors.")]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object.")]
 QuietOption = Annotated[bool, typer.Option("-q", "--quiet", help="Print nothing but errors.")]
-
-
-def known_words(lang: str | None, convention: str | None, instrument: str) -> None:
-    """Refuse common options that are no words of theirs, all of them together."""
-    from graphkin.api.checked import INSTRUMENTS
-    from graphkin.api.files import CONVENTIONS
-    from graphkin.errors import did_you_mean
-
-    given = [
-        ("lang", lang, LANGUAGES),
-        ("convention", convention, CONVENTIONS),
-        ("instrument", instrument, INSTRUMENTS),
-    ]
-    wrong = [Problem(o, f'"{w}"', did_you_mean(w, known)) for o, w, known in given if w is not None and w not in known]
-    if wrong:
-        raise CallError(*wrong)
 
 
 def listed(words: str) -> list[str]:

@@ -19,7 +19,6 @@ from graphkin.cli.options import (
     QuietOption,
     SceneArgument,
     driver_values,
-    known_words,
 )
 from graphkin.cli.output import print_json, print_table, unsolvable_as_json
 
@@ -45,8 +44,9 @@ def solve(
     """The analytic solution alone, at one position or over a turn."""
     from graphkin.api import solve as solving
     from graphkin.api.solved import refused
+    from graphkin.api.wishes import known_words
 
-    known_words(lang, convention, instrument)
+    known_words(None, lang, convention, instrument)
     values = driver_values(at)
     with unsolvable_as_json(as_json, lambda error: refused(scene, values, error)):
         solved = solving(scene, values, sweep)

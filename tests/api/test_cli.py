@@ -99,6 +99,23 @@ def test_the_report_tells_every_step(tmp_path):
     assert "哥氏加速度" in text
 
 
+@pytest.mark.parametrize("command", ["draw", "centres"])
+def test_figures_speak_both_languages_on_one_sheet(tmp_path, command):
+    run(command, SIXBAR, "-o", "out", "--lang", "both", cwd=tmp_path)
+    figure = (tmp_path / "out" / "centres.svg").read_text(encoding="utf-8")
+    assert {"Instant centres", "速度瞬心"} == {w for w in ("Instant centres", "速度瞬心") if w in figure}
+
+
+@pytest.mark.parametrize("command", ["draw", "centres"])
+def test_figures_in_both_languages_come_with_an_english_report(tmp_path, command):
+    done = run(command, SIXBAR, "-o", "out", "--lang", "both", cwd=tmp_path)
+    assert "agree with the analytic solution" in done.stdout, done.stderr
+
+
+def test_a_report_has_one_language():
+    assert 'graphkin: lang: "both"; known here: en, zh\n' == run("check", SIXBAR, "--lang", "both").stderr
+
+
 def test_the_same_scene_gives_the_same_bytes(tmp_path):
     run("draw", SIXBAR, "-o", "one", cwd=tmp_path)
     run("draw", SIXBAR, "-o", "two", cwd=tmp_path)
