@@ -16,8 +16,9 @@ from graphkin.api.wishes import ON_SHEETS, known_words
 from graphkin.errors import CallError, Problem
 from graphkin.handout.key import KeyRow, key_rows
 from graphkin.handout.lesson import Lesson
+from graphkin.handout.paper import paper_plan
 from graphkin.handout.papers import FORMATS, Papers, handout_files
-from graphkin.handout.prepare import lesson_of, paper_plan, views_of
+from graphkin.handout.prepare import lesson_of, views_of
 from graphkin.handout.typeset_pdf import can_typeset
 from graphkin.handout.viewer import POSITIONS
 from graphkin.scene.model import Scene

@@ -6,15 +6,17 @@ notation of `graphkin.drawing.typeset`.
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import TypeAlias
 
 from graphkin.drawing.primitives import Drawing
-from graphkin.words import Phrase, languages, say
+from graphkin.handout.paper import A4, Paper
+from graphkin.words import Phrase, languages, say, word
 
 __all__ = [
     "Beside", "Block", "Document", "Fields", "Heading", "Paragraph", "Picture", "Said", "StepItem", "Steps", "Table",
-    "said", "spoken",
+    "Together", "laid_out", "said", "sentences", "spoken",
 ]  # fmt: skip
 
 Said: TypeAlias = tuple[tuple[str, str], ...]  # (language, words) for each language
@@ -94,16 +96,36 @@ class Beside:
     picture: Picture
 
 
-Block: TypeAlias = Heading | Paragraph | Steps | Picture | Table | Fields | Beside
+@dataclass(frozen=True)
+class Together:
+    """Blocks that stand on one page if they fit on one."""
+
+    blocks: tuple[Heading | Paragraph | Steps | Picture | Table | Fields | Beside, ...]
+
+
+Block: TypeAlias = Heading | Paragraph | Steps | Picture | Table | Fields | Beside | Together
 
 
 @dataclass(frozen=True)
 class Document:
-    """A whole document: its title in words, its languages in order, and its blocks."""
+    """A whole document: its title in words, its languages in order, its blocks, and its paper."""
 
     title: str
     languages: tuple[str, ...]
     blocks: tuple[Block, ...]
+    paper: Paper = A4
+
+
+def laid_out(blocks: Iterable[Block]) -> Iterator[Heading | Paragraph | Steps | Picture | Table | Fields]:
+    """Every block by itself, in the order in which they are read."""
+    for block in blocks:
+        if isinstance(block, Together):
+            yield from laid_out(block.blocks)
+        elif isinstance(block, Beside):
+            yield from block.blocks
+            yield block.picture
+        else:
+            yield block
 
 
 def said(key: str, language: str, *args: object) -> Said:
@@ -114,3 +136,12 @@ def said(key: str, language: str, *args: object) -> Said:
 def spoken(markup: str, language: str) -> Said:
     """Words that are the same in every language, said once."""
     return ((languages(language)[0], markup),)
+
+
+def sentences(*several: Said) -> Said:
+    """Sentences one after the other, by language."""
+    by_language: dict[str, list[str]] = {}
+    for one in several:
+        for each, text in one:
+            by_language.setdefault(each, []).append(text)
+    return tuple((each, word("between sentences", each).join(parts)) for each, parts in by_language.items())

@@ -10,7 +10,7 @@ from html import escape
 from graphkin.drawing.primitives import Drawing, Group, Line, Primitive, Stroke
 from graphkin.drawing.svg import svg_bytes
 from graphkin.drawing.typeset import Atom, is_italic, parsed
-from graphkin.handout.blocks import Beside, Block, Fields, Heading, Paragraph, Picture, Said, Steps, Table
+from graphkin.handout.blocks import Beside, Block, Fields, Heading, Paragraph, Picture, Said, Steps, Table, Together
 from graphkin.handout.clean import clean
 from graphkin.words import word
 
@@ -115,6 +115,8 @@ def _block(block: Block) -> str:
     if isinstance(block, Beside):
         inner = "\n".join(map(_block, block.blocks))
         return f'<div class="beside"><div>{inner}</div>{_block(block.picture)}</div>'
+    if isinstance(block, Together):
+        return f'<div class="together">{blocks_html(block.blocks)}</div>'
     return _table(block)
 
 

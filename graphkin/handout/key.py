@@ -9,12 +9,12 @@ from dataclasses import dataclass
 
 from graphkin.checking import COVERAGE, Compared
 from graphkin.drawing.headings import number
-from graphkin.handout.blocks import Document, Heading, Paragraph, Table, said
+from graphkin.handout.blocks import Document, Heading, Paragraph, Table, said, sentences
 from graphkin.handout.lesson import Lesson
-from graphkin.handout.problem import scene_title
-from graphkin.handout.sentences import plain_words
+from graphkin.handout.paper import paper_of
+from graphkin.handout.problem import paper_title, scene_title
 from graphkin.handout.solution import way
-from graphkin.words import languages, word
+from graphkin.words import languages
 
 __all__ = ["KeyRow", "answer_key", "key_csv", "key_rows"]
 
@@ -82,14 +82,13 @@ def answer_key(lesson: Lesson) -> Document:
     words = said(
         "key words", language, *(f"{x:g}" for x in (tools.line_width / 2, tools.ruler, tools.compass, tools.set_square))
     )
-    title = f"{plain_words(scene_title(lesson)[0][1])}: {word('answer key', languages(language)[0])}"
     blocks = (
         Heading(scene_title(lesson), 1),
         Heading(said("answer key", language)),
         Table(heads, tuple(rows), "lrrrrll", frozenset(bold)),
-        Paragraph(words, small=True),
+        Paragraph(sentences(words, said("sense words", language)), small=True),
     )
-    return Document(title, languages(language), blocks)
+    return Document(paper_title(lesson, "answer key"), languages(language), blocks, paper_of(lesson.sheet.scene))
 
 
 def _places(tolerance: float) -> int:

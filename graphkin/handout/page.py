@@ -25,7 +25,7 @@ __all__ = ["document_page", "handout_page"]
 
 def document_page(document: Document) -> str:
     """A document as a page without scripts."""
-    return _page(document.title, document.languages, f"<main>\n{blocks_html(document.blocks)}\n</main>")
+    return _page(document, f"<main>\n{blocks_html(document.blocks)}\n</main>")
 
 
 def handout_page(lesson: Lesson, views: Sequence[View], start: int = 0) -> str:
@@ -42,6 +42,7 @@ def handout_page(lesson: Lesson, views: Sequence[View], start: int = 0) -> str:
     def words(key: str, *args: object) -> str:
         return said_html(said(key, lesson.language, *args))
 
+    paper = lesson.sheet.scene.sheet.paper
     data = {
         **positions_data(views),
         "start": start,
@@ -66,9 +67,9 @@ def handout_page(lesson: Lesson, views: Sequence[View], start: int = 0) -> str:
 <input type="range" id="step" min="1" max="1" step="1" value="1"><output id="step-out" for="step"></output>
 <label for="place">{words("position slider")}</label>
 <input type="range" id="place" min="0" max="0" step="1" value="0"><output id="place-out" for="place"></output>
-</div>
-<p class="hint">{words("keys")} {words("positions words", len(views))} {words("print hint")}</p>
 <div id="live" class="live" role="status" aria-live="polite"></div>
+</div>
+<p class="hint">{words("keys")} {words("positions words", len(views))} {words("print hint", paper)}</p>
 <div class="stage">
 <div id="list" class="list" role="region" aria-label="{_attribute(said("steps", lesson.language))}"></div>
 <div id="figures" class="figures" role="region" aria-label="{_attribute(said("the figures", lesson.language))}"></div>
@@ -77,17 +78,21 @@ def handout_page(lesson: Lesson, views: Sequence[View], start: int = 0) -> str:
 <article class="paper">
 {blocks_html((Heading(scene_title(lesson), 2), *solution_blocks(lesson, tuple(given(lesson)))))}
 </article>
-<section>
+<section class="results">
 {blocks_html(results_blocks(lesson))}
+</section>
+<section class="key">
 {blocks_html(b for b in answer_key(lesson).blocks if not (isinstance(b, Heading) and b.level == 1))}
 </section>
 </main>
 <script type="application/json" id="positions">{_json(data)}</script>"""
-    return _page(whole.title, whole.languages, body, _file("viewer.js"))
+    return _page(whole, body, _file("viewer.js"))
 
 
-def _page(title: str, languages: tuple[str, ...], body: str, script: str = "") -> str:
-    style = _file("page.css")
+def _page(document: Document, body: str, script: str = "") -> str:
+    paper = document.paper
+    # in millimetres, since CSS has no names for papers larger than A3
+    style = _file("page.css") + f"@page {{ size: {paper.width:g}mm {paper.height:g}mm }}\n"
     allowed = f"'{_hash(script)}'" if script else "'none'"
     policy = (
         f"default-src 'none'; style-src '{_hash(style)}'; script-src {allowed}; "
@@ -95,12 +100,12 @@ def _page(title: str, languages: tuple[str, ...], body: str, script: str = "") -
     )
     tail = f"\n<script>{script}</script>" if script else ""
     return f"""<!DOCTYPE html>
-<html lang="{word("code in pages", languages[0])}">
+<html lang="{word("code in pages", document.languages[0])}">
 <head>
 <meta charset="utf-8">
 <meta http-equiv="Content-Security-Policy" content="{policy}">
 <meta name="viewport" content="width=device-width, initial-scale=1">
-<title>{escape(clean(title))}</title>
+<title>{escape(clean(document.title))}</title>
 <style>{style}</style>
 </head>
 <body>

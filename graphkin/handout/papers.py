@@ -11,7 +11,8 @@ from graphkin.drawing.save import drawing_bytes
 from graphkin.handout.key import answer_key, key_csv
 from graphkin.handout.lesson import Lesson
 from graphkin.handout.page import document_page, handout_page
-from graphkin.handout.prepare import lesson_of, paper_plan
+from graphkin.handout.paper import paper_plan
+from graphkin.handout.prepare import lesson_of
 from graphkin.handout.problem import problem
 from graphkin.handout.solution import solution
 from graphkin.handout.typeset_pdf import can_typeset, pdf

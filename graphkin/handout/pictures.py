@@ -20,17 +20,15 @@ from graphkin.drawing.polygon import extent
 from graphkin.drawing.primitives import Circle, Drawing, Group, Polygon, Primitive, Text
 from graphkin.drawing.stepwise import births, so_far, stepped
 from graphkin.drawing.typeset import rich, symbol
+from graphkin.handout.paper import paper_of
 from graphkin.words import languages
 
 __all__ = [
-    "HEIGHT", "NARROW", "WIDTH", "blank_equations", "cropped", "draw_frame", "equation_picture", "mechanism_picture",
-    "parts", "stage_picture",
+    "blank_equations", "cropped", "draw_frame", "equation_picture", "mechanism_picture", "parts", "stage_picture",
 ]  # fmt: skip
 
-WIDTH, HEIGHT = 180.0, 262.0  # mm: what a page of A4 holds between its margins
 ROOM = 11.0  # mm around a figure, for names
 AROUND = 14.0  # mm around a polygon that is still to be drawn
-NARROW = 88.0  # mm: a figure so narrow has words beside it
 FOOT = 9.0  # mm for the scale and the check bar beside it
 LEAST_FRAME = 110.0
 BAR = 50.0  # mm, of the check bar
@@ -39,15 +37,16 @@ WORDS = {"mechanism": "mechanism", "velocity": "velocity polygon", "acceleration
 Layers = tuple[Group, ...]
 
 
-def parts(sheet: Sheet, diagram: DiagramName, letters: Letters, language: str, room: float = WIDTH) -> Layers:
-    """A figure by layers, every part with the class of its step; ``room`` is its greatest width (mm)."""
+def parts(sheet: Sheet, diagram: DiagramName, letters: Letters, language: str) -> Layers:
+    """A figure by layers, every part with the class of its step."""
+    body = paper_of(sheet.scene).body
     if diagram == "mechanism":
-        piece, content = mechanism_piece(sheet, letters, (room, HEIGHT - 20.0))
+        piece, content = mechanism_piece(sheet, letters, (body.width, body.height - 20.0))
         panel = Box(0.0, 0.0, content.width + 2 * ROOM, content.height + 2 * ROOM)
         piece = settled(moved_piece(piece, panel.centre - content.centre), panel)
     else:
         content = extent(sheet, diagram)
-        width = max(content.width + 2 * ROOM, min(room, 110.0))
+        width = max(content.width + 2 * ROOM, min(body.width, 110.0))
         panel = Box(0.0, 0.0, width, content.height + 2 * ROOM)
         strip = Box(0.0, panel.bottom, width, panel.bottom + strip_height(sheet, diagram, width))
         origin = panel.centre - content.centre
@@ -139,7 +138,7 @@ def _without(thing: Primitive, name: str) -> Primitive:
 
 def equation_picture(sheet: Sheet, equation: Equation, letters: Letters, language: str, words: str) -> Drawing:
     """A vector equation over its rows of sizes and directions; ``words`` say it for those who do not see it."""
-    written = write_equation(sheet, equation, letters, language, WIDTH - 4.0, 3.8)
+    written = write_equation(sheet, equation, letters, language, paper_of(sheet.scene).body.width - 4.0, 3.8)
     return cropped(written.children, words, "", language)
 
 
@@ -148,8 +147,9 @@ def draw_frame(
 ) -> Drawing:
     """A frame to draw a polygon in, with the pole where the polygon will have room, and its scale."""
     content = extent(sheet, diagram)
-    tall = height or min(HEIGHT - 40.0, max(LEAST_FRAME, content.height + 2 * AROUND))
-    box = Box(0.2, 0.2, WIDTH - 0.2, tall)
+    page = paper_of(sheet.scene).body
+    tall = height or min(page.height - 40.0, max(LEAST_FRAME, content.height + 2 * AROUND))
+    box = Box(0.2, 0.2, page.width - 0.2, tall)
     # to the nearest 5 mm, so that the place of the pole does not tell the answer
     at = _snapped(box.centre - content.centre)
     mark = pole(letters.convention, diagram)
@@ -160,17 +160,17 @@ def draw_frame(
         Circle(at, 0.3, fill=strokes.BLACK),
         Text(at + complex(1.6, -1.6), symbol(mark, 3.5)),
         *moved((words,), complex(3.0, tall - 3.0)),
-        *moved(bar, complex(WIDTH - 3.0 - BAR, tall - 3.0)),
+        *moved(bar, complex(page.width - 3.0 - BAR, tall - 3.0)),
     ]
     title = f"{term(WORDS[diagram], language)}: {mark}"
-    return Drawing(WIDTH, tall + 0.2, tuple(children), title, "", languages(language)[0])
+    return Drawing(page.width, tall + 0.2, tuple(children), title, "", languages(language)[0])
 
 
 def _snapped(z: complex) -> complex:
     return complex(5.0 * round(z.real / 5.0), 5.0 * round(z.imag / 5.0))
 
 
-def blank_equations(equations: Iterable[Equation], letters: Letters, language: str) -> Drawing:
+def blank_equations(equations: Iterable[Equation], letters: Letters, language: str, width: float) -> Drawing:
     """A blank for each equation: a box for each term, above boxes for its size and direction where they are rows."""
     heads = (
         (term("size", language), term("direction of", language))
@@ -186,18 +186,18 @@ def blank_equations(equations: Iterable[Equation], letters: Letters, language: s
         signs = (
             ["="] if sum(cells) == 1 else [s for i, n in enumerate(cells) for s in ["="] * (i > 0) + ["+"] * (n - 1)]
         )
-        width = min(38.0, (WIDTH - lead - 5.0 * (count - 1) - 0.4) / count)
+        cell = min(38.0, (width - lead - 5.0 * (count - 1) - 0.4) / count)
         x = lead
         for i in range(count):
             if i:
                 children.append(Text(complex(x - 2.5, y + 6.2), rich(signs[i - 1], 3.5), "middle"))
-            children.append(_box(x, y, width, 9.0))
-            children += [_box(x, y + 9.0 + 6.5 * row, width, 6.5) for row in range(len(heads))]
-            x += width + 5.0
+            children.append(_box(x, y, cell, 9.0))
+            children += [_box(x, y + 9.0 + 6.5 * row, cell, 6.5) for row in range(len(heads))]
+            x += cell + 5.0
         for row, head in enumerate(heads):
             children.append(Text(complex(0.0, y + 13.6 + 6.5 * row), rich(head, 2.8)))
         y += 13.0 + 6.5 * len(heads)
-    return Drawing(WIDTH, y - 2.0, tuple(children), term("your equations", language), "", languages(language)[0])
+    return Drawing(width, y - 2.0, tuple(children), term("your equations", language), "", languages(language)[0])
 
 
 def _box(x: float, y: float, width: float, height: float) -> Polygon:

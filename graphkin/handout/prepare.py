@@ -1,4 +1,4 @@
-"""From a scene to its lesson: scales that suit the paper, readings held against the solver, positions for a screen."""
+"""From a scene to its lesson: readings held against the solver, positions for a screen."""
 
 from __future__ import annotations
 
@@ -9,11 +9,9 @@ import numpy as np
 
 from graphkin import exact
 from graphkin.checking import Report, compare, predict, read_off
-from graphkin.drafting import Plan, Room, execute, plan
+from graphkin.drafting import Plan, execute, plan
 from graphkin.drafting.centres import Centres, find_centres
 from graphkin.drafting.sheet import Scales, Sheet
-from graphkin.drawing.box import Box
-from graphkin.drawing.polygon import extent
 from graphkin.errors import Unsolvable
 from graphkin.exact import Motion
 from graphkin.handout.lesson import Lesson
@@ -21,29 +19,7 @@ from graphkin.handout.viewer import POSITIONS, View, common_scales
 from graphkin.scene.model import Scene
 from graphkin.scene.symbol import Symbol
 
-__all__ = ["lesson_of", "paper_plan", "positions", "views_of"]
-
-PAPER = Room(mechanism=(160.0, 180.0), polygon=(157.0, 190.0))  # mm on A4, under a heading in two languages
-
-
-def paper_plan(scene: Scene, values: Mapping[str, float] | None, asked: Sequence[Symbol]) -> Plan:
-    """What to draw, at the scene's own scales where the figures fit the paper so, at coarser ones where they do not."""
-    own = plan(scene, values, asked)
-    sheet = execute(own)
-    places = Box.around(sheet.points.values())
-    fits = [places.width <= PAPER.mechanism[0] and places.height <= PAPER.mechanism[1]]
-    for box in (extent(sheet, "velocity"), extent(sheet, "acceleration")):
-        fits.append(box.width <= PAPER.polygon[0] and box.height <= PAPER.polygon[1])
-    if all(fits):
-        return own
-    roomed = plan(scene, values, asked, PAPER).scales
-    pairs = zip(
-        fits,
-        (own.scales.length, own.scales.velocity, own.scales.acceleration),
-        (roomed.length, roomed.velocity, roomed.acceleration),
-        strict=True,
-    )
-    return replace(own, scales=Scales(*(mine if good else other for good, mine, other in pairs)))
+__all__ = ["lesson_of", "positions", "views_of"]
 
 
 def lesson_of(what: Plan, motion: Motion, language: str, convention: str) -> Lesson:

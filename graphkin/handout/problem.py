@@ -18,29 +18,36 @@ from graphkin.handout.blocks import (
     Picture,
     Said,
     Table,
+    Together,
     said,
+    sentences,
     spoken,
 )
 from graphkin.handout.lesson import Lesson
-from graphkin.handout.pictures import NARROW, WORDS, blank_equations, draw_frame, mechanism_picture, parts
+from graphkin.handout.paper import paper_of
+from graphkin.handout.pictures import WORDS, blank_equations, draw_frame, mechanism_picture, parts
 from graphkin.handout.sentences import plain_words
-from graphkin.scene.model import Guide
+from graphkin.scene.model import AngleDriver, Guide, Scene
 from graphkin.words import Phrase, languages, say, word
 
-__all__ = ["given", "problem", "scene_title"]
+__all__ = ["given", "paper_title", "problem", "scene_title"]
+
+BOUND = "\u00a0"  # between a number and its unit no line ends
+RPM = 30.0 / math.pi
 
 
 def problem(lesson: Lesson) -> Document:
     """The problem sheet of a lesson."""
-    language = lesson.language
+    language, paper = lesson.language, paper_of(lesson.sheet.scene)
     layers = parts(lesson.sheet, "mechanism", lesson.letters, language)
     figure = Picture(mechanism_picture(lesson.sheet, layers, lesson.letters, language))
-    words = (*given(lesson), Paragraph(_joined(said("solve here", language), said("print true", language)), small=True))
+    how = sentences(*(said(key, language) for key in ("solve here", "print true")))
+    words = (*given(lesson), Paragraph(how, small=True))
     blocks: list[Block] = [
         Heading(scene_title(lesson), 1),
         Fields((said("name of student", language), said("class of student", language), said("date", language))),
     ]
-    if figure.drawing.width <= NARROW:
+    if figure.drawing.width <= paper.narrow:
         blocks.append(Beside(words, figure))
     else:
         blocks += [*words, figure]
@@ -49,15 +56,18 @@ def problem(lesson: Lesson) -> Document:
         if equations and lesson.sheet.vectors(diagram):
             blocks.append(Heading(said(WORDS[diagram], language), 2, fresh=True))
             blocks.append(Paragraph(said("your equations", language), small=True))
-            blocks.append(Picture(blank_equations(equations, lesson.letters, language), joined=True))
-            blocks.append(
-                Paragraph(said("your polygon", language, f"${pole(lesson.letters.convention, diagram)}$"), small=True)
-            )
-            blocks.append(Picture(draw_frame(lesson.sheet, diagram, lesson.letters, language)))
-    blocks.append(Heading(said("your results", language), 2))
-    blocks.append(_blank_table(lesson))
-    title = f"{plain_words(scene_title(lesson)[0][1])}: {word('problem sheet', languages(language)[0])}"
-    return Document(title, languages(language), tuple(blocks))
+            blocks.append(Picture(blank_equations(equations, lesson.letters, language, paper.body.width), joined=True))
+            start = said("your polygon", language, f"${pole(lesson.letters.convention, diagram)}$")
+            frame = draw_frame(lesson.sheet, diagram, lesson.letters, language)
+            blocks.append(Together((Paragraph(start, small=True), Picture(frame))))
+    blocks.append(Together((Heading(said("your results", language), 2), _blank_table(lesson))))
+    return Document(paper_title(lesson, "problem sheet"), languages(language), tuple(blocks), paper)
+
+
+def paper_title(lesson: Lesson, key: str) -> str:
+    """The title of one of the papers, in the first language: that of the scene, and which paper it is."""
+    first = languages(lesson.language)[0]
+    return plain_words(scene_title(lesson)[0][1]) + word("colon", first) + word(key, first)
 
 
 def scene_title(lesson: Lesson) -> Said:
@@ -71,9 +81,9 @@ def given(lesson: Lesson) -> Iterator[Paragraph]:
     """What is given, in sentences: lengths, fixed points, guides, drivers; then what is asked, and the source."""
     scene, letters = lesson.sheet.scene, lesson.letters
     unit, metres = scene.units.length, scene.units.metres
-    lengths = ", ".join(f"${name}$ = {number(value)} {unit}" for name, value in given_lengths(scene, letters))
+    lengths = ", ".join(f"${name}$ = {number(value)}{BOUND}{unit}" for name, value in given_lengths(scene, letters))
     fixed = ", ".join(
-        f"${letters.point(p)}$ ({number(z.real / metres)}, {number(z.imag / metres)}) {unit}"
+        f"${letters.point(p)}$ ({number(z.real / metres)}, {number(z.imag / metres)}){BOUND}{unit}"
         for p, z in scene.frame.points.items()
     )
     for key, text in (("lengths given", lengths), ("fixed points", fixed)):
@@ -87,13 +97,14 @@ def given(lesson: Lesson) -> Iterator[Paragraph]:
                 for each in languages(lesson.language)
             )
         )
-    yield Paragraph(_labelled(lesson, "driver", drivers(lesson.sheet, letters)))
+    yield Paragraph(_labelled(lesson, "driver", ", ".join((drivers(lesson.sheet, letters), *_speeds(scene)))))
     asked = ", ".join(f"${letters.vector(s)}$" for s in lesson.questions)
     if asked:
         yield Paragraph(_labelled(lesson, "find", asked))
     if scene.source:
-        label = " ".join(word("source", each) for each in languages(lesson.language))
-        yield Paragraph(spoken(f"{label}: {scene.source.replace('$', '$$')}", lesson.language), small=True)
+        names = languages(lesson.language)
+        label = " ".join(word("source", each) for each in names) + word("colon", names[-1])
+        yield Paragraph(spoken(label + scene.source.replace("$", "$$"), lesson.language), small=True)
 
 
 def _guide(lesson: Lesson, guide: Guide, language: str) -> str:
@@ -104,21 +115,21 @@ def _guide(lesson: Lesson, guide: Guide, language: str) -> str:
     return say(Phrase("guide at", (name, x, y, scene.units.length, angle)), language)
 
 
+def _speeds(scene: Scene) -> Iterator[str]:
+    """Speeds of drivers in r/min, where these are the round ones."""
+    for driver in scene.drivers:
+        if isinstance(driver, AngleDriver) and driver.omega:
+            rpm = float(f"{driver.omega * RPM:.9g}")
+            if len(number(rpm)) < len(number(driver.omega)):
+                yield f"$n_{{{driver.link}}}$ = {number(rpm)}{BOUND}r/min"
+
+
 def _labelled(lesson: Lesson, key: str, text: str) -> Said:
     return tuple((each, _line(key, text, each)) for each in languages(lesson.language))
 
 
 def _line(key: str, text: str, language: str) -> str:
     return word(key, language) + word("colon", language) + text + word("full stop", language)
-
-
-def _joined(*several: Said) -> Said:
-    """Sentences one after the other, by language."""
-    by_language: dict[str, list[str]] = {}
-    for one in several:
-        for each, text in one:
-            by_language.setdefault(each, []).append(text)
-    return tuple((each, word("between sentences", each).join(parts)) for each, parts in by_language.items())
 
 
 def _blank_table(lesson: Lesson) -> Table:

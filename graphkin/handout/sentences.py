@@ -10,8 +10,8 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from graphkin.drafting.sheet import DiagramName, Direction, Sheet, Step, Vector
-from graphkin.drawing.conventions import Letters
+from graphkin.drafting.sheet import DiagramName, Direction, Ray, Sheet, Step, Vector
+from graphkin.drawing.conventions import Letters, pole
 from graphkin.drawing.headings import number
 from graphkin.drawing.typeset import Atom, parsed
 from graphkin.scene.symbol import PointRef, Symbol
@@ -21,7 +21,12 @@ __all__ = ["Speaker", "plain_words"]
 
 _POINT_NAMES = re.compile(r"(?:[A-Z][a-z]*\d*)+")
 _RATE = re.compile(r"([ωα])_\{([^{}]*)\}")
+SAME = 1e-6  # mm
 _OPEN, _CLOSE = "\x02", "\x03"  # around symbols until the sentence is whole; no argument can hold them
+
+
+class _Markup(str):
+    """A symbol in the notation of `graphkin.drawing.typeset`."""
 
 
 @dataclass(frozen=True)
@@ -47,7 +52,28 @@ class Speaker:
         stop = word("full stop", language)
         return said[:1].upper() + said[1:].rstrip(stop) + stop
 
+    def step(self, step: Step, language: str) -> str:
+        """The sentence of a step; a line of known direction is said with the point through which it goes."""
+        return self.sentence(self._from_its_start(step), language)
+
+    def _from_its_start(self, step: Step) -> Phrase:
+        ray = next((s for s in step.strokes if isinstance(s, Ray)), None)
+        if step.phrase.key != "direction" or ray is None:
+            return step.phrase
+        if abs(ray.through) < SAME:
+            mark = _Markup(pole(self.letters.convention, step.diagram))
+            return Phrase("direction from pole", (*step.phrase.args, mark))
+        before = [
+            stroke.symbol
+            for one in self.sheet.steps[: self.sheet.steps.index(step)]
+            for stroke in one.strokes
+            if one.diagram == step.diagram and isinstance(stroke, Vector) and abs(stroke.tip - ray.through) < SAME
+        ]
+        return Phrase("direction from end", (*step.phrase.args, before[-1])) if before else step.phrase
+
     def _show(self, thing: object, language: str) -> str:
+        if isinstance(thing, _Markup):
+            return self._marked(thing)
         if isinstance(thing, Symbol):
             return self._marked(self.letters.vector(thing))
         if isinstance(thing, PointRef):

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 from graphkin.checking import Compared
 from graphkin.drafting.sheet import Equation
-from graphkin.drawing.headings import number
+from graphkin.drawing.headings import drivers, number
 from graphkin.handout.blocks import (
     Beside,
     Block,
@@ -20,11 +20,15 @@ from graphkin.handout.blocks import (
     StepItem,
     Steps,
     Table,
+    Together,
     said,
+    sentences,
+    spoken,
 )
 from graphkin.handout.lesson import Lesson, Stage
-from graphkin.handout.pictures import NARROW, WORDS, Layers, equation_picture, parts, stage_picture
-from graphkin.handout.problem import given, scene_title
+from graphkin.handout.paper import paper_of
+from graphkin.handout.pictures import WORDS, Layers, equation_picture, parts, stage_picture
+from graphkin.handout.problem import given, paper_title, scene_title
 from graphkin.handout.sentences import plain_words
 from graphkin.words import Phrase, languages, say, word
 
@@ -33,13 +37,13 @@ __all__ = ["equation_words", "results_blocks", "solution", "solution_blocks", "s
 
 def solution(lesson: Lesson) -> Document:
     """The worked solution of a lesson."""
-    title = f"{plain_words(scene_title(lesson)[0][1])}: {word('worked solution', languages(lesson.language)[0])}"
     blocks = (
         Heading(scene_title(lesson), 1),
         *solution_blocks(lesson, tuple(given(lesson))),
         *results_blocks(lesson),
     )
-    return Document(title, languages(lesson.language), blocks)
+    title = paper_title(lesson, "worked solution")
+    return Document(title, languages(lesson.language), blocks, paper_of(lesson.sheet.scene))
 
 
 def solution_blocks(lesson: Lesson, lead: tuple[Paragraph, ...] = ()) -> Iterator[Block]:
@@ -48,16 +52,21 @@ def solution_blocks(lesson: Lesson, lead: tuple[Paragraph, ...] = ()) -> Iterato
     for stage in lesson.stages:
         if stage.diagram not in layers:
             layers[stage.diagram] = parts(lesson.sheet, stage.diagram, lesson.letters, lesson.language)
-        yield from _stage(lesson, stage, layers[stage.diagram], lead if stage is lesson.stages[0] else ())
+        yield Together(tuple(_stage(lesson, stage, layers[stage.diagram], lead if stage is lesson.stages[0] else ())))
 
 
 def results_blocks(lesson: Lesson) -> Iterator[Block]:
     """Remarks on the construction, results, and their check."""
     yield from _remarks(lesson)
-    yield Heading(said("results", lesson.language))
-    yield _results(lesson)
-    yield Paragraph(_verdict(lesson))
-    yield Paragraph(said("check words", lesson.language), small=True)
+    yield Together(
+        (
+            Heading(said("results", lesson.language)),
+            Paragraph(spoken(drivers(lesson.sheet, lesson.letters), lesson.language)),
+            _results(lesson),
+            Paragraph(_verdict(lesson)),
+            Paragraph(sentences(*(said(key, lesson.language) for key in ("check words", "sense words"))), small=True),
+        )
+    )
 
 
 def stage_title(lesson: Lesson, stage: Stage) -> Said:
@@ -83,7 +92,7 @@ def step_items(lesson: Lesson, stage: Stage) -> tuple[StepItem, ...]:
     return tuple(
         StepItem(
             step.number,
-            tuple((each, speaker.sentence(step.phrase, each)) for each in languages(lesson.language)),
+            tuple((each, speaker.step(step, each)) for each in languages(lesson.language)),
             speaker.work(step),
         )
         for step in stage.steps
@@ -96,7 +105,9 @@ def equation_words(lesson: Lesson, equation: Equation) -> str:
     return " = ".join(sides)
 
 
-def _stage(lesson: Lesson, stage: Stage, layers: Layers, lead: tuple[Paragraph, ...]) -> Iterator[Block]:
+def _stage(
+    lesson: Lesson, stage: Stage, layers: Layers, lead: tuple[Paragraph, ...]
+) -> Iterator[Heading | Paragraph | Steps | Picture | Beside]:
     sheet, letters, language = lesson.sheet, lesson.letters, lesson.language
     heading = Heading(stage_title(lesson, stage))
     steps = Steps(step_items(lesson, stage))
@@ -116,7 +127,7 @@ def _stage(lesson: Lesson, stage: Stage, layers: Layers, lead: tuple[Paragraph, 
         yield Picture(equation_picture(sheet, stage.equation, letters, language, words), joined=True)
     else:
         beside = (*lead, heading, steps)
-    if drawn.width <= NARROW:
+    if drawn.width <= paper_of(sheet.scene).narrow:
         yield Beside(beside, figure)
     else:
         yield from beside

@@ -31,7 +31,7 @@ from graphkin.drawing.primitives import (
     walk,
 )
 from graphkin.drawing.typeset import Atom, is_italic, parsed
-from graphkin.handout.blocks import Beside, Block, Document, Fields, Heading, Paragraph, Picture, Said, Steps
+from graphkin.handout.blocks import Beside, Block, Document, Fields, Heading, Paragraph, Picture, Said, Steps, Together
 from graphkin.handout.clean import clean
 from graphkin.words import word
 
@@ -53,7 +53,7 @@ def can_typeset() -> bool:
 
 
 def pdf(document: Document) -> bytes:
-    """The document as a PDF on A4, without a date.
+    """The document as a PDF on its paper, without a date.
 
     Raises
     ------
@@ -67,6 +67,7 @@ def pdf(document: Document) -> bytes:
         "languages": list(document.languages),
         "page": " / ".join(word("page of", each) for each in document.languages),
         "fonts": names,
+        "paper": [document.paper.width, document.paper.height],
         "blocks": [_block(block) for block in document.blocks],
     }
     template = files("graphkin.handout").joinpath("template.typ").read_bytes()
@@ -116,6 +117,8 @@ def _block(block: Block) -> dict[str, Any]:
         }
     if isinstance(block, Beside):
         return {"kind": "beside", "blocks": [_block(b) for b in block.blocks], "picture": _block(block.picture)}
+    if isinstance(block, Together):
+        return {"kind": "together", "blocks": [_block(b) for b in block.blocks]}
     return {
         "kind": "table",
         "heads": [_said(head) for head in block.heads],

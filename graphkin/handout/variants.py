@@ -15,10 +15,11 @@ from itertools import pairwise
 from typing import Any
 
 from graphkin.checking import predict, read_off
-from graphkin.drafting import Sheet, execute, plan
+from graphkin.drafting import Sheet, execute
 from graphkin.drafting.sheet import Ray
 from graphkin.errors import GraphkinError, Problem, SceneError, Unsolvable
 from graphkin.exact import Motion, solve
+from graphkin.handout.paper import paper_plan
 from graphkin.plane import cross
 from graphkin.scene import read
 from graphkin.scene.model import Scene
@@ -32,6 +33,7 @@ Path = tuple[str | int, ...]
 
 LEAST_CROSSING = math.radians(20.0)
 LEAST_READING = 10.0  # mm on paper
+WIDEST = 0.15  # an answer that a pencil cannot give more closely is no answer to grade
 STEPS = (1.0, 2.0, 5.0)
 
 
@@ -170,16 +172,18 @@ def examined(source: Source, base: Source | None, name: str, strict: bool = True
 
     Raises
     ------
-    Unfit : it does not assemble here, or (strict) lines cross under 20 degrees, or a reading is under 10 mm
+    Unfit : it does not assemble here, or (strict) lines cross under 20 degrees, a reading is under 10 mm, or a pencil
+        drawing can miss an answer by more than 15 %
     """
     try:
         made = _moved(source, base) if base is not None else dict(source)
+        made["find"] = [str(s) for s in asked_of(read(made))]
         scene = read(made)
         motion = solve(scene)
         if motion.status[0] != "ok":
             raise Unfit(f"{motion.status[0]}: {motion.why[0]}")
         asked = asked_of(scene)
-        what = plan(scene, find=asked)
+        what = paper_plan(scene, None, asked)
         sheet = execute(what)
         remarks = list(_remarks(sheet, asked))
         if remarks and strict:
@@ -198,6 +202,10 @@ def examined(source: Source, base: Source | None, name: str, strict: bool = True
         unit = scene.units.metres if symbol.is_vector else 1.0
         if not math.isfinite(bound):
             raise Unfit(f"{symbol} cannot be drawn: so near a dead point a pencil misses it")
+        if bound > WIDEST * abs(value):
+            remarks.append(f"{symbol} cannot be drawn more closely than to {100 * WIDEST:.0f} %")
+            if strict:
+                raise Unfit(remarks[-1])
         bounded.append(Answer(str(symbol), float(f"{value / unit:.12g}"), float(f"{bound / unit:.6g}")))
     return Variant(name, made, tuple(bounded), tuple(remarks))
 

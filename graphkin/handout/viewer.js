@@ -49,6 +49,10 @@
       part.classList.toggle("now", number === current.n);
       part.classList.toggle("past", number < current.n && Boolean(part.closest(`#figure-${current.d}`)));
     }
+    // the polygon that is being drawn stands beside the mechanism
+    for (const figure of figures.querySelectorAll("figure")) {
+      figure.classList.toggle("active", figure.id === `figure-${current.d}`);
+    }
     for (const button of list.querySelectorAll("button")) {
       const number = Number(button.dataset.step);
       button.classList.toggle("now", number === current.n);
@@ -103,7 +107,7 @@
     if (!name) return;
     // outside the viewer the keys that scroll a page keep doing so
     const inside = viewer.contains(event.target) || event.target === document.body;
-    if (!inside) return;
+    if (!inside || (event.target === document.body && /Up$|Down$/.test(event.key) && event.key.startsWith("Arrow"))) return;
     event.preventDefault();
     go[name]();
     if (list.contains(event.target)) itemOf(here().steps[step].n).focus();

@@ -179,6 +179,12 @@ class Tools:
     protractor: float = 0.5
 
 
+PAPERS = {
+    "A5": (148.0, 210.0), "A4": (210.0, 297.0), "A3": (297.0, 420.0), "A2": (420.0, 594.0), "A1": (594.0, 841.0),
+    "A0": (841.0, 1189.0),
+}  # fmt: skip
+
+
 @dataclass(frozen=True)
 class SheetWishes:
     """What the scene asks of the sheet.  Scales as in the file: mm of mechanism per mm of paper,
@@ -192,6 +198,12 @@ class SheetWishes:
     convention: Convention = "chinese"
     language: str = "en"
     tools: Tools = Tools()
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Width and height of the paper (mm, ISO 216)."""
+        short, long = PAPERS[self.paper]
+        return (long, short) if self.orientation == "landscape" else (short, long)
 
 
 @dataclass(frozen=True)

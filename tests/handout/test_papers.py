@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import csv
+import dataclasses
 import io
 import re
 import subprocess
@@ -10,21 +11,17 @@ import pytest
 from graphkin.api import check, handout
 from graphkin.drawing.primitives import Line, Text, walk
 from graphkin.handout import papers
-from graphkin.handout.blocks import Beside, Picture, Steps, Table
+from graphkin.handout.blocks import Picture, Steps, Table, laid_out
 from graphkin.handout.key import key_rows
 from graphkin.handout.page import document_page
-from graphkin.handout.pictures import HEIGHT, WIDTH
+from graphkin.handout.paper import paper_of
 from graphkin.handout.problem import problem
 from graphkin.handout.solution import solution
-from graphkin.scene import library
+from graphkin.scene import library, read
 
 
 def _pictures(document):
-    for block in document.blocks:
-        if isinstance(block, Picture):
-            yield block.drawing
-        elif isinstance(block, Beside):
-            yield block.picture.drawing
+    return (block.drawing for block in laid_out(document.blocks) if isinstance(block, Picture))
 
 
 def _words(document) -> str:
@@ -47,7 +44,7 @@ def test_no_number_of_the_key_stands_on_the_problem_sheet(shaper):
 
 
 def test_the_problem_sheet_asks_for_every_bold_row_of_the_key(shaper):
-    table = next(b for b in problem(shaper.lesson).blocks if isinstance(b, Table))
+    table = next(b for b in laid_out(problem(shaper.lesson).blocks) if isinstance(b, Table))
     assert sum(row.asked for row in shaper.key) == len(table.rows)
 
 
@@ -65,19 +62,53 @@ def test_what_is_asked_limits_the_problem_sheet():
 
 @pytest.mark.parametrize("name", library())
 def test_every_figure_of_every_scene_fits_the_page(name):
-    lesson = handout(name, formats=("pdf",), language="both").lesson
+    assert [] == _too_large(handout(name, formats=("pdf",), language="both").lesson)
+
+
+def _too_large(lesson):
+    body = paper_of(lesson.sheet.scene).body
     sizes = [(d.width, d.height) for paper in (problem, solution) for d in _pictures(paper(lesson))]
-    assert [] == [s for s in sizes if s[0] > WIDTH + 1e-6 or s[1] > HEIGHT]
+    return [s for s in sizes if s[0] > body.width + 1e-6 or s[1] > body.height]
+
+
+def _on(name, **wishes):
+    scene = read(name)
+    return dataclasses.replace(scene, sheet=dataclasses.replace(scene.sheet, **wishes))
+
+
+PAPERS = [("A5", "portrait"), ("A4", "landscape"), ("A3", "portrait"), ("A3", "landscape"), ("A0", "portrait")]
+
+
+@pytest.mark.parametrize(("paper", "orientation"), PAPERS)
+@pytest.mark.parametrize("name", ["shaper-scheme-2", "sixbar-guide-40deg", "fourbar-150-500-300-400"])
+def test_every_figure_fits_the_paper_that_the_scene_wishes(name, paper, orientation):
+    scene = _on(name, paper=paper, orientation=orientation)
+    assert [] == _too_large(handout(scene, formats=("pdf",), language="both").lesson)
+
+
+def test_the_papers_have_the_size_that_the_scene_wishes():
+    made = handout(_on("slotter-75-150", paper="A3", orientation="landscape"), positions=1).files
+    for name in ("problem.pdf", "solution.pdf", "key.pdf"):
+        assert re.search(rb"/MediaBox ?\[0 0 1190\.5\d* 841\.8\d*\]", made[name]), name
+    for name in ("problem.html", "handout.html"):
+        assert b"size: 420mm 297mm" in made[name]
+
+
+def test_larger_paper_has_larger_figures_unless_the_scene_gives_the_scales():
+    small, large, own = (
+        handout(_on("fourbar-150-500-300-400", **wishes), formats=("pdf",)).lesson.sheet.scales.velocity
+        for wishes in ({}, {"paper": "A2"}, {"paper": "A2", "velocity_scale": 10.0})
+    )
+    assert small > large
+    assert 10e-3 == pytest.approx(own)
 
 
 # -- solution
 
 
 def test_the_solution_has_every_step_once_in_order(shaper):
-    found = []
-    for block in solution(shaper.lesson).blocks:
-        inner = block.blocks if isinstance(block, Beside) else (block,)
-        found += [item.number for one in inner if isinstance(one, Steps) for item in one.items]
+    blocks = laid_out(solution(shaper.lesson).blocks)
+    found = [item.number for one in blocks if isinstance(one, Steps) for item in one.items]
     assert [s.number for s in shaper.lesson.sheet.steps] == found
 
 
