@@ -1,0 +1,78 @@
+"""What holds the links of a scene: hinges, slides and drivers as equations between coordinates."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+from graphkin.scene.model import AngleDriver, Guide, Link, Scene
+from graphkin.structure.model import Mobility, Slide
+
+__all__ = ["Constraints", "Node", "Unknown"]
+
+Node = tuple[str, str]  # ("link" | "point", name)
+Unknown = tuple[Node, str]  # a node and one of its coordinates x, y, t
+
+
+class Constraints:
+    """The links, blocks, hinges and slides that take part, and their constraints."""
+
+    def __init__(self, scene: Scene) -> None:
+        self.scene = scene
+        links: dict[str, Link] = {scene.frame.name: scene.frame}
+        links.update({link.name: link for link in scene.links if not link.redundant})
+        slides = [
+            Slide(s.key, s.link, s.on, links[s.on].guides[s.guide], s.turn, s.pin)
+            for s in scene.slidings
+            if s.link in links and s.on in links
+        ]
+        for pin in scene.pins:
+            if pin.of not in links or pin.on not in links:
+                continue
+            links[pin.key] = Link(pin.key, {pin.point: 0j}, (pin.point,), {"": Guide("", 0j, 1 + 0j)})
+            slides.append(Slide(pin.key, pin.key, pin.on, links[pin.on].guides[pin.guide], 1 + 0j, pin.point, True))
+        hinges: dict[str, list[str]] = {}
+        for link in links.values():
+            for point in link.points:
+                hinges.setdefault(point, []).append(link.name)
+        self.links: Mapping[str, Link] = links
+        self.slides = tuple(slides)
+        self.hinges = {p: tuple(names) for p, names in hinges.items() if len(names) > 1}
+        self._place = {name: i for i, name in enumerate(links)}
+
+    def place(self, node: Node) -> tuple[int, int, str]:
+        """Order of nodes: links as in the file, then blocks, then points."""
+        kind, name = node
+        return (0, self._place[name], "") if kind == "link" else (1, 0, name)
+
+    def nodes(self) -> list[Node]:
+        moving = [name for name in self.links if name != self.scene.frame.name]
+        return [("link", name) for name in moving] + [("point", name) for name in self.hinges]
+
+    def mobility(self) -> Mobility:
+        blocks = {s.key for s in self.slides if s.slot}
+        real = [name for name in self.links if name not in blocks and name != self.scene.frame.name]
+        lower = sum(len([n for n in names if n not in blocks]) - 1 for names in self.hinges.values())
+        return Mobility(len(real), lower + len(self.slides) - len(blocks), len(blocks))
+
+    def equations(self) -> list[set[Unknown]]:
+        """For each scalar constraint the coordinates in it."""
+        rows: list[set[Unknown]] = []
+        for point, names in self.hinges.items():
+            for name in names:
+                for axis in "xy":
+                    rows.append({(("point", point), axis), *self._coordinates(name, axis + "t")})
+        for s in self.slides:
+            rows.append({*self._coordinates(s.a, "t"), *self._coordinates(s.b, "t")})
+            rows.append({*self._coordinates(s.a, "xy"), *self._coordinates(s.b, "xyt")})
+        for driver in self.scene.drivers:
+            if isinstance(driver, AngleDriver):
+                rows.append({*self._coordinates(driver.link, "t"), *self._coordinates(driver.relative_to, "t")})
+            else:
+                s = next(s for s in self.slides if s.key == driver.key)
+                rows.append({*self._coordinates(s.a, "xy"), *self._coordinates(s.b, "xyt")})
+        return rows
+
+    def _coordinates(self, name: str, axes: str) -> Iterable[Unknown]:
+        if name == self.scene.frame.name:
+            return ()
+        return [(("link", name), axis) for axis in axes]

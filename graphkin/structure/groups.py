@@ -1,0 +1,143 @@
+"""What links that are solved together are: driven, a dyad of one of its kinds, or a larger group."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+from graphkin.scene.model import AngleDriver, Driver
+from graphkin.structure.constraints import Constraints
+from graphkin.structure.model import Body, Cluster, Driven, Dyad, Element, Pair, Turn, Weld, driver_pair
+
+__all__ = ["element_of"]
+
+_KINDS = {"RRR": "RRR", "RRP": "RRP", "PRR": "RRP", "RPR": "RPR", "PRP": "PRP", "RPP": "RPP", "PPR": "RPP"}
+
+
+def element_of(system: Constraints, members: list[str], known: set[str]) -> Element:
+    scene = system.scene
+    inside = set(members)
+    drivers = [d for d in scene.drivers if _ends(d, system) & inside and not (_ends(d, system) - inside - known)]
+    pairs = _pairs(system, members, known)
+    if len(members) == 1 and len(pairs) == 1 and len(drivers) == 1:
+        return Driven(members[0], pairs[0], drivers[0])
+    blocks = {s.key for s in system.slides if s.slot}
+    real = tuple(m for m in members if m not in blocks)
+    bodies, loose = _bodies(system, members, drivers)
+    dyad = _dyad(system, bodies, pairs, real) if not loose else None
+    return dyad or Cluster(tuple(members), tuple(pairs), tuple(drivers), real, _order(members, pairs))
+
+
+def _ends(driver: Driver, system: Constraints) -> set[str]:
+    if isinstance(driver, AngleDriver):
+        return {driver.link, driver.relative_to}
+    s = next(s for s in system.slides if s.key == driver.key)
+    return {s.a, s.b}
+
+
+def _pairs(system: Constraints, members: list[str], known: set[str]) -> list[Pair]:
+    """All pairs that hold the members: to known links, or among themselves."""
+    found: list[Pair] = []
+    for point, names in system.hinges.items():
+        mine = [n for n in names if n in members]
+        base = [n for n in names if n in known]
+        mine.sort(key=lambda n: system.place(("link", n)))
+        if base:
+            found += [Turn(point, n, base[0]) for n in mine]
+        else:
+            found += [Turn(point, b, a) for a, b in pairwise(mine)]
+    inside = set(members)
+    found += [s for s in system.slides if {s.a, s.b} & inside and {s.a, s.b} <= inside | known]
+    return found
+
+
+def _bodies(system: Constraints, members: list[str], drivers: list[Driver]) -> tuple[list[Body], list[Driver]]:
+    """Links of the group that drivers hold together, and the drivers that act at no pair inside it."""
+    welds: list[Weld] = []
+    loose: list[Driver] = []
+    for driver in drivers:
+        pair = driver_pair(driver, system.links, system.slides)
+        if pair is None or not {pair.a, pair.b} <= set(members):
+            loose.append(driver)
+        else:
+            welds.append(Weld(pair, driver, pair.b, pair.a))
+    bodies: list[Body] = []
+    left = list(members)
+    while left:
+        names, used = [left.pop(0)], []
+        grown = True
+        while grown:
+            grown = False
+            for w in welds:
+                if w in used or {w.a, w.b} <= set(names):
+                    continue
+                if w.a in names:
+                    used.append(w)
+                elif w.b in names:
+                    used.append(Weld(w.pair, w.driver, w.b, w.a, -1))
+                else:
+                    continue
+                names.append(used[-1].b)
+                left.remove(used[-1].b)
+                grown = True
+                break
+        bodies.append(Body(tuple(names), tuple(used)))
+    return bodies, loose
+
+
+def _dyad(system: Constraints, bodies: list[Body], pairs: list[Pair], links: tuple[str, ...]) -> Dyad | None:
+    if len(bodies) != 2:
+        return None
+    one, two = bodies
+    inner: list[Pair] = []
+    outer: dict[int, list[Pair]] = {0: [], 1: []}
+    hinged: set[tuple[str, int]] = set()
+    for pair in pairs:
+        sides = [i for i, body in enumerate(bodies) if pair.a in body.links or pair.b in body.links]
+        if isinstance(pair, Turn):
+            # links held together by a driver at this very point hang on it once
+            if (pair.point, sum(1 << i for i in sides)) in hinged:
+                continue
+            hinged.add((pair.point, sum(1 << i for i in sides)))
+        if len(sides) == 2:
+            inner.append(pair)
+        elif not (pair.a in bodies[sides[0]].links and pair.b in bodies[sides[0]].links):
+            outer[sides[0]].append(pair)
+    if len(inner) != 1 or len(outer[0]) != 1 or len(outer[1]) != 1:
+        return None
+    middle, first, second = inner[0], outer[0][0], outer[1][0]
+    kind = _letter(first) + _letter(middle) + _letter(second)
+    if kind not in _KINDS:
+        return None
+
+    def written(pair: Pair, body: Body) -> tuple[int, int, str]:
+        return system.place(("link", pair.a if pair.a in body.links else pair.b))
+
+    swap = kind in ("PRR", "PPR")
+    if kind in ("RRR", "PRP"):
+        swap = written(second, two) < written(first, one)
+    elif kind == "RPR":
+        swap = middle.a in two.links
+    if swap:
+        one, two, first, second = two, one, second, first
+    return Dyad(_KINDS[kind], one, two, middle, first, second, links)
+
+
+def _letter(pair: Pair) -> str:
+    return "R" if isinstance(pair, Turn) else "P"
+
+
+def _order(members: list[str], pairs: list[Pair]) -> int:
+    """Class of a group after Assur and Artobolevsky: the most pairs on a link of it (three or more), or the most
+    links in a shortest closed contour of it (four or more)."""
+    most = max(sum(name in (p.a, p.b) for p in pairs) for name in members)
+    edges = [(p.a, p.b) for p in pairs if p.a in members and p.b in members]
+    contour = 0
+    for i, (a, b) in enumerate(edges):
+        reach, front, steps = {a}, [a], 1
+        while front and b not in reach:
+            front = [y for x in front for j, e in enumerate(edges) if j != i and x in e for y in e if y not in reach]
+            reach.update(front)
+            steps += 1
+        if b in reach:
+            contour = max(contour, steps)
+    return max(3, most, contour if contour >= 4 else 0)
