@@ -89,7 +89,8 @@ class Real:
     @property
     def value(self) -> float | None:
         """The number, where it is the same for all mechanisms."""
-        return self.line[1] if self.line[0] == "const" else None
+        line = self.sheet.lines[self.at]
+        return line[1] if line[0] == "const" else None
 
     def _of(self, other: Real | float) -> Real:
         return other if isinstance(other, Real) else self.sheet.const(other)
@@ -107,10 +108,11 @@ class Real:
         if isinstance(other, Vec | complex):
             return Vec(self, self.sheet.const(0)) + other
         b = self._of(other)
-        if self.value is not None and b.value is not None:
-            return self.sheet.const(self.value + b.value)
-        if self.value == 0 or b.value == 0:
-            return b if self.value == 0 else self
+        mine, its = self.value, b.value
+        if mine is not None and its is not None:
+            return self.sheet.const(mine + its)
+        if mine == 0 or its == 0:
+            return b if mine == 0 else self
         if b.line[0] == "neg":
             return self - Real(self.sheet, b.line[1])
         if self.line[0] == "neg":
@@ -140,14 +142,15 @@ class Real:
         if isinstance(other, Vec | complex):
             return Vec(self, self.sheet.const(0)) * other
         b = self._of(other)
-        for one, two in ((self, b), (b, self)):
-            if one.value is not None and two.value is not None:
-                return self.sheet.const(one.value * two.value)
-            if one.value == 0:
+        mine, its = self.value, b.value
+        if mine is not None and its is not None:
+            return self.sheet.const(mine * its)
+        for one, two, value in ((self, b, mine), (b, self, its)):
+            if value == 0:
                 return one
-            if one.value == 1:
+            if value == 1:
                 return two
-            if one.value == -1:
+            if value == -1:
                 return -two
             if one.line[0] == "neg":
                 return -(Real(self.sheet, one.line[1]) * two)

@@ -11,29 +11,29 @@ from decimal import Decimal
 from typing import Any
 from weakref import finalize
 
+from graphkin.exact.bounds import FIELDS, LinkBounds
 from graphkin.exact.decimals import DIGITS, meant, meant_direction
-from graphkin.exact.dyads import Solved, solve_dyad
-from graphkin.exact.formula import Real, Sheet, Vec, fmax, root
+from graphkin.exact.dyads import Joints, Solved, solve_dyad
+from graphkin.exact.formula import Real, Sheet, Vec
 from graphkin.exact.joints import body_shape, driven, dyad_joints, members
 from graphkin.exact.pose import Pose
 from graphkin.exact.rendering import Code
-from graphkin.exact.rounding import UNIT, Rounding
+from graphkin.exact.rounding import UNIT
 from graphkin.scene.model import AngleDriver, Driver
 from graphkin.structure import Cluster, Driven, Dyad, Pair, Slide, Structure, Turn
 
 __all__ = ["FIELDS", "GIVEN", "Fitted", "Program", "program_of"]
 
-FIELDS = ("z", "u", "v", "omega", "a", "alpha")
 GIVEN = 3 * UNIT
 """Relative error of a number of the file after its conversion from decimals and units."""
-FEW = 3.0
 
 
 class Program:
     """The formulas of all mechanisms of one form.
 
     poses : each link by its name, fields are formulas
-    groups : what each dyad gives, by its place among the elements
+    groups, joints : what each dyad gives, and its joint frames, by its place among the elements
+    bounds : how far each may be off
     """
 
     def __init__(self, structure: Structure, moving: Sequence[bool]) -> None:
@@ -41,12 +41,12 @@ class Program:
         self.structure = structure
         self._moving = moving
         self._numbers = _numbers(structure)
+        self.joints: dict[int, Joints] = {}
         self.poses: dict[str, Pose] = {structure.scene.frame.name: self.at_rest(0j, 1 + 0j)}
         self.groups: dict[int, Solved] = {}
         for i, element in enumerate(structure.elements):
             self._add(i, element)
-        self.unit = self.sheet.param(("unit",))
-        self.rounding = Rounding(self.sheet, self._error, self.unit)
+        self.bounds = LinkBounds(self)
         self._codes: dict[Any, Code] = {}
 
     # numbers
@@ -106,6 +106,7 @@ class Program:
             rest = self.at_rest(0j, 1 + 0j)
             shapes = body_shape(self, element.first, rest), body_shape(self, element.second, rest)
             joints = dyad_joints(self, element, shapes, self.poses, self.sheet.param(("size",)))
+            self.joints[i] = joints
             solved = solve_dyad(element.kind, joints, self.sheet.input(("sign", i)))
             self.groups[i] = solved
             self.poses.update(members(shapes[0], solved.first))
@@ -119,61 +120,6 @@ class Program:
             flat = part in ("omega", "alpha")
             parts[part] = real if flat else Vec(real, self.sheet.input(("pose", name, part, "y")))
         return Pose(**parts)
-
-    # rounding
-
-    def _error(self, x: Real) -> Real:
-        name = x.line[1]
-        if name[0] in ("size", "sign", "unit", "reach"):
-            return self.sheet.const(0)
-        if name[0] == "pose":
-            return self.sheet.input(("error", *name[1:3]))
-        if name[0] in ("cos", "sin"):
-            return self.sheet.param(("error", "angle", name[1]))
-        if name[0] == "travel":
-            return self.sheet.param(("error", *name))
-        return self.sheet.param(("error", *(name[:-1] if name[-1] in ("x", "y") else name)))
-
-    def error(self, z: Any) -> Real:
-        """How far a number or a vector may be off."""
-        if isinstance(z, Real):
-            return self.rounding.of(z)
-        x, y = self.rounding.of(z.real), self.rounding.of(z.imag)
-        far: Real = root(x * x + y * y)
-        return far
-
-    def bounds(self, links: Iterable[str]) -> list[Real]:
-        """How far rounding may have moved any point of these links and their turning: position (m), velocity (m/s),
-        acceleration (m/s2), angle (rad), its rate (rad/s) and second rate (rad/s2)."""
-        most: list[Real] = []
-        for link in links:
-            own = self._bounds(link)
-            most = [fmax(a, b) for a, b in zip(own, most, strict=True)] if most else list(own)
-        return most or [self.sheet.const(0)] * 6
-
-    def _bounds(self, link: str) -> tuple[Real, ...]:
-        pose = self.poses[link]
-        z, u, v, omega, a, alpha = (self.error(getattr(pose, field)) for field in FIELDS)
-        r = self.sheet.param(("reach", link))
-        for slide in self.structure.slides:
-            # the coincident point under what slides on this link
-            if slide.b == link and slide.a in self.poses:
-                away = self.poses[slide.a].z - pose.z
-                r = fmax(abs(away.real) + abs(away.imag), r)
-        spin, bend = abs(pose.omega), abs(pose.alpha) + pose.omega * pose.omega
-        place = abs(pose.z.real) + abs(pose.z.imag) + r
-        speed = abs(pose.v.real) + abs(pose.v.imag) + spin * r
-        push = abs(pose.a.real) + abs(pose.a.imag) + bend * r
-        few = FEW * self.unit
-        # what a point of the link adds to its origin, and the roundings of adding it
-        return (
-            z + r * u + few * place,
-            v + r * (omega + spin * u) + few * speed,
-            a + r * (alpha + bend * u + (2.0 * spin + omega) * omega) + few * push,
-            u + few,
-            omega,
-            alpha,
-        )
 
     # code
 

@@ -7,7 +7,7 @@ adds one rounding of what it gave.  Where a divisor is not known to differ from 
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 from graphkin.exact.formula import Real, Sheet, fmax, fmin, operands, root
 
@@ -23,13 +23,14 @@ class Rounding:
     ----------
     given : bound of a number that is given (param or input), by its line
     unit : how far one rounding may move a number, relatively
+    exact : lines whose own error is not looked at
     """
 
-    def __init__(self, sheet: Sheet, given: Callable[[Real], Real], unit: Real) -> None:
+    def __init__(self, sheet: Sheet, given: Callable[[Real], Real], unit: Real, exact: Iterable[int] = ()) -> None:
         self.sheet = sheet
         self.unit = unit
         self._given = given
-        self._known: dict[int, Real] = {}
+        self._known: dict[int, Real] = dict.fromkeys(exact, sheet.const(0))
 
     def of(self, asked: Real) -> Real:
         """The bound of a formula."""
