@@ -4,8 +4,10 @@ It starts from the scene and takes every later length and angle from what is alr
 analytic solver.
 """
 
-from graphkin.drafting.draft import Plan, Room, draft, execute, plan
+from graphkin.drafting.draft import draft, execute
 from graphkin.drafting.instrument import EXACT, Cad, Exact, Instrument, nudged, pencil
+from graphkin.drafting.plan import Plan, plan
+from graphkin.drafting.scales import Room
 from graphkin.drafting.sheet import Scales, Sheet
 from graphkin.drafting.slip import NO_SLIP, Slip
 

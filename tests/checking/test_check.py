@@ -11,8 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import graphkin
-from graphkin.drafting import draft as drafting_draft
-from graphkin.drafting import parts, polygons
+from graphkin.drafting import parts, plan, polygons
 from graphkin.errors import Unsolvable
 from graphkin.scene import library, read
 from graphkin.scene.model import AngleDriver
@@ -69,7 +68,7 @@ def test_a_coriolis_vector_the_wrong_way_round_is_caught(monkeypatch):
 
 
 def test_a_guide_turned_by_a_tenth_of_a_degree_is_caught(monkeypatch):
-    right = drafting_draft.__globals__["analyse"]
+    right = plan.__globals__["analyse"]
 
     def turned(scene):
         structure = right(scene)
@@ -87,7 +86,7 @@ def test_a_guide_turned_by_a_tenth_of_a_degree_is_caught(monkeypatch):
             elements.append(e)
         return replace(structure, slides=tuple(slides.values()), elements=tuple(elements))
 
-    monkeypatch.setitem(drafting_draft.__globals__, "analyse", turned)
+    monkeypatch.setitem(plan.__globals__, "analyse", turned)
     assert not graphkin.check(SIXBAR).ok
 
 

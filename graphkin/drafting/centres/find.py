@@ -11,8 +11,8 @@ from graphkin.drafting.centres.kennedy import Crossing, Known, Relation, Search,
 from graphkin.drafting.centres.measured import Motion, measured, relative_centre
 from graphkin.drafting.centres.pairs import Links, Normal, Pair, links_on_paper, normals, permanent
 from graphkin.drafting.centres.superposed import Way, Worked, work
-from graphkin.drafting.draft import Room
 from graphkin.drafting.instrument import EXACT, Instrument
+from graphkin.drafting.scales import Room
 from graphkin.drafting.sheet import Sheet
 from graphkin.scene.model import AngleDriver, Scene
 from graphkin.words import Phrase

@@ -8,8 +8,9 @@ from typing import Literal
 
 from graphkin.drafting.centres.measured import Motion, measured
 from graphkin.drafting.closing import Closing, Moved
-from graphkin.drafting.draft import Room, draft
+from graphkin.drafting.draft import draft
 from graphkin.drafting.instrument import EXACT, Instrument
+from graphkin.drafting.scales import Room
 from graphkin.drafting.sheet import Pose, Sheet
 from graphkin.drafting.trial import trial_position
 from graphkin.scene.model import AngleDriver, Driver, Scene
