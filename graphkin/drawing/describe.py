@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from graphkin.drafting.sheet import DiagramName, Direction, Sheet
+from graphkin.drawing.conventions import Letters
 from graphkin.drawing.headings import number, titles
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, languages, say, word
@@ -65,10 +66,22 @@ def _sentences(sheet: Sheet, diagrams: tuple[DiagramName, ...], language: str) -
     return said
 
 
-def remarks(sheet: Sheet, language: str) -> list[str]:
-    """What is to be said of the drawing as a whole: badly conditioned crossings, a group that stopped it."""
-    notes = [*sheet.notes, *((sheet.stopped,) if sheet.stopped else ())]
-    return [_sentence(say(n, language, plain_symbol), language) for n in notes if n.key != "zero vector"]
+def remarks(sheet: Sheet, language: str, letters: Letters | None = None) -> list[str]:
+    """What is to be said of the drawing as a whole: badly conditioned crossings, a group that stopped it; with
+    ``letters``, symbols stand between dollar signs as a convention writes them."""
+    notes = [n for n in (*sheet.notes, *((sheet.stopped,) if sheet.stopped else ())) if n.key != "zero vector"]
+    if letters is None:
+        return [_sentence(say(n, language, plain_symbol), language) for n in notes]
+
+    def written(thing: object) -> str:
+        try:
+            return f"${letters.vector(Symbol.parse(str(thing)))}$"
+        except ValueError:
+            text = str(thing)
+            return f"${letters.point(text)}$" if text in sheet.scene.holders else text.replace("$", "$$")
+
+    said = (say(n, language, written) for n in notes)
+    return [_capital(text).rstrip("。.") + word("full stop", language) for text in said]
 
 
 def _mechanism(sheet: Sheet, language: str) -> list[str]:
@@ -114,5 +127,5 @@ def _sentence(text: str, language: str) -> str:
 
 def _capital(text: str) -> str:
     """The first letter large, unless it is that of a symbol."""
-    letter = text[:1].isascii() and text[1:2] != "_"
+    letter = text[:1].isascii() and text[1:2] != "_" and text[:1] != "$"
     return (text[:1].upper() if letter else text[:1]) + text[1:]

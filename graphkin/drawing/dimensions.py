@@ -10,7 +10,7 @@ from graphkin.drawing.metrics import CAP_HEIGHT, text_box
 from graphkin.drawing.primitives import Arc, Line, Polygon, Run, Text, page_direction
 from graphkin.drawing.typeset import plain
 
-__all__ = ["angle_dimension", "check_bar", "dimension"]
+__all__ = ["GAP", "OVERRUN", "angle_dimension", "check_bar", "dimension"]
 
 OVERRUN, GAP = 1.5, 0.8  # extension lines reach past the dimension line and start off the object, mm
 CLEAR = 0.7  # between a number and the line broken for it, mm
@@ -29,9 +29,7 @@ def dimension(start: complex, end: complex, offset: float, runs: tuple[Run, ...]
     parts: list[Part] = []
     if offset:
         away = right * math.copysign(1.0, offset)
-        parts += [
-            Line(p + GAP * away, q + OVERRUN * away, strokes.DIMENSION) for p, q in ((start, a), (end, b))
-        ]
+        parts += [Line(p + GAP * away, q + OVERRUN * away, strokes.DIMENSION) for p, q in ((start, a), (end, b))]
     length = abs(b - a)
     text = _centred(runs, (a + b) / 2)
     gap = text_box(text).grown(CLEAR).clip_line((a + b) / 2, along)

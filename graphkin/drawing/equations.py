@@ -20,6 +20,7 @@ SIZES = (3.2, 2.9, 2.6, 2.3, 2.0)  # mm, of the letters; the largest that fits i
 CLEAR, UNDERLINE = 0.55, 0.6  # mm between two rows, and between two lines under a term
 GAP = 1.3  # mm beside a column of terms
 COLUMN_GAP = 5.0  # mm between two columns of equations
+REMARK = 4.0  # mm for the remark on those left out
 
 
 @dataclass(frozen=True)
@@ -52,35 +53,34 @@ def write_equations(
 ) -> tuple[tuple[Primitive, ...], int]:
     """All equations of a sheet as large as they fit an area (mm), in one column or two, about its left upper corner;
     and how many had to be left out."""
+    fullest: list[tuple[Written, complex]] = []
     for size in SIZES:
         for columns in (1, 2):
             wide = (width - (columns - 1) * COLUMN_GAP) / columns
             blocks = [write_equation(sheet, e, letters, language, wide, size) for e in sheet.equations]
-            places = _in_columns(blocks, wide, height, columns)
-            if places is not None:
-                return tuple(p for block, at in zip(blocks, places, strict=True) for p in moved(block.children, at)), 0
-    kept: list[Primitive] = []
-    y, count = 0.0, 0
-    for block in blocks:
-        if y + block.height > height - 4.0:  # room for the remark on those left out
-            break
-        kept += moved(block.children, complex(0, y))
-        y, count = y + block.height, count + 1
-    return tuple(kept), len(blocks) - count
+            placed = _in_columns(blocks, wide, height, columns)
+            if len(placed) == len(blocks):
+                return _written(placed), 0
+            fullest = max(fullest, _in_columns(blocks, wide, height - REMARK, columns), key=len)
+    return _written(fullest), len(sheet.equations) - len(fullest)
 
 
-def _in_columns(blocks: Sequence[Written], wide: float, height: float, columns: int) -> list[complex] | None:
-    """Corners of blocks below each other in columns; None where they do not fit."""
-    places: list[complex] = []
+def _written(blocks: Sequence[tuple[Written, complex]]) -> tuple[Primitive, ...]:
+    return tuple(p for block, at in blocks for p in moved(block.children, at))
+
+
+def _in_columns(blocks: Sequence[Written], wide: float, height: float, columns: int) -> list[tuple[Written, complex]]:
+    """Blocks below each other in columns, with their corners, as far as they fit."""
+    placed: list[tuple[Written, complex]] = []
     column, y = 0, 0.0
     for block in blocks:
         if y + block.height > height:
             column, y = column + 1, 0.0
         if column == columns or block.height > height or block.width > wide + 1e-9:
-            return None
-        places.append(complex(column * (wide + COLUMN_GAP), y))
+            break
+        placed.append((block, complex(column * (wide + COLUMN_GAP), y)))
         y += block.height
-    return places
+    return placed
 
 
 def write_equation(
@@ -186,9 +186,7 @@ def _set(
     lines = max((c.underlines for c in line), default=0)
     room = UNDERLINE * (lines + 0.5) if rows == "underlines" else 2 * CLEAR if rows == "table" else CLEAR
     bases, edges_down = _baselines(stack, heads, top, room)
-    children: list[Primitive] = [
-        Text(complex(0, y), head) for head, y in zip(heads, bases[2:], strict=False)
-    ]
+    children: list[Primitive] = [Text(complex(0, y), head) for head, y in zip(heads, bases[2:], strict=False)]
     x = lead
     across = []
     for cell in line:

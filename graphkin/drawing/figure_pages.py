@@ -56,8 +56,8 @@ def _figure(sheet: Sheet, diagram: DiagramName, language: str | None, convention
     width = max(LEAST_WIDTH, content.width + 2 * (ROOM + MARGIN))
     head = _heading(sheet, diagram, letters, spoken, width - 2 * MARGIN)
     notes = [
-        runs for each in languages(spoken) for note in remarks(sheet, each)
-        for runs in wrapped(note.replace("$", "$$"), 2.5, width - 2 * MARGIN)
+        runs for each in languages(spoken) for note in remarks(sheet, each, letters)
+        for runs in wrapped(note, 2.5, width - 2 * MARGIN)
     ]  # fmt: skip
     top = MARGIN + LINE * len(head) + SMALL_LINE * len(notes) + 2.0
     panel = Box(MARGIN, top, width - MARGIN, top + content.height + 2 * ROOM)

@@ -21,13 +21,15 @@ __all__ = ["Field", "least_cost"]
 
 CLEARANCE = 0.35  # between a label and any line or area, mm
 NEARER = 0.9  # by so much a label is nearer to its own mark than to any other
-# What a place costs beside its distance (mm): a leader, whatever the leader crosses, a dashed line under the label.
-LEADER_COST, CROSSED_COST, DASHED_COST = 4.0, 3.0, 1.6
+# What a place costs beside its distance (mm): a leader, whatever the leader crosses, a dashed line under the label, a
+# leader to a line that ends nearer than NEAR_END to a point at its end.
+LEADER_COST, CROSSED_COST, DASHED_COST, END_COST = 4.0, 3.0, 3.0, 3.0
 AREA_WEIGHT = 3.0
 FORBIDDEN = 1000.0
 OUTSIDE = 100  # faults that leaving the panel counts for
 # What lies nearer to the foot of a leader is the mark itself: a point with its symbol, or the line of a vector, mm.
 POINT_REACH, LINE_REACH = 1.5, 0.4
+NEAR_END = 2.0
 
 
 def least_cost(ring: int) -> float:
@@ -89,6 +91,9 @@ class Field:
             reach = np.array([POINT_REACH if asker.is_point else LINE_REACH for asker in askers])[owners[led]]
             start = places.feet[led] + way[led] / length[led] * reach
             costs[led] += LEADER_COST + CROSSED_COST * self._crossed(places.feet[led], start, tips[led])
+            ends_of = [(asker.start, asker.end) if not asker.is_point else (np.inf, np.inf) for asker in askers]
+            near = np.abs(np.array(ends_of)[owners[led]] - places.feet[led][:, None]).min(axis=1) < NEAR_END
+            costs[led] += END_COST * near
         if faults is None:
             kept = costs < FORBIDDEN
             places, owners, costs, tips, led = places.at(kept), owners[kept], costs[kept], tips[kept], led[kept]

@@ -150,7 +150,9 @@ class _Composer:
                 text = Text(0j, symbol(markup + " = 0"), "start", strokes.BLACK, id, ("label",))
                 self.names.append(Name(Label(text, self.at(vectors[0].tip)), 3))
                 continue
-            if self.letters.convention != "us" and lengths[key] < SHORT and all(v.role == "resultant" for v in vectors):
+            asked = any(v.symbol in self.sheet.scene.find for v in vectors)
+            plain = all(v.role == "resultant" for v in vectors) and not asked
+            if self.letters.convention != "us" and lengths[key] < SHORT and plain:
                 continue  # the letters at its ends say it
             needed = self.letters.convention == "us" or any(v.role != "resultant" for v in vectors)
             text = Text(0j, symbol(markup), "start", colour, id, ("label",))

@@ -12,7 +12,7 @@ import numpy as np
 from graphkin.drawing.box import Box
 from graphkin.drawing.obstacles import Segment
 
-__all__ = ["LEADER_GAP", "Seat", "Seats", "cross_product", "separated"]
+__all__ = ["LEADER_GAP", "Seat", "Seats", "cross_product", "meets", "separated"]
 
 LEADER_GAP = 0.4  # mm between the end of a leader and the box of its label
 LEADER_SPACE = 0.25  # mm between a leader and the box of any other label
@@ -111,23 +111,23 @@ class Seats:
         middle, size = (low + high) / 2, (high - low) / 2
         off = self.centres[:, None] - middle
         room = size + self.half + complex(space, space)
-        meets = (np.abs(off.real) < room.real) & (np.abs(off.imag) < room.imag)
+        over = (np.abs(off.real) < room.real) & (np.abs(off.imag) < room.imag)
         leader_space = complex(LEADER_SPACE, LEADER_SPACE)
         own = np.flatnonzero(self.led)
         lines = np.stack((self.feet[own], self.tips[own]), axis=1)
         theirs = np.array([j for j, s in enumerate(others) if s.leader is not None], dtype=int)
         if own.size:
-            meets[own] |= _over(lines[:, None], middle[None], size[None] + leader_space)
+            over[own] |= meets(lines[:, None], middle[None], size[None] + leader_space)
         if theirs.size:
             leaders = np.array([others[j].leader for j in theirs], dtype=complex)
             half = np.full((1, 1), self.half) + leader_space
-            meets[:, theirs] |= _over(leaders[None], self.centres[:, None], half)
+            over[:, theirs] |= meets(leaders[None], self.centres[:, None], half)
             if own.size:
                 (a, b), (c, d) = lines[:, None].transpose(2, 0, 1), leaders[None].transpose(2, 0, 1)
                 apart = cross_product(b - a, c - a) * cross_product(b - a, d - a)
                 across = cross_product(d - c, a - c) * cross_product(d - c, b - c)
-                meets[np.ix_(own, theirs)] |= (apart < 0) & (across < 0)
-        return meets
+                over[np.ix_(own, theirs)] |= (apart < 0) & (across < 0)
+        return over
 
 
 def cross_product(a: Any, b: Any) -> Any:
@@ -144,7 +144,7 @@ def separated(centres: Any, half: Any, segments: Any) -> Any:
     return distance > half.real * np.abs(along.imag) + half.imag * np.abs(along.real)
 
 
-def _over(segments: Any, centres: Any, half: Any) -> Any:
+def meets(segments: Any, centres: Any, half: Any) -> Any:
     """Whether segments and boxes meet."""
     start, end = segments[..., 0], segments[..., 1]
     middle, reach = (start + end) / 2 - centres, (end - start) / 2

@@ -210,7 +210,7 @@ def given_data(sheet: Sheet, letters: Letters, language: str, area: Box) -> tupl
     for size in (2.8, 2.5, 2.2, 2.0):
         lines = [line for group in (items, fixed) for line in _flowed(group, size, area.width)]
         for each in languages(language):
-            lines += [line for note in remarks(sheet, each) for line in wrapped(note, size, area.width)]
+            lines += [line for note in remarks(sheet, each, letters) for line in wrapped(note, size, area.width)]
         if len(lines) * 1.55 * size <= area.height:
             break
     most = int(area.height / (1.55 * size))

@@ -88,8 +88,9 @@ def _landscape(width: float, height: float) -> _Plan:
     top = page.top + HEAD + CAPTION
     panel = (page.width - 2 * GUTTER) / 3
     bottom = top + panel * 0.98
-    boxes = [Box(page.left + i * (panel + GUTTER), top, page.left + i * (panel + GUTTER) + panel, bottom)
-             for i in range(3)]
+    boxes = [
+        Box(page.left + i * (panel + GUTTER), top, page.left + i * (panel + GUTTER) + panel, bottom) for i in range(3)
+    ]
     block = Box(page.left, page.bottom - BLOCK, page.right, page.bottom)
     low = bottom + GUTTER + CAPTION
     one, two = page.left + 0.17 * page.width, page.left + 0.53 * page.width
@@ -131,8 +132,12 @@ def sheet_page(
         velocity,
         _equations(sheet, letters, spoken, plan.equations, homeless),
         _captioned(plan.given, term("given", spoken), "labels", given_data(sheet, letters, spoken, plan.given)),
-        _captioned(plan.readings, term("readings", spoken), "answers",
-                   readings_table(sheet, report, letters, spoken, plan.readings)),
+        _captioned(
+            plan.readings,
+            term("readings", spoken),
+            "answers",
+            readings_table(sheet, report, letters, spoken, plan.readings),
+        ),
         _title_block(sheet, report, letters, spoken, plan.block),
     ]
     return Drawing(
@@ -224,10 +229,13 @@ def _title_block(sheet: Sheet, report: Report | None, letters: Letters, language
         wrong = sum(not row.ok for row in report.rows)
         whole = len(report.rows)
         phrase = Phrase("not all agree", (wrong, whole)) if wrong else Phrase("all agree", (whole,))
-        text = " ".join(say(phrase, each) for each in languages(language))
-        answers = (Text(complex(two + 2.0, box.top + 4.2), fitted(text, 2.6, box.right - two - 4.0)),)
-    return Piece({"construction": (Group(tuple(lines), classes=("title-block",)),), "labels": tuple(words),
-                  "answers": answers})
+        answers = tuple(
+            Text(complex(two + 2.0, box.top + 4.2 + 3.6 * i), fitted(say(phrase, each), 2.6, box.right - two - 4.0))
+            for i, each in enumerate(languages(language))
+        )
+    return Piece(
+        {"construction": (Group(tuple(lines), classes=("title-block",)),), "labels": tuple(words), "answers": answers}
+    )
 
 
 def _title_lines(names: tuple[str, ...], width: float) -> list[tuple[Run, ...]]:

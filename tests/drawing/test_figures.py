@@ -130,6 +130,22 @@ def test_a_polygon_fills_40_to_90_per_cent_of_its_panel(name: str, diagram: str)
     assert 0.4 <= max(ends) / max(sides) <= 0.9
 
 
+@pytest.mark.parametrize(
+    ("name", "given"),
+    [
+        ("sixbar-guide-40deg", {"122", "280"}),
+        ("shaper-scheme-2", {"90", "580", "174", "350"}),
+        ("fourbar-150-500-300-400", {"150", "500", "300", "400"}),
+        ("four-bar-coupler-point", {"40", "70", "100"}),
+        ("swinging-block", {"50", "220", "130"}),
+        ("hydraulic-cylinder", {"400", "200", "300"}),
+    ],
+)
+def test_given_dimensions_are_drawn(name: str, given: set[str]) -> None:
+    group = next(g for g in root(name, "mechanism").iter(f"{SVG}g") if g.get("id") == "dimensions")
+    assert given <= {"".join(text.itertext()) for text in group.iter(f"{SVG}text")}
+
+
 # -- structure ---------------------------------------------------------------------------------------------------------
 
 
