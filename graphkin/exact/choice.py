@@ -7,11 +7,12 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from graphkin.errors import Problem, Unsolvable
-from graphkin.exact.cluster import ClusterSolved, System, as_place, solve_all, solve_cluster
+from graphkin.exact.cluster import ClusterSolved, as_place, solve_all, solve_cluster
 from graphkin.exact.dyads import Solved
 from graphkin.exact.engine import State, positions
 from graphkin.exact.joints import Drive, driver_text
 from graphkin.exact.pose import Array, Pose
+from graphkin.exact.system import System
 from graphkin.scene.model import AngleDriver, Scene
 from graphkin.structure import Cluster, Driven, Dyad, Slide, Structure, pick
 from graphkin.structure.continuity import TOUCH, last_true

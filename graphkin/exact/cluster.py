@@ -1,27 +1,25 @@
 """Groups larger than a dyad, and groups with a driver that joins no common pair: all their links together.
 
-Unknown are place and angle of each link; every pair and every driver inside gives its constraints.  Newton's method
-finds the position to rounding, the same matrix gives velocity and acceleration (Haug, Computer Aided Kinematics and
-Dynamics of Mechanical Systems, ch. 3).  Lengths are counted in the size of the mechanism, so that columns weigh alike.
+Newton's method finds the position to rounding, the same matrix gives velocity and acceleration (Haug, Computer Aided
+Kinematics and Dynamics of Mechanical Systems, ch. 3).
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
 
-from graphkin.exact.joints import Drive, joint_place, turned
+from graphkin.exact.certainty import certificate
+from graphkin.exact.joints import Drive
 from graphkin.exact.pose import Array, Pose
-from graphkin.scene.model import AngleDriver
-from graphkin.structure import Cluster, Slide, Structure, Turn
+from graphkin.exact.system import System
+from graphkin.structure import Cluster, Structure
 
-__all__ = ["ClusterSolved", "System", "as_place", "solve_all", "solve_cluster"]
+__all__ = ["ClusterSolved", "as_place", "solve_all", "solve_cluster"]
 
 ROUNDS = 40
-_ZERO = np.zeros(1)
 
 
 class ClusterSolved(NamedTuple):
@@ -35,7 +33,6 @@ class ClusterSolved(NamedTuple):
     matrix : derivative of the constraints by the scaled unknowns, shape (n, rows, columns)
     load : rate of the constraints with the group held still, shape (n, rows)
     certificate : less than 1/2 where Newton's method has converged quadratically to a position
-    error : bounds of place, rate and second rate, lengths in the size, each of shape (n,)
     """
 
     poses: Mapping[str, Pose]
@@ -46,124 +43,6 @@ class ClusterSolved(NamedTuple):
     matrix: Array
     load: Array
     certificate: Array
-    error: tuple[Array, Array, Array]
-
-
-@dataclass(frozen=True)
-class System:
-    """The constraints of a group at n positions of what it hangs on."""
-
-    structure: Structure
-    group: Cluster
-    known: Mapping[str, Pose]
-    drive: Drive
-
-    def poses(self, place: Array, rate: Array | None = None, second: Array | None = None) -> dict[str, Pose]:
-        """Members' poses from places, rates and second rates, each of shape (n, members, 3)."""
-        zero = np.zeros_like(place)
-        r, s = zero if rate is None else rate, zero if second is None else second
-        made: dict[str, Pose] = {}
-        for k, name in enumerate(self.group.members):
-            angle = place[:, k, 2]
-            made[name] = Pose(
-                place[:, k, 0] + 1j * place[:, k, 1],
-                np.cos(angle) + 1j * np.sin(angle),
-                r[:, k, 0] + 1j * r[:, k, 1],
-                r[:, k, 2],
-                s[:, k, 0] + 1j * s[:, k, 1],
-                s[:, k, 2],
-            )
-        return made
-
-    def constraints(self, members: Mapping[str, Pose]) -> tuple[Array, Array, Array]:
-        """Each constraint and its first and second rate, with lengths in the size, each of shape (n, rows)."""
-        size, n = self.structure.scene.size, len(self.drive)
-        poses = {**self.known, **members}
-        rows: list[tuple[Array, Array, Array]] = []
-        for pair in self.group.pairs:
-            one = poses[pair.a].fixed(*joint_place(self.structure, pair, pair.a))
-            two = poses[pair.b].fixed(*joint_place(self.structure, pair, pair.b))
-            if isinstance(pair, Turn):
-                gap = ((one.z - two.z) / size, (one.v - two.v) / size, (one.a - two.a) / size)
-                rows += [(gap[0].real, gap[1].real, gap[2].real), (gap[0].imag, gap[1].imag, gap[2].imag)]
-                continue
-            seen = two.inverse().of(one)
-            rows.append((np.angle(seen.u), seen.omega, seen.alpha))
-            rows.append((seen.z.imag / size, seen.v.imag / size, seen.a.imag / size))
-        for driver in self.group.drivers:
-            i = self.structure.scene.drivers.index(driver)
-            value, rate, second = self.drive.value[:, i], self.drive.rate[:, i], self.drive.second[:, i]
-            if isinstance(driver, AngleDriver):
-                seen = poses[driver.relative_to].inverse().of(poses[driver.link])
-                turn = seen.u * np.conj(turned(value))
-                rows.append((np.angle(turn), seen.omega - rate, seen.alpha - second))
-            else:
-                pair = self.structure.slide(driver.key)
-                one = poses[pair.a].fixed(*joint_place(self.structure, pair, pair.a))
-                two = poses[pair.b].fixed(*joint_place(self.structure, pair, pair.b))
-                seen = two.inverse().of(one)
-                rows.append(((seen.z.real - value) / size, (seen.v.real - rate) / size, (seen.a.real - second) / size))
-        open_, first, second_ = (np.stack([np.broadcast_to(r[k], (n,)) for r in rows], axis=1) for k in range(3))
-        return open_, first, second_
-
-    def matrix(self, members: Mapping[str, Pose]) -> Array:
-        """Derivative of the constraints by (x / size, y / size, angle) of each member, shape (n, rows, columns)."""
-        size, n = self.structure.scene.size, len(self.drive)
-        poses = {**self.known, **members}
-        column = {name: 3 * k for k, name in enumerate(self.group.members)}
-        count = 3 * len(column)
-        rows: list[Array] = []
-
-        def row() -> Array:
-            rows.append(np.zeros((n, count)))
-            return rows[-1]
-
-        def sliding(pair: Slide, part: str) -> None:
-            one = poses[pair.a].fixed(*joint_place(self.structure, pair, pair.a))
-            two = poses[pair.b].fixed(*joint_place(self.structure, pair, pair.b))
-            back = np.conj(two.u)
-            gap = one.z - two.z
-            line = row()
-            for name, sense, arm in (
-                (pair.a, 1.0, one.z - poses[pair.a].z),
-                (pair.b, -1.0, two.z - poses[pair.b].z + gap),
-            ):
-                if name in column:
-                    at = column[name]
-                    line[:, at] = getattr(sense * back, part)
-                    line[:, at + 1] = getattr(sense * 1j * back, part)
-                    line[:, at + 2] = getattr(sense * 1j * back * arm / size, part)
-
-        def turning(one: str, two: str) -> None:
-            line = row()
-            for name, sense in ((one, 1.0), (two, -1.0)):
-                if name in column:
-                    line[:, column[name] + 2] += sense
-
-        for pair in self.group.pairs:
-            if isinstance(pair, Slide):
-                turning(pair.a, pair.b)
-                sliding(pair, "imag")
-                continue
-            horizontal, vertical = row(), row()
-            for name, sense in ((pair.a, 1.0), (pair.b, -1.0)):
-                if name in column:
-                    at = column[name]
-                    arm = poses[name].u * (self.structure.links[name].points[pair.point] / size)
-                    horizontal[:, at] = vertical[:, at + 1] = sense
-                    horizontal[:, at + 2] = -sense * arm.imag
-                    vertical[:, at + 2] = sense * arm.real
-        for driver in self.group.drivers:
-            if isinstance(driver, AngleDriver):
-                turning(driver.link, driver.relative_to)
-            else:
-                sliding(self.structure.slide(driver.key), "real")
-        return np.stack(rows, axis=1)
-
-    def scaled(self, step: Array) -> Array:
-        """Columns (n, 3 members) back to (n, members, 3) in m and rad."""
-        size = self.structure.scene.size
-        return np.asarray(step.reshape(len(step), -1, 3) * np.array([size, size, 1.0]))
 
 
 def solve_cluster(
@@ -173,15 +52,8 @@ def solve_cluster(
     drive: Drive,
     start: Array,
     rates: bool = True,
-    before: Sequence[Array] = (_ZERO,) * 3,
-    turning: Sequence[Array] = (_ZERO,) * 3,
 ) -> ClusterSolved:
-    """Solve a group by Newton's method from given places, shape (n, members, 3).
-
-    Parameters
-    ----------
-    before, turning : how far what it hangs on may be off, points (m, m/s, m/s2) and angles (rad, rad/s, rad/s2)
-    """
+    """Solve a group by Newton's method from given places, shape (n, members, 3)."""
     n = len(drive)
     system = System(structure, group, known, drive)
     place = np.array(np.broadcast_to(start, (n, len(group.members), 3)), dtype=float)
@@ -214,56 +86,8 @@ def solve_cluster(
     values = np.linalg.svd(np.asarray(np.where(whole[:, None, None], matrix, 0.0), dtype=float), compute_uv=False)
     condition = np.where(whole, 1 / np.maximum(values[:, -1], 1e-300), np.inf)
     missed = np.where(whole, missed, np.inf)
-    size = structure.scene.size
-    off = [b / size + t for b, t in zip(before, turning, strict=True)]
-    error = _bounds(system, members, condition, off)
-    certificate = _certificate(system, members, condition, missed)
-    return ClusterSolved(members, place, missed, np.linalg.det(matrix), condition, matrix, load, certificate, error)
-
-
-def _certificate(system: System, members: Mapping[str, Pose], condition: Array, missed: Array) -> Array:
-    """Kantorovich's number: |J^-1| |step| times how fast the matrix J changes, with step <= |J^-1| |open|.
-
-    Below 1/2 there is a position, the only one within twice the step, and Newton's method converges to it quadratically
-    (Ortega and Rheinboldt, Iterative Solution of Nonlinear Equations in Several Variables, 12.6).
-    """
-    size, rows = system.structure.scene.size, 3 * len(system.group.members)
-    poses = [*members.values(), *system.known.values()]
-    reach = 1 + _most([np.abs(p.z) / size for p in poses])
-    step = condition * np.maximum(missed, ROUNDINGS) * rows**0.5
-    return np.asarray(condition * step * 4 * reach * rows**0.5)
-
-
-def _bounds(
-    system: System, members: Mapping[str, Pose], condition: Array, off: Sequence[Array]
-) -> tuple[Array, Array, Array]:
-    """Bounds of place, rate and second rate of a group, lengths in the size.
-
-    Each is the solution of equations with the same matrix, so an error of the right side counts by its condition; an
-    error of place is an error of the matrix for the rates, and an error of the rates one of the centripetal terms.
-    """
-    size, rows = system.structure.scene.size, 3 * len(system.group.members)
-    ends = {end for pair in system.group.pairs for end in (pair.a, pair.b)}
-    poses = [*members.values(), *(p for n, p in system.known.items() if n in ends)]
-    reach = 1 + _most([np.abs(p.z) / size for p in poses])
-    speed = _most([np.abs(p.v) / size + np.abs(p.omega) * reach for p in poses])
-    push = _most([np.abs(p.a) / size + (np.abs(p.alpha) + p.omega**2) * reach for p in poses])
-    gain = condition * rows**0.5 * 2
-    place = gain * (2 * off[0] + ROUNDINGS * reach)
-    turned_by = 4 * place * reach + ROUNDINGS
-    rate = gain * (2 * off[1] + turned_by * speed)
-    second = gain * (2 * off[2] + turned_by * push + 4 * (speed + rate) * rate * reach)
-    return place, rate, second
-
-
-ROUNDINGS = 32 * 2.0**-53
-
-
-def _most(values: list[Array]) -> Array:
-    most = values[0]
-    for value in values[1:]:
-        most = np.maximum(most, value)
-    return np.asarray(most)
+    certain = certificate(system, members, condition, missed)
+    return ClusterSolved(members, place, missed, np.linalg.det(matrix), condition, matrix, load, certain)
 
 
 def solve_all(matrix: Array, right: Array) -> Array:

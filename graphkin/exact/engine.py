@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from graphkin.exact.certainty import bounds as bounds_together
 from graphkin.exact.cluster import ClusterSolved, solve_cluster
 from graphkin.exact.dyads import Solved
 from graphkin.exact.finer import Finer
@@ -67,7 +68,12 @@ class State:
 
 
 def positions(
-    structure: Structure, drive: Drive, forms: Mapping[int, Array], upto: int | None = None, rates: bool = True
+    structure: Structure,
+    drive: Drive,
+    forms: Mapping[int, Array],
+    upto: int | None = None,
+    rates: bool = True,
+    sure: bool = True,
 ) -> State:
     """Solve every element at all positions of the drivers, each position afresh.
 
@@ -78,13 +84,15 @@ def positions(
         group the poses from which Newton's method starts, shape (n, members, 3)
     upto : solve only the elements before this one
     rates : False leaves out velocity, acceleration and bounds
+    sure : False leaves out the bounds; with a larger group they need all elements
 
     Returns
     -------
     State; at a position that cannot be assembled the discriminant of a group is negative and the poses mean nothing
     """
     with np.errstate(all="ignore"):
-        return _Run(structure, drive, forms, rates).state(len(structure.elements) if upto is None else upto)
+        run = _Run(structure, drive, forms, rates, sure and rates)
+        return run.state(len(structure.elements) if upto is None else upto)
 
 
 def finer_of(
@@ -92,7 +100,7 @@ def finer_of(
 ) -> Finer:
     """What computes some formulas of a mechanism of dyads in fifty digits, at any value of its drivers."""
     own = np.array([[d.values[0] for d in structure.scene.drivers]])
-    run = _Run(structure, Drive.at(structure, own), forms, False)
+    run = _Run(structure, Drive.at(structure, own), forms, False, False)
     program = run.fitted.program
     return run._finer(program.code(key, choose(program)))
 
@@ -100,8 +108,10 @@ def finer_of(
 class _Run:
     """One evaluation: larger groups one after the other, each from what it hangs on, then all formulas together."""
 
-    def __init__(self, structure: Structure, drive: Drive, forms: Mapping[int, Array], rates: bool) -> None:
-        self.structure, self.drive, self.forms, self.rates = structure, drive, forms, rates
+    def __init__(
+        self, structure: Structure, drive: Drive, forms: Mapping[int, Array], rates: bool, sure: bool
+    ) -> None:
+        self.structure, self.drive, self.forms, self.rates, self.sure = structure, drive, forms, rates, sure
         self.n = len(drive)
         self.rate, self.second = (x[0] if self.n else np.zeros(x.shape[1]) for x in (drive.rate, drive.second))
         self.fitted = program_of(structure, tuple(bool(s) for s in self.second))
@@ -140,20 +150,18 @@ class _Run:
         dyads = [i for i, e in enumerate(elements) if isinstance(e, Dyad)]
         parts = ("discriminant", "sine", *(("e1", "e2", "load") if self.rates else ()))
         fields = FIELDS if self.rates else FIELDS[:2]
+        followed = self.sure and not self.clusters
         asked = [getattr(program.poses[n], f) for n in names for f in fields]
         asked += [getattr(program.groups[i], p) for i in dyads for p in parts]
-        asked += program.bounds(names) if self.rates else []
-        columns = self._values((upto, self.rates), asked)
+        asked += program.bounds(names) if followed else []
+        columns = self._values((upto, self.rates, followed), asked)
         size = self.structure.scene.size
-        rough = _ZERO, _ZERO
-        if self.rates:
-            velocity, acceleration, _, omega, alpha = columns[-5:]
-            rough = _sure(np.maximum(velocity, size * omega)), _sure(np.maximum(acceleration, size * alpha))
+        rough = _rough(columns[-6:], size) if followed else (_ZERO, _ZERO)
         fine = np.zeros(self.n, dtype=bool)
         if names and not self.clusters:
-            finer = self._finer(program.code((upto, self.rates), ()))
+            finer = self._finer(program.code((upto, self.rates, followed), ()))
             fine = finer.exact()
-            if self.rates:
+            if followed:
                 finer.refine(asked, columns, len(names))
             elif fine.any():
                 finer.place(asked, columns)
@@ -167,7 +175,11 @@ class _Run:
                 *(poses[body.links[0]] for body in elements[i].bodies),  # type: ignore[union-attr]
                 *(given.get(p, _LOST) for p in Solved._fields[2:]),
             )
-        bounds = Bounds(*(_sure(b) for b in values)) if self.rates else None
+        found = list(values)
+        if self.sure and self.clusters:
+            found = bounds_together(self.structure, poses, self.drive, self._known)
+            rough = _rough(found, size)
+        bounds = Bounds(*(_sure(b) for b in found)) if self.sure else None
         return State(poses, dict(sorted(groups.items())), bounds, rough, np.where(fine, TINY, SINGULAR))
 
     def _together(self, i: int, group: Cluster) -> None:
@@ -175,24 +187,22 @@ class _Run:
         program = self.fitted.program
         known = [n for n in self.structure.links if n in _ends(group) and n in program.poses]
         known = [n for n in known if n not in group.members and n != self.structure.scene.frame.name]
-        asked = [getattr(program.poses[n], f) for n in known for f in FIELDS]
-        values = iter(self._values(("known", i), [*asked, *program.bounds(known)]))
+        values = iter(self._values(("known", i), [getattr(program.poses[n], f) for n in known for f in FIELDS]))
         poses = {n: _pose(dict(zip(FIELDS, values, strict=False))) for n in known}
         poses[self.structure.scene.frame.name] = rest()
-        bounds = Bounds(*(_sure(b) for b in values))
-        solved = solve_cluster(
-            self.structure, group, poses, self.drive, np.asarray(self.forms[i]), self.rates, bounds[:3], bounds[3:]
-        )
+        solved = solve_cluster(self.structure, group, poses, self.drive, np.asarray(self.forms[i]), self.rates)
         self.clusters[i] = solved
-        size = self.structure.scene.size
         for name in group.members:
             pose = solved.poses[name]
-            for k, (f, wide) in enumerate(zip(FIELDS, (size, 1, size, 1, size, 1), strict=True)):
+            for f in FIELDS:
                 value = np.broadcast_to(getattr(pose, f), (self.n,))
                 self.given["pose", name, f, "x"] = np.ascontiguousarray(value.real)
                 if np.iscomplexobj(value):
                     self.given["pose", name, f, "y"] = np.ascontiguousarray(value.imag)
-                self.given["error", name, f] = np.broadcast_to(wide * solved.error[k // 2], (self.n,))
+
+    def _known(self, name: Any) -> float:
+        """A number of the formulas that is the same at all positions."""
+        return self.fitted.params([name], self.rates_of)[0]
 
     def _values(self, key: Any, asked: list[Any]) -> list[Array]:
         """Formulas at all positions: vectors as complex arrays, numbers as real ones."""
@@ -239,6 +249,11 @@ def _pose(given: Mapping[str, Array]) -> Pose:
     zero, none = np.zeros(1), np.zeros(1, dtype=np.complex128)
     still = {"z": none, "u": none, "v": none, "omega": zero, "a": none, "alpha": zero}
     return Pose(**{**still, **given})
+
+
+def _rough(bounds: Sequence[Array], size: float) -> tuple[Array, Array]:
+    _, velocity, acceleration, _, omega, alpha = bounds
+    return _sure(np.maximum(velocity, size * omega)), _sure(np.maximum(acceleration, size * alpha))
 
 
 def _sure(bound: Array) -> Array:

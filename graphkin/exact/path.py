@@ -145,7 +145,7 @@ def _refined(path: Path, i: int, grid: Array) -> Array:
 def _follow_cluster(path: Path, i: int, group: Cluster, place: Array) -> Path:
     def solved(t: float, start: Array) -> tuple[ClusterSolved, Array]:
         t_ = _beside(path.flips, np.array([t]))
-        state = positions(path.structure, path.drive(t_), {**path.form(t_), i: start[None]}, i + 1)
+        state = positions(path.structure, path.drive(t_), {**path.form(t_), i: start[None]}, i + 1, sure=False)
         found = state.groups[i]
         assert isinstance(found, ClusterSolved)
         slope = [[state.poses[k].v.real[0], state.poses[k].v.imag[0], state.poses[k].omega[0]] for k in group.members]

@@ -2,23 +2,35 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import pytest
 
-from tests.bench.accuracy import Tally, measure
+from tests.bench.accuracy import measure
+from tests.bench.larger import measure_larger
+from tests.bench.tally import KINDS, Tally
+
+RUNS: dict[str, Callable[[], Tally]] = {
+    "16 digits throughout": lambda: measure(600, 7, False, each=3),
+    "as given out": lambda: measure(600, 7, True, each=3),
+    "larger groups": lambda: measure_larger(120, 3, each=8),
+}
 
 
-@pytest.fixture(scope="module", params=[False, True], ids=["16 digits throughout", "as given out"])
+@pytest.fixture(scope="module", params=list(RUNS))
 def tally(request: pytest.FixtureRequest) -> Tally:
-    return measure(600, 7, request.param, each=3)
+    return RUNS[request.param]()
 
 
 def test_the_true_error_never_exceeds_the_bound(tally: Tally) -> None:
     assert tally.broken == []
 
 
-def test_nine_bounds_in_ten_are_within_1000_times_the_true_error(tally: Tally) -> None:
-    assert tally.within > 0.88  # of a few hundred; of a hundred thousand it is more than 0.9
+@pytest.mark.parametrize("kind", KINDS)
+def test_nine_bounds_in_ten_are_within_1000_times_the_true_error(tally: Tally, kind: str) -> None:
+    assert tally.within(kind) > 0.88  # of a few hundred; of a hundred thousand it is more than 0.9
 
 
-def test_next_to_nothing_is_refused(tally: Tally) -> None:
+def test_next_to_no_position_of_dyads_is_refused() -> None:
+    tally = RUNS["as given out"]()
     assert tally.refused < 0.02 * len(tally.ratios)

@@ -23,7 +23,7 @@ def test_an_ordinary_position_is_certified_with_room_to_spare(text: str) -> None
 
 
 def test_what_has_not_converged_is_refused_by_name(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(cluster, "_certificate", lambda system, members, condition, missed: np.full(len(missed), 0.7))
+    monkeypatch.setattr(cluster, "certificate", lambda system, members, condition, missed: np.full(len(missed), 0.7))
     motion = solve(read_text(scenes.TRIAD, "scene"))
     assert "refused, Newton's method has not converged quadratically" in motion.why[0]
 
