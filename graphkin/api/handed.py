@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -18,9 +18,9 @@ from graphkin.handout.key import KeyRow, key_rows
 from graphkin.handout.lesson import Lesson
 from graphkin.handout.paper import paper_plan
 from graphkin.handout.papers import FORMATS, Papers, handout_files
-from graphkin.handout.prepare import lesson_of, views_of
+from graphkin.handout.prepare import lesson_of, usual_count, views_of
 from graphkin.handout.typeset_pdf import can_typeset
-from graphkin.handout.viewer import POSITIONS
+from graphkin.handout.viewer import Progress
 from graphkin.scene.model import Scene
 from graphkin.scene.source import safe_name
 from graphkin.scene.symbol import Symbol
@@ -37,6 +37,7 @@ class Handout:
     values: Mapping[str, float] | None
     formats: tuple[str, ...]
     count: int
+    progress: Progress | None = field(default=None, compare=False)
 
     @property
     def scene(self) -> Scene:
@@ -64,14 +65,18 @@ class Handout:
 
     @cached_property
     def files(self) -> Mapping[str, bytes]:
-        """Content of each file: problem.html, handout.html, problem.pdf, solution.pdf, key.pdf, key.csv."""
+        """Content of each file: problem.html, handout.html, problem.pdf, solution.pdf, key.html, key.pdf, key.csv."""
         if "html" not in self.formats:
             return handout_files(self.lesson, formats=self.formats)
-        lesson = self.lesson
-        views, start = views_of(
-            self.scene, self.values, lesson.asked, lesson.language, lesson.convention, lesson.sheet.scales, self.count
-        )
-        return handout_files(lesson, views, start, self.formats)
+        lesson, scales = self.lesson, self.lesson.sheet.scales
+        asked, language, convention = lesson.asked, lesson.language, lesson.convention
+        views, start = views_of(self.scene, self.values, asked, language, convention, scales, self.count, self._half(0))
+        return handout_files(lesson, views, start, self.formats, self._half(1))
+
+    def _half(self, done: int) -> Progress | None:
+        """Progress of one half of the work: placing every position, and then drawing it."""
+        tell = self.progress
+        return None if tell is None else lambda i, count: tell(i + done * count, 2 * count)
 
     def write(self, folder: str | os.PathLike[str] | None = None) -> list[Path]:
         """Write the files into a folder (one named after the scene if none is given); returns their paths.
@@ -100,7 +105,8 @@ def handout(
     formats: Sequence[str] = FORMATS,
     language: str | None = None,
     convention: str | None = None,
-    positions: int = POSITIONS,
+    positions: int | None = None,
+    progress: Progress | None = None,
 ) -> Handout:
     """Problem sheet, worked solution and answer key of a scene.
 
@@ -111,7 +117,8 @@ def handout(
     formats : "html", "pdf" or both
     language : "en", "zh" or "both"; the scene's own if None
     convention : "chinese", "us", "british" or "russian"; the scene's own if None
-    positions : of the driver, for the second slider of the page
+    positions : of the driver, for the second slider of the page; 24 if None, 12 with more than 10 moving links
+    progress : called with the parts of the page done and the number of all, while its files are made
 
     Raises
     ------
@@ -119,7 +126,7 @@ def handout(
     Unsolvable : wrong mobility, a position that cannot be assembled or reached, a dead point
     """
     known_words(formats, language, convention, known_formats=FORMATS, known_languages=ON_SHEETS)
-    if not 1 <= positions <= 72:
+    if positions is not None and not 1 <= positions <= 72:
         raise CallError(Problem("positions", f"{positions}", "give a number from 1 to 72"))
     given = for_paper(scene)
     asked = asked_symbols(given, find)
@@ -127,7 +134,7 @@ def handout(
     motion = solved_here(given, values)
     what = paper_plan(given, values, asked)
     lesson = lesson_of(what, motion, language or given.sheet.language, convention or given.sheet.convention)
-    made = Handout(lesson, values, tuple(dict.fromkeys(formats)), positions)
+    made = Handout(lesson, values, tuple(dict.fromkeys(formats)), positions or usual_count(given), progress)
     if out is not None:
         made.write(out)
     return made

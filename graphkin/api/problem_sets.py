@@ -6,14 +6,14 @@ import csv
 import io
 import os
 import tomllib
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from graphkin.api.answers import table_of
-from graphkin.api.called import SceneLike, as_scene
+from graphkin.api.called import SceneLike, as_scene, asked_symbols
 from graphkin.api.files import half_written, write_files
 from graphkin.errors import CallError, GraphkinError, Problem
 from graphkin.handout.data_rows import Columns, columns_of, replaced
@@ -23,6 +23,7 @@ from graphkin.handout.variants import Range, Variant, asked_of, varied_keys
 from graphkin.scene import library, library_text
 from graphkin.scene.model import Scene
 from graphkin.scene.source import safe_name
+from graphkin.scene.symbol import Symbol
 from graphkin.scene.writing import as_mapping, toml_text
 from graphkin.study.designs import applied
 from graphkin.study.processes import process_pool
@@ -95,6 +96,7 @@ def problem_set(
     workers: int | None = None,
     render: Render | None = None,
     progress: Callable[[int, int], None] | None = None,
+    find: Iterable[str | Symbol] | None = None,
 ) -> ProblemSet:
     """Make a set of problems from one scene: the same mechanism with other numbers for everyone.
 
@@ -108,6 +110,8 @@ def problem_set(
     executor, workers : any that follows ``concurrent.futures.Executor``; or so many processes of one's own
     render : gives files by name for a variant, called where the variants are made (so it must be picklable)
     progress : called with the variants done and all
+    find : what is asked; the scene's own if None, or else the motion of the last joint and the rates of what turns
+        about fixed pivots
 
     Returns
     -------
@@ -120,6 +124,8 @@ def problem_set(
     if (variants is None) == (rows is None):
         raise CallError(Problem("variants", "neither or both of variants and rows", "give one of them"))
     source, name = _source(scene)
+    if find is not None:
+        source["find"] = [str(s) for s in asked_symbols(as_scene(source), find)]
     given = as_scene(source)
     jobs, unused = _jobs(source, variants, seed, rows, spread or Range())
     folder = Path(out) if out is not None else None

@@ -20,7 +20,8 @@ from graphkin.cli.options import (
     listed,
     processes,
 )
-from graphkin.cli.output import print_json, print_paths, progress_bar
+from graphkin.cli.output import print_json, print_paths, progress_bar, short_bar
+from graphkin.errors import CallError, Problem
 
 __all__ = ["handout"]
 
@@ -34,8 +35,13 @@ def handout(
     lang: SheetLangOption = None,
     convention: ConventionOption = None,
     positions: Annotated[
-        int, typer.Option("--positions", metavar="N", help="Positions of the driver on the page to step through.")
-    ] = 24,
+        int | None,
+        typer.Option(
+            "--positions",
+            metavar="N",
+            help="Positions of the driver on the page; 24 if not given, 12 with more than ten moving links.",
+        ),
+    ] = None,
     variants: Annotated[
         int | None, typer.Option("--variants", metavar="N", help="A set of N problems with other numbers instead.")
     ] = None,
@@ -55,10 +61,15 @@ def handout(
 
     wanted = listed(formats)
     if variants is not None or rows is not None:
-        _problem_set(scene, out, wanted, lang, convention, variants, seed, rows, workers, as_json, quiet)
+        if at or positions is not None:
+            raise CallError(
+                Problem("variants", "with --at or --positions", "a set draws positions of its own, one each")
+            )
+        _problem_set(scene, out, wanted, find, lang, convention, variants, seed, rows, workers, as_json, quiet)
         return
-    made = handing(scene, None, driver_values(at), find or None, wanted, lang, convention, positions)
-    paths = made.write(out)
+    with short_bar(not as_json and not quiet) as progress:
+        made = handing(scene, None, driver_values(at), find or None, wanted, lang, convention, positions, progress)
+        paths = made.write(out)
     if as_json:
         print_json(made.data | {"files": [str(p) for p in paths]})
     elif not quiet:
@@ -70,7 +81,8 @@ def handout(
 
 
 def _problem_set(
-    scene: str, out: Path | None, formats: list[str], lang: str | None, convention: str | None, variants: int | None,
+    scene: str, out: Path | None, formats: list[str], find: list[str] | None, lang: str | None,
+    convention: str | None, variants: int | None,
     seed: int, rows: Path | None, workers: int | None, as_json: bool, quiet: bool,
 ) -> None:  # fmt: skip
     from graphkin.api import problem_set
@@ -81,7 +93,15 @@ def _problem_set(
     papers = papers_of(scene, formats, lang, convention)
     with progress_bar(not as_json and not quiet, target) as progress:
         made = problem_set(
-            scene, variants, seed, rows, target, workers=processes(workers), render=papers, progress=progress
+            scene,
+            variants,
+            seed,
+            rows,
+            target,
+            workers=processes(workers),
+            render=papers,
+            progress=progress,
+            find=find or None,
         )
     if as_json:
         print_json(made.data)

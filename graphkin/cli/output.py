@@ -13,7 +13,7 @@ import typer
 
 from graphkin.errors import Unsolvable
 
-__all__ = ["print_json", "print_paths", "print_table", "progress_bar", "unsolvable_as_json"]
+__all__ = ["print_json", "print_paths", "print_table", "progress_bar", "short_bar", "unsolvable_as_json"]
 
 
 def print_json(data: object) -> None:
@@ -59,7 +59,7 @@ def unsolvable_as_json(wanted: bool, answer: Callable[[Unsolvable], object]) -> 
 @contextmanager
 def progress_bar(shown: bool, target: Path) -> Iterator[Callable[[int, int], None] | None]:
     """Progress of a run that keeps what it has done in a folder; where it is interrupted, it is said how to go on."""
-    with _bar(shown) as tell:
+    with short_bar(shown) as tell:
         try:
             yield tell
         except KeyboardInterrupt:
@@ -68,7 +68,7 @@ def progress_bar(shown: bool, target: Path) -> Iterator[Callable[[int, int], Non
 
 
 @contextmanager
-def _bar(shown: bool) -> Iterator[Callable[[int, int], None] | None]:
+def short_bar(shown: bool) -> Iterator[Callable[[int, int], None] | None]:
     """A bar on stderr, where that is a terminal and it takes longer than a second."""
     if not shown or not sys.stderr.isatty():
         yield None

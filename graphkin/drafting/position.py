@@ -24,6 +24,7 @@ DEAD = 1e-7  # sine of a crossing below which a group is at a dead point
 TURNS = 720  # positions looked at on the way round
 
 Branches = Mapping[int, int]  # by place of the element: 0 the default assembly, 1 the other
+Placed = dict[float, tuple[int, dict[str, Pose]]]
 
 
 @dataclass(frozen=True)
@@ -178,13 +179,16 @@ def _follow(
     turn = max(abs(target[k] - own[k]) for k in own)
     grid = np.linspace(0.0, 1.0, max(9, math.ceil(TURNS * min(turn / (2 * math.pi), 2.0)) + 1))
     signs: dict[int, NDArray[np.float64]] = {}
+    placed: Placed = {}
     branches = dict(chosen)
     for i, element in enumerate(elements):
         if not isinstance(element, Dyad):
             continue
 
         def gaps(ts: NDArray[np.float64], last: int = i) -> NDArray[np.float64]:
-            return np.array([_gap(structure, elements[: last + 1], own, target, chosen, signs, float(t)) for t in ts])
+            return np.array(
+                [_gap(structure, elements[: last + 1], own, target, chosen, signs, placed, float(t)) for t in ts]
+            )
 
         start = gaps(np.zeros(1))[0]
         lines = meet_is_lines(element)
@@ -209,12 +213,20 @@ def _gap(
     target: Mapping[str, float],
     chosen: Mapping[int, int],
     flips: Mapping[int, NDArray[np.float64]],
+    placed: Placed,
     t: float,
 ) -> float:
-    """How well the loci of the last element cross at a place of the path."""
+    """How well the loci of the last element cross at a place of the path.
+
+    ``placed`` keeps how many elements stand at a place of the path, and their links, for those that come after.
+    """
     frame = _start(structure, 1.0 / structure.scene.size, {k: own[k] + t * (target[k] - own[k]) for k in own})
+    first, poses = placed.get(t, (0, {}))
+    frame.poses.update(poses)
     gap = -1.0
-    for i, element in enumerate(elements):
+    for i, element in enumerate(elements[first:], first):
+        if i == len(elements) - 1:
+            placed[t] = i, dict(frame.poses)
         if isinstance(element, Driven):
             frame.poses[element.link], _ = drive(frame, element)
         elif isinstance(element, Dyad):

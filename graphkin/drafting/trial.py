@@ -22,12 +22,13 @@ from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, Driver, Scene
 from graphkin.structure import Cluster, Driven, Dyad, Structure, analyse, pick
 
-__all__ = ["Trial", "trial_position"]
+__all__ = ["Known", "Trial", "trial_position"]
 
 GRID = 360  # trial values looked at over a turn
 TRIALS = 3  # trial drivers used, one after the other, to find all assemblies
 
 Poses = Mapping[str, Pose]
+Known = tuple[Mapping[str, float], Poses]  # driver values, and every link there with the mechanism of size 1
 
 
 @dataclass(frozen=True)
@@ -41,8 +42,12 @@ class Trial:
     closings: tuple[tuple[Closing, str], ...]
 
 
-def trial_position(scene: Scene, values: Mapping[str, float]) -> Trial:
+def trial_position(scene: Scene, values: Mapping[str, float], near: Known | None = None) -> Trial:
     """Find by trial the position of a scene with larger groups.
+
+    Parameters
+    ----------
+    near : a position known already, from which the motion is followed; without one the scene's own is found first
 
     Raises
     ------
@@ -50,8 +55,11 @@ def trial_position(scene: Scene, values: Mapping[str, float]) -> Trial:
         "not drawn": no link can be left out so that dyads remain; "not assembled": nothing fits at these values
     SceneError : a group has several assemblies and no sketch says which is meant
     """
-    own = {d.key: d.values[0] for d in scene.drivers}
-    poses = _own_position(scene, own)
+    if near is None:
+        own: Mapping[str, float] = {d.key: d.values[0] for d in scene.drivers}
+        poses: Poses = _own_position(scene, own)
+    else:
+        own, poses = near
     moving = {k: v for k, v in values.items() if v != own[k]}
     if moving:
         poses = followed(scene, own, values, poses)

@@ -13,11 +13,10 @@ from importlib.resources import files
 from graphkin.handout.blocks import Document, Heading, Said, said
 from graphkin.handout.clean import clean
 from graphkin.handout.html import blocks_html, said_html
-from graphkin.handout.key import answer_key
 from graphkin.handout.lesson import Lesson
 from graphkin.handout.problem import given, scene_title
 from graphkin.handout.solution import results_blocks, solution, solution_blocks
-from graphkin.handout.viewer import View, positions_data
+from graphkin.handout.viewer import Progress, View, positions_data
 from graphkin.words import word
 
 __all__ = ["document_page", "handout_page"]
@@ -28,7 +27,7 @@ def document_page(document: Document) -> str:
     return _page(document, f"<main>\n{blocks_html(document.blocks)}\n</main>")
 
 
-def handout_page(lesson: Lesson, views: Sequence[View], start: int = 0) -> str:
+def handout_page(lesson: Lesson, views: Sequence[View], start: int = 0, progress: Progress | None = None) -> str:
     """The worked solution as a page to step through.
 
     Parameters
@@ -36,6 +35,7 @@ def handout_page(lesson: Lesson, views: Sequence[View], start: int = 0) -> str:
     lesson : the solution on paper, which is what is printed
     views : the positions of the driver that the screen shows
     start : which of them is the given one
+    progress : called with the number of positions done and the number of all
     """
     whole = solution(lesson)
 
@@ -44,7 +44,7 @@ def handout_page(lesson: Lesson, views: Sequence[View], start: int = 0) -> str:
 
     paper = lesson.sheet.scene.sheet.paper
     data = {
-        **positions_data(views),
+        **positions_data(views, progress),
         "start": start,
         "words": {"stepOf": _plain(said("step of", lesson.language, "{0}", "{1}"))},
     }
@@ -80,9 +80,6 @@ def handout_page(lesson: Lesson, views: Sequence[View], start: int = 0) -> str:
 </article>
 <section class="results">
 {blocks_html(results_blocks(lesson))}
-</section>
-<section class="key">
-{blocks_html(b for b in answer_key(lesson).blocks if not (isinstance(b, Heading) and b.level == 1))}
 </section>
 </main>
 <script type="application/json" id="positions">{_json(data)}</script>"""

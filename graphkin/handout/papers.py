@@ -17,7 +17,7 @@ from graphkin.handout.problem import problem
 from graphkin.handout.solution import solution
 from graphkin.handout.typeset_pdf import can_typeset, pdf
 from graphkin.handout.variants import Variant, asked_of
-from graphkin.handout.viewer import View
+from graphkin.handout.viewer import Progress, View
 
 __all__ = ["FORMATS", "Papers", "handout_files"]
 
@@ -25,24 +25,30 @@ FORMATS = ("html", "pdf")
 
 
 def handout_files(
-    lesson: Lesson, views: Sequence[View] = (), start: int = 0, formats: Sequence[str] = FORMATS
+    lesson: Lesson,
+    views: Sequence[View] = (),
+    start: int = 0,
+    formats: Sequence[str] = FORMATS,
+    progress: Progress | None = None,
 ) -> Mapping[str, bytes]:
     """Everything to be written for a lesson.
 
     ``problem.html`` and ``problem.pdf`` (without answers), ``handout.html`` (the solution to step through),
-    ``solution.pdf``, ``key.pdf`` and ``key.csv``.  Without the extra ``pdf`` the figure sheets ``mechanism.pdf``,
-    ``velocity.pdf`` and ``acceleration.pdf`` take the place of the typeset ones.
+    ``solution.pdf``, ``key.html``, ``key.pdf`` and ``key.csv``.  Without the extra ``pdf`` the figure sheets
+    ``mechanism.pdf``, ``velocity.pdf`` and ``acceleration.pdf`` take the place of the typeset ones.
 
     Parameters
     ----------
     views, start : positions of the driver for the screen, and which of them is the given one; without any the given
         one alone
     formats : "html", "pdf" or both
+    progress : called with the number of positions done for the screen and the number of all
     """
     made: dict[str, bytes] = {}
     if "html" in formats:
         made["problem.html"] = document_page(problem(lesson)).encode()
-        made["handout.html"] = handout_page(lesson, views or (View(lesson),), start).encode()
+        made["handout.html"] = handout_page(lesson, views or (View(lesson),), start, progress).encode()
+        made["key.html"] = document_page(answer_key(lesson)).encode()
     if "pdf" in formats:
         made |= _typeset(lesson)
     made["key.csv"] = key_csv(lesson).encode()

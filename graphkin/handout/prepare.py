@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 
 import numpy as np
@@ -15,11 +16,13 @@ from graphkin.drafting.sheet import Scales, Sheet
 from graphkin.errors import Unsolvable
 from graphkin.exact import Motion
 from graphkin.handout.lesson import Lesson
-from graphkin.handout.viewer import POSITIONS, View, common_scales
+from graphkin.handout.viewer import POSITIONS, Progress, View, common_scales
 from graphkin.scene.model import Scene
 from graphkin.scene.symbol import Symbol
 
-__all__ = ["lesson_of", "positions", "views_of"]
+__all__ = ["lesson_of", "positions", "usual_count", "views_of"]
+
+MANY_LINKS = 10
 
 
 def lesson_of(what: Plan, motion: Motion, language: str, convention: str) -> Lesson:
@@ -33,6 +36,12 @@ def lesson_of(what: Plan, motion: Motion, language: str, convention: str) -> Les
     report = compare(sheet, read_off(sheet), value, what.asked)
     tolerance = predict(what, "pencil", sheet.scene.sheet.tools)
     return Lesson(sheet, report, tolerance, language, convention, what.asked)
+
+
+def usual_count(scene: Scene) -> int:
+    """How many positions of the driver a page shows where nobody says: fewer of a mechanism of many links, of which
+    each takes its time to draw and to load."""
+    return POSITIONS if len(scene.links) <= MANY_LINKS else POSITIONS // 2
 
 
 def positions(
@@ -66,11 +75,13 @@ def views_of(
     convention: str,
     paper: Scales,
     count: int = POSITIONS,
+    progress: Progress | None = None,
 ) -> tuple[list[View], int]:
     """The positions that the screen shows, each drawn and with its centres, and which of them is the given one.
 
-    ``paper`` are the scales of the solution on paper, kept wherever the figures fit.  Positions in which the
-    construction fails (dead points) are left out.
+    ``progress`` is called with the number of positions done and the number of all.  ``paper`` are the scales of the
+    solution on paper, kept wherever the figures fit.  Positions in which the construction fails (dead points) are left
+    out.
     """
     rows, start = positions(scene, values, count)
     plans: list[Plan] = []
@@ -86,16 +97,31 @@ def views_of(
         if i == start:
             given = len(plans)
         plans.append(found)
+    sheets = [execute(replace(w, scales=s)) for w, s in zip(plans, common_scales(plans, paper), strict=True)]
+    centres = _centres(scene, sheets, given, progress or _silent)
     views = []
-    for what, scales in zip(plans, common_scales(plans, paper), strict=True):
-        sheet = execute(replace(what, scales=scales))
+    for sheet, here in zip(sheets, centres, strict=True):
         empty = Report(sheet.instrument, sheet.scales, ())
-        views.append(View(Lesson(sheet, empty, {}, language, convention, tuple(asked)), _centres(scene, sheet)))
+        views.append(View(Lesson(sheet, empty, {}, language, convention, tuple(asked)), here))
     return views, given
 
 
-def _centres(scene: Scene, sheet: Sheet) -> Centres | None:
-    try:
-        return find_centres(scene, sheet.drivers, sheet=sheet)
-    except Unsolvable:
-        return None
+def _silent(done: int, count: int) -> None:
+    pass
+
+
+def _centres(scene: Scene, sheets: Sequence[Sheet], given: int, progress: Progress) -> list[Centres | None]:
+    """The centres in each position, from the given one onwards and then backwards: each starts from its neighbour."""
+    found: dict[int, Centres | None] = {}
+    for i in (*range(given, len(sheets)), *range(given - 1, -1, -1)):
+        near = found.get(i - 1) if i > given else found.get(i + 1)
+        found[i] = _centres_of(scene, sheets[i], near)
+        progress(len(found), len(sheets))
+    return [found[i] for i in range(len(sheets))]
+
+
+def _centres_of(scene: Scene, sheet: Sheet, near: Centres | None) -> Centres | None:
+    for start in (near, None) if near is not None else (None,):
+        with suppress(Unsolvable):
+            return find_centres(scene, sheet.drivers, sheet=sheet, near=start)
+    return None

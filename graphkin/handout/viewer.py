@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -28,7 +28,9 @@ from graphkin.handout.sentences import plain_words
 from graphkin.handout.solution import equation_words, stage_title, step_items
 from graphkin.words import languages
 
-__all__ = ["POSITIONS", "View", "common_scales", "positions_data"]
+__all__ = ["POSITIONS", "Progress", "View", "common_scales", "positions_data"]
+
+Progress = Callable[[int, int], None]  # positions done, and all of them
 
 POSITIONS = 24
 MECHANISM, POLYGON = (160.0, 218.0), 190.0  # mm that the mechanism in all positions and a polygon may fill
@@ -76,10 +78,14 @@ def _coarser(scale: float, factor: float) -> float:
     return next(s * power for s in (*SERIES, 10.0) if s * power >= scale * factor * (1 - 1e-9))
 
 
-def positions_data(views: Sequence[View]) -> dict[str, Any]:
+def positions_data(views: Sequence[View], progress: Progress | None = None) -> dict[str, Any]:
     """For each position its name, figures and steps, ready for the page, and the stages of all of them, each once."""
     frames = _Frames(views)
-    positions = [frames.data(view) for view in views]
+    positions = []
+    for done, view in enumerate(views, 1):
+        positions.append(frames.data(view))
+        if progress is not None:
+            progress(done, len(views))
     return {"positions": positions, "stages": frames.stages}
 
 

@@ -20,10 +20,10 @@ def run(*args, cwd):
     )
 
 
-def test_the_command_writes_six_files_and_nothing_else(tmp_path):
+def test_the_command_writes_seven_files_and_nothing_else(tmp_path):
     done = run("slotter-75-150", "-o", "out", "--lang", "both", "--positions", "2", cwd=tmp_path)
     names = {str(p.relative_to(tmp_path)) for p in tmp_path.rglob("*") if p.is_file()}
-    expected = {"problem.html", "handout.html", "problem.pdf", "solution.pdf", "key.pdf", "key.csv"}
+    expected = {"problem.html", "handout.html", "problem.pdf", "solution.pdf", "key.html", "key.pdf", "key.csv"}
     assert {f"out/{name}" for name in expected} == names
     assert 0 == done.returncode, done.stderr
 

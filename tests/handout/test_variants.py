@@ -304,3 +304,17 @@ def test_a_killed_set_goes_on(tmp_path):
     assert 0 == done.returncode, done.stderr
     assert 6 == len(list(tmp_path.glob("*.toml")))
     assert [] == list(tmp_path.glob(".*"))
+
+
+def test_a_set_asks_what_is_asked(tmp_path):
+    made = problem_set(FOUR_BAR, 2, 1, out=tmp_path, find=["omega_3"])
+    assert {("omega_3",)} == {tuple(a.symbol for a in answers) for answers in made.made.answers.values()}
+    assert all([str(s) for s in scene.find] == ["omega_3"] for scene in scenes(made))
+
+
+def test_an_answer_that_a_pencil_cannot_give_within_15_percent_is_not_asked_for(made):
+    assert all(a.tolerance <= 0.15 * abs(a.value) for answers in made.made.answers.values() for a in answers)
+
+
+def test_where_a_variant_comes_from_is_not_said_of_other_numbers(made):
+    assert not any(scene.source for scene in scenes(made))

@@ -19,6 +19,7 @@ from graphkin.words import Phrase
 
 __all__ = ["Centre", "Centres", "find_centres"]
 
+
 @dataclass(frozen=True)
 class Centre:
     """One instant centre.
@@ -73,7 +74,7 @@ class Centres:
 
 def find_centres(
     scene: Scene, at: Mapping[str, float] | None = None, instrument: Instrument = EXACT, room: Room | None = None,
-    sheet: Sheet | None = None,
+    sheet: Sheet | None = None, near: Centres | None = None,
 ) -> Centres:  # fmt: skip
     """Find every centre of every two links on the drawing board.
 
@@ -81,6 +82,8 @@ def find_centres(
     ----------
     scene, at, instrument, room : as for `draft`
     sheet : the scene drawn at this position already; it is used if every link stands on it
+    near : the centres at other driver values, from which a scene with larger groups is followed; without them the
+        scene's own position is found first
 
     Raises
     ------
@@ -90,7 +93,7 @@ def find_centres(
     if sheet is not None and moving is scene and set(sheet.structure.links) <= set(sheet.poses):
         worked = Worked(sheet, measured(sheet))
     else:
-        worked = work(moving, at, instrument, room)
+        worked = work(moving, at, instrument, room, near.sheet if near is not None else None)
     links = links_on_paper(scene, 1.0 / worked.sheet.scales.length, worked.sheet.poses)
     chart = links.chart()
     table, slots = _search(links, chart, worked.motions, instrument, worked.way)
@@ -179,9 +182,7 @@ def _crossed(crossing: Crossing, chart: Chart, number: int, instrument: Instrume
         if pricked != point:
             place, point = chart.at(pricked), pricked
     direction = chart.direction(place) if point is None else None
-    return Centre(
-        crossing.pair, "found", place, point, direction, number, lines=crossing.lines, error=crossing.error
-    )
+    return Centre(crossing.pair, "found", place, point, direction, number, lines=crossing.lines, error=crossing.error)
 
 
 def _otherwise(

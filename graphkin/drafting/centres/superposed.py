@@ -12,7 +12,7 @@ from graphkin.drafting.draft import draft
 from graphkin.drafting.instrument import EXACT, Instrument
 from graphkin.drafting.scales import Room
 from graphkin.drafting.sheet import Pose, Sheet
-from graphkin.drafting.trial import trial_position
+from graphkin.drafting.trial import Known, trial_position
 from graphkin.scene.model import AngleDriver, Driver, Scene
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import Structure, analyse
@@ -36,18 +36,23 @@ class Worked:
 
 
 def work(
-    scene: Scene, at: Mapping[str, float] | None = None, instrument: Instrument = EXACT, room: Room | None = None
+    scene: Scene,
+    at: Mapping[str, float] | None = None,
+    instrument: Instrument = EXACT,
+    room: Room | None = None,
+    near: Sheet | None = None,
 ) -> Worked:
     """Draw everything of a scene and measure how it moves.
 
-    Parameters and exceptions are those of `draft`; a group larger than a dyad is drawn by trial.
+    Parameters and exceptions are those of `draft`; a group larger than a dyad is drawn by trial, with ``near``, the
+    whole scene on paper at other driver values, from there.
     """
     sheet = draft(scene, at, (), instrument, room)
     if sheet.stopped is None:
         return Worked(sheet, measured(sheet))
     structure = analyse(scene)
     values = {d.key: d.values[0] for d in scene.drivers} | dict(at or {})
-    trial = trial_position(scene, values)
+    trial = trial_position(scene, values, _known(near) if near is not None else None)
     dyads = trial.scene
     for closing, key in trial.closings:
         dyads = _at_speed(dyads, key, _true_speed(dyads, closing, key, structure))
@@ -61,6 +66,13 @@ def work(
     kept = tuple(c.left_out or (c.driver.key if c.driver else "") for c, _ in trial.closings)
     motions = {name: Motion(m.pose.origin, m.velocity, m.omega) for name, m in moved.items()}
     return Worked(_whole(drawn, scene, structure, values, moved), motions, "superposition", kept)
+
+
+def _known(sheet: Sheet) -> Known:
+    """A sheet as a position to start from."""
+    size = sheet.scales.length / sheet.scene.size
+    poses = {name: Pose(pose.origin * size, pose.axis) for name, pose in sheet.poses.items()}
+    return sheet.drivers, poses
 
 
 def _true_speed(scene: Scene, closing: Closing, key: str, structure: Structure) -> float:
