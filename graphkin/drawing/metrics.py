@@ -16,7 +16,7 @@ from graphkin.drawing.primitives import Run, Text
 __all__ = ["has_cjk", "is_cjk", "run_box", "runs_width", "start_runs", "text_box", "width"]
 
 ASCENT, DESCENT = 0.70, 0.22  # of the size; accents and CJK reach further
-CJK_ASCENT, CJK_DESCENT = 0.86, 0.14
+CJK_ASCENT = 0.86
 CAP_HEIGHT = 0.66
 _TALL = {"∥": 0.83, "√": 0.83}  # signs that reach higher
 

@@ -26,7 +26,6 @@ __all__ = [
     "guide",
     "hatched_line",
     "pin",
-    "pin_in_slot",
     "rigid_link",
     "sense_arc",
     "slot",
@@ -129,13 +128,6 @@ def slot(start: complex, end: complex, colour: str = strokes.BLACK, width: float
         Arc(end, width / 2, bearing - math.pi / 2, bearing + math.pi / 2, stroke),
         Arc(start, width / 2, bearing + math.pi / 2, bearing + 3 * math.pi / 2, stroke),
     )
-
-
-def pin_in_slot(
-    at: complex, start: complex, end: complex, colour: str = strokes.BLACK, pin_colour: str = strokes.BLACK
-) -> tuple[Shape, ...]:
-    """A pin that runs in the slot of another link, with no block between."""
-    return *slot(start, end, colour), *pin(at, pin_colour)
 
 
 def bar(start: complex, end: complex, colour: str = strokes.BLACK, stroke: Stroke = strokes.LINK) -> tuple[Line, ...]:

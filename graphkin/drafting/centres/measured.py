@@ -28,10 +28,6 @@ class Motion:
         """Velocity (mm/s on paper) of the point of the link that lies at z (mm)."""
         return self.velocity + 1j * self.omega * (z - self.at)
 
-    def plus(self, other: Motion, times: float) -> Motion:
-        """This motion with a multiple of another superposed."""
-        return Motion(self.at, self.velocity + times * other.of(self.at), self.omega + times * other.omega)
-
 
 def measured(sheet: Sheet) -> dict[str, Motion]:
     """Every link in the velocity polygon: one end point of it, and its angular velocity."""
