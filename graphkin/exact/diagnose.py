@@ -12,7 +12,7 @@ from graphkin.exact.findings import singular
 from graphkin.exact.joints import Drive
 from graphkin.exact.redundant import Fit, fit
 from graphkin.scene.model import Scene
-from graphkin.structure import Structure, analyse
+from graphkin.structure import Structure, analyse, mobility_of
 
 __all__ = ["structure_of"]
 
@@ -62,7 +62,9 @@ def _diagnosis(scene: Scene) -> Problem | None:
             fits.append(laid)
         if len(fits) == 2:
             tried.append((link.name, fits[0], bool(fits[0].fits[0] and fits[1].position[0] < 1e-9)))
-    return _verdict(tried)
+    # a driver too many does not make a link one too many
+    counted = 0 < mobility_of(scene).value < len(scene.drivers)
+    return _verdict([x for x in tried if x[2] or not counted])
 
 
 def _unit(scene: Scene) -> float:

@@ -18,6 +18,9 @@ def wrong_count(system: Constraints, mobility: Mobility) -> Problem:
         else f"F = 3*{mobility.links} - 2*{mobility.lower} = {mobility.value}"
     )
     wanted = f"a mechanism of mobility {mobility.value} needs as many drivers"
+    if found > mobility.value > 0:
+        names = ", ".join(d.key for d in scene.drivers)
+        wanted = f"too many drivers ({names}): a mechanism of mobility {mobility.value} takes {mobility.value} of them"
     idle = [link.name for link in scene.links if link.redundant]
     if idle and mobility.value > found:
         named = f"links {', '.join(idle)}, marked" if len(idle) > 1 else f"link {idle[0]}, marked"

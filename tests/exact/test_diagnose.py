@@ -32,6 +32,9 @@ def test_a_link_that_fits_here_but_locks_is_over_constrained() -> None:
     assert "locks" in said
 
 
+TWO_DRIVERS = scenes.FOUR_BAR.replace("[driver]", "[[driver]]") + '[[driver]]\nlink = "3"\nangle = 90\nomega = 1\n'
+
+
 def test_a_truss_does_not_fit() -> None:
     assert "does not fit" in refused(scenes.TRUSS)
 
@@ -50,8 +53,15 @@ def test_a_missing_driver_is_counted() -> None:
 
 
 def test_a_driver_too_many_is_counted() -> None:
-    text = scenes.FOUR_BAR.replace("[driver]", "[[driver]]") + '[[driver]]\nlink = "3"\nangle = 90\nomega = 1\n'
-    assert "F = 3*3 - 2*4 = 1, but 2 drivers given" in refused(text)
+    assert "F = 3*3 - 2*4 = 1, but 2 drivers given" in refused(TWO_DRIVERS)
+
+
+def test_drivers_of_which_there_are_too_many_are_named() -> None:
+    assert "too many drivers (1, 3)" in refused(TWO_DRIVERS)
+
+
+def test_with_a_driver_too_many_no_link_is_to_be_left_out() -> None:
+    assert "leave" not in refused(TWO_DRIVERS)
 
 
 def test_a_redundant_link_that_does_not_fit_is_named_with_its_miss() -> None:
