@@ -10,8 +10,7 @@ from graphkin.exact.choice import choose_forms, own_values
 from graphkin.exact.engine import positions
 from graphkin.exact.joints import Drive
 from graphkin.scene import read_text
-
-from . import scenes
+from tests import scenes
 
 
 @pytest.mark.parametrize("text", [scenes.TRIAD, scenes.FLOATING, scenes.MOVED_PARALLELOGRAM])

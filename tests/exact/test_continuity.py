@@ -8,8 +8,7 @@ import pytest
 from graphkin.errors import CallError, Unsolvable
 from graphkin.exact import Motion, solve
 from graphkin.scene import library, read, read_text
-
-from . import scenes
+from tests import scenes
 
 ROCKER = (
     scenes.FOUR_BAR.replace("length = 150", "length = 350")

@@ -13,8 +13,7 @@ from graphkin.errors import Unsolvable
 from graphkin.exact import Motion, solve, structure_of
 from graphkin.exact.dead_points import dead_points
 from graphkin.scene import read_text
-
-from . import scenes
+from tests import scenes
 
 # 3-4-5: rod and rocker are in line at crank 90 and -90, and fold at 0
 REACHING = """
@@ -37,30 +36,6 @@ from = "dead point"
 [sketch]
 C = {C}
 """
-
-SLIDER = """
-[frame]
-points = { A = [0, 0] }
-guides = { h = { through = [0, 0], angle = 0 } }
-[links.1]
-points = ["A", "B"]
-length = 50
-[links.2]
-points = ["B", "C"]
-length = 120
-[links.3]
-points = ["C"]
-on = "0.h"
-[driver]
-slide = "3"
-travel = -1e-9
-from = "dead point"
-near = 170
-velocity = 40
-[sketch]
-B = [49, 1]
-"""
-
 
 def at(driver: str, left: bool = True) -> Motion:
     place = "[300, 280]" if left else "[200, 20]"
@@ -116,7 +91,8 @@ def test_without_a_dead_point_it_says_so() -> None:
 
 def test_a_travel_may_count_from_a_dead_point() -> None:
     # crank and rod in line at 170
-    motion = solve(read_text(SLIDER, "scene"))
+    text = scenes.PISTON.replace("travel = 150", 'travel = -1e-9\nfrom = "dead point"\nnear = 170')
+    motion = solve(read_text(text + "[sketch]\nB = [49, 1]\n", "scene"))
     with mp.workdps(60):
         s = mp.mpf(170) - mp.mpf("1e-9")
         crank = mp.acos((50**2 + s**2 - 120**2) / (100 * s))

@@ -7,8 +7,7 @@ import pytest
 from graphkin.errors import Unsolvable
 from graphkin.exact import solve
 from graphkin.scene import read_text
-
-from . import scenes
+from tests import scenes
 
 
 def refused(text: str) -> str:

@@ -11,8 +11,7 @@ import pytest
 
 from graphkin.exact import Motion, solve, to_json
 from graphkin.scene import read, read_text
-
-from . import scenes
+from tests import scenes
 
 D = 50
 

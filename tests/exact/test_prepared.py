@@ -10,8 +10,7 @@ import pytest
 from graphkin.errors import CallError
 from graphkin.exact import Prepared, prepare, solve
 from graphkin.scene import read, read_text
-
-from . import scenes
+from tests import scenes
 
 ASKED = ("C", "v_C", "a_C", "omega_3", "alpha_3")
 

@@ -8,8 +8,7 @@ import pytest
 
 from graphkin.exact import Motion, solve
 from graphkin.scene import read_text
-
-from . import scenes
+from tests import scenes
 
 
 def at(text: str, value: float) -> Motion:
@@ -91,33 +90,13 @@ def test_a_guide_through_its_own_pin_has_no_direction() -> None:
     assert "B and C fall together" in at(scenes.EQUAL_GUIDE, 270).why[0]
 
 
-SLIDER = """
-[frame]
-points = { A = [0, 0] }
-guides = { h = { through = [0, 0], angle = 0 } }
-[links.1]
-points = ["A", "B"]
-length = 50
-[links.2]
-points = ["B", "C"]
-length = 120
-[links.3]
-points = ["C"]
-on = "0.h"
-[driver]
-slide = "3"
-travel = 150
-velocity = 40
-"""
-
-
 def test_a_driven_piston_stands_at_a_dead_point_where_crank_and_rod_are_in_line() -> None:
-    motion = solve(read_text(SLIDER, "scene"), at={"3/0": 0.17})
+    motion = solve(read_text(scenes.PISTON, "scene"), at={"3/0": 0.17})
     assert motion.status[0] == "dead point"
 
 
 def test_a_driven_piston_does_not_go_beyond_crank_and_rod_in_line() -> None:
-    motion = solve(read_text(SLIDER, "scene"), at={"3/0": 0.171})
+    motion = solve(read_text(scenes.PISTON, "scene"), at={"3/0": 0.171})
     assert "170 mm" in motion.why[0]
 
 

@@ -10,8 +10,8 @@ import pytest
 from graphkin.exact import Motion, solve
 from graphkin.scene import library, read, read_text
 from graphkin.scene.model import AngleDriver, Scene, SlideDriver
+from tests import scenes
 
-from . import scenes
 from .checks import closure, differences, slowed
 
 SOLVABLE = (

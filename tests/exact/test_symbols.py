@@ -8,8 +8,7 @@ from graphkin.errors import CallError
 from graphkin.exact import Motion, solve
 from graphkin.scene import read, read_text
 from graphkin.scene.symbol import Symbol
-
-from . import scenes
+from tests import scenes
 
 
 @pytest.fixture(scope="module")

@@ -10,8 +10,7 @@ import pytest
 
 from graphkin.exact import solve, to_json
 from graphkin.scene import library, read, read_text
-
-from . import scenes
+from tests import scenes
 
 
 def first(name: str) -> dict[str, Any]:

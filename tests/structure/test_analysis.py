@@ -7,6 +7,7 @@ import pytest
 from graphkin.errors import Unsolvable
 from graphkin.scene import read, read_text
 from graphkin.structure import Cluster, Driven, Dyad, Structure, analyse
+from tests import scenes
 
 FRAME = "[frame]\npoints = { A = [0, 0], D = [400, 0] }\n"
 CRANK = '[links.1]\npoints = ["A", "B"]\nlength = 150\n'
@@ -94,31 +95,7 @@ def test_a_driven_coupler_is_a_group_of_class_three() -> None:
 
 
 def test_a_plate_on_three_bars_is_a_group_of_class_three() -> None:
-    text = """
-[frame]
-points = { A = [0, 0], G = [260, 40], H = [60, 260] }
-[links.1]
-points = ["A", "B"]
-length = 30
-[links.2]
-points = ["B", "C"]
-length = 110
-[links.3]
-points = ["C", "D"]
-length = 90
-at = { E = [30, 70] }
-[links.4]
-points = ["G", "D"]
-length = 90
-[links.5]
-points = ["H", "E"]
-length = 120
-[driver]
-link = "1"
-angle = 50
-omega = 6
-"""
-    found = structure(text)
+    found = structure(scenes.TRIAD)
     assert isinstance(found.groups[0], Cluster)
     assert (found.groups[0].links, found.groups[0].order) == (("2", "3", "4", "5"), 3)
 

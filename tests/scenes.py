@@ -1,4 +1,4 @@
-"""Scenes of the solver's tests."""
+"""Scenes of the tests of structure and solver."""
 
 from __future__ import annotations
 
@@ -334,6 +334,25 @@ length = 420
 link = "1"
 angle = 60
 omega = 10
+"""
+
+PISTON = """
+[frame]
+points = { A = [0, 0] }
+guides = { h = { through = [0, 0], angle = 0 } }
+[links.1]
+points = ["A", "B"]
+length = 50
+[links.2]
+points = ["B", "C"]
+length = 120
+[links.3]
+points = ["C"]
+on = "0.h"
+[driver]
+slide = "3"
+travel = 150
+velocity = 40
 """
 
 WEDGES = """
