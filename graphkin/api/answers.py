@@ -6,31 +6,34 @@ import csv
 import io
 import os
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 from graphkin.api.called import asked_symbols
+from graphkin.api.cells import head_of, is_blank, numbers_in, unit_of
 from graphkin.checking import Printed, stated
 from graphkin.errors import CallError, Problem
 from graphkin.scene.model import Scene
 from graphkin.scene.symbol import Symbol
 
-__all__ = ["Answers", "AnswersLike", "Rows", "as_answers", "table_of"]
+__all__ = ["Answers", "AnswersLike", "Rows", "as_answers", "table_of", "with_points"]
 
 AnswersLike = str | os.PathLike[str] | Mapping[str, Mapping[str, object]]
 
 LARGEST = 10_000_000
 PLACE = "at"
 _QUANTITY = re.compile(r"(v|a|an|at|ak|ar|omega|alpha)_")
+_MARKS = {b"\xff\xfe": "utf-16", b"\xfe\xff": "utf-16"}
 
 
 @dataclass(frozen=True)
 class Rows:
-    """A table as read: its heads, and its rows with the number of their line."""
+    """A table as read: its heads, its rows with the number of their line, and the sign between their cells."""
 
     heads: tuple[str, ...]
     rows: tuple[tuple[int, tuple[str, ...]], ...]
+    sign: str = ","
 
 
 @dataclass(frozen=True)
@@ -42,12 +45,17 @@ class Answers:
     values: tuple[Printed, ...]
 
 
-def as_answers(scene: Scene, given: AnswersLike) -> tuple[Answers, ...]:
+def as_answers(scene: Scene, given: AnswersLike) -> tuple[tuple[Answers, ...], tuple[str, ...]]:
     """The answers in a CSV file, or in a mapping from person to values by symbol.
 
-    The file has a line of heads: symbols ("v_D", "omega_3"), ``at`` for the driver's value where rows are positions,
-    and any other word for who it is (the first such column counts).  Units are the scene's, rad/s, rad/s2.  A vector is
-    one number, its size, or two with a blank or semicolon between.  An empty cell is no answer.
+    The file has a line of heads: symbols ("v_D", "omega_3", also "ω3", with or without their unit), ``at`` for the
+    driver's value where rows are positions, and any other word for who it is (the first such column counts).  Units
+    are the scene's, rad/s, rad/s2.  A vector is one number, its size, or two with a blank or semicolon between.  A
+    decimal comma is understood, where it cannot be one of thousands.  An empty cell is no answer.
+
+    Returns
+    -------
+    The answers of each row, and the heads that were left alone
 
     Raises
     ------
@@ -75,7 +83,7 @@ def table_of(path: str | os.PathLike[str]) -> Rows:
     if len(data) > LARGEST:
         raise CallError(Problem(shown, f"is larger than {LARGEST // 1_000_000} MB", "give fewer rows"))
     text = ""
-    for encoding in ("utf-8-sig", "gb18030"):
+    for encoding in (_MARKS.get(data[:2], "utf-8-sig"), "gb18030"):
         try:
             text = data.decode(encoding)
             break
@@ -90,18 +98,35 @@ def table_of(path: str | os.PathLike[str]) -> Rows:
         raise CallError(Problem(shown, f"is no table: {error}", "save it as CSV")) from None
     if len(lines) < 2:
         raise CallError(Problem(shown, "has no rows", "write a line of heads, and a line for each row"))
-    return Rows(lines[0][1], tuple(lines[1:]))
+    return Rows(lines[0][1], tuple(lines[1:]), sign)
 
 
-def _answers(scene: Scene, sheet: Rows, name: str) -> tuple[Answers, ...]:
+def with_points(sheet: Rows) -> Rows:
+    """A table with decimal points, where commas do not part its cells."""
+    if sheet.sign == ",":
+        return sheet
+    rows = ((line, tuple(re.sub(r"(?<=\d),(?=\d)", ".", cell) for cell in cells)) for line, cells in sheet.rows)
+    return Rows(sheet.heads, tuple(rows), sheet.sign)
+
+
+def _answers(scene: Scene, sheet: Rows, name: str) -> tuple[tuple[Answers, ...], tuple[str, ...]]:
     symbols: dict[int, Symbol] = {}
     problems: list[Problem] = []
     for i, head in enumerate(sheet.heads):
-        if _QUANTITY.match(head):
-            try:
-                (symbols[i],) = asked_symbols(scene, [head])
-            except CallError as error:
-                problems += [Problem(f"{name}, column {head}", p.found, p.wanted) for p in error.problems]
+        text, unit = head_of(head)
+        if not _QUANTITY.match(text):
+            continue
+        try:
+            (symbol,) = asked_symbols(scene, [text])
+        except CallError as error:
+            problems += [Problem(f"{name}, column {head}", p.found, p.wanted) for p in error.problems]
+            continue
+        wanted = unit_of(symbol, scene.units.length)
+        if unit and unit != wanted:
+            problems.append(Problem(f"{name}, column {head}", f"is in {unit}", f"give it in {wanted}"))
+        if symbol in symbols.values():
+            problems.append(Problem(f"{name}, column {head}", "stands twice", "keep one of them"))
+        symbols[i] = symbol
     if not symbols and not problems:
         known = "write symbols as heads, for example v_D or omega_3"
         problems.append(Problem(name, f"no column is a quantity: {', '.join(sheet.heads)[:200]}", known))
@@ -112,27 +137,26 @@ def _answers(scene: Scene, sheet: Rows, name: str) -> tuple[Answers, ...]:
         values = []
         for i, symbol in symbols.items():
             text = cells[i] if i < len(cells) else ""
-            if text:
+            if not is_blank(text):
                 try:
-                    values.append(stated(symbol, _components(symbol, text), scene.units.metres))
+                    numbers = numbers_in(text, unit_of(symbol, scene.units.length), sheet.sign)
+                    if len(numbers) > (2 if symbol.is_vector else 1):
+                        raise ValueError(f'"{text[:40]}" is more than one number')
+                    values.append(stated(symbol, numbers, scene.units.metres))
                 except ValueError as error:
                     problems.append(Problem(f"{name}, line {line}, {symbol}", str(error), "write a number alone"))
         at = None
         if where is not None and where < len(cells) and cells[where]:
             try:
-                at = float(cells[where])
+                at = float(numbers_in(cells[where], "", sheet.sign)[0])
             except ValueError:
                 problems.append(Problem(f"{name}, line {line}, at", f'"{cells[where][:40]}" is no driver value'))
         person = cells[who] if who is not None and who < len(cells) else ""
         found.append(Answers(person or ("" if at is not None else f"line {line}"), at, tuple(values)))
     if problems:
         raise CallError(*problems[:50])
-    return tuple(found)
-
-
-def _components(symbol: Symbol, text: str) -> Sequence[str]:
-    parts = re.split(r"[;,\s]+", text.strip("[]() "))
-    return parts if symbol.is_vector and len(parts) == 2 else [text]
+    unused = tuple(h for i, h in enumerate(sheet.heads) if h and i not in symbols and i != who and h != PLACE)
+    return tuple(found), unused
 
 
 def _text(value: object) -> str:

@@ -35,11 +35,15 @@ POSITIONS = 72
 
 @dataclass(frozen=True, repr=False)
 class Audited:
-    """The values of each person with their verdicts; of a scene's ``[printed]`` values the person is ""."""
+    """The values of each person with their verdicts; of a scene's ``[printed]`` values the person is "".
+
+    ``unused`` are heads of the table of answers that are no quantities.
+    """
 
     scene: Scene
     people: tuple[tuple[Answers, tuple[Judged, ...]], ...]
     language: str = "en"
+    unused: tuple[str, ...] = ()
 
     @property
     def ok(self) -> bool:
@@ -50,7 +54,7 @@ class Audited:
     def data(self) -> dict[str, Any]:
         """The object that ``graphkin audit --json`` prints; values in scene units."""
         values = [_value(self.scene, who, j, "en") for who, judged in self.people for j in judged]
-        return {"ok": self.ok, "values": values}
+        return {"ok": self.ok, "values": values, **({"unused": list(self.unused)} if self.unused else {})}
 
     @property
     def heads(self) -> list[str]:
@@ -69,7 +73,7 @@ class Audited:
         for who, judged in self.people:
             for j in judged:
                 row = _value(self.scene, who, j, self.language)
-                off = "" if row["deviation_pct"] is None else f"{row['deviation_pct']:+.2f} %"
+                off = "" if row["deviation_pct"] is None else f"{round(row['deviation_pct'], 2) + 0.0:+.2f} %"
                 rows.append(
                     [
                         *([who.person] if named else []),
@@ -114,7 +118,9 @@ def _value(scene: Scene, who: Answers, judged: Judged, language: str) -> dict[st
 
     def unit(value: complex | float) -> float | list[float]:
         if isinstance(value, complex):
-            return [_plain(in_scene_units(scene, symbol, v)) for v in (value.real, value.imag)]
+            # what is left of a component that cancels is no value
+            parts = (v if abs(v) > 1e-12 * abs(value) else 0.0 for v in (value.real, value.imag))
+            return [_plain(in_scene_units(scene, symbol, v)) for v in parts]
         return _plain(in_scene_units(scene, symbol, value))
 
     row: dict[str, Any] = {"symbol": str(symbol), "printed": unit(judged.printed.value), "exact": unit(judged.exact)}
@@ -139,9 +145,7 @@ def _shown(value: float | list[float]) -> str:
     return ", ".join(f"{v:.6g}" for v in (value if isinstance(value, list) else [value]))
 
 
-def audit(
-    scene: SceneLike, answers: AnswersLike | None = None, at: At = None, language: str | None = None
-) -> Audited:
+def audit(scene: SceneLike, answers: AnswersLike | None = None, at: At = None, language: str | None = None) -> Audited:
     """Judge the scene's ``[printed]`` values, or the answers of several people.
 
     Parameters
@@ -172,7 +176,9 @@ def audit(
         raise CallError(
             Problem("printed", "the scene has no printed values", "write them in [printed], or give answers as CSV")
         )
-    people = (Answers("", None, printed_values(given)),) if answers is None else as_answers(given, answers)
+    people, unused = (
+        ((Answers("", None, printed_values(given)),), ()) if answers is None else as_answers(given, answers)
+    )
     asked = list(dict.fromkeys(p.symbol for who in people for p in who.values))
 
     @cache
@@ -180,7 +186,7 @@ def audit(
         return _case(given, asked, at if place is None else place)
 
     judged = tuple((who, judge(case(who.at), who.values)) for who in people)
-    return Audited(given, judged, language or given.sheet.language)
+    return Audited(given, judged, language or given.sheet.language, unused)
 
 
 def _case(scene: Scene, asked: Sequence[Symbol], at: At) -> Case:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from graphkin.api.answers import table_of
+from graphkin.api.answers import table_of, with_points
 from graphkin.api.called import SceneLike, as_scene, asked_symbols
 from graphkin.api.files import half_written, write_files
 from graphkin.errors import CallError, GraphkinError, Problem
@@ -180,7 +180,7 @@ def _jobs(
         if not varied_keys(source):
             raise CallError(Problem("variants", "nothing in the scene can vary", "give lengths and a driver"))
         return list(jobs_of_seed(source, variants or 0, seed, spread)), ()
-    table = table_of(rows)
+    table = with_points(table_of(rows))
     columns = columns_of(source, table.heads)
     if not columns.data:
         raise CallError(

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from graphkin.cli.options import AtOption, JsonOption, LangOption, QuietOption, SceneArgument, driver_values
-from graphkin.cli.output import print_json, print_paths, print_table
+from graphkin.cli.output import print_json, print_paths, print_table, tell_unused
 
 __all__ = ["audit"]
 
@@ -39,5 +39,6 @@ def audit(
         print_table(audited.heads, audited.rows, right=(first + 1, first + 2, first + 3))
         if paths:
             print_paths(paths)
+    tell_unused(audited.unused)
     if not audited.ok:
         raise typer.Exit(1)

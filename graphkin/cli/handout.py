@@ -20,7 +20,7 @@ from graphkin.cli.options import (
     listed,
     processes,
 )
-from graphkin.cli.output import print_json, print_paths, progress_bar, short_bar
+from graphkin.cli.output import print_json, print_paths, progress_bar, short_bar, tell_unused
 from graphkin.errors import CallError, Problem
 
 __all__ = ["handout"]
@@ -107,6 +107,7 @@ def _problem_set(
         print_json(made.data)
     elif not quiet:
         typer.echo(f"{len(made.made.names)} problems in {target}, all answers in {target / 'answers.csv'}")
+    tell_unused(made.unused)
     for failure in made.made.failures:
         typer.echo(f"graphkin: {failure.name}: {failure.why}", err=True)
     if not made.ok:

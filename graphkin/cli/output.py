@@ -13,7 +13,7 @@ import typer
 
 from graphkin.errors import Unsolvable
 
-__all__ = ["print_json", "print_paths", "print_table", "progress_bar", "short_bar", "unsolvable_as_json"]
+__all__ = ["print_json", "print_paths", "print_table", "progress_bar", "short_bar", "tell_unused", "unsolvable_as_json"]
 
 
 def print_json(data: object) -> None:
@@ -54,6 +54,12 @@ def unsolvable_as_json(wanted: bool, answer: Callable[[Unsolvable], object]) -> 
         if wanted:
             print_json(answer(error))
         raise
+
+
+def tell_unused(heads: Sequence[str]) -> None:
+    """Say which columns of a table were not used."""
+    if heads:
+        typer.echo(f"graphkin: columns left alone: {', '.join(heads)[:300]}", err=True)
 
 
 @contextmanager

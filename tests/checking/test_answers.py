@@ -1,0 +1,48 @@
+"""Tables of answers as people write them: encodings, separators, decimal commas, units, Greek letters."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+import graphkin
+from graphkin.errors import CallError
+
+SIXBAR = "sixbar-guide-40deg"
+MESSY = "姓名;v_D (mm/s);a_D [mm/s²];ω3;备注\n张三;482,7;554,7 mm/s²;-2,82;好\n李四;(-482,7 0);-;2,82;\n"
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "gb18030"])
+def test_a_table_is_read_as_people_write_it(tmp_path, encoding):
+    (tmp_path / "a.csv").write_bytes(MESSY.replace("²", "2" if encoding == "gb18030" else "²").encode(encoding))
+    audited = graphkin.audit(SIXBAR, tmp_path / "a.csv")
+    found = [(v["person"], v["symbol"], v["verdict"]) for v in audited.data["values"]]
+    expected = [("张三", s, "right") for s in ("v_D", "a_D", "omega_3")]
+    assert [*expected, ("李四", "v_D", "right"), ("李四", "omega_3", "wrong")] == found
+    assert ("备注",) == audited.unused
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ('name,a_D\nx,"1,126"\n', "may be 1126 or 1.126"),
+        ("name,v_D (m/s)\nx,0.48\n", "give it in mm/s"),
+        ("name,v_D,v_D\nx,480,481\n", "stands twice"),
+        ("name,omega_3\nx,1 2\n", "more than one number"),
+    ],
+)
+def test_what_may_be_meant_in_two_ways_is_refused(tmp_path, text, said):
+    (tmp_path / "a.csv").write_text(text)
+    with pytest.raises(CallError, match=re.escape(said)):
+        graphkin.audit(SIXBAR, tmp_path / "a.csv")
+
+
+def test_a_comma_between_digits_of_a_list_is_a_decimal_comma_where_it_can_be_nothing_else(tmp_path):
+    (tmp_path / "a.csv").write_text('name,v_D\nx,"482,7"\n')
+    assert graphkin.audit(SIXBAR, tmp_path / "a.csv").ok
+
+
+def test_a_component_that_cancels_is_zero():
+    (value,) = graphkin.audit("slotter-75-150").data["values"]
+    assert 0 == value["exact"][1]
