@@ -48,6 +48,8 @@ __all__ = ["diagrams"]
 Array = NDArray[np.float64]
 
 TOP, GAP = 40.0, 10.0
+BESIDE = 1e-3
+"""Of the course: so far beside a place that may be a dead point."""
 
 
 def diagrams(turn: Turn, language: str = "en", positions: int = 12) -> dict[str, Drawing]:
@@ -138,10 +140,18 @@ def _shown(course: Course, quantity: Quantity, offset: Array, values: Array) -> 
     scene = course.scene
     values = np.asarray(values, dtype=float)
     if quantity.kind == "theta" and course.full:
-        low, high, left = quantity.values(course, course.motion(np.array([*course.ends, first_offset(course)])))
-        values = np.where(offset < first_offset(course) - 1e-12, values + (high - low), values)
+        start = first_offset(course)
+        values = np.where(offset < start - 1e-12, values + _gain(course, quantity), values)
+        left = quantity.values(course, course.motion(np.array([start + BESIDE * course.ends[1]])))[0]
         values = values - 2 * np.pi * np.rint(left / (2 * np.pi))
     return np.array([quantity.in_units(scene, v, degrees=True) for v in values])
+
+
+def _gain(course: Course, quantity: Quantity) -> float:
+    """How far an angle gets over the whole course, in whole turns: beside the ends, which may be dead points."""
+    high = course.ends[1]
+    first, last = quantity.values(course, course.motion(np.array([BESIDE * high, high - BESIDE * high])))
+    return float(2 * np.pi * np.rint((last - first) / (2 * np.pi)))
 
 
 def _panel(
@@ -160,9 +170,8 @@ def _panel(
     if course.full:
         # the axis ends where it begins, a turn later
         x[0], x[-1] = x_axis.low, x_axis.high
-        ends = _shown(course, quantity, np.array([1.0, 1.0]) * course.ends[1],
-                      quantity.values(course, course.motion(np.array(course.ends))))
-        values[-1] = values[0] + (ends[1] - ends[0])
+        gain = _gain(course, quantity) if quantity.kind == "theta" else 0.0
+        values[-1] = values[0] + quantity.in_units(scene, gain, degrees=True)
     low, high = _span(course, values)
     letter, name = quantity.kind, quantity.of.split("/")[0]
     greek = {"theta": "θ", "omega": "ω", "alpha": "α"}.get(letter, letter)
@@ -178,7 +187,9 @@ def _panel(
             # an angle measured on paper tells no whole turns
             near = quantity.values(course, course.motion(at))
             read = read + 2 * np.pi * np.rint((near - read) / (2 * np.pi))
-        marks.append(Marks(list(_x(course, at)), list(_shown(course, quantity, at, read)), "circle"))
+        shown = _shown(course, quantity, at, read)
+        known = np.isfinite(shown)
+        marks.append(Marks(list(_x(course, at[known])), list(shown[known]), "circle"))
     for kind, shape in (("max", "up"), ("min", "down")):
         found = [e for e in (traced.extremes if traced else ()) if e.kind == kind]
         if found:

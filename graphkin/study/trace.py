@@ -266,11 +266,19 @@ def _least(way: _Way, pieces: Pieces, k: int, dyad: Dyad) -> Least:
         return Least(dyad, float(angle(np.zeros(1))[0]), None)
     low, high = way.range
     inner = way.inside(np.append(pieces.extremes(k), np.linspace(low, high, 33)))
-    places = list(zip(way.offset(inner).tolist(), angle(way.offset(inner)).tolist(), strict=True))
+    offsets = way.offset(inner)
+    angles = angle(offsets)
+    # where the group stands in line, at a change point or at an end of the motion, the solver refuses
+    refused = ~np.isfinite(angles)
+    angles[refused] = [_from_cosine(pieces.at(at, k)) for at in inner[refused]]
+    places = list(zip(offsets.tolist(), angles.tolist(), strict=True))
     if not course.full:
-        # at an end of the motion the group may stand in line, where the solver refuses
-        lack = [max(0.0, 1.0 - abs(pieces.at(end, k))) for end in way.range]
-        places += [(at, 2 * float(np.arcsin(np.sqrt(x / 2))) if x > 1e-12 else 0.0)
-                   for at, x in zip(course.ends, lack, strict=True)]
+        places += [(at, _from_cosine(pieces.at(end, k))) for at, end in zip(course.ends, way.range, strict=True)]
     offset, best = min((p for p in places if p[1] == p[1]), key=lambda p: p[1])
     return Least(dyad, best, driver_value(course, offset))
+
+
+def _from_cosine(cosine: float) -> float:
+    """An angle of 90 degrees or less by its cosine as the curve gives it; 0 where rounding tells no more."""
+    lack = max(0.0, 1.0 - abs(cosine))
+    return 2 * float(np.arcsin(np.sqrt(lack / 2))) if lack > 1e-12 else 0.0

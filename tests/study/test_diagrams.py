@@ -10,11 +10,12 @@ import pytest
 from graphkin.drawing import Box, Circle, Drawing, Group, Line, Polyline, Text
 from graphkin.drawing.metrics import text_box
 from graphkin.drawing.primitives import walk
-from graphkin.scene import read
+from graphkin.scene import read, read_text
 from graphkin.study import course_of, diagrams, study_turn
 from graphkin.study.coupler import coupler_points
 from graphkin.study.measured import measured
 from graphkin.study.quantities import link_quantities, slide_quantities
+from tests import scenes
 
 
 def pages(name: str, language: str = "en", positions: int = 12) -> dict[str, Drawing]:
@@ -74,6 +75,14 @@ def test_the_coupler_curve_is_drawn_in_its_scale() -> None:
     drawn = Box.around(next(t for t in curve.children if isinstance(t, Polyline)).points)
     assert np.ptp(path.real) * 1e3 / scale == pytest.approx(drawn.width, abs=1e-6)
     assert np.ptp(path.imag) * 1e3 / scale == pytest.approx(drawn.height, abs=1e-6)
+
+
+@pytest.mark.parametrize("angle", ["33", "0"])
+def test_a_change_point_at_the_end_of_the_axis_is_a_gap_in_the_curve_only(angle: str) -> None:
+    scene = read_text(scenes.PARALLELOGRAM.replace("angle = 60", f"angle = {angle}"), "p")
+    page = diagrams(study_turn(course_of(scene)), positions=12)["motion-link-3"]
+    dots = [c for group in page.children for c in walk((group,)) if isinstance(c, Circle)]
+    assert all(np.isfinite(c.centre) for c in dots)
 
 
 def test_the_same_scene_gives_the_same_pages() -> None:

@@ -11,8 +11,9 @@ import numpy as np
 import pytest
 
 from graphkin.errors import Unsolvable
-from graphkin.scene import library, read
+from graphkin.scene import library, read, read_text
 from graphkin.study import Output, Turn, course_of, study_turn, to_json
+from tests import scenes
 
 TRUTH = json.loads((Path(__file__).parents[1] / "validation" / "limits.json").read_text())
 LIMITS = {
@@ -73,6 +74,10 @@ def test_least_transmission_angle_of_the_four_bar() -> None:
     assert TRUTH["fourbar_150_500_300_400"]["min_transmission_deg"] == pytest.approx(
         math.degrees(least.angle), rel=1e-10
     )
+
+
+def test_in_a_change_point_the_transmission_angle_is_zero() -> None:
+    assert study_turn(course_of(read_text(scenes.PARALLELOGRAM, "p"))).transmission[0].angle == 0.0
 
 
 def test_least_transmission_angle_of_the_slider_crank() -> None:
