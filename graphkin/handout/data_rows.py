@@ -22,6 +22,7 @@ Source = Mapping[str, Any]
 Setting = tuple[str, float]
 
 _UNIT = re.compile(r"[（(\[].*?[）)\]]|/\s*(?:mm|m|cm|rpm|r/min|deg|rad/s|°)\s*$")
+_WORDS = re.compile("[\u3000-\u9fff\uff00-\uffef]+")
 _SPEED = re.compile(r"n_?\{?(\w*?)\}?")
 _RATE = re.compile(r"(?:omega|ω|w)_?\{?(\w*?)\}?")
 _ANGLE = re.compile(r"(?:phi|theta|φ|θ|ϕ)_?\{?(\w*?)\}?")
@@ -69,8 +70,13 @@ def replaced(source: Source, columns: Columns, cells: Sequence[str]) -> list[Set
 
 
 def _short(head: str) -> str:
-    """A head without unit, blanks and braces."""
-    return _UNIT.sub("", head).replace(" ", "").replace("{", "").replace("}", "")
+    """A head without unit, blanks and braces, and without the words that say what its symbol means.
+
+    >>> _short("曲柄转速 n2 (r/min)"), _short("l_{O2A}/mm")
+    ('n2', 'l_O2A')
+    """
+    bare = _UNIT.sub("", head).replace(" ", "").replace("{", "").replace("}", "")
+    return _WORDS.sub("", bare) or bare
 
 
 def _values(texts: Mapping[str, str]) -> dict[str, float]:

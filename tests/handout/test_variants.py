@@ -192,6 +192,8 @@ def test_a_row_hard_to_draw_is_made_with_a_remark(tmp_path):
         ("O2O4", "frame.points.O2.y"),
         ("O4S4", "links.4.at.S4.x"),
         ("φ", "driver.angle"),
+        ("位置 φ", "driver.angle"),
+        ("曲柄转速 n2（r/min）", "driver.rpm"),
         ("driver.alpha", "driver.alpha"),
     ],
 )
