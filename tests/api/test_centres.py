@@ -4,19 +4,16 @@ from __future__ import annotations
 
 import json
 import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
 import graphkin
+from tests import command
 
 
 def run(*args: str, cwd: Path) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, "-c", "from graphkin.cli import main; main()", "centres", *args],
-        capture_output=True, text=True, encoding="utf-8", cwd=cwd, timeout=120, check=False,
-    )  # fmt: skip
+    return command.run("centres", *args, cwd=cwd)
 
 
 def test_the_json_has_the_frame_first_among_the_links(tmp_path: Path) -> None:

@@ -10,18 +10,9 @@ import xml.etree.ElementTree as ET
 
 import pytest
 
+from tests.command import run
+
 SIXBAR = "sixbar-guide-40deg"
-
-
-def run(*args, cwd=None):
-    return subprocess.run(
-        [sys.executable, "-c", "from graphkin.cli import main; main()", *args],
-        capture_output=True,
-        text=True,
-        encoding="utf-8",
-        cwd=cwd,
-        timeout=120,
-    )
 
 
 HELP_ONLY = """

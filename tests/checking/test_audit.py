@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
 
 import pytest
 
@@ -16,6 +14,7 @@ from graphkin.errors import CallError
 from graphkin.scene import read
 from graphkin.scene.symbol import Symbol
 from graphkin.words import say
+from tests.command import run
 
 SIXBAR = "sixbar-guide-40deg"
 TABLE = "sixbar-rotating-guide-35rpm"
@@ -160,9 +159,7 @@ def test_a_name_cannot_write_into_the_page():
 
 
 def test_the_command_prints_the_json_of_the_contract_and_exits_1(tmp_path):
-    main = [sys.executable, "-c", "from graphkin.cli import main; main()"]
-    call = [*main, "audit", "shaper-scheme-2", "--json", "-o", "o"]
-    done = subprocess.run(call, capture_output=True, text=True, cwd=tmp_path)
+    done = run("audit", "shaper-scheme-2", "--json", "-o", "o", cwd=tmp_path)
     rows = {v["symbol"]: v for v in json.loads(done.stdout)["values"]}
     assert (1, -13.47) == (done.returncode, pytest.approx(rows["a_C"]["deviation_pct"], abs=0.01))
     assert (tmp_path / "o" / "audit.csv").exists()

@@ -1,23 +1,15 @@
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
 
 import pytest
 
 import graphkin
+from tests import command
 
 
 def run(*args, cwd):
-    return subprocess.run(
-        [sys.executable, "-c", "from graphkin.cli import main; main()", "handout", *args],
-        capture_output=True,
-        text=True,
-        encoding="utf-8",
-        cwd=cwd,
-        timeout=120,
-    )
+    return command.run("handout", *args, cwd=cwd)
 
 
 def test_the_command_writes_seven_files_and_nothing_else(tmp_path):

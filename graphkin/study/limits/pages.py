@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import replace
 
 from graphkin.drawing import Box, Drawing, Group, Primitive, Stroke, Text
 from graphkin.drawing.chart import SOLID_AND_DASHED, Chart, Curve, Marks, Shape, chart_group, legend, log_axis
 from graphkin.drawing.layout import wrapped
-from graphkin.drawing.obstacles import Obstacles, obstacles_of
-from graphkin.drawing.placing import Label, place
+from graphkin.drawing.placing import Label
 from graphkin.drawing.typeset import rich
+from graphkin.study.beside import placed_beside
 from graphkin.study.limits.law import Law, Trial
 from graphkin.words import say, word
 
@@ -143,17 +142,7 @@ def _labels(
         near = inside[max(k - 1, 0) : k + 2]
         ends = chart.at(*near[0]), chart.at(*near[-1])
         asked.append(Label(Text(0j, rich(_words(law, language), LETTERS)), ends))
-    edges = chart.panel.corners
-    frame = Obstacles(solid=tuple(zip(edges, (*edges[1:], edges[0]), strict=True)))
-    curves = next(c for c in drawn.children if isinstance(c, Group) and "curves" in c.classes)
-    there = obstacles_of((curves,)) + frame
-    placed = place(asked, chart.panel, Obstacles(there.solid + there.dashed, areas=there.areas))
-    found: list[Primitive] = []
-    for label in placed:
-        found.append(replace(label.text, classes=("label",)))
-        if label.leader is not None:
-            found.append(label.leader)
-    return found
+    return placed_beside(chart, drawn, asked)
 
 
 def _words(law: Law, language: str) -> str:

@@ -9,10 +9,10 @@ from dataclasses import replace
 from graphkin.drawing import Box, Drawing, Group, Line, Primitive, Stroke, Text
 from graphkin.drawing.chart import Chart, Curve, Marks, Shape, chart_group, log_axis
 from graphkin.drawing.layout import wrapped
-from graphkin.drawing.obstacles import Obstacles, obstacles_of
-from graphkin.drawing.placing import Label, place
+from graphkin.drawing.placing import Label
 from graphkin.drawing.typeset import rich
 from graphkin.scene.symbol import Symbol
+from graphkin.study.beside import placed_beside
 from graphkin.study.speed.entry import Entry
 from graphkin.study.speed.run import Race
 from graphkin.words import Phrase, say, word
@@ -149,17 +149,7 @@ def _labels(
     x = chart.at(floor, HIGHEST).real
     stretch = complex(x, chart.panel.top + 6.0), complex(x, chart.panel.top + 24.0)
     asked.append(Label(Text(0j, rich(word("copying", language), LETTERS)), stretch))
-    corners = chart.panel.corners
-    frame = Obstacles(solid=tuple(zip(corners, (*corners[1:], corners[0]), strict=True)))
-    curves = next(c for c in drawn.children if isinstance(c, Group) and "curves" in c.classes)
-    there = obstacles_of((curves,)) + frame
-    placed = place(asked, chart.panel, Obstacles(there.solid + there.dashed, areas=there.areas))
-    found: list[Primitive] = []
-    for label in placed:
-        found.append(replace(label.text, classes=("label",)))
-        if label.leader is not None:
-            found.append(label.leader)
-    return found
+    return placed_beside(chart, drawn, asked)
 
 
 def _words(race: Race, entry: Entry, points: Sequence[tuple[Entry, float, float]], language: str) -> str:
