@@ -9,10 +9,10 @@ from dataclasses import dataclass
 
 from graphkin.checking import COVERAGE, Compared
 from graphkin.drawing.headings import number
-from graphkin.handout.blocks import Document, Heading, Paragraph, Table, said, sentences
+from graphkin.handout.blocks import Block, Document, Heading, Paragraph, Table, said, sentences
 from graphkin.handout.lesson import Lesson
 from graphkin.handout.paper import paper_of
-from graphkin.handout.problem import paper_title, scene_title
+from graphkin.handout.problem import paper_title, reach, scene_title
 from graphkin.handout.solution import way
 from graphkin.words import languages
 
@@ -82,9 +82,10 @@ def answer_key(lesson: Lesson) -> Document:
     words = said(
         "key words", language, *(f"{x:g}" for x in (tools.line_width / 2, tools.ruler, tools.compass, tools.set_square))
     )
-    blocks = (
+    blocks: tuple[Block, ...] = (
         Heading(scene_title(lesson), 1),
         Heading(said("answer key", language)),
+        *reach(lesson),
         Table(heads, tuple(rows), "lrrrrll", frozenset(bold)),
         Paragraph(sentences(words, said("sense words", language)), small=True),
     )

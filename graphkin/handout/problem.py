@@ -30,7 +30,7 @@ from graphkin.handout.sentences import plain_words
 from graphkin.scene.model import AngleDriver, Guide, Scene
 from graphkin.words import Phrase, languages, say, word
 
-__all__ = ["given", "paper_title", "problem", "scene_title"]
+__all__ = ["given", "paper_title", "problem", "reach", "scene_title"]
 
 BOUND = "\u00a0"  # between a number and its unit no line ends
 RPM = 30.0 / math.pi
@@ -101,6 +101,7 @@ def given(lesson: Lesson) -> Iterator[Paragraph]:
     asked = ", ".join(f"${letters.vector(s)}$" for s in lesson.questions)
     if asked:
         yield Paragraph(_labelled(lesson, "find", asked))
+    yield from reach(lesson)
     if scene.source:
         names = languages(lesson.language)
         label = " ".join(word("source", each) for each in names) + word("colon", names[-1])
@@ -113,6 +114,16 @@ def _guide(lesson: Lesson, guide: Guide, language: str) -> str:
     x, y = (number(part / scene.units.metres) for part in (guide.through.real, guide.through.imag))
     angle = number(math.degrees(math.atan2(guide.direction.imag, guide.direction.real)))
     return say(Phrase("guide at", (name, x, y, scene.units.length, angle)), language)
+
+
+def reach(lesson: Lesson) -> Iterator[Paragraph]:
+    """That only a part of the mechanism is on the paper, where compass and ruler do not reach the rest, or nothing
+    asked for needs it."""
+    sheet = lesson.sheet
+    missing = ", ".join(link.name for link in sheet.scene.links if link.name not in sheet.poses)
+    phrases = (*((Phrase("part only", (missing,)),) if sheet.stopped and missing else ()), *sheet.left_out)
+    for phrase in phrases:
+        yield Paragraph(tuple((each, lesson.speaker.sentence(phrase, each)) for each in languages(lesson.language)))
 
 
 def _speeds(scene: Scene) -> Iterator[str]:

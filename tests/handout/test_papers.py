@@ -12,7 +12,7 @@ from graphkin.api import check, handout
 from graphkin.drawing.primitives import Line, Text, walk
 from graphkin.handout import papers
 from graphkin.handout.blocks import Picture, Steps, Table, laid_out
-from graphkin.handout.key import key_rows
+from graphkin.handout.key import answer_key, key_rows
 from graphkin.handout.page import document_page
 from graphkin.handout.paper import paper_of
 from graphkin.handout.problem import problem
@@ -188,3 +188,9 @@ def test_without_the_extra_the_figure_sheets_are_written_and_it_is_said(monkeypa
     made = handout("slotter-75-150", formats=("pdf",))
     assert {"mechanism.pdf", "velocity.pdf", "acceleration.pdf", "key.csv"} == set(made.files)
     assert ["no pdf extra"] == [note.key for note in made.notes]
+
+
+def test_where_the_drawing_stops_every_paper_says_what_is_not_on_it():
+    lesson = handout("single-flier", formats=("pdf",)).lesson
+    for paper in (problem, solution, answer_key):
+        assert "links 5, 6, 7, 8 are neither drawn nor asked for" in _words(paper(lesson))
