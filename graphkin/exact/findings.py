@@ -15,7 +15,7 @@ from graphkin.exact.joints import Drive, driver_text
 from graphkin.exact.path import Path, follow_path
 from graphkin.exact.pose import Array
 from graphkin.scene.model import AngleDriver
-from graphkin.structure import Cluster, Dyad, Pair, Slide, Structure
+from graphkin.structure import Cluster, Dyad, Pair, Slide, Structure, Turn
 
 __all__ = ["assembly_words", "dead_why", "limit_why", "singular"]
 
@@ -144,8 +144,44 @@ def assembly_words(structure: Structure, forms: Mapping[int, Array]) -> tuple[st
         if isinstance(element, Dyad):
             words.append(_dyad_words(structure, element, float(forms[i]) > 0))
         elif isinstance(element, Cluster):
-            words.append("as in the scene's own position")
+            words.append(_cluster_words(structure, element, np.asarray(forms[i])))
     return tuple(words)
+
+
+def _cluster_words(structure: Structure, group: Cluster, place: Array) -> str:
+    """Sides of the inner joints of a larger group, each seen from the next joint on its one link to that on the other,
+    and where the first of them lies: two assemblies may have all sides in common."""
+    row = place if place.ndim == 2 else place[0]
+    at = {name: (complex(x, y), np.exp(1j * angle)) for name, (x, y, angle) in zip(group.members, row, strict=True)}
+
+    def world(link: str, point: str) -> complex:
+        origin, turned = at[link]
+        return complex(origin + turned * structure.links[link].points[point])
+
+    def other(link: str, point: str) -> str | None:
+        turns = (p.point for p in group.pairs if isinstance(p, Turn) and link in (p.a, p.b))
+        return next((p for p in turns if p != point), None)
+
+    said: list[str] = []
+    where = ""
+    for pair in group.pairs:
+        if not {pair.a, pair.b} <= set(group.members):
+            continue
+        if isinstance(pair, Slide):
+            origin, turned = at[pair.b]
+            along = (at[pair.a][0] - origin) / turned - pair.guide.through
+            positive = (along / pair.guide.direction).real > 0
+            said.append(f"{pair.a} on the {'positive' if positive else 'negative'} side of {_guide(pair)}")
+            continue
+        first, second = other(pair.a, pair.point), other(pair.b, pair.point)
+        if first is None or second is None:
+            continue
+        inner, one, two = world(pair.a, pair.point), world(pair.a, first), world(pair.b, second)
+        z = inner / structure.scene.units.metres
+        where = where or f"{pair.point} at [{z.real:.5g}, {z.imag:.5g}]"
+        side = ((two - one).conjugate() * (inner - one)).imag
+        said.append(f"{pair.point} {'left' if side > 0 else 'right'} of {first} to {second}")
+    return ", ".join([*said, where] if where else said) or "as in the scene's own position"
 
 
 def _dyad_words(structure: Structure, dyad: Dyad, positive: bool) -> str:

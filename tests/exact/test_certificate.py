@@ -37,3 +37,10 @@ def test_a_larger_group_stays_within_its_bound() -> None:
     ratio = crank.omega("3")[0] / crank.omega("2")[0]
     bound = floating.turning_bound[1][0] / abs(floating.omega("2")[0])
     assert abs(floating.omega("3")[0] / floating.omega("2")[0] - ratio) < 4 * bound
+
+
+def test_the_assemblies_of_a_larger_group_have_different_words() -> None:
+    own = "C = [110, 90]\nD = [200, 100]\nE = [130, 170]"
+    other = "C = [95.28, 102.51]\nD = [184.18, 88.49]\nE = [135.81, 166.98]"
+    words = {solve(read_text(scenes.TRIAD.replace(own, s), "scene")).assembly[0] for s in (own, other)}
+    assert len(words) == 2
