@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections import Counter, deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor, Future
@@ -22,6 +23,11 @@ __all__ = ["Failure", "MadeSet", "distinct", "make"]
 
 ATTEMPTS = 60  # tries at one variant before it is given up
 AHEAD = 4  # variants handed out for each worker, so that memory stays bounded and none waits
+
+# of a title: the data that it names ("…, scheme 2, position 7", "… 150, 500, 300")
+_DATA = re.compile(r"(?:\s+[\d.]+(?=[,、]\s*\d))?\s*[,:，：;；(（、][^,:，：;；(（、]*\d.*$")
+    r"\s*[,，;；(（][^,，;；(（]*\d.*$"
+)  # of a title: which scheme and position, "…, scheme 2, position 7"
 
 Source = Mapping[str, Any]
 Render = Callable[[Variant], Mapping[str, bytes]]
@@ -84,7 +90,7 @@ def _row(job: Job) -> Made:
 
 
 def _named(source: Source, name: str) -> dict[str, Any]:
-    title, zh = source.get("title", ""), source.get("title_zh", "")
+    title, zh = (_DATA.sub("", str(source.get(key, ""))) for key in ("title", "title_zh"))
     named = {"title": f"{title} (no. {name})"[:300], **({"title_zh": f"{zh}（第 {name} 题）"[:300]} if zh else {})}
     # where it comes from, published values and scales belong to the problem as it was
     kept = {k: v for k, v in source.items() if k not in ("printed", "source", "title", "title_zh", "sheet")}

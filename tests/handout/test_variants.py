@@ -320,3 +320,7 @@ def test_an_answer_that_a_pencil_cannot_give_within_15_percent_is_not_asked_for(
 
 def test_where_a_variant_comes_from_is_not_said_of_other_numbers(made):
     assert not any(scene.source for scene in scenes(made))
+
+
+def test_the_title_of_a_variant_names_no_scheme_and_position_of_other_numbers(made):
+    assert "Shaper with a swinging guide bar (no. 01)" == scenes(made)[0].title
