@@ -26,8 +26,6 @@ AHEAD = 4  # variants handed out for each worker, so that memory stays bounded a
 
 # of a title: the data that it names ("…, scheme 2, position 7", "… 150, 500, 300")
 _DATA = re.compile(r"(?:\s+[\d.]+(?=[,、]\s*\d))?\s*[,:，：;；(（、][^,:，：;；(（、]*\d.*$")
-    r"\s*[,，;；(（][^,，;；(（]*\d.*$"
-)  # of a title: which scheme and position, "…, scheme 2, position 7"
 
 Source = Mapping[str, Any]
 Render = Callable[[Variant], Mapping[str, bytes]]
