@@ -10,7 +10,6 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
-from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -22,124 +21,16 @@ from graphkin.errors import Unsolvable
 from graphkin.exact import Motion
 from graphkin.exact.dead_points import dead_points
 from graphkin.exact.decimals import working
-from graphkin.scene import read_text
-from graphkin.scene.model import AngleDriver, FromDeadPoint, Scene
+from graphkin.scene.model import AngleDriver, FromDeadPoint
 from graphkin.scene.symbol import Symbol
 from graphkin.study.equations import Equations, Solution
+from graphkin.study.limits.dead_cases import CASES, Case
 from graphkin.study.limits.law import Law, Trial, binned, grid
 from graphkin.study.reference import reference, refined
 from graphkin.words import Phrase
 
 __all__ = ["dead_point"]
 
-_RRR = """
-[frame]
-points = { A = [0, 0], D = [400, 0] }
-[links.1]
-points = ["A", "B"]
-length = 310
-[links.2]
-points = ["B", "C"]
-length = 210
-[links.3]
-points = ["D", "C"]
-length = 290
-[driver]
-link = "1"
-angle = 60
-omega = 10
-[sketch]
-C = [300, 280]
-"""
-_RRP = """
-[frame]
-points = { A = [0, 0] }
-guides = { h = { through = [0, 0], angle = 0 } }
-[links.1]
-points = ["A", "B"]
-length = 310
-[links.2]
-points = ["B", "C"]
-length = 210
-[links.3]
-points = ["C"]
-on = "0.h"
-[driver]
-link = "1"
-angle = 30
-omega = 10
-"""
-_RPR = """
-[frame]
-points = { A = [0, 0], C = [310, 0] }
-[links.1]
-points = ["A", "B"]
-length = 110
-[links.2]
-points = ["B"]
-on = "3.s"
-[links.3]
-points = ["C"]
-at = { E = [0, 250] }
-guides = { s = { through = "E", angle = 0 } }
-[driver]
-link = "1"
-angle = 120
-omega = 10
-"""
-
-
-@dataclass(frozen=True)
-class _Case:
-    """A mechanism with its dead point.
-
-    ``follower`` is the link whose motion is looked at; ``side`` is +1 where the crank comes to the dead point from
-    greater angles.
-    """
-
-    kind: str
-    text: str
-    follower: str
-    side: int
-
-    @cached_property
-    def scene(self) -> Scene:
-        return read_text(self.text, self.kind)
-
-    def at(self, angle: float) -> Scene:
-        """The scene with its crank at another angle."""
-        driver = self.scene.drivers[0]
-        assert isinstance(driver, AngleDriver)
-        return replace(self.scene, drivers=(replace(driver, angle=angle),))
-
-    @property
-    def _lengths(self) -> tuple[float, float, float]:
-        """Crank, ground (0 where it takes no part) and the reach of the dyad."""
-        links = self.scene.by_name
-        crank = links["1"].length
-        assert crank is not None
-        if self.kind == "RRR":
-            return crank, links["0"].points["D"].real, (links["2"].length or 0.0) + (links["3"].length or 0.0)
-        if self.kind == "RRP":
-            return crank, 0.0, links["2"].length or 0.0
-        return crank, links["0"].points["C"].real, links["3"].guides["s"].through.imag
-
-    def dead(self, mp: Any) -> Any:
-        """The crank's angle at the dead point, by the law of cosines or the sine."""
-        a, d, reach = (mp.mpf(x) for x in self._lengths)
-        if self.kind == "RRP":
-            return mp.asin(reach / a)
-        if self.kind == "RRR":
-            links = self.scene.by_name
-            reach = mp.mpf(links["2"].length) + mp.mpf(links["3"].length)
-        return mp.acos((a * a + d * d - reach * reach) / (2 * a * d))
-
-
-_CASES = {
-    "RRR": _Case("RRR", _RRR, "3", -1),
-    "RRP": _Case("RRP", _RRP, "2", -1),
-    "RPR": _Case("RPR", _RPR, "3", 1),
-}
 NEAR, FAR = 1e-15, 0.3
 STEP = 0.02  # rad; where Newton's method comes from
 PATIENCE = 60
@@ -153,7 +44,7 @@ def dead_point(kind: str, mp: Any, samples: int = 4) -> Trial:
     mp : mpmath context of the reference
     samples : distances to each half of a decade
     """
-    case = _CASES[kind]
+    case = CASES[kind]
     x = grid(FAR, NEAR, samples)
     truth = _truth(case, mp, x)
     laws = [*_closed(case, mp, x, truth, samples), _newton(case, mp, x, truth, samples)]
@@ -188,7 +79,7 @@ class _Exactly:
         return float(turned), float(abs(omega / self.omega - 1)), float(abs(alpha / self.alpha - 1))
 
 
-def _truth(case: _Case, mp: Any, x: Sequence[float]) -> list[_Exactly]:
+def _truth(case: Case, mp: Any, x: Sequence[float]) -> list[_Exactly]:
     """The reference at falling distances, each from the one before: on the same side Newton's method cannot miss."""
     motion = exact.solve(case.at(float(case.dead(mp) + case.side * mp.mpf(x[0]))))
     equations = reference(motion.structure, mp)
@@ -205,7 +96,7 @@ def _truth(case: _Case, mp: Any, x: Sequence[float]) -> list[_Exactly]:
     return found
 
 
-def _closed(case: _Case, mp: Any, x: Sequence[float], truth: Sequence[_Exactly], samples: int) -> list[Law]:
+def _closed(case: Case, mp: Any, x: Sequence[float], truth: Sequence[_Exactly], samples: int) -> list[Law]:
     rows: list[tuple[float, float, float]] = []
     bounds: list[float] = []
     stops: float | None = None
@@ -229,14 +120,14 @@ def _closed(case: _Case, mp: Any, x: Sequence[float], truth: Sequence[_Exactly],
     return laws
 
 
-def _stated(case: _Case, motion: Motion) -> float:
+def _stated(case: Case, motion: Motion) -> float:
     """The bound that the solver states for the velocities of points, as one of the follower's rate (relative): both
     ends of its longest line may err."""
     reach = max(abs(z) for z in case.scene.by_name[case.follower].points.values())
     return 2 * float(motion.velocity_bound[0]) / (abs(float(motion.omega(case.follower)[0])) * reach)
 
 
-def _newton(case: _Case, mp: Any, x: Sequence[float], truth: Sequence[_Exactly], samples: int) -> Law:
+def _newton(case: Case, mp: Any, x: Sequence[float], truth: Sequence[_Exactly], samples: int) -> Law:
     """Newton's method on the closure equations, from the position a degree away, until it moves no more."""
     dead = case.dead(mp)
     structure = exact.structure_of(case.scene)
@@ -261,7 +152,7 @@ def _newton(case: _Case, mp: Any, x: Sequence[float], truth: Sequence[_Exactly],
     return Law("velocity Newton", xs, es, -1.0, max(lost, default=None), window=(1e-12, 1e-2))
 
 
-def _given(case: _Case, x: Sequence[float], truth: Sequence[_Exactly], samples: int) -> Law:
+def _given(case: Case, x: Sequence[float], truth: Sequence[_Exactly], samples: int) -> Law:
     """The solver with the distance from the dead point given, in place of the crank's angle; the largest of the errors
     of direction, rate and second rate."""
     structure = exact.structure_of(case.scene)
@@ -283,7 +174,7 @@ def _given(case: _Case, x: Sequence[float], truth: Sequence[_Exactly], samples: 
     return Law("all from the dead point", xs, es, 0.0)
 
 
-def _drawn(case: _Case, mp: Any, x: Sequence[float], truth: Sequence[_Exactly]) -> Law:
+def _drawn(case: Case, mp: Any, x: Sequence[float], truth: Sequence[_Exactly]) -> Law:
     """The exact drawing board."""
     error: list[float] = []
     told: float | None = None
@@ -301,7 +192,7 @@ def _drawn(case: _Case, mp: Any, x: Sequence[float], truth: Sequence[_Exactly]) 
     return Law("velocity exact drawing", tuple(x), tuple(error), -1.0, told, stops, window=(1e-12, 1e-2))
 
 
-def _pencil(case: _Case, mp: Any) -> Law:
+def _pencil(case: Case, mp: Any) -> Law:
     """The uncertainty that is predicted for a pencil, relative."""
     x = grid(FAR, 1e-4, 1)
     symbol = Symbol("omega", link=case.follower)
