@@ -17,7 +17,7 @@ from graphkin.checking.uncertainty import Uncertainty
 from graphkin.drafting import Plan, Sheet, Slip, execute
 from graphkin.drafting.parts import Part
 from graphkin.errors import GraphkinError
-from graphkin.scene.symbol import Symbol
+from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase
 
 __all__ = ["Case", "Suspect", "Table", "suspects"]
@@ -154,6 +154,21 @@ def _own_parts(case: Case, symbol: Symbol) -> Iterator[Suspect]:
         key = {"an": "normal", "at": "tangential", "ak": "coriolis", "ar": "sliding"}.get(other.kind)
         if key and other.of == symbol.of:
             yield Suspect(Phrase(f"slip {key} only", (str(other),)), value, 0.05)
+    for other in _about_pivots(case, symbol):
+        key = "normal" if other.kind == "an" else "tangential"
+        yield Suspect(Phrase(f"slip {key} only", (str(other),)), case.exact(other), 0.05)
+
+
+def _about_pivots(case: Case, symbol: Symbol) -> Iterator[Symbol]:
+    """The components about a fixed pivot of a point found by the image, where no such vector is drawn."""
+    if symbol.of is None or symbol.to is not None:
+        return
+    scene = case.plan.structure.scene
+    for link in scene.links:
+        if symbol.of.link in ("", link.name) and symbol.of.point in link.points:
+            for pivot in sorted(set(link.points) & set(scene.frame.points) - {symbol.of.point}):
+                about = (Symbol(kind, symbol.of, PointRef(pivot)) for kind in ("an", "at"))
+                yield from (other for other in about if other not in case.others)
 
 
 def _others(case: Case, symbol: Symbol, exact: Value) -> Iterator[Suspect]:

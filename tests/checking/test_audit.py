@@ -97,6 +97,10 @@ def test_a_common_slip_is_called_by_its_name(values, name):
     assert name in entry["looks_like"]
 
 
+def test_the_normal_term_alone_is_known_where_the_image_gave_the_point():
+    assert "normal term only (an_B/O4)" == judged("shaper-scheme-2", a_B="317.3")["looks_like"]
+
+
 def test_what_follows_from_an_earlier_wrong_value_is_told_with_it():
     # at = 8998 is the Coriolis term reversed; a = hypot(3033, 8998) and alpha = at / BC are right on their own inputs
     entry = judged(SIXBAR, an_B_at_3_to_C="3033", at_B_at_3_to_C="8998", alpha_3="23.58")
