@@ -9,10 +9,10 @@ from dataclasses import replace
 from graphkin.drawing import Box, Drawing, Group, Line, Primitive, Stroke, Text
 from graphkin.drawing.chart import Chart, Curve, Marks, Shape, chart_group, log_axis
 from graphkin.drawing.layout import wrapped
-from graphkin.drawing.placing import Label
+from graphkin.drawing.obstacles import Obstacles, obstacles_of
+from graphkin.drawing.placing import Label, place
 from graphkin.drawing.typeset import rich
 from graphkin.scene.symbol import Symbol
-from graphkin.study.beside import placed_beside
 from graphkin.study.speed.entry import Entry
 from graphkin.study.speed.run import Race
 from graphkin.words import Phrase, say, word
@@ -23,6 +23,8 @@ WIDTH, HEIGHT = 297.0, 210.0
 LEFT, RIGHT, GAP = 22.0, 8.0, 18.0
 TOP, BOTTOM = 40.0, 50.0
 LETTERS = 2.5
+LETTERS_TRIED = (2.5, 2.3, 2.1, 2.0)
+"""Letters of the labels, mm: where machine and methods crowd the points, smaller ones."""
 LOWEST = 1e-19
 HIGHEST = 10.0
 
@@ -142,14 +144,26 @@ def _saved(chart: Chart, points: Sequence[tuple[Entry, float, float]]) -> list[P
 def _labels(
     race: Race, chart: Chart, points: Sequence[tuple[Entry, float, float]], floor: float, drawn: Group, language: str
 ) -> list[Primitive]:
-    asked = [
-        Label(Text(0j, rich(_words(race, e, points, language), LETTERS)), chart.at(cost, error))
-        for e, cost, error in points if _words(race, e, points, language)
-    ]  # fmt: skip
     x = chart.at(floor, HIGHEST).real
     stretch = complex(x, chart.panel.top + 6.0), complex(x, chart.panel.top + 24.0)
-    asked.append(Label(Text(0j, rich(word("copying", language), LETTERS)), stretch))
-    return placed_beside(chart, drawn, asked)
+    named = [(_words(race, e, points, language), chart.at(cost, error)) for e, cost, error in points]
+    wishes = [*((words, at) for words, at in named if words), (word("copying", language), stretch)]
+    corners = chart.panel.corners
+    frame = Obstacles(solid=tuple(zip(corners, (*corners[1:], corners[0]), strict=True)))
+    curves = next(c for c in drawn.children if isinstance(c, Group) and "curves" in c.classes)
+    there = obstacles_of((curves,)) + frame
+    in_the_way = Obstacles(there.solid + there.dashed, areas=there.areas)
+    for size in LETTERS_TRIED:
+        asked = [Label(Text(0j, rich(words, size)), mark) for words, mark in wishes]
+        placed = place(asked, chart.panel, in_the_way)
+        if all(label.clear for label in placed):
+            break
+    found: list[Primitive] = []
+    for label in placed:
+        found.append(replace(label.text, classes=("label",)))
+        if label.leader is not None:
+            found.append(label.leader)
+    return found
 
 
 def _words(race: Race, entry: Entry, points: Sequence[tuple[Entry, float, float]], language: str) -> str:
