@@ -46,7 +46,10 @@ def _turn(turn: Turn, language: str) -> list[str]:
         said = _between(scene, own.low, own.high, own.open_low, own.open_high)
     lines.append(f"{word('range', language)} {driver.key}: {said}")
     for other in turn.ranges[1:]:
-        lines.append("  " + say(Phrase("also assembles", (_between(scene, other.low, other.high),)), language))
+        between = _between(scene, other.low, other.high, other.open_low, other.open_high)
+        lines.append("  " + say(Phrase("also assembles", (between,)), language))
+    if turn.not_searched:
+        lines.append("  " + say(Phrase("not looked for", (", ".join(turn.not_searched),)), language))
     for loop in turn.loops:
         turning = say(Phrase("turns fully", (", ".join(loop.turns) or "–",)), language)
         names = ", ".join(loop.links)

@@ -15,12 +15,13 @@ from graphkin.structure import Cluster, Dyad
 from graphkin.structure.continuity import last_true
 from graphkin.study.course import Course
 
-__all__ = ["Range", "ranges"]
+__all__ = ["Range", "not_searched", "ranges"]
 
 Array = NDArray[np.float64]
 
 GRID = 1440
-MOST_GROUPS = 5
+MOST_GROUPS = 7
+FAR = 4.0
 
 
 @dataclass(frozen=True)
@@ -40,19 +41,29 @@ class Range:
 
 
 def ranges(course: Course) -> tuple[Range, ...]:
-    """The range that the motion reaches, then all others in which some assembly closes (for groups of two links: where
-    larger groups can be assembled is known only along their motion)."""
+    """The range that the motion reaches, then all others in which some assembly closes, as far as ``not_searched`` does
+    not say otherwise: within a turn of the driver; of a driven slide within four sizes
+    of the mechanism and twice as far as its motion reaches."""
     if course.full:
         return (Range(0.0, 2 * np.pi * course.turns, True, whole=True),)
     low, high = sorted(float(course.value(np.array(end))) for end in course.ends)
     below, above = course.limited if course.sense > 0 else course.limited[::-1]
     own = Range(low, high, True, open_low=not below, open_high=not above)
-    if not isinstance(course.driver, AngleDriver):
+    if not_searched(course):
         return (own,)
     dyads = [i for i, e in enumerate(course.structure.elements) if isinstance(e, Dyad)]
-    if len(dyads) > MOST_GROUPS or any(isinstance(e, Cluster) for e in course.structure.elements):
-        return (own,)
     return own, *_elsewhere(course, dyads, own)
+
+
+def not_searched(course: Course) -> tuple[str, ...]:
+    """Links for whose sake ranges in which the mechanism assembles otherwise are not known: of larger groups, whose
+    assemblies are known only along their motion, or of too many groups to try all their assemblies."""
+    if course.full:
+        return ()
+    larger = [e.links for e in course.structure.elements if isinstance(e, Cluster)]
+    dyads = [e.links for e in course.structure.elements if isinstance(e, Dyad)]
+    many = dyads[MOST_GROUPS:] if not larger else []
+    return tuple(name for links in (*larger, *many) for name in links)
 
 
 def _elsewhere(course: Course, dyads: list[int], own: Range) -> list[Range]:
@@ -69,12 +80,16 @@ def _elsewhere(course: Course, dyads: list[int], own: Range) -> list[Range]:
             some |= np.logical_and.reduce(gaps)
         return some
 
-    start = own.low + 1e-9
-    grid = start + np.linspace(0.0, 2 * np.pi, GRID + 1)
+    turning = isinstance(course.driver, AngleDriver)
+    if turning:
+        grid = own.low + 1e-9 + np.linspace(0.0, 2 * np.pi, GRID + 1)
+    else:
+        wide = max(FAR * course.scene.size, 2 * abs(own.low), 2 * abs(own.high))
+        grid = np.linspace(-wide, wide, GRID + 1)
     holds = closes(grid)
     found: list[Range] = []
     k = 0
-    while k < GRID:
+    while k <= GRID:
         if not holds[k]:
             k += 1
             continue
@@ -83,8 +98,11 @@ def _elsewhere(course: Course, dyads: list[int], own: Range) -> list[Range]:
             end += 1
         low = float(grid[k]) if k == 0 else last_true(closes, float(grid[k]), float(grid[k - 1]))
         high = float(grid[end]) if end == GRID else last_true(closes, float(grid[end]), float(grid[end + 1]))
-        if k > 0 and end < GRID and not (low < own.high and high > own.low + 2e-9):
+        apart = not (low < own.high and high > own.low + 2e-9)
+        if apart and turning and k > 0 and end < GRID:
             found.append(_within(low, high))
+        elif apart and not turning:
+            found.append(Range(low, high, False, open_low=k == 0, open_high=end == GRID))
         k = end + 1
     return found
 

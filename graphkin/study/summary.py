@@ -32,6 +32,7 @@ def to_json(turn: Turn) -> dict[str, Any]:
             }
             for r in turn.ranges
         ],
+        "ranges_not_searched_for": list(turn.not_searched),
         "why": course.limit_why,
         "mechanisms": [
             {

@@ -13,7 +13,7 @@ from graphkin.scene.symbol import Symbol
 from graphkin.study.course import Course
 from graphkin.study.grashof import Loop, loops
 from graphkin.study.quantities import Quantity, link_quantities, slide_quantities, symbol_quantity
-from graphkin.study.ranges import Range, ranges
+from graphkin.study.ranges import Range, not_searched, ranges
 from graphkin.study.trace import Extreme, Least, Traced, trace
 
 __all__ = ["Output", "Turn", "study_turn"]
@@ -60,6 +60,11 @@ class Turn:
     @property
     def scene(self) -> Scene:
         return self.course.scene
+
+    @property
+    def not_searched(self) -> tuple[str, ...]:
+        """Links for whose sake ranges in which the mechanism assembles otherwise are not known."""
+        return not_searched(self.course)
 
     def quick_return(self, output: Output) -> tuple[float, float] | None:
         """K of an output, and the crank angle theta (rad) between its limit positions; None where it has none.

@@ -213,3 +213,13 @@ def test_wrong_mobility_is_refused_by_name() -> None:
     scene["links"]["5"] = {"points": ["A", "C"], "length": 450}
     with pytest.raises(Unsolvable):
         course_of(read(scene))
+
+
+def test_a_driven_slide_has_its_other_range() -> None:
+    other = study_turn(course_of(read_text(scenes.CYLINDER, "c"))).ranges[1]
+    assert (other.low, other.high) == pytest.approx((-0.5, -0.1), abs=1e-9)
+
+
+def test_a_larger_group_whose_other_ranges_are_unknown_is_named() -> None:
+    turn = study_turn(course_of(read_text(scenes.MOVED_PARALLELOGRAM, "p")), everything=False)
+    assert turn.not_searched == ("1", "2", "3", "5")
