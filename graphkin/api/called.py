@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Iterable, Mapping
+from numbers import Real
 from typing import Any
 
 from graphkin.errors import CallError, Problem, did_you_mean
@@ -54,11 +55,11 @@ def driver_values(scene: Scene, at: At) -> dict[str, float] | None:
     if not scene.drivers:
         raise CallError(Problem("at", "the scene has no driver", "give one in the file"))
     given = dict(at) if isinstance(at, Mapping) else {scene.drivers[0].key: at}
-    values = {}
+    values: dict[str, float] = {}
     for name, value in given.items():
         driver = _driver(scene, str(name))
-        if not math.isfinite(value) or abs(value) > 1e9:
-            raise CallError(Problem(f"at {name}", f"{value} is no driver value", "give a finite number below 1e9"))
+        if not isinstance(value, Real) or not math.isfinite(value) or abs(value) > 1e9:
+            raise CallError(Problem(f"at {name}", f"{value!r} is no driver value", "give a finite number below 1e9"))
         values[driver.key] = math.radians(value) if isinstance(driver, AngleDriver) else value * scene.units.metres
     return values
 
@@ -78,7 +79,7 @@ def own_unit(scene: Scene, driver: Driver, value: float) -> str:
 
 
 def asked_symbols(scene: Scene, find: Iterable[str | Symbol] | None) -> tuple[Symbol, ...]:
-    """The symbols asked for: the given ones, or the scene's own.
+    """The symbols asked for: the given ones (or one alone), or the scene's own.
 
     Raises
     ------
@@ -87,7 +88,7 @@ def asked_symbols(scene: Scene, find: Iterable[str | Symbol] | None) -> tuple[Sy
     if find is None:
         return scene.find
     found, problems = [], []
-    for text in find:
+    for text in [find] if isinstance(find, str) else find:
         try:
             symbol = text if isinstance(text, Symbol) else Symbol.parse(text)
         except ValueError as error:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import html
 from dataclasses import dataclass
 from functools import cached_property
+from numbers import Integral
 from typing import TYPE_CHECKING, Any
 
 from graphkin.api.called import At, SceneLike, as_scene, driver_values
@@ -96,6 +97,6 @@ def solve(scene: SceneLike, at: At = None, sweep: int | None = None) -> Solved:
     from graphkin import exact
 
     given = as_scene(scene)
-    if sweep is not None and not 1 <= sweep <= 10_000_000:
-        raise CallError(Problem("sweep", f"{sweep} positions", "give a number from 1 to 10000000"))
+    if sweep is not None and not (isinstance(sweep, Integral) and 1 <= sweep <= 10_000_000):
+        raise CallError(Problem("sweep", f"{sweep} positions", "give a whole number from 1 to 10000000"))
     return Solved(exact.solve(given, at=driver_values(given, at), sweep=sweep))

@@ -33,6 +33,8 @@ def known_words(
     ------
     CallError : every unknown word, with the nearest right one or all there are; no format at all
     """
+    if isinstance(formats, str):
+        raise CallError(Problem("format", f'"{formats}" is a text', f'give a list: ["{formats}"]'))
     wishes = [("format", word, known_formats) for word in formats or ()]
     wishes += [
         (where, word, known)

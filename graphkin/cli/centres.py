@@ -49,7 +49,7 @@ def centres(
     if point and centrode is None:
         raise CallError(Problem("--point", "without --centrode", "write --centrode LINK --point P"))
     if centrode is not None:
-        _roll(scene, centrode, point, values, out, wanted, lang, convention, quiet)
+        _roll(scene, centrode, point, values, out, wanted, lang, convention, as_json, quiet)
         return
     with unsolvable_as_json(as_json, _none_found):
         found = finding(scene, values, None, wanted, lang, convention)
@@ -71,13 +71,15 @@ def _none_found(error: Unsolvable) -> dict[str, object]:
 
 def _roll(
     scene: str, link: str, point: str, values: float | dict[str, float] | None, out: Path | None, formats: list[str],
-    lang: str | None, convention: str | None, quiet: bool,
+    lang: str | None, convention: str | None, as_json: bool, quiet: bool,
 ) -> None:  # fmt: skip
     from graphkin.api import centrodes
 
     rolled = centrodes(scene, link, point, values, None, formats, lang, convention)
     paths = rolled.write(out, formats)
-    if not quiet:
+    if as_json:
+        print_json({"link": link, "ok": rolled.ok, "files": [str(path) for path in paths]})
+    elif not quiet:
         print_paths(paths)
     if not rolled.ok:
         raise typer.Exit(1)

@@ -68,6 +68,11 @@ def test_a_centrode_is_written_on_request(tmp_path: Path) -> None:
     assert ["centrode.csv", "centrode.svg"] == sorted(p.name for p in (tmp_path / "out").iterdir())
 
 
+def test_a_centrode_for_programs_names_its_files(tmp_path: Path) -> None:
+    printed = json.loads(run("four-bar-coupler-point", "--centrode", "2", "--json", "-o", "c", cwd=tmp_path).stdout)
+    assert {"link": "2", "ok": True, "files": ["c/centrode.svg", "c/centrode.csv"]} == printed
+
+
 @pytest.mark.parametrize(
     ("args", "status"),
     [
