@@ -11,7 +11,7 @@ from graphkin.exact.joints import body_shape
 from graphkin.exact.pose import Pose
 from graphkin.exact.rounding import Rounding
 from graphkin.scene.model import AngleDriver
-from graphkin.structure import Cluster, Driven, Dyad, Pair
+from graphkin.structure import Driven, Dyad, Element, Pair, links_of
 
 if TYPE_CHECKING:
     from graphkin.exact.program import Program
@@ -24,7 +24,7 @@ FEW = 3.0
 
 
 class LinkBounds:
-    """The bounds of a program, made as they are asked for."""
+    """The bounds of a program of dyads, made as they are asked for."""
 
     def __init__(self, program: Program) -> None:
         self.program, self.structure, self.sheet = program, program.structure, program.sheet
@@ -70,15 +70,12 @@ class LinkBounds:
     def _doubt(self, link: str) -> Doubt:
         """How far a link may be off: by what it inherits from the links it hangs on, and by its own rounding."""
         if link not in self._doubts:
-            i = next(k for k, e in enumerate(self.structure.elements) if link in _links_of(e))
+            i = next(k for k, e in enumerate(self.structure.elements) if link in links_of(e))
             self._doubts.update(self._doubts_of(i, self.structure.elements[i]))
         return self._doubts[link]
 
-    def _doubts_of(self, i: int, element: Driven | Dyad | Cluster) -> dict[str, Doubt]:
-        if isinstance(element, Cluster):
-            return {
-                name: Doubt(*(self.sheet.input(("error", name, f)) for f in FIELDS)) for name in element.members
-            }
+    def _doubts_of(self, i: int, element: Element) -> dict[str, Doubt]:
+        assert isinstance(element, Driven | Dyad)  # larger groups: graphkin.exact.certainty
         bases = _bases(element)
         inherited = self._driven_doubt(element) if isinstance(element, Driven) else self._dyad_doubts(i, element)
         rounding = Rounding(self.sheet, self._error, self.unit, self._given(bases))
@@ -139,19 +136,11 @@ class LinkBounds:
         name = x.line[1]
         if name[0] in ("size", "sign", "unit", "reach"):
             return self.sheet.const(0)
-        if name[0] == "pose":
-            return self.sheet.input(("error", *name[1:3]))
         if name[0] in ("cos", "sin"):
             return self.sheet.param(("error", "angle", name[1]))
         if name[0] == "travel":
             return self.sheet.param(("error", *name))
         return self.sheet.param(("error", *(name[:-1] if name[-1] in ("x", "y") else name)))
-
-
-def _links_of(element: Driven | Dyad | Cluster) -> tuple[str, ...]:
-    if isinstance(element, Driven):
-        return (element.link,)
-    return element.members if isinstance(element, Cluster) else (*element.first.links, *element.second.links)
 
 
 def _base(pair: Pair, inside: Iterable[str]) -> str:

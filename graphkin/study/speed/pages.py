@@ -10,7 +10,7 @@ from graphkin.drawing import Box, Drawing, Group, Line, Primitive, Stroke, Text
 from graphkin.drawing.chart import Chart, Curve, Marks, Shape, chart_group, log_axis
 from graphkin.drawing.layout import wrapped
 from graphkin.drawing.obstacles import Obstacles, obstacles_of
-from graphkin.drawing.placing import Label, place
+from graphkin.drawing.placing import Label, Mark, place
 from graphkin.drawing.typeset import rich
 from graphkin.scene.symbol import Symbol
 from graphkin.study.speed.entry import Entry
@@ -147,7 +147,8 @@ def _labels(
     x = chart.at(floor, HIGHEST).real
     stretch = complex(x, chart.panel.top + 6.0), complex(x, chart.panel.top + 24.0)
     named = [(_words(race, e, points, language), chart.at(cost, error)) for e, cost, error in points]
-    wishes = [*((words, at) for words, at in named if words), (word("copying", language), stretch)]
+    wishes: list[tuple[str, Mark]] = [(words, at) for words, at in named if words]
+    wishes.append((word("copying", language), stretch))
     corners = chart.panel.corners
     frame = Obstacles(solid=tuple(zip(corners, (*corners[1:], corners[0]), strict=True)))
     curves = next(c for c in drawn.children if isinstance(c, Group) and "curves" in c.classes)
