@@ -84,11 +84,11 @@ def _least(function: Callable[[Reals], Reals], low: float, high: float) -> tuple
 
 
 def last_true(holds: Callable[[Reals], NDArray[np.bool_]], low: float, high: float) -> float:
-    """The parameter up to which a condition holds that is true at ``low`` and false at ``high``."""
+    """The parameter up to which a condition holds that is true at ``low`` and false at ``high``, in either order."""
     while True:
         at = np.linspace(low, high, 33)
         bad = np.flatnonzero(~holds(at[1:]))
         i = int(bad[0]) if len(bad) else 31
-        if high - low <= 4e-16 * max(1.0, abs(high)) or (at[i] <= low and at[i + 1] >= high):
+        if abs(high - low) <= 4e-16 * max(1.0, abs(high)) or (at[i], at[i + 1]) == (low, high):
             return float(low)
         low, high = float(at[i]), float(at[i + 1])

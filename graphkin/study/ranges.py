@@ -42,8 +42,8 @@ class Range:
 
 def ranges(course: Course) -> tuple[Range, ...]:
     """The range that the motion reaches, then all others in which some assembly closes, as far as ``not_searched`` does
-    not say otherwise: within a turn of the driver; of a driven slide within four sizes
-    of the mechanism and twice as far as its motion reaches."""
+    not say otherwise: within a turn of the driver; of a driven slide within four sizes of the mechanism and twice as
+    far as its motion reaches."""
     if course.full:
         return (Range(0.0, 2 * np.pi * course.turns, True, whole=True),)
     low, high = sorted(float(course.value(np.array(end))) for end in course.ends)
@@ -117,5 +117,5 @@ def _closed(course: Course, i: int, solved: object) -> NDArray[np.bool_]:
 
 def _within(low: float, high: float) -> Range:
     """The same range with its middle in (-pi, pi]."""
-    shift = 2 * np.pi * np.rint((low + high) / 2 / (2 * np.pi))
+    shift = 2 * np.pi * np.ceil(((low + high) / 2 - np.pi - 1e-9) / (2 * np.pi))
     return Range(float(low - shift), float(high - shift), False)

@@ -63,3 +63,8 @@ def test_a_path_may_end_at_zero() -> None:
 
 def test_last_true_finds_the_edge_to_rounding() -> None:
     assert last_true(lambda t: t * t < 2, 1.0, 2.0) == pytest.approx(np.sqrt(2), abs=5e-16)
+
+
+@pytest.mark.parametrize("high", [0.0, 1.0])
+def test_the_end_of_a_condition_is_found_in_either_direction(high: float) -> None:
+    assert last_true(lambda x: np.abs(x - 0.5) <= 0.1, 0.5, high) == pytest.approx(0.5 + (high - 0.5) / 5, abs=1e-15)

@@ -104,7 +104,7 @@ def test_range_of_a_driver_without_full_turn_to_full_precision() -> None:
 
 def test_another_range_in_which_it_assembles_is_told() -> None:
     other = [r for r in turn_of("sixbar-AE70").ranges if not r.reached]
-    assert [math.asin(60 / 70) - math.pi] == pytest.approx([r.high for r in other], abs=1e-12)
+    assert [math.pi + math.asin(60 / 70)] == pytest.approx([r.high for r in other], abs=1e-12)
 
 
 def test_position_at_the_end_of_the_motion_keeps_its_digits() -> None:
