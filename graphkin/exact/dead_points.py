@@ -49,7 +49,8 @@ class DeadPoint:
 
 
 def dead_points(structure: Structure, near: float = 0.0) -> list[DeadPoint]:
-    """All dead points of all assemblies within half a turn (four sizes of the mechanism) of a value of its driver.
+    """All dead points of all assemblies within half a turn (four sizes of the mechanism) of a value of its driver; of
+    more than six groups those of the first six (``not_searched`` names the links of the others).
 
     Raises
     ------
@@ -68,6 +69,12 @@ def dead_points(structure: Structure, near: float = 0.0) -> list[DeadPoint]:
                 if not any(p.element == i and p.signs == signs and abs(p.value - point.value) < SAME for p in found):
                     found.append(point)
     return found
+
+
+def not_searched(structure: Structure) -> tuple[str, ...]:
+    """Links of groups that stand behind so many others that not all their assemblies are tried."""
+    dyads = [e for e in structure.elements if isinstance(e, Dyad)]
+    return tuple(name for e in dyads[MOST_GROUPS:] for name in e.links)
 
 
 def nearest_dead_point(structure: Structure, i: int, signs: Mapping[int, float], value: float) -> DeadPoint | None:
@@ -201,8 +208,11 @@ def settled(structure: Structure) -> Structure:
     what = f'driver "{driver.key}"'
     if not found:
         how = "begins" if side > 0 else "ends"
-        raise Unsolvable("dead point", Problem(what, f"there is no dead point at which the motion {how}",
-                                               "change the sign of the distance, or give the value itself"))
+        wanted = "change the sign of the distance, or give the value itself"
+        missing = not_searched(structure)
+        if missing:
+            wanted += f"; links {', '.join(missing)} were not looked at, they stand behind {MOST_GROUPS} other groups"
+        raise Unsolvable("dead point", Problem(what, f"there is no dead point at which the motion {how}", wanted))
     if dead.near is None and len(found) > 1:
         raise Unsolvable("dead point", Problem(what, f"there are dead points at {names}",
                                                "write near = ... to tell which one"))
