@@ -29,6 +29,9 @@ def evaluate(motion: Motion, symbol: Symbol) -> Array:
             return np.asarray(one.v if symbol.kind == "v" else one.a)
         two = motion.point(symbol.to.point, symbol.to.link)
         return np.asarray(one.v - two.v if symbol.kind == "v" else one.a - two.a)
+    hinge = _hinge(motion, symbol.of, symbol.to)
+    if symbol.to is not None and hinge is not None and symbol.kind != "ar":
+        return _turned(motion, symbol, symbol.of, symbol.to, hinge)
     if symbol.kind in ("an", "at"):
         return _turning(motion, symbol, symbol.of)
     assert symbol.to is not None
@@ -44,6 +47,32 @@ def _is_on(motion: Motion, ref: PointRef, link: str) -> bool:
         return True
     own = not ref.link or ref.link in holders[ref.point]
     return own and link in holders[ref.point]
+
+
+def _hinge(motion: Motion, of: PointRef, to: PointRef | None) -> str | None:
+    """The turning pair between the links of two coincident points, where it lies elsewhere."""
+    if to is None or of.point != to.point or not (of.link and to.link) or of.link == to.link:
+        return None
+    links = motion.scene.by_name
+    if not {of.link, to.link} <= set(links):
+        return None
+    return next((p for p in links[of.link].points if p in links[to.link].points and p != of.point), None)
+
+
+def _turned(motion: Motion, symbol: Symbol, of: PointRef, to: PointRef, hinge: str) -> Array:
+    """Parts of the acceleration of a point of a link relative to the coincident one of a link that is hinged to it.
+
+    Seen from the second link the first turns about the hinge at the difference of their rates: normal and tangential
+    part of that turn, and the Coriolis term of the second link's own rate.
+    """
+    one, base = motion.poses[of.link], motion.poses[to.link]
+    arm = motion.point(of.point, of.link).z - motion.point(hinge, of.link).z
+    rate = one.omega - base.omega
+    if symbol.kind == "an":
+        return np.asarray(-(rate**2) * arm)
+    if symbol.kind == "at":
+        return np.asarray(1j * (one.alpha - base.alpha) * arm)
+    return np.asarray(-2 * base.omega * rate * arm)
 
 
 def _turning(motion: Motion, symbol: Symbol, of: PointRef) -> Array:

@@ -97,3 +97,21 @@ IMPOSSIBLE = {"v_Q": "point", "omega_9": "link", "an_E/D": "one link", "an_E": "
 def test_a_symbol_that_names_nothing_is_refused(fourbar: Motion, symbol: str) -> None:
     with pytest.raises(CallError, match=IMPOSSIBLE[symbol]):
         value(fourbar, symbol)
+
+
+RELATIVE = """
+frame.points = { A = [0, 0], D = [200, 0] }
+links.1 = { points = ["A", "B"], length = 100 }
+links.2 = { points = ["B", "C"], length = 150 }
+links.3 = { points = ["D", "C"], length = 120 }
+driver = { link = "2", relative_to = "1", angle = -50, omega = 2, alpha = 0.5 }
+sketch = { B = [60, 80], C = [190, 120] }
+"""
+
+
+def test_a_link_seen_from_the_link_it_is_hinged_to_turns_about_the_hinge_and_has_a_coriolis_term() -> None:
+    motion = solve(read_text(RELATIVE, "scene"))
+    an, at, ak = (value(motion, f"{kind}_C@2/C@1") for kind in ("an", "at", "ak"))
+    assert abs(an) == pytest.approx(2.0**2 * 0.150, rel=1e-12)
+    assert abs(at) == pytest.approx(0.5 * 0.150, rel=1e-12)
+    assert an + at + ak == pytest.approx(value(motion, "a_C@2/C@1"), rel=1e-12)
