@@ -26,7 +26,7 @@ from graphkin.scene.source import safe_name
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.writing import as_mapping, toml_text
 from graphkin.study.designs import applied
-from graphkin.study.processes import process_pool
+from graphkin.study.processes import RenewedPool
 
 __all__ = ["ProblemSet", "problem_set"]
 
@@ -129,7 +129,7 @@ def problem_set(
     given = as_scene(source)
     jobs, unused = _jobs(source, variants, seed, rows, spread or Range())
     folder = Path(out) if out is not None else None
-    own = process_pool(workers) if executor is None and workers and workers > 1 else None
+    own = RenewedPool(workers) if executor is None and workers and workers > 1 else None
     left: list[Path] = []
     if folder is not None:
         write_files(folder, {})

@@ -5,9 +5,12 @@ import signal
 import subprocess
 import sys
 import time
+from concurrent.futures import BrokenExecutor
 from pathlib import Path
 
 import pytest
+
+from graphkin.study.processes import RenewedPool
 
 PROGRAM = """
 import os, time
@@ -42,3 +45,16 @@ def test_the_processes_of_a_pool_end_with_the_one_that_was_killed(tmp_path):
     while _runs(worker) and time.monotonic() < deadline:
         time.sleep(0.05)
     assert not _runs(worker)
+
+
+def test_a_renewed_pool_takes_fresh_processes_and_loses_no_task():
+    with RenewedPool(1, tasks=2) as pool:
+        pids = [task.result() for task in [pool.submit(os.getpid) for _ in range(5)]]
+    assert (5, 3) == (len(pids), len(set(pids)))
+
+
+def test_a_pool_whose_process_was_killed_is_replaced():
+    with RenewedPool(1) as pool:
+        lost = pool.submit(os._exit, 1)
+        assert isinstance(lost.exception(timeout=30), BrokenExecutor)
+        assert pool.submit(os.getpid).result(timeout=30)
