@@ -6,11 +6,10 @@ from collections.abc import Mapping, Sequence
 
 from graphkin.drafting.board import Board
 from graphkin.drafting.dyads import Frame, drive
-from graphkin.drafting.plan import members
 from graphkin.drafting.position import Position
 from graphkin.drafting.sheet import Mark
 from graphkin.scene.symbol import PointRef
-from graphkin.structure import Driven, Dyad, Structure, Turn
+from graphkin.structure import Driven, Dyad, Structure, Turn, links_of
 from graphkin.words import Phrase
 
 __all__ = ["draw_position"]
@@ -51,7 +50,7 @@ def draw_position(
             )
         for phrase, strokes in story:
             board.do("mechanism", phrase, *strokes)
-        for name in members(element):
+        for name in links_of(element):
             so_far.poses[name] = frame.poses[name]
             fresh = [p for p in structure.links[name].points if p not in named]
             marks = tuple(Mark(PointRef(p), frame.point(name, p)) for p in fresh)

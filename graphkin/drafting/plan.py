@@ -19,7 +19,7 @@ from graphkin.scene.symbol import Symbol
 from graphkin.structure import Cluster, Driven, Dyad, Element, Structure, analyse, links_of, needed
 from graphkin.words import Phrase
 
-__all__ = ["ORDERS", "Plan", "members", "plan"]
+__all__ = ["ORDERS", "Plan", "plan"]
 
 ORDERS: tuple[Order, ...] = ("velocity", "acceleration")
 
@@ -100,17 +100,10 @@ def _drawable(elements: Sequence[Element]) -> list[Driven | Dyad]:
         if isinstance(element, Cluster):
             lost.update(element.members)
         elif lost & _leans_on(element):
-            lost.update(members(element))
+            lost.update(links_of(element))
         else:
             kept.append(element)
     return kept
-
-
-def members(element: Driven | Dyad) -> tuple[str, ...]:
-    """The links that an element places."""
-    if isinstance(element, Driven):
-        return (element.link,)
-    return tuple(n for body in element.bodies for n in body.links)
 
 
 def _leans_on(element: Driven | Dyad) -> set[str]:

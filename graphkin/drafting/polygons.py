@@ -18,7 +18,7 @@ from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Driven, Dyad, Slide, Structure, Turn
+from graphkin.structure import Driven, Dyad, Slide, Structure, Turn, links_of
 from graphkin.words import Phrase
 
 __all__ = ["Polygons"]
@@ -41,7 +41,7 @@ class Polygons(Plot):
             self._driven(order, element)
         else:
             self._dyad(order, element)
-        for name in _links_of(element):
+        for name in links_of(element):
             self.complete(order, name)
 
     def _driven(self, order: Order, element: Driven) -> None:
@@ -259,12 +259,6 @@ class Polygons(Plot):
         turning = "ccw" if sense > 0 else "cw"
         self.board.do(order, Phrase(f"{key} {turning}", (edge.link, symbol, bar(edge), f"{size:.6g}")))
         self._spread(order, edge.link, dyad)
-
-
-def _links_of(element: Driven | Dyad) -> tuple[str, ...]:
-    if isinstance(element, Driven):
-        return (element.link,)
-    return tuple(n for body in element.bodies for n in body.links)
 
 
 def _same_turn(dyad: Dyad) -> dict[str, str]:

@@ -14,7 +14,7 @@ from graphkin.drafting.instrument import EXACT, Instrument
 from graphkin.drafting.sheet import Pose
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, Driver, Scene
-from graphkin.structure import Cluster, Driven, Dyad, Element, Structure, pick
+from graphkin.structure import Driven, Dyad, Element, Structure, pick
 from graphkin.structure.continuity import follow
 from graphkin.words import Phrase
 
@@ -252,8 +252,3 @@ def _out_of_reach(scene: Scene, values: Mapping[str, float], limits: Sequence[Ma
     reach = " and ".join(shown(key, v) for v in ends)
     word = "between" if len(ends) > 1 else "up to"
     return Problem(f"driver {asked}", "the motion does not reach it", f"driver {key} moves {word} {reach}")
-
-
-def clusters(elements: Sequence[Element]) -> list[Cluster]:
-    """Groups that compass and ruler alone do not place."""
-    return [e for e in elements if isinstance(e, Cluster)]

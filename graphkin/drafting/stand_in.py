@@ -17,9 +17,9 @@ from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot
 from graphkin.scene.model import AngleDriver, Driver, Scene, SlideDriver
 from graphkin.scene.symbol import Symbol
-from graphkin.structure import Cluster, Driven, Dyad, Element, Structure, Turn, analyse, needed
+from graphkin.structure import Cluster, Driven, Dyad, Structure, Turn, analyse, links_of, needed
 
-__all__ = ["StandIn", "clusters", "links_of", "stand_ins"]
+__all__ = ["StandIn", "clusters", "stand_ins"]
 
 
 @dataclass(frozen=True)
@@ -70,15 +70,6 @@ class StandIn:
 def clusters(structure: Structure) -> list[Cluster]:
     """The larger groups, in the order of solution."""
     return [e for e in structure.elements if isinstance(e, Cluster)]
-
-
-def links_of(element: Element) -> tuple[str, ...]:
-    """The links that an element places."""
-    if isinstance(element, Driven):
-        return (element.link,)
-    if isinstance(element, Cluster):
-        return element.members
-    return tuple(n for body in element.bodies for n in body.links)
 
 
 def stand_ins(scene: Scene, cluster: Cluster) -> list[StandIn]:

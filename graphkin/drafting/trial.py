@@ -17,10 +17,10 @@ from graphkin.drafting.closing import Closing
 from graphkin.drafting.dyads import Frame, drive, meet
 from graphkin.drafting.follow import best_stand, followed, trial_value
 from graphkin.drafting.sheet import Pose
-from graphkin.drafting.stand_in import StandIn, clusters, links_of, stand_ins
+from graphkin.drafting.stand_in import StandIn, clusters, stand_ins
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, Driver, Scene
-from graphkin.structure import Cluster, Driven, Dyad, Structure, analyse, pick
+from graphkin.structure import Cluster, Driven, Dyad, Structure, analyse, links_of, pick
 
 __all__ = ["Known", "Trial", "trial_position"]
 

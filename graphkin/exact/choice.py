@@ -14,7 +14,7 @@ from graphkin.exact.joints import Drive, driver_text
 from graphkin.exact.pose import Array, Pose
 from graphkin.exact.system import System
 from graphkin.scene.model import AngleDriver, Scene
-from graphkin.structure import Cluster, Driven, Dyad, Slide, Structure, pick
+from graphkin.structure import Cluster, Dyad, Slide, Structure, links_of, pick
 from graphkin.structure.continuity import TOUCH, last_true
 
 __all__ = ["choose_forms", "own_values"]
@@ -111,7 +111,7 @@ def _places(structure: Structure, i: int, links: Sequence[str], state: State) ->
     """Where the points lie that only this group has placed."""
     before = {structure.scene.frame.name}
     for element in structure.elements[:i]:
-        before.update(_links_of(element))
+        before.update(links_of(element))
     known = {p for name in before for p in structure.links[name].points}
     found: dict[str, complex] = {}
     for name in links:
@@ -120,14 +120,6 @@ def _places(structure: Structure, i: int, links: Sequence[str], state: State) ->
             if point not in known:
                 found[point] = complex(np.ravel(pose.z + pose.u * place)[0])
     return found
-
-
-def _links_of(element: Driven | Dyad | Cluster) -> tuple[str, ...]:
-    if isinstance(element, Driven):
-        return (element.link,)
-    if isinstance(element, Dyad):
-        return (*element.first.links, *element.second.links)
-    return element.members
 
 
 def _choose_place(structure: Structure, i: int, group: Cluster, drive: Drive, known: Mapping[str, Pose]) -> Array:

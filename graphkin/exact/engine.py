@@ -19,7 +19,7 @@ from graphkin.exact.program import FIELDS, GIVEN, Program, program_of
 from graphkin.exact.rendering import Code
 from graphkin.exact.rounding import UNIT
 from graphkin.scene.model import AngleDriver
-from graphkin.structure import Cluster, Driven, Dyad, Structure
+from graphkin.structure import Cluster, Dyad, Structure, links_of
 
 __all__ = ["SINGULAR", "Bounds", "State", "finer_of", "positions"]
 
@@ -146,7 +146,7 @@ class _Run:
             if isinstance(element, Cluster):
                 self._together(i, element)
         program = self.fitted.program
-        names = [n for e in elements for n in _members(e)]
+        names = [n for e in elements for n in links_of(e)]
         dyads = [i for i, e in enumerate(elements) if isinstance(e, Dyad)]
         parts = ("discriminant", "sine", *(("e1", "e2", "load") if self.rates else ()))
         fields = FIELDS if self.rates else FIELDS[:2]
@@ -259,14 +259,6 @@ def _rough(bounds: Sequence[Array], size: float) -> tuple[Array, Array]:
 def _sure(bound: Array) -> Array:
     """A bound, infinite where it is not known."""
     return np.asarray(np.where(np.isnan(bound), np.inf, bound * SLACK))
-
-
-def _members(element: Driven | Dyad | Cluster) -> tuple[str, ...]:
-    if isinstance(element, Driven):
-        return (element.link,)
-    if isinstance(element, Dyad):
-        return (*element.first.links, *element.second.links)
-    return element.members
 
 
 def _ends(group: Cluster) -> set[str]:

@@ -27,20 +27,19 @@ def needed(structure: Structure, asked: Sequence[Symbol]) -> list[Element]:
         wanted.update(_links_for(structure, symbol))
     kept: list[Element] = []
     for element in reversed(structure.elements):
-        inside = links_of(element)
-        if inside & wanted:
+        if wanted.intersection(links_of(element)):
             kept.append(element)
             wanted |= _outside(element)
     return kept[::-1]
 
 
-def links_of(element: Element) -> set[str]:
+def links_of(element: Element) -> tuple[str, ...]:
     """The links that an element places."""
     if isinstance(element, Driven):
-        return {element.link}
+        return (element.link,)
     if isinstance(element, Cluster):
-        return set(element.members)
-    return {n for body in element.bodies for n in body.links}
+        return element.members
+    return tuple(n for body in element.bodies for n in body.links)
 
 
 def part_of(structure: Structure, asked: Sequence[Symbol]) -> Scene:
@@ -104,4 +103,4 @@ def _outside(element: Element) -> set[str]:
         pairs, drivers = [element.outer_first, element.outer_second], []
     names = {n for pair in pairs for n in (pair.a, pair.b)}
     names |= {n for d in drivers if isinstance(d, AngleDriver) for n in (d.link, d.relative_to)}
-    return names - links_of(element)
+    return names.difference(links_of(element))
