@@ -16,10 +16,12 @@ SERIES = (1.0, 2.0, 2.5, 5.0)
 
 @dataclass(frozen=True)
 class Room:
-    """Width and height (mm) that the mechanism and each polygon may fill."""
+    """Width and height (mm) that the mechanism and each polygon may fill; ``larger`` are rooms that the mechanism has
+    instead where it can be drawn twice as large in them, the first such."""
 
     mechanism: tuple[float, float] = (150.0, 150.0)
     polygon: tuple[float, float] = (140.0, 140.0)
+    larger: tuple[tuple[float, float], ...] = ()
 
 
 def chosen_scales(polygons: Polygons, room: Room | None) -> Scales:
@@ -32,7 +34,9 @@ def chosen_scales(polygons: Polygons, room: Room | None) -> Scales:
         for order in ("velocity", "acceleration")
     }
     spots = list(polygons.places.values())
-    length = _fit(spots, space.mechanism, trial.length * 1e3) * 1e-3
+    rooms = (space.mechanism, *space.larger)
+    lengths = [_fit(spots, room_of_it, trial.length * 1e3) * 1e-3 for room_of_it in rooms]
+    length = next((finer for finer in lengths if 2.0 * finer <= lengths[0] * (1 + 1e-9)), lengths[0])
     velocity = _fit(tips["velocity"], space.polygon, 1.0 / unit) * unit
     acceleration = _fit(tips["acceleration"], space.polygon, 1.0 / unit) * unit
     if room is None:

@@ -24,7 +24,8 @@ from graphkin.drawing.svg import svg_bytes
 
 if TYPE_CHECKING:
     from graphkin.drawing.figure_pages import acceleration_figure, figures, mechanism_figure, velocity_figure
-    from graphkin.drawing.whole_sheet import sheet_page, sheet_room
+    from graphkin.drawing.sheet_plan import sheet_room
+    from graphkin.drawing.whole_sheet import sheet_page
 
 __all__ = [
     "Arc",
@@ -56,7 +57,7 @@ _COMPOSED = {
     "mechanism_figure": "figure_pages",
     "velocity_figure": "figure_pages",
     "sheet_page": "whole_sheet",
-    "sheet_room": "whole_sheet",
+    "sheet_room": "sheet_plan",
 }
 
 

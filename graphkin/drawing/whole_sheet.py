@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from graphkin.checking import Report
-from graphkin.drafting import Room
 from graphkin.drafting.sheet import DiagramName, Sheet
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
@@ -16,88 +13,16 @@ from graphkin.drawing.dimensions import check_bar
 from graphkin.drawing.equations import write_equations
 from graphkin.drawing.headings import drivers, facts, term, titles
 from graphkin.drawing.insets import INSET, coriolis_row, polygon_with_insets
-from graphkin.drawing.layout import Piece, fitted, joined, layer_groups, moved, moved_piece, settled, wrapped
+from graphkin.drawing.layout import Piece, fitted, ink_box, joined, layer_groups, moved, moved_piece, settled, wrapped
 from graphkin.drawing.mechanism import mechanism_piece
 from graphkin.drawing.polygon import extent
 from graphkin.drawing.primitives import Drawing, Group, Line, Polygon, Primitive, Run, Text
+from graphkin.drawing.sheet_plan import BLOCK, GUTTER, MARGIN, SheetPlan, sheet_plan
 from graphkin.drawing.tables import given_data, readings_table
 from graphkin.drawing.typeset import rich
-from graphkin.scene.model import Scene
 from graphkin.words import Phrase, languages, say
 
-__all__ = ["sheet_page", "sheet_room"]
-
-PAPERS = {"A4": (210.0, 297.0), "A3": (297.0, 420.0), "A2": (420.0, 594.0), "A1": (594.0, 841.0), "A0": (841.0, 1189.0)}
-MARGIN, GUTTER, CAPTION = 10.0, 2.0, 5.5
-HEAD, BLOCK = 11.0, 16.0  # heading above, title block below
-FILL = 0.87  # of a panel, by the polygon with the finest scale
-AROUND_MECHANISM = (16.0, 19.0)  # mm for symbols and names
-
-
-@dataclass(frozen=True)
-class _Plan:
-    """Where everything stands on the page (mm); panels without their captions."""
-
-    width: float
-    height: float
-    mechanism: Box
-    velocity: Box
-    acceleration: Box
-    equations: Box
-    given: Box
-    readings: Box
-    block: Box
-
-
-def sheet_room(scene: Scene) -> Room:
-    """The room in which a sheet for ``sheet_page`` is to be drafted: ``draft(scene, room=sheet_room(scene))``."""
-    plan = _plan(scene)
-    return Room(
-        mechanism=(plan.mechanism.width - AROUND_MECHANISM[0], plan.mechanism.height - AROUND_MECHANISM[1]),
-        polygon=(plan.velocity.width * FILL, plan.velocity.height * FILL),
-    )
-
-
-def _plan(scene: Scene) -> _Plan:
-    short, long = PAPERS.get(scene.sheet.paper, PAPERS["A4"])
-    if scene.sheet.orientation == "landscape":
-        return _landscape(long, short)
-    return _portrait(short, long)
-
-
-def _portrait(width: float, height: float) -> _Plan:
-    page = Box(MARGIN, MARGIN, width - MARGIN, height - MARGIN)
-    top = page.top + HEAD + CAPTION
-    split = page.left + 0.483 * page.width
-    polygon = 0.315 * page.height  # height of a polygon's panel
-    right = split + GUTTER
-    velocity = Box(right, top, page.right, top + polygon)
-    acceleration = velocity.moved(complex(0, polygon + CAPTION + GUTTER))
-    mechanism = Box(page.left, top, split, top + 1.08 * polygon)
-    equations = Box(page.left, mechanism.bottom + GUTTER + CAPTION, split, acceleration.bottom)
-    block = Box(page.left, page.bottom - BLOCK, page.right, page.bottom)
-    low = acceleration.bottom + GUTTER + CAPTION
-    third = page.left + 0.27 * page.width
-    given = Box(page.left, low, third, block.top - GUTTER)
-    readings = Box(third + 2 * GUTTER, low, page.right, block.top - GUTTER)
-    return _Plan(width, height, mechanism, velocity, acceleration, equations, given, readings, block)
-
-
-def _landscape(width: float, height: float) -> _Plan:
-    page = Box(MARGIN, MARGIN, width - MARGIN, height - MARGIN)
-    top = page.top + HEAD + CAPTION
-    panel = (page.width - 2 * GUTTER) / 3
-    bottom = top + panel * 0.98
-    boxes = [
-        Box(page.left + i * (panel + GUTTER), top, page.left + i * (panel + GUTTER) + panel, bottom) for i in range(3)
-    ]
-    block = Box(page.left, page.bottom - BLOCK, page.right, page.bottom)
-    low = bottom + GUTTER + CAPTION
-    one, two = page.left + 0.17 * page.width, page.left + 0.53 * page.width
-    given = Box(page.left, low, one, block.top - GUTTER)
-    equations = Box(one + GUTTER, low, two, block.top - GUTTER)
-    readings = Box(two + GUTTER, low, page.right, block.top - GUTTER)
-    return _Plan(width, height, boxes[0], boxes[1], boxes[2], equations, given, readings, block)
+__all__ = ["sheet_page"]
 
 
 def sheet_page(
@@ -115,7 +40,7 @@ def sheet_page(
     scene = sheet.scene
     spoken = language or scene.sheet.language
     letters = letters_of(sheet, convention or scene.sheet.convention)  # type: ignore[arg-type]
-    plan = _plan(scene)
+    plan = sheet_plan(sheet)
     velocity, _ = _polygon(sheet, "velocity", letters, spoken, plan.velocity)
     drawn: list[DiagramName] = ["mechanism", "velocity"]
     homeless: list[CoriolisTerm] = []
@@ -124,6 +49,11 @@ def sheet_page(
         drawn.append("acceleration")
         acceleration, homeless = _polygon(sheet, "acceleration", letters, spoken, plan.acceleration)
         pieces += [_panel(plan.acceleration, _caption(sheet, letters, spoken, "acceleration")), acceleration]
+    given = given_data(sheet, letters, spoken, plan.given)
+    spare = _spare(plan.given, given)
+    if spare is not None:
+        pieces.append(coriolis_row(sheet, homeless[:1], letters, spare))
+        homeless = homeless[1:]
     pieces += [
         _heading(sheet, letters, spoken, plan),
         _panel(plan.mechanism, _caption(sheet, letters, spoken, "mechanism")),
@@ -131,7 +61,7 @@ def sheet_page(
         _mechanism(sheet, letters, plan.mechanism),
         velocity,
         _equations(sheet, letters, spoken, plan.equations, homeless),
-        _captioned(plan.given, term("given", spoken), "labels", given_data(sheet, letters, spoken, plan.given)),
+        _captioned(plan.given, term("given", spoken), "labels", given),
         _captioned(
             plan.readings,
             term("readings", spoken),
@@ -151,10 +81,17 @@ def sheet_page(
     )
 
 
+def _spare(box: Box, written: tuple[Primitive, ...]) -> Box | None:
+    """Room for an inset at the foot of a box in which something is written; None where there is none."""
+    ink = ink_box(written)
+    top = box.bottom - INSET[1]
+    return Box(box.left, top, box.right, box.bottom) if ink is None or ink.bottom + GUTTER < top else None
+
+
 WORDS = {"mechanism": "mechanism", "velocity": "velocity polygon", "acceleration": "acceleration polygon"}
 
 
-def _heading(sheet: Sheet, letters: Letters, language: str, plan: _Plan) -> Piece:
+def _heading(sheet: Sheet, letters: Letters, language: str, plan: SheetPlan) -> Piece:
     width = plan.width - 2 * MARGIN
     words = "   ".join(titles(sheet, language))
     return Piece({"labels": (
