@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -17,12 +17,14 @@ from graphkin.exact.pose import Array
 from graphkin.scene.model import AngleDriver
 from graphkin.structure import Cluster, Dyad, Pair, Slide, Structure, Turn
 
-__all__ = ["assembly_words", "dead_why", "limit_why", "singular"]
+__all__ = ["assembly_words", "limit_why", "singular", "without_singular"]
 
 OPEN = 1e-9
 CERTIFIED = 0.5
 WEAK = 1e-3
 """Sine below which a group is near its dead point."""
+HAIR, FAR_OFF = 1e-7, 1e2
+"""A step of a driver (rad, or of the size), and what is far away (of the size)."""
 
 
 def singular(structure: Structure, state: State, n: int) -> Iterator[tuple[int, Array]]:
@@ -41,6 +43,44 @@ def singular(structure: Structure, state: State, n: int) -> Iterator[tuple[int, 
         else:
             refused = ~(solved.missed < OPEN) | ~(solved.certificate < CERTIFIED)
             yield i, ~(solved.condition * SINGULAR <= 1) | refused
+
+
+def without_singular(
+    structure: Structure, state: State, values: Array, forms: Mapping[int, Array], status: Array, why: Sequence[str]
+) -> tuple[Array, list[str]]:
+    """Status and reasons of positions, those told apart that are ok but for a group in a singular position.
+
+    Parameters
+    ----------
+    values, forms : of the drivers and assemblies that were solved, shapes (n, drivers) and (n, ...)
+    status, why : as far as known
+    """
+    status, reasons = status.copy(), list(why)
+    for i, dead in singular(structure, state, len(status)):
+        for k in np.flatnonzero(dead & (status == "ok")):
+            own = {j: f[k : k + 1] for j, f in forms.items()}
+            apart = _apart(structure, i, values[k], own)
+            status[k] = "not assembled" if apart else "dead point"
+            reasons[k] = apart or _dead_why(structure, i, values[k], own)
+    return status, reasons
+
+
+def _apart(structure: Structure, i: int, values: Array, forms: Mapping[int, Array]) -> str:
+    """What to say of a dyad whose guides are parallel and not one line, so that they meet nowhere; "" of any other:
+    a hair further on it would lie far away."""
+    group = structure.elements[i]
+    if not (isinstance(group, Dyad) and group.kind in ("PRP", "RPP")):
+        return ""
+    one = np.ones((1, len(values)))
+    size = structure.scene.size
+    for driver, turns in enumerate(isinstance(d, AngleDriver) for d in structure.scene.drivers):
+        nudged = values[None].copy()
+        nudged[0, driver] += HAIR * (1.0 if turns else size)
+        solved = positions(structure, Drive(nudged, one, 0 * one), forms, i + 1, rates=False).groups[i]
+        assert isinstance(solved, Solved)
+        if max(abs(complex(np.ravel(pose.z)[0])) for pose in (solved.first, solved.second)) > FAR_OFF * size:
+            return f"links {', '.join(group.links)} have parallel guides that lie apart: they meet nowhere"
+    return ""
 
 
 def limit_why(
@@ -76,7 +116,7 @@ def _ending(group: Dyad | Cluster) -> str:
     return "reach the end of their motion"
 
 
-def dead_why(structure: Structure, i: int, values: Array, forms: Mapping[int, Array]) -> str:
+def _dead_why(structure: Structure, i: int, values: Array, forms: Mapping[int, Array]) -> str:
     """Why group ``i`` stands in a dead point: an infinite rate, or a velocity that is not unique."""
     scene = structure.scene
     group = structure.elements[i]

@@ -12,7 +12,7 @@ from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
 from graphkin.exact.choice import choose_forms, own_values
 from graphkin.exact.diagnose import structure_of
 from graphkin.exact.engine import State, positions
-from graphkin.exact.findings import assembly_words, dead_why, limit_why, singular
+from graphkin.exact.findings import assembly_words, limit_why, without_singular
 from graphkin.exact.joints import Drive
 from graphkin.exact.motion import Motion
 from graphkin.exact.path import Path, follow_path
@@ -176,11 +176,7 @@ def _solved(
         used = np.where(good[:, None], values, values[fill])
         picked = {i: np.where(good.reshape(-1, *[1] * (f.ndim - 1)), f, f[fill]) for i, f in chosen.items()}
         state = positions(structure, Drive.at(structure, used), picked)
-        for i, dead in singular(structure, state, n):
-            new = dead & (status == "ok")
-            for k in np.flatnonzero(new):
-                reasons[k] = dead_why(structure, i, used[k], {j: f[k : k + 1] for j, f in picked.items()})
-            status[new] = "dead point"
+        status, reasons = without_singular(structure, state, used, picked, status, reasons)
     if state is None:
         return _nowhere(structure, values, "not assembled", why)
     ok = status == "ok"

@@ -11,7 +11,7 @@ from graphkin.errors import Problem, Unsolvable
 from graphkin.exact import Motion, structure_of
 from graphkin.exact.choice import choose_forms, own_values
 from graphkin.exact.engine import positions
-from graphkin.exact.findings import assembly_words, dead_why, limit_why, singular
+from graphkin.exact.findings import assembly_words, limit_why, without_singular
 from graphkin.exact.joints import Drive
 from graphkin.exact.path import Path, follow_path
 from graphkin.exact.pose import Array, Pose, rest
@@ -119,11 +119,7 @@ class Course:
         if not good.all():
             why = self.limit_why
             reasons = ["" if g else why for g in good]
-        for i, dead in singular(self.structure, state, n):
-            new = dead & (status == "ok")
-            for k in np.flatnonzero(new):
-                reasons[k] = dead_why(self.structure, i, drive.value[k], {j: f[k : k + 1] for j, f in forms.items()})
-            status[new] = "dead point"
+        status, reasons = without_singular(self.structure, state, drive.value, forms, status, reasons)
         ok = status == "ok"
         poses = {name: _masked(pose.spread(n), ok) for name, pose in state.poses.items()}
         poses[self.scene.frame.name] = rest().spread(n)

@@ -113,3 +113,31 @@ def test_a_larger_group_at_its_limit_is_dead_or_out_of_reach() -> None:
     near = solve(scene, at={"2": np.radians(limit - 0.01)})
     crank = solve(read_text(scenes.FOUR_BAR, "scene"), at={"1": float(near.angle("1")[0])})
     assert crank.omega("3")[0] / crank.omega("2")[0] == pytest.approx(near.omega("3")[0] / near.omega("2")[0], rel=1e-6)
+
+
+APART = """
+[frame]
+points = { A = [0, 0] }
+guides = { v = { through = [100, 0], angle = 90 } }
+[links.1]
+points = ["A"]
+[links.4]
+points = ["B"]
+on = "0.v"
+[pins.B]
+of = "4"
+in = "1"
+[driver]
+link = "1"
+angle = 50
+omega = 1.5
+"""
+
+
+def test_parallel_guides_that_lie_apart_are_no_dead_point() -> None:
+    motion = at(APART, 90)
+    assert ("not assembled", True) == (motion.status[0], "meet nowhere" in motion.why[0])
+
+
+def test_parallel_guides_in_one_line_are_a_dead_point() -> None:
+    assert "dead point" == at(APART.replace("[100, 0]", "[0, 0]"), 90).status[0]
