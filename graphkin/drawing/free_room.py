@@ -15,12 +15,12 @@ import shapely
 from graphkin.drawing.box import Box
 from graphkin.drawing.candidates import LEADER_FROM, LEADER_LEAST, RINGS, Around, Asker, Mark, around, ends
 from graphkin.drawing.obstacles import Obstacles
-from graphkin.drawing.seats import LEADER_GAP, Seats, cross_product, separated
+from graphkin.drawing.seats import LEADER_GAP, LEADER_SPACE, Seats, cross_product, separated
 
 __all__ = ["Field", "least_cost"]
 
 CLEARANCE = 0.35  # between a label and any line or area, mm
-NEARER = 0.9  # by so much a label is nearer to its own mark than to any other
+NEARER = 1.2  # by so much a label is nearer to its own mark than to any other
 # What a place costs beside its distance (mm): a leader, whatever the leader crosses, a dashed line under the label, a
 # leader to a line that ends nearer than NEAR_END to a point at its end.
 LEADER_COST, CROSSED_COST, DASHED_COST, END_COST = 4.0, 3.0, 3.0, 3.0
@@ -42,11 +42,12 @@ class Field:
 
     def __init__(self, panel: Box, obstacles: Obstacles, marks: Sequence[Mark]) -> None:
         self.panel = panel
-        diagonals = tuple((area.corners[0], area.corners[2]) for area in obstacles.areas)
+        writing = set(obstacles.writing)
+        areas = [area.grown(LEADER_SPACE) if area in writing else area for area in obstacles.areas]
+        diagonals = tuple((area.corners[0], area.corners[2]) for area in areas)
         self.things = np.array(diagonals + obstacles.solid + obstacles.dashed, dtype=complex).reshape(-1, 2)
         self.areas = len(diagonals)
         self.solid = len(diagonals) + len(obstacles.solid)
-        writing = set(obstacles.writing)
         self.writing = np.array([*(area in writing for area in obstacles.areas), False])
         self.tree = shapely.STRtree(_lines(self.things[:, 0], self.things[:, 1]))
         # Labels at the same place share one mark: coincident points are told apart by their letters.

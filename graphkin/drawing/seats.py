@@ -12,7 +12,7 @@ import numpy as np
 from graphkin.drawing.box import Box
 from graphkin.drawing.obstacles import Segment
 
-__all__ = ["LEADER_GAP", "Seat", "Seats", "cross_product", "meets", "separated"]
+__all__ = ["LEADER_GAP", "LEADER_SPACE", "Seat", "Seats", "cross_product", "meets", "separated"]
 
 LEADER_GAP = 0.4  # mm between the end of a leader and the box of its label
 LEADER_SPACE = 0.25  # mm between a leader and the box of any other label

@@ -60,7 +60,7 @@ def _fits(box: Box, room: tuple[float, float]) -> bool:
 def _piece(here: OnPaper, panel: Box | None) -> Piece:
     clear = clearance(here)
     whole = joined((_construction(here), links(here), joints(here), drivers(here, clear), found_rates(here, clear)))
-    drawn = [thing for layer in ("mechanism", "answers") for thing in whole.layers[layer]]
+    drawn = [thing for layer in ("construction", "mechanism", "answers") for thing in whole.layers[layer]]
     lengths = Piece({"mechanism": (drawn_lengths(here.sheet, drawn, panel),)})
     marks = Piece(marks=tuple(page(z) for z in here.places.values()))
     return joined((whole, lengths, link_names(here), marks))
