@@ -66,14 +66,19 @@ def solve(
 
 
 def _print_solution(solved: Solved, lang: str | None) -> None:
+    from graphkin.words import Phrase, say
+
     data, scene = solved.data, solved.motion.scene
     language = lang or scene.sheet.language
     typer.echo(f"{scene.title_in(language)}   F = {data['mobility']}")
     for group in data["groups"]:
-        typer.echo(f"links {', '.join(group['links'])}: {group['kind']}, class {group['class']}; {group['assembly']}")
+        links = ", ".join(group["links"])
+        args = links, group["kind"], group["class"], group["assembly"]
+        typer.echo(say(Phrase("solved group", args), language))
     for position in data["positions"]:
         typer.echo("")
-        typer.echo("driver " + ", ".join(f"{k} = {v:.6g}" for k, v in position["driver"].items()))
+        values = ", ".join(f"{k} = {v:.6g}" for k, v in position["driver"].items())
+        typer.echo(say(Phrase("solved driver", (values,)), language))
         if position["status"] != "ok":
             typer.echo(f"{position['status']}: {position['why']}")
             continue

@@ -2,7 +2,6 @@ from __future__ import annotations
 
 import cmath
 import itertools
-import time
 from itertools import combinations
 
 import pytest
@@ -125,19 +124,6 @@ def test_a_panel_without_room_is_owned_up_to():
 
 def test_no_labels_need_no_places():
     assert place([], PANEL) == ()
-
-
-def test_the_labels_of_a_six_bar_are_placed_in_ten_milliseconds():
-    children, labels = polygon([complex(30 + 15 * (3 * i % 7), 15 + 11 * (5 * i % 7)) for i in range(1, 7)])
-    obstacles = obstacles_of(children)
-    place(labels, PANEL, obstacles)  # imports
-    best = float("inf")
-    for _ in range(9):
-        start = time.process_time()
-        place(labels, PANEL, obstacles)
-        best = min(best, time.process_time() - start)
-    assert len(labels) >= 18
-    assert best < 0.010
 
 
 def test_a_tint_is_no_obstacle_but_its_edge_is():
