@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from threading import Lock
 from typing import Any
 
@@ -44,8 +44,8 @@ def turn_lines(angle: str, cosine: str, sine: str) -> list[str]:
     ]
 
 
-def compiled(text: str) -> Callable[..., None]:
-    """The compiled function that a text defines; it runs on all cores.
+def compiled(text: str, threads: bool) -> Callable[..., None]:
+    """The compiled function that a text defines; with ``threads`` it runs on all cores.
 
     Raises
     ------
@@ -60,10 +60,12 @@ def compiled(text: str) -> Callable[..., None]:
     space: dict[str, Any] = {"sqrt": math.sqrt, "floor": math.floor, "rint": np.rint, "prange": numba.prange}
     space |= {"atan2": math.atan2, "fmin": min, "fmax": max}
     exec(compile(text, "<formulas>", "exec"), space)
-    made = numba.njit(error_model="numpy", parallel=True)(space["made"])
+    made = numba.njit(error_model="numpy", parallel=threads)(space["made"])
+    if not threads:
+        return made  # type: ignore[no-any-return]
 
-    def run(params: Sequence[float], *rest: Any) -> None:
+    def run(*given: Any) -> None:
         with _ONE_AT_A_TIME:
-            made(np.array(params, dtype=float), *rest)
+            made(*given)
 
     return run

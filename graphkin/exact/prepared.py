@@ -31,7 +31,7 @@ __all__ = ["Prepared", "prepare"]
 
 CHUNK = 16384
 """Positions in a piece, so that all columns of one stay in the cache."""
-LONG = 100_000
+LONG = 20_000
 """From so many positions on the threads of compiled code pay."""
 FAR = 4.0
 CLEAR = 0.2
@@ -184,13 +184,18 @@ class Prepared:
     # many
 
     @cached_property
-    def _loops(self) -> dict[type, Callable[..., None]]:
+    def _loops(self) -> dict[tuple[type, bool], Callable[..., None]]:
         return {}
 
-    def _compiled(self, kind: type) -> Callable[..., None]:
-        if kind not in self._loops:
-            self._loops[kind] = compiled(self._code.loop(self.turns, kind is Even, len(self.asked)))
-        return self._loops[kind]
+    @cached_property
+    def _numbers(self) -> Array:
+        return np.array(self._params, dtype=float)
+
+    def _compiled(self, kind: type, threads: bool) -> Callable[..., None]:
+        key = kind, threads
+        if key not in self._loops:
+            self._loops[key] = compiled(self._code.loop(self.turns, kind is Even, len(self.asked)), threads)
+        return self._loops[key]
 
     def columns(self, values: Array, out: Array | None = None, fast: bool = False) -> tuple[Array, Array]:
         """The asked quantities at many values of the first driver.
@@ -199,7 +204,7 @@ class Prepared:
         ----------
         values : shape (n,) (rad, m)
         out : where to put them, shape (len(names), n)
-        fast : compile the formulas with numba and run them on all cores, where the positions are many; the first call
+        fast : compile the formulas with numba, and run them on all cores where the positions are many; the first call
             takes some seconds
 
         Returns
@@ -217,7 +222,7 @@ class Prepared:
 
     def _all(self, way: Listed | Even, out: Array, fast: bool) -> Array:
         n = len(way)
-        if fast and n >= LONG:
+        if fast:
             return self._some(way, out, True)
         if n <= CHUNK:
             return self._some(way, out, False)
@@ -231,7 +236,8 @@ class Prepared:
         sines = np.empty((len(self._code.asked) - count, n))
         if fast:
             signs = [given[name] for name in self._code.inputs if name[0] == "sign"]
-            self._compiled(type(way))(self._params, *way.given, n, np.array(signs).reshape(-1, n), out, sines)
+            run = self._compiled(type(way), n >= LONG)
+            run(self._numbers, *way.given, n, np.array(signs).reshape(-1, n), out, sines)
         else:
             if self.turns:
                 given["cos", 0], given["sin", 0] = way.turn
