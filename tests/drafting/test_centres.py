@@ -5,6 +5,7 @@ from __future__ import annotations
 import cmath
 import math
 import random
+from dataclasses import replace
 from itertools import combinations
 from typing import Any
 
@@ -221,6 +222,18 @@ def test_the_told_rates_multiply_up_to_the_exact_ones(name: str) -> None:
             symbol, _, _, _, rate, arm, scale, _ = phrase.args
             told = float(str(rate)) * float(str(arm)) * float(str(scale).split()[0]) * metres
             assert told == pytest.approx(exact[str(symbol)], rel=2e-2 if float(str(arm)) < 1 else 2e-3)
+
+
+def test_the_speed_of_a_translating_link_is_that_of_the_crank_at_their_centre() -> None:
+    # the ram has no finite centre: its speed is that of the crank where both have one velocity
+    scene = replace(read("shaper-scheme-2"), find=(Symbol.parse("v_C@6"),))
+    centres = find_centres(scene)
+    (told,) = [p for p in velocity_sentences(centres, speeds(centres)) if p.key == "centre speed"]
+    _, link, _, end, rate, arm, scale, said = told.args
+    exact = abs(checked_centres(scene).velocities[0].exact) / scene.units.metres
+    assert ("2", True) == (link, isinstance(end, tuple))
+    assert float(str(said).split()[0]) == pytest.approx(exact, rel=1e-5)
+    assert float(str(rate)) * float(str(arm)) * float(str(scale).split()[0]) == pytest.approx(exact, rel=2e-3)
 
 
 def test_a_clockwise_link_is_told_with_its_sign() -> None:
