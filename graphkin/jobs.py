@@ -1,0 +1,326 @@
+"""Long work in pieces: on processes, on a cluster, on any executor; interrupted at any moment, it goes on from there.
+
+`Workers` do the pieces, `Checkpoints` hold what is done.  A piece depends on nothing but what it is given, so that it
+comes out the same wherever it is made, and is made again where a worker was lost.  A checkpoint is a file that is there
+whole or not at all: a process may be killed between any two instructions, and nothing is lost but the pieces it was
+working on, nothing is doubled, nothing is half written.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import multiprocessing
+import os
+import shutil
+import signal
+import tempfile
+import threading
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future, ProcessPoolExecutor
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from multiprocessing.connection import wait
+from multiprocessing.process import BaseProcess
+from pathlib import Path
+from types import TracebackType
+from typing import IO, Any, Generic, TypeVar
+
+from graphkin.errors import CallError, Problem
+from graphkin.version import __version__
+
+__all__ = ["Checkpoints", "Piece", "Progress", "Started", "Workers", "cluster", "whole_file"]
+
+Progress = Callable[[int, int], None]
+"""Called with how much is done, and with all there is to do."""
+Result = TypeVar("Result")
+
+AHEAD = 4
+"""Pieces given out for each worker, so that memory stays bounded and none waits."""
+MOST_LOSSES = 5
+"""Times that a piece is given out again after its worker was lost."""
+LOST = Problem("the workers", "are lost again and again", "run with --workers 1")
+RENEWED = 600
+"""Pieces after which processes of one's own are replaced by fresh ones, so that what libraries keep of each (Typst its
+words, for one) does not add up."""
+
+
+@contextmanager
+def whole_file(path: Path) -> Iterator[IO[bytes]]:
+    """Open a file that takes its name only when it is whole; one of the same name is replaced.  Raises OSError."""
+    handle, temporary = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
+    try:
+        with os.fdopen(handle, "wb") as stream:
+            yield stream
+        mask = os.umask(0)
+        os.umask(mask)
+        os.chmod(temporary, 0o666 & ~mask)
+        os.replace(temporary, path)
+    except BaseException:
+        os.unlink(temporary)
+        raise
+
+
+# what is done
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A finished piece of work: facts about it, and where its content begins in its file."""
+
+    facts: Mapping[str, Any]
+    path: Path
+    begin: int
+
+    def copy(self, out: IO[bytes]) -> None:
+        """Write the content to an open file."""
+        with open(self.path, "rb") as stream:
+            stream.seek(self.begin)
+            shutil.copyfileobj(stream, out, 1 << 20)
+
+
+@dataclass(frozen=True)
+class Checkpoints:
+    """The finished pieces of one job, each a file in a hidden folder: a line of facts (JSON), then any content.
+
+    The folder's name holds a key of the job, so that nothing of another job is ever used.
+    """
+
+    place: Path
+
+    @classmethod
+    def of(cls, folder: Path, kind: str, *parts: object) -> Checkpoints:
+        """Those of a job in a folder; two jobs share them only if their parts are the same (as JSON, or by repr)."""
+        key = hashlib.sha256(repr(__version__).encode())
+        for part in parts:
+            key.update(json.dumps(part, sort_keys=True, default=repr).encode() + b"\n")
+        return cls(folder / f".{kind}-{key.hexdigest()[:24]}")
+
+    def open(self, **facts: object) -> None:
+        """Make the folder, with a file that says in words what it holds."""
+        self.place.mkdir(parents=True, exist_ok=True)
+        about = self.place / "about.json"
+        if not about.exists():
+            words = {"what": "finished pieces of a graphkin job; the same command goes on from here", **facts}
+            with whole_file(about) as out:
+                out.write(json.dumps(words, indent=1, ensure_ascii=False).encode())
+
+    def done(self) -> set[int]:
+        """Numbers of the finished pieces."""
+        if not self.place.is_dir():
+            return set()
+        return {int(path.name) for path in self.place.iterdir() if path.name.isdecimal()}
+
+    def save(self, number: int, facts: Mapping[str, Any], content: bytes = b"") -> None:
+        """Keep a finished piece."""
+        with whole_file(self.place / f"{number:07d}") as out:
+            out.write(json.dumps(facts, ensure_ascii=False).encode() + b"\n")
+            out.write(content)
+
+    def load(self, number: int) -> Piece:
+        """A finished piece."""
+        path = self.place / f"{number:07d}"
+        with open(path, "rb") as stream:
+            line = stream.readline()
+        return Piece(json.loads(line), path, len(line))
+
+    def close(self) -> None:
+        """Take them away: the job is done."""
+        shutil.rmtree(self.place, ignore_errors=True)
+
+
+# who does it
+
+
+class Workers:
+    """Whoever does the pieces: an executor that is given (it stays open), so many processes of one's own, or this
+    process alone.
+
+    Used in a ``with`` statement.  Where that is left by an exception (an interruption, above all) nothing is waited
+    for: what has not begun is cancelled, and processes of one's own are ended.
+    """
+
+    def __init__(self, executor: Executor | None = None, processes: int | None = None, renewed: int = RENEWED) -> None:
+        self._given = executor
+        self._processes = processes if executor is None and (processes or 1) > 1 else None
+        self._renewed = renewed
+        self._pool: ProcessPoolExecutor | None = None
+        self._count = 0
+        self._old: list[BaseProcess] = []
+        self._waiting: set[Future[Any]] = set()
+
+    @property
+    def own(self) -> bool:
+        """Whether the processes are its own."""
+        return self._processes is not None
+
+    @property
+    def width(self) -> int:
+        """How many pieces can be done at once, as far as the executor tells; 1 in this process alone."""
+        if self._processes is not None:
+            return self._processes
+        return 1 if self._given is None else _width(self._given)
+
+    @property
+    def ahead(self) -> int:
+        """How many pieces to give out beyond the one that is waited for."""
+        return 0 if self._given is None and self._processes is None else AHEAD * max(2, self.width)
+
+    def start(self, task: Callable[..., Result], *given: Any) -> Started[Result]:
+        """Give out a piece."""
+        return Started(self, task, given)
+
+    def results(self, task: Callable[..., Result], pieces: Iterable[tuple[Any, ...]]) -> Iterator[Result]:
+        """What each piece gives, in their order; a few are always given out ahead."""
+        queue: deque[Started[Result]] = deque()
+        for given in pieces:
+            queue.append(self.start(task, *given))
+            if len(queue) > self.ahead:
+                yield queue.popleft().result()
+        while queue:
+            yield queue.popleft().result()
+
+    def __enter__(self) -> Workers:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
+        for future in list(self._waiting):
+            future.cancel()
+        if self._pool is not None:
+            running = _processes(self._pool)
+            self._pool.shutdown(wait=kind is None, cancel_futures=True)
+            if kind is not None:
+                for process in (*self._old, *running):
+                    process.kill()
+        self._pool, self._old = None, []
+
+    def _submit(self, task: Callable[..., Result], given: tuple[Any, ...]) -> Future[Result] | None:
+        """The future of a piece; None where there is no executor, or none that takes it."""
+        future: Future[Result] | None = None
+        if self._given is not None:
+            with suppress(Exception):
+                future = self._given.submit(task, *given)
+        elif self._processes is not None:
+            future = self._to_pool(task, given)
+        if future is not None:
+            self._waiting.add(future)
+            future.add_done_callback(self._waiting.discard)
+        return future
+
+    def _to_pool(self, task: Callable[..., Result], given: tuple[Any, ...]) -> Future[Result]:
+        for _ in range(MOST_LOSSES):
+            if self._pool is None or self._count >= self._renewed:
+                if self._pool is not None:
+                    # it ends by itself when its pieces are done
+                    self._old = [p for p in (*self._old, *_processes(self._pool)) if p.is_alive()]
+                    self._pool.shutdown(wait=False)
+                self._pool, self._count = process_pool(self._processes or 1), 0
+            self._count += 1
+            try:
+                return self._pool.submit(task, *given)
+            except BrokenExecutor:  # one of its processes was killed
+                self._count = self._renewed
+        raise CallError(LOST)
+
+
+class Started(Generic[Result]):
+    """A piece that is given out."""
+
+    def __init__(self, workers: Workers, task: Callable[..., Result], given: tuple[Any, ...]) -> None:
+        self._workers, self._task, self._given = workers, task, given
+        self._future = workers._submit(task, given)
+
+    def result(self) -> Result:
+        """What it gives.
+
+        A piece whose worker was lost is given out again.  Where there is no executor, or it is broken, or could not do
+        the piece, it is done here, which raises what is wrong with it.
+        """
+        for _ in range(MOST_LOSSES):
+            if self._future is None:
+                break
+            try:
+                return self._future.result()
+            except (BrokenExecutor, CancelledError):
+                pass
+            except Exception as error:
+                if type(error).__name__ not in ("KilledWorker", "CommClosedError", "FutureCancelledError"):
+                    self._future = None
+                    break
+            self._future = self._workers._submit(self._task, self._given)
+        if self._future is not None and self._workers.own:
+            raise CallError(LOST)
+        return self._task(*self._given)
+
+
+def process_pool(processes: int) -> ProcessPoolExecutor:
+    """A pool of so many fresh processes, not copies of this one: safe beside threads, the same on every system.
+
+    They end by themselves when the one that started them is killed; what interrupts it is not theirs to answer.
+    """
+    return ProcessPoolExecutor(processes, multiprocessing.get_context("spawn"), _end_with_parent)
+
+
+def _processes(pool: ProcessPoolExecutor) -> list[BaseProcess]:
+    """The processes of a pool; it forgets them when it is shut down."""
+    return list((getattr(pool, "_processes", None) or {}).values())
+
+
+def _end_with_parent() -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        threading.Thread(target=_watch, args=(parent.sentinel,), daemon=True).start()
+
+
+def _watch(sentinel: int) -> None:
+    # a pool waits for work for ever: its queue stays open while a sister process lives
+    wait([sentinel])
+    os._exit(1)
+
+
+def _width(executor: Executor) -> int:
+    width = getattr(executor, "_max_workers", None)
+    if isinstance(width, int):
+        return width
+    client: Any = getattr(executor, "_client", None)
+    with suppress(Exception):
+        return int(sum(client.nthreads().values()))
+    return 2
+
+
+def cluster(address: str) -> Executor:
+    """An executor that runs on the Dask cluster at an address; to shut it down is to leave the cluster.
+
+    Raises
+    ------
+    CallError : the extra ``cluster`` is not installed, or no scheduler answers
+    """
+    try:
+        from distributed import Client
+    except ImportError:
+        raise CallError(
+            Problem("--scheduler", "Dask is not installed", 'install it with pip install "graphkin[cluster]"')
+        ) from None
+    try:
+        client = Client(address, timeout="10s", set_as_default=False)
+    except (OSError, ValueError, TypeError) as error:
+        raise CallError(
+            Problem(f"--scheduler {address}", f"no Dask scheduler answers: {error}", "give tcp://HOST:8786")
+        ) from None
+    return _Cluster(client)
+
+
+class _Cluster(Executor):
+    def __init__(self, client: Any) -> None:
+        self._client = client
+        # a piece is done anew where the worker that held its result is lost
+        self._inner: Executor = client.get_executor(pure=False, retries=MOST_LOSSES)
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
+        return self._inner.submit(fn, *args, **kwargs)
+
+    def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
+        self._inner.shutdown(wait)
+        self._client.close()

@@ -1,0 +1,430 @@
+"""A table: columns of numbers or words, each with its name, its unit and its symbol; and everything it is written as.
+
+Columns are arrays from one end to the other: no row is ever an object.  What writes them is a library where one is
+installed (pyarrow), and Python's own loops in C where none is; both give the same bytes.  pyarrow, pandas and xarray
+are imported when a table is first written so, and never before.
+
+Numbers in text are the shortest decimals that read back as the same double.  From 0.000001 to below 10000000000 they
+are written out (0.00025, 12, 1500.25), beyond that with a power (1.5e-7, 2e+10): pyarrow's own way, which the other
+writer follows.  A column may say another format.  What has no value (NaN) is an empty cell in CSV and HTML, ``null`` in
+JSON, Parquet and Arrow.
+"""
+
+from __future__ import annotations
+
+import csv
+import html
+import io
+import json
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from decimal import Decimal
+from functools import cached_property
+from importlib import import_module
+from importlib.util import find_spec
+from pathlib import Path
+from typing import IO, TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from graphkin.errors import CallError, Problem, did_you_mean
+
+if TYPE_CHECKING:
+    import pandas
+    import pyarrow
+    import xarray
+
+__all__ = ["Column", "Table", "have", "parquet_of_csv", "text_column"]
+
+Array = NDArray[Any]
+
+BLOCK = 16384
+"""Rows that are turned into text at once, so that a table of any length needs little more memory."""
+FEW = 20_000
+"""Cells of a table for which it does not pay to load pyarrow."""
+SHOWN = 24
+"""Rows of a table that HTML shows; of a longer one the first and the last."""
+_LEAST, _MOST = 1e-6, 1e10
+
+
+def have(library: str) -> bool:
+    """Whether a library is installed."""
+    return find_spec(library) is not None
+
+
+@dataclass(frozen=True)
+class Column:
+    """One column of a table.
+
+    values : shape (rows,): floats (NaN: no value), whole numbers, bools ("yes" and "no" in text), or words (an object
+        array of str)
+    unit : "" for pure numbers and words
+    symbol : of the quantity it belongs to: "v_C" for the column "v_C.x"
+    form : how numbers look in text, as for ``format``; "" is the shortest decimal that reads back the same
+    """
+
+    name: str
+    values: Array
+    unit: str = ""
+    symbol: str = ""
+    form: str = ""
+
+    @property
+    def head(self) -> str:
+        """Its name with its unit, as in the head of a CSV file."""
+        return f"{self.name} ({self.unit})" if self.unit else self.name
+
+    @property
+    def is_text(self) -> bool:
+        """Whether it holds words."""
+        return self.values.dtype.kind in "OUS"
+
+    def texts(self, rows: slice = slice(None)) -> list[str]:
+        """Its cells as text."""
+        values = self.values[rows]
+        kind = values.dtype.kind
+        if kind == "f":
+            return _formatted(values, self.form) if self.form else _shortest(values)
+        if kind == "b":
+            return ["yes" if value else "no" for value in values.tolist()]
+        return list(map(str, values.tolist()))
+
+
+def text_column(name: str, words: Iterable[str], form: str = "") -> Column:
+    """A column of words."""
+    return Column(name, np.array(list(words), dtype=object), form=form)
+
+
+@dataclass(frozen=True)
+class Table:
+    """Columns of the same length, in their order.
+
+    index : names of the columns that number the rows, the last one fastest: the dimensions in xarray
+
+    Examples
+    --------
+    >>> turn = Table((Column("driver_1", np.array([0.0, 90.0]), "deg"), Column("v_C", np.array([1.5, np.nan]), "m/s")))
+    >>> print(turn.csv(), end="")
+    driver_1 (deg),v_C (m/s)
+    0,1.5
+    90,
+    >>> turn["v_C"].tolist()
+    [1.5, nan]
+    """
+
+    columns: tuple[Column, ...]
+    index: tuple[str, ...] = ()
+
+    @classmethod
+    def of(cls, heads: Sequence[str], rows: Iterable[Sequence[object]], forms: Sequence[str] = ()) -> Table:
+        """A small table from rows as they are found: numbers (None: no value), bools or words.
+
+        Parameters
+        ----------
+        forms : for each column the format of its numbers, "" for the shortest
+        """
+        cells = list(rows)
+        found = []
+        for i, (head, form) in enumerate(zip(heads, forms or [""] * len(heads), strict=True)):
+            found.append(Column(head, _array([row[i] for row in cells]), form=form))
+        return cls(tuple(found))
+
+    def __len__(self) -> int:
+        return len(self.columns[0].values) if self.columns else 0
+
+    def __getitem__(self, name: str) -> Array:
+        """The values of a column by its name, or by its head.  Raises CallError for an unknown one."""
+        return self.column(name).values
+
+    def column(self, name: str) -> Column:
+        """A column by its name, or by its head.  Raises CallError for an unknown one."""
+        for column in self.columns:
+            if name in (column.name, column.head):
+                return column
+        raise CallError(Problem(f'column "{name}"', "there is none", did_you_mean(name, self.names)))
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        return tuple(c.name for c in self.columns)
+
+    @property
+    def heads(self) -> tuple[str, ...]:
+        """Names with units."""
+        return tuple(c.head for c in self.columns)
+
+    def rows(self, some: slice = slice(None)) -> Table:
+        """Some rows of it."""
+        return Table(tuple(replace(c, values=c.values[some]) for c in self.columns), self.index)
+
+    # text
+
+    def csv(self) -> str:
+        """The text of a CSV file."""
+        out = io.BytesIO()
+        self.write_csv(out)
+        return out.getvalue().decode()
+
+    def write_csv(self, out: IO[bytes], head: bool = True) -> None:
+        """Write it as CSV: UTF-8, lines that end with a line feed, quotes only where a cell needs them."""
+        if head:
+            out.write((",".join(map(_quoted, self.heads)) + "\n").encode())
+        arrow = len(self) * len(self.columns) > FEW and have("pyarrow")
+        for first in range(0, len(self), BLOCK):
+            some = slice(first, first + BLOCK)
+            out.write(self._lines_by_arrow(some) if arrow else self._lines(some))
+
+    def _lines(self, some: slice) -> bytes:
+        cells = [_quoted_all(c.texts(some)) if c.is_text else c.texts(some) for c in self.columns]
+        return ("\n".join(map(",".join, zip(*cells, strict=True))) + "\n").encode()
+
+    def _lines_by_arrow(self, some: slice) -> bytes:
+        import pyarrow as pa
+        from pyarrow import compute
+
+        # pyarrow's writer of CSV files would put every word into quotes: so its numbers are joined here
+        cells = []
+        for column in self.columns:
+            values = column.values[some]
+            if values.dtype.kind == "f" and not column.form:
+                cells.append(compute.cast(pa.array(values + 0.0, mask=np.isnan(values)), pa.string()))
+            elif values.dtype.kind in "iu":
+                cells.append(compute.cast(pa.array(values), pa.string()))
+            else:
+                texts = column.texts(some)
+                cells.append(pa.array(_quoted_all(texts) if column.is_text else texts, pa.string()))
+        null = {"null_handling": "replace", "null_replacement": ""}
+        lines = compute.binary_join_element_wise(*cells, ",", **null)
+        lines = compute.binary_join_element_wise(lines, "", "\n")
+        start, end = np.frombuffer(lines.buffers()[1], np.int32)[[lines.offset, lines.offset + len(lines)]]
+        return bytes(memoryview(lines.buffers()[2])[start:end])
+
+    def texts(self) -> Iterator[tuple[str, ...]]:
+        """Its rows as text cells, for a terminal or a page."""
+        return zip(*(c.texts() for c in self.columns), strict=True)
+
+    def _repr_html_(self) -> str:
+        n, ends = len(self), SHOWN // 2
+        parts = [self] if n <= SHOWN else [self.rows(slice(0, ends)), self.rows(slice(n - ends, n))]
+        gap = f'<tr><td colspan="{len(self.columns)}">&hellip; {n} rows &hellip;</td></tr>'
+        head = "".join(f"<th>{html.escape(h)}</th>" for h in self.heads)
+        tags = ["<td>" if c.is_text else '<td style="text-align:right">' for c in self.columns]
+        bodies = (
+            "".join(
+                "<tr>" + "".join(f"{tag}{html.escape(x)}</td>" for tag, x in zip(tags, row, strict=True)) + "</tr>"
+                for row in part.texts()
+            )
+            for part in parts
+        )
+        return f"<table><tr>{head}</tr>{gap.join(bodies)}</table>"
+
+    # data
+
+    @cached_property
+    def data(self) -> dict[str, Any]:
+        """For programs: each column with its unit, its symbol and its values; ``None`` where there is none."""
+        return {c.name: {**_facts(c), "values": _plain(c.values)} for c in self.columns}
+
+    def write_json(self, out: IO[bytes]) -> None:
+        """Write ``data`` as JSON, as it goes."""
+        for k, column in enumerate(self.columns):
+            facts = json.dumps(_facts(column), ensure_ascii=False)[:-1]
+            mark = "{" if k == 0 else ", "
+            part = ", " if len(facts) > 1 else ""
+            out.write(f'{mark}{json.dumps(column.name, ensure_ascii=False)}: {facts}{part}"values": ['.encode())
+            for first in range(0, len(self), BLOCK):
+                text = json.dumps(_plain(column.values[first : first + BLOCK]), ensure_ascii=False, allow_nan=False)
+                out.write((", " * (first > 0) + text[1:-1]).encode())
+            out.write(b"]}")
+        out.write(b"}\n" if self.columns else b"{}\n")
+
+    # libraries
+
+    def to_arrow(self) -> pyarrow.Table:
+        """As a table of pyarrow.  Raises CallError where it is not installed."""
+        pa = _library("pyarrow")
+        columns = {}
+        for column in self.columns:
+            values = column.values
+            mask = np.isnan(values) if values.dtype.kind == "f" else None
+            columns[column.head] = pa.array(values, pa.string() if column.is_text else None, mask=mask)
+        return pa.table(columns)
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """As a frame of pandas, its columns named by their heads.  Raises CallError where it is not installed."""
+        return _library("pandas").DataFrame({c.head: c.values for c in self.columns}, copy=False)
+
+    def to_xarray(self) -> xarray.Dataset:
+        """As a data set of xarray: a variable for each column, with its unit, over the columns of ``index``.
+
+        Raises CallError where it is not installed.
+        """
+        library = _library("xarray")
+        kept = self.index or ("row",)
+        along: dict[str, Array] = {}
+        if self.index:
+            # the last one runs fastest; each other repeats its values for all that follow it
+            left = len(self)
+            for name in self.index:
+                own = self[name]
+                along[name] = np.unique(own)
+                left //= len(along[name])
+            if left != 1:
+                raise CallError(Problem("table", f"is no grid of {', '.join(self.index)}"))
+        else:
+            along["row"] = np.arange(len(self))
+        shape = tuple(len(along[name]) for name in kept)
+        found = library.Dataset(coords=along)
+        for column in self.columns:
+            if column.name not in self.index:
+                found[column.name] = (kept, column.values.reshape(shape), _attributes(column))
+        return found
+
+    # files
+
+    def write(self, path: str | Path) -> Path:
+        """Write it to a file that appears whole or not at all: .csv, .parquet, .json or .html by its name.
+
+        Raises
+        ------
+        CallError : another ending, pyarrow is missing for .parquet, or a place that cannot be written
+        """
+        from graphkin.jobs import whole_file
+
+        target = Path(path)
+        kind = target.suffix.lower()
+        if kind not in (".csv", ".parquet", ".json", ".html"):
+            raise CallError(Problem(str(path), f'"{kind}" is no table', "known here: .csv, .parquet, .json, .html"))
+        arrow = self.to_arrow() if kind == ".parquet" else None
+        try:
+            with whole_file(target) as out:
+                if kind == ".csv":
+                    self.write_csv(out)
+                elif kind == ".json":
+                    self.write_json(out)
+                elif kind == ".html":
+                    out.write(self._repr_html_().encode())
+                else:
+                    import_module("pyarrow.parquet").write_table(arrow, out, compression="zstd")
+        except OSError as error:
+            raise CallError(Problem(str(path), f"cannot be written: {error.strerror or error}")) from None
+        return target
+
+    @classmethod
+    def read_csv(cls, path: str | Path, like: Table) -> Table:
+        """A table from a CSV file that was written of one with the same columns (``like``, which may be empty)."""
+        if have("pyarrow"):
+            csv_file = import_module("pyarrow.csv")
+            whole = csv_file.read_csv(path, convert_options=_arrow_types(like))
+            arrays = [column.to_numpy() for column in whole.columns]
+        else:
+            with open(path, newline="", encoding="utf-8") as stream:
+                cells = np.array(list(csv.reader(stream))[1:], dtype=object).reshape(-1, len(like.columns))
+            arrays = [_read(cells[:, k], column) for k, column in enumerate(like.columns)]
+        kinds = [c.values.dtype for c in like.columns]
+        made = [
+            replace(c, values=values.astype(kind))
+            for c, values, kind in zip(like.columns, arrays, kinds, strict=True)
+        ]
+        return cls(tuple(made), like.index)
+
+
+def _read(cells: Array, like: Column) -> Array:
+    """Cells of a CSV file as what a column holds."""
+    kind = like.values.dtype.kind
+    if kind == "b":
+        return np.asarray(cells == "yes")
+    return np.where(cells == "", "nan", cells) if kind == "f" else cells
+
+
+def parquet_of_csv(path: Path, like: Table, out: IO[bytes]) -> None:
+    """Write the table of a CSV file (with the columns of ``like``) as Parquet, in bounded memory."""
+    from pyarrow import csv as csv_file
+    from pyarrow import parquet
+
+    with csv_file.open_csv(path, convert_options=_arrow_types(like)) as reader, \
+            parquet.ParquetWriter(out, reader.schema, compression="zstd") as writer:  # fmt: skip
+        for batch in reader:
+            writer.write_batch(batch)
+
+
+def _arrow_types(like: Table) -> Any:
+    import pyarrow as pa
+    from pyarrow import csv as csv_file
+
+    kinds = {"f": pa.float64(), "i": pa.int64(), "u": pa.int64(), "b": pa.bool_()}
+    types = {c.head: kinds.get(c.values.dtype.kind, pa.string()) for c in like.columns}
+    return csv_file.ConvertOptions(
+        column_types=types, null_values=[""], true_values=["yes"], false_values=["no"], strings_can_be_null=False
+    )
+
+
+def _library(name: str) -> Any:
+    try:
+        return import_module(name)
+    except ImportError:
+        raise CallError(Problem(name, "is not installed", f"install it with pip install {name}")) from None
+
+
+def _array(cells: Sequence[object]) -> Array:
+    """Cells of a column: whole numbers, bools or words, or else floats, with NaN for None."""
+    for kind in (bool, int, str):
+        if cells and all(type(cell) is kind for cell in cells):
+            return np.array(cells, dtype=object if kind is str else kind)
+    if any(isinstance(cell, str) for cell in cells):
+        return np.array(["" if cell is None else str(cell) for cell in cells], dtype=object)
+    numbers: ArrayLike = [np.nan if cell is None else float(cell) for cell in cells]  # type: ignore[arg-type]
+    return np.array(numbers, dtype=float)
+
+
+def _facts(column: Column) -> dict[str, str]:
+    found = {"unit": column.unit, "symbol": column.symbol}
+    return {key: text for key, text in found.items() if text}
+
+
+def _attributes(column: Column) -> dict[str, str]:
+    # "units" is the name that xarray's plots look for
+    return {{"unit": "units"}.get(key, key): text for key, text in _facts(column).items()}
+
+
+def _plain(values: Array) -> list[Any]:
+    found: list[Any] = values.tolist()
+    if values.dtype.kind == "f" and not np.isfinite(values).all():
+        return [x if np.isfinite(x) else None for x in found]
+    return found
+
+
+def _formatted(values: Array, form: str) -> list[str]:
+    # "a: b" and "a: b" alike: one call for each cell, none of them in Python
+    found = list(map(("{:" + form + "}").format, values.tolist()))
+    for k in np.flatnonzero(np.isnan(values)).tolist():
+        found[k] = ""
+    return found
+
+
+def _shortest(values: Array) -> list[str]:
+    found = list(map(repr, (values + 0.0).tolist()))
+    size = np.abs(values)
+    other = (size < 1e-4) | ~(size < _MOST) | (values == np.rint(values))
+    for k in np.flatnonzero(other).tolist():
+        found[k] = _shown(float(values[k]))
+    return found
+
+
+def _shown(value: float) -> str:
+    """A number as pyarrow writes it: Python's ``repr`` has the same digits, but other rules for powers."""
+    if value != value:
+        return ""
+    if value in (0.0, np.inf, -np.inf):
+        return f"{value + 0.0:g}"
+    written_out = _LEAST <= abs(value) < _MOST
+    return format(Decimal(repr(value)).normalize(), "f" if written_out else "e")
+
+
+def _quoted(cell: str) -> str:
+    return '"' + cell.replace('"', '""') + '"' if any(c in cell for c in ',"\n\r') else cell
+
+
+def _quoted_all(cells: list[str]) -> list[str]:
+    some = {cell: _quoted(cell) for cell in set(cells)}
+    return list(map(some.__getitem__, cells))
