@@ -27,9 +27,9 @@ class LinkBounds:
     """The bounds of a program of dyads, made as they are asked for."""
 
     def __init__(self, program: Program) -> None:
-        self.program, self.structure, self.sheet = program, program.structure, program.sheet
-        self.unit = self.sheet.param(("unit",))
-        zero = self.sheet.const(0)
+        self.program, self.structure, self.graph = program, program.structure, program.graph
+        self.unit = self.graph.param(("unit",))
+        zero = self.graph.const(0)
         self._doubts = {self.structure.scene.frame.name: Doubt(zero, zero, zero, zero, zero, zero)}
         self._rest = program.at_rest(0j, 1 + 0j)
 
@@ -40,13 +40,13 @@ class LinkBounds:
         for link in links:
             own = self._of_link(link)
             most = [fmax(a, b) for a, b in zip(own, most, strict=True)] if most else list(own)
-        return most or [self.sheet.const(0)] * 6
+        return most or [self.graph.const(0)] * 6
 
     def _of_link(self, link: str) -> tuple[Real, ...]:
         pose = self.program.poses[link]
         doubt = self._doubt(link)
         z, u, v, omega, a, alpha = doubt.z, doubt.u, doubt.v, doubt.omega, doubt.a, doubt.alpha
-        r = self.sheet.param(("reach", link))
+        r = self.graph.param(("reach", link))
         for slide in self.structure.slides:
             # the coincident point under what slides on this link
             if slide.b == link and slide.a in self.program.poses:
@@ -78,7 +78,7 @@ class LinkBounds:
         assert isinstance(element, Driven | Dyad)  # larger groups: graphkin.exact.certainty
         bases = _bases(element)
         inherited = self._driven_doubt(element) if isinstance(element, Driven) else self._dyad_doubts(i, element)
-        rounding = Rounding(self.sheet, self._error, self.unit, self._given(bases))
+        rounding = Rounding(self.graph, self._error, self.unit, self._given(bases))
         return {name: doubt + self._own(self.program.poses[name], rounding) for name, doubt in inherited.items()}
 
     def _given(self, links: Iterable[str]) -> set[int]:
@@ -88,7 +88,7 @@ class LinkBounds:
             for part in FIELDS:
                 z = getattr(self.program.poses[link], part)
                 found |= {x.at for x in ((z.real, z.imag) if isinstance(z, Vec) else (z,))}
-        lines = self.sheet.lines
+        lines = self.graph.lines
         return {k for k in found if lines[k][0] != "param" or lines[k][1][0] in ("rate", "second")}
 
     @staticmethod
@@ -135,12 +135,12 @@ class LinkBounds:
     def _error(self, x: Real) -> Real:
         name = x.line[1]
         if name[0] in ("size", "sign", "unit", "reach"):
-            return self.sheet.const(0)
+            return self.graph.const(0)
         if name[0] in ("cos", "sin"):
-            return self.sheet.param(("error", "angle", name[1]))
+            return self.graph.param(("error", "angle", name[1]))
         if name[0] == "travel":
-            return self.sheet.param(("error", *name))
-        return self.sheet.param(("error", *(name[:-1] if name[-1] in ("x", "y") else name)))
+            return self.graph.param(("error", *name))
+        return self.graph.param(("error", *(name[:-1] if name[-1] in ("x", "y") else name)))
 
 
 def _base(pair: Pair, inside: Iterable[str]) -> str:

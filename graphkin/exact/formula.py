@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-__all__ = ["LEAVES", "Line", "Real", "Sheet", "Vec", "fmax", "fmin", "operands", "root", "two_sum"]
+__all__ = ["LEAVES", "ExpressionGraph", "Line", "Real", "Vec", "fmax", "fmin", "operands", "root", "two_sum"]
 
 Line = tuple[Any, ...]
 """One operation: ("add", i, j), ("root", i), ("const", 2.0), ("param", name), ("input", name)."""
@@ -19,7 +19,7 @@ Line = tuple[Any, ...]
 LEAVES = ("const", "param", "input")
 
 
-class Sheet:
+class ExpressionGraph:
     """The lines of all formulas built on it; equal lines are one line.
 
     ``rests`` are the lines that hold what rounding has taken from a sum ("sum" in place of "add").
@@ -76,75 +76,75 @@ class Real:
     """A real number given by a formula."""
 
     __array_ufunc__ = None
-    __slots__ = ("at", "sheet")
+    __slots__ = ("at", "graph")
 
-    def __init__(self, sheet: Sheet, at: int) -> None:
-        self.sheet = sheet
+    def __init__(self, graph: ExpressionGraph, at: int) -> None:
+        self.graph = graph
         self.at = at
 
     @property
     def line(self) -> Line:
-        return self.sheet.lines[self.at]
+        return self.graph.lines[self.at]
 
     @property
     def value(self) -> float | None:
         """The number, where it is the same for all mechanisms."""
-        line = self.sheet.lines[self.at]
+        line = self.graph.lines[self.at]
         return line[1] if line[0] == "const" else None
 
     def _of(self, other: Real | float) -> Real:
-        return other if isinstance(other, Real) else self.sheet.const(other)
+        return other if isinstance(other, Real) else self.graph.const(other)
 
     def __neg__(self) -> Real:
         if self.value is not None:
-            return self.sheet.const(-self.value)
+            return self.graph.const(-self.value)
         if self.line[0] == "neg":
-            return Real(self.sheet, self.line[1])
+            return Real(self.graph, self.line[1])
         if self.line[0] == "sub":
-            return self.sheet.line("sub", self.line[2], self.line[1])
-        return self.sheet.line("neg", self.at)
+            return self.graph.line("sub", self.line[2], self.line[1])
+        return self.graph.line("neg", self.at)
 
     def __add__(self, other: Any) -> Any:
         if isinstance(other, Vec | complex):
-            return Vec(self, self.sheet.const(0)) + other
+            return Vec(self, self.graph.const(0)) + other
         b = self._of(other)
         mine, its = self.value, b.value
         if mine is not None and its is not None:
-            return self.sheet.const(mine + its)
+            return self.graph.const(mine + its)
         if mine == 0 or its == 0:
             return b if mine == 0 else self
         if b.line[0] == "neg":
-            return self - Real(self.sheet, b.line[1])
+            return self - Real(self.graph, b.line[1])
         if self.line[0] == "neg":
-            return b - Real(self.sheet, self.line[1])
-        return self.sheet.line("add", *sorted((self.at, b.at)))
+            return b - Real(self.graph, self.line[1])
+        return self.graph.line("add", *sorted((self.at, b.at)))
 
     __radd__ = __add__
 
     def __sub__(self, other: Any) -> Any:
         if isinstance(other, Vec | complex):
-            return Vec(self, self.sheet.const(0)) - other
+            return Vec(self, self.graph.const(0)) - other
         b = self._of(other)
         if self.value is not None and b.value is not None:
-            return self.sheet.const(self.value - b.value)
+            return self.graph.const(self.value - b.value)
         if b.value == 0 or self.value == 0:
             return self if b.value == 0 else -b
         if self.at == b.at:
-            return self.sheet.const(0)
+            return self.graph.const(0)
         if b.line[0] == "neg":
-            return self + Real(self.sheet, b.line[1])
-        return self.sheet.line("sub", self.at, b.at)
+            return self + Real(self.graph, b.line[1])
+        return self.graph.line("sub", self.at, b.at)
 
     def __rsub__(self, other: Any) -> Any:
         return -(self - other) if isinstance(other, complex) else self._of(other) - self
 
     def __mul__(self, other: Any) -> Any:
         if isinstance(other, Vec | complex):
-            return Vec(self, self.sheet.const(0)) * other
+            return Vec(self, self.graph.const(0)) * other
         b = self._of(other)
         mine, its = self.value, b.value
         if mine is not None and its is not None:
-            return self.sheet.const(mine * its)
+            return self.graph.const(mine * its)
         for one, two, value in ((self, b, mine), (b, self, its)):
             if value == 0:
                 return one
@@ -153,10 +153,10 @@ class Real:
             if value == -1:
                 return -two
             if one.line[0] == "neg":
-                return -(Real(self.sheet, one.line[1]) * two)
+                return -(Real(self.graph, one.line[1]) * two)
         if self.at == b.at and self.line[0] == "root":
-            return abs(Real(self.sheet, self.line[1]))
-        return self.sheet.line("mul", *sorted((self.at, b.at)))
+            return abs(Real(self.graph, self.line[1]))
+        return self.graph.line("mul", *sorted((self.at, b.at)))
 
     __rmul__ = __mul__
 
@@ -165,18 +165,18 @@ class Real:
         if self.value == 0 or b.value == 1:
             return self
         if self.value is not None and b.value:
-            return self.sheet.const(self.value / b.value)
-        return self.sheet.line("div", self.at, b.at)
+            return self.graph.const(self.value / b.value)
+        return self.graph.line("div", self.at, b.at)
 
     def __rtruediv__(self, other: Any) -> Any:
         return self._of(other) / self
 
     def __abs__(self) -> Real:
         if self.value is not None:
-            return self.sheet.const(abs(self.value))
+            return self.graph.const(abs(self.value))
         if self.line[0] == "neg":
-            return abs(Real(self.sheet, self.line[1]))
-        return self if self.never_negative else self.sheet.line("abs", self.at)
+            return abs(Real(self.graph, self.line[1]))
+        return self if self.never_negative else self.graph.line("abs", self.at)
 
     @property
     def never_negative(self) -> bool:
@@ -187,7 +187,7 @@ class Real:
         if kind == "mul":
             return bool(self.line[1] == self.line[2])
         if kind in ("add", "fmax"):
-            return all(Real(self.sheet, k).never_negative for k in self.line[1:])
+            return all(Real(self.graph, k).never_negative for k in self.line[1:])
         return bool(kind == "const" and self.line[1] >= 0)
 
     def conjugate(self) -> Real:
@@ -199,7 +199,7 @@ class Real:
 
     @property
     def imag(self) -> Real:
-        return self.sheet.const(0)
+        return self.graph.const(0)
 
 
 class Vec:
@@ -215,10 +215,10 @@ class Vec:
     def _of(self, other: Any) -> Vec:
         if isinstance(other, Vec):
             return other
-        sheet = self.real.sheet
+        graph = self.real.graph
         if isinstance(other, Real):
-            return Vec(other, sheet.const(0))
-        return Vec(sheet.const(complex(other).real), sheet.const(complex(other).imag))
+            return Vec(other, graph.const(0))
+        return Vec(graph.const(complex(other).real), graph.const(complex(other).imag))
 
     def __neg__(self) -> Vec:
         return Vec(-self.real, -self.imag)
@@ -263,15 +263,15 @@ def root(x: Any) -> Any:
     if not isinstance(x, Real):
         return np.sqrt(np.abs(x))
     if x.value is not None:
-        return x.sheet.const(abs(x.value) ** 0.5)
+        return x.graph.const(abs(x.value) ** 0.5)
     if x.line[0] == "mul" and x.line[1] == x.line[2]:
-        return abs(Real(x.sheet, x.line[1]))
-    return x.sheet.line("root", x.at)
+        return abs(Real(x.graph, x.line[1]))
+    return x.graph.line("root", x.at)
 
 
 def fmin(x: Any, y: Any) -> Any:
     """The smaller of two numbers; the other one where one is not a number."""
-    return x.sheet.line("fmin", x.at, y.at) if isinstance(x, Real) else np.fmin(x, y)
+    return x.graph.line("fmin", x.at, y.at) if isinstance(x, Real) else np.fmin(x, y)
 
 
 def fmax(x: Any, y: Any) -> Any:
@@ -280,7 +280,7 @@ def fmax(x: Any, y: Any) -> Any:
         return np.fmax(x, y)
     if x.at == y.at or (y.value == 0 and x.never_negative):
         return x
-    return x.sheet.line("fmax", *sorted((x.at, y.at)))
+    return x.graph.line("fmax", *sorted((x.at, y.at)))
 
 
 def two_sum(a: Any, b: Any) -> tuple[Any, Any]:
@@ -291,9 +291,9 @@ def two_sum(a: Any, b: Any) -> tuple[Any, Any]:
     if not isinstance(a, Real) or (a.value is not None and b.value is not None):
         s = a + b
     else:
-        s = a.sheet.line("sum", a.at, b.at)
+        s = a.graph.line("sum", a.at, b.at)
     back = s - a
     rest = (a - (s - back)) + (b - back)
     if isinstance(rest, Real):
-        rest.sheet.rests.add(rest.at)
+        rest.graph.rests.add(rest.at)
     return s, rest

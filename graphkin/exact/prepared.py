@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
 
 from graphkin.errors import CallError, Problem
 from graphkin.exact.choice import choose_forms, own_values
-from graphkin.exact.compiled import compiled
+from graphkin.exact.compiled import LONG, Kernel
 from graphkin.exact.diagnose import structure_of
 from graphkin.exact.dyads import Solved
 from graphkin.exact.engine import SINGULAR, positions
@@ -23,7 +23,7 @@ from graphkin.exact.pose import Array
 from graphkin.exact.program import Fitted, program_of
 from graphkin.exact.quantities import formulas
 from graphkin.exact.rendering import Code
-from graphkin.exact.way import Even, Listed, quarter
+from graphkin.exact.way import GivenValues, UniformGrid, quarter
 from graphkin.scene.model import AngleDriver, Scene
 from graphkin.structure import Cluster, Structure
 
@@ -31,8 +31,6 @@ __all__ = ["Prepared", "prepare"]
 
 CHUNK = 16384
 """Positions in a piece, so that all columns of one stay in the cache."""
-LONG = 20_000
-"""From so many positions on the threads of compiled code pay."""
 FAR = 4.0
 CLEAR = 0.2
 """Where no sine at the nodes of a path is less than this, none between them is near zero."""
@@ -116,7 +114,7 @@ class Prepared:
     @cached_property
     def _code(self) -> Code:
         asked = self.asked if self._even else (*self.asked, *self._sines)
-        return Code(self.fitted.program.sheet, asked, self._fixed)
+        return Code(self.fitted.program.graph, asked, self._fixed)
 
     @cached_property
     def _fixed(self) -> set[Any]:
@@ -143,7 +141,7 @@ class Prepared:
 
     @cached_property
     def _one(self) -> Callable[[float], tuple[float, ...] | None]:
-        code = Code(self.fitted.program.sheet, (*self.asked, *self._sines), self._fixed)
+        code = Code(self.fitted.program.graph, (*self.asked, *self._sines), self._fixed)
         function, params, names, count = code.floats, self._given(code), code.inputs, len(self.asked)
         everywhere, steady = self._whole, self._signs is not None
         place = {"cos": 0, "sin": 1, "travel": 2}
@@ -184,18 +182,23 @@ class Prepared:
     # many
 
     @cached_property
-    def _loops(self) -> dict[tuple[type, bool], Callable[..., None]]:
-        return {}
+    def _numbers(self) -> Array:
+        """What compiled code takes: the params, then start and way of the driver over its range."""
+        grid = self._grid(1)
+        return np.array([*self._params, grid.start, grid.way])
 
     @cached_property
-    def _numbers(self) -> Array:
-        return np.array(self._params, dtype=float)
+    def _on_grid(self) -> Kernel:
+        return Kernel(self._code, self.turns, True, len(self.asked), SINGULAR)
 
-    def _compiled(self, kind: type, threads: bool) -> Callable[..., None]:
-        key = kind, threads
-        if key not in self._loops:
-            self._loops[key] = compiled(self._code.loop(self.turns, kind is Even, len(self.asked)), threads)
-        return self._loops[key]
+    @cached_property
+    def _at_values(self) -> Kernel:
+        return Kernel(self._code, self.turns, False, len(self.asked), SINGULAR)
+
+    @cached_property
+    def _clear(self) -> bool:
+        """Whether there is nothing to be looked at: a whole turn of one assembly, far from every dead point."""
+        return self._whole and self._even and self._signs is not None
 
     def columns(self, values: Array, out: Array | None = None, fast: bool = False) -> tuple[Array, Array]:
         """The asked quantities at many values of the first driver.
@@ -218,67 +221,83 @@ class Prepared:
         """
         values = np.asarray(values, dtype=float)
         out = np.empty((len(self.asked), len(values))) if out is None else out
-        return out, self._all(Listed(values), out, fast)
+        return out, self._all(GivenValues(values), out, fast)
 
-    def _all(self, way: Listed | Even, out: Array, fast: bool) -> Array:
+    def _all(self, way: GivenValues | UniformGrid, out: Array, fast: bool) -> Array:
         n = len(way)
         if fast:
-            return self._some(way, out, True)
+            return self._compiled(way, out)
         if n <= CHUNK:
-            return self._some(way, out, False)
+            return self._arrays(way, out)
         parts = [slice(k, min(k + CHUNK, n)) for k in range(0, n, CHUNK)]
-        return np.concatenate([self._some(way[p], out[:, p], False) for p in parts])
+        return np.concatenate([self._arrays(way[p], out[:, p]) for p in parts])
 
-    def _some(self, way: Listed | Even, out: Array, fast: bool) -> Array:
+    def _compiled(self, way: GivenValues | UniformGrid, out: Array) -> Array:
+        n = len(way)
+        kernel = self._on_grid if isinstance(way, UniformGrid) else self._at_values
+        if self._clear:
+            kernel(n, self._numbers, *way.given, out)
+            return _every(n)
+        ok = np.ones(n, dtype=bool) if self._whole else self._offset(way.values)[1]
+        signs = {} if self._signs is not None else self._signs_at(way.values)
+        rows = [np.array([signs[name] for name in kernel.signs])] if kernel.signs else []
+        kernel(n, self._numbers, *way.given, *rows, out, *([ok] if kernel.checked else []))
+        if not kernel.checked and not ok.all():
+            out[:, ~ok] = 0.0
+        return ok
+
+    def _arrays(self, way: GivenValues | UniformGrid, out: Array) -> Array:
         n, count = len(way), len(self.asked)
         ok = np.ones(n, dtype=bool) if self._whole else self._offset(way.values)[1]
         given: dict[Any, Array] = {} if self._signs is not None else self._signs_at(way.values)
         sines = np.empty((len(self._code.asked) - count, n))
-        if fast:
-            signs = [given[name] for name in self._code.inputs if name[0] == "sign"]
-            run = self._compiled(type(way), n >= LONG)
-            run(self._numbers, *way.given, n, np.array(signs).reshape(-1, n), out, sines)
+        if self.turns:
+            given["cos", 0], given["sin", 0] = way.turn
         else:
-            if self.turns:
-                given["cos", 0], given["sin", 0] = way.turn
-            else:
-                given["travel", 0] = way.values
-            self._code.arrays(self._same, [given[name] for name in self._code.inputs], [*out, *sines])
-        if self._whole and self._even:
-            return ok
+            given["travel", 0] = way.values
+        self._code.arrays(self._same, [given[name] for name in self._code.inputs], [*out, *sines])
         for sine in sines:
             ok &= np.abs(sine) >= SINGULAR
         if not ok.all():
             out[:, ~ok] = 0.0
         return ok
 
-    def _even_way(self, n: int, first: int = 0, last: int | None = None) -> Even:
+    def _grid(self, n: int, first: int = 0, last: int | None = None) -> UniformGrid:
         last = n if last is None else last
-        sense = math.copysign(1.0, self.wide)
+        start, sense = float(self.start[0]), math.copysign(1.0, self.wide)
         if self.turns:
-            return Even(float(self.start[0]), sense * 2 * math.pi / n, first, last)
+            return UniformGrid(start, sense * 2 * math.pi, n, first, last)
         low, high = self.reach
-        step = (high + low) / n
-        return Even(float(self.start[0]) + sense * (step / 2 - low), sense * step, first, last)
+        return UniformGrid(start + sense * ((high + low) / n / 2 - low), sense * (high + low), n, first, last)
 
     def values(self, n: int, first: int = 0, last: int | None = None) -> Array:
         """Values of the first driver at positions ``first`` to ``last`` (not included) of n over the whole range: a
         turn from the start on in the sense of the driver, or evenly inside the range of travel."""
-        return self._even_way(n, first, last).values
+        return self._grid(n, first, last).values
 
     def sweep(self, n: int, out: Array | None = None, fast: bool = False) -> tuple[Array, Array]:
         """``columns`` at n positions of the whole range."""
         out = np.empty((len(self.asked), n)) if out is None else out
-        return out, self._all(self._even_way(n), out, fast)
+        if fast and n < LONG and self._clear:
+            # nothing but the call: at some hundred positions each line here would be felt
+            self._on_grid.run(0, n, self._numbers, n, 0, out)
+            return out, _every(n)
+        return out, self._all(self._grid(n), out, fast)
 
     def chunks(self, n: int, size: int = 16 * CHUNK, fast: bool = False) -> Iterator[tuple[int, Array, Array]]:
         """A sweep of any length in bounded memory: number of the first position, columns and ok of one piece after the
         other.  The arrays are the same ones each time, filled anew."""
         room = np.empty((len(self.asked), min(n, size)))
         for first in range(0, n, size):
-            way = self._even_way(n, first, min(first + size, n))
+            way = self._grid(n, first, min(first + size, n))
             out = room[:, : len(way)]
             yield first, out, self._all(way, out, fast)
+
+
+@lru_cache
+def _every(n: int) -> Array:
+    """n times True, not to be written."""
+    return np.ndarray((n,), np.bool_, b"\1", 0, (0,))
 
 
 def prepare(scene: Scene | Structure, asked: Sequence[str]) -> Prepared:

@@ -14,7 +14,7 @@ from weakref import finalize
 from graphkin.exact.bounds import FIELDS, LinkBounds
 from graphkin.exact.decimals import DIGITS, meant, meant_direction
 from graphkin.exact.dyads import Joints, Solved, solve_dyad
-from graphkin.exact.formula import Real, Sheet, Vec
+from graphkin.exact.formula import ExpressionGraph, Real, Vec
 from graphkin.exact.joints import body_shape, driven, dyad_joints, members
 from graphkin.exact.pose import Pose
 from graphkin.exact.rendering import Code
@@ -37,7 +37,7 @@ class Program:
     """
 
     def __init__(self, structure: Structure, moving: Sequence[bool]) -> None:
-        self.sheet = Sheet()
+        self.graph = ExpressionGraph()
         self.structure = structure
         self._moving = moving
         self._numbers = _numbers(structure)
@@ -53,7 +53,7 @@ class Program:
 
     def at_rest(self, place: Any, direction: Any) -> Pose:
         """Axes that do not move."""
-        zero = self.sheet.const(0)
+        zero = self.graph.const(0)
         none = Vec(zero, zero)
         return Pose(none + place, none + direction, none, zero, none, zero)
 
@@ -63,7 +63,7 @@ class Program:
         return Vec(*(self._part(name, axis, x) for axis, x in (("x", z.real), ("y", z.imag))))
 
     def _part(self, name: tuple[Any, ...], axis: str, value: float) -> Real:
-        return self.sheet.const(value) if value in (0.0, 1.0, -1.0) else self.sheet.param((*name, axis))
+        return self.graph.const(value) if value in (0.0, 1.0, -1.0) else self.graph.param((*name, axis))
 
     def rest(self, pair: Pair, link: str) -> Pose:
         """The joint's frame in the axes of one of its links."""
@@ -79,20 +79,20 @@ class Program:
 
     def _rates(self, driver: Driver) -> tuple[Real, Real]:
         k = self.structure.scene.drivers.index(driver)
-        second = self.sheet.param(("second", k)) if self._moving[k] else self.sheet.const(0)
-        return self.sheet.param(("rate", k)), second
+        second = self.graph.param(("second", k)) if self._moving[k] else self.graph.const(0)
+        return self.graph.param(("rate", k)), second
 
     def turn(self, driver: AngleDriver) -> Pose:
         """The rotation that an angle driver gives."""
         k = self.structure.scene.drivers.index(driver)
         rate, second = self._rates(driver)
-        none = Vec(self.sheet.const(0), self.sheet.const(0))
-        return Pose(none, Vec(self.sheet.input(("cos", k)), self.sheet.input(("sin", k))), none, rate, none, second)
+        none = Vec(self.graph.const(0), self.graph.const(0))
+        return Pose(none, Vec(self.graph.input(("cos", k)), self.graph.input(("sin", k))), none, rate, none, second)
 
     def travel(self, driver: Driver) -> tuple[Real, Real, Real]:
         """Value, rate and second rate of a slide driver."""
         k = self.structure.scene.drivers.index(driver)
-        return self.sheet.input(("travel", k)), *self._rates(driver)
+        return self.graph.input(("travel", k)), *self._rates(driver)
 
     # elements
 
@@ -105,9 +105,9 @@ class Program:
         else:
             rest = self.at_rest(0j, 1 + 0j)
             shapes = body_shape(self, element.first, rest), body_shape(self, element.second, rest)
-            joints = dyad_joints(self, element, shapes, self.poses, self.sheet.param(("size",)))
+            joints = dyad_joints(self, element, shapes, self.poses, self.graph.param(("size",)))
             self.joints[i] = joints
-            solved = solve_dyad(element.kind, joints, self.sheet.input(("sign", i)))
+            solved = solve_dyad(element.kind, joints, self.graph.input(("sign", i)))
             self.groups[i] = solved
             self.poses.update(members(shapes[0], solved.first))
             self.poses.update(members(shapes[1], solved.second))
@@ -116,9 +116,9 @@ class Program:
         """A link of a larger group, whose pose is given."""
         parts: dict[str, Any] = {}
         for part in FIELDS:
-            real = self.sheet.input(("pose", name, part, "x"))
+            real = self.graph.input(("pose", name, part, "x"))
             flat = part in ("omega", "alpha")
-            parts[part] = real if flat else Vec(real, self.sheet.input(("pose", name, part, "y")))
+            parts[part] = real if flat else Vec(real, self.graph.input(("pose", name, part, "y")))
         return Pose(**parts)
 
     # code
@@ -126,7 +126,7 @@ class Program:
     def code(self, key: Any, asked: Sequence[Real]) -> Code:
         """The code for some formulas, made once."""
         if key not in self._codes:
-            self._codes[key] = Code(self.sheet, asked)
+            self._codes[key] = Code(self.graph, asked)
         return self._codes[key]
 
 

@@ -51,7 +51,7 @@ def _formula(program: Program, structure: Structure, name: str) -> Any:
         return ((program.poses[slide.a].z - guide.z) * guide.u.conjugate()).real
     if kind == "theta":
         u = _link(program, structure, rest).u
-        return program.sheet.line("atan2", u.imag.at, u.real.at)
+        return program.graph.line("atan2", u.imag.at, u.real.at)
     try:
         symbol = Symbol.parse(name)
     except ValueError as error:

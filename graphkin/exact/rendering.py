@@ -15,17 +15,14 @@ from typing import Any
 
 import numpy as np
 
-from graphkin.exact.compiled import turn_lines
 from graphkin.exact.decimals import decimal_function
-from graphkin.exact.formula import LEAVES, Real, Sheet, operands
+from graphkin.exact.formula import LEAVES, ExpressionGraph, Real, operands
 from graphkin.exact.pose import Array
 
 __all__ = ["BLOCK", "Code"]
 
 BLOCK = 8192
 """Positions that are computed together: some dozens of columns of this length stay in the cache."""
-CHECKS = 128
-"""A loop with more checks of its columns against each other is not compiled for several positions at once (LLVM)."""
 
 _WRITTEN = {
     "add": "({} + {})",
@@ -75,20 +72,21 @@ class Code:
     change, in the order in which they are to be given.
     """
 
-    def __init__(self, sheet: Sheet, asked: Sequence[Real], fixed: Container[Any] = ()) -> None:
-        self.sheet = sheet
+    def __init__(self, graph: ExpressionGraph, asked: Sequence[Real], fixed: Container[Any] = ()) -> None:
+        self.graph = graph
         self.asked = [real.at for real in asked]
-        self.order = sheet.needed(asked)
-        leaves = [sheet.lines[at] for at in self.order]
+        self.order = graph.needed(asked)
+        leaves = [graph.lines[at] for at in self.order]
         given = [line[1] for line in leaves if line[0] in ("param", "input")]
         changing = {line[1] for line in leaves if line[0] == "input" and line[1] not in fixed}
+        self.fixed = fixed
         self.params = tuple(name for name in given if name not in changing)
         self.inputs = tuple(name for name in given if name in changing)
         self._param = {name: f"p[{k}]" for k, name in enumerate(self.params)}
         self._input = {name: k for k, name in enumerate(self.inputs)}
         self.varying: set[int] = set()
         for at in self.order:
-            line = sheet.lines[at]
+            line = graph.lines[at]
             if line[1] in self._input if line[0] in LEAVES else any(k in self.varying for k in operands(line)):
                 self.varying.add(at)
 
@@ -104,7 +102,7 @@ class Code:
     @cached_property
     def decimals(self) -> Callable[[Sequence[Decimal], Sequence[Decimal]], tuple[Decimal, ...]]:
         """The same in 50 digits."""
-        values = dict.fromkeys(self.sheet.lines[at][1] for at in self.order if self.sheet.lines[at][0] == "const")
+        values = dict.fromkeys(self.graph.lines[at][1] for at in self.order if self.graph.lines[at][0] == "const")
         return decimal_function(self._one({x: f"k{n}" for n, x in enumerate(values)}), list(values))
 
     def _one(self, constants: Mapping[float, str]) -> str:
@@ -124,7 +122,7 @@ class Code:
         ``before`` are lines that are written already."""
         uses: dict[int, int] = {}
         for at in order:
-            for k in operands(self.sheet.lines[at]):
+            for k in operands(self.graph.lines[at]):
                 uses[k] = uses.get(k, 0) + 1
         for at in self.asked:
             uses[at] = uses.get(at, 0) + 1
@@ -132,7 +130,7 @@ class Code:
         names: dict[int, str] = dict(before or {})
         depth: dict[int, int] = {}
         for at in order:
-            line = self.sheet.lines[at]
+            line = self.graph.lines[at]
             if line[0] == "const":
                 names[at] = constants.get(line[1], repr(line[1]))
                 continue
@@ -147,6 +145,18 @@ class Code:
             names[at], depth[at] = text, deep
         return body, names
 
+    def straight_same(self) -> tuple[list[str], dict[int, str]]:
+        """Assignments for what is the same at all positions, and what to write for each of its lines."""
+        order = [at for at in self.order if at not in self.varying]
+        return self._straight(order, {}, {}, set(self._same[1]))
+
+    def straight_varying(
+        self, asked: Sequence[int], inputs: Mapping[Any, str], before: Mapping[int, str]
+    ) -> tuple[list[str], dict[int, str]]:
+        """The same for what changes, as far as some of the asked lines need it, after ``straight_same``."""
+        order = [at for at in self.graph.needed([Real(self.graph, at) for at in asked]) if at in self.varying]
+        return self._straight(order, inputs, {}, set(), before)
+
     # many positions
 
     @cached_property
@@ -155,7 +165,7 @@ class Code:
         wanted: dict[int, int] = {}
         for at in self.order:
             if at in self.varying:
-                for k in operands(self.sheet.lines[at]):
+                for k in operands(self.graph.lines[at]):
                     if k not in self.varying:
                         wanted.setdefault(k, len(wanted))
         for at in self.asked:
@@ -169,21 +179,21 @@ class Code:
     @cached_property
     def _blocks(self) -> tuple[Callable[..., None], int]:
         """Function that computes one block, and how many columns it needs to work in."""
-        sheet = self.sheet
+        graph = self.graph
         wanted = self._same[1]
         place = {at: f"u{k}" for at, k in wanted.items()}
         last: dict[int, int] = {}
         order = [at for at in self.order if at in self.varying]
         for n, at in enumerate(order):
-            for k in operands(sheet.lines[at]):
+            for k in operands(graph.lines[at]):
                 last[k] = n
         given: dict[int, int] = {}
         copies: list[str] = []
         for k, at in enumerate(self.asked):
             if at not in self.varying:
                 copies.append(f"o{k}[...] = {place[at]}")
-            elif at in given or sheet.lines[at][0] in LEAVES:
-                source = f"o{given[at]}" if at in given else f"i{self._input[sheet.lines[at][1]]}"
+            elif at in given or graph.lines[at][0] in LEAVES:
+                source = f"o{given[at]}" if at in given else f"i{self._input[graph.lines[at][1]]}"
                 copies.append(f"o{k}[...] = {source}")
             else:
                 given[at] = k
@@ -191,7 +201,7 @@ class Code:
         count = 0
         body: list[str] = []
         for n, at in enumerate(order):
-            line = sheet.lines[at]
+            line = graph.lines[at]
             if line[0] in LEAVES:
                 place[at] = f"i{self._input[line[1]]}"
                 continue
@@ -206,8 +216,8 @@ class Code:
                 count += 1
             out = place[at]
             if line[0] == "root":
-                body += [f"absolute({sources[0]}, {out})"] if not _plain(sheet, line[1]) else []
-                body.append(f"sqrt({out if body and not _plain(sheet, line[1]) else sources[0]}, {out})")
+                body += [f"absolute({sources[0]}, {out})"] if not _plain(graph, line[1]) else []
+                body.append(f"sqrt({out if body and not _plain(graph, line[1]) else sources[0]}, {out})")
             elif line[0] in ("fmin", "fmax"):
                 body.append(f"{_UFUNCS[line[0]].__name__}({sources[0]}, {sources[1]}, out={out})")
             else:
@@ -257,47 +267,10 @@ class Code:
                     rows = list(work[:, : n - low])
                 made(same, [x[low:high] for x in inputs], [x[low:high] for x in out], rows)
 
-    # many positions, compiled
 
-    def loop(self, turning: bool, even: bool, columns: int) -> str:
-        """The text of a function to be compiled: of params p, the n values of the first driver, sign columns g and the
-        columns o and o2 to fill, the first so many asked for in o, the rest in o2.
-
-        Parameters
-        ----------
-        turning : whether the driver is an angle
-        even : whether its values are a0 + da k, or a column v
-        """
-        names: dict[Any, str] = {("cos", 0): "c0", ("sin", 0): "s0", ("travel", 0): "a"}
-        signs = [name for name in self.inputs if name[0] == "sign"]
-        names |= {name: f"g[{k}, k]" for k, name in enumerate(signs)}
-        same = [at for at in self.order if at not in self.varying]
-        head, before = self._straight(same, {}, {}, set(self._same[1]))
-        lines = ["def made(p, a0, da, v, n, g, o, o2):", *(f"    {x}" for x in head)]
-        each = _together(len(signs) + (not even))
-        for first in range(0, len(self.asked), each):
-            some = self.asked[first : first + each]
-            order = [at for at in self.sheet.needed([Real(self.sheet, at) for at in some]) if at in self.varying]
-            body, made = self._straight(order, names, {}, set(), before)
-            inner = ["a = a0 + da * k" if even else "a = v[k]"]
-            inner += turn_lines("a", "c0", "s0") if turning else []
-            inner += body
-            for n, at in enumerate(some, start=first):
-                inner.append(f"{f'o[{n}' if n < columns else f'o2[{n - columns}'}, k] = {made[at]}")
-            lines += ["    for k in prange(n):", *(f"        {x}" for x in inner)]
-        return "\n".join(lines)
-
-
-def _together(read: int) -> int:
-    """How many columns are filled in one loop that reads so many: each pair of columns, of which one is written, takes
-    a check that they lie apart, and with more than 128 checks the loop would be compiled for one position at a time.
-    What several loops need is computed in each: that takes less time than the memory does."""
-    return max(w for w in range(1, 17) if w * (w - 1) // 2 + w * read <= CHECKS or w == 1)
-
-
-def _plain(sheet: Sheet, at: int) -> bool:
+def _plain(graph: ExpressionGraph, at: int) -> bool:
     """Whether a line can never be negative, so that its root needs no care."""
-    return Real(sheet, at).never_negative
+    return Real(graph, at).never_negative
 
 
 def _unpacked(letter: str, count: int, source: str) -> list[str]:

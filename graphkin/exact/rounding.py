@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 
-from graphkin.exact.formula import Real, Sheet, fmax, fmin, operands, root
+from graphkin.exact.formula import ExpressionGraph, Real, fmax, fmin, operands, root
 
 __all__ = ["UNIT", "Rounding"]
 
@@ -17,7 +17,7 @@ UNIT = 2.0**-53
 
 
 class Rounding:
-    """The bounds of the formulas of a sheet, written on the same sheet.
+    """The bounds of the formulas of a graph, written into the same graph.
 
     Parameters
     ----------
@@ -26,33 +26,35 @@ class Rounding:
     exact : lines whose own error is not looked at
     """
 
-    def __init__(self, sheet: Sheet, given: Callable[[Real], Real], unit: Real, exact: Iterable[int] = ()) -> None:
-        self.sheet = sheet
+    def __init__(
+        self, graph: ExpressionGraph, given: Callable[[Real], Real], unit: Real, exact: Iterable[int] = ()
+    ) -> None:
+        self.graph = graph
         self.unit = unit
         self._given = given
-        self._known: dict[int, Real] = dict.fromkeys(exact, sheet.const(0))
+        self._known: dict[int, Real] = dict.fromkeys(exact, graph.const(0))
 
     def of(self, asked: Real) -> Real:
         """The bound of a formula."""
         waiting = [asked.at]
         while waiting:
             at = waiting[-1]
-            missing = [k for k in operands(self.sheet.lines[at]) if k not in self._known]
+            missing = [k for k in operands(self.graph.lines[at]) if k not in self._known]
             if missing:
                 waiting += missing
             else:
                 waiting.pop()
                 if at not in self._known:
-                    self._known[at] = self._bound(Real(self.sheet, at))
+                    self._known[at] = self._bound(Real(self.graph, at))
         return self._known[asked.at]
 
     def _bound(self, x: Real) -> Real:
         kind = x.line[0]
-        if kind == "const" or x.at in self.sheet.rests:
-            return self.sheet.const(0)
+        if kind == "const" or x.at in self.graph.rests:
+            return self.graph.const(0)
         if kind in ("param", "input"):
             return self._given(x)
-        parts = [Real(self.sheet, k) for k in x.line[1:]]
+        parts = [Real(self.graph, k) for k in x.line[1:]]
         errors = [self._known[k] for k in x.line[1:]]
         if kind in ("neg", "abs"):
             return errors[0]
@@ -80,7 +82,7 @@ class Rounding:
         if kind == "div":
             if two.value == 0:
                 return _sum(one / abs(b), rounded)
-            left = fmax(abs(b) - two, self.sheet.const(0))
+            left = fmax(abs(b) - two, self.graph.const(0))
             return _sum(_sum(one, abs(x) * two) / left, rounded)
         raise ValueError(f"no bound for {kind}")
 

@@ -10,7 +10,7 @@ import numpy as np
 from graphkin.exact.joints import turned
 from graphkin.exact.pose import Array
 
-__all__ = ["Even", "Listed", "quarter"]
+__all__ = ["GivenValues", "UniformGrid", "quarter"]
 
 NEAR = 1e-14
 HALF_PI = math.pi / 2
@@ -21,7 +21,7 @@ MANY = 2000
 
 
 @dataclass(frozen=True)
-class Listed:
+class GivenValues:
     """Values of the first driver as they come."""
 
     values: Array
@@ -29,13 +29,13 @@ class Listed:
     def __len__(self) -> int:
         return len(self.values)
 
-    def __getitem__(self, part: slice) -> Listed:
-        return Listed(self.values[part])
+    def __getitem__(self, part: slice) -> GivenValues:
+        return GivenValues(self.values[part])
 
     @property
-    def given(self) -> tuple[float, float, Array]:
-        """Start, step, and the values themselves, for compiled code."""
-        return 0.0, 0.0, self.values
+    def given(self) -> tuple[Array]:
+        """What compiled code takes."""
+        return (self.values,)
 
     @property
     def turn(self) -> tuple[Array, Array]:
@@ -49,19 +49,25 @@ class Listed:
 
 
 @dataclass(frozen=True)
-class Even:
-    """Values at even steps: start + step k for k from ``first`` to ``last`` (not included)."""
+class UniformGrid:
+    """Values at even steps over ``way`` in ``n`` parts: start + way / n k, for k from ``first`` to ``last`` (not
+    included)."""
 
     start: float
-    step: float
+    way: float
+    n: int
     first: int
     last: int
 
     def __len__(self) -> int:
         return self.last - self.first
 
-    def __getitem__(self, part: slice) -> Even:
-        return Even(self.start, self.step, self.first + part.start, self.first + part.stop)
+    def __getitem__(self, part: slice) -> UniformGrid:
+        return UniformGrid(self.start, self.way, self.n, self.first + part.start, self.first + part.stop)
+
+    @property
+    def step(self) -> float:
+        return self.way / self.n
 
     @property
     def values(self) -> Array:
@@ -71,9 +77,9 @@ class Even:
         return steps
 
     @property
-    def given(self) -> tuple[float, float, Array]:
-        """Start, step, and no values."""
-        return self.start + self.step * self.first, self.step, np.zeros(0)
+    def given(self) -> tuple[int, int]:
+        """What compiled code takes beside start and way."""
+        return self.n, self.first
 
     @property
     def turn(self) -> tuple[Array, Array]:
@@ -85,7 +91,7 @@ class Even:
             values = self.values
             c, s = np.cos(values), np.sin(values)
             if abs(end - begin) > FULL:
-                return Listed(values).turn
+                return GivenValues(values).turn
         else:
             fine = 1 << (n.bit_length() + 1) // 2
             coarse, inner = begin + self.step * np.arange(0, n, fine), self.step * np.arange(fine)

@@ -9,6 +9,7 @@ import pytest
 
 from graphkin.errors import CallError
 from graphkin.exact import Prepared, prepare, solve
+from graphkin.exact.compiled import kernel_text
 from graphkin.scene import read, read_text
 from tests import scenes
 
@@ -78,8 +79,8 @@ def test_many_compiled_columns_are_those_of_numpy() -> None:
 
 def test_no_compiled_loop_fills_more_columns_than_can_be_told_apart() -> None:
     ready = prepare(read_text(scenes.FOUR_BAR, "four-bar"), MANY)
-    loops = ready._code.loop(True, True, len(ready.names)).split("prange")[1:]
-    assert [loop.count("o[") for loop in loops] == [16, 4]
+    loops = kernel_text(ready._code, True, True, len(ready.names), 1e-7).split("for k in range(m)")[1:]
+    assert [loop.count("[k] = ") - loop.count("good[k] = ") for loop in loops] == [14, 6]
 
 
 def test_positions_out_of_reach_are_marked() -> None:

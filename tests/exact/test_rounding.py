@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from graphkin.exact.decimals import cos_sin, meant
-from graphkin.exact.formula import Real, Sheet, root
+from graphkin.exact.formula import ExpressionGraph, Real, root
 from graphkin.exact.rendering import Code
 from graphkin.exact.rounding import UNIT, Rounding
 
@@ -19,14 +19,14 @@ shift = st.floats(-1.0, 1.0)
 
 def both(build, a: float, b: float, off_a: float, off_b: float) -> tuple[float, float, Decimal]:
     """A formula of two numbers in floats, its bound, and the exact value with the numbers moved within their bounds."""
-    sheet = Sheet()
-    x, y, e, f = (sheet.input(name) for name in ("a", "b", "ea", "eb"))
+    graph = ExpressionGraph()
+    x, y, e, f = (graph.input(name) for name in ("a", "b", "ea", "eb"))
     formula = build(x, y)
-    rounding = Rounding(sheet, lambda real: e if real.at == x.at else f, sheet.const(UNIT))
-    code = Code(sheet, [formula, rounding.of(formula)])
+    rounding = Rounding(graph, lambda real: e if real.at == x.at else f, graph.const(UNIT))
+    code = Code(graph, [formula, rounding.of(formula)])
     given_ = {"a": a, "b": b, "ea": abs(off_a), "eb": abs(off_b)}
     value, bound = code.floats([], [given_[name] for name in code.inputs])
-    exact = Code(sheet, [formula])
+    exact = Code(graph, [formula])
     with localcontext() as context:
         context.prec = 60
         moved = {"a": Decimal(a) + Decimal(off_a), "b": Decimal(b) + Decimal(off_b)}
@@ -52,12 +52,12 @@ def test_a_bound_holds(name: str, a: float, b: float, p: float, q: float) -> Non
 
 
 def test_what_may_be_divided_by_zero_has_no_bound() -> None:
-    sheet = Sheet()
-    x, e = sheet.input("x"), sheet.input("e")
-    rounding = Rounding(sheet, lambda real: e, sheet.const(UNIT))
+    graph = ExpressionGraph()
+    x, e = graph.input("x"), graph.input("e")
+    rounding = Rounding(graph, lambda real: e, graph.const(UNIT))
     quotient = 1.0 / x
     assert isinstance(quotient, Real)
-    code = Code(sheet, [rounding.of(quotient)])
+    code = Code(graph, [rounding.of(quotient)])
     given_ = [{"x": 1.0, "e": 2.0}[name] for name in code.inputs]
     with pytest.raises(ZeroDivisionError):
         code.floats([], given_)

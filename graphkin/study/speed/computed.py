@@ -108,7 +108,7 @@ def single_precision(work: Work, kinds: str) -> Callable[[Array], Array]:
     """The same formulas in numbers of 7 digits: a function of the values of the first driver."""
     structure, drivers = work.structure, work.scene.drivers
     fitted = program_of(structure, tuple(d.values[2] != 0 for d in drivers))
-    code = Code(fitted.program.sheet, list(formulas(fitted.program, structure, columns_of(work, kinds)).values()))
+    code = Code(fitted.program.graph, list(formulas(fitted.program, structure, columns_of(work, kinds)).values()))
     forms = choose_forms(structure)
     given: dict[Any, float] = {}
     for k, driver in enumerate(drivers):
