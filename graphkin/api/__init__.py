@@ -5,9 +5,9 @@ from graphkin.api.centred import Centred, centres
 from graphkin.api.centroded import Centroded, centrodes
 from graphkin.api.checked import Checked, check
 from graphkin.api.drawn import Drawn, draw
-from graphkin.api.handed import Handout, handout
-from graphkin.api.listed import Listed, scenes
+from graphkin.api.handouts import Handout, handout
 from graphkin.api.problem_sets import ProblemSet, problem_set
+from graphkin.api.scene_list import Listed, scenes
 from graphkin.api.solved import Solved, solve
 from graphkin.api.studied import SpeedAccuracy, Stability, speed_accuracy, stability
 from graphkin.api.swept import Swept, sweep

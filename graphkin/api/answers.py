@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from graphkin.api.called import asked_symbols
+from graphkin.api.arguments import asked_symbols
 from graphkin.api.cells import head_of, is_blank, numbers_in, unit_of
 from graphkin.checking import Printed, stated
 from graphkin.errors import CallError, Problem

@@ -13,20 +13,19 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from graphkin.api.answers import Answers, AnswersLike, as_answers
-from graphkin.api.called import At, SceneLike, as_scene, driver_values, own_unit
+from graphkin.api.arguments import At, SceneLike, as_scene, driver_values, known_words, own_unit
 from graphkin.api.checked import in_scene_units, solved_here
 from graphkin.api.files import write_files
-from graphkin.api.wishes import known_words
 from graphkin.checking import Case, Judged, judge, predict, printed_values
-from graphkin.checking.suspects import Table
-from graphkin.drafting import plan
+from graphkin.checking.slips import Table
+from graphkin.construction import plan
 from graphkin.errors import CallError, Problem
 from graphkin.scene.model import AngleDriver, Scene
 from graphkin.scene.symbol import Symbol
 from graphkin.words import say, word
 
 if TYPE_CHECKING:
-    from graphkin.exact import Motion
+    from graphkin.solver import Motion
 
 __all__ = ["Audited", "audit"]
 
@@ -210,12 +209,13 @@ def _elsewhere(scene: Scene, values: dict[str, float] | None) -> Table:
 
     @cache
     def motions() -> tuple[Motion, ...]:
-        from graphkin import exact
+        from graphkin import solver
 
         first = scene.drivers[0]
         if not isinstance(first, AngleDriver):
             return ()
-        return exact.solve(scene, values, POSITIONS), exact.solve(scene, {**(values or {}), first.key: 0.0}, POSITIONS)
+        from_zero = {**(values or {}), first.key: 0.0}
+        return solver.solve(scene, values, POSITIONS), solver.solve(scene, from_zero, POSITIONS)
 
     def table(symbol: Symbol) -> list[tuple[str, complex | float]]:
         found = []

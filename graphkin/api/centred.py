@@ -1,4 +1,7 @@
-"""``graphkin centres``: every instant centre, how it was found, the velocities taken through them, and the check."""
+"""Instant centres in plain text: a table of them, why some need another way, and the velocities through them.
+
+``graphkin centres``: every instant centre, how it was found, the velocities taken through them, and the check.
+"""
 
 from __future__ import annotations
 
@@ -7,29 +10,87 @@ import html
 import io
 import math
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from graphkin.api.called import At, SceneLike, as_scene, driver_values, for_paper
+from graphkin.api.arguments import ON_SHEETS, At, SceneLike, as_scene, driver_values, for_paper, known_words
 from graphkin.api.checked import solved_here
 from graphkin.api.files import write_files
-from graphkin.api.wishes import ON_SHEETS, known_words
-from graphkin.drafting import Room
-from graphkin.drafting.centres import Centre, Centres, Turning, by_centres, find_centres, speeds
-from graphkin.drafting.centres.chart import normal, wedge
-from graphkin.drafting.centres.pairs import Pair
+from graphkin.construction import Room
+from graphkin.construction.centres import Centre, Centres, Turning, by_centres, find_centres, speeds, velocity_sentences
+from graphkin.construction.centres.pairs import Pair, normal, wedge
 from graphkin.scene.model import Scene
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import languages, say
+from graphkin.words import Phrase, languages, say, word
 
 if TYPE_CHECKING:
     from graphkin.drawing import Drawing
-    from graphkin.exact import Motion
+    from graphkin.solver import Motion
 
-__all__ = ["Centred", "Velocity", "centres", "found_centres", "velocities_by_centres"]
+__all__ = ["Centred", "ToldCentres", "Velocity", "centres", "found_centres", "told_centres", "velocities_by_centres"]
+
+
+@dataclass(frozen=True)
+class ToldCentres:
+    """Heads and rows of the table, and sentences below it."""
+
+    heads: list[str]
+    rows: list[tuple[str, str, str, str]]
+    sentences: list[str]
+
+
+def told_centres(centred: Centred) -> ToldCentres:
+    """All centres of a position in words, in the language of the result."""
+    language = languages(centred.language or centred.scene.sheet.language)[0]
+    letter = "P" if (centred.convention or centred.scene.sheet.convention) in ("chinese", "russian") else "I"
+
+    def name(pair: object) -> str:
+        if not isinstance(pair, tuple):
+            return pair.point if isinstance(pair, PointRef) else str(pair)
+        a, b = sorted(pair, key=lambda n: (not n.isdigit(), int(n) if n.isdigit() else 0, n))
+        return f"{letter}{a}{',' if len(a + b) > 2 else ''}{b}"
+
+    rows = []
+    for pair, centre in sorted(centred.centres.table.items(), key=lambda item: item[1].number):
+        row = centred.data["centres"]["-".join(pair)]
+        least = 1e-12 * centred.scene.size / centred.scene.units.metres
+        place = ", ".join(f"{x if abs(x) > least else 0.0:.6g}" for x in row.get("point", row.get("direction", [])))
+        if "direction" in row:
+            place = f"∞ ({place})"
+        how = say(_phrase(centre, name, ", ".join(centred.centres.kept)), language, name)
+        rows.append((str(centre.number or ""), name(pair), place, how))
+    sentences = [say(c.why, language, str) for c in centred.centres.indeterminate if c.why]
+    sentences += [""] if sentences else []
+    sentences.append(word("velocities by centres", language))
+    for phrase in velocity_sentences(centred.centres, centred.turning):
+        sentences.append(say(phrase, language, name).replace("_{", "").replace("}", ""))
+    off = [name(p) for p, e in centred.errors.items() if e is not None and e > 1e-9]
+    off += [str(v.symbol) for v in centred.velocities if not v.ok]
+    count = sum(e is not None for e in centred.errors.values())
+    verdict = Phrase("check failed", (", ".join(off),)) if off else Phrase("centres checked", (count,))
+    sentences.append(say(verdict, language))
+    heads = ["", *(word(key, language) for key in ("centre", "place", "how found"))]
+    return ToldCentres(heads, rows, sentences)
+
+
+def _phrase(centre: Centre, name: Callable[[object], str], kept: str) -> Phrase:
+    """How a centre was found, as a sentence to be."""
+    if centre.kind == "undetermined":
+        return Phrase("centre none", (centre.pair,))
+    if centre.kind == "permanent":
+        return Phrase("centre joint" if centre.point is not None else "centre guide", (centre.pair, centre.joint))
+    if centre.way:
+        return Phrase(f"centre {centre.way}", (centre.pair, kept))
+    lines = [_line(line.through, name) for line in centre.lines]
+    return Phrase("centre crossing" if centre.point is not None else "centre crossing far", (centre.pair, *lines))
+
+
+def _line(through: tuple[Pair, Pair] | tuple[str], name: Callable[[object], str]) -> str:
+    return "".join(name(p) if isinstance(p, tuple) else f"n({p})" for p in through)
+
 
 TOLERANCE = 1e-9
 NO_MOTION = 1e-9
@@ -172,7 +233,7 @@ def _plain(value: float) -> float:
 
 
 def _error(centres: Centres, motion: Motion, centre: Centre) -> tuple[float, float] | None:
-    from graphkin.exact.centres import instant_centre
+    from graphkin.solver.centres import instant_centre
 
     if centre.place is None:
         return None
@@ -198,9 +259,7 @@ def velocities_by_centres(centres: Centres, turning: Mapping[str, Turning], moti
     symbols = asked if scene.find else _all(centres)
     found = []
     exact = {s: complex(motion.value(s)[0]) for s in symbols}
-    largest = {
-        kind: max((abs(x) for s, x in exact.items() if s.kind == kind), default=0.0) for kind in ("v", "omega")
-    }
+    largest = {kind: max((abs(x) for s, x in exact.items() if s.kind == kind), default=0.0) for kind in ("v", "omega")}
     for symbol in symbols:
         value = by_centres(centres, turning, symbol)
         if value is None:
@@ -232,16 +291,15 @@ def centres_csv(centred: Centred) -> str:
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(["pair", "kind", "number", "x", "y", "direction_x", "direction_y", "by", "error"])
-    for (pair, centre), row in zip(
-        centred.centres.table.items(), centred.data["centres"].values(), strict=True
-    ):
+    for (pair, centre), row in zip(centred.centres.table.items(), centred.data["centres"].values(), strict=True):
         place = [f"{v:.12g}" for v in row.get("point", [])] or ["", ""]
         way = [f"{v:.12g}" for v in row.get("direction", [])] or ["", ""]
         by = row.get("by", centre.joint)
         told = by if isinstance(by, str) else " x ".join(" ".join(line) for line in by)
         error = centred.errors[pair]
-        writer.writerow([_name(pair), centre.kind, centre.number or "", *place, *way, told,
-                         "" if error is None else f"{error:.3g}"])
+        writer.writerow(
+            [_name(pair), centre.kind, centre.number or "", *place, *way, told, "" if error is None else f"{error:.3g}"]
+        )
     return out.getvalue()
 
 

@@ -14,19 +14,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.api.called import At, SceneLike, as_scene, driver_values
+from graphkin.api.arguments import ON_SHEETS, At, SceneLike, as_scene, driver_values, known_words
 from graphkin.api.centred import found_centres
 from graphkin.api.checked import solved_here
 from graphkin.api.files import write_files
-from graphkin.api.wishes import ON_SHEETS, known_words
-from graphkin.drafting.centres import Centres
+from graphkin.construction.centres import Centres
 from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.scene.model import Scene
 
 if TYPE_CHECKING:
     from graphkin.drawing import Drawing
-    from graphkin.exact import Motion
-    from graphkin.exact.centrode import Centrode
+    from graphkin.solver import Motion
+    from graphkin.solver.centres import Centrode
 
 __all__ = ["Centroded", "centrodes"]
 
@@ -158,8 +157,8 @@ def centrodes(
     SceneError, CallError : the file or the call is wrong
     Unsolvable : wrong mobility, a position that cannot be assembled or reached, a dead point
     """
-    from graphkin.exact import solve
-    from graphkin.exact.centrode import centrode
+    from graphkin.solver import solve
+    from graphkin.solver.centres import centrode
 
     known_words(formats, language, convention, known_languages=ON_SHEETS)
     given = as_scene(scene)

@@ -8,11 +8,10 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from graphkin.api.called import At, SceneLike, as_scene, asked_symbols, driver_values, own_unit
-from graphkin.api.wishes import INSTRUMENTS
+from graphkin.api.arguments import INSTRUMENTS, At, SceneLike, as_scene, asked_symbols, driver_values, own_unit
 from graphkin.checking import Advice, Compared, Report, Uncertainty, advise, compare, predict, read_off
-from graphkin.drafting import EXACT, Cad, Instrument, Plan, Sheet, execute, pencil, plan
-from graphkin.drafting.sheet import DiagramName
+from graphkin.construction import EXACT, Cad, Instrument, Plan, Sheet, execute, pencil, plan
+from graphkin.construction.sheet import DiagramName
 from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
 from graphkin.scene.model import Scene
 from graphkin.scene.symbol import Symbol
@@ -20,8 +19,8 @@ from graphkin.structure import analyse, part_of
 from graphkin.words import say
 
 if TYPE_CHECKING:
-    from graphkin.drafting.centres import Centres, Turning
-    from graphkin.exact import Motion
+    from graphkin.construction.centres import Centres, Turning
+    from graphkin.solver import Motion
 
 __all__ = ["Checked", "check", "checked", "hand_of", "reading_row", "solved_here"]
 
@@ -92,7 +91,7 @@ class Checked:
     @cached_property
     def centres(self) -> Centres:
         """The instant centres of what leads to the asked, from which velocities come by a third way."""
-        from graphkin.drafting.centres import find_centres
+        from graphkin.construction.centres import find_centres
 
         part = self.part
         sheet = replace(self.sheet, scene=part, structure=analyse(part)) if part is not self.scene else self.sheet
@@ -100,13 +99,13 @@ class Checked:
 
     @cached_property
     def _turning(self) -> Mapping[str, Turning]:
-        from graphkin.drafting.centres import speeds
+        from graphkin.construction.centres import speeds
 
         return speeds(self.centres)
 
     def _by_centres(self, row: Compared) -> dict[str, float]:
         """A velocity by centres, in scene units; nothing for accelerations."""
-        from graphkin.drafting.centres import by_centres
+        from graphkin.construction.centres import by_centres
 
         value = by_centres(self.centres, self._turning, row.symbol) if row.symbol.kind in ("v", "omega") else None
         if value is None:
@@ -236,13 +235,13 @@ def solved_here(scene: Scene, values: Mapping[str, float] | None, asked: Sequenc
 
     It comes before the drawing, because it tells best why a position cannot be had.
     """
-    from graphkin import exact
+    from graphkin import solver
 
     if asked:
-        scene = part_of(exact.structure_of(scene), asked)
+        scene = part_of(solver.structure_of(scene), asked)
         kept = [d.key for d in scene.drivers]
         values = {k: v for k, v in values.items() if k in kept} if values else values
-    motion = exact.solve(scene, at=values)
+    motion = solver.solve(scene, at=values)
     if motion.status[0] != "ok":
         driver = ", ".join(
             f"{d.key} at {own_unit(scene, d, (values or {}).get(d.key, d.values[0]))}" for d in scene.drivers

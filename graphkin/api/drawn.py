@@ -11,12 +11,11 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from graphkin.api.called import At, SceneLike, asked_symbols, driver_values, for_paper
+from graphkin.api.arguments import ON_SHEETS, At, SceneLike, asked_symbols, driver_values, for_paper, known_words
 from graphkin.api.checked import Checked, checked, hand_of, reading_row, solved_here
 from graphkin.api.files import write_files
-from graphkin.api.told import told
-from graphkin.api.wishes import ON_SHEETS, known_words
-from graphkin.drafting import plan
+from graphkin.api.report_text import told
+from graphkin.construction import plan
 from graphkin.scene.symbol import Symbol
 from graphkin.words import languages
 
@@ -46,7 +45,7 @@ class Drawn:
     def figures(self) -> Mapping[str, Drawing]:
         """Figures by name: mechanism, velocity, acceleration, centres, sheet."""
         from graphkin.api.centred import found_centres
-        from graphkin.drafting.centres import speeds
+        from graphkin.construction.centres import speeds
         from graphkin.drawing import figures
         from graphkin.drawing.centres import centres_figure
 

@@ -13,13 +13,13 @@ from pathlib import Path
 from typing import Any
 
 from graphkin.api.answers import table_of, with_points
-from graphkin.api.called import SceneLike, as_scene, asked_symbols
+from graphkin.api.arguments import SceneLike, as_scene, asked_symbols
 from graphkin.api.files import half_written, write_files
 from graphkin.errors import CallError, GraphkinError, Problem
-from graphkin.handout.data_rows import Columns, columns_of, replaced
-from graphkin.handout.jobs import Job, jobs_of_rows, jobs_of_seed
-from graphkin.handout.problem_set import MadeSet, Render, make
-from graphkin.handout.variants import Range, Variant, asked_of, varied_keys
+from graphkin.papers.data_rows import Columns, columns_of, replaced
+from graphkin.papers.jobs import Job, jobs_of_rows, jobs_of_seed
+from graphkin.papers.problem_set import MadeSet, Render, make
+from graphkin.papers.variants import Range, Variant, asked_of, varied_keys
 from graphkin.scene import library, library_text
 from graphkin.scene.model import Scene
 from graphkin.scene.source import safe_name
@@ -104,7 +104,7 @@ def problem_set(
     ----------
     variants, seed : how many, drawn afresh; each assembles, has round numbers, crosses no lines under 20 degrees,
         shows every asked reading over 10 mm long, and differs in its answers from all others by more than one may err
-    rows : instead, a CSV file with a row of data for each group or student (see `graphkin.handout.data_rows`)
+    rows : instead, a CSV file with a row of data for each group or student (see `graphkin.papers.data_rows`)
     out : folder for a scene file of each variant, the rendered files and answers.csv; an interrupted set goes on
     spread : how far the numbers vary
     executor, workers : any that follows ``concurrent.futures.Executor``; or so many processes of one's own

@@ -8,13 +8,13 @@ from functools import cached_property
 from numbers import Integral
 from typing import TYPE_CHECKING, Any
 
-from graphkin.api.called import At, SceneLike, as_scene, driver_values
+from graphkin.api.arguments import At, SceneLike, as_scene, driver_values
 from graphkin.errors import CallError, Problem, Unsolvable
 from graphkin.scene.model import SlideDriver
 from graphkin.structure import mobility_of
 
 if TYPE_CHECKING:
-    from graphkin.exact import Motion
+    from graphkin.solver import Motion
 
 __all__ = ["Solved", "refused", "solve"]
 
@@ -33,7 +33,7 @@ class Solved:
 
     @cached_property
     def data(self) -> dict[str, Any]:
-        from graphkin.exact import to_json
+        from graphkin.solver import to_json
 
         return to_json(self.motion)
 
@@ -94,9 +94,9 @@ def solve(scene: SceneLike, at: At = None, sweep: int | None = None) -> Solved:
     >>> round(solved.data["positions"][0]["links"]["3"]["omega"], 4)
     -2.8191
     """
-    from graphkin import exact
+    from graphkin import solver
 
     given = as_scene(scene)
     if sweep is not None and not (isinstance(sweep, Integral) and 1 <= sweep <= 10_000_000):
         raise CallError(Problem("sweep", f"{sweep} positions", "give a whole number from 1 to 10000000"))
-    return Solved(exact.solve(given, at=driver_values(given, at), sweep=sweep))
+    return Solved(solver.solve(given, at=driver_values(given, at), sweep=sweep))

@@ -10,9 +10,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from graphkin.api.called import SceneLike, as_scene
+from graphkin.api.arguments import SceneLike, as_scene, known_words
 from graphkin.api.files import write_files
-from graphkin.api.wishes import known_words
 from graphkin.errors import CallError, Problem, did_you_mean
 
 if TYPE_CHECKING:

@@ -13,9 +13,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
-from graphkin.api.called import At, SceneLike, as_scene, asked_symbols, driver_values
+from graphkin.api.arguments import At, SceneLike, as_scene, asked_symbols, driver_values, known_words
 from graphkin.api.files import write_files
-from graphkin.api.wishes import known_words
 from graphkin.errors import CallError, Problem
 from graphkin.scene import library, library_text
 from graphkin.scene.model import Scene
@@ -95,7 +94,7 @@ class Swept:
         return f"<Swept {self.plan.scene.name}: {self.good} of {self.rows} positions>"
 
     def _repr_html_(self) -> str:
-        from graphkin.api.turn_told import told_turn
+        from graphkin.api.report_text import told_turn
 
         lines = told_turn(self)
         shown = f"<pre>{html.escape(lines)}</pre>"

@@ -1,12 +1,10 @@
 """Readings off a drawing, their comparison with exact values, and the judging of values that others state."""
 
-from graphkin.checking.advice import Advice, advise
 from graphkin.checking.audit import Judged, Verdict, judge
 from graphkin.checking.printed import Printed, printed_values, stated
-from graphkin.checking.readings import Reading, read_off
+from graphkin.checking.readings import COVERAGE, Advice, Reading, Uncertainty, advise, predict, read_off
 from graphkin.checking.report import Compared, Report, compare
-from graphkin.checking.suspects import Case
-from graphkin.checking.uncertainty import COVERAGE, Uncertainty, predict
+from graphkin.checking.slips import Case
 
 __all__ = [
     "COVERAGE",

@@ -12,11 +12,9 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from graphkin.checking.followed import followed
-from graphkin.checking.lines import line_of
-from graphkin.checking.pen import slips_of_the_pen
-from graphkin.checking.printed import Printed
-from graphkin.checking.suspects import Case, Suspect, suspects
+from graphkin.checking.consequential_errors import followed
+from graphkin.checking.printed import Printed, slips_of_the_pen
+from graphkin.checking.slips import Case, Suspect, line_of, suspects
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase
 

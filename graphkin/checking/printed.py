@@ -1,16 +1,20 @@
-"""Values that somebody states, with the digits they are stated to."""
+"""Values that somebody states, with the digits they are stated to.
+
+Slips of the pen: digits exchanged, misread, left out or written twice when a right value was copied.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from decimal import Decimal, InvalidOperation
+from itertools import combinations, pairwise
 
 from graphkin.scene.model import Scene
 from graphkin.scene.symbol import Symbol
 
-__all__ = ["Printed", "printed_values", "stated"]
+__all__ = ["Printed", "printed_values", "slips_of_the_pen", "stated"]
 
 Value = complex | float
 
@@ -90,3 +94,38 @@ def _shortest(number: float) -> str:
     # unit conversion leaves noise in the last digits; nobody prints more than twelve
     text = f"{number:.12g}"
     return text if "e" not in text or not math.isfinite(number) else format(Decimal(text), "f")
+
+
+SWAPPED, MISREAD, TWICE_MISREAD, MISSED = 0.05, 0.05, 0.02, 0.02
+
+
+def slips_of_the_pen(printed: Printed) -> Iterator[tuple[str, float, float]]:
+    """What may have stood where a number was copied from: text, share among wrong values, value (SI).
+
+    The share of each kind of slip is divided among all the numbers it could come from, so that a short number, which is
+    a digit away from anything, explains nothing.
+    """
+    if len(printed.texts) != 1:
+        return
+    text = printed.texts[0]
+    places = [i for i, c in enumerate(text) if c.isdigit()]
+    if len(places) < 3 or "e" in text.lower():
+        return
+    swapped = [_put(text, {i: text[j], j: text[i]}) for i, j in pairwise(places)]
+    once = [_put(text, {i: d}) for i in places for d in "0123456789"]
+    missed = [text[:i] + d + text[i:] for i in (*places, places[-1] + 1) for d in "0123456789"]
+    missed += [text[:i] + text[i + 1 :] for i in places]
+    kinds = [(SWAPPED, swapped), (MISREAD, once), (MISSED, missed)]
+    if len(places) >= 6:
+        digits = "0123456789"
+        twice = [_put(text, {i: a, j: b}) for i, j in combinations(places, 2) for a in digits for b in digits]
+        kinds.append((TWICE_MISREAD, twice))
+    unit = printed.step / stated(printed.symbol, [text], 1.0).step
+    for share, texts in kinds:
+        for other in dict.fromkeys(texts):
+            if other != text:
+                yield other, share / len(texts), float(other) * unit
+
+
+def _put(text: str, digits: dict[int, str]) -> str:
+    return "".join(digits.get(i, c) for i, c in enumerate(text))

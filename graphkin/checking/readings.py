@@ -1,15 +1,31 @@
-"""What is read off a drawing: lengths on paper times scale factors, angles from the drawn ends."""
+"""What is read off a drawing: lengths on paper times scale factors, angles from the drawn ends.
+
+How far a reading may lie off, before it is drawn: first order, from every act that leads to it.
+
+Each act of the hand (a point pricked, a direction set, a length laid off or read) is made wrong once by one standard
+deviation, the rest exactly; what that does to a reading is its sensitivity times the deviation, and the squares add up
+(Guide to the expression of uncertainty in measurement, 5.1).  Crossing angles, lengths and scales come in by the
+construction itself.
+
+Which reading is worst, which step makes it so, and which scale would give a better one.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+import math
+from bisect import bisect_left
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
-from graphkin.drafting.instrument import EXACT, Instrument
-from graphkin.drafting.sheet import DiagramName, Sheet, Vector
+from graphkin.construction import Plan, Scales, execute, nudged
+from graphkin.construction.board import EXACT, Instrument
+from graphkin.construction.sheet import DiagramName, Sheet, Vector
+from graphkin.errors import Unsolvable
+from graphkin.scene.model import Tools
 from graphkin.scene.symbol import Symbol
+from graphkin.words import Phrase
 
-__all__ = ["Reading", "read_off"]
+__all__ = ["COVERAGE", "Advice", "Reading", "Uncertainty", "advise", "predict", "read_off"]
 
 
 @dataclass(frozen=True)
@@ -30,7 +46,7 @@ def read_off(sheet: Sheet, asked: Sequence[Symbol] = (), instrument: Instrument 
     """Measure every vector and every rate that was drawn, or only those asked for, with the instrument's eyes.
 
     >>> from graphkin.scene import read
-    >>> from graphkin.drafting import draft
+    >>> from graphkin.construction import draft
     >>> sheet = draft(read("sixbar-guide-40deg"))
     >>> b3 = {str(r.symbol): r for r in read_off(sheet)}["v_B@3"]
     >>> round(b3.on_paper, 3)
@@ -58,3 +74,119 @@ def _vector(sheet: Sheet, diagram: DiagramName, vector: Vector, instrument: Inst
     read = abs(instrument.read(size))
     along = instrument.read_direction(vector.span / size)
     return Reading(vector.symbol, read, read * along * sheet.scales.of(diagram), diagram)
+
+
+COVERAGE = 3.0  # a stated bound is this many standard deviations
+
+
+@dataclass(frozen=True)
+class Uncertainty:
+    """Standard deviation of a reading (SI; of a vector, the root of the sum over both components).
+
+    ``cause`` is the step that adds most to it, ``share`` its part of the variance.
+    """
+
+    deviation: float
+    cause: Phrase
+    share: float
+
+    @property
+    def bound(self) -> float:
+        """What the reading keeps within at least 99 times in a hundred."""
+        return COVERAGE * self.deviation
+
+
+def predict(what: Plan, name: str, tools: Tools) -> Mapping[Symbol, Uncertainty]:
+    """Uncertainty of every reading of a plan drawn with an instrument ("pencil" or "cad")."""
+    still = nudged(name, tools, 0)
+    sheet = execute(what, still)
+    drawn = still.acts
+    base = {r.symbol: r.value for r in read_off(sheet, (), still)}
+    marks = [acts for acts, _ in sheet.causes]
+    parts: dict[Symbol, dict[int, float]] = {symbol: {} for symbol in base}
+    reading = len(sheet.causes)
+    for act in range(1, still.acts + 1):
+        hand = nudged(name, tools, act)
+        try:
+            values = {r.symbol: r.value for r in read_off(execute(what, hand), (), hand)}
+        except Unsolvable:
+            # so near a dead point that this act alone makes the arcs miss: nothing can be promised
+            values = dict.fromkeys(base, complex(math.inf))
+        cause = bisect_left(marks, act) if act <= drawn else reading
+        for symbol, value in base.items():
+            off = abs(values[symbol] - value) ** 2
+            if off:
+                parts[symbol][cause] = parts[symbol].get(cause, 0.0) + off
+    return {symbol: _summed(symbol, shares, sheet.causes) for symbol, shares in parts.items()}
+
+
+def _summed(symbol: Symbol, shares: Mapping[int, float], causes: tuple[tuple[int, Phrase], ...]) -> Uncertainty:
+    whole = sum(shares.values())
+    if not whole:
+        return Uncertainty(0.0, Phrase("reading", (symbol,)), 0.0)
+    worst = max(shares, key=shares.__getitem__)
+    cause = causes[worst][1] if worst < len(causes) else Phrase("reading", (symbol,))
+    return Uncertainty(math.sqrt(whole), cause, shares[worst] / whole if math.isfinite(whole) else 1.0)
+
+
+SMALL = 0.05  # readings below this part of the largest of their kind are no fair measure of a drawing
+
+
+@dataclass(frozen=True)
+class Advice:
+    """The worst reading of a drawing and what would help it most.
+
+    ``relative`` is its standard deviation over its size; ``cause`` the step that adds most to it, with its ``share`` of
+    the variance; ``figure`` the one to draw twice as large, and ``gain`` what is left of the deviation then.
+    """
+
+    symbol: Symbol
+    relative: float
+    cause: Phrase
+    share: float
+    figure: str
+    gain: float
+
+    def phrase(self) -> Phrase:
+        return Phrase(
+            "advice",
+            (
+                self.symbol,
+                f"{100 * self.relative:.2g}",
+                self.cause,
+                f"{100 * self.share:.0f}",
+                Phrase(f"figure {self.figure}"),
+                f"{100 * self.relative * self.gain:.2g}",
+            ),
+        )
+
+
+def advise(
+    what: Plan, name: str, tools: Tools, readings: Sequence[Reading], predicted: Mapping[Symbol, Uncertainty]
+) -> Advice | None:
+    """Look for the worst reading and the remedy; None where nothing is uncertain.
+
+    The remedy is found by predicting again with each of the three figures drawn twice as large.
+    """
+    largest: dict[str, float] = {}
+    for r in readings:
+        largest[r.symbol.kind[0]] = max(largest.get(r.symbol.kind[0], 0.0), abs(r.value))
+    worst: tuple[float, Symbol] | None = None
+    for r in readings:
+        expected = predicted[r.symbol]
+        if abs(r.value) < SMALL * largest[r.symbol.kind[0]] or not expected.deviation:
+            continue
+        part = expected.deviation / abs(r.value)
+        if math.isfinite(part) and (worst is None or part > worst[0]):
+            worst = part, r.symbol
+    if worst is None:
+        return None
+    relative, symbol = worst
+    gains = {}
+    for figure in ("length", "velocity", "acceleration"):
+        scales: Scales = replace(what.scales, **{figure: getattr(what.scales, figure) / 2})
+        again = predict(replace(what, scales=scales), name, tools)[symbol].deviation
+        gains[figure] = again / predicted[symbol].deviation
+    best = min(gains, key=gains.__getitem__)
+    expected = predicted[symbol]
+    return Advice(symbol, relative, expected.cause, expected.share, best, gains[best])

@@ -6,9 +6,8 @@ import cmath
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
-from graphkin.checking.readings import Reading
-from graphkin.checking.uncertainty import Uncertainty
-from graphkin.drafting.sheet import DiagramName, Scales, Sheet
+from graphkin.checking.readings import Reading, Uncertainty
+from graphkin.construction.sheet import DiagramName, Scales, Sheet
 from graphkin.scene.symbol import Symbol
 
 __all__ = ["Compared", "Report", "compare"]

@@ -43,7 +43,7 @@ def centres(
 ) -> None:
     """All instant centres, how each was found, and the velocities by centres."""
     from graphkin.api import centres as finding
-    from graphkin.api.centres_told import told_centres
+    from graphkin.api.centred import told_centres
 
     wanted, values = listed(formats), driver_values(at)
     if point and centrode is None:

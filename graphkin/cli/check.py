@@ -1,4 +1,9 @@
-"""``graphkin check``: readings of the drawn diagrams against the analytic solver; `print_check` serves ``draw`` too."""
+"""``graphkin check``: readings of the drawn diagrams against the analytic solver; `print_check` serves ``draw`` too.
+
+``graphkin draw``: figures, readings and the check.
+
+``graphkin audit``: printed values, or people's answers, against the exact ones.
+"""
 
 from __future__ import annotations
 
@@ -11,21 +16,26 @@ from graphkin.cli.options import (
     AtOption,
     ConventionOption,
     FindOption,
+    FormatOption,
     InstrumentOption,
     JsonOption,
     LangOption,
+    OutOption,
     QuietOption,
     SceneArgument,
     SeedOption,
+    SheetLangOption,
     driver_values,
+    listed,
 )
-from graphkin.cli.output import print_json, print_table, unsolvable_as_json
+from graphkin.cli.output import print_json, print_paths, print_table, tell_unused, unsolvable_as_json
 from graphkin.errors import Unsolvable
+from graphkin.words import languages
 
 if TYPE_CHECKING:
     from graphkin.api import Checked
 
-__all__ = ["check", "print_check", "unchecked"]
+__all__ = ["audit", "check", "draw", "print_check", "unchecked"]
 
 
 def check(
@@ -44,7 +54,7 @@ def check(
 ) -> None:
     """Measure the drawn diagrams and compare every reading with the analytic solver."""
     from graphkin.api import check as checking
-    from graphkin.api.wishes import known_words
+    from graphkin.api.arguments import known_words
 
     known_words(None, lang, convention, instrument)
     with unsolvable_as_json(as_json, unchecked):
@@ -62,7 +72,7 @@ def unchecked(error: Unsolvable) -> dict[str, object]:
 
 def print_check(checked: Checked, language: str, as_json: bool, quiet: bool) -> None:
     """Print a check, and leave with the status that belongs to it."""
-    from graphkin.api.told import show
+    from graphkin.api.report_text import show
     from graphkin.words import say
 
     if as_json:
@@ -78,7 +88,7 @@ def print_check(checked: Checked, language: str, as_json: bool, quiet: bool) -> 
 
 
 def _print_readings(checked: Checked, language: str) -> None:
-    from graphkin.api.told import show, verdict
+    from graphkin.api.report_text import show, verdict
     from graphkin.words import say, word
 
     rows = [
@@ -103,7 +113,63 @@ def _print_readings(checked: Checked, language: str) -> None:
 def _write(folder: Path, checked: Checked, language: str) -> None:
     from graphkin.api.drawn import readings_csv
     from graphkin.api.files import write_files
-    from graphkin.api.told import told
+    from graphkin.api.report_text import told
 
     report = told(checked, language)
     write_files(folder, {"readings.csv": readings_csv(checked).encode(), "report.txt": report.encode()})
+
+
+def draw(
+    scene: SceneArgument,
+    out: OutOption = None,
+    formats: FormatOption = "svg",
+    at: AtOption = None,
+    find: FindOption = None,
+    lang: SheetLangOption = None,
+    convention: ConventionOption = None,
+    instrument: InstrumentOption = "exact",
+    seed: SeedOption = 0,
+    as_json: JsonOption = False,
+    quiet: QuietOption = False,
+) -> None:
+    """Draw the mechanism, the velocity and the acceleration polygon; measure and check them."""
+    from graphkin.api import draw as drawing
+
+    wanted = listed(formats)
+    with unsolvable_as_json(as_json, unchecked):
+        drawn = drawing(scene, None, driver_values(at), find or None, wanted, lang, convention, instrument, seed)
+        paths = drawn.write(out, wanted)
+    if not as_json and not quiet:
+        print_paths(paths)
+    print_check(drawn.checked, languages(lang or drawn.checked.scene.sheet.language)[0], as_json, quiet)
+
+
+def audit(
+    scene: SceneArgument,
+    answers: Annotated[
+        Path | None,
+        typer.Option(
+            "--answers", metavar="FILE.csv", help="A row for each person, symbols as heads, values in scene units."
+        ),
+    ] = None,
+    at: AtOption = None,
+    out: Annotated[Path | None, typer.Option("-o", "--out", metavar="DIR", help="Folder for audit.csv.")] = None,
+    lang: LangOption = None,
+    as_json: JsonOption = False,
+    quiet: QuietOption = False,
+) -> None:
+    """Judge the scene's printed values, or people's answers: right, within drafting accuracy, or wrong and why."""
+    from graphkin.api import audit as auditing
+
+    audited = auditing(scene, answers, driver_values(at), lang)
+    paths = audited.write(out) if out is not None else []
+    if as_json:
+        print_json(audited.data)
+    elif not quiet:
+        first = len(audited.heads) - 6
+        print_table(audited.heads, audited.rows, right=(first + 1, first + 2, first + 3))
+        if paths:
+            print_paths(paths)
+    tell_unused(audited.unused)
+    if not audited.ok:
+        raise typer.Exit(1)

@@ -8,13 +8,10 @@ from typing import Annotated
 import typer
 
 from graphkin import __version__
-from graphkin.cli.audit import audit
 from graphkin.cli.centres import centres
-from graphkin.cli.check import check
-from graphkin.cli.draw import draw
+from graphkin.cli.check import audit, check, draw
 from graphkin.cli.handout import handout
-from graphkin.cli.scenes import scenes
-from graphkin.cli.solve import solve
+from graphkin.cli.solve import scenes, solve
 from graphkin.cli.study import study
 from graphkin.cli.sweep import sweep
 from graphkin.errors import GraphkinError

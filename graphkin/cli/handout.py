@@ -86,7 +86,7 @@ def _problem_set(
     seed: int, rows: Path | None, workers: int | None, as_json: bool, quiet: bool,
 ) -> None:  # fmt: skip
     from graphkin.api import problem_set
-    from graphkin.api.handed import papers_of
+    from graphkin.api.handouts import papers_of
     from graphkin.scene import read
 
     target = out if out is not None else Path(read(scene).name)

@@ -58,7 +58,7 @@ def sweep(
 ) -> None:
     """Tables and motion diagrams over a turn, limit positions, strokes and K; and the same over designs."""
     from graphkin.api import sweep as sweeping
-    from graphkin.api.turn_told import told_turn
+    from graphkin.api.report_text import told_turn
     from graphkin.scene import read
 
     target = out if out is not None else Path(read(scene).name)

@@ -24,8 +24,7 @@ from graphkin.drawing.svg import svg_bytes
 
 if TYPE_CHECKING:
     from graphkin.drawing.figure_pages import acceleration_figure, figures, mechanism_figure, velocity_figure
-    from graphkin.drawing.sheet_plan import sheet_room
-    from graphkin.drawing.whole_sheet import sheet_page
+    from graphkin.drawing.sheet import sheet_page, sheet_room
 
 __all__ = [
     "Arc",
@@ -56,8 +55,8 @@ _COMPOSED = {
     "figures": "figure_pages",
     "mechanism_figure": "figure_pages",
     "velocity_figure": "figure_pages",
-    "sheet_page": "whole_sheet",
-    "sheet_room": "sheet_plan",
+    "sheet_page": "sheet",
+    "sheet_room": "sheet",
 }
 
 

@@ -5,17 +5,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from graphkin.drafting.centres import Centre, Centres
-from graphkin.drafting.centres.chart import Line as Straight
+from graphkin.construction.centres import Centre, Centres
+from graphkin.construction.centres.pairs import Line as Straight
 from graphkin.drawing import strokes
-from graphkin.drawing.arrows import POINTER, arrow
 from graphkin.drawing.box import Box
 from graphkin.drawing.headings import number
 from graphkin.drawing.layout import Name, Piece
 from graphkin.drawing.obstacles import obstacles_of
 from graphkin.drawing.placing import Label
 from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Primitive, Stroke, Text
-from graphkin.drawing.typeset import rich
+from graphkin.drawing.symbols import POINTER, arrow
+from graphkin.drawing.text import rich
 from graphkin.plane import cross, dot, unit
 
 __all__ = ["CentreLetters", "centre_marks", "mark_of", "near_box", "pale"]

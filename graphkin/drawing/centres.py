@@ -1,32 +1,122 @@
-"""The figure of the instant centres: the mechanism pale behind all its centres, the circle diagram beside it, how each
-centre was found, and the velocities taken through them."""
+"""The circle diagram: links as points on a circle, centres as the lines between them, numbered as they were found.
+
+The figure of the instant centres: the mechanism pale behind all its centres, the circle diagram beside it, how each
+centre was found, and the velocities taken through them.
+"""
 
 from __future__ import annotations
 
+import cmath
+import math
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 
-from graphkin.drafting.centres import Centre, Centres, Turning, velocity_sentences
-from graphkin.drafting.centres.kennedy import Relation
+from graphkin.construction.centres import Centre, Centres, Turning, velocity_sentences
+from graphkin.construction.centres.kennedy import Relation
+from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.centre_marks import CentreLetters, centre_marks, mark_of, near_box, pale
-from graphkin.drawing.circle_diagram import circle_diagram
 from graphkin.drawing.conventions import Letters, letters_of, scale_statement
-from graphkin.drawing.describe import describe, figure_title
 from graphkin.drawing.dimensions import check_bar
-from graphkin.drawing.headings import drivers, facts, term, titles
+from graphkin.drawing.headings import describe, drivers, facts, figure_title, term, titles
 from graphkin.drawing.layout import Piece, ink_box, joined, layer_groups, moved_piece, settled, wrapped
 from graphkin.drawing.mechanism import mechanism_piece
-from graphkin.drawing.primitives import Drawing, Group, Primitive, Run, Text
-from graphkin.drawing.typeset import rich
+from graphkin.drawing.primitives import Arc, Circle, Drawing, Group, Line, Primitive, Run, Stroke, Text
+from graphkin.drawing.strokes import colour_of_link
+from graphkin.drawing.text import plain, rich, text_box
+from graphkin.plane import cross
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, languages, say
 
-__all__ = ["background", "centres_figure"]
+__all__ = ["background", "centres_figure", "circle_diagram", "stroke_of"]
+
+HALF = 1.9  # mm of a line left out to either side of its number
+CLEAR = 1.55  # mm from a number's middle to anything else
+PERMANENT, FOUND, OTHERWISE = Stroke(0.5), Stroke(0.25), Stroke(0.35, (2.4, 0.9))
+
+
+def stroke_of(centre: Centre) -> Stroke | None:
+    """How the line of a centre is drawn; None where it is not determined."""
+    if centre.place is None:
+        return None
+    return PERMANENT if centre.kind == "permanent" else OTHERWISE if centre.way else FOUND
+
+
+def circle_diagram(centres: Centres, middle: complex, radius: float) -> tuple[Primitive, ...]:
+    """Draw the diagram about a page point.
+
+    Links stand clockwise in the order of counting, the first at the top; a line found bears its number where along it
+    there is most room, none where there is too little.
+    """
+    names = sorted(centres.links.names, key=lambda n: (not n.isdigit(), int(n) if n.isdigit() else 0, n))
+    ways = {n: cmath.rect(1.0, 2 * math.pi * k / len(names)) * -1j for k, n in enumerate(names)}
+    sides = [(c, middle + radius * ways[c.pair[0]], middle + radius * ways[c.pair[1]]) for c in centres.found]
+    lines: list[Primitive] = []
+    numbers: list[Primitive] = []
+    taken: list[complex] = []
+    for centre, a, b in sides:
+        stroke = stroke_of(centre)
+        if stroke is None:
+            continue
+        name = "-".join(sorted(centre.pair))
+        at = (
+            None
+            if not centre.number
+            else _free(a, b, [(p, q) for _, p, q in sides if (p, q) != (a, b)], taken, middle, radius)
+        )
+        parts: tuple[Line, ...] = (Line(a, b, stroke),)
+        if at is not None:
+            taken.append(at)
+            gap = HALF * (b - a) / abs(b - a)
+            parts = Line(a, at - gap, stroke), Line(at + gap, b, stroke)
+            runs = plain(str(centre.number), 2.3)
+            numbers.append(Text(at + 0.75j, runs, "middle", id=f"label-side-{name}", classes=("label",)))
+        lines.append(Group(parts, id=f"side-{name}", classes=("side", centre.kind)))
+    thin = Stroke(0.18, (), strokes.GREY)
+    outline = (Arc(middle, radius, 0.0, math.pi, thin), Arc(middle, radius, math.pi, 2 * math.pi, thin))
+    whole = (*outline, *lines, *numbers, *_knots(centres, names, ways, middle, radius))
+    return (Group(whole, id="circle-diagram", classes=("circle-diagram",)),)
+
+
+def _free(
+    a: complex, b: complex, others: Sequence[tuple[complex, complex]], taken: Sequence[complex],
+    middle: complex, radius: float,
+) -> complex | None:  # fmt: skip
+    """The place on a side that lies furthest from all other sides, from the circle and from numbers that stand already;
+    None where a number would touch one of them."""
+
+    def room(z: complex) -> float:
+        sides = min((_distance(z, p, q) for p, q in others), default=9.0)
+        return min(sides, radius - abs(z - middle), min((abs(z - w) - HALF for w in taken), default=9.0))
+
+    places = [a + (b - a) * (0.1 + 0.01 * k) for k in range(81)]
+    best = max(places, key=lambda z: (min(room(z), 3.0), -abs(z - (a + b) / 2)))
+    return best if room(best) > CLEAR else None
+
+
+def _distance(z: complex, a: complex, b: complex) -> float:
+    return abs(cross(z - a, b - a)) / abs(b - a)
+
+
+def _knots(
+    centres: Centres, names: Sequence[str], ways: Mapping[str, complex], middle: complex, radius: float
+) -> list[Primitive]:
+    """The links as points on the circle with their numbers."""
+    drawn: list[Primitive] = []
+    for name in names:
+        at, colour = middle + radius * ways[name], colour_of_link(centres.links.scene, name)
+        drawn.append(Circle(at, 1.1, colour))
+        runs = plain(name, 3.5, bold=True)
+        box = text_box(Text(0j, runs, "middle", colour))
+        there = middle + (radius + 2.2 + max(box.width, box.height) / 2) * ways[name]
+        foot = there - 1j * (box.top + box.bottom) / 2
+        drawn.append(Text(foot, runs, "middle", colour, f"label-circle-{name}", ("label",)))
+    return drawn
+
 
 MARGIN, ROOM, LINE, FOOT = 8.0, 9.0, 5.0, 14.0
 MOST = (150.0, 150.0)  # mm that the mechanism with its near centres may fill
-LEAST = (70.0, 60.0)
+SMALLEST = (70.0, 60.0)
 SIDE = 62.0  # width of the column beside the mechanism
 ROW = 4.4
 RADIUS = {3: 15.0, 4: 17.0, 5: 20.0, 6: 22.0}
@@ -39,7 +129,7 @@ def centres_figure(
 
     Parameters
     ----------
-    turning : the velocities by centres (`graphkin.drafting.centres.speeds`)
+    turning : the velocities by centres (`graphkin.construction.centres.speeds`)
     language : "en", "zh" or "both"; the scene's own if None
     convention : "chinese", "us", "british" or "russian"; the scene's own if None
     """
@@ -50,11 +140,11 @@ def centres_figure(
     back = background(mechanism_piece(sheet, letters)[0])
     mechanism = ink_box(back.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
     content = near_box(centres, mechanism, MOST)
-    width = max(content.width, LEAST[0]) + 2 * ROOM + SIDE + 2 * MARGIN
+    width = max(content.width, SMALLEST[0]) + 2 * ROOM + SIDE + 2 * MARGIN
     head = _heading(centres, drivers(sheet, letters), spoken, width - 2 * MARGIN)
     top = MARGIN + LINE * len(head) + 2.0
     side = _Side(centres, named, spoken, complex(width - MARGIN - SIDE, top))
-    tall = max(content.height, LEAST[1], side.height - 2 * ROOM)
+    tall = max(content.height, SMALLEST[1], side.height - 2 * ROOM)
     panel = Box(MARGIN, top, width - MARGIN - SIDE - 2.0, top + tall + 2 * ROOM)
     origin = panel.centre - content.centre
     around = panel.moved(-origin)  # about the world's origin, as the mechanism is drawn
@@ -94,9 +184,7 @@ def background(piece: Piece) -> Piece:
         for thing in piece.layers["mechanism"]
         if isinstance(thing, Group) and {"frame", "link", "point"} & set(thing.classes)
     )
-    names = tuple(
-        name for name in piece.names if name.label.text.id.startswith(("label-point-", "label-link-"))
-    )
+    names = tuple(name for name in piece.names if name.label.text.id.startswith(("label-point-", "label-link-")))
     return Piece({"mechanism": kept}, names, piece.marks)
 
 
@@ -221,5 +309,3 @@ def _description(
             for phrase in velocity_sentences(centres, turning)
         ]
     return "\n".join(said)
-
-

@@ -5,20 +5,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import pairwise
 
-from graphkin.drafting.centres import Centres
+from graphkin.construction.centres import Centres
 from graphkin.drawing.box import Box
 from graphkin.drawing.centre_marks import CentreLetters, mark_of
 from graphkin.drawing.centres import background
-from graphkin.drawing.colours import colour_of_link
 from graphkin.drawing.conventions import letters_of, scale_statement
-from graphkin.drawing.describe import figure_title
 from graphkin.drawing.dimensions import check_bar
-from graphkin.drawing.headings import drivers, facts, term, titles
+from graphkin.drawing.headings import drivers, facts, figure_title, term, titles
 from graphkin.drawing.layout import Name, Piece, ink_box, joined, layer_groups, moved_piece, settled, wrapped
 from graphkin.drawing.mechanism import mechanism_piece
 from graphkin.drawing.placing import Label
 from graphkin.drawing.primitives import Drawing, Group, Line, Polyline, Primitive, Stroke, Text
-from graphkin.drawing.typeset import rich
+from graphkin.drawing.strokes import colour_of_link
+from graphkin.drawing.text import rich
 from graphkin.words import Phrase, languages, say
 
 __all__ = ["Branch", "centrodes_figure"]

@@ -12,11 +12,10 @@ from typing import Literal
 
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
-from graphkin.drawing.metrics import runs_width
 from graphkin.drawing.obstacles import Obstacles, obstacles_of
 from graphkin.drawing.placing import Label, place
 from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Polyline, Primitive, Stroke, Text
-from graphkin.drawing.typeset import rich
+from graphkin.drawing.text import rich, runs_width
 
 __all__ = [
     "SOLID_AND_DASHED",

@@ -1,6 +1,6 @@
 r"""How each school writes: poles, end points, component marks, directions, scale statements.
 
-Everything is returned in the notation of `graphkin.drawing.typeset` (without dollar signs unless said).
+Everything is returned in the notation of `graphkin.drawing.text` (without dollar signs unless said).
 Chinese: Sun Huan, Mechanical Principles; us: Norton, Design of Machinery; british: Hannah and Stephens, Mechanics of
 Machines; russian: Artobolevsky, Theory of Mechanisms and Machines.
 """
@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Literal
 
-from graphkin.drafting.sheet import DiagramName, Direction, Sheet
+from graphkin.construction.sheet import DiagramName, Direction, Sheet
 from graphkin.scene.model import Convention
 from graphkin.scene.symbol import PointRef, Symbol
 
@@ -162,7 +162,7 @@ def scale_statement(sheet: Sheet, convention: Convention, diagram: DiagramName) 
     """The scale of a figure, as words with symbols between dollar signs.
 
     >>> from graphkin.scene import read
-    >>> from graphkin.drafting import draft
+    >>> from graphkin.construction import draft
     >>> scale_statement(draft(read("sixbar-guide-40deg")), "british", "velocity")
     '1 cm = 100 mm/s'
     """

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from graphkin.drafting.sheet import DiagramName, Sheet, Vector
+from graphkin.construction.sheet import DiagramName, Sheet, Vector
 from graphkin.drawing import strokes
-from graphkin.drawing.arrows import COMPONENT, RESULTANT, arrow
 from graphkin.drawing.box import Box
-from graphkin.drawing.colours import colour_of_vector
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.headings import term
 from graphkin.drawing.layout import Name, Piece, fitted
 from graphkin.drawing.placing import Label
 from graphkin.drawing.primitives import Group, Line, Polygon, Primitive, Text
-from graphkin.drawing.typeset import symbol
+from graphkin.drawing.strokes import colour_of_vector
+from graphkin.drawing.symbols import COMPONENT, RESULTANT, arrow
+from graphkin.drawing.text import symbol
 
 __all__ = ["Detail", "detail_inset", "details"]
 

@@ -1,20 +1,38 @@
-"""Given sizes drawn as dimensions, after ISO 129-1, and the bar that checks the scale of a print."""
+"""Given sizes drawn as dimensions, after ISO 129-1, and the bar that checks the scale of a print.
+
+Whether there is room for a dimension: clear of the mechanism and of other dimensions, its extension lines beginning
+beyond the symbols of the points that they come from.
+
+Given lengths and the places of the frame's points, drawn as dimensions where there is room for them.
+"""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
+from itertools import pairwise
+from typing import Any, TypeAlias
 
+import numpy as np
+
+from graphkin.construction.sheet import Sheet
 from graphkin.drawing import strokes
-from graphkin.drawing.arrows import POINTER, arrowhead
-from graphkin.drawing.metrics import CAP_HEIGHT, text_box
-from graphkin.drawing.primitives import Arc, Line, Polygon, Run, Text, page_direction
-from graphkin.drawing.typeset import plain
+from graphkin.drawing.box import Box
+from graphkin.drawing.headings import number
+from graphkin.drawing.label_positions import cross_product, meets
+from graphkin.drawing.obstacles import Obstacles, obstacles_of
+from graphkin.drawing.primitives import Arc, Group, Line, Polygon, Primitive, Run, Text, page_direction
+from graphkin.drawing.shapes import GUIDE_LENGTH, bearings
+from graphkin.drawing.symbols import POINTER, arrowhead
+from graphkin.drawing.text import CAP_HEIGHT, plain, rich, text_box
+from graphkin.scene.model import AngleDriver, Link
+from graphkin.scene.symbol import PointRef
 
-__all__ = ["GAP", "OVERRUN", "angle_dimension", "check_bar", "dimension"]
+__all__ = ["GAP", "LENGTHS", "OVERRUN", "Parts", "Room", "angle_dimension", "check_bar", "dimension", "drawn_lengths"]
 
 OVERRUN, GAP = 1.5, 0.8  # extension lines reach past the dimension line and start off the object, mm
 CLEAR = 0.7  # between a number and the line broken for it, mm
-
 Part = Line | Polygon | Arc | Text
 
 
@@ -92,3 +110,241 @@ def _heads(a: complex, b: complex) -> tuple[Polygon, Polygon]:
 
 def _head(tip: complex, along: complex) -> Polygon:
     return arrowhead(tip, along, POINTER.head_length, POINTER.head_width, strokes.BLACK)
+
+
+AROUND_POINT = 11.0  # mm around a point in which lines belong to its own symbols
+TRIM, LEAST_EXTENSION = 0.8, 2.2  # mm between a symbol and an extension line; a shorter one is none
+Parts: TypeAlias = tuple[Line | Polygon | Arc | Text, ...]
+
+
+class Room:
+    """What is drawn already, as arrays: segments, and boxes by their middle and half size."""
+
+    def __init__(self, obstacles: Obstacles, panel: Box | None) -> None:
+        self.panel = panel
+        self.segments = np.array(obstacles.solid, dtype=complex).reshape(-1, 2)
+        self.middles, self.halves = _arrays(obstacles.areas)
+        corners = [z for box in obstacles.areas for z in box.corners] + [z for s in obstacles.solid for z in s]
+        self.content = Box.around(corners) if corners else Box(0, 0, 0, 0)
+
+    def take(self, parts: Parts, extensions: int = 2, over: bool = False) -> Parts | None:
+        """The dimension, added to what is drawn, if it is clear of everything; None if not.
+
+        Its first lines are extension lines: they begin beyond what stands around the point they come from, and run
+        over other lines where that is allowed.
+        """
+        boxes = [text_box(part) if isinstance(part, Text) else Box.around(part.points)
+                 for part in parts if isinstance(part, Text | Polygon)]  # fmt: skip
+        if self.panel is not None and not all(self.panel.holds(box) for box in boxes):
+            return None
+        lines = [part for part in parts if isinstance(part, Line)]
+        ends = [(line.start, line.end) for line in lines[extensions:]]
+        for arc in (part for part in parts if isinstance(part, Arc)):
+            course = [arc.at(arc.start + (arc.end - arc.start) * (0.06 + 0.11 * i)) for i in range(9)]
+            ends += pairwise(course)
+        own = np.array(ends, dtype=complex).reshape(-1, 2)
+        middles, halves = _arrays(boxes)
+        if self._covered(middles, halves) or self._over_areas(own) or len(_crossings(own, self.segments)[0]):
+            return None
+        trimmed = [self._trimmed(line) for line in lines[:extensions]]
+        beyond = np.array([(line.start, line.end) for line in trimmed if line is not None], dtype=complex)
+        if len(beyond) < extensions or (extensions and self._over_areas(beyond)):
+            return None
+        if extensions and not over and len(_crossings(beyond, self.segments)[0]):
+            return None
+        words, sizes = _arrays([text_box(part) for part in parts if isinstance(part, Text)])
+        lines_of_it = np.concatenate((own, beyond.reshape(-1, 2)))
+        if meets(lines_of_it[:, None], words[None], sizes[None]).any():
+            return None  # a number past the end of a short dimension stands on the next one
+        self.segments = np.concatenate((self.segments, lines_of_it))
+        self.middles, self.halves = np.concatenate((self.middles, middles)), np.concatenate((self.halves, halves))
+        kept = tuple(line for line in trimmed if line is not None)
+        return *kept, *(part for part in parts if not any(part is line for line in lines[:extensions]))
+
+    def _covered(self, middles: Any, halves: Any) -> bool:
+        """Whether boxes meet anything."""
+        grown = halves[:, None] + 0.5 * (1 + 1j)
+        off, reach = middles[:, None] - self.middles, grown + self.halves
+        if ((np.abs(off.real) < reach.real) & (np.abs(off.imag) < reach.imag)).any():
+            return True
+        return bool(meets(self.segments[None], middles[:, None], grown).any())
+
+    def _over_areas(self, segments: Any) -> bool:
+        return bool(meets(segments[:, None], self.middles[None], self.halves[None] + 0.4 * (1 + 1j)).any())
+
+    def _trimmed(self, line: Line) -> Line | None:
+        """An extension line from where nothing of its own point is in its way; None where too little is left."""
+        length = abs(line.end - line.start)
+        along = (line.end - line.start) / length
+        near = np.array([(line.start, line.start + AROUND_POINT * along)])
+        start = max((*_crossings(near, self.segments)[1], *self._left(near)), default=-TRIM)
+        start = AROUND_POINT * start + TRIM if start > 0 else 0.0
+        return replace(line, start=line.start + start * along) if start < length - LEAST_EXTENSION else None
+
+    def _left(self, near: Any) -> list[float]:
+        """Where the way ``near`` from a point leaves the symbols on it, as shares of its length."""
+        start, end = complex(near[0, 0]), complex(near[0, 1])
+        reach = self.halves + 0.4 * (1 + 1j)
+        met = np.flatnonzero(meets(near, self.middles, reach))
+        boxes = (
+            Box.around((complex(z - half), complex(z + half)))
+            for z, half in zip(self.middles[met], reach[met], strict=True)
+        )
+        chords = (box.clip(start, end) for box in boxes)
+        return [abs(chord[1] - start) / AROUND_POINT for chord in chords if chord is not None]
+
+
+def _arrays(boxes: Sequence[Box]) -> tuple[Any, Any]:
+    """Middles and half sizes of boxes."""
+    sizes = [complex(box.width, box.height) / 2 for box in boxes]
+    return np.array([box.centre for box in boxes], dtype=complex), np.array(sizes, dtype=complex)
+
+
+def _crossings(own: Any, others: Any) -> tuple[Any, Any]:
+    """Which of some segments cross others, and at which share of their length."""
+    p, d = own[:, None, 0], own[:, None, 1] - own[:, None, 0]
+    q, e = others[None, :, 0], others[None, :, 1] - others[None, :, 0]
+    crossing = (cross_product(d, q - p) * cross_product(d, q + e - p) <= 0) & (
+        cross_product(e, p - q) * cross_product(e, p + d - q) <= 0
+    )
+    which, what = np.nonzero(crossing)
+    turn = cross_product(d[which, 0], e[0, what])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        share = cross_product(q[0, what] - p[which, 0], e[0, what]) / turn
+    return which, np.where(np.isfinite(share), share, 0.0)
+
+
+LENGTHS = "dimensions"  # id of their group
+OFFSETS = (6.0, -6.0, 9.0, -9.0, 12.5, -12.5, 17.0, -17.0, 22.0, -22.0)  # mm from the bar
+LEAST, SHORTEST = 9.0, 5.0  # mm: a shorter bar, or distance in the frame, gets no dimension
+BESIDE = 6.5  # mm from the mechanism to the dimensions of the frame
+SIZE = 2.8
+ANGLE_RADII = (10.0, 13.0, 16.0)
+
+
+def drawn_lengths(sheet: Sheet, drawn: Iterable[Primitive], panel: Box | None) -> Group:
+    """Dimensions of bars and of the frame.
+
+    Parameters
+    ----------
+    drawn : the mechanism, of which the dimensions keep clear
+    panel : no dimension leaves it
+    """
+    drawn = tuple(drawn)
+    room = Room(obstacles_of(drawn), panel)
+    parts: list[Primitive] = []
+    for taken in (*_frame(sheet, room), *_bars(sheet, room), *_angles(sheet, room)):
+        parts += taken
+    return Group(tuple(parts), id=LENGTHS)
+
+
+def _drawn(room: Room, choices: Iterable[Parts], extensions: int = 2) -> Parts | None:
+    """The first of some dimensions for which there is room; extension lines run over others only where they must."""
+    tried = tuple(choices)
+    found = (room.take(parts, extensions, over) for over in (False, True) for parts in tried)
+    return next((parts for parts in found if parts is not None), None)
+
+
+def _bars(sheet: Sheet, room: Room) -> Iterator[Parts]:
+    """Lengths of bars, and of further points from them where those are round numbers."""
+    places = {ref.point: z for ref, z in sheet.points.items() if not ref.link}
+    for link in sheet.scene.links:
+        if link.redundant:
+            continue
+        spans = [(link.bar[0], link.bar[1])] if link.length is not None else []
+        for further in (p for p in link.points if p not in link.bar):
+            given = [own for own in link.bar if _round(link, own, further, sheet.scene.units.metres)]
+            on_the_bar = abs(link.points[further].imag) < 1e-9 * abs(link.points[further])
+            spans += [(own, further) for own in (given[:1] if on_the_bar else given)]
+        for one, other in spans:
+            if one not in places or other not in places:
+                continue
+            start, end = places[one].conjugate(), places[other].conjugate()
+            if abs(end - start) < LEAST:
+                continue
+            value = abs(link.points[other] - link.points[one]) / sheet.scene.units.metres
+            runs = rich(number(value, 5), SIZE)
+            parts = _drawn(room, (dimension(start, end, offset, runs) for offset in OFFSETS))
+            if parts is not None:
+                yield parts
+
+
+def _round(link: Link, one: str, other: str, metres: float) -> bool:
+    """Whether a distance looks like one that was given: at most four digits."""
+    value = abs(link.points[other] - link.points[one]) / metres
+    return value > 0.0 and abs(float(f"{value:.4g}") - value) < 1e-9 * value
+
+
+def _frame(sheet: Sheet, room: Room) -> Iterator[Parts]:
+    """Distances between fixed points and guides: across below the mechanism, upright beside it."""
+    scene = sheet.scene
+    per_mm = sheet.scales.length / scene.units.metres
+    spots = [z.conjugate() for ref, z in sheet.points.items() if not ref.link and ref.point in scene.frame.points]
+    level, plumb = [], []
+    for bearing in bearings(sheet):
+        if bearing.slide.b == scene.frame.name and bearing.slide.guide.name:
+            # from the end of the guide as it is drawn, left or below
+            if abs(bearing.along.imag) < 1e-9:
+                level.append(bearing.at.conjugate() - GUIDE_LENGTH / 2 + 4.0)
+            elif abs(bearing.along.real) < 1e-9:
+                plumb.append(bearing.at.conjugate() + 1j * (GUIDE_LENGTH / 2 - 4.0))
+    xs = _levels([*spots, *plumb], lambda z: z.real)
+    ys = _levels([*spots, *level], lambda z: z.imag)
+    content = room.content
+    below_or_above = (content.bottom + BESIDE, OVERRUN), (content.top - BESIDE, -OVERRUN)
+    beside = (content.left - BESIDE, -OVERRUN), (content.right + BESIDE, OVERRUN)
+
+    def chain(levels: Sequence[tuple[float, complex]], upright: bool) -> Parts | None:
+        """Dimensions one after the other on one line, beside the mechanism."""
+        choices = []
+        for line, past in beside if upright else below_or_above:
+            feet = [complex(line, level) if upright else complex(level, line) for level, _ in levels]
+            beyond = past if upright else past * 1j
+            parts: list[Line | Polygon | Arc | Text] = [
+                _extension(z, foot + beyond) for (_, z), foot in zip(levels, feet, strict=True)
+            ]
+            for (a, p), (b, q) in pairwise(zip((level for level, _ in levels), feet, strict=True)):
+                parts += dimension(p, q, 0.0, rich(number((b - a) * per_mm, 5), SIZE))
+            choices.append(tuple(parts))
+        return _drawn(room, choices, len(levels))
+
+    for levels, upright in ((xs, False), (ys, True)):
+        wide = [pair for pair in pairwise(levels) if pair[1][0] - pair[0][0] >= SHORTEST]
+        whole = chain(levels, upright) if len(wide) == len(levels) - 1 > 1 else None
+        if whole is not None:
+            yield whole
+        else:
+            yield from (parts for pair in wide for parts in (chain(pair, upright),) if parts is not None)
+
+
+def _angles(sheet: Sheet, room: Room) -> Iterator[Parts]:
+    """The angle of a driver from the x axis."""
+    for driver in sheet.scene.drivers:
+        if not isinstance(driver, AngleDriver) or driver.relative_to != sheet.scene.frame.name:
+            continue
+        link = sheet.scene.by_name[driver.link]
+        pivot = next((sheet.points[PointRef(p)] for p in link.points if p in sheet.scene.frame.points), None)
+        value = sheet.drivers[driver.key]
+        turn = math.remainder(value, 2 * math.pi)
+        if pivot is None or abs(turn) < 0.2 or math.pi - abs(turn) < 0.05:
+            continue
+        runs = rich(f"{number(math.degrees(turn), 5)}°", SIZE)
+        for radius in ANGLE_RADII:
+            at = pivot.conjugate()
+            base = Line(at + 2.2, at + radius + 3.0, strokes.DIMENSION)
+            parts = room.take((base, *angle_dimension(at, radius, 0.0, turn, runs)), 1)
+            if parts is not None:
+                yield parts
+                break
+
+
+def _levels(spots: list[complex], key: Any) -> list[tuple[float, complex]]:
+    """Places in the order of one coordinate, each value once."""
+    found: dict[float, complex] = {}
+    for z in spots:
+        found.setdefault(round(key(z), 6), z)
+    return sorted(found.items(), key=lambda item: item[0])
+
+
+def _extension(start: complex, end: complex) -> Line:
+    return Line(start + GAP * (end - start) / abs(end - start), end, strokes.DIMENSION)

@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from graphkin.drafting.sheet import Equation, Sheet, Term
+from graphkin.construction.sheet import Equation, Sheet, Term
 from graphkin.drawing import strokes
 from graphkin.drawing.conventions import Letters, rows_of
 from graphkin.drawing.headings import number, term
 from graphkin.drawing.layout import moved
-from graphkin.drawing.metrics import run_box, runs_width
 from graphkin.drawing.primitives import Line, Primitive, Run, Text
-from graphkin.drawing.typeset import rich, symbol
+from graphkin.drawing.text import rich, run_box, runs_width, symbol
 
 __all__ = ["Written", "write_equation", "write_equations"]
 

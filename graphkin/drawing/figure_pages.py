@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 from graphkin.checking import Report
-from graphkin.drafting.sheet import DiagramName, Sheet
+from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, letters_of, scale_statement
-from graphkin.drawing.describe import describe, figure_title, remarks
 from graphkin.drawing.dimensions import check_bar
-from graphkin.drawing.headings import drivers, facts, term, titles
+from graphkin.drawing.headings import describe, drivers, facts, figure_title, remarks, term, titles
 from graphkin.drawing.insets import polygon_with_insets, strip_height
 from graphkin.drawing.layout import Piece, joined, layer_groups, moved_piece, settled, wrapped
 from graphkin.drawing.mechanism import mechanism_piece
 from graphkin.drawing.polygon import extent
 from graphkin.drawing.primitives import Drawing, Primitive, Run, Text
-from graphkin.drawing.typeset import rich
-from graphkin.drawing.whole_sheet import sheet_page
+from graphkin.drawing.sheet import sheet_page
+from graphkin.drawing.text import rich
 from graphkin.words import languages
 
 __all__ = ["acceleration_figure", "figures", "mechanism_figure", "velocity_figure"]

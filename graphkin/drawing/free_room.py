@@ -13,9 +13,22 @@ import numpy as np
 import shapely
 
 from graphkin.drawing.box import Box
-from graphkin.drawing.candidates import LEADER_FROM, LEADER_LEAST, RINGS, Around, Asker, Mark, around, ends
+from graphkin.drawing.label_positions import (
+    LEADER_FROM,
+    LEADER_GAP,
+    LEADER_LEAST,
+    LEADER_SPACE,
+    RINGS,
+    Around,
+    Asker,
+    Mark,
+    Seats,
+    around,
+    cross_product,
+    ends,
+    separated,
+)
 from graphkin.drawing.obstacles import Obstacles
-from graphkin.drawing.seats import LEADER_GAP, LEADER_SPACE, Seats, cross_product, separated
 
 __all__ = ["Field", "least_cost"]
 

@@ -1,16 +1,33 @@
-"""Titles, driver values and other words at the head of a figure, in one language or both."""
+"""Titles, driver values and other words at the head of a figure, in one language or both.
+
+Figures in words, so that someone who does not see them can follow: titles of parts and whole descriptions.
+"""
 
 from __future__ import annotations
 
 import math
 
-from graphkin.drafting.sheet import DiagramName, Sheet
+from graphkin.construction.sheet import DiagramName, Direction, Sheet
 from graphkin.drawing.conventions import Letters
 from graphkin.scene.model import AngleDriver
+from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.version import __version__
-from graphkin.words import languages, word
+from graphkin.words import Phrase, languages, say, word
 
-__all__ = ["drivers", "facts", "number", "rates", "term", "titles"]
+__all__ = [
+    "describe",
+    "drivers",
+    "facts",
+    "figure_title",
+    "number",
+    "plain_symbol",
+    "rates",
+    "remarks",
+    "spoken_ref",
+    "spoken_vector",
+    "term",
+    "titles",
+]
 
 
 def term(key: str, language: str) -> str:
@@ -107,3 +124,121 @@ def facts(sheet: Sheet, figure: str) -> dict[str, object]:
 
 def _plain(text: str) -> str:
     return text.replace("$", "$$")
+
+
+def spoken_ref(ref: PointRef, language: str) -> str:
+    """A point in words: "B of link 3"."""
+    return " / ".join(_ref(ref, each) for each in languages(language))
+
+
+def spoken_vector(symbol: Symbol, language: str) -> str:
+    """A vector in words: "velocity of B of link 3 relative to B of link 2"."""
+    said = []
+    for each in languages(language):
+        assert symbol.of is not None
+        text = say(Phrase(f"{symbol.kind} of", (_ref(symbol.of, each),)), each)
+        if symbol.to is not None:
+            text += say(Phrase("relative to", (_ref(symbol.to, each),)), each)
+        said.append(text)
+    return " / ".join(said)
+
+
+def plain_symbol(thing: object) -> str:
+    """A symbol, point or direction as plain text: ``v_B3/B2``, ``⊥BC``."""
+    if isinstance(thing, Direction):
+        if thing.relation == "towards":
+            return "→".join(thing.names)
+        return ("∥" if thing.relation == "along" else "⊥") + "".join(thing.names)
+    return str(thing).replace("@", "").replace("{", "").replace("}", "")
+
+
+def figure_title(sheet: Sheet, figure: str, language: str) -> str:
+    """Title of a figure as one line."""
+    parts = []
+    for each, title in zip(languages(language), titles(sheet, language) * 2, strict=False):
+        parts.append(f"{title.replace('$$', '$')}: {word(figure, each)}")
+    return " / ".join(parts)
+
+
+def describe(sheet: Sheet, diagrams: tuple[DiagramName, ...], language: str) -> str:
+    """Everything that a figure shows, in sentences: the mechanism as it is built, each step, each vector found."""
+    return "\n".join(" ".join(_sentences(sheet, diagrams, each)) for each in languages(language))
+
+
+def _sentences(sheet: Sheet, diagrams: tuple[DiagramName, ...], language: str) -> list[str]:
+    said = []
+    if "mechanism" in diagrams:
+        said += _mechanism(sheet, language)
+    for diagram in diagrams:
+        for step in sheet.steps:
+            if step.diagram == diagram:
+                said.append(f"{step.number}. {_sentence(say(step.phrase, language, plain_symbol), language)}")
+        if diagram != "mechanism":
+            said += _vectors(sheet, diagram, language)
+    said += remarks(sheet, language)
+    return said
+
+
+def remarks(sheet: Sheet, language: str, letters: Letters | None = None) -> list[str]:
+    """What is to be said of the drawing as a whole: badly conditioned crossings, a group that stopped it; with
+    ``letters``, symbols stand between dollar signs as a convention writes them."""
+    notes = [n for n in (*sheet.notes, *((sheet.stopped,) if sheet.stopped else ())) if n.key != "zero vector"]
+    if letters is None:
+        return [_sentence(say(n, language, plain_symbol), language) for n in notes]
+
+    def written(thing: object) -> str:
+        try:
+            return f"${letters.vector(Symbol.parse(str(thing)))}$"
+        except ValueError:
+            text = str(thing)
+            return f"${letters.point(text)}$" if text in sheet.scene.holders else text.replace("$", "$$")
+
+    said = (say(n, language, written) for n in notes)
+    return [_capital(text).rstrip("。.") + word("full stop", language) for text in said]
+
+
+def _mechanism(sheet: Sheet, language: str) -> list[str]:
+    scene = sheet.scene
+    said = [say(Phrase("fixed link", (scene.frame.name, ", ".join(scene.frame.points) or "-")), language)]
+    for link in scene.links:
+        if link.points:
+            said.append(say(Phrase("link joins", (link.name, ", ".join(link.points))), language))
+    for pair in scene.slidings:
+        said.append(say(Phrase("link slides", (pair.link, pair.on)), language))
+    for pin in scene.pins:
+        said.append(say(Phrase("pin runs", (pin.point, pin.of, pin.on)), language))
+    per_mm = sheet.scales.length / scene.units.metres
+    for ref, z in sheet.points.items():
+        place = (number(z.real * per_mm, 5), number(z.imag * per_mm, 5), scene.units.length)
+        said.append(say(Phrase("point lies", (ref.point, *place)), language))
+    return said
+
+
+def _vectors(sheet: Sheet, diagram: DiagramName, language: str) -> list[str]:
+    unit = sheet.scene.units.length + ("/s" if diagram == "velocity" else "/s²")
+    per_mm = sheet.scales.of(diagram) / sheet.scene.units.metres
+    said = []
+    for symbol, vector in sheet.vectors(diagram).items():
+        words = _capital(spoken_vector(symbol, language))
+        if abs(vector.span) < 1e-7:
+            said.append(say(Phrase("vector is zero", (words,)), language))
+            continue
+        angle = math.degrees(math.atan2(vector.span.imag, vector.span.real))
+        size = abs(vector.span)
+        values = (words, number(size * per_mm, 5), unit, f"{size:.2f}", f"{angle:.1f}".replace("-", "−"))
+        said.append(say(Phrase("vector is", values), language))
+    return said
+
+
+def _ref(ref: PointRef, language: str) -> str:
+    return say(Phrase("point of link", (ref.point, ref.link)), language) if ref.link else ref.point
+
+
+def _sentence(text: str, language: str) -> str:
+    return _capital(text.replace("{", "").replace("}", "")).rstrip("。.") + word("full stop", language)
+
+
+def _capital(text: str) -> str:
+    """The first letter large, unless it is that of a symbol."""
+    letter = text[:1].isascii() and text[1:2] != "_" and text[:1] != "$"
+    return (text[:1].upper() if letter else text[:1]) + text[1:]

@@ -6,11 +6,10 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from graphkin.drawing.box import Box
-from graphkin.drawing.metrics import runs_width, text_box
 from graphkin.drawing.obstacles import Obstacles, obstacles_of
 from graphkin.drawing.placing import Label, Mark, place_those_that_fit
 from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Run, Text, walk
-from graphkin.drawing.typeset import SMALLEST, rich
+from graphkin.drawing.text import SMALLEST, rich, runs_width, text_box
 
 __all__ = [
     "LAYERS",

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 from graphkin.drawing.box import Box
-from graphkin.drawing.metrics import text_box
 from graphkin.drawing.primitives import Arc, Circle, Line, Polygon, Polyline, Primitive, Text, walk
+from graphkin.drawing.text import text_box
 
 __all__ = ["Obstacles", "obstacles_of"]
 

@@ -13,18 +13,8 @@ from functools import lru_cache
 from io import BytesIO
 from typing import Any
 
-from graphkin.drawing.metrics import has_cjk, start_runs
-from graphkin.drawing.primitives import (
-    Arc,
-    Circle,
-    Drawing,
-    Group,
-    Line,
-    Polygon,
-    Polyline,
-    Text,
-    walk,
-)
+from graphkin.drawing.primitives import Arc, Circle, Drawing, Group, Line, Polygon, Polyline, Text, walk
+from graphkin.drawing.text import has_cjk, start_runs
 
 __all__ = ["MissingFont", "pdf_bytes", "png_bytes"]
 

@@ -16,12 +16,11 @@ import numpy as np
 
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
-from graphkin.drawing.candidates import RINGS, Asker, Mark, ends
 from graphkin.drawing.free_room import Field, least_cost
-from graphkin.drawing.metrics import text_box
+from graphkin.drawing.label_positions import RINGS, Asker, Mark, Seat, Seats, ends
 from graphkin.drawing.obstacles import Obstacles
 from graphkin.drawing.primitives import Line, Text
-from graphkin.drawing.seats import Seat, Seats
+from graphkin.drawing.text import text_box
 
 __all__ = ["Label", "Mark", "Placed", "place", "place_those_that_fit"]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from graphkin.drafting.sheet import Sheet
+from graphkin.construction.sheet import Sheet
 from graphkin.plane import cross, dot
 from graphkin.scene.model import SlideDriver
 from graphkin.structure import Slide

@@ -10,10 +10,10 @@ import re
 from collections.abc import Iterable
 from dataclasses import replace
 
-from graphkin.drafting.sheet import DiagramName, Mark, Sheet, Step, Vector
+from graphkin.construction.sheet import DiagramName, Mark, Sheet, Step, Vector
 from graphkin.drawing import strokes
 from graphkin.drawing.detail import details
-from graphkin.drawing.lengths import LENGTHS
+from graphkin.drawing.dimensions import LENGTHS
 from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Stroke, Text
 from graphkin.scene.symbol import Symbol
 

@@ -1,11 +1,19 @@
 """The kinds of line of a figure, after ISO 128, and the colours of links.
 
 A kind is told by width and dash, so that black on white is enough; colour comes on top of it.
+
+One colour per link, the same in the mechanism and in every diagram; and which link a vector belongs to.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
+from graphkin.construction.sheet import Sheet
+from graphkin.drawing import strokes
 from graphkin.drawing.primitives import Stroke
+from graphkin.scene.model import Scene
+from graphkin.scene.symbol import PointRef, Symbol
 
 __all__ = [
     "BLACK",
@@ -23,12 +31,14 @@ __all__ = [
     "RELATIVE",
     "RESULTANT",
     "WHITE",
+    "colour_of_link",
+    "colour_of_vector",
     "link_colour",
+    "link_of_vector",
     "tint",
 ]
 
 BLACK, WHITE, GREY = "#000000", "#ffffff", "#595959"
-
 LINK = Stroke(0.5)
 REDUNDANT = Stroke(0.5, (3.0, 1.2))  # a link that only repeats what others hold
 RESULTANT = Stroke(0.5)
@@ -55,3 +65,40 @@ def tint(colour: str, strength: float = 0.14) -> str:
     """A colour thinned with white (0: white, 1: the colour), for the area of a rigid link."""
     parts = (int(colour[i : i + 2], 16) for i in (1, 3, 5))
     return "#" + "".join(f"{round(255 - (255 - part) * strength):02x}" for part in parts)
+
+
+def colour_of_link(scene: Scene, link: str) -> str:
+    """Colour of a link; the frame is black."""
+    name = link.split("/")[-1]
+    return strokes.BLACK if name == scene.frame.name else strokes.link_colour(scene.order[name])
+
+
+def link_of_vector(sheet: Sheet, symbol: Symbol) -> str:
+    """The link whose motion a vector shows: that of its point, the common link of two points, or the sliding link of
+    two coincident points."""
+    scene = sheet.scene
+    of, to = symbol.of, symbol.to
+    if of is None:
+        return symbol.link
+    mine = _links(scene.holders, of)
+    if to is None:
+        moving = [name for name in mine if name != scene.frame.name]
+        pivoted = [n for n in moving if any(scene.frame.name in scene.holders[p] for p in scene.by_name[n].points)]
+        return (pivoted or moving or [scene.frame.name])[0]
+    theirs = _links(scene.holders, to)
+    common = [name for name in mine if name in theirs and name != scene.frame.name]
+    if of.point != to.point and common:
+        return common[0]
+    sliding = {s.a for s in sheet.structure.slides} | {p.of for p in scene.pins}
+    for name in (*mine, *theirs):
+        if name in sliding:
+            return name
+    return (mine or theirs or [scene.frame.name])[0]
+
+
+def colour_of_vector(sheet: Sheet, symbol: Symbol) -> str:
+    return colour_of_link(sheet.scene, link_of_vector(sheet, symbol))
+
+
+def _links(holders: Mapping[str, tuple[str, ...]], ref: PointRef) -> list[str]:
+    return [ref.link] if ref.link else list(holders.get(ref.point, ()))

@@ -12,19 +12,8 @@ from itertools import chain, count
 from typing import Any
 from zlib import crc32
 
-from graphkin.drawing.metrics import has_cjk, runs_width, start_runs
-from graphkin.drawing.primitives import (
-    Arc,
-    Circle,
-    Drawing,
-    Group,
-    Line,
-    Polygon,
-    Polyline,
-    Primitive,
-    Stroke,
-    Text,
-)
+from graphkin.drawing.primitives import Arc, Circle, Drawing, Group, Line, Polygon, Polyline, Primitive, Stroke, Text
+from graphkin.drawing.text import has_cjk, runs_width, start_runs
 
 __all__ = ["FONTS", "number", "svg_bytes"]
 

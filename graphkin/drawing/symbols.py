@@ -1,4 +1,6 @@
-"""Kinematic symbols after ISO 3952 and GB/T 4460, in mm for a mechanism drawn 100 to 160 mm wide.
+"""Vectors on paper: a line from tail to tip and a filled arrowhead.
+
+Kinematic symbols after ISO 3952 and GB/T 4460, in mm for a mechanism drawn 100 to 160 mm wide.
 
 Each function returns primitives at a place, in the order of drawing.  Directions ``angle`` are radians,
 counter-clockwise as seen on the page; points are page points (y down).
@@ -7,17 +9,23 @@ counter-clockwise as seen on the page; points are page points (y down).
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from itertools import pairwise
 
 from graphkin.drawing import strokes
-from graphkin.drawing.arrows import POINTER, arrowhead
-from graphkin.drawing.primitives import Arc, Circle, Line, Polygon, Polyline, Stroke, page_direction
+from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Stroke, page_direction
 
 __all__ = [
     "BLOCK_LENGTH",
     "BLOCK_WIDTH",
+    "COMPONENT",
     "JOINT_RADIUS",
     "PIN_RADIUS",
+    "POINTER",
+    "RESULTANT",
+    "ArrowKind",
+    "arrow",
+    "arrowhead",
     "bar",
     "block",
     "block_with_pin",
@@ -25,13 +33,85 @@ __all__ = [
     "fixed_pivot",
     "guide",
     "hatched_line",
+    "head_size",
     "pin",
     "rigid_link",
     "sense_arc",
     "slot",
     "turning_pair",
+    "vector_group",
     "weld",
 ]
+
+# A vector shorter than this (mm) has no length a ruler could tell from none; it is drawn as a dot.
+ZERO = 0.02
+DOT_RADIUS = 0.55
+
+
+@dataclass(frozen=True)
+class ArrowKind:
+    """Line and arrowhead (length x width, mm) of a kind of vector."""
+
+    stroke: Stroke
+    head_length: float
+    head_width: float
+
+
+RESULTANT = ArrowKind(strokes.RESULTANT, 3.0, 1.0)
+COMPONENT = ArrowKind(strokes.RELATIVE, 2.5, 0.8)  # relative vectors, n, t, Coriolis and sliding parts
+POINTER = ArrowKind(strokes.DIMENSION, 2.0, 0.65)  # dimensions, arcs with a sense, leaders to what lies off the sheet
+
+
+def head_size(kind: ArrowKind, length: float) -> tuple[float, float]:
+    """Length and width (mm) of the arrowhead on a vector of a length: at most three quarters of the vector long, and
+    never so narrow that its own line hides it."""
+    head = min(kind.head_length, 0.75 * length)
+    width = max(kind.head_width * head / kind.head_length, min(kind.head_width, 1.4 * kind.stroke.width))
+    return head, width
+
+
+def arrowhead(tip: complex, along: complex, length: float, width: float, colour: str) -> Polygon:
+    """A filled arrowhead of a length and width (mm) whose tip points along a direction."""
+    e = along / abs(along)
+    base, half = tip - length * e, 0.5j * width * e
+    return Polygon((tip, base + half, base - half), fill=colour)
+
+
+def arrow(
+    tail: complex, tip: complex, kind: ArrowKind = RESULTANT, colour: str = strokes.BLACK
+) -> tuple[Line, Polygon | Circle]:
+    """The line of a vector, exactly from tail to tip, and after it the arrowhead, or a dot for a zero vector."""
+    length = abs(tip - tail)
+    stroke = kind.stroke.coloured(colour)
+    if length < ZERO:
+        return Line(tail, tip, stroke), Circle(tip, DOT_RADIUS, fill=colour)
+    head, width = head_size(kind, length)
+    return Line(tail, tip, stroke, covered=0.8 * head), arrowhead(tip, tip - tail, head, width, colour)
+
+
+def vector_group(
+    id: str,
+    step: int | None,
+    tail: complex,
+    tip: complex,
+    kind: ArrowKind = RESULTANT,
+    colour: str = strokes.BLACK,
+    title: str = "",
+    classes: tuple[str, ...] = (),
+) -> Group:
+    """The group of one vector: its line first, then its arrowhead.
+
+    Parameters
+    ----------
+    id : the symbol as an id (``Symbol.id``)
+    step : number of the step that draws it, None where it is none
+    tail, tip : page points (mm)
+    title : the vector in words
+    classes : further classes
+    """
+    stage = () if step is None else (f"step-{step:02d}",)
+    return Group(arrow(tail, tip, kind, colour), id=id, classes=("vector", *stage, *classes), title=title)
+
 
 JOINT_RADIUS = 1.3
 PIN_RADIUS = 0.8
@@ -39,7 +119,6 @@ BLOCK_LENGTH, BLOCK_WIDTH = 8.0, 4.6
 FOOT_WIDTH, FOOT_HEIGHT = 6.4, 4.4
 HATCH_PITCH, HATCH_DEPTH = 1.3, 1.6
 SLOT_WIDTH = 2.6
-
 Shape = Line | Polyline | Polygon | Circle | Arc
 
 

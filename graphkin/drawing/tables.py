@@ -7,16 +7,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from graphkin.checking import Compared, Reading, Report, read_off
-from graphkin.drafting.sheet import Sheet
+from graphkin.construction.sheet import Sheet
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
-from graphkin.drawing.describe import remarks
-from graphkin.drawing.headings import drivers, number, term
+from graphkin.drawing.headings import drivers, number, remarks, term
 from graphkin.drawing.layout import wrapped
-from graphkin.drawing.metrics import runs_width
 from graphkin.drawing.primitives import Line, Primitive, Run, Text
-from graphkin.drawing.typeset import rich
+from graphkin.drawing.text import rich, runs_width
 from graphkin.plane import degrees
 from graphkin.scene.model import Link, Scene
 from graphkin.words import Phrase, languages, say, word

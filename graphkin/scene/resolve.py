@@ -1,4 +1,7 @@
-"""From the tables of a file to the one model of the mechanism: names looked up, points placed, SI units."""
+"""What a scene asks for, what was published about it, and the points that it sketches or draws.
+
+From the tables of a file to the one model of the mechanism: names looked up, points placed, SI units.
+"""
 
 from __future__ import annotations
 
@@ -6,29 +9,80 @@ import cmath
 from collections.abc import Mapping
 
 from graphkin.errors import Problem, SceneError
-from graphkin.scene.agreement import disagreements, placed_twice
 from graphkin.scene.drivers import Drive, drives
 from graphkin.scene.file import LinkTable, SceneFile
-from graphkin.scene.joints import islands, pins_in_slots, sliding_pairs
-from graphkin.scene.model import (
-    AngleDriver,
-    Driver,
-    Guide,
-    Link,
-    Scene,
-    SheetWishes,
-    SlideDriver,
-    Tools,
-    Units,
-)
+from graphkin.scene.model import AngleDriver, Driver, Guide, Link, Scene, SheetWishes, SlideDriver, Tools, Units
 from graphkin.scene.names import Names
-from graphkin.scene.placing import Body
+from graphkin.scene.placing import Body, islands, pins_in_slots, sliding_pairs
 from graphkin.scene.pose import Position, find_position, travel_of
-from graphkin.scene.questions import asked, published, unknown_places
-from graphkin.scene.reading import Flaws
-from graphkin.scene.rules import not_held, nowhere_placed, unwritable_texts, wrong_own_points
+from graphkin.scene.reading import Flaws, path_name
+from graphkin.scene.rules import (
+    disagreements,
+    not_held,
+    nowhere_placed,
+    placed_twice,
+    unwritable_texts,
+    wrong_own_points,
+)
+from graphkin.scene.symbol import Symbol
 
-__all__ = ["resolve"]
+__all__ = ["asked", "published", "resolve", "unknown_places"]
+
+
+def _symbol(where: str, text: str, names: Names) -> Symbol | Problem:
+    """A symbol whose point and links exist, or what is wrong with it."""
+    try:
+        symbol = Symbol.parse(text[:120])
+    except ValueError as error:
+        return Problem(where, str(error))
+    if symbol.of is None:
+        return names.no_link(where, symbol.link) or symbol
+    for ref in (symbol.of, symbol.to):
+        if ref is not None:
+            missing = names.no_point(where, ref.point) or (names.no_link(where, ref.link) if ref.link else None)
+            if missing:
+                return missing
+    if symbol.to == symbol.of:
+        return Problem(where, f'"{text}" is relative to itself', "name two different points")
+    if symbol.kind in ("ak", "ar") and symbol.to and symbol.to.point != symbol.of.point:
+        return Problem(
+            where,
+            f'"{text}" names two different points',
+            f"it is between coincident points of two links, for example {symbol.kind}_B@3/B@2",
+        )
+    return symbol
+
+
+def asked(file: SceneFile, names: Names, problems: list[Problem]) -> tuple[Symbol, ...]:
+    """The symbols of ``find``, each once, in its order."""
+    found = [_symbol(path_name(("find", text)), text, names) for text in file.find or ()]
+    problems += [s for s in found if isinstance(s, Problem)]
+    return tuple(dict.fromkeys(s for s in found if isinstance(s, Symbol)))
+
+
+def published(file: SceneFile, names: Names, metres: float, problems: list[Problem]) -> dict[Symbol, float | complex]:
+    """The values of ``[printed]`` in SI: vectors times ``metres``, angular rates as they are."""
+    values: dict[Symbol, float | complex] = {}
+    for text, value in file.printed.items():
+        where = path_name(("printed", text))
+        symbol = _symbol(where, text, names)
+        if isinstance(symbol, Problem):
+            problems.append(symbol)
+        elif isinstance(value, list):
+            if symbol.is_vector:
+                values[symbol] = complex(*value) * metres
+            else:
+                problems.append(Problem(where, "found two numbers", "an angular rate is one number"))
+        else:
+            values[symbol] = float(value) * metres if symbol.is_vector else float(value)
+    return values
+
+
+def unknown_places(file: SceneFile, names: Names) -> list[Problem]:
+    """Sketched and drawn points that no link has."""
+    wanted = [(f"{table}.{point}", point) for table in ("sketch", "drawn") for point in getattr(file, table)]
+    return [p for where, point in wanted if (p := names.no_point(where, point))]
+
 
 METRES = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254, "ft": 0.3048}
 MOST_LINKS = 200
@@ -79,10 +133,16 @@ def resolve(file: SceneFile, name: str, problems: list[Problem], flaws: Flaws) -
         bodies.setdefault(other, Body(other, f"links.{other}", (), {}, {}))
     fixed = bodies[names.frame].local
     position = Position(
-        bodies, fixed, drawn, slidings, pins,
+        bodies,
+        fixed,
+        drawn,
+        slidings,
+        pins,
         tuple((d.key, d.base, cmath.rect(1.0, d.value)) for d in driven if d.base and d.value is not None),
         {d.key: d.value for d in driven if not d.base and d.value is not None},
-        metres, _size(bodies, drawn, metres), problems,
+        metres,
+        _size(bodies, drawn, metres),
+        problems,
     )
     find_position(position)
     problems += placed_twice(position)
@@ -98,8 +158,20 @@ def resolve(file: SceneFile, name: str, problems: list[Problem], flaws: Flaws) -
     frame = Link(names.frame, fixed, (), _guides(bodies[names.frame]))
     title = file.title or name
     return Scene(
-        name, title, frame, links, slidings, pins, tuple(d for d in drivers if d), Units(file.units.length, metres),
-        file.title_zh, file.source, {p: complex(*xy) * metres for p, xy in file.sketch.items()}, drawn, find, printed,
+        name,
+        title,
+        frame,
+        links,
+        slidings,
+        pins,
+        tuple(d for d in drivers if d),
+        Units(file.units.length, metres),
+        file.title_zh,
+        file.source,
+        {p: complex(*xy) * metres for p, xy in file.sketch.items()},
+        drawn,
+        find,
+        printed,
         SheetWishes(**file.sheet.model_dump(exclude={"instrument"}), tools=Tools(**file.sheet.instrument.model_dump())),
     )
 
@@ -121,8 +193,13 @@ def _bodies(
             if body.length is None and own[0] in given and own[1] in given:
                 body.length = abs(given[own[1]] - given[own[0]])
                 if body.length == 0.0:
-                    problems.append(Problem(f"links.{name}", f"{own[0]} and {own[1]} are given at the same place",
-                                            "a bar has two points apart"))
+                    problems.append(
+                        Problem(
+                            f"links.{name}",
+                            f"{own[0]} and {own[1]} are given at the same place",
+                            "a bar has two points apart",
+                        )
+                    )
             if body.length is not None:
                 body.local[own[1]] = complex(body.length)
             elif not flaws.under("links", name, "length") and not flaws.under("drawn"):
@@ -136,8 +213,7 @@ def _bodies(
 
 def _no_length(name: str, own: tuple[str, ...], given: Mapping[str, complex]) -> Problem:
     undrawn = " and ".join(p for p in own if p not in given)
-    return Problem(f"links.{name}.length", "is missing",
-                   f"write length = ..., or give {undrawn} in [drawn]")
+    return Problem(f"links.{name}.length", "is missing", f"write length = ..., or give {undrawn} in [drawn]")
 
 
 def _size(bodies: Mapping[str, Body], drawn: Mapping[str, complex], metres: float) -> float:
@@ -156,12 +232,22 @@ def _not_found(position: Position) -> list[Problem]:
         hint = f"draw two points of link {body.name}, or give it in the link's own axes"
         for point in body.at:
             if point not in body.local:
-                found.append(Problem(f"{body.where}.at.{point}", f"where link {body.name} lies does not follow from "
-                                     "what is drawn", hint))
+                found.append(
+                    Problem(
+                        f"{body.where}.at.{point}",
+                        f"where link {body.name} lies does not follow from what is drawn",
+                        hint,
+                    )
+                )
         for guide in body.rails:
             if guide not in body.guides:
-                found.append(Problem(f"{body.where}.guides.{guide}", f"where link {body.name} lies does not follow "
-                                     "from what is drawn", hint))
+                found.append(
+                    Problem(
+                        f"{body.where}.guides.{guide}",
+                        f"where link {body.name} lies does not follow from what is drawn",
+                        hint,
+                    )
+                )
     return found
 
 
@@ -171,8 +257,11 @@ def _driver(drive: Drive, position: Position, problems: list[Problem]) -> Driver
         travel = drive.value if drive.value is not None else travel_of(position, drive.key)
         if travel is not None:
             return SlideDriver(drive.key, travel, drive.rate, drive.second, drive.dead_point)
-        problems.append(Problem(f"{drive.where}.travel", "is missing",
-                                "write travel = ..., or draw the points that give it in [drawn]"))
+        problems.append(
+            Problem(
+                f"{drive.where}.travel", "is missing", "write travel = ..., or draw the points that give it in [drawn]"
+            )
+        )
         return None
     angle = drive.value
     driven, base = position.bodies.get(drive.key), position.bodies.get(drive.base)
@@ -180,8 +269,13 @@ def _driver(drive: Drive, position: Position, problems: list[Problem]) -> Driver
         angle = cmath.phase(driven.turn / base.turn)
     if angle is not None:
         return AngleDriver(drive.key, drive.base, angle, drive.rate, drive.second, drive.dead_point)
-    problems.append(Problem(f"{drive.where}.angle", "is missing",
-                            f"write angle = ... in degrees, or draw two points of link {drive.key} in [drawn]"))
+    problems.append(
+        Problem(
+            f"{drive.where}.angle",
+            "is missing",
+            f"write angle = ... in degrees, or draw two points of link {drive.key} in [drawn]",
+        )
+    )
     return None
 
 

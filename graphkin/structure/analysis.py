@@ -1,16 +1,97 @@
-"""From a scene to the elements in the order of solution."""
+"""Why a scene has no order of solution: too many or too few drivers, parts held too much beside parts left free.
+
+From a scene to the elements in the order of solution.
+"""
 
 from __future__ import annotations
 
-from graphkin.errors import Unsolvable
+from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import Scene
-from graphkin.structure.constraints import Constraints, Node
-from graphkin.structure.faults import wrong_count, wrong_part
-from graphkin.structure.graph import components, match
-from graphkin.structure.groups import element_of
+from graphkin.structure.constraints import Constraints, Node, Unknown
+from graphkin.structure.groups import components, element_of, match
 from graphkin.structure.model import Element, Mobility, Structure
 
-__all__ = ["analyse", "mobility_of"]
+__all__ = ["analyse", "mobility_of", "wrong_count", "wrong_part"]
+
+
+def wrong_count(system: Constraints, mobility: Mobility) -> Problem:
+    scene = system.scene
+    found = len(scene.drivers)
+    count = (
+        f"F = 3*{mobility.links} - 2*{mobility.lower} - {mobility.higher} = {mobility.value}"
+        if mobility.higher
+        else f"F = 3*{mobility.links} - 2*{mobility.lower} = {mobility.value}"
+    )
+    wanted = f"a mechanism of mobility {mobility.value} needs as many drivers"
+    if found > mobility.value > 0:
+        names = ", ".join(d.key for d in scene.drivers)
+        wanted = f"too many drivers ({names}): a mechanism of mobility {mobility.value} takes {mobility.value} of them"
+    idle = [link.name for link in scene.links if link.redundant]
+    if idle and mobility.value > found:
+        named = f"links {', '.join(idle)}, marked" if len(idle) > 1 else f"link {idle[0]}, marked"
+        wanted += f"; {named} redundant, is not counted: only a link that repeats what others hold may be marked so"
+    if mobility.value <= 0:
+        wanted = "it is a structure, no driver can move it"
+        loop = _sliding_loop(system)
+        if loop:
+            wanted = (
+                f"Gruebler's count fails here, links {', '.join(loop)} slide on each other in a closed loop and "
+                "move all the same; leave one sliding pair of the loop out or give it a turning pair"
+            )
+    drivers = "no driver" if found == 0 else f"{found} driver{'s' if found > 1 else ''}"
+    return Problem("mobility", f"{count}, but {drivers} given", wanted)
+
+
+def _sliding_loop(system: Constraints) -> list[str]:
+    """Links of a closed loop of sliding pairs only, if there is one."""
+    group: dict[str, set[str]] = {name: {name} for name in system.links}
+    for s in system.slides:
+        if group[s.a] is group[s.b]:
+            ends = [t for t in system.slides if group[t.a] is group[s.a]]
+            return sorted({n for t in ends for n in (t.a, t.b)}, key=lambda n: system.place(("link", n)))
+        merged = group[s.a] | group[s.b]
+        for name in merged:
+            group[name] = merged
+    return []
+
+
+def wrong_part(system: Constraints, unknowns: list[list[Unknown]], given: dict[int, Unknown]) -> Problem:
+    """Name the links that are held too much and those that are free."""
+    users: dict[Unknown, list[int]] = {}
+    for i, row in enumerate(unknowns):
+        for u in row:
+            users.setdefault(u, []).append(i)
+    owner = {u: i for i, u in given.items()}
+    over: set[str] = set()
+    queue = [i for i in range(len(unknowns)) if i not in given]
+    seen = set(queue)
+    while queue:
+        for u in unknowns[queue.pop()]:
+            if u[0][0] == "link":
+                over.add(u[0][1])
+            if u in owner and owner[u] not in seen:
+                seen.add(owner[u])
+                queue.append(owner[u])
+    free: set[str] = set()
+    todo = [(n, a) for n in system.nodes() for a in ("xyt" if n[0] == "link" else "xy") if (n, a) not in owner]
+    done = set(todo)
+    while todo:
+        u = todo.pop()
+        if u[0][0] == "link":
+            free.add(u[0][1])
+        for i in users.get(u, []):
+            if i in given and given[i] not in done:
+                done.add(given[i])
+                todo.append(given[i])
+
+    def names(found: set[str]) -> str:
+        return ", ".join(sorted(found, key=lambda n: system.place(("link", n)))) or "none"
+
+    loop = _sliding_loop(system)
+    wanted = "each part of the mechanism needs as many constraints as it has coordinates"
+    if loop:
+        wanted = f"links {', '.join(loop)} slide on each other in a closed loop, where one pair only repeats the others"
+    return Problem("mobility", f"links held too much: {names(over)}; links left free: {names(free)}", wanted)
 
 
 def analyse(scene: Scene) -> Structure:

@@ -1,15 +1,25 @@
-"""Which of the possible assemblies a scene means."""
+"""Which of the possible assemblies a scene means.
+
+Along a path of driver values: where an assembly ends, and where its two forms pass through each other.
+
+A group of two links has a discriminant: positive where it can be assembled in two forms, zero where they fall
+together.  Along a path the form is kept while it stays positive.  Where it only touches zero (a change point, the
+parallelogram in line) the smooth motion goes over to the other sign; where it goes below, the motion ends.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
 
 from graphkin.errors import Problem, SceneError
 from graphkin.scene.model import Scene
 
-__all__ = ["Choice", "pick"]
+__all__ = ["TOUCH", "Choice", "Passage", "follow", "last_true", "pick"]
 
 
 @dataclass(frozen=True)
@@ -83,3 +93,80 @@ def _several(scene: Scene, links: Sequence[str], candidates: Sequence[Mapping[st
 
 def _place(scene: Scene, z: complex) -> str:
     return f"[{z.real / scene.units.metres:.7g}, {z.imag / scene.units.metres:.7g}]"
+
+
+Reals = NDArray[np.float64]
+TOUCH = 1e-12
+"""A least value of a discriminant (no unit) within this of zero is a touch."""
+START = 1e-6
+"""A touch as near to the start as this is the start's own: the form was chosen there."""
+
+
+@dataclass(frozen=True)
+class Passage:
+    """What happens to one group on the path parameter 0 .. 1.
+
+    ``limit`` is where the motion ends, None if it does not; ``flips`` are the change points before that.
+    """
+
+    limit: float | None = None
+    flips: Reals = field(default_factory=lambda: np.zeros(0))
+
+    def sign(self, t: Reals) -> Reals:
+        """+1 or -1: the sign of the assembly relative to that at the start of the path."""
+        return np.where(np.searchsorted(self.flips, t) % 2, -1.0, 1.0)
+
+
+def follow(discriminant: Callable[[Reals], Reals], grid: Reals, flips: bool = True) -> Passage:
+    """Follow one discriminant along a path.
+
+    Parameters
+    ----------
+    discriminant : function of path parameters, shape (n,), to values, shape (n,), scaled to have no unit
+    grid : increasing parameters, fine enough that the discriminant has at most one least value between three of them
+    flips : False where a touch of zero ends the motion too (two lines that become parallel)
+    """
+    value = discriminant(grid)
+    touches: list[float] = []
+    for i in range(len(grid)):
+        if value[i] < -TOUCH:
+            return Passage(_end(discriminant, 0.0, grid[max(i - 1, 0)], grid[i]), np.array(touches))
+        before, after = max(i - 1, 0), min(i + 1, len(grid) - 1)
+        change = max(abs(value[before] - value[i]), abs(value[after] - value[i]))
+        if value[before] < value[i] or value[after] < value[i] or value[i] > change:
+            continue
+        where, least = _least(discriminant, grid[before], grid[after])
+        if least > TOUCH or where <= grid[0] + START or where >= grid[-1]:
+            continue
+        if least < -TOUCH or not flips:
+            floor = 0.0 if least < -TOUCH else TOUCH
+            return Passage(_end(discriminant, floor, grid[before], where), np.array(touches))
+        if not touches or where > touches[-1] + 1e-6:
+            touches.append(where)
+    return Passage(None, np.array(touches))
+
+
+def _end(discriminant: Callable[[Reals], Reals], floor: float, low: float, high: float) -> float:
+    return last_true(lambda t: discriminant(t) >= floor, low, high)
+
+
+def _least(function: Callable[[Reals], Reals], low: float, high: float) -> tuple[float, float]:
+    """Place and value of the least value between two parameters, by repeated sections."""
+    while True:
+        at = np.linspace(low, high, 17)
+        value = function(at)
+        i = int(np.argmin(value))
+        if value[i] < -TOUCH or high - low < 1e-11:
+            return float(at[i]), float(value[i])
+        low, high = float(at[max(i - 1, 0)]), float(at[min(i + 1, 16)])
+
+
+def last_true(holds: Callable[[Reals], NDArray[np.bool_]], low: float, high: float) -> float:
+    """The parameter up to which a condition holds that is true at ``low`` and false at ``high``, in either order."""
+    while True:
+        at = np.linspace(low, high, 33)
+        bad = np.flatnonzero(~holds(at[1:]))
+        i = int(bad[0]) if len(bad) else 31
+        if abs(high - low) <= 4e-16 * max(1.0, abs(high)) or (at[i], at[i + 1]) == (low, high):
+            return float(low)
+        low, high = float(at[i]), float(at[i + 1])

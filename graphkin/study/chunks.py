@@ -15,10 +15,10 @@ from typing import Any
 import numpy as np
 
 from graphkin.errors import GraphkinError, Unsolvable
-from graphkin.exact import solve_structure, structure_of
 from graphkin.scene import read
 from graphkin.scene.model import Scene
 from graphkin.scene.symbol import Symbol
+from graphkin.solver import solve_structure, structure_of
 from graphkin.study.course import Course, course_of
 from graphkin.study.designs import Designs, Value, applied
 from graphkin.study.summary import row

@@ -9,12 +9,11 @@ import numpy as np
 
 from graphkin.drawing import Box, Drawing, Group, Line, Polyline, Primitive, Stroke, Text, strokes
 from graphkin.drawing.chart import marker, next_step
-from graphkin.drawing.metrics import runs_width
 from graphkin.drawing.obstacles import obstacles_of
 from graphkin.drawing.placing import Label, place
 from graphkin.drawing.symbols import block_with_pin, fixed_pivot, rigid_link, turning_pair
 from graphkin.drawing.symbols import guide as guide_symbol
-from graphkin.drawing.typeset import rich
+from graphkin.drawing.text import rich, runs_width
 from graphkin.scene.model import AngleDriver, Scene
 from graphkin.study.paper import (
     HEIGHT,

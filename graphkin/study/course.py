@@ -8,15 +8,15 @@ from functools import cached_property
 import numpy as np
 
 from graphkin.errors import Problem, Unsolvable
-from graphkin.exact import Motion, structure_of
-from graphkin.exact.choice import choose_forms, own_values
-from graphkin.exact.engine import positions
-from graphkin.exact.findings import assembly_words, limit_why, without_singular
-from graphkin.exact.joints import Drive
-from graphkin.exact.path import Path, follow_path
-from graphkin.exact.pose import Array, Pose, rest
-from graphkin.exact.redundant import all_slides, fit
 from graphkin.scene.model import AngleDriver, Driver, Scene
+from graphkin.solver import Motion, structure_of
+from graphkin.solver.assemblies import choose_forms, own_values
+from graphkin.solver.engine import positions
+from graphkin.solver.findings import assembly_words, limit_why, without_singular
+from graphkin.solver.joints import Drive
+from graphkin.solver.path import Path, follow_path
+from graphkin.solver.pose import Array, Pose, rest
+from graphkin.solver.redundant import all_slides, fit
 from graphkin.structure import Structure
 
 __all__ = ["Course", "course_of"]

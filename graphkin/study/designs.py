@@ -12,7 +12,7 @@ from itertools import islice
 from typing import Any
 
 from graphkin.errors import CallError, Problem, did_you_mean
-from graphkin.scene.sentences import keys_at
+from graphkin.scene.reading import keys_at
 
 __all__ = ["Designs", "Value", "applied", "designs_of", "read_designs"]
 

@@ -17,8 +17,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.exact import Motion
 from graphkin.scene.model import AngleDriver
+from graphkin.solver import Motion
 from graphkin.structure import Cluster, Driven, Dyad, Pair, Structure, Turn
 
 __all__ = ["DOUBLES", "Equations", "Numbers", "Solution", "solve_many"]

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from graphkin.drafting import Sheet, draft
+from graphkin.construction import Sheet, draft
 from graphkin.errors import GraphkinError
 from graphkin.scene.model import Scene
 from graphkin.scene.symbol import PointRef, Symbol

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from graphkin.drawing import Primitive, Text
 from graphkin.drawing.chart import Axis, degree_axis, linear_axis
-from graphkin.drawing.typeset import rich
+from graphkin.drawing.text import rich
 from graphkin.scene.model import AngleDriver, Scene
 from graphkin.study.course import Course
 from graphkin.words import Phrase, say

@@ -9,9 +9,9 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.exact import Motion
 from graphkin.scene.model import Scene
 from graphkin.scene.symbol import Symbol
+from graphkin.solver import Motion
 from graphkin.structure import Dyad, Slide, Structure, Turn
 from graphkin.study.course import Course
 

@@ -8,11 +8,11 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.exact.engine import positions
-from graphkin.exact.joints import Drive
 from graphkin.scene.model import AngleDriver
+from graphkin.solver.engine import positions
+from graphkin.solver.joints import Drive
 from graphkin.structure import Cluster, Dyad
-from graphkin.structure.continuity import last_true
+from graphkin.structure.assembly import last_true
 from graphkin.study.course import Course
 
 __all__ = ["Range", "not_searched", "ranges"]

@@ -10,9 +10,9 @@ from itertools import chain
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.exact import Motion, listed_points
 from graphkin.scene.model import AngleDriver, Scene
 from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.solver import Motion, listed_points
 from graphkin.study.course import Course
 from graphkin.study.quantities import Quantity, link_quantities, slide_quantities, symbol_quantity
 

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphkin.exact import Motion
 from graphkin.scene.model import AngleDriver, Scene
 from graphkin.scene.symbol import Symbol
+from graphkin.solver import Motion
 from graphkin.study.course import Course
 from graphkin.study.grashof import Loop, loops
 from graphkin.study.quantities import Quantity, link_quantities, slide_quantities, symbol_quantity

@@ -18,15 +18,16 @@ from unittest.mock import patch
 import numpy as np
 
 from graphkin.errors import GraphkinError
-from graphkin.exact import engine, finer
-from graphkin.exact.choice import choose_forms, own_values
-from graphkin.exact.decimals import PI, meant, working
-from graphkin.exact.formula import Vec
-from graphkin.exact.joints import Drive
-from graphkin.exact.path import follow_path
-from graphkin.exact.program import FIELDS
 from graphkin.scene import read
 from graphkin.scene.model import Scene
+from graphkin.solver import engine
+from graphkin.solver import extended_precision as finer
+from graphkin.solver.assemblies import choose_forms, own_values
+from graphkin.solver.decimals import PI, meant, working
+from graphkin.solver.formula import Vec
+from graphkin.solver.joints import Drive
+from graphkin.solver.path import follow_path
+from graphkin.solver.program import FIELDS
 from graphkin.structure import Structure, analyse
 
 from .larger import measure_larger

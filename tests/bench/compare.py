@@ -18,8 +18,8 @@ from importlib.metadata import PackageNotFoundError, version
 
 import numpy as np
 
-from graphkin.exact import prepare
 from graphkin.scene import read_text
+from graphkin.solver import prepare
 
 from . import by_hand, peers
 from .mechanisms import MECHANISMS, Case

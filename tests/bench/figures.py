@@ -13,7 +13,7 @@ from collections.abc import Callable
 from unittest.mock import patch
 
 import graphkin
-from graphkin.drafting.centres import speeds
+from graphkin.construction.centres import speeds
 from graphkin.drawing import figures, placing, svg_bytes
 from graphkin.drawing.centres import centres_figure
 from graphkin.scene import library

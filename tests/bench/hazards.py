@@ -18,10 +18,10 @@ from typing import Any
 import numpy as np
 
 from graphkin.errors import GraphkinError
-from graphkin.exact import Motion, solve_structure, structure_of, to_json
-from graphkin.exact.dead_points import dead_points
 from graphkin.scene import read
 from graphkin.scene.model import Scene
+from graphkin.solver import Motion, solve_structure, structure_of, to_json
+from graphkin.solver.dead_points import dead_points
 from graphkin.structure import Structure
 
 __all__ = ["Found", "look"]

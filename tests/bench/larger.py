@@ -15,14 +15,14 @@ from typing import Any
 import numpy as np
 
 from graphkin.errors import GraphkinError
-from graphkin.exact.choice import choose_forms, own_values
-from graphkin.exact.decimals import meant, meant_direction
-from graphkin.exact.engine import State, positions
-from graphkin.exact.findings import singular
-from graphkin.exact.joints import Drive
-from graphkin.exact.path import Path, follow_path
 from graphkin.scene import read
 from graphkin.scene.model import Guide, Link, Scene
+from graphkin.solver.assemblies import choose_forms, own_values
+from graphkin.solver.decimals import meant, meant_direction
+from graphkin.solver.engine import State, positions
+from graphkin.solver.findings import singular
+from graphkin.solver.joints import Drive
+from graphkin.solver.path import Path, follow_path
 from graphkin.structure import Cluster, Driven, Dyad, Structure, analyse
 from graphkin.study.equations import Equations, Numbers
 from graphkin.study.reference import context

@@ -9,7 +9,7 @@ import pytest
 import graphkin
 from graphkin.api.audited import _case
 from graphkin.checking import stated
-from graphkin.checking.pen import slips_of_the_pen
+from graphkin.checking.printed import slips_of_the_pen
 from graphkin.errors import CallError
 from graphkin.scene import read
 from graphkin.scene.symbol import Symbol

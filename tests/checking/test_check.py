@@ -11,7 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import graphkin
-from graphkin.drafting import parts, plan, polygons
+from graphkin.construction import plan, polygons
+from graphkin.construction import terms as parts
 from graphkin.errors import Unsolvable
 from graphkin.scene import library, read
 from graphkin.scene.model import AngleDriver

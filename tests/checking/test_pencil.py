@@ -9,7 +9,7 @@ import pytest
 
 import graphkin
 from graphkin.checking import COVERAGE, predict, read_off
-from graphkin.drafting import execute, pencil, plan
+from graphkin.construction import execute, pencil, plan
 from graphkin.scene import library, library_text, read, read_text
 from graphkin.scene.model import Tools
 from graphkin.scene.symbol import Symbol

@@ -2,9 +2,9 @@ from __future__ import annotations
 
 import pytest
 
-from graphkin.drawing import arrows
-from graphkin.drawing.arrows import arrow, head_size, vector_group
+from graphkin.drawing import symbols as arrows
 from graphkin.drawing.primitives import Circle, Line
+from graphkin.drawing.symbols import arrow, head_size, vector_group
 
 
 def test_the_line_runs_from_tail_to_tip_exactly():

@@ -8,8 +8,8 @@ import pytest
 
 from graphkin.drawing import Box, Line, Polyline, Text
 from graphkin.drawing.chart import Axis, Chart, Curve, Marks, chart_group, degree_axis, linear_axis, log_axis, next_step
-from graphkin.drawing.metrics import text_box
 from graphkin.drawing.primitives import walk
+from graphkin.drawing.text import text_box
 
 PANEL = Box(20, 20, 120, 80)
 UNIT = Axis(0.0, 1.0, ((0.0, "0"), (1.0, "1")))

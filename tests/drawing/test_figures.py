@@ -11,7 +11,7 @@ from functools import lru_cache
 
 import pytest
 
-from graphkin.drafting import Sheet, draft
+from graphkin.construction import Sheet, draft
 from graphkin.drawing import figures, sheet_room, svg_bytes
 from graphkin.scene import library, read
 

@@ -9,7 +9,7 @@ from collections.abc import Callable
 import pytest
 
 from graphkin.checking import compare, read_off
-from graphkin.drafting import draft
+from graphkin.construction import draft
 from graphkin.drawing import figures, sheet_room, svg_bytes
 from graphkin.errors import Unsolvable
 from graphkin.scene import library, read

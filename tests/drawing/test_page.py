@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 
 from graphkin.drawing import page
-from graphkin.drawing.arrows import vector_group
 from graphkin.drawing.page import MissingFont, pdf_bytes, png_bytes
 from graphkin.drawing.primitives import Arc, Drawing, Line, Text
 from graphkin.drawing.strokes import CONSTRUCTION, LINK
-from graphkin.drawing.typeset import plain, rich
+from graphkin.drawing.symbols import vector_group
+from graphkin.drawing.text import plain, rich
 
 A4 = Drawing(210.0, 297.0, (vector_group("v_B", 1, 20 + 50j, 80 + 30j), Text(20 + 90j, rich("$v_{B_3}$ = 0"))), "Title")
 CHINESE = Drawing(60.0, 30.0, (Text(5 + 15j, rich("速度 $v_B$")),), lang="zh")

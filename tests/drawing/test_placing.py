@@ -9,16 +9,15 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from graphkin.drawing import arrows
-from graphkin.drawing.arrows import vector_group
+from graphkin.drawing import symbols as arrows
 from graphkin.drawing.box import Box
 from graphkin.drawing.obstacles import Obstacles, obstacles_of
 from graphkin.drawing.placing import Label, place
 from graphkin.drawing.primitives import Circle, Drawing, Group, Line, Polygon, Text
 from graphkin.drawing.strokes import DIRECTION, LINK
 from graphkin.drawing.svg import svg_bytes
-from graphkin.drawing.symbols import turning_pair
-from graphkin.drawing.typeset import rich
+from graphkin.drawing.symbols import turning_pair, vector_group
+from graphkin.drawing.text import rich
 
 PANEL = Box(5.0, 5.0, 155.0, 105.0)
 

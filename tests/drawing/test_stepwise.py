@@ -2,11 +2,11 @@ from __future__ import annotations
 
 import pytest
 
-from graphkin.drafting import draft
+from graphkin.construction import draft
 from graphkin.drawing.conventions import letters_of
 from graphkin.drawing.primitives import Group, Text, walk
 from graphkin.drawing.stepwise import births, so_far, step_of, stepped
-from graphkin.handout.pictures import parts
+from graphkin.papers.pictures import parts
 from graphkin.scene import library, read
 
 

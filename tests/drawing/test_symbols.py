@@ -9,17 +9,8 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.dimensions import angle_dimension, check_bar, dimension
 from graphkin.drawing.primitives import Arc, Circle, Drawing, Line, Polygon, Text
 from graphkin.drawing.svg import svg_bytes
-from graphkin.drawing.symbols import (
-    block,
-    fixed_pivot,
-    guide,
-    hatched_line,
-    rigid_link,
-    sense_arc,
-    slot,
-    turning_pair,
-)
-from graphkin.drawing.typeset import plain
+from graphkin.drawing.symbols import block, fixed_pivot, guide, hatched_line, rigid_link, sense_arc, slot, turning_pair
+from graphkin.drawing.text import plain
 
 
 def test_a_turning_pair_is_an_open_circle():

@@ -2,9 +2,8 @@ from __future__ import annotations
 
 import pytest
 
-from graphkin.drawing.metrics import run_box, runs_width, text_box, width
 from graphkin.drawing.primitives import Text
-from graphkin.drawing.typeset import plain, rich, symbol
+from graphkin.drawing.text import plain, rich, run_box, runs_width, symbol, text_box, width
 
 
 def by_text(runs):

@@ -7,9 +7,9 @@ import tomllib
 import numpy as np
 import pytest
 
-from graphkin.exact import solve
 from graphkin.scene import library, library_text, read, read_text
 from graphkin.scene.writing import as_mapping, toml_text
+from graphkin.solver import solve
 
 
 @pytest.mark.parametrize("name", library())

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from graphkin.structure.continuity import follow, last_true
+from graphkin.structure.assembly import follow, last_true
 
 GRID = np.linspace(0.0, 1.0, 41)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from hypothesis import given
 from hypothesis import strategies as st
 
-from graphkin.structure.graph import components, match
+from graphkin.structure.groups import components, match
 
 rows = st.lists(st.lists(st.integers(0, 6), max_size=4, unique=True), max_size=7)
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import pytest
 
 import graphkin
-from graphkin.drafting import draft
+from graphkin.construction import draft
 from graphkin.errors import GraphkinError
-from graphkin.exact import solve, structure_of
 from graphkin.scene import library, read
 from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.solver import solve, structure_of
 from graphkin.structure import analyse, part_of
 
 SIXBAR = "sixbar-guide-40deg"
@@ -96,11 +96,11 @@ def test_what_is_asked_on_the_way_takes_fewer_steps_in_every_diagram() -> None:
 
 
 def test_the_solver_of_a_check_solves_only_what_is_needed(monkeypatch: pytest.MonkeyPatch) -> None:
-    from graphkin import exact
+    from graphkin import solver
 
     solved = []
-    right = exact.solve
-    monkeypatch.setattr(exact, "solve", lambda scene, at=None: solved.append(scene) or right(scene, at=at))
+    right = solver.solve
+    monkeypatch.setattr(solver, "solve", lambda scene, at=None: solved.append(scene) or right(scene, at=at))
     graphkin.check(SIXBAR, find=["omega_3"])
     assert [["1", "2", "3"]] == [[link.name for link in scene.links] for scene in solved]
 

@@ -10,8 +10,8 @@ import pytest
 
 import graphkin
 from graphkin.drawing import Text
-from graphkin.drawing.metrics import text_box
 from graphkin.drawing.primitives import walk
+from graphkin.drawing.text import text_box
 from graphkin.scene import read
 from graphkin.study.speed import Race, page, race, race_csv, to_json
 from graphkin.study.speed import entry as timing

@@ -134,8 +134,8 @@ def test_a_refusal_is_null_in_the_data() -> None:
 @pytest.mark.parametrize("language", ["en", "zh"])
 def test_no_two_labels_of_the_charts_overlap(language: str) -> None:
     from graphkin.drawing import Text
-    from graphkin.drawing.metrics import text_box
     from graphkin.drawing.primitives import walk
+    from graphkin.drawing.text import text_box
 
     for drawing in pages([trial(kind) for kind in KINDS], language).values():
         boxes = [text_box(t) for t in walk(drawing.children) if isinstance(t, Text)]

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from graphkin.drafting.centres import Centres, by_centres, find_centres, speeds
+from graphkin.construction.centres import Centres, by_centres, find_centres, speeds
 from graphkin.scene import read
 from graphkin.scene.symbol import Symbol
 

@@ -14,15 +14,15 @@ from typing import Any
 
 import numpy as np
 
-from graphkin import exact
+from graphkin import solver
 from graphkin.checking import predict
-from graphkin.drafting import EXACT, execute, plan
+from graphkin.construction import EXACT, execute, plan
 from graphkin.errors import Unsolvable
-from graphkin.exact import Motion
-from graphkin.exact.dead_points import dead_points
-from graphkin.exact.decimals import working
 from graphkin.scene.model import AngleDriver, FromDeadPoint
 from graphkin.scene.symbol import Symbol
+from graphkin.solver import Motion
+from graphkin.solver.dead_points import dead_points
+from graphkin.solver.decimals import working
 from graphkin.study.equations import Equations, Solution
 from graphkin.study.limits.dead_cases import CASES, Case
 from graphkin.study.limits.law import Law, Trial, binned, grid
@@ -81,7 +81,7 @@ class _Exactly:
 
 def _truth(case: Case, mp: Any, x: Sequence[float]) -> list[_Exactly]:
     """The reference at falling distances, each from the one before: on the same side Newton's method cannot miss."""
-    motion = exact.solve(case.at(float(case.dead(mp) + case.side * mp.mpf(x[0]))))
+    motion = solver.solve(case.at(float(case.dead(mp) + case.side * mp.mpf(x[0]))))
     equations = reference(motion.structure, mp)
     rates = [d.values for d in case.scene.drivers]
     at: Sequence[Any] = list(equations.start(motion)[:, 0])
@@ -101,7 +101,7 @@ def _closed(case: Case, mp: Any, x: Sequence[float], truth: Sequence[_Exactly], 
     bounds: list[float] = []
     stops: float | None = None
     for e, right in zip(x, truth, strict=True):
-        motion = exact.solve(case.at(float(case.dead(mp) + case.side * mp.mpf(e))))
+        motion = solver.solve(case.at(float(case.dead(mp) + case.side * mp.mpf(e))))
         if motion.status[0] != "ok":
             stops = stops or e
             rows.append((math.nan,) * 3)
@@ -130,9 +130,9 @@ def _stated(case: Case, motion: Motion) -> float:
 def _newton(case: Case, mp: Any, x: Sequence[float], truth: Sequence[_Exactly], samples: int) -> Law:
     """Newton's method on the closure equations, from the position a degree away, until it moves no more."""
     dead = case.dead(mp)
-    structure = exact.structure_of(case.scene)
+    structure = solver.structure_of(case.scene)
     equations = Equations(structure)
-    starts = [exact.solve(case.at(float(dead + case.side * mp.mpf(e + STEP)))) for e in x]
+    starts = [solver.solve(case.at(float(dead + case.side * mp.mpf(e + STEP)))) for e in x]
     at = np.concatenate([equations.start(m) for m in starts], axis=1)
     values = [np.array([float(dead + case.side * mp.mpf(e)) for e in x])]
     waiting = np.ones(len(x), dtype=bool)
@@ -155,7 +155,7 @@ def _newton(case: Case, mp: Any, x: Sequence[float], truth: Sequence[_Exactly], 
 def _given(case: Case, x: Sequence[float], truth: Sequence[_Exactly], samples: int) -> Law:
     """The solver with the distance from the dead point given, in place of the crank's angle; the largest of the errors
     of direction, rate and second rate."""
-    structure = exact.structure_of(case.scene)
+    structure = solver.structure_of(case.scene)
     near = next(p for p in dead_points(structure) if case.side in p.sides and p.value > 0)
     driver = case.scene.drivers[0]
     assert isinstance(driver, AngleDriver)
@@ -164,7 +164,7 @@ def _given(case: Case, x: Sequence[float], truth: Sequence[_Exactly], samples: i
         with working():
             value = near.value + Decimal(case.side * e)
         there = replace(driver, angle=float(value), dead_point=FromDeadPoint(case.side * e, None, str(value)))
-        motion = exact.solve(replace(case.scene, drivers=(there,)))
+        motion = solver.solve(replace(case.scene, drivers=(there,)))
         if motion.status[0] != "ok":
             error.append(math.nan)
             continue

@@ -9,12 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from graphkin import exact
-from graphkin.exact.choice import choose_forms
-from graphkin.exact.engine import positions
-from graphkin.exact.joints import Drive
+from graphkin import solver
 from graphkin.plane import cross_arcs
 from graphkin.scene import read
+from graphkin.solver.assemblies import choose_forms
+from graphkin.solver.engine import positions
+from graphkin.solver.joints import Drive
 from graphkin.study.equations import Equations
 from graphkin.study.limits.law import Law, Trial, binned, grid
 from graphkin.study.reference import reference, refined
@@ -96,7 +96,7 @@ def differences(mp: Any, samples: int = 4, name: str = "slider-crank-offset") ->
     """
     places = 4 * samples
     scene = read(name)
-    structure = exact.structure_of(scene)
+    structure = solver.structure_of(scene)
     forms = {i: f[None] for i, f in choose_forms(structure).items()}
     (_, rate, second), equations = scene.drivers[0].values, Equations(structure)
     q = 2 * math.pi * (np.arange(places) + 0.3) / places

@@ -7,14 +7,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from graphkin import exact
+from graphkin import solver
 from graphkin.checking import predict
-from graphkin.drafting import EXACT, execute, plan
+from graphkin.construction import EXACT, execute, plan
 from graphkin.errors import Unsolvable
-from graphkin.exact import Motion
 from graphkin.scene import read_text
 from graphkin.scene.model import AngleDriver, Scene
 from graphkin.scene.symbol import Symbol
+from graphkin.solver import Motion
 from graphkin.study.limits.law import LOST, Law, Trial, binned, grid
 from graphkin.words import Phrase
 
@@ -73,7 +73,7 @@ def _right(mp: Any, a: Any, d: Any, rate: float, angle: Any) -> _Bar:
 def _doubles(scene: Scene, angle: float) -> _Bar:
     """The closed form in doubles, no more digits where these do not suffice; nan where it refuses."""
     asked = ("theta_3", "omega_3", "alpha_3", "v_B@2/B@3")
-    found = exact.prepare(_at(scene, angle), asked).at(angle)
+    found = solver.prepare(_at(scene, angle), asked).at(angle)
     if found is None:
         return _Bar(complex(math.nan, math.nan), math.nan, math.nan, math.nan)
     theta, omega, alpha, x, y = found
@@ -83,7 +83,7 @@ def _doubles(scene: Scene, angle: float) -> _Bar:
 
 def _solved(scene: Scene) -> tuple[_Bar, Motion] | None:
     """What the solver gives; None where it refuses."""
-    motion = exact.solve(scene)
+    motion = solver.solve(scene)
     if motion.status[0] != "ok":
         return None
     slide = motion.slide("2/3")
@@ -187,7 +187,7 @@ def slow_sliding(mp: Any, samples: int = 4) -> Trial:
     x = grid(0.3, 1e-15, samples)
     slips, turns = [], []
     for e in x:
-        motion = exact.solve(_at(scene, float(mp.pi / 2 + mp.mpf(e))))
+        motion = solver.solve(_at(scene, float(mp.pi / 2 + mp.mpf(e))))
         slip, omega = _in_line(mp, a, d, rate, e)
         slips.append(float(abs(float(motion.slide("2/3").velocity[0]) / slip - 1)))
         turns.append(float(abs(float(motion.omega("3")[0]) / omega - 1)))

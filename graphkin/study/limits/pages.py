@@ -9,7 +9,7 @@ from graphkin.drawing import Box, Drawing, Group, Primitive, Stroke, Text
 from graphkin.drawing.chart import SOLID_AND_DASHED, Chart, Curve, Marks, Shape, chart_group, legend, log_axis
 from graphkin.drawing.layout import wrapped
 from graphkin.drawing.placing import Label
-from graphkin.drawing.typeset import rich
+from graphkin.drawing.text import rich
 from graphkin.study.beside import placed_beside
 from graphkin.study.limits.law import Law, Trial
 from graphkin.words import say, word

@@ -6,10 +6,10 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
-from graphkin import exact
-from graphkin.drafting import EXACT, pencil
-from graphkin.drafting.centres import by_centres, find_centres, speeds
-from graphkin.drafting.instrument import Instrument
+from graphkin import solver
+from graphkin.construction import EXACT, pencil
+from graphkin.construction.board import Instrument
+from graphkin.construction.centres import by_centres, find_centres, speeds
 from graphkin.scene import read_text
 from graphkin.scene.model import Scene
 from graphkin.scene.symbol import Symbol
@@ -56,7 +56,7 @@ class _Right:
 
 
 def _right(scene: Scene, mp: Any) -> _Right:
-    motion = exact.solve(scene)
+    motion = solver.solve(scene)
     equations = reference(motion.structure, mp)
     value, rate, second = scene.drivers[0].values
     start = list(Equations(motion.structure).start(motion)[:, 0])

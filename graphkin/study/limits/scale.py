@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 from graphkin.checking import predict
-from graphkin.drafting import EXACT, Scales, execute, plan
+from graphkin.construction import EXACT, Scales, execute, plan
 from graphkin.scene import read
 from graphkin.scene.model import Tools
 from graphkin.scene.symbol import Symbol

@@ -12,13 +12,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin import exact
-from graphkin.exact import Prepared
-from graphkin.exact.choice import choose_forms
-from graphkin.exact.program import program_of
-from graphkin.exact.quantities import formulas
-from graphkin.exact.rendering import Code
+from graphkin import solver
 from graphkin.scene.model import AngleDriver
+from graphkin.solver import Prepared
+from graphkin.solver.assemblies import choose_forms
+from graphkin.solver.program import program_of
+from graphkin.solver.quantities import formulas
+from graphkin.solver.rendering import Code
 from graphkin.study.equations import Equations, Solution
 from graphkin.study.speed.course import Work
 from graphkin.study.speed.entry import Entry, best_time
@@ -56,7 +56,7 @@ def vectors(columns: Array) -> Array:
 
 def closed_forms(work: Work, repeats: int) -> Iterator[Entry]:
     """As arrays in double and single precision, compiled where numba is installed, in plain floats one by one."""
-    slow, both = (exact.prepare(work.structure, columns_of(work, kinds)) for kinds in ("v", "va"))
+    slow, both = (solver.prepare(work.structure, columns_of(work, kinds)) for kinds in ("v", "va"))
     ways, rooms = (slow, both), [np.empty((len(p.names), work.count)) for p in (slow, both)]
     values = work.values[:, 0]
     many = both.values(work.count)
@@ -96,7 +96,7 @@ def _one_core() -> Iterator[None]:
 
 def one_by_one(work: Work, repeats: int, tag: str) -> Entry:
     """The closed form in plain floats, as a drawing of one position needs it."""
-    slow, both = (exact.prepare(work.structure, columns_of(work, kinds)) for kinds in ("v", "va"))
+    slow, both = (solver.prepare(work.structure, columns_of(work, kinds)) for kinds in ("v", "va"))
     few = [float(v) for v in work.values[:, 0]]
     costs = [best_time(lambda way=p.at: list(map(way, few)), repeats) / len(few) for p in (slow, both)]  # type: ignore[misc]
     found = vectors(np.array([both.at(v) for v in few]).T)
@@ -217,7 +217,7 @@ def differences(work: Work, repeats: int) -> Iterator[Entry]:
         return
     # a point under a pin is another one of its link at every moment: its places are no path
     work = work.only([o for o in work.outputs if o.own])
-    closed = exact.prepare(work.structure, columns_of(work, "z"))
+    closed = solver.prepare(work.structure, columns_of(work, "z"))
     _, first, second = work.scene.drivers[0].values
     many = closed.values(work.count)
 

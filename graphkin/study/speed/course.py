@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin import exact
+from graphkin import solver
 from graphkin.errors import CallError, Problem
-from graphkin.exact import Motion
 from graphkin.scene.model import AngleDriver, Scene
 from graphkin.scene.symbol import Symbol
+from graphkin.solver import Motion
 from graphkin.structure import Dyad, Structure
 from graphkin.study.outputs import Output, outputs_of
 from graphkin.study.reference import Split, reference, refined, split
@@ -110,14 +110,14 @@ def work_of(scene: Scene, mp: Any, count: int) -> Work:
     Raises
     ------
     CallError : nothing moves
-    Unsolvable : as for ``exact.solve``
+    Unsolvable : as for ``solver.solve``
     """
-    structure = exact.structure_of(scene)
+    structure = solver.structure_of(scene)
     outputs = outputs_of(structure)
     if not outputs or not any(d.values[1] for d in scene.drivers):
         what = "nothing moves that could be looked at"
         raise CallError(Problem(scene.name or "scene", what, "give the driver a rate"))
-    fine = exact.solve(structure.scene, sweep=FINE).require()
+    fine = solver.solve(structure.scene, sweep=FINE).require()
     good = np.flatnonzero(fine.ok)
     full = len(good) == FINE and isinstance(scene.drivers[0], AngleDriver)
     margin = 0 if full else len(good) // 24  # ends of a motion are dead points, which are another study

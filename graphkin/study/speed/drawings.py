@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.checking import read_off
-from graphkin.drafting import EXACT, Cad, Instrument, Plan, Scales, execute, pencil, plan
-from graphkin.drafting.centres import by_centres, find_centres, speeds
+from graphkin.construction import EXACT, Cad, Instrument, Plan, Scales, execute, pencil, plan
+from graphkin.construction.centres import by_centres, find_centres, speeds
 from graphkin.scene.symbol import Symbol
 from graphkin.study.outputs import Output
 from graphkin.study.speed.course import Work

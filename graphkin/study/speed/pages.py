@@ -11,7 +11,7 @@ from graphkin.drawing.chart import Chart, Curve, Marks, Shape, chart_group, log_
 from graphkin.drawing.layout import wrapped
 from graphkin.drawing.obstacles import Obstacles, obstacles_of
 from graphkin.drawing.placing import Label, Mark, place
-from graphkin.drawing.typeset import rich
+from graphkin.drawing.text import rich
 from graphkin.scene.symbol import Symbol
 from graphkin.study.speed.entry import Entry
 from graphkin.study.speed.run import Race

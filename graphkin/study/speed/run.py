@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from graphkin import exact
-from graphkin.drafting import plan
+from graphkin import solver
+from graphkin.construction import plan
 from graphkin.scene.model import Scene
 from graphkin.scene.symbol import Symbol
 from graphkin.study.reference import context
@@ -62,7 +62,7 @@ def race(scene: Scene, repeats: int, count: int = COUNT) -> Race:
     Raises
     ------
     CallError : mpmath is not installed, a group larger than a dyad, nothing that moves
-    Unsolvable : as for ``exact.solve``
+    Unsolvable : as for ``solver.solve``
     """
     mp: Any = context()
     work = work_of(scene, mp, count)
@@ -88,12 +88,12 @@ def _tried(peer: Callable[[Work, int], Iterator[Entry]], work: Work, repeats: in
 
 
 def _solver(work: Work, repeats: int) -> Iterator[Entry]:
-    """``exact.solve`` over a turn: the closed form with continuity, status and bounds of every position."""
+    """``solver.solve`` over a turn: the closed form with continuity, status and bounds of every position."""
     if not work.full:
         return
     count = work.count // 10
-    whole = best_time(lambda: exact.solve(work.scene, sweep=count), repeats) / count
-    motion = exact.solve(work.scene, sweep=len(work.motion))
+    whole = best_time(lambda: solver.solve(work.scene, sweep=count), repeats) / count
+    motion = solver.solve(work.scene, sweep=len(work.motion))
     at = [int(np.argmin(np.max(np.abs(motion.values - v), axis=1))) for v in work.values]
     v = np.array([motion.velocity(o.point, o.link)[at] for o in work.outputs])
     a = np.array([motion.acceleration(o.point, o.link)[at] for o in work.outputs])

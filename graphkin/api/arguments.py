@@ -1,0 +1,170 @@
+"""What callers wish of figures and papers, in words: formats, language, convention, instrument.
+
+What callers may give: a scene in any of its forms, driver values in the driver's own unit, symbols by name.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from numbers import Real
+from typing import Any, get_args
+
+from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.scene import read
+from graphkin.scene.model import AngleDriver, Convention, Driver, Scene
+from graphkin.scene.symbol import Symbol
+from graphkin.words import BOTH, LANGUAGES
+
+__all__ = [
+    "FORMATS",
+    "INSTRUMENTS",
+    "ON_SHEETS",
+    "At",
+    "SceneLike",
+    "as_scene",
+    "asked_symbols",
+    "driver_values",
+    "for_paper",
+    "known_words",
+    "own_unit",
+]
+
+FORMATS = ("svg", "pdf", "png")
+INSTRUMENTS = ("exact", "cad", "pencil")
+CONVENTIONS: tuple[str, ...] = get_args(Convention)
+ON_SHEETS = (*LANGUAGES, BOTH)
+"""Languages of figures and papers; a table or a report has one."""
+
+
+def known_words(
+    formats: Sequence[str] | None = None,
+    language: str | None = None,
+    convention: str | None = None,
+    instrument: str | None = None,
+    *,
+    known_formats: Sequence[str] = FORMATS,
+    known_languages: Sequence[str] = LANGUAGES,
+) -> None:
+    """Refuse words that mean nothing, all of them together; None is not asked, or stands for the scene's own.
+
+    Raises
+    ------
+    CallError : every unknown word, with the nearest right one or all there are; no format at all
+    """
+    if isinstance(formats, str):
+        raise CallError(Problem("format", f'"{formats}" is a text', f'give a list: ["{formats}"]'))
+    wishes = [("format", word, known_formats) for word in formats or ()]
+    wishes += [
+        (where, word, known)
+        for where, word, known in (
+            ("lang", language, known_languages),
+            ("convention", convention, CONVENTIONS),
+            ("instrument", instrument, INSTRUMENTS),
+        )
+        if word is not None
+    ]
+    wrong = [Problem(where, f'"{w}"', did_you_mean(w, known)) for where, w, known in wishes if w not in known]
+    if formats is not None and not formats:
+        wrong.append(Problem("format", "none given", f"known here: {', '.join(known_formats)}"))
+    if wrong:
+        raise CallError(*wrong)
+
+
+SceneLike = Scene | str | os.PathLike[str] | Mapping[str, Any]
+At = float | Mapping[str, float] | None
+MOST_DRAWN = 20
+
+
+def as_scene(scene: SceneLike) -> Scene:
+    """A scene from a file, a name of one that comes along, a mapping, or a scene itself; a value of its driver that is
+    given from a dead point is found."""
+    given = scene if isinstance(scene, Scene) else read(scene)
+    if any(d.dead_point and not d.dead_point.exact for d in given.drivers):
+        from graphkin.solver import structure_of
+
+        return structure_of(given).scene
+    return given
+
+
+def for_paper(scene: SceneLike) -> Scene:
+    """The same, if it is small enough to be read on paper.  Raises CallError for more than 20 moving links."""
+    given = as_scene(scene)
+    if len(given.links) > MOST_DRAWN:
+        wanted = f"a sheet shows at most {MOST_DRAWN}; solve and check take it as it is"
+        raise CallError(Problem("links", f"{len(given.links)} moving links are too many for a figure", wanted))
+    return given
+
+
+def driver_values(scene: Scene, at: At) -> dict[str, float] | None:
+    """Driver values in SI from values in each driver's own unit (degrees, or travel in the scene's unit).
+
+    A bare number moves the first driver; a mapping names the drivers by link or by slide.
+
+    Raises
+    ------
+    CallError : a driver that the scene does not have, a value that is no finite number
+    """
+    if at is None:
+        return None
+    if not scene.drivers:
+        raise CallError(Problem("at", "the scene has no driver", "give one in the file"))
+    given = dict(at) if isinstance(at, Mapping) else {scene.drivers[0].key: at}
+    values: dict[str, float] = {}
+    for name, value in given.items():
+        driver = _driver(scene, str(name))
+        if not isinstance(value, Real) or not math.isfinite(value) or abs(value) > 1e9:
+            raise CallError(Problem(f"at {name}", f"{value!r} is no driver value", "give a finite number below 1e9"))
+        values[driver.key] = math.radians(value) if isinstance(driver, AngleDriver) else value * scene.units.metres
+    return values
+
+
+def _driver(scene: Scene, name: str) -> Driver:
+    for driver in scene.drivers:
+        if name == driver.key or name == driver.key.split("/")[0]:
+            return driver
+    raise CallError(Problem(f"at {name}", "no driver of that name", did_you_mean(name, [d.key for d in scene.drivers])))
+
+
+def own_unit(scene: Scene, driver: Driver, value: float) -> str:
+    """A driver value with its unit, as people write it."""
+    if isinstance(driver, AngleDriver):
+        return f"{math.degrees(value):.6g}°"
+    return f"{value / scene.units.metres:.6g} {scene.units.length}"
+
+
+def asked_symbols(scene: Scene, find: Iterable[str | Symbol] | None) -> tuple[Symbol, ...]:
+    """The symbols asked for: the given ones (or one alone), or the scene's own.
+
+    Raises
+    ------
+    CallError : a symbol that names nothing in the scene
+    """
+    if find is None:
+        return scene.find
+    found, problems = [], []
+    for text in [find] if isinstance(find, str) else find:
+        try:
+            symbol = text if isinstance(text, Symbol) else Symbol.parse(text)
+        except ValueError as error:
+            problems.append(Problem("find", str(error)))
+            continue
+        problems += _unknown_names(scene, symbol)
+        found.append(symbol)
+    if problems:
+        raise CallError(*problems)
+    return tuple(found)
+
+
+def _unknown_names(scene: Scene, symbol: Symbol) -> list[Problem]:
+    links = [link.name for link in scene.links]
+    problems = []
+    for link in [symbol.link, *(r.link for r in (symbol.of, symbol.to) if r)]:
+        if link and link not in links and link != scene.frame.name:
+            problems.append(Problem(f"find {symbol}", f'there is no link "{link}"', did_you_mean(link, links)))
+    for ref in (symbol.of, symbol.to):
+        if ref and ref.point not in scene.holders:
+            wanted = did_you_mean(ref.point, scene.holders)
+            problems.append(Problem(f"find {symbol}", f'there is no point "{ref.point}"', wanted))
+    return problems

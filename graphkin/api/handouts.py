@@ -1,0 +1,161 @@
+"""``graphkin handout``: problem sheet, worked solution and answer key."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import asdict, dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from graphkin.api.arguments import (
+    ON_SHEETS,
+    At,
+    SceneLike,
+    as_scene,
+    asked_symbols,
+    driver_values,
+    for_paper,
+    known_words,
+)
+from graphkin.api.checked import solved_here
+from graphkin.api.files import write_files
+from graphkin.errors import CallError, Problem
+from graphkin.papers.lesson import Lesson
+from graphkin.papers.page import Progress
+from graphkin.papers.pdf import can_typeset
+from graphkin.papers.pictures import paper_plan
+from graphkin.papers.prepare import FORMATS, Papers, handout_files, lesson_of, usual_count, views_of
+from graphkin.papers.solution import KeyRow, key_rows
+from graphkin.scene.model import Scene
+from graphkin.scene.source import safe_name
+from graphkin.scene.symbol import Symbol
+from graphkin.words import Phrase
+
+__all__ = ["Handout", "handout", "papers_of"]
+
+
+@dataclass(frozen=True, repr=False)
+class Handout:
+    """A handout: its lesson, and its files by name (`files`).  In a notebook it shows the answer key."""
+
+    lesson: Lesson
+    values: Mapping[str, float] | None
+    formats: tuple[str, ...]
+    count: int
+    progress: Progress | None = field(default=None, compare=False)
+
+    @property
+    def scene(self) -> Scene:
+        return self.lesson.sheet.scene
+
+    @property
+    def ok(self) -> bool:
+        """Whether every reading of the drawing agrees with the analytic solver."""
+        return self.lesson.report.ok
+
+    @property
+    def key(self) -> tuple[KeyRow, ...]:
+        """The answer key, in scene units."""
+        return key_rows(self.lesson)
+
+    @cached_property
+    def data(self) -> dict[str, Any]:
+        """The key for programs, in scene units."""
+        return {"ok": self.ok, "key": [asdict(row) for row in self.key]}
+
+    @property
+    def notes(self) -> tuple[Phrase, ...]:
+        """What was not done as asked: typeset PDF without the extra ``pdf``."""
+        return (Phrase("no pdf extra"),) if "pdf" in self.formats and not can_typeset() else ()
+
+    @cached_property
+    def files(self) -> Mapping[str, bytes]:
+        """Content of each file: problem.html, handout.html, problem.pdf, solution.pdf, key.html, key.pdf, key.csv."""
+        if "html" not in self.formats:
+            return handout_files(self.lesson, formats=self.formats)
+        lesson, scales = self.lesson, self.lesson.sheet.scales
+        asked, language, convention = lesson.asked, lesson.language, lesson.convention
+        views, start = views_of(self.scene, self.values, asked, language, convention, scales, self.count, self._half(0))
+        return handout_files(lesson, views, start, self.formats, self._half(1))
+
+    def _half(self, done: int) -> Progress | None:
+        """Progress of one half of the work: placing every position, and then drawing it."""
+        tell = self.progress
+        return None if tell is None else lambda i, count: tell(i + done * count, 2 * count)
+
+    def write(self, folder: str | os.PathLike[str] | None = None) -> list[Path]:
+        """Write the files into a folder (one named after the scene if none is given); returns their paths.
+
+        Raises
+        ------
+        CallError : the folder cannot be written
+        """
+        return write_files(Path(folder) if folder is not None else Path(safe_name(self.scene.name)), self.files)
+
+    def __repr__(self) -> str:
+        return f"<Handout {self.scene.name}: {', '.join(self.formats)}>"
+
+    def _repr_html_(self) -> str:
+        from graphkin.papers.html import blocks_html
+        from graphkin.papers.solution import answer_key
+
+        return blocks_html(answer_key(self.lesson).blocks)
+
+
+def handout(
+    scene: SceneLike,
+    out: str | os.PathLike[str] | None = None,
+    at: At = None,
+    find: Iterable[str | Symbol] | None = None,
+    formats: Sequence[str] = FORMATS,
+    language: str | None = None,
+    convention: str | None = None,
+    positions: int | None = None,
+    progress: Progress | None = None,
+) -> Handout:
+    """Problem sheet, worked solution and answer key of a scene.
+
+    Parameters
+    ----------
+    scene, at, find : as for `check`
+    out : folder for the files; none are written without it
+    formats : "html", "pdf" or both
+    language : "en", "zh" or "both"; the scene's own if None
+    convention : "chinese", "us", "british" or "russian"; the scene's own if None
+    positions : of the driver, for the second slider of the page; 24 if None, 12 with more than 10 moving links
+    progress : called with the parts of the page done and the number of all, while its files are made
+
+    Raises
+    ------
+    SceneError, CallError : the file or the call is wrong
+    Unsolvable : wrong mobility, a position that cannot be assembled or reached, a dead point
+    """
+    known_words(formats, language, convention, known_formats=FORMATS, known_languages=ON_SHEETS)
+    if positions is not None and not 1 <= positions <= 72:
+        raise CallError(Problem("positions", f"{positions}", "give a number from 1 to 72"))
+    given = for_paper(scene)
+    asked = asked_symbols(given, find)
+    values = driver_values(given, at)
+    motion = solved_here(given, values)
+    what = paper_plan(given, values, asked)
+    lesson = lesson_of(what, motion, language or given.sheet.language, convention or given.sheet.convention)
+    made = Handout(lesson, values, tuple(dict.fromkeys(formats)), positions or usual_count(given), progress)
+    if out is not None:
+        made.write(out)
+    return made
+
+
+def papers_of(
+    scene: SceneLike, formats: Sequence[str] = FORMATS, language: str | None = None, convention: str | None = None
+) -> Papers:
+    """What writes the papers of each variant of a set: ``problem_set(scene, 30, render=papers_of(scene))``.
+
+    Raises
+    ------
+    SceneError, CallError : the file or the call is wrong
+    """
+    known_words(formats, language, convention, known_formats=FORMATS, known_languages=ON_SHEETS)
+    wishes = as_scene(scene).sheet
+    return Papers(language or wishes.language, convention or wishes.convention, tuple(dict.fromkeys(formats)))

@@ -1,0 +1,220 @@
+"""The report in plain text: what was drawn, in what order and why, what was read off, and the check.
+
+The study of a turn in words, for the terminal and the notebook.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from graphkin.api.arguments import own_unit
+from graphkin.api.checked import Checked, reading_row
+from graphkin.construction.sheet import Direction, Equation, Term
+from graphkin.scene.model import Scene
+from graphkin.words import Phrase, say, word
+
+if TYPE_CHECKING:
+    from graphkin.api.swept import Swept
+    from graphkin.study import Extreme, Output, Turn
+
+__all__ = ["show", "told", "told_turn"]
+
+_SIGNS = {"square": "⊥", "along": "∥"}
+
+
+def show(argument: object) -> str:
+    """An argument of a phrase in plain text."""
+    if isinstance(argument, Direction):
+        if argument.relation == "towards":
+            return "→".join(argument.names)
+        if argument.relation == "turned":
+            return "⊥" + "".join(argument.names)
+        return _SIGNS[argument.relation] + "".join(argument.names)
+    return str(argument).replace("{", "").replace("}", "")
+
+
+def told(checked: Checked, language: str) -> str:
+    """The whole report."""
+    sheet, scene = checked.sheet, checked.scene
+    title = scene.title_in(language)
+    lines = [title, "=" * sum(2 if ord(c) > 0x2E7F else 1 for c in title), ""]
+    if scene.source:
+        lines.append(f"{word('source', language)}: {scene.source}")
+    count = sheet.structure.mobility
+    lines.append(f"F = 3·{count.links} - 2·{count.lower} - {count.higher} = {count.value}")
+    drivers = [f"{d.key}: {own_unit(scene, d, sheet.drivers[d.key])}" for d in scene.drivers]
+    lines.append(f"{word('driver', language)}: {', '.join(drivers)}")
+    for links, phrase in sheet.assembly.items():
+        lines.append(f"{word('group', language)} {links}: {say(phrase, language, show)}")
+    data = checked.data
+    unit = scene.units.length
+    scales = data["scales"]
+    lines += [
+        "",
+        f"1 mm = {scales['length']:g} mm, {scales['velocity']:g} {unit}/s, {scales['acceleration']:g} {unit}/s²",
+        "",
+        word("steps", language),
+        *(f"{s.number:3}  {say(s.phrase, language, show)}" for s in sheet.steps),
+        "",
+        word("equations", language),
+    ]
+    for equation in sheet.equations:
+        lines += [*_rows(equation, language), ""]
+    lines.append(word("readings", language))
+    head = (word("quantity", language), word("on paper", language), word("measured", language), word("exact", language))
+    lines.append(f"{head[0]:<16}{head[1]:>12}{head[2]:>16}{head[3]:>16}")
+    for row in checked.report.rows:
+        r = reading_row(scene, row)
+        mark = "" if row.ok else "  !"
+        lines.append(f"{r['symbol']:<16}{r['on_paper_mm']:>12.3f}{r['measured']:>16.6g}{r['exact']:>16.6g}{mark}")
+    lines.append("")
+    lines += [say(note, language, show) for note in (*sheet.left_out, *sheet.notes)]
+    if sheet.stopped:
+        lines.append(say(sheet.stopped, language, show))
+    lines.append(verdict(checked, language))
+    return "\n".join(lines) + "\n"
+
+
+def verdict(checked: Checked, language: str) -> str:
+    """One sentence: does the drawing agree with the solver."""
+    off = [str(r.symbol) for r in checked.report.rows if not r.ok]
+    if off:
+        return say(Phrase("check failed", (", ".join(off),)), language)
+    if not checked.report.rows:
+        return say(Phrase("nothing checked"), language)
+    return say(Phrase("check passed", (len(checked.report.rows),)), language)
+
+
+def _rows(equation: Equation, language: str) -> list[str]:
+    """An equation over its rows of sizes and directions, in columns."""
+    columns: list[tuple[str, str, str]] = []
+    for i, side in enumerate(equation.sides):
+        if i:
+            columns.append(("=", "", ""))
+        for j, term in enumerate(side):
+            if j:
+                columns.append(("+", "", ""))
+            columns.append((str(term.symbol), _size(term), _direction(term)))
+    widths = [max(len(cell) for cell in column) for column in columns]
+    heads = ("", word("size", language), word("direction of", language))
+    return [
+        f"{head:<11}" + "  ".join(f"{c[i]:<{w}}" for c, w in zip(columns, widths, strict=True)).rstrip()
+        for i, head in enumerate(heads)
+    ]
+
+
+def _size(term: Term) -> str:
+    return (show(term.size) or "√") if term.size_known else "?"
+
+
+def _direction(term: Term) -> str:
+    if not term.direction_known:
+        return "?"
+    return show(term.direction) if term.direction else "√"
+
+
+MOST_CURVES = 40
+
+
+def told_turn(swept: Swept) -> str:
+    """The whole summary as lines of text."""
+    language = swept.language
+    scene = swept.plan.scene
+    title = scene.title_in(language)
+    lines = [title]
+    if swept.turn is not None:
+        lines += _turn(swept.turn, language)
+    if swept.plan.designs.keys:
+        outcomes = ", ".join(f"{n} {status}" for status, n in swept.outcomes.items())
+        lines.append(say(Phrase("designs solved", (len(swept.plan.designs), outcomes)), language))
+    lines.append(say(Phrase("positions solved", (swept.good, swept.rows)), language))
+    return "\n".join(lines)
+
+
+def _turn(turn: Turn, language: str) -> list[str]:
+    scene = turn.scene
+    driver = scene.drivers[0]
+    lines: list[str] = []
+    own = turn.ranges[0]
+    if own.whole:
+        said = word("full turn", language)
+        if turn.course.turns > 1:
+            said += "; " + say(Phrase("turns to close", (turn.course.turns,)), language)
+    else:
+        said = _between(scene, own.low, own.high, own.open_low, own.open_high)
+    lines.append(f"{word('range', language)} {driver.key}: {said}")
+    for other in turn.ranges[1:]:
+        between = _between(scene, other.low, other.high, other.open_low, other.open_high)
+        lines.append("  " + say(Phrase("also assembles", (between,)), language))
+    if turn.not_searched:
+        lines.append("  " + say(Phrase("not looked for", (", ".join(turn.not_searched),)), language))
+    for loop in turn.loops:
+        turning = say(Phrase("turns fully", (", ".join(loop.turns) or "–",)), language)
+        names = ", ".join(loop.links)
+        lines.append(f"{word('basic mechanism', language)} {names}: {word(loop.name, language)}; {turning}")
+    for output in turn.outputs:
+        lines += _output(turn, output, language)
+    for least in turn.transmission:
+        where = word("same everywhere", language)
+        if least.driver is not None:
+            where = f"{driver.key} = {own_unit(scene, driver, least.driver)}"
+        pressure = say(Phrase("greatest pressure", (f"{math.degrees(least.pressure):.6g}°",)), language)
+        names = f"{least.group.kind} {', '.join(least.group.links)}"
+        lines.append(
+            f"{word('least transmission', language)} {names}: {math.degrees(least.angle):.6g}° ({where}); {pressure}"
+        )
+    lines += _curves(turn, language)
+    return lines
+
+
+def _between(scene: Scene, low: float, high: float, open_low: bool = False, open_high: bool = False) -> str:
+    ends = [
+        "..." if open_ else own_unit(scene, scene.drivers[0], value)
+        for value, open_ in ((low, open_low), (high, open_high))
+    ]
+    return " – ".join(ends)
+
+
+def _at(scene: Scene, extreme: Extreme) -> str:
+    return own_unit(scene, scene.drivers[0], extreme.driver)
+
+
+def _output(turn: Turn, output: Output, language: str) -> list[str]:
+    scene, quantity = turn.scene, output.quantity
+    unit = quantity.unit(scene, degrees=True).replace("deg", "°")
+
+    def amount(value: float) -> str:
+        return f"{quantity.in_units(scene, value, degrees=True):.10g} {unit}".replace(" °", "°")
+
+    head = f"{word('output', language)} {quantity.of}: "
+    if output.stroke is None:
+        key = "does not move" if output.position.constant is not None else "turns on"
+        return [head + word(key, language)]
+    what = "swing is" if quantity.kind == "theta" else "stroke is"
+    said = say(Phrase(what, (amount(output.stroke),)), language)
+    back = turn.quick_return(output)
+    if back is not None:
+        said += f", K = {back[0]:.10g} (θ = {math.degrees(back[1]):.8g}°)"
+    places = ", ".join(f"{amount(e.value)} @ {_at(scene, e)}" for e in output.position.extremes)
+    return [head + said, f"  {word('limit position', language)}: {places}"]
+
+
+def _curves(turn: Turn, language: str) -> list[str]:
+    scene = turn.scene
+    lines: list[str] = []
+    moving = [t for t in turn.curves if t.constant is None and not t.quantity.is_position]
+    for traced in moving[:MOST_CURVES]:
+        quantity = traced.quantity
+        high = max((e for e in traced.extremes if e.kind == "max"), key=lambda e: e.value, default=None)
+        low = min((e for e in traced.extremes if e.kind == "min"), key=lambda e: e.value, default=None)
+        parts = []
+        for key, extreme in (("greatest", high), ("least", low)):
+            if extreme is not None:
+                value = quantity.in_units(scene, extreme.value)
+                parts.append(f"{word(key, language)} {value:.6g} @ {_at(scene, extreme)}")
+        if traced.zeros:
+            places = ", ".join(own_unit(scene, scene.drivers[0], z) for z in traced.zeros)
+            parts.append(f"{word('zero at', language)} {places}")
+        lines.append(f"{quantity.name} ({quantity.unit(scene)}): {'; '.join(parts)}")
+    return lines

@@ -1,0 +1,240 @@
+"""The line along which a vector has a sense, so that a signed number can stand for it.
+
+What a wrong value may be instead: the right value of a common slip, with how common it is.
+
+The slips are those that teachers of the graphical method name (Sun Huan, Mechanical Principles, ch. 3; Norton, Design
+of Machinery, ch. 6 and 7): a sign, a unit, the Coriolis term, one component in place of the whole, the scale of the
+other polygon, another vector of the same polygon, the other assembly.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from graphkin.checking.readings import Uncertainty, read_off
+from graphkin.construction import Plan, Sheet, Slip, execute
+from graphkin.construction.terms import Part
+from graphkin.errors import GraphkinError
+from graphkin.plane import unit
+from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.structure import Slide
+from graphkin.words import Phrase
+
+__all__ = ["Case", "Suspect", "Table", "line_of", "suspects"]
+
+
+def line_of(sheet: Sheet, symbol: Symbol) -> complex | None:
+    """Unit vector of the positive sense of a vector symbol, None where nothing gives it one.
+
+    A point that slides in the frame, and one that slides relative to a coincident one: the guide's sense.  A tangential
+    acceleration: counter-clockwise.
+    """
+    if symbol.of is None:
+        return None
+    if symbol.kind == "at":
+        start = sheet.points.get(PointRef(symbol.to.point)) if symbol.to else _pivot(sheet, symbol.of)
+        end = sheet.points.get(PointRef(symbol.of.point))
+        return 1j * unit(end - start) if start is not None and end is not None and end != start else None
+    if symbol.kind not in ("v", "a", "ar"):
+        return None
+    for slide in sheet.structure.slides:
+        if _along(sheet, slide, symbol):
+            pose = sheet.poses.get(slide.b)
+            return pose.axis * slide.guide.direction if pose else None
+    return None
+
+
+def _along(sheet: Sheet, slide: Slide, symbol: Symbol) -> bool:
+    """Whether a vector lies along a guide."""
+    of, to, frame = symbol.of, symbol.to, sheet.scene.frame.name
+    assert of is not None
+    if to is not None:
+        both = {of.link, to.link} - {""}
+        return slide.pin == of.point == to.point and both <= {slide.a, slide.b}
+    slider = sheet.structure.links[slide.a]
+    return slide.b == frame and (of.link == slide.a or (not of.link and of.point in slider.points))
+
+
+def _pivot(sheet: Sheet, of: PointRef) -> complex | None:
+    scene = sheet.scene
+    for link in scene.links:
+        if of.point in link.points and of.link in ("", link.name):
+            fixed = next((p for p in link.points if p in scene.frame.points and p != of.point), None)
+            if fixed:
+                return sheet.points.get(PointRef(fixed))
+    return None
+
+
+Value = complex | float
+Table = Callable[[Symbol], Sequence[tuple[str, Value]]]
+RPM = 60.0 / math.tau
+DEGREE = 180.0 / math.pi
+
+
+@dataclass(frozen=True)
+class Suspect:
+    """One explanation: the value that it would give (SI), and its share among wrong values (rough, from experience).
+
+    ``drawn`` is whether it may carry the errors of a drawing.
+    """
+
+    phrase: Phrase
+    value: Value
+    share: float
+    drawn: bool = True
+
+
+@dataclass(frozen=True)
+class Case:
+    """Everything known of a scene at one position, against which values are judged.
+
+    ``exact`` gives the exact value of a symbol, ``elsewhere`` its exact values at other positions with their names,
+    ``predicted`` the uncertainty of a pencil drawing.
+    """
+
+    plan: Plan
+    exact: Callable[[Symbol], Value]
+    predicted: Mapping[Symbol, Uncertainty]
+    elsewhere: Table
+
+    @cached_property
+    def sheet(self) -> Sheet:
+        """The plan drawn without a slip."""
+        return execute(self.plan)
+
+    @cached_property
+    def others(self) -> Mapping[Symbol, Value]:
+        """The exact values of everything drawn."""
+        return {r.symbol: self.exact(r.symbol) for r in read_off(self.sheet)}
+
+    @cached_property
+    def altered(self) -> tuple[tuple[Phrase, float, Mapping[Symbol, Value]], ...]:
+        """The drawing with each slip in a term, and in each other assembly: phrase, share, values."""
+        found = []
+        for phrase, share, plan, slip in (*_assemblies(self.plan), *_terms(self.plan, self.sheet)):
+            try:
+                values = {r.symbol: r.value for r in read_off(execute(plan, slip=slip))}
+            except (GraphkinError, ArithmeticError):
+                continue  # with this slip nothing can be drawn, so nobody's value comes from it
+            found.append((phrase, share, values))
+        return tuple(found)
+
+
+def _assemblies(plan: Plan) -> Iterator[tuple[Phrase, float, Plan, Slip]]:
+    for i, branch in plan.branches.items():
+        yield Phrase("slip assembly"), 0.05, replace(plan, branches={**plan.branches, i: 1 - branch}, chains={}), Slip()
+
+
+def _terms(plan: Plan, sheet: Sheet) -> Iterator[tuple[Phrase, float, Plan, Slip]]:
+    roles = {"coriolis": [("left out", 0.0, 0.1), ("reversed", -1.0, 0.08), ("factor", 0.5, 0.04)],
+             "normal": [("left out", 0.0, 0.05), ("reversed", -1.0, 0.04)]}  # fmt: skip
+    for role, ways in roles.items():
+        names = [v.symbol for v in sheet.vectors("acceleration").values() if v.role == role]
+        groups = [(n,) for n in names] + ([tuple(names)] if len(names) > 1 else [])
+        for group in groups:
+            for way, factor, share in ways:
+                shown = ", ".join(str(n) for n in group)
+                phrase = Phrase(f"slip {role} {way}", (shown,))
+                yield phrase, share / len(groups), plan, Slip(term=_times(group, factor))
+
+
+def _times(symbols: tuple[Symbol, ...], factor: float) -> Callable[[Part], Part]:
+    def changed(part: Part) -> Part:
+        if part.span is None or part.symbol not in symbols:
+            return part
+        return replace(part, span=part.span * factor)
+
+    return changed
+
+
+def suspects(case: Case, symbol: Symbol) -> Iterator[Suspect]:
+    """Every explanation for a wrong value of a symbol."""
+    exact = case.exact(symbol)
+    yield Suspect(Phrase("slip sign"), -exact, 0.15)
+    if symbol.kind == "ak":
+        yield Suspect(Phrase("slip coriolis factor", (str(symbol),)), exact / 2, 0.1)
+    for phrase, share, values in case.altered:
+        if symbol in values and abs(values[symbol] - exact) > 1e-6 * abs(exact):
+            yield Suspect(phrase, values[symbol], share)
+            yield Suspect(Phrase("slip and sign", (phrase,)), -values[symbol], 0.1 * share)
+    yield from _factors(case, symbol, exact)
+    yield from _own_parts(case, symbol)
+    yield from _others(case, symbol, exact)
+    places = case.elsewhere(symbol)
+    for name, value in places:
+        yield Suspect(Phrase("slip position", (name,)), value, 0.05 / len(places), drawn=False)
+
+
+def _factors(case: Case, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
+    second = symbol.kind not in ("v", "omega")
+    for power in (1, 2, 3):
+        for factor in (10.0**power, 0.1**power):
+            yield Suspect(Phrase("slip factor", (f"{factor:g}",)), exact * factor, 0.02)
+    for name, factor in (("rpm", RPM), ("degrees", DEGREE)):
+        for way in (factor, 1 / factor):
+            yield Suspect(Phrase(f"slip {name}"), exact * way, 0.01)
+            if second:
+                yield Suspect(Phrase(f"slip {name}"), exact * way**2, 0.01)
+    yield Suspect(Phrase("slip double"), exact * 2, 0.02)
+    yield Suspect(Phrase("slip half"), exact / 2, 0.02)
+    scales, wishes = case.plan.scales, case.plan.structure.scene.sheet
+    if wishes.velocity_scale and wishes.acceleration_scale:
+        ratio = scales.velocity / scales.acceleration
+        phrase = Phrase("slip velocity scale") if second else Phrase("slip acceleration scale")
+        yield Suspect(phrase, exact * (ratio if second else 1 / ratio), 0.05)
+    given = wishes.acceleration_scale if second else wishes.velocity_scale
+    if given and symbol.is_vector:
+        # the length on paper written down as if it were the value, in scene units
+        yield Suspect(Phrase("slip millimetres"), exact / given, 0.05)
+
+
+def _own_parts(case: Case, symbol: Symbol) -> Iterator[Suspect]:
+    """One component of an acceleration in place of the whole."""
+    if symbol.kind != "a":
+        return
+    for other, value in case.others.items():
+        key = {"an": "normal", "at": "tangential", "ak": "coriolis", "ar": "sliding"}.get(other.kind)
+        if key and other.of == symbol.of:
+            yield Suspect(Phrase(f"slip {key} only", (str(other),)), value, 0.05)
+    for other in _about_pivots(case, symbol):
+        key = "normal" if other.kind == "an" else "tangential"
+        yield Suspect(Phrase(f"slip {key} only", (str(other),)), case.exact(other), 0.05)
+
+
+def _about_pivots(case: Case, symbol: Symbol) -> Iterator[Symbol]:
+    """The components about a fixed pivot of a point found by the image, where no such vector is drawn."""
+    if symbol.of is None or symbol.to is not None:
+        return
+    scene = case.plan.structure.scene
+    for link in scene.links:
+        if symbol.of.link in ("", link.name) and symbol.of.point in link.points:
+            for pivot in sorted(set(link.points) & set(scene.frame.points) - {symbol.of.point}):
+                about = (Symbol(kind, symbol.of, PointRef(pivot)) for kind in ("an", "at"))
+                yield from (other for other in about if other not in case.others)
+
+
+def _others(case: Case, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
+    alike = [(o, v) for o, v in case.others.items() if o != symbol and _dimension(o) == _dimension(symbol)]
+    for other, value in alike:
+        relative = symbol.to is None and other.to is not None and other.of is not None and symbol.of is not None
+        if relative and other.of and symbol.of and other.of.point == symbol.of.point and other.kind == symbol.kind:
+            yield Suspect(Phrase("slip relative", (str(other),)), value, 0.08)
+        else:
+            yield Suspect(Phrase("slip other", (str(other),)), value, 0.1 / len(alike))
+    if not symbol.is_vector:
+        return
+    for other, value in ((symbol, exact), *alike):
+        for axis, part in (("x", value.real), ("y", value.imag)):
+            if abs(part) > 1e-6 * abs(value) and abs(abs(part) - abs(value)) > 1e-6 * abs(value):
+                own = other == symbol
+                key = "slip component" if own else "slip other component"
+                yield Suspect(Phrase(key, (axis, str(other))), part, 0.05 if own else 0.05 / len(alike))
+
+
+def _dimension(symbol: Symbol) -> str:
+    if not symbol.is_vector:
+        return symbol.kind
+    return "v" if symbol.kind == "v" else "a"

@@ -1,0 +1,28 @@
+"""The drawing board: position, velocity and acceleration polygons constructed step by step.
+
+It starts from the scene and takes every later length and angle from what is already drawn; it never sees the
+analytic solver.
+"""
+
+from graphkin.construction.board import EXACT, Cad, Exact, Instrument, nudged, pencil
+from graphkin.construction.plan import Plan, Room, draft, execute, plan
+from graphkin.construction.sheet import Scales, Sheet
+from graphkin.construction.slip import NO_SLIP, Slip
+
+__all__ = [
+    "EXACT",
+    "NO_SLIP",
+    "Cad",
+    "Exact",
+    "Instrument",
+    "Plan",
+    "Room",
+    "Scales",
+    "Sheet",
+    "Slip",
+    "draft",
+    "execute",
+    "nudged",
+    "pencil",
+    "plan",
+]

@@ -1,0 +1,246 @@
+"""What draws: exact hands, a drafting program, or a pencil with its errors.
+
+Everything laid off, set, pricked or read on the board goes through an instrument, so that what it does wrong is carried
+into all that is drawn after it.
+
+The drawing board: lines across the sheet, their crossings, and the list of steps as it grows.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+import random
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Protocol
+
+from shapely import LineString, Point
+
+from graphkin.construction.sheet import DiagramName, Equation, Step, Stroke
+from graphkin.errors import Problem, Unsolvable
+from graphkin.plane import cross, cross_lines
+from graphkin.scene.model import Tools
+from graphkin.words import Phrase
+
+__all__ = ["EXACT", "REACH", "Board", "Cad", "Exact", "Hand", "Instrument", "nudged", "pencil"]
+
+
+class Instrument(Protocol):
+    """Hands and eyes at the board; lengths in mm on paper, directions as unit complex numbers."""
+
+    @property
+    def name(self) -> str: ...
+
+    @property
+    def faultless(self) -> bool:
+        """Whether the construction itself is exact."""
+        ...
+
+    @property
+    def acts(self) -> int:
+        """Number of errors made so far."""
+        ...
+
+    def length(self, mm: float) -> float:
+        """Lay off a length with the ruler."""
+        ...
+
+    def compass(self, mm: float) -> float:
+        """Take a radius between the points of the compass."""
+        ...
+
+    def direction(self, along: complex) -> complex:
+        """Set the ruler square to or along a line, with a set square."""
+        ...
+
+    def angle(self, along: complex) -> complex:
+        """Lay off an angle with the protractor."""
+        ...
+
+    def point(self, at: complex) -> complex:
+        """Prick a point."""
+        ...
+
+    def read(self, mm: float) -> float:
+        """Read a length off the ruler."""
+        ...
+
+    def read_direction(self, along: complex) -> complex:
+        """Read an angle off the protractor."""
+        ...
+
+
+@dataclass(frozen=True)
+class Exact:
+    """Draws and reads in double precision: nothing is lost but rounding."""
+
+    name: str = "exact"
+    faultless: bool = True
+    acts: int = 0
+
+    def length(self, mm: float) -> float:
+        return mm
+
+    def compass(self, mm: float) -> float:
+        return mm
+
+    def direction(self, along: complex) -> complex:
+        return along
+
+    def angle(self, along: complex) -> complex:
+        return along
+
+    def point(self, at: complex) -> complex:
+        return at
+
+    def read(self, mm: float) -> float:
+        return mm
+
+    def read_direction(self, along: complex) -> complex:
+        return along
+
+
+EXACT = Exact()
+CAD_MM = 0.01
+CAD_DEG = 0.01
+
+
+@dataclass(frozen=True)
+class Cad(Exact):
+    """A drafting program: draws exactly, but shows lengths to 0.01 mm and angles to 0.01 degree."""
+
+    name: str = "cad"
+
+    def read(self, mm: float) -> float:
+        return round(mm / CAD_MM) * CAD_MM
+
+    def read_direction(self, along: complex) -> complex:
+        return cmath.rect(1.0, math.radians(round(math.degrees(cmath.phase(along)) / CAD_DEG) * CAD_DEG))
+
+
+@dataclass
+class Hand:
+    """Hands that err: each act adds an error, ``errs`` standard deviations of what its tool can do.
+
+    ``errs`` gets the number of the act (from 1); ``acts`` counts them.  On a ``screen`` only reading errs.
+    """
+
+    tools: Tools
+    errs: Callable[[int], float]
+    name: str = "pencil"
+    screen: bool = False
+    acts: int = 0
+
+    @property
+    def faultless(self) -> bool:
+        return self.screen
+
+    def _error(self, deviation: float) -> float:
+        self.acts += 1
+        return deviation * self.errs(self.acts)
+
+    def length(self, mm: float) -> float:
+        return mm if self.screen else mm + self._error(self.tools.ruler / _UNIFORM)
+
+    def compass(self, mm: float) -> float:
+        return mm if self.screen else mm + self._error(self.tools.compass)
+
+    def direction(self, along: complex) -> complex:
+        return along if self.screen else _turned(along, self._error(self.tools.set_square))
+
+    def angle(self, along: complex) -> complex:
+        return along if self.screen else _turned(along, self._error(self.tools.protractor / _UNIFORM))
+
+    def point(self, at: complex) -> complex:
+        if self.screen:
+            return at
+        across = self.tools.line_width / 2
+        return at + complex(self._error(across), self._error(across))
+
+    def read(self, mm: float) -> float:
+        return mm + self._error(self.tools.ruler / _UNIFORM)
+
+    def read_direction(self, along: complex) -> complex:
+        return _turned(along, self._error(self.tools.protractor / _UNIFORM))
+
+
+_UNIFORM = math.sqrt(12)  # a value read to the nearest mark errs evenly within a mark: its width over sqrt(12)
+_SCREEN = Tools(ruler=CAD_MM, protractor=CAD_DEG)
+
+
+def pencil(tools: Tools, seed: int) -> Hand:
+    """A pencil in a human hand: every act errs at random, the same way for the same seed."""
+    dice = random.Random(seed)
+    return Hand(tools, lambda _: dice.gauss(0.0, 1.0))
+
+
+def nudged(name: str, tools: Tools, act: int) -> Hand:
+    """The hands of an instrument that err in one act only, by one standard deviation (act 0: never)."""
+    screen = name == "cad"
+    return Hand(_SCREEN if screen else tools, lambda n: float(n == act), name, screen)
+
+
+def _turned(along: complex, deg: float) -> complex:
+    return along * cmath.rect(1.0, math.radians(deg))
+
+
+REACH = 2000.0  # mm to either side: how far a construction line is drawn
+SHARP = math.sin(math.radians(15.0))
+PARALLEL = 1e-12  # sine below which two lines have no crossing at all
+
+
+@dataclass
+class Board:
+    """Steps in the order in which they are done; the one thing in this room that grows."""
+
+    instrument: Instrument
+    steps: list[Step] = field(default_factory=list)
+    equations: list[Equation] = field(default_factory=list)
+    notes: list[Phrase] = field(default_factory=list)
+    causes: list[tuple[int, Phrase]] = field(default_factory=list)  # acts of the hand up to which each step reaches
+
+    def do(self, diagram: DiagramName, phrase: Phrase, *strokes: Stroke, equation: int | None = None) -> None:
+        """Record one step."""
+        self.steps.append(Step(len(self.steps) + 1, diagram, phrase, tuple(strokes), equation))
+        self.causes.append((self.instrument.acts, phrase))
+
+    def note(self, phrase: Phrase) -> None:
+        if phrase not in self.notes:
+            self.notes.append(phrase)
+
+    def warn(self, sine: float, what: str) -> None:
+        """Say where two lines cross at so small an angle that the place of the crossing is uncertain."""
+        if sine < SHARP:
+            self.note(Phrase("sharp crossing", (what, f"{math.degrees(math.asin(sine)):.2g}")))
+
+    def cross(self, p: complex, d: complex, q: complex, e: complex, what: str) -> complex:
+        """Where the line through p along d meets the line through q along e, drawn as ruler lines.
+
+        Raises
+        ------
+        Unsolvable
+            status "dead point": the lines are parallel and meet nowhere
+        """
+        d, e = self.instrument.direction(d), self.instrument.direction(e)
+        sine = abs(cross(d, e))
+        if sine < PARALLEL:
+            raise Unsolvable(
+                "dead point",
+                Problem(what, "the two lines that should find it are parallel", "move the driver off this position"),
+            )
+        self.warn(sine, what)
+        one = LineString([_xy(p - REACH * d), _xy(p + REACH * d)])
+        two = LineString([_xy(q - REACH * e), _xy(q + REACH * e)])
+        found = one.intersection(two)
+        if not isinstance(found, Point):
+            # the ruler lines end before they meet: the place is computed, and said
+            self.note(Phrase("off the sheet", (what,)))
+            far = cross_lines(p, d, q, e)
+            assert far is not None
+            return self.instrument.point(far)
+        return self.instrument.point(complex(found.x, found.y))
+
+
+def _xy(z: complex) -> tuple[float, float]:
+    return z.real, z.imag

@@ -1,0 +1,208 @@
+"""All instant centres of a scene as a student finds them: the permanent ones, Kennedy's theorem, and what remains."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Literal
+
+from graphkin.construction.board import EXACT, Instrument
+from graphkin.construction.centres.kennedy import Crossing, Known, Relation, Search, closure
+from graphkin.construction.centres.motion import Motion, Way, Worked, measured, relative_centre, work
+from graphkin.construction.centres.pairs import Chart, Links, Normal, Pair, Place, links_on_paper, normals, permanent
+from graphkin.construction.plan import Room
+from graphkin.construction.sheet import Sheet
+from graphkin.scene.model import AngleDriver, Scene
+from graphkin.words import Phrase
+
+__all__ = ["Centre", "Centres", "find_centres"]
+
+
+@dataclass(frozen=True)
+class Centre:
+    """One instant centre.
+
+    ``place`` is homogeneous in the chart (None where undetermined); ``point`` in mm on paper, None at infinity, where
+    ``direction`` is the way to it.  ``number`` counts the found ones in their order.  ``joint`` names the joint of a
+    permanent one, ``lines`` are the two that cross in a found one; ``way`` names the construction of one that Kennedy's
+    theorem does not give, ``why`` says why it does not, or why there is none.
+    """
+
+    pair: Pair
+    kind: Literal["permanent", "found", "undetermined"]
+    place: Place | None = None
+    point: complex | None = None
+    direction: complex | None = None
+    number: int = 0
+    joint: str = ""
+    lines: tuple[Relation, ...] = ()
+    way: Way | Literal[""] = ""
+    why: Phrase | None = None
+    error: float = 0.0
+
+
+@dataclass(frozen=True)
+class Centres:
+    """All centres of one position.  ``found`` gives them in the order in which they are found, the permanent first.
+
+    ``kept`` names the bars that two superposed motions keep in their length, where the position was found by trial.
+    """
+
+    sheet: Sheet
+    links: Links
+    chart: Chart
+    table: Mapping[Pair, Centre]
+    normals: tuple[Normal, ...]
+    motions: Mapping[str, Motion]
+    kept: tuple[str, ...] = ()
+
+    def of(self, a: str, b: str) -> Centre:
+        """The centre of two links, in any order.  Raises KeyError for a pair that is none."""
+        return self.table[self.links.pair(a, b)]
+
+    @property
+    def found(self) -> tuple[Centre, ...]:
+        return tuple(sorted(self.table.values(), key=lambda c: c.number))
+
+    @property
+    def indeterminate(self) -> tuple[Centre, ...]:
+        """Those that Kennedy's theorem does not give."""
+        return tuple(c for c in self.found if c.way or c.kind == "undetermined")
+
+
+def find_centres(
+    scene: Scene, at: Mapping[str, float] | None = None, instrument: Instrument = EXACT, room: Room | None = None,
+    sheet: Sheet | None = None, near: Centres | None = None,
+) -> Centres:  # fmt: skip
+    """Find every centre of every two links on the drawing board.
+
+    Parameters
+    ----------
+    scene, at, instrument, room : as for `draft`
+    sheet : the scene drawn at this position already; it is used if every link stands on it
+    near : the centres at other driver values, from which a scene with larger groups is followed; without them the
+        scene's own position is found first
+
+    Raises
+    ------
+    Unsolvable : wrong mobility, a position that cannot be assembled or reached, a dead point
+    """
+    moving = _moving(scene)
+    if sheet is not None and moving is scene and set(sheet.structure.links) <= set(sheet.poses):
+        worked = Worked(sheet, measured(sheet))
+    else:
+        worked = work(moving, at, instrument, room, near.sheet if near is not None else None)
+    links = links_on_paper(scene, 1.0 / worked.sheet.scales.length, worked.sheet.poses)
+    chart = links.chart()
+    table, slots = _search(links, chart, worked.motions, instrument, worked.way)
+    return Centres(worked.sheet, links, chart, table, slots, worked.motions, worked.kept)
+
+
+def _moving(scene: Scene) -> Scene:
+    """The scene itself, or at unit speed where its one driver stands still: centres do not depend on the speed."""
+    if len(scene.drivers) != 1 or scene.drivers[0].values[1] != 0.0:
+        return scene
+    driver = scene.drivers[0]
+    if isinstance(driver, AngleDriver):
+        return replace(scene, drivers=(replace(driver, omega=1.0),))
+    return replace(scene, drivers=(replace(driver, velocity=scene.size),))
+
+
+def _search(
+    links: Links, chart: Chart, motions: Mapping[str, Motion], instrument: Instrument, way: Way
+) -> tuple[dict[Pair, Centre], tuple[Normal, ...]]:
+    slots = tuple(normals(links, chart))
+    search = Search(links.pairs, links.names, slots)
+    table: dict[Pair, Centre] = {}
+    for p in permanent(links, chart).values():
+        direction = chart.direction(p.place) if p.point is None else None
+        table[p.pair] = Centre(p.pair, "permanent", p.place, p.point, direction, joint=p.joint)
+        search.learn(p.pair, Known(p.place))
+    number = 0
+    reach = _Reach(links, [normal.pair for normal in slots], motions, set(table))
+    while len(table) < len(links.pairs):
+        number += 1
+        crossing = search.next()
+        if crossing is not None:
+            centre = _crossed(crossing, chart, number, instrument)
+        else:
+            centre = _otherwise(chart, motions, search, reach.best(table), number, way)
+        table[centre.pair] = centre
+        if centre.place is not None:
+            search.learn(centre.pair, Known(centre.place, max(centre.error, 2e-16)))
+            reach.found(centre.pair)
+    return {pair: table[pair] for pair in links.pairs}, slots
+
+
+class _Reach:
+    """Which centres the known ones lead to by triangles, were no two lines to fall together."""
+
+    def __init__(self, links: Links, slots: list[Pair], motions: Mapping[str, Motion], known: set[Pair]) -> None:
+        self.links, self.slots, self.motions = links, slots, motions
+        self.order = sorted(links.pairs, key=self._plain, reverse=True)
+        self.done = 0  # of the order
+        self.reached: set[Pair] = set()
+        self._grow(known)
+
+    def _plain(self, pair: Pair) -> tuple[bool, bool]:
+        return pair[0] in self.motions and pair[1] in self.motions, self.links.scene.frame.name in pair
+
+    def _grow(self, known: set[Pair]) -> None:
+        self.reached = closure(self.links.pairs, self.links.names, self.reached | known, self.slots)
+        self.beyond = [pair for pair in self.links.pairs if pair not in self.reached]
+
+    def found(self, pair: Pair) -> None:
+        """Take in a centre whose place is known."""
+        if pair not in self.reached:
+            self._grow({pair})
+
+    def best(self, table: Mapping[Pair, Centre]) -> Pair:
+        """The missing centre that gives most others; measured ones before those that are not, then the frame's."""
+        while self.order[self.done] in table:
+            self.done += 1
+        self.beyond = [pair for pair in self.beyond if pair not in table]
+        # one that the triangles reach, if not surely, gives no more than they do
+        return max([*self.beyond, self.order[self.done]], key=self._gain)
+
+    def _gain(self, pair: Pair) -> tuple[bool, int, bool]:
+        measurable, of_frame = self._plain(pair)
+        if pair in self.reached:
+            return measurable, 0, of_frame
+        more = closure(self.links.pairs, self.links.names, self.reached | {pair}, self.slots)
+        return measurable, len(more) - len(self.reached), of_frame
+
+
+def _crossed(crossing: Crossing, chart: Chart, number: int, instrument: Instrument) -> Centre:
+    place = crossing.place
+    point = chart.point(place)
+    if point is not None:
+        pricked = instrument.point(point)
+        if pricked != point:
+            place, point = chart.at(pricked), pricked
+    direction = chart.direction(place) if point is None else None
+    return Centre(crossing.pair, "found", place, point, direction, number, lines=crossing.lines, error=crossing.error)
+
+
+def _otherwise(
+    chart: Chart, motions: Mapping[str, Motion], search: Search, pair: Pair, number: int, way: Way
+) -> Centre:
+    """A centre that Kennedy's theorem does not give now."""
+    why = _why(search, pair)
+    place = None
+    if pair[0] in motions and pair[1] in motions:
+        place = relative_centre(motions, pair, chart)
+        if place is None:
+            return Centre(pair, "undetermined", number=number, why=Phrase("centre no motion", pair))
+    if place is None:
+        return Centre(pair, "undetermined", number=number, why=why)
+    point = chart.point(place)
+    direction = chart.direction(place) if point is None else None
+    return Centre(pair, "found", place, point, direction, number, way=way, why=why, error=1e-15)
+
+
+def _why(search: Search, pair: Pair) -> Phrase:
+    """Why Kennedy's theorem fails: too few triangles, or lines that fall together."""
+    count = len(search.lines[pair])
+    if count < 2:
+        return Phrase("centre few lines", (*pair, count))
+    return Phrase("centre lines together", pair)

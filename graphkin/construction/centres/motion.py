@@ -1,0 +1,166 @@
+"""The motion of each link as measured on the velocity polygon, and the centre of two links from it.
+
+Position and motion of every link on paper, by the polygons, or by trial and superposition where they stop.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Literal
+
+from graphkin.construction.board import EXACT, Instrument
+from graphkin.construction.centres.pairs import Chart, Pair, Place
+from graphkin.construction.plan import Room, draft
+from graphkin.construction.reduced_mechanism import Closing, Moved
+from graphkin.construction.sheet import Pose, Sheet
+from graphkin.construction.trial import Known, trial_position
+from graphkin.scene.model import AngleDriver, Driver, Scene
+from graphkin.scene.symbol import PointRef
+from graphkin.structure import Structure, analyse
+
+__all__ = ["Motion", "Way", "Worked", "measured", "relative_centre", "work"]
+
+AT_REST = 1e-9
+"""Two links whose relative motion is smaller than this part of the largest do not move relative to each other."""
+
+
+@dataclass(frozen=True)
+class Motion:
+    """A link moves so that its point ``at`` (mm) has ``velocity`` (mm/s on paper), and turns at ``omega`` (rad/s)."""
+
+    at: complex
+    velocity: complex
+    omega: float
+
+    def of(self, z: complex) -> complex:
+        """Velocity (mm/s on paper) of the point of the link that lies at z (mm)."""
+        return self.velocity + 1j * self.omega * (z - self.at)
+
+
+def measured(sheet: Sheet) -> dict[str, Motion]:
+    """Every link in the velocity polygon: one end point of it, and its angular velocity."""
+    per_mm = sheet.scales.velocity / sheet.scales.length
+    ends = sheet.ends["velocity"]
+    ground = sheet.scene.frame.name
+    found = {ground: Motion(0j, 0j, 0.0)}
+    for name, rate in sheet.omega.items():
+        points = sheet.structure.links[name].points
+        for ref, end in ends.items():
+            if name != ground and (ref.link == name or (not ref.link and ref.point in points)):
+                found[name] = Motion(sheet.points[PointRef(ref.point)], end * per_mm, rate.value)
+                break
+    return found
+
+
+def relative_centre(motions: Mapping[str, Motion], pair: Pair, chart: Chart) -> Place | None:
+    """Where two links have the same velocity; None where they do not move relative to each other.
+
+    Raises
+    ------
+    KeyError : the motion of one of the two was not measured
+    """
+    one, two = motions[pair[0]], motions[pair[1]]
+    at = chart.middle
+    place, strength = chart.pole(at, one.of(at) - two.of(at), one.omega - two.omega)
+    largest = max((abs(chart.pole(at, m.of(at), m.omega)[1]) for m in motions.values()), default=0.0)
+    return None if abs(strength) <= AT_REST * largest else place
+
+
+Way = Literal["velocity polygon", "superposition"]
+
+
+@dataclass(frozen=True)
+class Worked:
+    """A position drawn, the motion of every link measured, and the way in which it was found.
+
+    ``kept`` names what two superposed motions let fit: the bars, blocks or drivers left out of the trial drawings.
+    """
+
+    sheet: Sheet
+    motions: Mapping[str, Motion]
+    way: Way = "velocity polygon"
+    kept: tuple[str, ...] = ()
+
+
+def work(
+    scene: Scene,
+    at: Mapping[str, float] | None = None,
+    instrument: Instrument = EXACT,
+    room: Room | None = None,
+    near: Sheet | None = None,
+) -> Worked:
+    """Draw everything of a scene and measure how it moves.
+
+    Parameters and exceptions are those of `draft`; a group larger than a dyad is drawn by trial, with ``near``, the
+    whole scene on paper at other driver values, from there.
+    """
+    sheet = draft(scene, at, (), instrument, room)
+    if sheet.stopped is None:
+        return Worked(sheet, measured(sheet))
+    structure = analyse(scene)
+    values = {d.key: d.values[0] for d in scene.drivers} | dict(at or {})
+    trial = trial_position(scene, values, _known(near) if near is not None else None)
+    dyads = trial.scene
+    for closing, key in trial.closings:
+        dyads = _at_speed(dyads, key, _true_speed(dyads, closing, key, structure))
+    drawn = draft(dyads, None, (), instrument, room)
+    moved = _moved(drawn)
+    mm = 1.0 / drawn.scales.length
+    for closing, _ in reversed(trial.closings):
+        back = closing.put_back(structure, moved, mm)
+        if back is not None:
+            moved[closing.left_out] = back
+    kept = tuple(c.left_out or (c.driver.key if c.driver else "") for c, _ in trial.closings)
+    motions = {name: Motion(m.pose.origin, m.velocity, m.omega) for name, m in moved.items()}
+    return Worked(_whole(drawn, scene, structure, values, moved), motions, "superposition", kept)
+
+
+def _known(sheet: Sheet) -> Known:
+    """A sheet as a position to start from."""
+    size = sheet.scales.length / sheet.scene.size
+    poses = {name: Pose(pose.origin * size, pose.axis) for name, pose in sheet.poses.items()}
+    return sheet.drivers, poses
+
+
+def _true_speed(scene: Scene, closing: Closing, key: str, structure: Structure) -> float:
+    """The trial driver's speed by proportional division of what two trial drawings leave open."""
+    driver = next(d for d in scene.drivers if d.key == key)
+    base = max((abs(d.values[1]) for d in scene.drivers if isinstance(d, AngleDriver)), default=0.0) or 1.0
+    once = base if isinstance(driver, AngleDriver) else base * scene.size
+    open_ = []
+    for speed in (0.0, once):
+        sheet = draft(_at_speed(scene, key, speed), None, ())
+        open_.append(closing.rate(structure, _moved(sheet), 1.0 / sheet.scales.length))
+    return once * open_[0] / (open_[0] - open_[1])
+
+
+def _at_speed(scene: Scene, key: str, speed: float) -> Scene:
+    def faster(driver: Driver) -> Driver:
+        if driver.key != key:
+            return driver
+        return replace(driver, omega=speed) if isinstance(driver, AngleDriver) else replace(driver, velocity=speed)
+
+    return replace(scene, drivers=tuple(faster(d) for d in scene.drivers))
+
+
+def _moved(sheet: Sheet) -> dict[str, Moved]:
+    """Every link drawn, with its motion as measured."""
+    return {
+        name: Moved(sheet.poses[name], motion.of(sheet.poses[name].origin), motion.omega)
+        for name, motion in measured(sheet).items()
+    }
+
+
+def _whole(
+    drawn: Sheet, scene: Scene, structure: Structure, values: Mapping[str, float], moved: Mapping[str, Moved]
+) -> Sheet:
+    """The sheet of the stand-in as one of the scene itself: links left out put back."""
+    poses: dict[str, Pose] = {**drawn.poses, **{name: m.pose for name, m in moved.items()}}
+    mm = 1.0 / drawn.scales.length
+    places = {
+        p: poses[n].origin + poses[n].axis * z * mm
+        for n, link in structure.links.items() if n in poses for p, z in link.points.items()
+    }  # fmt: skip
+    points = {**{PointRef(p): z for p, z in places.items()}, **drawn.points}
+    return replace(drawn, scene=scene, structure=structure, drivers=values, poses=poses, points=points)

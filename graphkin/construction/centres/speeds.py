@@ -1,0 +1,246 @@
+"""Velocities by centres: from the driver to every link by the shortest chain of centres, measured on the figure.
+
+The point P_ij belongs to both links and has one velocity: omega_i * P_ij P_i0 = omega_j * P_ij P_j0, the same sense of
+turning where P_i0 and P_j0 lie on one side of P_ij, the opposite where it lies between them; a point X of link j then
+moves with omega_j * P_j0 X square to P_j0 X (Norton, Design of Machinery, 6.5).  The distances are measured as products
+of homogeneous coordinates, so that a centre at infinity needs no rule of its own: links that turn alike, sliders.
+
+How velocities by centres are read off the figure, in sentences: first the links, then the points.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from graphkin.construction.centres.find import Centres
+from graphkin.construction.centres.pairs import Pair, Place, product, wedge
+from graphkin.plane import dot
+from graphkin.scene.model import AngleDriver, Driver
+from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.structure import driver_pair
+from graphkin.words import Phrase
+
+__all__ = ["Turning", "by_centres", "points_asked", "speeds", "velocity_sentences"]
+
+APART = 1e-6  # sine below which the distance of two centres cannot be measured well
+
+
+@dataclass(frozen=True)
+class Turning:
+    """The motion of a link by centres.
+
+    ``strength`` (1/s) belongs to the centre's homogeneous coordinates (`Chart.velocity`), ``omega`` is the angular
+    velocity (rad/s).  ``chain`` names the links from the driver to this one, each measured from the one before.
+    """
+
+    link: str
+    strength: float
+    omega: float
+    chain: tuple[str, ...]
+
+
+def speeds(centres: Centres) -> dict[str, Turning]:
+    """The motion of every link that a chain of centres reaches from a driver; a link at rest is among them.
+
+    Returns
+    -------
+    dict from the link's name to its motion; with several drivers the first that moves is the start
+    """
+    frame = centres.links.scene.frame.name
+    found = {frame: Turning(frame, 0.0, 0.0, (frame,))}
+    moving = [d for d in centres.links.scene.drivers if d.values[1] != 0.0]
+    if not moving:
+        return {name: Turning(name, 0.0, 0.0, (name,)) for name in centres.links.names}
+    found.update(_driven(centres, moving[0]))
+    steps = max(len(t.chain) for t in found.values())
+    while len(found) < len(centres.links.names):
+        fresh: dict[str, Turning] = {}
+        for name in centres.links.names:
+            if name in found:
+                continue
+            ways = [(s, t) for t in found.values() if t.link != frame and (s := _step(centres, t, name)) is not None]
+            near = [(apart, turning) for (turning, apart), t in ways if len(t.chain) == steps]
+            good = [(apart, turning) for apart, turning in near if apart > APART]
+            if good:
+                fresh[name] = max(good, key=lambda pair: pair[0])[1]
+        if not fresh and steps > len(centres.links.names):
+            break
+        found.update(fresh)
+        steps += 1
+    return found
+
+
+def _driven(centres: Centres, driver: Driver) -> dict[str, Turning]:
+    """The links that the driver's own pair moves, from its rate: turning about their common centre, or sliding."""
+    scene, chart = centres.links.scene, centres.chart
+    structure = centres.sheet.structure
+    frame = scene.frame.name
+    rate = driver.values[1]
+    if isinstance(driver, AngleDriver):
+        a, b = driver.link, driver.relative_to
+        place = _place(centres, a, b)
+        if place is None or place[2] == 0.0:
+            return {}
+        strength = rate / place[2]
+    else:
+        pair = driver_pair(driver, structure.links, structure.slides)
+        slide = structure.slide(driver.key)
+        pin = next((p for p in scene.pins if p.key == driver.key), None)
+        assert pair is not None
+        a, b = (pin.of, pin.on) if pin else (pair.a, pair.b)
+        place = _place(centres, a, b)
+        if place is None:
+            return {}
+        along = centres.links.poses[b].axis * slide.guide.direction
+        at = centres.links.point(pin.point) if pin else chart.middle
+        once = dot(chart.velocity(place, 1.0, at), along)
+        if once == 0.0:
+            return {}
+        strength = rate * centres.links.mm / once
+    if b == frame:
+        return {a: Turning(a, strength, strength * place[2], (a,))}
+    if a == frame:
+        return {b: Turning(b, -strength, -strength * place[2], (b,))}
+    # two moving links: T_a - T_b is known, and the three centres a-b, a-0, b-0 lie on one line
+    found = {}
+    for name, other, sign in ((a, b, 1.0), (b, a, -1.0)):
+        own, its = _place(centres, name, frame), _place(centres, other, frame)
+        if own is None or its is None:
+            continue
+        ratio, apart = _ratio(place, its, own)
+        if apart > APART:
+            found[name] = Turning(name, sign * strength * ratio, sign * strength * ratio * own[2], (name,))
+    return found
+
+
+def _place(centres: Centres, a: str, b: str) -> Place | None:
+    return centres.of(a, b).place
+
+
+def _ratio(known: Place, common: Place, wanted: Place) -> tuple[float, float]:
+    """From strength about ``known`` to strength about ``wanted``, three places on a line, the motion about ``common``
+    being the difference; and how far ``wanted`` lies from ``common``.
+
+    k * known - m * wanted is a multiple of common: k (known x common) = m (wanted x common).
+    """
+    line, apart = wedge(wanted, common)
+    over, sine = wedge(known, common)
+    return (0.0 if apart == 0.0 else product(over, line) * sine / apart), apart
+
+
+def _step(centres: Centres, turning: Turning, name: str) -> tuple[Turning, float] | None:
+    """From one link to the next by their common centre; None where a centre is missing."""
+    frame = centres.links.scene.frame.name
+    own, its = _place(centres, name, frame), _place(centres, turning.link, frame)
+    common = _place(centres, name, turning.link)
+    if own is None or its is None or common is None:
+        return None
+    ratio, apart = _ratio(its, common, own)
+    strength = turning.strength * ratio
+    return Turning(name, strength, strength * own[2], (*turning.chain, name)), apart
+
+
+def by_centres(centres: Centres, moving: Mapping[str, Turning], symbol: Symbol) -> complex | float | None:
+    """A velocity (m/s) or an angular velocity (rad/s) by centres, measured on the figure; None where no chain leads to
+    it, or where it is neither."""
+    if symbol.kind == "omega":
+        turning = moving.get(symbol.link)
+        return turning.omega if turning else None
+    if symbol.kind != "v" or symbol.of is None:
+        return None
+    of = _velocity(centres, moving, symbol.of)
+    to = _velocity(centres, moving, symbol.to) if symbol.to else 0j
+    return None if of is None or to is None else of - to
+
+
+def _velocity(centres: Centres, moving: Mapping[str, Turning], ref: PointRef) -> complex | None:
+    links = centres.links
+    frame = links.scene.frame.name
+    holders = [ref.link] if ref.link else [n for n in links.scene.holders[ref.point] if n in links.poses]
+    for name in holders:
+        turning = moving.get(name)
+        if turning is None:
+            continue
+        if name == frame or turning.strength == 0.0:
+            return 0j
+        place = _place(centres, name, frame)
+        assert place is not None
+        return centres.chart.velocity(place, turning.strength, links.point(ref.point)) / links.mm
+    return None
+
+
+STILL = 1e-12  # part of the largest speed that is none
+
+
+def velocity_sentences(centres: Centres, moving: Mapping[str, Turning]) -> tuple[Phrase, ...]:
+    """Every link's rate from the link before it in its chain, then every asked point's speed from its link's rate.
+
+    Among the arguments of the phrases, pairs of links stand for centres, `Symbol` for a velocity, `PointRef` for a
+    point; distances are those of the figure (mm).
+    """
+    links = [_of_link(centres, moving, t) for t in moving.values() if len(t.chain) > 1]
+    speeds = {s: abs(by_centres(centres, moving, s) or 0.0) for s in points_asked(centres)}
+    least = STILL * max(speeds.values(), default=0.0)
+    points = [_of_point(centres, moving, s, speed) for s, speed in speeds.items() if speed > least]
+    return (*links, *(p for p in points if p is not None))
+
+
+def points_asked(centres: Centres) -> tuple[Symbol, ...]:
+    """The absolute velocities of points that the scene asks for; of every moving pin if it asks for nothing."""
+    scene = centres.links.scene
+    if scene.find:
+        return tuple(s for s in scene.find if s.kind == "v" and s.to is None)
+    moving = {name for name in centres.links.names if name != scene.frame.name}
+    pins = [p for p, names in scene.holders.items() if p not in scene.frame.points and moving & set(names)]
+    return tuple(Symbol("v", PointRef(p)) for p in pins)
+
+
+def _of_link(centres: Centres, moving: Mapping[str, Turning], turning: Turning) -> Phrase:
+    name, known = turning.link, turning.chain[-2]
+    frame = centres.links.scene.frame.name
+    own, its, common = centres.of(name, frame), centres.of(known, frame), centres.of(name, known)
+    pairs: tuple[Pair, ...] = (common.pair, its.pair, own.pair)
+    if own.point is None:
+        return Phrase("centre slides", (name, known, *pairs))
+    if common.point is None:
+        return Phrase("centre turns alike", (name, known, *pairs))
+    if its.point is None:
+        arm = f"{abs(own.point - common.point):.2f}"
+        return Phrase("centre from slider", (name, known, *pairs, arm, f"{abs(turning.omega):.6g}"))
+    far, near = abs(common.point - its.point), abs(common.point - own.point)
+    same = dot(its.point - common.point, own.point - common.point) >= 0.0
+    key = "centre same sense" if same else "centre opposite sense"
+    return Phrase(key, (name, known, *pairs, f"{far:.2f}", f"{near:.2f}", f"{turning.omega:.6g}".replace("-", "−")))
+
+
+def _of_point(centres: Centres, moving: Mapping[str, Turning], symbol: Symbol, speed: float) -> Phrase | None:
+    """The speed of a point: its distance from the link's centre times the rate; of a link that only translates, the
+    speed that the link before it has where both have one velocity."""
+    ref, links = symbol.of, centres.links
+    assert ref is not None
+    frame = links.scene.frame.name
+    holders = [ref.link] if ref.link else [n for n in links.scene.holders[ref.point] if n in links.poses]
+    turning = next((moving[n] for n in holders if n in moving), None)
+    if turning is None:
+        return None
+    units = links.scene.units
+    per_mm = f"{centres.sheet.scales.length / units.metres:.6g} {units.length}/mm"
+    said = f"{speed / units.metres:.6g} {units.length}/s"
+    own = centres.of(turning.link, frame)
+    if own.point is not None:
+        arm = abs(links.point(ref.point) - own.point)
+        rate, centre = turning, own.pair
+        end: PointRef | Pair = ref
+    else:
+        if len(turning.chain) < 2:
+            return None
+        rate = moving[turning.chain[-2]]
+        its, common = centres.of(rate.link, frame), centres.of(turning.link, rate.link)
+        if its.point is None or common.point is None:
+            return None
+        arm = abs(common.point - its.point)
+        centre, end = its.pair, common.pair
+    return Phrase(
+        "centre speed", (symbol, rate.link, centre, end, f"{abs(rate.omega):.6g}", f"{arm:.2f}", per_mm, said)
+    )

@@ -1,0 +1,228 @@
+"""Two loci that meet, with what was drawn.
+
+A driven link: the angle or the travel is laid off.
+
+Dyads whose loci are arcs: arc and arc, arc and line, and the circle that a guide touches.
+
+Dyads whose loci are straight lines.
+
+Where the links of a group lie: compass arcs and ruler lines that meet, for each kind of dyad.
+
+All lengths in mm on paper.  For each kind a function returns a `Meeting`: how well the two loci cross, the possible
+places of the links, and for each what was drawn.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+from graphkin.construction.rigid import Frame, RigidBody, across, hinge, inner_hinge, rail
+from graphkin.construction.sheet import Arc, Bar, Pose, Stroke
+from graphkin.plane import cross, cross_arcs, cross_line_arc, cross_lines, direction, dot, unit
+from graphkin.scene.model import AngleDriver
+from graphkin.structure import Driven, Dyad, Slide, Turn
+from graphkin.words import Phrase
+
+__all__ = ["Frame", "Meeting", "Story", "drive", "meet", "prp", "rpp", "rpr", "rrp", "rrr"]
+
+Story = tuple[tuple[Phrase, tuple[Stroke, ...]], ...]
+
+
+@dataclass(frozen=True)
+class Meeting:
+    """Two loci that meet.
+
+    ``gap`` is positive where they cross, zero where they touch, negative where they miss each other; for two lines it
+    is the sine of their angle.  ``poses`` are the possible places of the group's links, the one of the default rule
+    first; ``stories`` what is drawn for each.  ``sine`` of the crossing angle is 0 where the crossing is lost.
+    """
+
+    gap: float
+    sine: float
+    poses: tuple[Mapping[str, Pose], ...]
+    stories: tuple[Story, ...]
+    two_lines: bool = False
+
+
+def drive(frame: Frame, element: Driven) -> tuple[Pose, Story]:
+    """Place a driven link: the angle or the travel is laid off."""
+    name, driver, pair = element.link, element.driver, element.pair
+    value = frame.values[driver.key]
+    if isinstance(driver, AngleDriver):
+        own = driver.link == name
+        other = driver.relative_to if own else driver.link
+        axis = unit(frame.poses[other].axis * frame.instrument.angle(direction(math.degrees(value if own else -value))))
+        assert isinstance(pair, Turn)
+        hinge = frame.point(pair.b, pair.point)
+        pose = Pose(hinge - axis * (frame.links[name].points[pair.point] * frame.mm), axis)
+        angle = f"{math.degrees(value):.6g}"
+        return pose, ((Phrase("lay off angle", (name, angle, pair.point)), ()),)
+    assert isinstance(pair, Slide)
+    known = pair.b if name == pair.a else pair.a
+    pose = across(pair, name, frame.poses[known], frame.instrument.length(value * frame.mm), frame.mm)
+    start = frame.place(pair.b, pair.guide.through) if name == pair.a else pose.origin
+    end = pose.origin if name == pair.a else frame.poses[known].origin
+    return pose, ((Phrase("lay off travel", (pair.key, f"{abs(value) * frame.mm:.2f}")), (Bar(start, end, name),)),)
+
+
+def rrr(frame: Frame, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
+    outer1, outer2 = dyad.outer_first, dyad.outer_second
+    assert isinstance(outer1, Turn)
+    assert isinstance(outer2, Turn)
+    (p1, local1), (p2, local2) = hinge(frame, one, outer1), hinge(frame, two, outer2)
+    letter, inner1, inner2 = inner_hinge(frame, dyad, one, two)
+    r1, r2 = frame.instrument.compass(abs(inner1 - local1)), frame.instrument.compass(abs(inner2 - local2))
+    lo, mid, hi = sorted((r1, r2, abs(p2 - p1)))
+    product = (hi + (mid + lo)) * (lo - (hi - mid)) * (lo + (hi - mid)) * (hi + (mid - lo))
+    gap = product / (2 * r1 * r2) ** 2
+    places = cross_arcs(p1, r1, p2, r2) or ()
+    poses = [{**one.through((local1, inner1), (p1, q)), **two.through((local2, inner2), (p2, q))} for q in places]
+    names = (outer1.point, outer2.point, letter, f"{r1:.2f}", f"{r2:.2f}")
+    stories: list[Story] = [((Phrase("arcs", names), (Arc(p1, r1, q), Arc(p2, r2, q))),) for q in places]
+    return Meeting(gap, math.sqrt(max(gap, 0.0)), tuple(poses), tuple(stories))
+
+
+def rrp(frame: Frame, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
+    outer, slide = dyad.outer_first, dyad.outer_second
+    assert isinstance(outer, Turn)
+    assert isinstance(slide, Slide)
+    p, local = hinge(frame, one, outer)
+    letter, inner1, inner2 = inner_hinge(frame, dyad, one, two)
+    start, step = rail(frame, two, slide)
+    q0 = start.origin + start.axis * inner2
+    radius = frame.instrument.compass(abs(inner1 - local))
+    off = abs(cross(p - q0, step))
+    gap = (radius - off) * (radius + off) / radius**2
+    places = cross_line_arc(q0, step, p, radius) or ()
+    poses = []
+    stories: list[Story] = []
+    for q in places:
+        travel = dot(q - q0, step)
+        moved = Pose(start.origin + travel * step, start.axis)
+        poses.append({**one.through((local, inner1), (p, q)), **two.placed(moved)})
+        stories.append(
+            (
+                (Phrase("path", (letter, slide.key)), (Bar(q0, q, ""),)),
+                (Phrase("arc on path", (outer.point, letter, f"{radius:.2f}")), (Arc(p, radius, q),)),
+            )
+        )
+    return Meeting(gap, math.sqrt(max(gap, 0.0)), tuple(poses), tuple(stories))
+
+
+def rpr(frame: Frame, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
+    outer1, slide, outer2 = dyad.outer_first, dyad.inner, dyad.outer_second
+    assert isinstance(outer1, Turn)
+    assert isinstance(slide, Slide)
+    assert isinstance(outer2, Turn)
+    (p1, local1), (p2, local2) = hinge(frame, one, outer1), hinge(frame, two, outer2)
+    # the sliding body as seen from the guiding one, at travel 0
+    at_zero = across(slide, slide.a, two.rel[slide.b], 0.0, frame.mm)
+    turn = at_zero.axis * one.rel[slide.a].axis.conjugate()
+    g = two.rel[slide.b].axis * slide.guide.direction
+    c0 = at_zero.origin + turn * (local1 - one.rel[slide.a].origin) - local2
+    offset = cross(g, c0)  # of the pivot from the guide's parallel through the other pivot
+    if abs(offset) > 1e-9 * abs(c0):
+        offset = frame.instrument.compass(offset)
+    span = abs(p1 - p2)
+    size = max((abs(z) * frame.mm for link in frame.links.values() for z in link.points.values()), default=1.0)
+    gap = (span - abs(offset)) * (span + abs(offset)) / size**2
+    poses = []
+    stories: list[Story] = []
+    if gap >= 0.0 and span > 0.0:
+        half = math.sqrt((span - abs(offset)) * (span + abs(offset)))
+        for root in (half, -half):
+            reach = g * complex(root, offset)
+            axis2 = unit((p1 - p2) / reach)
+            pose2 = Pose(p2 - axis2 * local2, axis2)
+            axis1 = unit(axis2 * turn)
+            pose1 = Pose(p1 - axis1 * local1, axis1)
+            poses.append({**one.placed(pose1), **two.placed(pose2)})
+            letters = (outer2.point, outer1.point)
+            strokes: tuple[Stroke, ...]
+            if abs(offset) < 1e-9 * size:
+                strokes = (Bar(p2, p1, ""),)
+                stories.append(((Phrase("line of guide", (*letters, slide.key)), strokes),))
+            else:
+                foot = p1 - axis2 * g * root  # foot of the square from the pivot to the guide's parallel through P1
+                middle = (p1 + p2) / 2
+                strokes = (Arc(middle, span / 2, foot), Arc(p2, abs(offset), foot), Bar(foot, p1, ""))
+                stories.append(((Phrase("tangent", (*letters, f"{abs(offset):.2f}", slide.key)), strokes),))
+    return Meeting(gap, math.sqrt(max(gap, 0.0)), tuple(poses), tuple(stories))
+
+
+def prp(frame: Frame, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
+    slide1, slide2 = dyad.outer_first, dyad.outer_second
+    assert isinstance(slide1, Slide)
+    assert isinstance(slide2, Slide)
+    letter, inner1, inner2 = inner_hinge(frame, dyad, one, two)
+    (start1, step1), (start2, step2) = rail(frame, one, slide1), rail(frame, two, slide2)
+    q1, q2 = start1.origin + start1.axis * inner1, start2.origin + start2.axis * inner2
+
+    def placed(q: complex) -> dict[str, Pose]:
+        moved1 = Pose(start1.origin + (q - q1), start1.axis)
+        moved2 = Pose(start2.origin + (q - q2), start2.axis)
+        return {**one.placed(moved1), **two.placed(moved2)}
+
+    return _two_lines((q1, step1), (q2, step2), placed, Phrase("paths", (letter, slide1.key, slide2.key)))
+
+
+def rpp(frame: Frame, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
+    outer, inner, slide = dyad.outer_first, dyad.inner, dyad.outer_second
+    assert isinstance(outer, Turn)
+    assert isinstance(inner, Slide)
+    assert isinstance(slide, Slide)
+    p, local = hinge(frame, one, outer)
+    start, step = rail(frame, two, slide)
+    resting = two.placed(start)
+    sliding_first = inner.a in one.rel
+    mine, other = (inner.a, inner.b) if sliding_first else (inner.b, inner.a)
+    at_zero = across(inner, mine, resting[other], 0.0, frame.mm)
+    axis = unit(at_zero.axis * one.rel[mine].axis.conjugate())
+    pose1 = Pose(p - axis * local, axis)
+    guiding = resting if sliding_first else one.placed(pose1)
+    along = unit(guiding[inner.b].axis * inner.guide.direction)
+    # where the guiding side would have to be: the second body may shift by s * step, and along the guide
+    want = one.placed(pose1)[mine].origin - at_zero.origin
+
+    def placed(shift: complex) -> dict[str, Pose]:
+        return {**one.placed(pose1), **two.placed(Pose(start.origin + shift, start.axis))}
+
+    # shift = s * step = want - t * along
+    sine = cross(step, along)
+    if sine == 0.0:
+        return Meeting(0.0, 0.0, (), (), True)
+    shift = step * (cross(want, along) / sine)
+    base = p - want
+    strokes = (Bar(base, base + shift, ""), Bar(base + shift, p, ""))
+    story: Story = ((Phrase("slide to meet", (outer.point, slide.key, inner.key)), strokes),)
+    return Meeting(sine, abs(sine), (placed(shift),), (story,), True)
+
+
+def _two_lines(
+    one: tuple[complex, complex],
+    two: tuple[complex, complex],
+    placed: Callable[[complex], Mapping[str, Pose]],
+    phrase: Phrase,
+) -> Meeting:
+    sine = cross(one[1], two[1])
+    q = cross_lines(*one, *two)
+    if q is None:
+        return Meeting(0.0, 0.0, (), (), True)
+    story: Story = ((phrase, (Bar(one[0], q, ""), Bar(two[0], q, ""))),)
+    return Meeting(sine, abs(sine), (placed(q),), (story,), True)
+
+
+_MEETINGS: Mapping[str, Callable[[Frame, Dyad, RigidBody, RigidBody], Meeting]] = {
+    "RRR": rrr,
+    "RRP": rrp,
+    "RPR": rpr,
+    "PRP": prp,
+    "RPP": rpp,
+}
+
+
+def meet(frame: Frame, dyad: Dyad) -> Meeting:
+    """Draw the loci of a dyad and find where they meet."""
+    return _MEETINGS[dyad.kind](frame, dyad, RigidBody(frame, dyad.first), RigidBody(frame, dyad.second))

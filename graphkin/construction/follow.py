@@ -1,0 +1,178 @@
+"""From one position of a mechanism with larger groups to the next: trial drawings that start where the last ended."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterator, Mapping, Sequence
+
+from graphkin.construction.dyads import drive, meet
+from graphkin.construction.reduced_mechanism import StandIn, clusters, stand_ins
+from graphkin.construction.rigid import Frame
+from graphkin.construction.sheet import Pose
+from graphkin.errors import Problem, Unsolvable
+from graphkin.scene.model import AngleDriver, Scene
+from graphkin.structure import Driven, Dyad, Structure, analyse
+
+__all__ = ["best_stand", "followed", "trial_value"]
+
+STEP = math.radians(2.0)
+FIT = 1e-12  # what is left out fits, in the size of the mechanism
+SURPRISE = 1e-3  # so far from where it was expected a link may be found, in the size of the mechanism
+
+NUDGE = 1e-4  # of the trial driver, to see how the gap changes
+ROUNDS = 30
+
+Poses = Mapping[str, Pose]
+Table = Mapping[tuple[str, ...], Sequence[StandIn]]
+
+
+def followed(scene: Scene, own: Mapping[str, float], values: Mapping[str, float], poses: Poses) -> dict[str, Pose]:
+    last: Unsolvable | None = None
+    for target in _ways(scene, own, values):
+        try:
+            return _walk(scene, own, target, poses)
+        except Unsolvable as stop:
+            last = last or stop
+    assert last is not None
+    raise last
+
+
+def _ways(scene: Scene, own: Mapping[str, float], values: Mapping[str, float]) -> Iterator[dict[str, float]]:
+    yield dict(values)
+    around = dict(values)
+    for d in scene.drivers:
+        if isinstance(d, AngleDriver) and values[d.key] != own[d.key]:
+            around[d.key] = values[d.key] - math.copysign(2 * math.pi, values[d.key] - own[d.key])
+    if around != dict(values):
+        yield around
+
+
+def _walk(scene: Scene, own: Mapping[str, float], target: Mapping[str, float], start: Poses) -> dict[str, Pose]:
+    structure = analyse(scene)
+    table = {cluster.members: stand_ins(scene, cluster) for cluster in clusters(structure)}
+    length = max(
+        abs(target[d.key] - own[d.key]) / (1.0 if isinstance(d, AngleDriver) else scene.size) for d in scene.drivers
+    )
+    longest = 1.0 / max(1, math.ceil(length / STEP))
+    step = last = longest / 64  # nothing says yet where the links go
+    before, at, t = dict(start), dict(start), 0.0
+    while t < 1.0:
+        step = min(step, longest, 1.0 - t)
+        here = {k: own[k] + (t + step) * (target[k] - own[k]) for k in own}
+        guess = _ahead(before, at, step / last) if t > 0.0 else at
+        found = _settled(scene, structure, table, here, guess)
+        if found is None or _moved(guess, found) > SURPRISE + _moved(at, found) * (0.3 if t > 0.0 else 0.0):
+            step /= 2
+            if step < longest / 1e5:
+                raise Unsolvable("not assembled", Problem("driver", "the motion does not reach these values"))
+            continue
+        before, at, t, last = at, found, (1.0 if step >= 1.0 - t else t + step), step
+        step *= 2
+    return at
+
+
+def _ahead(before: Poses, at: Poses, times: float) -> dict[str, Pose]:
+    """The next position if everything went on as in the last step."""
+    made = {}
+    for name, pose in at.items():
+        old = before[name]
+        turn = pose.axis / old.axis
+        axis = pose.axis * cmath.rect(1.0, cmath.phase(turn) * times)
+        made[name] = Pose(pose.origin + (pose.origin - old.origin) * times, axis / abs(axis))
+    return made
+
+
+def _moved(one: Poses, other: Poses) -> float:
+    return max(abs(p.origin - other[n].origin) + abs(p.axis - other[n].axis) for n, p in one.items())
+
+
+def _settled(
+    scene: Scene, structure: Structure, table: Table, values: Mapping[str, float], guess: Poses
+) -> dict[str, Pose] | None:
+    """All links at driver values near which a position is guessed; None where nothing fits near by."""
+    frame = Frame(structure.links, 1.0 / scene.size, values, {scene.frame.name: Pose(0j, 1 + 0j)})
+    for element in structure.elements:
+        if isinstance(element, Driven):
+            frame.poses[element.link], _ = drive(frame, element)
+            continue
+        near = _nearest(frame, element, guess) if isinstance(element, Dyad) else _fitted(
+            table[element.members], frame, guess)
+        if near is None:
+            return None
+        frame.poses.update(near)
+    return dict(frame.poses)
+
+
+def _nearest(frame: Frame, dyad: Dyad, guess: Poses) -> Poses | None:
+    """The assembly of a dyad that lies nearest to a guess."""
+    meeting = meet(frame, dyad)
+    if not meeting.poses:
+        return None
+    return min(
+        meeting.poses,
+        key=lambda poses: sum(abs(p.origin - guess[n].origin) ** 2 + abs(p.axis - guess[n].axis) ** 2
+                              for n, p in poses.items()),
+    )  # fmt: skip
+
+
+def _fitted(stands: Sequence[StandIn], known: Frame, guess: Poses) -> dict[str, Pose] | None:
+    """A larger group near a guess: the trial value by proportional division of two gaps, again and again (secant)."""
+    stand = best_stand(stands, known, guess)
+    if stand is None:
+        return None
+    value = trial_value(stand, guess, known.mm)
+    other = value + NUDGE
+    one, two = _drawn(stand, known, guess, value), _drawn(stand, known, guess, other)
+    for _ in range(ROUNDS):
+        if one is None or two is None:
+            return None
+        gap, new = stand.gap(one), stand.gap(two)
+        if abs(new) >= abs(gap) and abs(gap) < FIT:
+            return stand.put_back(one)
+        if new == 0.0 or gap == new:
+            break
+        step = new * (other - value) / (gap - new)
+        if abs(step) > 1.0:
+            return None
+        value, one = other, two
+        other += step
+        two = _drawn(stand, known, guess, other)
+    return stand.put_back(two) if two is not None and abs(stand.gap(two)) < FIT else None
+
+
+def _drawn(stand: StandIn, known: Frame, guess: Poses, value: float) -> Frame | None:
+    """A trial drawing of a group, each dyad in the assembly nearest to a guess."""
+    frame = stand.opened(known, value)
+    for element in stand.elements:
+        if isinstance(element, Driven):
+            frame.poses[element.link], _ = drive(frame, element)
+            continue
+        near = _nearest(frame, element, guess)
+        if near is None:
+            return None
+        frame.poses.update(near)
+    return frame
+
+
+def best_stand(stands: Sequence[StandIn], known: Frame, guess: Poses) -> StandIn | None:
+    """The stand-in that finds the group best: a small gap means a small error of every link, and no link outruns the
+    trial driver by much.  None where all are at dead points."""
+    best: tuple[float, StandIn] | None = None
+    for stand in stands:
+        value = trial_value(stand, guess, known.mm)
+        one, two = _drawn(stand, known, guess, value - NUDGE), _drawn(stand, known, guess, value + NUDGE)
+        if one is None or two is None:
+            continue
+        group = {n: pose for n, pose in one.poses.items() if n in stand.cluster.members}
+        grown = max(_moved(group, two.poses), 1e-12)
+        quality = abs(stand.gap(two) - stand.gap(one)) / grown * min(1.0, 2 * NUDGE / grown)
+        if best is None or quality > best[0]:
+            best = quality, stand
+    return best[1] if best else None
+
+
+def trial_value(stand: StandIn, poses: Poses, mm: float) -> float:
+    """The trial driver's value in a position (rad, m)."""
+    turned, travel = stand.value(poses, mm)
+    return travel if turned is None else cmath.phase(turned)

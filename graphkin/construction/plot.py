@@ -1,0 +1,180 @@
+"""One pair of polygons as it grows: end points, measured rates, names, and points found by image.
+
+Images after Mehmke: the end points of a link's points form a figure similar to the link, turned the same way.
+"""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from graphkin.construction.board import Board
+from graphkin.construction.equations import node
+from graphkin.construction.rigid import Frame
+from graphkin.construction.sheet import Bar, Image, Mark, Rate, Scales, Stroke, Vector
+from graphkin.construction.slip import NO_SLIP, Slip
+from graphkin.plane import cross, dot
+from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.structure import Slide, Structure
+from graphkin.words import Phrase
+
+__all__ = ["ZERO_MM", "Order", "Plot", "letter"]
+
+ZERO_MM = 1e-7  # a vector shorter than this is no vector on paper
+Order = Literal["velocity", "acceleration"]
+
+
+class Plot:
+    """What stands in the velocity and the acceleration polygon of one position."""
+
+    def __init__(
+        self, board: Board, structure: Structure, frame: Frame, scales: Scales, slip: Slip = NO_SLIP
+    ) -> None:
+        self.board, self.structure, self.frame, self.scales, self.slip = board, structure, frame, scales, slip
+        self.believed: set[tuple[Order, str]] = set()  # rates of links that a slip has put in place of the measured
+        self.links = structure.links
+        self.ground = structure.scene.frame.name
+        fixed = {PointRef(p): 0j for p in self.links[self.ground].points}
+        self.ends: dict[Order, dict[PointRef, complex]] = {"velocity": dict(fixed), "acceleration": dict(fixed)}
+        self.rates: dict[Order, dict[str, Rate]] = {
+            "velocity": {self.ground: Rate(self.ground, 0.0)},
+            "acceleration": {self.ground: Rate(self.ground, 0.0)},
+        }
+        self.still = self._never_turning()
+        self.drawn: dict[Order, dict[Symbol, Vector]] = {"velocity": {}, "acceleration": {}}
+        self.places = {point: frame.point(name, point) for name in frame.poses for point in self.links[name].points}
+        size = max((abs(z - w) for z in self.places.values() for w in self.places.values()), default=1.0)
+        self.tiny = 1e-9 * size
+        self.block_of = {p.key: p.of for p in structure.scene.pins}
+
+    def label(self, ref: PointRef) -> PointRef:
+        """A node as it is written: the block of a pin in a slot bears the name of the pin's link."""
+        return PointRef(ref.point, self.block_of[ref.link]) if ref.link in self.block_of else ref
+
+    def guide_names(self, slide: Slide) -> tuple[str, ...]:
+        """How the direction of a guide is written: by two letters on it, else by its name."""
+        start = self.frame.place(slide.b, slide.guide.through)
+        along = self.frame.poses[slide.b].axis * slide.guide.direction
+        on = [
+            (dot(z - start, along), p)
+            for p, z in self.places.items()
+            if p in self.links[slide.b].points and abs(cross(z - start, along)) < 1e3 * self.tiny
+        ]
+        pin = slide.pin
+        if pin and pin in self.places:
+            others = [(s, p) for s, p in sorted(on) if p != pin and abs(self.places[p] - self.places[pin]) > self.tiny]
+            if others:
+                return others[0][1], pin
+        if len(on) > 1:
+            return min(on)[1], max(on)[1]
+        return (slide.guide.name or f"x{slide.b}",)
+
+    def fixed(self, ref: PointRef) -> bool:
+        """Whether a node is a point of the frame."""
+        return ref.link == self.ground or (not ref.link and ref.point in self.links[self.ground].points)
+
+    def _never_turning(self) -> set[str]:
+        """Links that slide on the frame, or on such links, and so can only translate."""
+        still = {self.ground}
+        grown = True
+        while grown:
+            grown = False
+            for s in self.structure.slides:
+                if len({s.a, s.b} & still) == 1:
+                    still |= {s.a, s.b}
+                    grown = True
+        return still
+
+    def measured(self, arm: complex) -> float:
+        """A length of the mechanism (m), read off the drawing."""
+        return self.board.instrument.read(abs(arm)) * self.scales.length
+
+    def end(self, order: Order, ref: PointRef) -> complex:
+        """The end point of a node, found by image if it does not stand there yet; the pole for a fixed point."""
+        if self.fixed(ref):
+            return 0j
+        if ref not in self.ends[order]:
+            self.place(order, ref)
+        return self.ends[order][ref]
+
+    def record(self, order: Order, vector: Vector, phrase: Phrase, equation: int | None, *more: Stroke) -> None:
+        """Put a vector into a polygon, with the step that drew it."""
+        self.drawn[order][vector.symbol] = vector
+        self.board.do(order, phrase, vector, *more, equation=equation)
+
+    def reach(self, order: Order, ref: PointRef, at: complex, equation: int | None) -> None:
+        """Name an end point, and draw the vector to it from the pole."""
+        if ref in self.ends[order]:
+            return
+        self.ends[order][ref] = at
+        mark = Mark(self.label(ref), at)
+        symbol = Symbol(letter(order), self.label(ref))
+        if symbol in self.drawn[order]:
+            self.board.do(order, Phrase("name", (mark.ref,)), mark, equation=equation)
+            return
+        self.record(order, Vector(symbol, 0j, at, "resultant"), Phrase("resultant", (symbol,)), equation, mark)
+
+    def complete(self, order: Order, name: str) -> None:
+        """All points of a link, and the points of it under sliding pins."""
+        for point in self.links[name].points:
+            self.place(order, PointRef(point))
+        for s in self.structure.slides:
+            if s.pin and s.pin in self.places and s.b == name and "/" not in name:
+                self.place(order, node(self.links, s.pin, name))
+
+    def place(self, order: Order, ref: PointRef) -> None:
+        """Find the end point of any point of a link whose motion is known, by image."""
+        ends = self.ends[order]
+        if ref in ends or self.fixed(ref):
+            return
+        owners = [ref.link] if ref.link else [n for n, k in self.links.items() if ref.point in k.points]
+        name = next(n for n in owners if n in self.rates[order])
+        here = self.places[ref.point]
+        refs = [r for r in ends if self._on(r, name)]
+        if name in self.still:
+            self._reach_by(order, ref, ends[refs[0]], Phrase("translates", (name,)))
+            return
+        same = [r for r in refs if abs(self.places[r.point] - here) <= self.tiny]
+        if same:
+            self._reach_by(order, ref, ends[same[0]], Phrase("same place", (self.label(ref), self.label(same[0]))))
+            return
+        a, b = max(
+            ((a, b) for a in refs for b in refs),
+            key=lambda ab: abs(self.places[ab[0].point] - self.places[ab[1].point]),
+        )
+        bar = self.places[b.point] - self.places[a.point]
+        if abs(bar) <= self.tiny or (order, name) in self.believed:
+            start = refs[0]  # a fixed point, if the link has one
+            at = self._by_rates(order, ends[start], here - self.places[start.point], name)
+            self._reach_by(order, ref, at, Phrase("by rate", (self.label(ref), self.label(start), name)))
+            return
+        ratio = (here - self.places[a.point]) / bar
+        at = self.board.instrument.point(ends[a] + (ends[b] - ends[a]) * ratio)
+        names = (self.label(ref), self.label(a), self.label(b), name)
+        if abs(ratio.imag) < 1e-9:
+            self._reach_by(order, ref, at, Phrase("division", names), Bar(ends[a], at, name))
+        else:
+            image = Image(name, (ends[a], ends[b], at))
+            self._reach_by(order, ref, at, Phrase("image", names), image)
+
+    def _reach_by(self, order: Order, ref: PointRef, at: complex, phrase: Phrase, *strokes: Stroke) -> None:
+        symbol = Symbol(letter(order), self.label(ref))
+        at = self.slip.found(symbol, 0j, at)
+        self.ends[order][ref] = at
+        mark = Mark(self.label(ref), at)
+        self.record(order, Vector(symbol, 0j, at, "resultant"), phrase, None, mark, *strokes)
+
+    def _on(self, ref: PointRef, name: str) -> bool:
+        return ref.link == name or (not ref.link and ref.point in self.links[name].points)
+
+    def _by_rates(self, order: Order, start: complex, arm: complex, name: str) -> complex:
+        """From one end point to another of the same link by its measured rates."""
+        omega = self.rates["velocity"][name].value
+        if order == "velocity":
+            return start + 1j * omega * arm * (self.scales.length / self.scales.velocity)
+        alpha = self.rates["acceleration"][name].value
+        return start + (1j * alpha - omega**2) * arm * (self.scales.length / self.scales.acceleration)
+
+
+def letter(order: Order) -> str:
+    """v or a."""
+    return "v" if order == "velocity" else "a"

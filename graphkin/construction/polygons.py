@@ -1,0 +1,274 @@
+"""Velocity and acceleration polygons: equations drawn, rates measured, the rest by images.
+
+The position stands on paper already.  Every size is either given, or measured on what was drawn before: normal
+components from lengths in the velocity polygon, Coriolis components from a measured angular velocity and a measured
+sliding velocity (Sun Huan, Mechanical Principles, ch. 3; Norton, Design of Machinery, ch. 6 and 7).
+"""
+
+from __future__ import annotations
+
+from graphkin.construction.board import Board
+from graphkin.construction.equations import Chain, Edge, equation_of, node
+from graphkin.construction.plot import ZERO_MM, Order, Plot, letter
+from graphkin.construction.rigid import Frame
+from graphkin.construction.sheet import Bar, Direction, Equation, Mark, Rate, Ray, Scales, Term, Vector
+from graphkin.construction.slip import NO_SLIP, Slip
+from graphkin.construction.terms import Part, bar, parts_of, symbol_of, turn_sign
+from graphkin.errors import Problem, Unsolvable
+from graphkin.plane import cross
+from graphkin.scene.model import AngleDriver
+from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.structure import Driven, Dyad, Slide, Structure, Turn, links_of
+from graphkin.words import Phrase
+
+__all__ = ["Polygons"]
+
+_Side = list[tuple[Edge, list[Part]]]
+
+
+class Polygons(Plot):
+    """Both polygons of one position, drawn element by element in the order of solution."""
+
+    def __init__(
+        self, board: Board, structure: Structure, frame: Frame, scales: Scales, slip: Slip = NO_SLIP
+    ) -> None:
+        super().__init__(board, structure, frame, scales, slip)
+        self.chains: dict[Dyad, Chain] = {}
+
+    def draw(self, order: Order, element: Driven | Dyad) -> None:
+        """Draw what an element adds to a polygon."""
+        if isinstance(element, Driven):
+            self._driven(order, element)
+        else:
+            self._dyad(order, element)
+        for name in links_of(element):
+            self.complete(order, name)
+
+    def _driven(self, order: Order, element: Driven) -> None:
+        name, driver, pair = element.link, element.driver, element.pair
+        which = 1 if order == "velocity" else 2
+        rate = driver.values[which]
+        if isinstance(driver, AngleDriver):
+            other, sign = (driver.relative_to, 1) if driver.link == name else (driver.link, -1)
+            base = self.rates[order][other].value
+            self.rates[order][name] = Rate(name, base + sign * rate)
+            assert isinstance(pair, Turn)
+            pivot = PointRef(pair.point)
+            far = [
+                PointRef(p)
+                for p in self.links[name].points
+                if abs(self.places[p] - self.places[pair.point]) > self.tiny
+            ]
+            if far:
+                edge = Edge(pivot, far[0], (pivot, far[0]), Direction("square", (pivot.point, far[0].point)), link=name)
+                self._lay_off(order, (edge,), element)
+            return
+        assert isinstance(pair, Slide)
+        known = pair.b if name == pair.a else pair.a
+        self._share_rate(order, known, name)
+        point = pair.pin or next(iter([*self.links[name].points, *self.places]), "")
+        if point:
+            edge = self._slide_edge(pair, point)
+            self._lay_off(order, (edge if name == pair.a else edge.reversed(),), element)
+
+    def _slide_edge(self, slide: Slide, point: str) -> Edge:
+        a, b = node(self.links, point, slide.a), node(self.links, point, slide.b)
+        labels = (PointRef(point, slide.b), PointRef(point, slide.a))
+        return Edge(b, a, labels, Direction("along", self.guide_names(slide)), slide=slide)
+
+    def _dyad(self, order: Order, dyad: Dyad) -> None:
+        if dyad not in self.chains:
+            self.chains[dyad] = self._find(dyad)
+        chain = self.chains[dyad]
+        self._known_turns(order, dyad)
+        number = len(self.board.equations) + 1
+        sides = [self._side(order, chain.left), self._side(order, chain.right)]
+        terms = [self._terms(order, side) for side in sides]
+        if len(terms[0]) != 1 or terms[0][0].symbol != Symbol(letter(order), self.label(chain.middle)):
+            head = Term(Symbol(letter(order), self.label(chain.middle)), False, False)
+            terms.insert(0, (head,))
+        self.board.equations.append(Equation(number, order, tuple(terms), dyad))
+        self._cross(order, chain, sides, number)
+        for edges in (chain.left, chain.right):
+            for edge in edges:
+                self._measure(order, edge, dyad)
+
+    def _find(self, dyad: Dyad) -> Chain:
+        slides = [p for p in (dyad.outer_first, dyad.inner, dyad.outer_second) if isinstance(p, Slide)]
+        slides += [w.pair for body in dyad.bodies for w in body.welds if isinstance(w.pair, Slide)]
+        chain = equation_of(
+            self.links,
+            self.ground,
+            dyad,
+            self.places,
+            {s.key: self.guide_names(s) for s in slides},
+            self.ends["velocity"],
+            _same_turn(dyad),
+            self.tiny,
+        )
+        if chain is None:
+            # every dyad has an equation with two unknowns, but its points must be apart on the sheet
+            names = ", ".join(dyad.links)
+            raise Unsolvable(
+                "not drawn",
+                Problem(f"links {names}", "points of theirs fall together on any sheet that shows the whole mechanism"),
+            )
+        return chain
+
+    def _known_turns(self, order: Order, dyad: Dyad) -> None:
+        """Links that share their rotation with one already known."""
+        for name, other in _same_turn(dyad).items():
+            if other in self.rates[order] and name not in self.rates[order]:
+                self._spread(order, other, dyad)
+
+    def _share_rate(self, order: Order, known: str, name: str, add: float = 0.0) -> None:
+        rate = self.rates[order][known]
+        self.rates[order][name] = Rate(name, rate.value + add, rate.vector, rate.mm, rate.arm_mm, rate.same_as or known)
+
+    def _spread(self, order: Order, start: str, dyad: Dyad) -> None:
+        """From one known rotation to those of all links that slide on each other or are held by drivers."""
+        which = 1 if order == "velocity" else 2
+        pairs: list[tuple[str, str, float]] = []
+        for pair in (dyad.outer_first, dyad.inner, dyad.outer_second):
+            if isinstance(pair, Slide):
+                pairs.append((pair.a, pair.b, 0.0))
+        for w in (w for body in dyad.bodies for w in body.welds):
+            pairs.append((w.a, w.b, 0.0 if isinstance(w.pair, Slide) else turn_sign(w) * w.driver.values[which]))
+        queue = [start]
+        while queue:
+            at = queue.pop(0)
+            for a, b, add in pairs:
+                for known, new, more in ((a, b, add), (b, a, -add)):
+                    if known == at and new not in self.rates[order]:
+                        self._share_rate(order, at, new, more)
+                        queue.append(new)
+
+    def _side(self, order: Order, edges: tuple[Edge, ...]) -> _Side:
+        return [(edge, [self.slip.term(part) for part in parts_of(self, order, edge)]) for edge in edges]
+
+    def _terms(self, order: Order, side: _Side) -> tuple[Term, ...]:
+        start = side[0][0].start
+        terms = []
+        if not self.fixed(start):
+            terms.append(Term(Symbol(letter(order), self.label(start)), True, True))
+        terms += [Term(p.symbol, p.span is not None, True, p.size, p.written) for _, parts in side for p in parts]
+        return tuple(terms)
+
+    def _lay_off(self, order: Order, edges: tuple[Edge, ...], element: Driven) -> None:
+        """An equation without unknowns: the vectors are laid off one after the other."""
+        number = len(self.board.equations) + 1
+        side = self._side(order, edges)
+        middle = edges[-1].end
+        terms = [self._terms(order, side)]
+        whole = Symbol(letter(order), self.label(middle))
+        if len(terms[0]) != 1 or terms[0][0].symbol != whole:
+            terms.insert(0, (Term(whole, False, False),))
+        self.board.equations.append(Equation(number, order, tuple(terms), element))
+        at = self.end(order, edges[0].start)
+        for part in (p for _, parts in side for p in parts):
+            at = self._vector(order, part, at, number)
+        self.reach(order, middle, at, number)
+
+    def _vector(self, order: Order, part: Part, at: complex, equation: int) -> complex:
+        """Lay off a known vector."""
+        assert part.span is not None
+        size = abs(part.span)
+        tip = at
+        if size > 0.0:
+            hand = self.board.instrument
+            tip = hand.point(at + hand.direction(part.span / size) * hand.length(size))
+        vector = Vector(part.symbol, at, tip, part.role)
+        if size < ZERO_MM:
+            phrase = Phrase("zero vector", (part.symbol,))
+            self.board.note(phrase)
+        else:
+            key = {"normal": "lay off normal", "coriolis": "lay off coriolis"}.get(part.role, "lay off")
+            phrase = Phrase(key, (part.symbol, part.size, f"{size:.2f}", part.written))
+        self.record(order, vector, phrase, equation)
+        return tip
+
+    def _cross(self, order: Order, chain: Chain, sides: list[_Side], equation: int) -> None:
+        """Draw both sides of an equation up to their unknowns, and let these meet."""
+        starts, lines = [], []
+        for side in sides:
+            parts = [p for _, found in side for p in found]
+            open_at = next(i for i, p in enumerate(parts) if p.span is None)
+            at = self.end(order, side[0][0].start)
+            for part in parts[:open_at]:
+                at = self._vector(order, part, at, equation)
+            carried = 0j
+            for part in parts[open_at + 1 :]:
+                # known terms behind the unknown one are added first, and put in their place afterwards
+                assert part.span is not None
+                self.board.do(order, Phrase("carry", (part.symbol,)), Bar(at, at + part.span, ""), equation=equation)
+                at += part.span
+                carried += part.span
+            starts.append((at, carried))
+            lines.append(parts[open_at])
+        what = f"{letter(order)}_{self.label(chain.middle)}"
+        (p, _), (q, _) = starts
+        left, right = lines
+        meeting = self.board.cross(p, left.along, q, right.along, what)
+        meeting = self.slip.found(Symbol(letter(order), self.label(chain.middle)), 0j, meeting)
+        for start, part in ((p, left), (q, right)):
+            ray = Ray(start, part.along, meeting, part.written, part.symbol)
+            self.board.do(order, Phrase("direction", (part.symbol, part.written)), ray, equation=equation)
+        mark = Mark(self.label(chain.middle), meeting)
+        self.board.do(order, Phrase("meet", (mark.ref,)), mark, equation=equation)
+        for side, (start, carried) in zip(sides, starts, strict=True):
+            self._fill(order, side, meeting - carried, start - carried, equation)
+        self.reach(order, chain.middle, meeting, equation)
+
+    def _fill(self, order: Order, side: _Side, tip: complex, tail: complex, equation: int) -> None:
+        """Draw the unknown vector of a side, now found, and the end points along the side."""
+        at = self.end(order, side[0][0].start)
+        for edge, parts in side:
+            for part in parts:
+                if part.span is None:
+                    found = Vector(part.symbol, tail, self.slip.found(part.symbol, tail, tip), part.role)
+                    if abs(found.span) < ZERO_MM:
+                        self.board.note(Phrase("zero vector", (part.symbol,)))
+                    self.record(order, found, Phrase("found", (part.symbol, f"{abs(found.span):.2f}")), equation)
+                    at = tip
+                else:
+                    if part.symbol not in self.drawn[order]:
+                        moved = Vector(part.symbol, at, at + part.span, part.role)
+                        self.record(order, moved, Phrase("put back", (part.symbol,)), equation)
+                    at = self.drawn[order][part.symbol].tip
+            if edge is not side[-1][0]:
+                self.reach(order, edge.end, at, equation)
+
+    def _measure(self, order: Order, edge: Edge, dyad: Dyad) -> None:
+        """Angular velocity or acceleration from the vector just found."""
+        if not edge.link or not edge.unknown or edge.link in self.rates[order]:
+            return
+        kind = "v" if order == "velocity" else "at"
+        symbol = symbol_of(self, kind, edge)
+        vector = self.drawn[order][symbol]
+        arm = self.places[edge.end.point] - self.places[edge.start.point]
+        read = self.board.instrument.read(abs(vector.span))
+        size = abs(read) * self.scales.of(order) / self.measured(arm)
+        sense = 1.0 if cross(arm, vector.span) >= 0 else -1.0
+        key = "omega" if order == "velocity" else "alpha"
+        own = self.slip.rate(Symbol(key, link=edge.link), sense * size)
+        if own is not None:
+            self.believed.add((order, edge.link))
+        self.rates[order][edge.link] = Rate(
+            edge.link, sense * size if own is None else own, symbol, abs(read), abs(arm)
+        )
+        turning = "ccw" if sense > 0 else "cw"
+        self.board.do(order, Phrase(f"{key} {turning}", (edge.link, symbol, bar(edge), f"{size:.6g}")))
+        self._spread(order, edge.link, dyad)
+
+
+def _same_turn(dyad: Dyad) -> dict[str, str]:
+    """For each link of a dyad one link with the same rotation but for given ones: a known one if there is any."""
+    inside = [n for body in dyad.bodies for n in body.links]
+    groups = {n: {n} for n in inside}
+    joins = [(p.a, p.b) for p in (dyad.outer_first, dyad.inner, dyad.outer_second) if isinstance(p, Slide)]
+    joins += [(w.a, w.b) for body in dyad.bodies for w in body.welds]
+    for a, b in joins:
+        merged = groups.get(a, {a}) | groups.get(b, {b})
+        for n in merged:
+            groups[n] = merged
+    return {n: next((m for m in sorted(groups[n]) if m not in inside), min(groups[n])) for n in inside}

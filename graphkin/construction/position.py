@@ -1,0 +1,329 @@
+"""The mechanism on paper: every link placed by compass and ruler, in the order of solution.
+
+The position as it is drawn, step by step: how each link was placed, and in which assembly.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphkin.construction.board import EXACT, Board, Instrument
+from graphkin.construction.dyads import Meeting, drive, meet
+from graphkin.construction.rigid import Frame
+from graphkin.construction.sheet import Mark, Pose
+from graphkin.errors import Problem, Unsolvable
+from graphkin.scene.model import AngleDriver, Driver, Scene
+from graphkin.scene.symbol import PointRef
+from graphkin.structure import Driven, Dyad, Element, Structure, Turn, links_of, pick
+from graphkin.structure.assembly import follow
+from graphkin.words import Phrase
+
+__all__ = ["DEAD", "Position", "branches_at", "draw_position", "place"]
+
+DEAD = 1e-7  # sine of a crossing below which a group is at a dead point
+TURNS = 720  # positions looked at on the way round
+Branches = Mapping[int, int]  # by place of the element: 0 the default assembly, 1 the other
+Placed = dict[float, tuple[int, dict[str, Pose]]]
+
+
+@dataclass(frozen=True)
+class Position:
+    """The links placed, and how each dyad was found."""
+
+    frame: Frame
+    meetings: Mapping[int, Meeting]
+    causes: Sequence[tuple[int, Phrase]] = ()  # acts of the hand up to which each link reaches
+
+
+def place(
+    structure: Structure,
+    elements: Sequence[Element],
+    mm: float,
+    values: Mapping[str, float],
+    branches: Branches,
+    instrument: Instrument = EXACT,
+) -> Position:
+    """Place the links of the elements at some driver values.
+
+    Parameters
+    ----------
+    mm : mm of paper for one m
+    values : driver values (rad, m)
+    branches : which of its assemblies each dyad takes
+    instrument : what draws
+
+    Raises
+    ------
+    Unsolvable
+        the loci of a dyad miss each other ("not assembled") or only touch ("dead point")
+    """
+    frame = _start(structure, mm, values, instrument)
+    meetings: dict[int, Meeting] = {}
+    causes = [(instrument.acts, Phrase("placing", (structure.scene.frame.name,)))]
+    for i, element in enumerate(elements):
+        if isinstance(element, Driven):
+            frame.poses[element.link], _ = drive(frame, element)
+            frame.settle([element.link])
+            causes.append((instrument.acts, Phrase("placing", (element.link,))))
+        elif isinstance(element, Dyad):
+            meeting = meet(frame, element)
+            _refuse(element, meeting)
+            meetings[i] = meeting
+            poses = meeting.poses[branches.get(i, 0) % len(meeting.poses)]
+            frame.poses.update(poses)
+            frame.settle(list(poses))
+            causes.append((instrument.acts, Phrase("placing", (", ".join(element.links),))))
+    return Position(frame, meetings, causes)
+
+
+def _start(structure: Structure, mm: float, values: Mapping[str, float], instrument: Instrument = EXACT) -> Frame:
+    """The empty sheet with the fixed points pricked."""
+    ground = structure.scene.frame.name
+    frame = Frame(structure.links, mm, values, {ground: Pose(0j, 1 + 0j)}, instrument)
+    if not instrument.faultless:
+        frame.pricked.update({p: instrument.point(z * mm) for p, z in structure.links[ground].points.items()})
+    return frame
+
+
+def _refuse(element: Dyad, meeting: Meeting) -> None:
+    names = ", ".join(element.links)
+    if meeting.gap < -1e-14 and not meeting.two_lines:
+        raise Unsolvable(
+            "not assembled",
+            Problem(
+                f"links {names}",
+                f"the two loci of the {element.kind} group do not meet here",
+                "choose a driver value at which the mechanism can be assembled",
+            ),
+        )
+    if not meeting.poses or meeting.sine < DEAD:
+        raise Unsolvable(
+            "dead point",
+            Problem(
+                f"links {names}",
+                f"the {element.kind} group stands at a dead point, its loci only touch",
+                "move the driver off this position",
+            ),
+        )
+
+
+def branches_at(structure: Structure, elements: Sequence[Element], values: Mapping[str, float]) -> dict[int, int]:
+    """The assembly of each dyad at some driver values.
+
+    It is chosen once, at the scene's own position, and followed from there without a jump; where the straight way is
+    barred the other way round is tried.
+
+    Raises
+    ------
+    Unsolvable
+        status "not assembled": the motion does not reach the values; the message gives the limit
+    """
+    own = {d.key: d.values[0] for d in structure.scene.drivers}
+    chosen = _choose(structure, elements, own)
+    if all(values[k] == v for k, v in own.items()):
+        return chosen
+    limits = []
+    for target in _ways(structure.scene.drivers, own, values):
+        branches, limit = _follow(structure, elements, own, target, chosen)
+        if limit is None:
+            return branches
+        limits.append({k: own[k] + limit * (target[k] - own[k]) for k in own})
+    raise Unsolvable("not assembled", _out_of_reach(structure.scene, values, limits))
+
+
+def _choose(structure: Structure, elements: Sequence[Element], own: Mapping[str, float]) -> dict[int, int]:
+    scene = structure.scene
+    mm = 1.0 / scene.size
+    frame = _start(structure, mm, own)
+    chosen: dict[int, int] = {}
+    for i, element in enumerate(elements):
+        if isinstance(element, Driven):
+            frame.poses[element.link], _ = drive(frame, element)
+        elif isinstance(element, Dyad):
+            meeting = meet(frame, element)
+            _refuse(element, meeting)
+            placed = {p for name in frame.poses for p in structure.links[name].points}
+            candidates = []
+            for poses in meeting.poses:
+                trial = Frame(frame.links, mm, own, {**frame.poses, **poses})
+                fresh = [(n, p) for n in poses for p in structure.links[n].points if p not in placed]
+                candidates.append({p: trial.point(n, p) / mm for n, p in fresh})
+            chosen[i] = pick(scene, element.links, candidates, 0).index
+            frame.poses.update(meeting.poses[chosen[i]])
+    return chosen
+
+
+def _ways(drivers: Sequence[Driver], own: Mapping[str, float], values: Mapping[str, float]) -> list[dict[str, float]]:
+    """The straight way, whole turns left out, and for angles the other way round."""
+    straight: dict[str, float] = {}
+    around: dict[str, float] = {}
+    for d in drivers:
+        way = values[d.key] - own[d.key]
+        turns = isinstance(d, AngleDriver) and way != 0.0
+        if turns and abs(way) > 2 * math.pi:
+            way = math.remainder(way, 2 * math.pi)
+        straight[d.key] = own[d.key] + way
+        around[d.key] = straight[d.key] - (math.copysign(2 * math.pi, way) if turns else 0.0)
+    return [straight] if around == straight else [straight, around]
+
+
+def _follow(
+    structure: Structure,
+    elements: Sequence[Element],
+    own: Mapping[str, float],
+    target: Mapping[str, float],
+    chosen: Mapping[int, int],
+) -> tuple[dict[int, int], float | None]:
+    """Branches at the end of a straight path of driver values, or where it is barred (0 .. 1)."""
+    turn = max(abs(target[k] - own[k]) for k in own)
+    grid = np.linspace(0.0, 1.0, max(9, math.ceil(TURNS * min(turn / (2 * math.pi), 2.0)) + 1))
+    signs: dict[int, NDArray[np.float64]] = {}
+    placed: Placed = {}
+    branches = dict(chosen)
+    for i, element in enumerate(elements):
+        if not isinstance(element, Dyad):
+            continue
+
+        def gaps(ts: NDArray[np.float64], last: int = i) -> NDArray[np.float64]:
+            return np.array(
+                [_gap(structure, elements[: last + 1], own, target, chosen, signs, placed, float(t)) for t in ts]
+            )
+
+        start = gaps(np.zeros(1))[0]
+        lines = meet_is_lines(element)
+        way = math.copysign(1.0, start) if lines else 1.0
+        passage = follow(lambda t, way=way, gaps=gaps: way * gaps(t), grid, flips=not lines)  # type: ignore[misc]
+        if passage.limit is not None:
+            return branches, passage.limit
+        signs[i] = passage.flips
+        branches[i] = chosen[i] if passage.sign(np.ones(1))[0] > 0 else 1 - chosen[i]
+    return branches, None
+
+
+def meet_is_lines(element: Dyad) -> bool:
+    """Whether the group is found by two straight lines, and so in one way only."""
+    return element.kind in ("PRP", "RPP")
+
+
+def _gap(
+    structure: Structure,
+    elements: Sequence[Element],
+    own: Mapping[str, float],
+    target: Mapping[str, float],
+    chosen: Mapping[int, int],
+    flips: Mapping[int, NDArray[np.float64]],
+    placed: Placed,
+    t: float,
+) -> float:
+    """How well the loci of the last element cross at a place of the path.
+
+    ``placed`` keeps how many elements stand at a place of the path, and their links, for those that come after.
+    """
+    frame = _start(structure, 1.0 / structure.scene.size, {k: own[k] + t * (target[k] - own[k]) for k in own})
+    first, poses = placed.get(t, (0, {}))
+    frame.poses.update(poses)
+    gap = -1.0
+    for i, element in enumerate(elements[first:], first):
+        if i == len(elements) - 1:
+            placed[t] = i, dict(frame.poses)
+        if isinstance(element, Driven):
+            frame.poses[element.link], _ = drive(frame, element)
+        elif isinstance(element, Dyad):
+            meeting = meet(frame, element)
+            gap = meeting.gap
+            if not meeting.poses:
+                return gap
+            flipped = int(np.searchsorted(flips[i], t)) % 2 if i in flips else 0
+            frame.poses.update(meeting.poses[(chosen[i] + flipped) % len(meeting.poses)])
+    return gap
+
+
+def _out_of_reach(scene: Scene, values: Mapping[str, float], limits: Sequence[Mapping[str, float]]) -> Problem:
+    def shown(key: str, value: float) -> str:
+        driver = next(d for d in scene.drivers if d.key == key)
+        if isinstance(driver, AngleDriver):
+            return f"{math.degrees(value):.6f} deg"
+        return f"{value / scene.units.metres:.6f} {scene.units.length}"
+
+    key = scene.drivers[0].key
+    ends = sorted(limit[key] for limit in limits)
+    asked = ", ".join(f"{k} at {shown(k, v)}" for k, v in values.items())
+    reach = " and ".join(shown(key, v) for v in ends)
+    word = "between" if len(ends) > 1 else "up to"
+    return Problem(f"driver {asked}", "the motion does not reach it", f"driver {key} moves {word} {reach}")
+
+
+SHORT = 3.0  # mm on paper; a direction drawn through two points nearer than this errs by a pencil's width in ten
+
+
+def draw_position(
+    board: Board,
+    structure: Structure,
+    elements: Sequence[Driven | Dyad],
+    position: Position,
+    branches: Mapping[int, int],
+) -> dict[str, Phrase]:
+    """Record how each link was placed; returns the words for each assembly, by the group's links."""
+    frame = position.frame
+    ground = structure.scene.frame
+    fixed = tuple(Mark(PointRef(p), frame.point(ground.name, p)) for p in ground.points)
+    board.do("mechanism", Phrase("frame", (ground.name, ", ".join(ground.points))), *fixed)
+    named = set(ground.points)
+    assembly: dict[str, Phrase] = {}
+    so_far = Frame(frame.links, frame.mm, frame.values, {ground.name: frame.poses[ground.name]})
+    for i, element in enumerate(elements):
+        if isinstance(element, Driven):
+            _, story = drive(so_far, element)
+        else:
+            meeting = position.meetings[i]
+            board.warn(min(meeting.sine, 1.0), _inner_name(element))
+            _warn_short(board, element, frame)
+            index = branches.get(i, 0) % len(meeting.poses)
+            story = meeting.stories[index]
+            key = ", ".join(element.links)
+            assembly[key] = Phrase(
+                f"{element.kind} {index}"
+                if len(meeting.poses) > 1 or element.kind in ("RRR", "RRP", "RPR")
+                else "one assembly",
+                _assembly_names(element),
+            )
+        for phrase, strokes in story:
+            board.do("mechanism", phrase, *strokes)
+        for name in links_of(element):
+            so_far.poses[name] = frame.poses[name]
+            fresh = [p for p in structure.links[name].points if p not in named]
+            marks = tuple(Mark(PointRef(p), frame.point(name, p)) for p in fresh)
+            named.update(fresh)
+            if marks and len(structure.links[name].points) > 2:
+                board.do("mechanism", Phrase("transfer", (name, ", ".join(fresh))), *marks)
+            elif marks:
+                board.do("mechanism", Phrase("points", (name, ", ".join(fresh))), *marks)
+    return assembly
+
+
+def _warn_short(board: Board, dyad: Dyad, frame: Frame) -> None:
+    """Say where a guide is directed by two points that lie too near to each other."""
+    one, two = dyad.outer_first, dyad.outer_second
+    if dyad.kind == "RPR" and isinstance(one, Turn) and isinstance(two, Turn):
+        apart = abs(frame.point(one.b, one.point) - frame.point(two.b, two.point))
+        if apart < SHORT:
+            board.note(Phrase("short arm", (", ".join(dyad.links), one.point, f"{apart:.2g}", two.point)))
+
+
+def _inner_name(dyad: Dyad) -> str:
+    """What the loci of a dyad find, for a remark."""
+    if isinstance(dyad.inner, Turn):
+        return dyad.inner.point
+    return f"links {', '.join(dyad.links)}"
+
+
+def _assembly_names(dyad: Dyad) -> tuple[object, ...]:
+    def name(pair: object) -> str:
+        return getattr(pair, "point", "") or getattr(pair, "key", "")
+
+    return name(dyad.outer_first), name(dyad.inner), name(dyad.outer_second)

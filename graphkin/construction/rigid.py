@@ -1,0 +1,142 @@
+"""Links on paper, and how hands prick and place them.
+
+A body of a group as one piece, and how its pairs hold it on paper.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from graphkin.construction.board import EXACT, Instrument
+from graphkin.construction.sheet import Pose
+from graphkin.plane import direction, unit
+from graphkin.scene.model import AngleDriver, Link
+from graphkin.structure import Body, Dyad, Slide, Turn
+
+__all__ = ["Frame", "RigidBody", "across", "hinge", "inner_hinge", "rail"]
+
+
+@dataclass
+class Frame:
+    """Links on paper: their shapes at the length scale, the driver values, and where the known ones lie."""
+
+    links: Mapping[str, Link]
+    mm: float  # of paper for one m
+    values: Mapping[str, float]  # drivers, rad or m
+    poses: dict[str, Pose] = field(default_factory=dict)
+    instrument: Instrument = EXACT
+    pricked: dict[str, complex] = field(default_factory=dict)  # points as they came to lie, where hands err
+
+    def place(self, link: str, local: complex) -> complex:
+        """A place given in a link's own axes (m), on paper."""
+        pose = self.poses[link]
+        return pose.origin + pose.axis * (local * self.mm)
+
+    def point(self, link: str, point: str) -> complex:
+        if point in self.pricked:
+            return self.pricked[point]
+        return self.place(link, self.links[link].points[point])
+
+    def settle(self, names: Sequence[str]) -> None:
+        """Prick the new points of links just placed, and let the links lie as their points came out."""
+        if self.instrument.faultless:
+            return
+        for name in names:
+            link, pose = self.links[name], self.poses[name]
+            known = [p for p in link.points if p in self.pricked]
+            for point in link.points:
+                if point not in self.pricked:
+                    lies = self._settled(name, pose, known)
+                    self.pricked[point] = self.instrument.point(lies.origin + lies.axis * link.points[point] * self.mm)
+                    known.append(point)
+            self.poses[name] = self._settled(name, pose, known)
+
+    def _settled(self, name: str, pose: Pose, known: Sequence[str]) -> Pose:
+        """A link as two of its points on paper hold it, the farthest apart; by one point with the direction drawn."""
+        link = self.links[name]
+        if not known:
+            return pose
+        a, b = max(((a, b) for a in known for b in known), key=lambda ab: abs(link.points[ab[0]] - link.points[ab[1]]))
+        span = link.points[b] - link.points[a]
+        axis = unit((self.pricked[b] - self.pricked[a]) / span) if abs(span) * self.mm > 1.0 else pose.axis
+        return Pose(self.pricked[a] - axis * (link.points[a] * self.mm), axis)
+
+
+class RigidBody:
+    """A body as one piece: its points in mm in the axes of its base link."""
+
+    def __init__(self, frame: Frame, body: Body) -> None:
+        self.frame = frame
+        self.body = body
+        self.rel: dict[str, Pose] = {body.links[0]: Pose(0j, 1 + 0j)}
+        for weld in body.welds:
+            value = frame.values[weld.driver.key]
+            base = self.rel[weld.a]
+            if isinstance(weld.pair, Turn):
+                turned = (weld.driver.link == weld.b) if isinstance(weld.driver, AngleDriver) else True
+                axis = base.axis * direction(math.degrees(value if turned else -value))
+                hinge = base.origin + base.axis * self._local(weld.a, weld.pair.point)
+                self.rel[weld.b] = Pose(hinge - axis * self._local(weld.b, weld.pair.point), axis)
+            else:
+                self.rel[weld.b] = across(weld.pair, weld.b, base, value * frame.mm, frame.mm)
+
+    def _local(self, link: str, point: str) -> complex:
+        return self.frame.links[link].points[point] * self.frame.mm
+
+    def point(self, link: str, point: str) -> complex:
+        pose = self.rel[link]
+        return pose.origin + pose.axis * self._local(link, point)
+
+    def placed(self, base: Pose) -> dict[str, Pose]:
+        return {
+            name: Pose(base.origin + base.axis * rel.origin, unit(base.axis * rel.axis))
+            for name, rel in self.rel.items()
+        }
+
+    def through(self, local: tuple[complex, complex], world: tuple[complex, complex]) -> dict[str, Pose]:
+        """Place the body by two of its points."""
+        axis = unit((world[1] - world[0]) / (local[1] - local[0]))
+        return self.placed(Pose(world[0] - axis * local[0], axis))
+
+
+def across(slide: Slide, link: str, other: Pose, travel: float, mm: float) -> Pose:
+    """Pose of one side of a sliding pair from the other and the travel (mm)."""
+    g, start = slide.guide.direction, slide.guide.through * mm
+    if link == slide.a:
+        return Pose(other.origin + other.axis * (start + travel * g), other.axis * g * slide.turn)
+    axis = other.axis * (g * slide.turn).conjugate()
+    return Pose(other.origin - axis * (start + travel * g), axis)
+
+
+def hinge(frame: Frame, shape: RigidBody, pair: Turn) -> tuple[complex, complex]:
+    """An outer turning pair: its place on paper and in the body's axes."""
+    return frame.point(pair.b, pair.point), shape.point(pair.a, pair.point)
+
+
+def _holder(body: Body, frame: Frame, point: str) -> str:
+    return next(name for name in body.links if point in frame.links[name].points)
+
+
+def inner_hinge(frame: Frame, dyad: Dyad, one: RigidBody, two: RigidBody) -> tuple[str, complex, complex]:
+    """The inner turning pair: its letter and its place in each body's axes."""
+    point = dyad.inner.point  # type: ignore[union-attr]
+    return (
+        point,
+        one.point(_holder(dyad.first, frame, point), point),
+        two.point(_holder(dyad.second, frame, point), point),
+    )
+
+
+def rail(frame: Frame, shape: RigidBody, slide: Slide) -> tuple[Pose, complex]:
+    """A body on a known guide, or with a guide on a known block: its pose at travel 0 and the way of it per mm."""
+    mine = slide.a if slide.a in shape.rel else slide.b
+    known = slide.b if mine == slide.a else slide.a
+    at_zero = across(slide, mine, frame.poses[known], 0.0, frame.mm)
+    rel = shape.rel[mine]
+    axis = unit(at_zero.axis * rel.axis.conjugate())
+    # a block on a known guide goes along it; a guide on a known block goes against its own sense
+    along = frame.poses[known].axis if mine == slide.a else -at_zero.axis
+    step = frame.instrument.direction(unit(along * slide.guide.direction))
+    return Pose(at_zero.origin - axis * rel.origin, axis), step

@@ -1,0 +1,46 @@
+"""What somebody takes where the drawing has something else: a term left out, a value of their own for a drawn one.
+
+A drawing with a slip shows what follows from it; nothing else of the construction changes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from graphkin.scene.symbol import Symbol
+
+if TYPE_CHECKING:
+    from graphkin.construction.terms import Part
+
+__all__ = ["NO_SLIP", "Slip"]
+
+
+def _same_term(part: Part) -> Part:
+    return part
+
+
+def _same_vector(_: Symbol, tail: complex, tip: complex) -> complex:
+    return tip
+
+
+def _same_rate(_: Symbol, value: float) -> float | None:
+    return None
+
+
+@dataclass(frozen=True)
+class Slip:
+    """Three places where a value may be another than the drawn one.
+
+    ``term`` gets each term of an equation before it is laid off; ``found`` each vector found (end points by image
+    included) by tail and tip, mm on paper, and returns its tip; ``rate`` each angular rate measured (rad/s, rad/s2),
+    and returns None where it stays.
+    """
+
+    term: Callable[[Part], Part] = _same_term
+    found: Callable[[Symbol, complex, complex], complex] = _same_vector
+    rate: Callable[[Symbol, float], float | None] = _same_rate
+
+
+NO_SLIP = Slip()

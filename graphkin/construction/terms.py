@@ -1,0 +1,166 @@
+"""The terms of one relative motion in a vector equation: what is known of each, and how a student knows it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from graphkin.construction.equations import Edge
+from graphkin.construction.plot import Order, Plot
+from graphkin.construction.sheet import Direction
+from graphkin.plane import dot, unit
+from graphkin.scene.model import AngleDriver, SlideDriver
+from graphkin.scene.symbol import Symbol
+from graphkin.structure import Slide, Weld
+
+__all__ = ["Part", "bar", "parts_of", "symbol_of", "turn_sign"]
+
+
+@dataclass(frozen=True)
+class Part:
+    """One term of a relative motion: its vector on paper (mm) if known, else only its direction."""
+
+    symbol: Symbol
+    role: Literal["resultant", "relative", "normal", "tangential", "coriolis", "sliding"]
+    along: complex
+    span: complex | None
+    written: Direction
+    size: str = ""
+
+
+def parts_of(plot: Plot, order: Order, edge: Edge) -> list[Part]:
+    """The terms of the motion of an edge's end relative to its start."""
+    if edge.weld is not None:
+        return _weld_parts(plot, order, edge, edge.weld)
+    if edge.slide is not None:
+        return _slide_parts(plot, order, edge, edge.slide)
+    return _rigid_parts(plot, order, edge)
+
+
+def symbol_of(plot: Plot, kind: str, edge: Edge) -> Symbol:
+    start, end = plot.label(edge.labels[0]), plot.label(edge.labels[1])
+    if kind in ("v", "a") and plot.fixed(edge.start):
+        return Symbol(kind, plot.label(edge.end))
+    return Symbol(kind, end, start)
+
+
+def _rigid_parts(plot: Plot, order: Order, edge: Edge) -> list[Part]:
+    arm = plot.places[edge.end.point] - plot.places[edge.start.point]
+    if edge.link in plot.still:
+        return []
+    square = 1j * unit(arm)
+    name = bar(edge)
+    rate = None if edge.unknown else plot.rates[order].get(edge.link)
+    role: Literal["resultant", "relative"] = "resultant" if plot.fixed(edge.start) else "relative"
+    if order == "velocity":
+        span = None if rate is None else square * (rate.value * plot.measured(arm) / plot.scales.velocity)
+        size = f"ω_{{{edge.link}}}·{name}" if span is not None else ""
+        return [Part(symbol_of(plot, "v", edge), role, square, span, edge.direction, size)]
+    slip = plot.end("velocity", edge.end) - plot.end("velocity", edge.start)
+    speed = plot.board.instrument.read(abs(slip)) * plot.scales.velocity
+    arm_m = plot.measured(arm)
+    inward = -unit(arm)
+    normal = Part(
+        symbol_of(plot, "an", edge),
+        "normal",
+        inward,
+        inward * (speed**2 / arm_m / plot.scales.acceleration),
+        Direction("towards", (edge.end.point, edge.start.point)),
+        f"ω_{{{edge.link}}}²·{name}",
+    )
+    if rate is not None and rate.value == 0.0:
+        return [normal]
+    span = None if rate is None else square * (rate.value * arm_m / plot.scales.acceleration)
+    size = f"α_{{{edge.link}}}·{name}" if span is not None else ""
+    return [normal, Part(symbol_of(plot, "at", edge), "tangential", square, span, edge.direction, size)]
+
+
+def _slide_parts(plot: Plot, order: Order, edge: Edge, slide: Slide) -> list[Part]:
+    sense = plot.frame.poses[slide.b].axis * slide.guide.direction * (1 if edge.forward else -1)
+    given = _given(plot, slide.key, order)
+    fixed = plot.fixed(edge.start)
+    role: Literal["resultant", "relative"] = "resultant" if fixed else "relative"
+    if order == "velocity":
+        span = None if given is None else sense * (given / plot.scales.velocity)
+        return [Part(symbol_of(plot, "v", edge), role, sense, span, edge.direction, _given_size(slide, span))]
+    span = None if given is None else sense * (given / plot.scales.acceleration)
+    if slide.b in plot.still or slide.a in plot.still:
+        # no rotation, no Coriolis: the sliding part is all there is
+        symbol = symbol_of(plot, "a", edge) if fixed else symbol_of(plot, "ar", edge)
+        return [
+            Part(symbol, "resultant" if fixed else "sliding", sense, span, edge.direction, _given_size(slide, span))
+        ]
+    omega = plot.rates["velocity"][slide.b].value
+    slip = plot.end("velocity", edge.end) - plot.end("velocity", edge.start)
+    read = plot.board.instrument.read(abs(slip)) * (1 if dot(slip, sense) >= 0 else -1)
+    size = 2 * omega * read * plot.scales.velocity / plot.scales.acceleration
+    coriolis = Part(
+        symbol_of(plot, "ak", edge),
+        "coriolis",
+        1j * sense,
+        1j * sense * size,
+        Direction("turned", edge.direction.names),
+        f"2ω_{{{slide.b}}}·{symbol_of(plot, 'v', edge)}",
+    )
+    sliding = Part(symbol_of(plot, "ar", edge), "sliding", sense, span, edge.direction, _given_size(slide, span))
+    return [coriolis, sliding]
+
+
+def _given(plot: Plot, key: str, order: Order) -> float | None:
+    """Rate of a driven slide."""
+    for driver in plot.structure.scene.drivers:
+        if isinstance(driver, SlideDriver) and driver.key == key:
+            return driver.velocity if order == "velocity" else driver.acceleration
+    return None
+
+
+def _weld_parts(plot: Plot, order: Order, edge: Edge, weld: Weld) -> list[Part]:
+    """A point of a link that a driver turns about a hinge of another link, relative to that link."""
+    hinge = weld.pair.point  # type: ignore[union-attr]
+    arm = plot.places[edge.end.point] - plot.places[hinge]
+    way = 1 if edge.forward else -1
+    _, speed, rate = weld.driver.values
+    omega, alpha = way * turn_sign(weld) * speed, way * turn_sign(weld) * rate
+    arm_m = plot.measured(arm)
+    square = 1j * unit(arm)
+    if order == "velocity":
+        span = square * (omega * arm_m / plot.scales.velocity)
+        size = f"ω_{{{weld.b}{weld.a}}}·{hinge}{edge.end.point}"
+        return [Part(symbol_of(plot, "v", edge), "relative", square, span, edge.direction, size)]
+    base = weld.a if edge.forward else weld.b
+    turn = plot.rates["velocity"][base].value
+    per = arm_m / plot.scales.acceleration
+    inward = -unit(arm)
+    return [
+        Part(
+            symbol_of(plot, "an", edge),
+            "normal",
+            inward,
+            inward * (omega**2 * per),
+            Direction("towards", (edge.end.point, hinge)),
+            "ω²r",
+        ),
+        Part(symbol_of(plot, "at", edge), "tangential", square, square * (alpha * per), edge.direction, "αr"),
+        Part(
+            symbol_of(plot, "ak", edge),
+            "coriolis",
+            inward,
+            inward * (2 * turn * omega * per),
+            Direction("turned", edge.direction.names),
+            "2ωv",
+        ),
+    ]
+
+
+def bar(edge: Edge) -> str:
+    return edge.start.point + edge.end.point
+
+
+def _given_size(slide: Slide, span: complex | None) -> str:
+    return "" if span is None else "given"
+
+
+def turn_sign(weld: Weld) -> int:
+    """+1 where the driver's angle is that of b from a."""
+    assert isinstance(weld.driver, AngleDriver)
+    return 1 if weld.driver.link == weld.b else -1

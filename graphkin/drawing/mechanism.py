@@ -1,0 +1,278 @@
+"""The frame and the moving links: feet and guides, bars, areas, slots, blocks, cylinders.
+
+The points: turning pairs, pins, fixed marks, each with its letter.
+
+What links and guides are called, beside them.
+
+The drawn mechanism as a whole, cut to its room where it has to be.
+"""
+
+from __future__ import annotations
+
+import math
+from cmath import phase
+from collections.abc import Iterator
+
+from graphkin.construction.sheet import Arc as Compass
+from graphkin.construction.sheet import Sheet
+from graphkin.drawing import strokes, symbols
+from graphkin.drawing.box import Box
+from graphkin.drawing.conventions import Letters
+from graphkin.drawing.dimensions import LENGTHS, drawn_lengths
+from graphkin.drawing.layout import Name, Piece, cut_to, ink_box, joined, middle_of
+from graphkin.drawing.mechanism_on_paper import OnPaper, page
+from graphkin.drawing.placing import Label
+from graphkin.drawing.primitives import Arc, Group, Line, Polygon, Primitive, Text
+from graphkin.drawing.rates import clearance, drivers, found_rates
+from graphkin.drawing.shapes import GUIDE_LENGTH, Bearing, Shape
+from graphkin.drawing.text import plain, symbol
+from graphkin.plane import cross, dot
+
+__all__ = ["joints", "link_names", "links", "mechanism_piece"]
+
+
+def links(here: OnPaper) -> Piece:
+    """All links, areas first, so that feet of pivots stand on them and bars lie over them."""
+    areas = [_link(here, shape) for shape in here.shapes if shape.corners]
+    bars = sorted((shape for shape in here.shapes if not shape.corners), key=lambda shape: _depth(here, shape))
+    return Piece({"mechanism": (*areas, _frame(here), *(_link(here, shape) for shape in bars))})
+
+
+def _depth(here: OnPaper, shape: Shape) -> int:
+    """What carries a block lies under it, what ends in its pin over it."""
+    if any(b.slide.b == shape.link for b in here.bearings):
+        return 0
+    if any(b.slide.a == shape.link for b in here.bearings):
+        return 1 + here.nested(shape.link)
+    return 9
+
+
+def _frame(here: OnPaper) -> Group:
+    parts: list[Primitive] = []
+    for point in here.scene.frame.points:
+        if here.moving(point):
+            parts += symbols.fixed_pivot(page(here.places[point]), here.foot(point))
+    for b in here.bearings:
+        if here.ground in (b.slide.a, b.slide.b) and not b.slide.slot:
+            parts += symbols.guide(page(b.at), phase(b.along), GUIDE_LENGTH)
+    return Group(tuple(parts), id=f"link-{here.ground}", classes=("frame",))
+
+
+def _link(here: OnPaper, shape: Shape) -> Group:
+    colour = here.colour(shape.link)
+    parts: list[Primitive] = []
+    stroke = (strokes.REDUNDANT if shape.redundant else strokes.LINK).coloured(colour)
+    if shape.corners:
+        corners = tuple(map(page, shape.corners))
+        parts.append(Polygon(corners, "" if shape.redundant else strokes.tint(colour), stroke))
+    hidden = {b.slide.b for b in here.bearings if b.slide.key in here.cylinders}
+    if shape.link not in hidden:
+        parts += [Line(page(start), page(end), stroke) for start, end in shape.bars]
+        parts += _welds(here, shape, colour)
+    for start, end in shape.slots:
+        parts += symbols.slot(page(start), page(end), colour)
+    for b in here.bearings:
+        if b.slide.b == shape.link and b.slide.key in here.cylinders:
+            parts += symbols.cylinder(page(here.pivot(b)), page(b.at), colour)
+    for b in here.bearings:
+        if b.slide.a == shape.link and not b.slide.slot and b.slide.key not in here.cylinders:
+            parts += _block(here, b)
+        if b.slide.a == shape.link and b.slide.key in here.cylinders:
+            start, end = here.rod(b)
+            parts.append(Line(page(start), page(end), strokes.LINK.coloured(colour)))
+    return Group(tuple(parts), id=f"link-{shape.link}", classes=("link",))
+
+
+def _block(here: OnPaper, b: Bearing) -> tuple[Primitive, ...]:
+    shrink = 0.72 ** here.nested(b.slide.a)
+    return symbols.block(
+        page(b.at), phase(b.along), here.colour(b.slide.a), symbols.BLOCK_LENGTH * shrink, symbols.BLOCK_WIDTH * shrink
+    )
+
+
+def _welds(here: OnPaper, shape: Shape, colour: str) -> list[Primitive]:
+    """Filled corners where two bars of one link meet at an angle with no joint between them."""
+    parts: list[Primitive] = []
+    for i, (a, b) in enumerate(shape.bars):
+        for p, q in shape.bars[i + 1 :]:
+            for corner, far in ((p, q), (q, p)):
+                e = (b - a) / abs(b - a)
+                if abs(cross(corner - a, e)) > 1e-3 or abs(cross((far - corner) / abs(far - corner), e)) < 0.1:
+                    continue
+                if any(abs(corner - z) < 1.0 for z in here.places.values()):
+                    continue
+                along = b if abs(b - corner) > abs(a - corner) else a
+                parts += symbols.weld(page(corner), page(far), page(along), colour)
+    return parts
+
+
+def joints(here: OnPaper) -> Piece:
+    """Every point with its symbol, and the letters that want a place beside them."""
+    drawn = tuple(Group(tuple(_joint(here, p)), id=f"point-{p}", classes=("point",)) for p in here.places)
+    return Piece({"mechanism": drawn}, tuple(_letter(here, point) for point in here.places))
+
+
+def _joint(here: OnPaper, point: str) -> list[Primitive]:
+    z, moving = here.places[point], here.moving(point)
+    held = [n for n in here.scene.holders.get(point, ()) if n in here.sheet.poses or n == here.ground]
+    if len(held) > 1 and moving:
+        on_block = point in {b.slide.pin for b in here.bearings if not b.slide.slot}
+        radius = symbols.JOINT_RADIUS * (0.85 if on_block else 1.0)
+        circle = symbols.turning_pair(page(z), radius=radius)
+        return [*(_over_block(here, z) if on_block else ()), *circle, *_through(here, z, held)]
+    if moving:
+        return [*symbols.pin(page(z), here.colour(moving[0]))]
+    if any(p.point == point for p in here.scene.pins):
+        return [*symbols.pin(page(z), strokes.BLACK)]
+    thin = strokes.OUTLINE
+    return [Line(page(z - 1.2), page(z + 1.2), thin), Line(page(z - 1.2j), page(z + 1.2j), thin)]
+
+
+def _letter(here: OnPaper, point: str) -> Name:
+    z = here.places[point]
+    away = -sum((w / abs(w) for w in here.ways(z)), 0j)
+    letter = symbol(here.letters.point(point))
+    text = Text(0j, letter, "start", strokes.BLACK, f"label-point-{point}", ("label",))
+    return Name(Label(text, page(z), (phase(away),) if abs(away) > 0.1 else ()), 0)
+
+
+def _over_block(here: OnPaper, z: complex) -> list[Primitive]:
+    """Edges of areas that end in the pin of a block, drawn on over it."""
+    parts: list[Primitive] = []
+    for shape in here.shapes:
+        for i, corner in enumerate(shape.corners):
+            if abs(corner - z) < 1e-6:
+                stroke = strokes.LINK.coloured(here.colour(shape.link))
+                for other in (shape.corners[i - 1], shape.corners[(i + 1) % len(shape.corners)]):
+                    reach = min(symbols.BLOCK_LENGTH * 0.7, abs(other - z))
+                    parts.append(Line(page(z), page(z + reach * (other - z) / abs(other - z)), stroke))
+    return parts
+
+
+def _through(here: OnPaper, z: complex, held: list[str]) -> list[Primitive]:
+    """A bar that goes on beyond a joint is drawn through its circle."""
+    parts: list[Primitive] = []
+    for shape in here.shapes:
+        if shape.link not in held:
+            continue
+        for a, b in shape.bars:
+            e = (b - a) / abs(b - a)
+            if abs(cross(z - a, e)) < 1e-3 and 2.0 < dot(z - a, e) < abs(b - a) - 2.0:
+                r = symbols.JOINT_RADIUS
+                stroke = strokes.LINK.coloured(here.colour(shape.link))
+                parts.append(Line(page(z - r * e), page(z + r * e), stroke))
+    return parts
+
+
+def link_names(here: OnPaper) -> Piece:
+    """Numbers of the links, letters of the guides that the equations speak of, the number of the frame."""
+    return Piece(names=(*_numbers(here), *_guides(here), *_frame_name(here)))
+
+
+def _number(link: str, colour: str) -> Text:
+    return Text(0j, plain(link, bold=True), "start", colour, f"label-link-{link}", ("label", "link-number"))
+
+
+def _numbers(here: OnPaper) -> Iterator[Name]:
+    for shape in here.shapes:
+        text = _number(shape.link, here.colour(shape.link))
+        whole = _cylinder_part(here, shape.link) or shape.longest
+        block = next((b.at for b in here.bearings if b.slide.a == shape.link), None)
+        if whole is not None:
+            yield Name(Label(text, (page(whole[0]), page(whole[1]))), 1)
+        elif block is not None:
+            yield Name(Label(text, page(block)), 1)
+
+
+def _cylinder_part(here: OnPaper, link: str) -> tuple[complex, complex] | None:
+    """The barrel or the rod of a cylinder."""
+    for b in here.bearings:
+        if b.slide.key in here.cylinders and link in (b.slide.a, b.slide.b):
+            rod = here.rod(b)
+            return (here.pivot(b), rod[0]) if link == b.slide.b else rod
+    return None
+
+
+def _guides(here: OnPaper) -> Iterator[Name]:
+    written = {
+        name for step in here.sheet.equations for side in step.sides for term in side
+        if term.direction and len(term.direction.names) == 1 for name in term.direction.names
+    }  # fmt: skip
+    for b in here.bearings:
+        if b.slide.guide.name in written:
+            written.discard(b.slide.guide.name)
+            edge = GUIDE_LENGTH / 2 if b.slide.b == here.ground else 7.0
+            letter = symbol(here.letters.guide(b.slide.guide.name, here.ground), 3.0)
+            id = f"label-guide-{b.slide.b}-{b.slide.guide.name}"
+            text = Text(0j, letter, "start", strokes.BLACK, id, ("label",))
+            yield Name(Label(text, page(b.at + edge * b.along), (phase(b.along),)), 1)
+
+
+def _frame_name(here: OnPaper) -> Iterator[Name]:
+    pivots = [p for p in here.scene.frame.points if here.moving(p)]
+    spots = [here.places[p] for p in pivots]
+    spots += [b.at for b in here.bearings if here.ground in (b.slide.b, b.slide.a)]
+    if spots:
+        foot = here.foot(pivots[0]) if pivots else 0.0
+        away = complex(math.cos(foot), math.sin(foot)) * 5 if pivots else 3.6j
+        yield Name(Label(_number(here.ground, strokes.BLACK), page(spots[0] + away), (phase(away),)), 1)
+
+
+COMPASS = 4.0  # mm of arc to either side of what it finds
+
+
+def mechanism_piece(sheet: Sheet, letters: Letters, room: tuple[float, float] | None = None) -> tuple[Piece, Box]:
+    """Draw the mechanism about the world's origin.
+
+    Parameters
+    ----------
+    room : width and height (mm) of its panel; None for as much as it takes
+
+    Returns
+    -------
+    the piece, and the box (mm, y down) that it takes up, names left out.  Where it does not fit the room, dimensions
+    are left out first, then bars are cut at the edge of a room about its points.
+    """
+    here = OnPaper(sheet, letters)
+    piece = _piece(here, None)
+    box = ink_box(piece.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
+    if room is None or _fits(box, room):
+        return piece, box
+    lengths = [thing for thing in piece.drawn if isinstance(thing, Group) and thing.id == LENGTHS]
+    bare = ink_box(thing for thing in piece.drawn if thing not in lengths) or box
+    if not _fits(bare, room):
+        bare = Box.around(page(z) for z in sheet.points.values())
+    half = complex(*room) / 2
+    panel = Box.around((bare.centre - half, bare.centre + half))
+    piece = _piece(here, panel)
+    layers = {name: cut_to(things, panel) for name, things in piece.layers.items()}
+    names = tuple(n for n in piece.names if panel.distance(middle_of(n.label.mark)) == 0.0)
+    return Piece(layers, names, piece.marks), panel
+
+
+def _fits(box: Box, room: tuple[float, float]) -> bool:
+    return box.width <= room[0] and box.height <= room[1]
+
+
+def _piece(here: OnPaper, panel: Box | None) -> Piece:
+    clear = clearance(here)
+    whole = joined((_construction(here), links(here), joints(here), drivers(here, clear), found_rates(here, clear)))
+    drawn = [thing for layer in ("construction", "mechanism", "answers") for thing in whole.layers[layer]]
+    lengths = Piece({"mechanism": (drawn_lengths(here.sheet, drawn, panel),)})
+    marks = Piece(marks=tuple(page(z) for z in here.places.values()))
+    return joined((whole, lengths, link_names(here), marks))
+
+
+def _construction(here: OnPaper) -> Piece:
+    """Compass arcs near the points that they find."""
+    drawn = []
+    for step in here.sheet.steps:
+        if step.diagram != "mechanism":
+            continue
+        for arc in (s for s in step.strokes if isinstance(s, Compass)):
+            if arc.radius < 1e-9:
+                continue
+            middle, half = phase(arc.at - arc.centre), min(COMPASS / arc.radius, math.pi * 0.9)
+            shape = Arc(page(arc.centre), arc.radius, middle - half, middle + half, strokes.CONSTRUCTION)
+            drawn.append(Group((shape,), classes=("compass", f"step-{step.number:02d}")))
+    return Piece({"construction": tuple(drawn)})

@@ -1,0 +1,217 @@
+"""How large a polygon is.
+
+What leads to the vectors of a polygon: direction lines, images of links, carried vectors, rings around details.
+
+The vectors of a polygon, and their names.
+
+The drawn polygon as a whole.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+
+from graphkin.construction.sheet import Bar, DiagramName, Image, Ray, Sheet, Step, Vector
+from graphkin.drawing import strokes
+from graphkin.drawing.box import Box
+from graphkin.drawing.conventions import Letters
+from graphkin.drawing.detail import Detail
+from graphkin.drawing.headings import spoken_vector
+from graphkin.drawing.layout import Name, Piece, joined
+from graphkin.drawing.placing import Label
+from graphkin.drawing.polygon_points import SAME, ZERO, OnPage, points, same_place
+from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Primitive, Text
+from graphkin.drawing.strokes import colour_of_link, colour_of_vector
+from graphkin.drawing.symbols import COMPONENT, POINTER, RESULTANT, arrowhead, vector_group
+from graphkin.drawing.text import symbol
+from graphkin.scene.symbol import Symbol
+
+__all__ = ["construction", "extent", "polygon_piece", "vector_names", "vectors"]
+
+FAR = 60.0  # mm: construction further outside than this is cut off
+
+
+def extent(sheet: Sheet, diagram: DiagramName, within: Box | None = None) -> Box:
+    """The box (mm, y down, about the pole) around all vectors of a polygon; lines that lead to them are counted in
+    where they do not reach far."""
+    ends = [0j, *(z for v in sheet.vectors(diagram).values() for z in (v.tail, v.tip))]
+    box = Box.around(z.conjugate() for z in ends)
+    for step in sheet.steps:
+        for stroke in step.strokes:
+            if step.diagram == diagram and isinstance(stroke, Bar):
+                wider = box.joined(Box.around((stroke.a.conjugate(), stroke.b.conjugate())))
+                if within is None:
+                    fits = max(wider.width - box.width, wider.height - box.height) < FAR
+                else:
+                    fits = wider.width <= within.width and wider.height <= within.height
+                box = wider if fits else box
+    return box
+
+
+BEYOND = 9.0  # mm: how far a direction line runs past the crossing
+Segment = tuple[complex, complex]
+
+
+def construction(here: OnPage) -> Piece:
+    """Everything thin, with its names."""
+    return joined((Piece({"construction": (*_rings(here), *_images(here))}), *_bars(here), *_rays(here)))
+
+
+def _rings(here: OnPage) -> Iterator[Primitive]:
+    for number, d in enumerate(here.enlarged, 1):
+        ring = Circle(here.at(d.centre), d.radius + 0.8, stroke=strokes.CONSTRUCTION)
+        yield Group((ring,), id=f"ring-{here.diagram}-{number}", classes=("ring",))
+
+
+def _images(here: OnPage) -> Iterator[Primitive]:
+    count: Counter[str] = Counter()
+    for step in here.steps:
+        for image in (s for s in step.strokes if isinstance(s, Image)):
+            count[image.link] += 1
+            tail = f"-{count[image.link]}" if count[image.link] > 1 else ""
+            outline = strokes.CONSTRUCTION.coloured(colour_of_link(here.sheet.scene, image.link))
+            shape = Polygon(tuple(map(here.at, image.corners)), "", outline)
+            yield Group((shape,), id=f"image-{here.diagram}-{image.link}{tail}", classes=("image", _class(step)))
+
+
+def _bars(here: OnPage) -> Iterator[Piece]:
+    for step in here.steps:
+        for bar in (s for s in step.strokes if isinstance(s, Bar)):
+            if abs(bar.b - bar.a) <= SAME or here.covered(bar.a, bar.b):
+                continue
+            clipped = here.panel.clip(here.at(bar.a), here.at(bar.b))
+            if clipped is None:
+                continue
+            parts: list[Primitive] = [Line(*clipped, strokes.CONSTRUCTION)]
+            names: list[Name] = []
+            if step.phrase.key == "carry":
+                parts += _head(clipped, here.at(bar.b))
+                names += _carried(here, step.phrase.args[0], clipped)
+            yield Piece({"construction": (Group(tuple(parts), classes=("construction", _class(step))),)}, tuple(names))
+
+
+def _head(line: Segment, tip: complex) -> Iterator[Primitive]:
+    """The arrowhead of a vector added before its turn in the chain."""
+    length = abs(line[1] - line[0])
+    if abs(line[1] - tip) < SAME and length > 1.0:
+        head = min(POINTER.head_length, 0.7 * length)
+        yield arrowhead(tip, line[1] - line[0], head, POINTER.head_width, strokes.BLACK)
+
+
+def _carried(here: OnPage, moved: object, line: Segment) -> Iterator[Name]:
+    if isinstance(moved, Symbol) and abs(line[1] - line[0]) > 4.0:
+        markup = symbol(here.letters.vector(moved), 3.0)
+        yield Name(Label(Text(0j, markup, "start", strokes.GREY, f"label-carried-{moved.id}", ("label",)), line), 4)
+
+
+def _rays(here: OnPage) -> Iterator[Piece]:
+    """Lines known by direction only, each named once where several lead to one point."""
+    named: set[tuple[str, complex]] = set()
+    for step in here.steps:
+        for ray in (s for s in step.strokes if isinstance(s, Ray)):
+            end = ray.to if ray.to is not None else ray.through
+            leading, beyond = _lines(here, ray, end)
+            names: list[Name] = []
+            if beyond is not None:
+                markup = here.letters.direction(ray.direction, here.sheet.scene.frame.name)
+                key = (markup, same_place(end))
+                if key not in named and abs(beyond[1] - beyond[0]) > 1.0:
+                    named.add(key)
+                    id = f"label-direction-{step.number:02d}"
+                    text = Text(0j, symbol(markup, 3.0), "start", strokes.GREY, id, ("label", "direction"))
+                    names.append(Name(Label(text, beyond), 4))
+            lines = tuple(Line(*line, strokes.DIRECTION) for line in (leading, beyond) if line is not None)
+            yield Piece({"construction": (Group(lines, classes=("direction", _class(step))),)}, tuple(names))
+
+
+def _lines(here: OnPage, ray: Ray, end: complex) -> tuple[Segment | None, Segment | None]:
+    """The part of a ray that leads to its end, if no vector lies there, and the part beyond it, as far as they show."""
+    way = end - ray.through
+    e = way / abs(way) if abs(way) > 1.0 else ray.along
+    first = ray.through if not here.covered(ray.through, end) else end
+    beyond = here.panel.clip(here.at(end), here.at(end + BEYOND * e))
+    if beyond is None or abs(beyond[1] - beyond[0]) < 5.0:
+        # no room beyond: the line shows on its other side
+        base = ray.through if abs(way) > 1.0 else end
+        beyond = here.panel.clip(here.at(base), here.at(base - BEYOND * e)) or beyond
+    leading = here.panel.clip(here.at(first), here.at(end)) if abs(first - end) > SAME else None
+    return leading, beyond
+
+
+def _class(step: Step) -> str:
+    return f"step-{step.number:02d}"
+
+
+SHORT = 8.0  # mm: a shorter vector from the pole is named by its end points alone
+
+
+def vectors(here: OnPage) -> Piece:
+    """Every vector as an arrow."""
+    return Piece({here.diagram: tuple(_arrow(here, step, vector) for step, vector in here.in_order())})
+
+
+def _arrow(here: OnPage, step: int, vector: Vector) -> Group:
+    return vector_group(
+        vector.symbol.id,
+        step,
+        here.at(vector.tail),
+        here.at(vector.tip),
+        RESULTANT if vector.role == "resultant" else COMPONENT,
+        colour_of_vector(here.sheet, vector.symbol),
+        spoken_vector(vector.symbol, here.language),
+        classes=(vector.role,),
+    )
+
+
+def vector_names(here: OnPage) -> Piece:
+    """One name for vectors that share tail and tip; those of zero length are named in words."""
+    named = (_name(here, length, shared) for length, shared in _shared(here))
+    return Piece(names=tuple(name for name in named if name))
+
+
+def _shared(here: OnPage) -> Iterator[tuple[float, list[Vector]]]:
+    """Length, and vectors that share tail and tip, the longest first; not those that are drawn again larger."""
+    groups: dict[tuple[complex, complex], list[Vector]] = {}
+    for _, vector in here.in_order():
+        groups.setdefault((same_place(vector.tail), same_place(vector.tip)), []).append(vector)
+    elsewhere = {v.symbol for detail in here.enlarged for v in detail.vectors}
+    for shared in sorted(groups.values(), key=lambda group: -abs(group[0].span)):
+        if shared[0].symbol not in elsewhere:
+            yield abs(shared[0].span), sorted(shared, key=lambda v: here.vectors[v.symbol][0])
+
+
+def _name(here: OnPage, length: float, vectors: Sequence[Vector]) -> Name | None:
+    us = here.letters.convention == "us"
+    if length < ZERO:
+        vectors = [v for v in vectors if v.role != "resultant" or us or abs(v.tip) < SAME]
+    if not vectors:
+        return None
+    first = vectors[0]
+    markup = " = ".join(here.letters.vector(v.symbol) for v in vectors)
+    id = f"label-{first.symbol.id}"
+    if length < ZERO:
+        text = Text(0j, symbol(markup + " = 0"), "start", strokes.BLACK, id, ("label",))
+        return Name(Label(text, here.at(first.tip)), 3)
+    resultants = all(v.role == "resultant" for v in vectors)
+    asked = any(v.symbol in here.sheet.scene.find for v in vectors)
+    if not us and length < SHORT and resultants and not asked:
+        return None  # the letters at its ends say it
+    text = Text(0j, symbol(markup), "start", colour_of_vector(here.sheet, first.symbol), id, ("label",))
+    return Name(Label(text, (here.at(first.tail), here.at(first.tip))), 2 if resultants and not us else 1)
+
+
+def polygon_piece(
+    sheet: Sheet, diagram: DiagramName, letters: Letters, language: str, panel: Box, origin: complex,
+    enlarged: Sequence[Detail] = (),
+) -> Piece:  # fmt: skip
+    """Draw a polygon with its pole at a point of the page.
+
+    Parameters
+    ----------
+    panel : lines known by direction only are clipped to it
+    origin : page point of the pole (mm)
+    enlarged : places that are drawn again larger; they get a ring, and their vectors no names here
+    """
+    here = OnPage(sheet, diagram, letters, language, panel, origin, tuple(enlarged))
+    return joined((construction(here), vectors(here), points(here), vector_names(here)))

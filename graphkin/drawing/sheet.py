@@ -1,0 +1,278 @@
+"""Where everything stands on a sheet: panels of the mechanism and of the polygons, equations, data, readings.
+
+The sheet: mechanism, both polygons, equations, given data, readings and title block on one page, true to scale.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from graphkin.checking import Report
+from graphkin.construction import Room
+from graphkin.construction.sheet import DiagramName, Sheet
+from graphkin.drawing import strokes
+from graphkin.drawing.box import Box
+from graphkin.drawing.conventions import Letters, letters_of, scale_statement
+from graphkin.drawing.dimensions import check_bar
+from graphkin.drawing.equations import write_equations
+from graphkin.drawing.headings import describe, drivers, facts, figure_title, term, titles
+from graphkin.drawing.insets import INSET, CoriolisTerm, coriolis_row, polygon_with_insets
+from graphkin.drawing.layout import Piece, fitted, ink_box, joined, layer_groups, moved, moved_piece, settled, wrapped
+from graphkin.drawing.mechanism import mechanism_piece
+from graphkin.drawing.polygon import extent
+from graphkin.drawing.primitives import Drawing, Group, Line, Polygon, Primitive, Run, Text
+from graphkin.drawing.tables import given_data, readings_table
+from graphkin.drawing.text import rich
+from graphkin.scene.model import Scene
+from graphkin.words import Phrase, languages, say
+
+__all__ = ["BLOCK", "GUTTER", "MARGIN", "SheetPlan", "sheet_page", "sheet_plan", "sheet_room"]
+
+PAPERS = {"A4": (210.0, 297.0), "A3": (297.0, 420.0), "A2": (420.0, 594.0), "A1": (594.0, 841.0), "A0": (841.0, 1189.0)}
+MARGIN, GUTTER, CAPTION = 10.0, 2.0, 5.5
+HEAD, BLOCK = 11.0, 16.0  # heading above, title block below
+FILL = 0.87  # of a panel, by the polygon with the finest scale
+AROUND_MECHANISM = (13.0, 15.0)  # mm for symbols and names
+# Height of the mechanism's panel by that of a polygon's: the usual one, and such as tall mechanisms may have.
+HEIGHTS = (1.08, 1.33, 1.43)
+
+
+@dataclass(frozen=True)
+class SheetPlan:
+    """Where everything stands on the page (mm); panels without their captions."""
+
+    width: float
+    height: float
+    mechanism: Box
+    velocity: Box
+    acceleration: Box
+    equations: Box
+    given: Box
+    readings: Box
+    block: Box
+
+
+def sheet_room(scene: Scene) -> Room:
+    """The room in which a sheet for ``sheet_page`` is to be drafted: ``draft(scene, room=sheet_room(scene))``."""
+    plans = _plans(scene)
+    first, *others = (_mechanism_room(plan) for plan in plans)
+    panel = plans[0].velocity
+    return Room(first, (panel.width * FILL, panel.height * FILL), tuple(others))
+
+
+def _mechanism_room(plan: SheetPlan) -> tuple[float, float]:
+    return plan.mechanism.width - AROUND_MECHANISM[0], plan.mechanism.height - AROUND_MECHANISM[1]
+
+
+def _plans(scene: Scene) -> tuple[SheetPlan, ...]:
+    """The usual plan of a page, and those for taller mechanisms."""
+    short, long = PAPERS.get(scene.sheet.paper, PAPERS["A4"])
+    if scene.sheet.orientation == "landscape":
+        return (_landscape(long, short),)
+    return tuple(_portrait(short, long, tall) for tall in HEIGHTS)
+
+
+def sheet_plan(sheet: Sheet) -> SheetPlan:
+    """The first plan whose room holds the mechanism as it is drawn."""
+    plans = _plans(sheet.scene)
+    size = Box.around(sheet.points.values()) if sheet.points else Box(0.0, 0.0, 0.0, 0.0)
+    for plan in plans:
+        room = _mechanism_room(plan)
+        if size.width <= room[0] + 1e-6 and size.height <= room[1] + 1e-6:
+            return plan
+    return plans[0]
+
+
+def _portrait(width: float, height: float, tall: float) -> SheetPlan:
+    page = Box(MARGIN, MARGIN, width - MARGIN, height - MARGIN)
+    top = page.top + HEAD + CAPTION
+    split = page.left + 0.483 * page.width
+    polygon = 0.315 * page.height  # height of a polygon's panel
+    right = split + GUTTER
+    velocity = Box(right, top, page.right, top + polygon)
+    acceleration = velocity.moved(complex(0, polygon + CAPTION + GUTTER))
+    mechanism = Box(page.left, top, split, top + tall * polygon)
+    equations = Box(page.left, mechanism.bottom + GUTTER + CAPTION, split, acceleration.bottom)
+    block = Box(page.left, page.bottom - BLOCK, page.right, page.bottom)
+    low = acceleration.bottom + GUTTER + CAPTION
+    third = page.left + 0.27 * page.width
+    given = Box(page.left, low, third, block.top - GUTTER)
+    readings = Box(third + 2 * GUTTER, low, page.right, block.top - GUTTER)
+    return SheetPlan(width, height, mechanism, velocity, acceleration, equations, given, readings, block)
+
+
+def _landscape(width: float, height: float) -> SheetPlan:
+    page = Box(MARGIN, MARGIN, width - MARGIN, height - MARGIN)
+    top = page.top + HEAD + CAPTION
+    panel = (page.width - 2 * GUTTER) / 3
+    bottom = top + panel * 0.98
+    boxes = [
+        Box(page.left + i * (panel + GUTTER), top, page.left + i * (panel + GUTTER) + panel, bottom) for i in range(3)
+    ]
+    block = Box(page.left, page.bottom - BLOCK, page.right, page.bottom)
+    low = bottom + GUTTER + CAPTION
+    one, two = page.left + 0.17 * page.width, page.left + 0.53 * page.width
+    given = Box(page.left, low, one, block.top - GUTTER)
+    equations = Box(one + GUTTER, low, two, block.top - GUTTER)
+    readings = Box(two + GUTTER, low, page.right, block.top - GUTTER)
+    return SheetPlan(width, height, boxes[0], boxes[1], boxes[2], equations, given, readings, block)
+
+
+def sheet_page(
+    sheet: Sheet, report: Report | None = None, *, language: str | None = None, convention: str | None = None
+) -> Drawing:
+    """One page with everything.
+
+    Parameters
+    ----------
+    sheet : drafted in ``sheet_room(scene)``, so that its polygons fill their panels
+    report : its readings held against the exact values; without it the table shows the readings alone
+    language : "en", "zh" or "both"; the scene's own if None
+    convention : "chinese", "us", "british" or "russian"; the scene's own if None
+    """
+    scene = sheet.scene
+    spoken = language or scene.sheet.language
+    letters = letters_of(sheet, convention or scene.sheet.convention)  # type: ignore[arg-type]
+    plan = sheet_plan(sheet)
+    velocity, _ = _polygon(sheet, "velocity", letters, spoken, plan.velocity)
+    drawn: list[DiagramName] = ["mechanism", "velocity"]
+    homeless: list[CoriolisTerm] = []
+    pieces = []
+    if sheet.vectors("acceleration"):
+        drawn.append("acceleration")
+        acceleration, homeless = _polygon(sheet, "acceleration", letters, spoken, plan.acceleration)
+        pieces += [_panel(plan.acceleration, _caption(sheet, letters, spoken, "acceleration")), acceleration]
+    given = given_data(sheet, letters, spoken, plan.given)
+    spare = _spare(plan.given, given)
+    if spare is not None:
+        pieces.append(coriolis_row(sheet, homeless[:1], letters, spare))
+        homeless = homeless[1:]
+    pieces += [
+        _heading(sheet, letters, spoken, plan),
+        _panel(plan.mechanism, _caption(sheet, letters, spoken, "mechanism")),
+        _panel(plan.velocity, _caption(sheet, letters, spoken, "velocity")),
+        _mechanism(sheet, letters, plan.mechanism),
+        velocity,
+        _equations(sheet, letters, spoken, plan.equations, homeless),
+        _captioned(plan.given, term("given", spoken), "labels", given),
+        _captioned(
+            plan.readings,
+            term("readings", spoken),
+            "answers",
+            readings_table(sheet, report, letters, spoken, plan.readings),
+        ),
+        _title_block(sheet, report, letters, spoken, plan.block),
+    ]
+    return Drawing(
+        plan.width,
+        plan.height,
+        layer_groups(joined(pieces)),
+        figure_title(sheet, "sheet", spoken),
+        describe(sheet, tuple(drawn), spoken),
+        languages(spoken)[0],
+        facts(sheet, "sheet"),
+    )
+
+
+def _spare(box: Box, written: tuple[Primitive, ...]) -> Box | None:
+    """Room for an inset at the foot of a box in which something is written; None where there is none."""
+    ink = ink_box(written)
+    top = box.bottom - INSET[1]
+    return Box(box.left, top, box.right, box.bottom) if ink is None or ink.bottom + GUTTER < top else None
+
+
+WORDS = {"mechanism": "mechanism", "velocity": "velocity polygon", "acceleration": "acceleration polygon"}
+
+
+def _heading(sheet: Sheet, letters: Letters, language: str, plan: SheetPlan) -> Piece:
+    width = plan.width - 2 * MARGIN
+    words = "   ".join(titles(sheet, language))
+    return Piece({"labels": (
+        Text(complex(MARGIN, MARGIN + 4.0), fitted(words, 4.6, width, bold=True, least=2.6)),
+        Text(complex(MARGIN, MARGIN + 9.2), fitted(drivers(sheet, letters), 3.2, width)),
+    )})  # fmt: skip
+
+
+def _caption(sheet: Sheet, letters: Letters, language: str, diagram: DiagramName) -> str:
+    return f"{term(WORDS[diagram], language)},  {scale_statement(sheet, letters.convention, diagram)}"
+
+
+def _panel(box: Box, caption: str) -> Piece:
+    frame = Polygon(box.corners, "", strokes.DIMENSION)
+    words = Text(complex(box.left, box.top - 1.6), fitted(caption, 3.2, box.width))
+    return Piece({"construction": (Group((frame,), classes=("panel",)),), "labels": (words,)})
+
+
+def _captioned(box: Box, caption: str, layer: str, children: tuple[Primitive, ...]) -> Piece:
+    words = Text(complex(box.left, box.top - 1.6), fitted(caption, 3.2, box.width, bold=True))
+    return joined((Piece({"labels": (words,)}), Piece({layer: children})))
+
+
+def _mechanism(sheet: Sheet, letters: Letters, panel: Box) -> Piece:
+    room = panel.grown(-0.8)
+    piece, content = mechanism_piece(sheet, letters, (room.width, room.height))
+    return settled(moved_piece(piece, panel.centre - content.centre), room)
+
+
+def _polygon(
+    sheet: Sheet, diagram: DiagramName, letters: Letters, language: str, panel: Box
+) -> tuple[Piece, list[CoriolisTerm]]:
+    content = extent(sheet, diagram, panel.grown(-3.0))
+    origin = panel.centre - content.centre
+    return polygon_with_insets(sheet, diagram, letters, language, panel.grown(-0.8), origin)
+
+
+def _equations(sheet: Sheet, letters: Letters, language: str, box: Box, senses: list[CoriolisTerm]) -> Piece:
+    """The equations, and below them the insets of Coriolis terms that found no room in their panel."""
+    insets = INSET[1] + GUTTER if senses else 0.0
+    blocks, left_out = write_equations(sheet, letters, language, box.width, box.height - insets)
+    written: list[Primitive] = [Group(moved(blocks, complex(box.left, box.top)), id="equations")]
+    if left_out:
+        text = say(Phrase("more equations", (left_out,)), languages(language)[0])
+        written.append(Text(complex(box.left, box.bottom - insets - 0.6), rich(text, 2.4)))
+    parts = [_captioned(box, term("equations", language), "labels", tuple(written))]
+    if senses:
+        row = Box(box.left, box.bottom - INSET[1], box.right, box.bottom)
+        parts.append(coriolis_row(sheet, senses, letters, row))
+    return joined(parts)
+
+
+def _title_block(sheet: Sheet, report: Report | None, letters: Letters, language: str, box: Box) -> Piece:
+    lines: list[Primitive] = [Polygon(box.corners, "", strokes.OUTLINE)]
+    one, two = box.left + 0.36 * box.width, box.left + 0.66 * box.width
+    lines += [Line(complex(x, box.top), complex(x, box.bottom), strokes.DIMENSION) for x in (one, two)]
+    words: list[Primitive] = []
+    names = titles(sheet, language)
+    left = box.left + 2.0
+    y = box.top + 1.4
+    for runs in _title_lines(names, one - left - 1.5):
+        y += 1.25 * runs[0].size
+        words.append(Text(complex(left, y), runs))
+    second = f"{sheet.scene.name},  {term('instrument', language)}: {sheet.instrument}"
+    words.append(Text(complex(left, box.bottom - 2.0), fitted(second, 2.6, one - left - 1.5)))
+    for i, diagram in enumerate(("mechanism", "velocity", "acceleration")):
+        text = scale_statement(sheet, letters.convention, diagram)  # type: ignore[arg-type]
+        words.append(Text(complex(one + 2.0, box.top + 4.6 + 4.4 * i), fitted(text, 3.0, two - one - 4.0)))
+    words += check_bar(complex(box.right - 53.0, box.bottom - 2.2), fitted(term("check bar", language), 2.4, 50.0))
+    answers: tuple[Primitive, ...] = ()
+    if report is not None:
+        wrong = sum(not row.ok for row in report.rows)
+        whole = len(report.rows)
+        phrase = Phrase("not all agree", (wrong, whole)) if wrong else Phrase("all agree", (whole,))
+        answers = tuple(
+            Text(complex(two + 2.0, box.top + 4.2 + 3.6 * i), fitted(say(phrase, each), 2.6, box.right - two - 4.0))
+            for i, each in enumerate(languages(language))
+        )
+    return Piece(
+        {"construction": (Group(tuple(lines), classes=("title-block",)),), "labels": tuple(words), "answers": answers}
+    )
+
+
+def _title_lines(names: tuple[str, ...], width: float) -> list[tuple[Run, ...]]:
+    """Titles in lines, as large as they fit the block."""
+    lines: list[tuple[Run, ...]] = []
+    for size in (3.2, 2.8, 2.4, 2.0):
+        lines = [line for name in names for line in wrapped(name, size, width, bold=True)]
+        if 1.25 * size * len(lines) <= BLOCK - 7.0:
+            break
+    return lines[:3]

@@ -1,0 +1,317 @@
+"""How wide a text is, without a font file: the advance widths of a Times-like face, and boxes of texts.
+
+The widths are the larger of STIX General's and Times', in hundredths of the size, so that a box holds its text in
+either; for the signs of arithmetic, whose width differs most, they are the mean, so that the gaps look even in both.
+
+Texts as runs: plain words, and symbols with sub- and superscripts at places of their own.
+
+Between dollar signs stands a symbol, in the notation of TeX: ``"velocity $v_{B3}$ of the ram"``.
+Letters of symbols are italic, digits and signs upright, Chinese upright everywhere; ``_`` and ``^`` take one character
+or a group in braces; both after one letter stand above each other; an index may have an index (``$v_{B_3}$``); a prime
+is ``′`` or ``'``.  ``$$`` is a dollar sign.
+"""
+
+from __future__ import annotations
+
+import unicodedata
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+from graphkin.drawing.box import Box
+from graphkin.drawing.primitives import Run, Text
+
+__all__ = [
+    "INDEX",
+    "LETTER",
+    "SMALLEST",
+    "Atom",
+    "beside",
+    "has_cjk",
+    "is_cjk",
+    "is_italic",
+    "parsed",
+    "plain",
+    "rich",
+    "run_box",
+    "runs_width",
+    "start_runs",
+    "symbol",
+    "text_box",
+    "width",
+]
+
+ASCENT, DESCENT = 0.70, 0.22  # of the size; accents and CJK reach further
+CJK_ASCENT = 0.86
+CAP_HEIGHT = 0.66
+_TALL = {"∥": 0.83, "√": 0.83}  # signs that reach higher
+_ROMAN = {
+    18: "'", 20: "|", 25: " ,.·", 28: "/:;\\ijltιîï", 29: "′", 33: "!()-I[]`fr‘’", 39: "Js", 40: "°", 41: '"', 43: "″",
+    44: "?acezεζàâäéèêëçå“”", 45: "ξ", 46: "ν", 47: "^γ", 48: "{}τ",
+    50: "#$*0123456789_bdghknopquvxyπθδλρκχ–ôöùûüßñø§", 51: "β", 52: "ηυ‖•", 54: "~αμ", 55: "σ", 56: "FPS÷", 58: "µ",
+    59: "Γ", 61: "ELTZ", 62: "φΣ", 60: "∥×", 63: "+<=>−", 66: "ω", 67: "BCRæ", 68: "≈≤≥±∠≠", 69: "ψ",
+    72: "ADGHKNOQUVXYwΔΠΘΛ", 74: "Ω", 75: "Ψ½", 76: "Φ", 78: "&m", 83: "%", 86: "⊥", 89: "M", 91: "∑", 92: "@",
+    93: "√∞", 94: "W", 100: "→←…—",
+}  # fmt: skip
+_ITALIC = {
+    21: "'", 25: " ,.·", 28: "/\\fijlt|ιîï", 33: "!()-:;I`‘’", 39: "[]rsz", 40: "{}°", 41: "τγ", 42: '"^″',
+    44: "Jcekvxyεéèêëç", 45: "ξζ", 46: "δλχ", 47: "ν", 48: "κυ", 49: "θ",
+    50: "#$*0123456789?S_abdghnopquπρση–àâäôöùûüßñåø§", 51: "β", 52: "•", 53: "μ", 54: "~", 55: "α",
+    56: "LTYZ“”", 58: "µ", 61: "ABEFPRVXΔΛΓ", 62: "φψΣ", 67: "CKNwæ", 68: "±÷", 70: "Ψ", 71: "ω∞∑",
+    72: "DGHOQUmΠΘ", 75: "½", 76: "ΩΦ", 78: "&", 83: "%MW", 89: "…—", 92: "@", 100: "→←",
+}  # fmt: skip
+_BOLD = {
+    22: "|", 25: " ,.·", 28: "'/\\ilîï", 31: "′", 33: "!()-:;[]`fjtι‘’", 39: "Is{}", 40: "°", 44: "cerzεéèêëç",
+    46: "ζ", 47: "ξ", 49: "τ", 50: "#$*0123456789?J_agovxy–àâäôöåø§“”", 52: "~θγδν", 55: "λρ″",
+    56: '"Sbdhknpquβùûüßñ•', 57: "σ÷", 58: "^ηκυµ", 61: "FPμχ", 63: "π", 64: "αΓ", 65: "φ", 67: "BELTZΣ",
+    72: "ACDNRUVXYwΔΛæ", 73: "ω", 75: "≈≤≥½≠", 76: "ψ", 77: "±", 78: "GHKOQΠΘ", 79: "∠", 80: "Ω", 81: "Ψ",
+    83: "&m", 84: "Φ", 91: "∑", 93: "@", 94: "M", 96: "√∞", 100: "%W→←…—",
+}  # fmt: skip
+# How far the ink of some letters reaches beyond their advance, to the left and to the right, in hundredths of the size.
+_OVER_LEFT = {15: "f", 12: "j", 8: "y", 7: "p/", 6: "A", 5: ")", 3: "xμX"}
+_OVER_RIGHT = {
+    15: "f", 11: "/", 10: "V", 9: "Y", 8: "TW", 6: "KN", 5: "HIJMUZ(", 4: "X7[", 3: "dEFτπ'",
+}  # fmt: skip
+
+
+def _by_character(table: dict[int, str]) -> dict[str, float]:
+    return {character: hundredths / 100 for hundredths, held in table.items() for character in held}
+
+
+_WIDTHS = (_by_character(_ROMAN), _by_character(_ITALIC), _by_character(_BOLD))
+_LEFT, _RIGHT = _by_character(_OVER_LEFT), _by_character(_OVER_RIGHT)
+
+
+def is_cjk(character: str) -> bool:
+    """Whether a character is of a Chinese font and one em wide (full-width marks count)."""
+    return ord(character) > 0x2E7F and unicodedata.east_asian_width(character) in "WF"
+
+
+def has_cjk(text: str) -> bool:
+    return any(map(is_cjk, text))
+
+
+@lru_cache(maxsize=4096)
+def width(text: str, size: float, italic: bool = False, bold: bool = False) -> float:
+    """Advance width (mm) of a text set at a size (mm)."""
+    widths = _WIDTHS[2 if bold else 1 if italic else 0]
+    roman = _WIDTHS[0]
+    total = 0.0
+    for character in text:
+        if character in widths:
+            total += widths[character]
+        elif character in roman:
+            total += roman[character]
+        elif is_cjk(character):
+            total += 1.0
+        elif not unicodedata.combining(character):
+            total += 0.72
+    return total * size
+
+
+def run_box(run: Run) -> Box:
+    """Box of one run about its text's own point: from ascender to descender, from start to advance, and further where
+    slanted letters reach further."""
+    cjk = has_cjk(run.text)
+    ascent, descent = (CJK_ASCENT, DESCENT) if cjk else (ASCENT, DESCENT)
+    ascent = max((ascent, *(_TALL[sign] for sign in _TALL if sign in run.text)))
+    before, after = (_LEFT.get(run.text[:1], 0.0), _RIGHT.get(run.text[-1:], 0.0)) if run.italic else (0.0, 0.0)
+    return Box(
+        run.x - before * run.size,
+        run.y - ascent * run.size,
+        run.x + width(run.text, run.size, run.italic, run.bold) + after * run.size,
+        run.y + descent * run.size,
+    )
+
+
+def runs_width(runs: tuple[Run, ...]) -> float:
+    """From the text's own point to the end of the run that reaches furthest (mm)."""
+    return max((run.x + width(run.text, run.size, run.italic, run.bold) for run in runs), default=0.0)
+
+
+def start_runs(text: Text) -> tuple[Run, ...]:
+    """The runs of a text on the page: x and y become page coordinates (mm) of the start of each baseline."""
+    share = {"start": 0.0, "middle": 0.5, "end": 1.0}[text.anchor]
+    shift = share * runs_width(text.runs)
+    return tuple(replace(run, x=text.at.real - shift + run.x, y=text.at.imag + run.y) for run in text.runs)
+
+
+def text_box(text: Text) -> Box:
+    """Box of a text on the page (mm).  Raises ValueError for a text without runs."""
+    boxes = [run_box(run) for run in start_runs(text)]
+    return Box(
+        min(b.left for b in boxes),
+        min(b.top for b in boxes),
+        max(b.right for b in boxes),
+        max(b.bottom for b in boxes),
+    )
+
+
+LETTER, INDEX, SMALLEST = 3.5, 2.5, 2.0  # mm
+_DROP, _DROP_STACKED, _RISE = 0.24, 0.30, 0.40  # of the size of the letter, after the usual practice of typesetting
+_GAP_SUB, _GAP_SUPER = 0.02, 0.06
+
+
+@dataclass(frozen=True)
+class Atom:
+    """A stretch of symbol text with what hangs on it."""
+
+    text: str
+    sub: tuple[Atom, ...] = ()
+    sup: tuple[Atom, ...] = ()
+
+
+def plain(text: str, size: float = LETTER, italic: bool = False, bold: bool = False) -> tuple[Run, ...]:
+    """Words as they are, with no notation read into them; white space is folded to single spaces."""
+    folded = " ".join(text.split())
+    return (Run(folded, 0.0, 0.0, size, italic, bold),) if folded else ()
+
+
+def symbol(markup: str, size: float = LETTER) -> tuple[Run, ...]:
+    """A symbol set as runs from its notation without dollar signs: ``symbol("a^{n}_{C/B}")``.
+
+    Raises ValueError where a brace is not closed or an index has nothing to stand at.
+    """
+    return _symbol(markup, size)[0]
+
+
+def parsed(markup: str) -> tuple[str | tuple[Atom, ...], ...]:
+    """Words with symbols between dollar signs, taken apart: stretches of words, and symbols as atoms, for writers that
+    set them themselves.  Raises ValueError as ``symbol``."""
+    found: list[str | tuple[Atom, ...]] = []
+    for index, part in enumerate(_parts(markup)):
+        if index % 2:
+            found.append(_read(part, 0)[0])
+        elif part:
+            found.append(part.replace("\0", "$"))
+    return tuple(found)
+
+
+def _parts(markup: str) -> list[str]:
+    """Words and symbols in turn, with a NUL for a dollar sign itself."""
+    parts = markup.replace("$$", "\0").split("$")
+    if len(parts) % 2 == 0:
+        raise ValueError(f"a dollar sign is not closed in {markup!r}; a dollar sign itself is written $$")
+    return parts
+
+
+def rich(markup: str, size: float = LETTER, bold: bool = False) -> tuple[Run, ...]:
+    """Words with symbols between dollar signs, set as runs one after the other.  Raises ValueError as ``symbol``."""
+    runs: list[Run] = []
+    x = 0.0
+    for index, part in enumerate(_parts(markup)):
+        part = part.replace("\0", "$")
+        if index % 2:
+            set_part, advance = _symbol(part, size)
+            runs += [replace(run, x=run.x + x) for run in set_part]
+            x += advance
+        elif part:
+            folded = " ".join(("_" + part + "_").split())[1:-1]
+            runs += _trimmed(folded, x, 0.0, size, False, bold)
+            x += width(folded, size, False, bold)
+    return tuple(runs)
+
+
+def beside(*texts: tuple[Run, ...], gap: float = 0.0) -> tuple[Run, ...]:
+    """Texts set one after the other with a gap (mm) between."""
+    runs: list[Run] = []
+    x = 0.0
+    for text in texts:
+        runs += [replace(run, x=run.x + x) for run in text]
+        x += runs_width(text) + gap
+    return tuple(runs)
+
+
+@lru_cache(maxsize=1024)
+def _symbol(markup: str, size: float) -> tuple[tuple[Run, ...], float]:
+    atoms, end = _read(markup, 0)
+    if end < len(markup):
+        raise ValueError(f"a brace is closed but not opened in {markup!r}")
+    runs, advance = _set(atoms, 0.0, 0.0, size, 0, size)
+    return tuple(runs), advance
+
+
+def _read(markup: str, at: int) -> tuple[tuple[Atom, ...], int]:
+    """Atoms from a place up to the closing brace or the end, and where that is."""
+    atoms: list[Atom] = []
+    while at < len(markup) and markup[at] != "}":
+        character = markup[at]
+        if character in "_^":
+            if not atoms:
+                raise ValueError(f"an index has nothing to stand at in {markup!r}")
+            inner, at = _argument(markup, at + 1)
+            last = atoms[-1]
+            if last.sub if character == "_" else last.sup:
+                raise ValueError(f"two indices in the same place in {markup!r}; put both in one pair of braces")
+            atoms[-1] = replace(last, sub=inner) if character == "_" else replace(last, sup=inner)
+        elif character == "{":
+            inner, at = _argument(markup, at)
+            atoms += inner
+        else:
+            atoms.append(Atom("′" if character == "'" else character))
+            at += 1
+    return tuple(atoms), at
+
+
+def _argument(markup: str, at: int) -> tuple[tuple[Atom, ...], int]:
+    if at >= len(markup) or markup[at] == "}":
+        raise ValueError(f"an index is empty in {markup!r}")
+    if markup[at] != "{":
+        return (Atom("′" if markup[at] == "'" else markup[at]),), at + 1
+    inner, end = _read(markup, at + 1)
+    if end >= len(markup):
+        raise ValueError(f"a brace is not closed in {markup!r}")
+    if not inner:
+        raise ValueError(f"there is nothing between braces in {markup!r}")
+    return inner, end + 1
+
+
+def _set(atoms: tuple[Atom, ...], x: float, y: float, size: float, level: int, base: float) -> tuple[list[Run], float]:
+    """Runs of atoms from a place on, and the place after them; ``base`` is the size of the letters at level 0."""
+    runs: list[Run] = []
+    stretch, begin = "", x
+
+    def flush() -> None:
+        nonlocal stretch
+        if stretch:
+            runs.extend(_trimmed(stretch, begin, y, size, is_italic(stretch[0]), False))
+            stretch = ""
+
+    for atom in atoms:
+        character = "−" if atom.text == "-" and level == 0 else atom.text
+        if stretch and is_italic(stretch[0]) != is_italic(character):
+            flush()
+        if not stretch:
+            begin = x
+        stretch += character
+        x = begin + width(stretch, size, is_italic(character))
+        if atom.sub or atom.sup:
+            flush()
+            drop = _DROP_STACKED if atom.sup else _DROP
+            x = max(
+                _hang(runs, atom.sub, x + _GAP_SUB * size, y + drop * size, level, base),
+                _hang(runs, atom.sup, x + _GAP_SUPER * size, y - _RISE * size, level, base),
+                x,
+            )
+    flush()
+    return runs, x
+
+
+def _hang(runs: list[Run], atoms: tuple[Atom, ...], x: float, y: float, level: int, base: float) -> float:
+    if not atoms:
+        return x
+    hung, end = _set(atoms, x, y, max(SMALLEST, base * (INDEX if level == 0 else SMALLEST) / LETTER), level + 1, base)
+    runs.extend(hung)
+    return end
+
+
+def is_italic(character: str) -> bool:
+    """Whether a character of a symbol is set in italics."""
+    return character.isalpha() and not is_cjk(character)
+
+
+def _trimmed(text: str, x: float, y: float, size: float, italic: bool, bold: bool) -> list[Run]:
+    """One run without outer spaces (SVG drops them), standing where its first letter stands; none for spaces alone."""
+    body = text.lstrip(" ")
+    start = x + width(text[: len(text) - len(body)], size, italic, bold)
+    body = body.rstrip(" ")
+    return [Run(body, start, y, size, italic, bold)] if body else []

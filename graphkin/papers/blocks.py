@@ -1,0 +1,180 @@
+"""Words from a scene made fit to be shown: nothing that hides, turns or breaks a line of text.
+
+What a handout is made of, whatever it is written as: headings, sentences, steps, figures, tables.
+
+Words are said in one language or in several, one below the other; symbols in them stand between dollar signs, in the
+notation of `graphkin.drawing.text`.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from graphkin.drawing.primitives import Drawing
+from graphkin.papers.pictures import A4, Paper
+from graphkin.words import Phrase, languages, say, word
+
+__all__ = [
+    "Beside",
+    "Block",
+    "Document",
+    "Fields",
+    "Heading",
+    "Paragraph",
+    "Picture",
+    "Said",
+    "StepItem",
+    "Steps",
+    "Table",
+    "Together",
+    "clean",
+    "laid_out",
+    "said",
+    "sentences",
+    "spoken",
+]
+
+# control characters, halves of surrogates, what no file may hold, and marks that turn the direction of writing
+_UNFIT = re.compile(
+    "[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069\ud800-\udfff\ufeff\ufffe\uffff]"
+)
+
+
+def clean(text: str) -> str:
+    """The words without characters that could hide what stands beside them.
+
+    >>> clean("sheet\\u202egpj.exe")
+    'sheetgpj.exe'
+    """
+    return _UNFIT.sub("", text)
+
+
+Said: TypeAlias = tuple[tuple[str, str], ...]  # (language, words) for each language
+
+
+@dataclass(frozen=True)
+class Heading:
+    """A heading of level 1 (the document's), 2 or 3; ``fresh`` begins a new page with it."""
+
+    words: Said
+    level: int = 2
+    fresh: bool = False
+
+
+@dataclass(frozen=True)
+class Paragraph:
+    """Sentences; ``small`` for remarks."""
+
+    words: Said
+    small: bool = False
+
+
+@dataclass(frozen=True)
+class StepItem:
+    """One step of the construction: its number, its reason, the lines of numbers computed in it."""
+
+    number: int
+    words: Said
+    work: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Steps:
+    """Steps in their order."""
+
+    items: tuple[StepItem, ...]
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A figure at true scale with its caption; ``drawing.desc`` says in words what it shows.
+
+    ``joined`` keeps it with what follows on one page (an equation with its steps).
+    """
+
+    drawing: Drawing
+    caption: Said = ()
+    joined: bool = False
+
+
+@dataclass(frozen=True)
+class Table:
+    """Rows under heads; ``align`` is one of l, r, c for each column; ``bold`` are the rows that stand out.
+
+    ``roomy`` makes cells to write in by hand.
+    """
+
+    heads: tuple[Said, ...]
+    rows: tuple[tuple[str, ...], ...]
+    align: str
+    bold: frozenset[int] = frozenset()
+    roomy: bool = False
+
+
+@dataclass(frozen=True)
+class Fields:
+    """Names of what is filled in on lines, as at the head of a sheet."""
+
+    names: tuple[Said, ...]
+
+
+@dataclass(frozen=True)
+class Beside:
+    """Blocks with a narrow figure at their right."""
+
+    blocks: tuple[Heading | Paragraph | Steps, ...]
+    picture: Picture
+
+
+@dataclass(frozen=True)
+class Together:
+    """Blocks that stand on one page if they fit on one."""
+
+    blocks: tuple[Heading | Paragraph | Steps | Picture | Table | Fields | Beside, ...]
+
+
+Block: TypeAlias = Heading | Paragraph | Steps | Picture | Table | Fields | Beside | Together
+
+
+@dataclass(frozen=True)
+class Document:
+    """A whole document: its title in words, its languages in order, its blocks, and its paper."""
+
+    title: str
+    languages: tuple[str, ...]
+    blocks: tuple[Block, ...]
+    paper: Paper = A4
+
+
+def laid_out(blocks: Iterable[Block]) -> Iterator[Heading | Paragraph | Steps | Picture | Table | Fields]:
+    """Every block by itself, in the order in which they are read."""
+    for block in blocks:
+        if isinstance(block, Together):
+            yield from laid_out(block.blocks)
+        elif isinstance(block, Beside):
+            yield from block.blocks
+            yield block.picture
+        else:
+            yield block
+
+
+def said(key: str, language: str, *args: object) -> Said:
+    """Words from the table of terms, in the languages of a sheet ("en", "zh" or "both")."""
+    return tuple((each, say(Phrase(key, args), each)) for each in languages(language))
+
+
+def spoken(markup: str, language: str) -> Said:
+    """Words that are the same in every language, said once."""
+    return ((languages(language)[0], markup),)
+
+
+def sentences(*several: Said) -> Said:
+    """Sentences one after the other, by language."""
+    by_language: dict[str, list[str]] = {}
+    for one in several:
+        for each, text in one:
+            by_language.setdefault(each, []).append(text)
+    return tuple((each, word("between sentences", each).join(parts)) for each, parts in by_language.items())

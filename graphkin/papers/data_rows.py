@@ -1,0 +1,266 @@
+"""Numbers of a data table that are given by other columns: "0.3 O4B", "O4B*(1 + cos(asin(O2A/O2O4)))/2".
+
+Tables of data as course exercises give them: a row for each group, scheme or student, with the usual names as heads.
+
+A head is a key of the scene file with dots (``links.2.length``, ``frame.guides.h.through.y``, ``driver.angle``), two
+points whose distance is given (``O4B``, ``lO4B``, ``l_O2A``), the driver's speed (``n2`` in r/min, ``omega1``), or its
+angle (``phi1``, ``theta1``).  A length between fixed points moves the second away from the first.  Any other head is no
+datum: the first names the row, the rest is left alone.
+"""
+
+from __future__ import annotations
+
+import ast
+import math
+import operator
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+__all__ = ["Columns", "columns_of", "names_in", "replaced", "value_of"]
+
+LONGEST = 200
+_OPERATORS: Mapping[type[ast.operator], Callable[[float, float], float]] = {
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: operator.truediv,
+}
+_FUNCTIONS: Mapping[str, Callable[[float], float]] = {
+    "sqrt": math.sqrt,
+    "sin": lambda d: math.sin(math.radians(d)),
+    "cos": lambda d: math.cos(math.radians(d)),
+    "tan": lambda d: math.tan(math.radians(d)),
+    "asin": lambda x: math.degrees(math.asin(x)),
+    "acos": lambda x: math.degrees(math.acos(x)),
+    "atan": lambda x: math.degrees(math.atan(x)),
+}
+_PRODUCT = re.compile(r"(?<![A-Za-z0-9_])(\d+(?:\.\d+)?)\s*(?=[A-Za-z(])")
+
+
+def value_of(text: str, known: Mapping[str, float]) -> float:
+    """The number that a cell stands for: plain, or made of names by + - * / and functions; angles in degrees.
+
+    Raises
+    ------
+    ValueError : it is no number and no such formula, or names something unknown
+
+    >>> value_of("0.3 O4B", {"O4B": 580.0})
+    174.0
+    """
+    plain = text.strip().replace("\u2212", "-")
+    try:
+        value = float(plain)
+    except ValueError:
+        value = _evaluated(_tree(plain), known)
+    if not math.isfinite(value):
+        raise ValueError(f'"{plain[:40]}" is no number')
+    return value
+
+
+def names_in(text: str) -> set[str]:
+    """The names that a cell needs; none for a plain number or what is no formula."""
+    try:
+        float(text.strip().replace("\u2212", "-"))
+    except ValueError:
+        try:
+            tree = _tree(text)
+        except ValueError:
+            return set()
+        return {n.id for n in ast.walk(tree) if isinstance(n, ast.Name)} - set(_FUNCTIONS)
+    return set()
+
+
+def _tree(text: str) -> ast.expr:
+    if len(text) > LONGEST:
+        raise ValueError(f"a formula of {len(text)} signs is too long")
+    try:
+        return ast.parse(_PRODUCT.sub(r"\1*", text.strip()), mode="eval").body
+    except (SyntaxError, RecursionError, MemoryError, ValueError):
+        raise ValueError(f'"{text[:40]}" is no number') from None
+
+
+def _evaluated(node: ast.expr, known: Mapping[str, float]) -> float:
+    match node:
+        case ast.Constant(value=int() | float() as number) if not isinstance(number, bool):
+            return float(number)
+        case ast.Name(id=name) if name in known:
+            return known[name]
+        case ast.Name(id=name):
+            raise ValueError(f'"{name}" is no column with a number')
+        case ast.UnaryOp(op=ast.USub(), operand=inner):
+            return -_evaluated(inner, known)
+        case ast.BinOp(left=left, op=op, right=right) if type(op) in _OPERATORS:
+            try:
+                return _OPERATORS[type(op)](_evaluated(left, known), _evaluated(right, known))
+            except ZeroDivisionError:
+                raise ValueError("divides by zero") from None
+        case ast.Call(func=ast.Name(id=name), args=[one], keywords=[]) if name in _FUNCTIONS:
+            try:
+                return _FUNCTIONS[name](_evaluated(one, known))
+            except ValueError:
+                raise ValueError(f"{name} has no value there") from None
+    raise ValueError("only + - * /, sqrt, sin, cos, tan, asin, acos, atan and names of columns are possible")
+
+
+Source = Mapping[str, Any]
+Setting = tuple[str, float]
+_UNIT = re.compile(r"[（(\[].*?[）)\]]|/\s*(?:mm|m|cm|rpm|r/min|deg|rad/s|°)\s*$")
+_WORDS = re.compile("[\u3000-\u9fff\uff00-\uffef]+")
+_SPEED = re.compile(r"n_?\{?(\w*?)\}?")
+_RATE = re.compile(r"(?:omega|ω|w)_?\{?(\w*?)\}?")
+_ANGLE = re.compile(r"(?:phi|theta|φ|θ|ϕ)_?\{?(\w*?)\}?")
+
+
+@dataclass(frozen=True)
+class Columns:
+    """What the columns of a table are: the one that names the row, the data by column with their short names, and the
+    heads that are no data of the scene."""
+
+    name: int | None
+    data: Mapping[int, str]
+    unused: tuple[str, ...]
+
+
+def columns_of(source: Source, heads: Sequence[str]) -> Columns:
+    """Tell the columns of a table apart."""
+    data: dict[int, str] = {}
+    others: list[int] = []
+    for i, head in enumerate(heads):
+        short = _short(head)
+        if "." in short or _meaning(source, short):
+            data[i] = short
+        else:
+            others.append(i)
+    return Columns(others[0] if others else None, data, tuple(heads[i] for i in others[1:]))
+
+
+def replaced(source: Source, columns: Columns, cells: Sequence[str]) -> list[Setting]:
+    """Keys of the scene file with their values in one row.
+
+    Raises
+    ------
+    ValueError : a cell that is no number, with the name of its column
+    """
+    texts = {short: cells[i] for i, short in columns.data.items() if i < len(cells) and cells[i].strip()}
+    values = _values(texts)
+    settings: list[Setting] = []
+    for short, value in values.items():
+        if "." in short:
+            settings.append((short, value))
+        else:
+            settings += _settings(source, short, value)
+    return settings
+
+
+def _short(head: str) -> str:
+    """A head without unit, blanks and braces, and without the words that say what its symbol means.
+
+    >>> _short("曲柄转速 n2 (r/min)"), _short("l_{O2A}/mm")
+    ('n2', 'l_O2A')
+    """
+    bare = _UNIT.sub("", head).replace(" ", "").replace("{", "").replace("}", "")
+    return _WORDS.sub("", bare) or bare
+
+
+def _values(texts: Mapping[str, str]) -> dict[str, float]:
+    """The numbers of a row, formulas after the columns that they need."""
+    plain = {_bare(short): short for short in texts}
+    values: dict[str, float] = {}
+    left = dict(texts)
+    while left:
+        needs = {s: {n: plain[_bare(n)] for n in names_in(text) if _bare(n) in plain} for s, text in left.items()}
+        ready = [s for s in left if not set(needs[s].values()) & left.keys()]
+        if not ready:
+            raise ValueError(f"{', '.join(left)} are given by one another")
+        for short in ready:
+            known = {n: values[column] for n, column in needs[short].items()}
+            try:
+                values[short] = value_of(left.pop(short), known)
+            except ValueError as error:
+                raise ValueError(f"{short}: {error}") from None
+    return values
+
+
+def _bare(name: str) -> str:
+    """A name of a length without its l: lO4B and O4B are one."""
+    return re.sub(r"^[lL]_?(?=[A-Z])", "", name)
+
+
+def _meaning(source: Source, short: str) -> str:
+    """What a short name stands for: "speed", "rate", "angle", "length" or ""."""
+    links = [str(d.get("link", "")) for d in _drivers(source)]
+    for kind, pattern in (("speed", _SPEED), ("rate", _RATE), ("angle", _ANGLE)):
+        match = pattern.fullmatch(short)
+        if match and links and match[1] in ("", *links):
+            return kind
+    return "length" if _two_points(source, short) else ""
+
+
+def _drivers(source: Source) -> Sequence[Mapping[str, Any]]:
+    drivers = source.get("driver", [])
+    return drivers if isinstance(drivers, list) else [drivers]
+
+
+def _settings(source: Source, short: str, value: float) -> Iterable[Setting]:
+    kind = _meaning(source, short)
+    if kind == "length":
+        return _length(source, short, value)
+    drivers = _drivers(source)
+    name = next(p.fullmatch(short) for p in (_SPEED, _RATE, _ANGLE) if p.fullmatch(short))
+    index = next((i for i, d in enumerate(drivers) if name and name[1] in ("", str(d.get("link", "")))), 0)
+    where = f"driver.{index + 1}" if isinstance(source.get("driver"), list) else "driver"
+    if kind == "angle":
+        return [(f"{where}.angle", value)]
+    driver = drivers[index]
+    was = driver.get("rpm", driver.get("omega", 0.0))
+    signed = math.copysign(value, was) if value > 0 and was else value  # tables give speeds without their sense
+    if "rpm" in driver:
+        return [(f"{where}.rpm", signed if kind == "speed" else signed * 30 / math.pi)]
+    return [(f"{where}.omega", signed * math.pi / 30 if kind == "speed" else signed)]
+
+
+def _points(source: Source) -> set[str]:
+    found = set(source.get("frame", {}).get("points", {}))
+    for link in source.get("links", {}).values():
+        found |= {*link.get("points", []), *link.get("at", {})}
+    return found
+
+
+def _two_points(source: Source, short: str) -> tuple[str, str] | None:
+    """The two points whose names make up a name, if something in the file gives their distance."""
+    text = _bare(short)
+    points = _points(source)
+    for i in range(1, len(text)):
+        if text[:i] in points and text[i:] in points and list(_length(source, (text[:i], text[i:]), 1.0)):
+            return text[:i], text[i:]
+    return None
+
+
+def _length(source: Source, what: str | tuple[str, str], value: float) -> Iterable[Setting]:
+    """The entries of the file that give the distance of two points."""
+    pair = _two_points(source, what) if isinstance(what, str) else what
+    if pair is None:
+        return []
+    p, q = pair
+    for name, link in source.get("links", {}).items():
+        if set(link.get("points", [])) == {p, q}:
+            return [(f"links.{name}.length", value)]
+        for one, other in ((p, q), (q, p)):
+            entry = link.get("at", {}).get(one)
+            if isinstance(entry, Mapping) and entry.get("from") == other:
+                return [(f"links.{name}.at.{one}.r", value)]
+            if isinstance(entry, list) and link.get("points", [""])[0] == other and any(entry):
+                size = math.hypot(*entry)
+                where = f"links.{name}.at.{one}"
+                return [(f"{where}.{axis}", c / size * value) for axis, c in zip("xy", entry, strict=True)]
+    fixed = source.get("frame", {}).get("points", {})
+    if p in fixed and q in fixed and fixed[p] != fixed[q]:
+        if not any(fixed[q]):
+            p, q = q, p  # the point at the origin stays there
+        way = [b - a for a, b in zip(fixed[p], fixed[q], strict=True)]
+        size = math.hypot(*way)
+        places = [a + c / size * value for a, c in zip(fixed[p], way, strict=True)]
+        return [(f"frame.points.{q}.{axis}", c) for axis, c in zip("xy", places, strict=True)]
+    return []

@@ -1,0 +1,146 @@
+"""Blocks as HTML: every word of a scene escaped, figures as SVG in the page."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from dataclasses import replace
+from html import escape
+
+from graphkin.drawing.primitives import Drawing, Group, Line, Primitive, Stroke
+from graphkin.drawing.svg import svg_bytes
+from graphkin.drawing.text import Atom, is_italic, parsed
+from graphkin.papers.blocks import (
+    Beside,
+    Block,
+    Fields,
+    Heading,
+    Paragraph,
+    Picture,
+    Said,
+    Steps,
+    Table,
+    Together,
+    clean,
+)
+from graphkin.words import word
+
+__all__ = ["blocks_html", "figure_svg", "said_html", "words_html"]
+
+HIT = 3.0  # mm
+_PROLOG = re.compile(r"^<\?xml[^>]*\?>\s*")
+_LAYER = re.compile(r' inkscape:(?:groupmode|label)="[^"]*"| xmlns:(?:inkscape|ev|xlink)="[^"]*"| baseProfile="[^"]*"')
+_ID = re.compile(r' id="[^"]*"')
+_LAYER_ID = re.compile(r' id="(?:construction|mechanism|velocity|acceleration|centres|answers|labels)"')
+_DATA = re.compile(r"<(metadata|title|desc)>.*?</\1>", re.DOTALL)
+
+
+def words_html(markup: str) -> str:
+    """Words with symbols between dollar signs."""
+    return "".join(
+        escape(clean(part)) if isinstance(part, str) else f'<span class="sym">{_atoms(part)}</span>'
+        for part in parsed(markup)
+    )
+
+
+def _atoms(atoms: tuple[Atom, ...]) -> str:
+    found = []
+    for atom in atoms:
+        text = escape(clean(atom.text))
+        found.append(f"<i>{text}</i>" if is_italic(atom.text) else text)
+        sup = f"<sup>{_atoms(atom.sup)}</sup>" if atom.sup else ""
+        sub = f"<sub>{_atoms(atom.sub)}</sub>" if atom.sub else ""
+        found.append(f'<span class="both">{sup}{sub}</span>' if sup and sub else sup + sub)
+    return "".join(found)
+
+
+def said_html(said: Said, tag: str = "span") -> str:
+    """Words in each language, each in an element that names it."""
+    return "".join(f'<{tag} lang="{word("code in pages", each)}">{words_html(markup)}</{tag}>' for each, markup in said)
+
+
+def figure_svg(drawing: Drawing, named: bool = False) -> str:
+    """A drawing as an SVG element for a page; ``named`` keeps the names of vectors, points and links (once in a page).
+
+    Lines end under their arrowheads by a dash and not by a clip, whose name would have to be unique in the page.
+    """
+    children = tuple(map(_dashed, drawing.children))
+    bare = replace(drawing, metadata={}, children=tuple(map(_wide, children)) if named else children)
+    text = _PROLOG.sub("", svg_bytes(bare).decode()).strip()
+    head, body = text.split(">", 1)
+    head = _LAYER.sub("", re.sub(r' font-family="[^"]*"', "", head))  # the page's style names the faces
+    body = _LAYER.sub("", _DATA.sub("", body))
+    body = (_LAYER_ID if named else _ID).sub("", body)
+    body = body.replace(" />", "/>")
+    label = escape(clean(re.sub(r"\s+", " ", f"{drawing.title}. {drawing.desc}".strip(". "))))
+    return f'{head} aria-label="{label}" focusable="false">{body}'
+
+
+def _dashed(thing: Primitive) -> Primitive:
+    if isinstance(thing, Group):
+        return replace(thing, children=tuple(map(_dashed, thing.children)))
+    if isinstance(thing, Line) and thing.covered:
+        inked = abs(thing.inked_end - thing.start)
+        return Line(thing.start, thing.end, replace(thing.stroke, dash=(inked, abs(thing.end - thing.start) + 1.0)))
+    return thing
+
+
+def _wide(thing: Primitive) -> Primitive:
+    """Vectors with a band of a finger's width that is not seen but felt by the pointer."""
+    if not isinstance(thing, Group):
+        return thing
+    children = tuple(map(_wide, thing.children))
+    shaft = children[0] if "vector" in thing.classes else None
+    if isinstance(shaft, Line) and shaft.start != shaft.end:
+        children += (Group((Line(shaft.start, shaft.end, Stroke(HIT)),), classes=("hit",)),)
+    return replace(thing, children=children)
+
+
+def blocks_html(blocks: Iterable[Block]) -> str:
+    """Blocks one after the other."""
+    return "\n".join(map(_block, blocks))
+
+
+def _block(block: Block) -> str:
+    if isinstance(block, Heading):
+        fresh = ' class="fresh"' if block.fresh else ""
+        return f"<h{block.level}{fresh}>{said_html(block.words)}</h{block.level}>"
+    if isinstance(block, Paragraph):
+        small = ' class="small"' if block.small else ""
+        return f"<div{small}>{said_html(block.words, 'p')}</div>"
+    if isinstance(block, Fields):
+        return '<div class="fields">' + "".join(f"<div>{said_html(name)}</div>" for name in block.names) + "</div>"
+    if isinstance(block, Steps):
+        items = "".join(
+            f'<li value="{item.number}">{said_html(item.words, "p")}'
+            + "".join(f'<p class="work">{words_html(line)}</p>' for line in item.work)
+            + "</li>"
+            for item in block.items
+        )
+        return f'<ol class="steps">{items}</ol>'
+    if isinstance(block, Picture):
+        svg = figure_svg(block.drawing)
+        caption = f"<figcaption>{said_html(block.caption)}</figcaption>" if block.caption else ""
+        kind = ' class="equation"' if block.joined else ""
+        return f"<figure{kind}>{svg}{caption}</figure>"
+    if isinstance(block, Beside):
+        inner = "\n".join(map(_block, block.blocks))
+        return f'<div class="beside"><div>{inner}</div>{_block(block.picture)}</div>'
+    if isinstance(block, Together):
+        return f'<div class="together">{blocks_html(block.blocks)}</div>'
+    return _table(block)
+
+
+def _table(table: Table) -> str:
+    ways = {"l": "", "r": ' class="right"', "c": ' class="middle"'}
+    heads = "".join(
+        f'<th scope="col"{ways[a]}>{said_html(h)}</th>' for h, a in zip(table.heads, table.align, strict=True)
+    )
+    rows = []
+    for i, row in enumerate(table.rows):
+        first = f'<th scope="row">{words_html(row[0])}</th>'
+        cells = "".join(f"<td{ways[a]}>{words_html(c)}</td>" for c, a in zip(row[1:], table.align[1:], strict=True))
+        asked = ' class="asked"' if i in table.bold else ""
+        rows.append(f"<tr{asked}>{first}{cells}</tr>")
+    kind = ' class="roomy"' if table.roomy else ""
+    return f"<table{kind}><thead><tr>{heads}</tr></thead><tbody>{''.join(rows)}</tbody></table>"

@@ -1,0 +1,303 @@
+"""A drawing as a lesson: what belongs together, equation by equation, and what is asked and found.
+
+Steps in words and in numbers: the sentence of each, and what is computed in it from what is measured.
+
+Sentences hold symbols between dollar signs, in the notation of `graphkin.drawing.text`; the lines of numbers are
+the same in every language.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+from graphkin.checking import Compared, Report, Uncertainty
+from graphkin.construction.sheet import DiagramName, Direction, Equation, Ray, Sheet, Step, Vector
+from graphkin.drawing.conventions import Letters, letters_of, pole
+from graphkin.drawing.headings import number
+from graphkin.drawing.text import Atom, parsed
+from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.words import Phrase, say, word
+
+__all__ = ["Lesson", "Speaker", "Stage", "plain_words", "stages"]
+
+
+@dataclass(frozen=True)
+class Stage:
+    """Steps that serve one equation, or the position (no equation)."""
+
+    diagram: DiagramName
+    equation: Equation | None
+    steps: tuple[Step, ...]
+
+    @property
+    def first(self) -> int:
+        return self.steps[0].number
+
+    @property
+    def last(self) -> int:
+        return self.steps[-1].number
+
+
+def stages(sheet: Sheet) -> tuple[Stage, ...]:
+    """The steps of a sheet in groups: one for the position, one for each equation with what is measured after it."""
+    equations = {e.number: e for e in sheet.equations}
+    found: list[Stage] = []
+    for step in sheet.steps:
+        equation = equations.get(step.equation) if step.equation is not None else None
+        if found and found[-1].diagram == step.diagram and (equation is None or equation is found[-1].equation):
+            last = found[-1]
+            found[-1] = Stage(last.diagram, last.equation, (*last.steps, step))
+        else:
+            found.append(Stage(step.diagram, equation, (step,)))
+    return tuple(found)
+
+
+@dataclass(frozen=True)
+class Lesson:
+    """Everything a handout tells of one scene at one position.
+
+    Parameters
+    ----------
+    sheet : the drawing, at the scales of the handout's paper
+    report : its readings held against the exact values
+    tolerance : predicted uncertainty of each reading on a pencil drawing at these scales
+    language : "en", "zh" or "both"
+    convention : "chinese", "us", "british" or "russian"
+    asked : what is to be found; empty for everything
+    """
+
+    sheet: Sheet
+    report: Report
+    tolerance: Mapping[Symbol, Uncertainty]
+    language: str
+    convention: str
+    asked: tuple[Symbol, ...] = ()
+
+    @cached_property
+    def letters(self) -> Letters:
+        return letters_of(self.sheet, self.convention)  # type: ignore[arg-type]
+
+    @cached_property
+    def speaker(self) -> Speaker:
+        return Speaker(self.sheet, self.letters)
+
+    @cached_property
+    def stages(self) -> tuple[Stage, ...]:
+        return stages(self.sheet)
+
+    @cached_property
+    def results(self) -> tuple[Compared, ...]:
+        """The readings that are results: not what is given, nor the same rate under a second name.
+
+        Velocities come first, then angular velocities, accelerations, angular accelerations.
+        """
+        kept = [row for row in self.report.rows if row.symbol in self.questions or self._is_result(row.symbol)]
+        order = {"v": 0, "omega": 1, "alpha": 3}
+        return tuple(sorted(kept, key=lambda row: order.get(row.symbol.kind, 2)))
+
+    @cached_property
+    def questions(self) -> tuple[Symbol, ...]:
+        """What a student is asked for: the scene's own questions, or every absolute vector and every rate found."""
+        have = {row.symbol for row in self.report.rows}
+        if self.asked:
+            return tuple(s for s in self.asked if s in have)
+        return tuple(
+            row.symbol
+            for row in self.report.rows
+            if self._is_result(row.symbol) and row.symbol.to is None and row.symbol.kind in ("v", "a", "omega", "alpha")
+        )
+
+    def _is_result(self, symbol: Symbol) -> bool:
+        if symbol.is_vector:
+            return True
+        rate = (self.sheet.omega if symbol.kind == "omega" else self.sheet.alpha)[symbol.link]
+        return rate.vector is not None and not rate.same_as
+
+    def unit(self, symbol: Symbol) -> str:
+        """The unit in which a quantity is given."""
+        length = self.sheet.scene.units.length
+        return {"v": f"{length}/s", "omega": "rad/s", "alpha": "rad/s²"}.get(symbol.kind, f"{length}/s²")
+
+    def in_unit(self, symbol: Symbol, value: float) -> float:
+        """A value (SI) in that unit."""
+        return value / self.sheet.scene.units.metres if symbol.is_vector else value
+
+
+_POINT_NAMES = re.compile(r"(?:[A-Z][a-z]*\d*)+")
+_RATE = re.compile(r"([ωα])_\{([^{}]*)\}")
+SAME = 1e-6  # mm
+_OPEN, _CLOSE = "\x02", "\x03"  # around symbols until the sentence is whole; no argument can hold them
+
+
+class _Markup(str):
+    """A symbol in the notation of `graphkin.drawing.text`."""
+
+
+@dataclass(frozen=True)
+class Speaker:
+    """Says the steps of one sheet in one convention."""
+
+    sheet: Sheet
+    letters: Letters
+
+    @property
+    def unit(self) -> str:
+        return self.sheet.scene.units.length
+
+    def sentence(self, phrase: Phrase, language: str) -> str:
+        """A phrase as a sentence with its full stop."""
+        said = say(phrase, language, lambda thing: self._show(thing, language))
+        # symbols stand between marks; a rate whose index is a gap of the sentence is marked here
+        parts = re.split(f"{_OPEN}([^{_CLOSE}]*){_CLOSE}", said)
+        for i in range(0, len(parts), 2):
+            parts[i] = _RATE.sub(f"{_OPEN}\\g<0>{_CLOSE}", parts[i])
+        parts[1::2] = [f"{_OPEN}{symbol}{_CLOSE}" for symbol in parts[1::2]]
+        said = "".join(parts).replace(_CLOSE + _OPEN, "").replace(_OPEN, "$").replace(_CLOSE, "$")
+        stop = word("full stop", language)
+        return said[:1].upper() + said[1:].rstrip(stop) + stop
+
+    def step(self, step: Step, language: str) -> str:
+        """The sentence of a step; a line of known direction is said with the point through which it goes."""
+        return self.sentence(self._from_its_start(step), language)
+
+    def _from_its_start(self, step: Step) -> Phrase:
+        ray = next((s for s in step.strokes if isinstance(s, Ray)), None)
+        if step.phrase.key != "direction" or ray is None:
+            return step.phrase
+        if abs(ray.through) < SAME:
+            mark = _Markup(pole(self.letters.convention, step.diagram))
+            return Phrase("direction from pole", (*step.phrase.args, mark))
+        before = [
+            stroke.symbol
+            for one in self.sheet.steps[: self.sheet.steps.index(step)]
+            for stroke in one.strokes
+            if one.diagram == step.diagram and isinstance(stroke, Vector) and abs(stroke.tip - ray.through) < SAME
+        ]
+        return Phrase("direction from end", (*step.phrase.args, before[-1])) if before else step.phrase
+
+    def _show(self, thing: object, language: str) -> str:
+        if isinstance(thing, _Markup):
+            return self._marked(thing)
+        if isinstance(thing, Symbol):
+            return self._marked(self.letters.vector(thing))
+        if isinstance(thing, PointRef):
+            return self._marked(self.point(thing))
+        if isinstance(thing, Direction):
+            return self._marked(self.letters.direction(thing, self.sheet.scene.frame.name))
+        text = str(thing)
+        if text == "given":
+            return word("given", language).lower()
+        if "·" in text and "_" in text:
+            return self._marked(self.letters.size(text))
+        names = text.split(", ")
+        if all(map(_POINT_NAMES.fullmatch, names)):
+            return ", ".join(self._marked(self.bar(name)) for name in names)
+        return text.replace("$", "$$")
+
+    def _marked(self, markup: str) -> str:
+        return f"{_OPEN}{markup}{_CLOSE}"
+
+    def point(self, ref: PointRef) -> str:
+        """A point, with the link as a further index where coincident points are told apart."""
+        link = ref.link or self.letters.blocks.get(ref.point, "")
+        base = self.letters.point(ref.point)
+        if not link:
+            return base
+        return f"{base[:-1]},{link}}}" if base.endswith("}") else f"{base}_{{{link}}}"
+
+    def bar(self, names: str) -> str:
+        """Letters of a bar as they are written: ``O_{4}A``."""
+        return "".join(self.letters.point(name) for name in re.findall(r"[A-Z][a-z]*\d*", names))
+
+    # -- numbers -----------------------------------------------------------------------------------------------------
+
+    def work(self, step: Step) -> tuple[str, ...]:
+        """What is computed in a step, as lines of symbols and numbers."""
+        key, args = step.phrase.key, step.phrase.args
+        if key.startswith(("omega ", "alpha ")):
+            return self._rate(step)
+        if key.startswith("lay off") and isinstance(args[0], Symbol):
+            return self._laid_off(step, args[0], str(args[1]))
+        return tuple(line for s in step.strokes if isinstance(s, Vector) for line in self._measured(step.diagram, s))
+
+    def _rate(self, step: Step) -> tuple[str, ...]:
+        link, symbol = str(step.phrase.args[0]), step.phrase.args[1]
+        omega = step.phrase.key.startswith("omega")
+        rate = (self.sheet.omega if omega else self.sheet.alpha)[link]
+        assert isinstance(symbol, Symbol)
+        per = self._per(step.diagram)
+        arm = rate.arm_mm * self.sheet.scales.length / self.sheet.scene.units.metres
+        unit = "rad/s" if omega else "rad/s²"
+        name = f"{'ω' if omega else 'α'}_{{{link}}}"
+        return (
+            f"${name}$ = {number(rate.mm * per, 5)} {self._unit(step.diagram)} / "
+            f"{number(arm, 5)} {self.unit} = {number(abs(rate.value), 4)} {unit}",
+        )
+
+    def _laid_off(self, step: Step, symbol: Symbol, rule: str) -> tuple[str, ...]:
+        vector = next(s for s in step.strokes if isinstance(s, Vector))
+        per = self._per(step.diagram)
+        value = number(abs(vector.span) * per, 5)
+        numbers = self._substituted(rule)
+        middle = f" = {numbers}" if numbers else ""
+        unit = self._unit(step.diagram)
+        return (
+            f"${self.letters.vector(symbol)}${middle} = {value} {unit}",
+            f"{value} {unit} ÷ {self._scale(step.diagram)} = {abs(vector.span):.2f} mm",
+        )
+
+    def _measured(self, diagram: DiagramName, vector: Vector) -> Iterator[str]:
+        if abs(vector.span) < 1e-7:
+            yield f"${self.letters.vector(vector.symbol)}$ = 0"
+            return
+        value = number(abs(vector.span) * self._per(diagram), 5)
+        yield (
+            f"${self.letters.vector(vector.symbol)}$ = {abs(vector.span):.2f} mm × {self._scale(diagram)} = "
+            f"{value} {self._unit(diagram)}"
+        )
+
+    def _substituted(self, rule: str) -> str:
+        """A rule of a size with numbers in place of its symbols: ``2 × 2.819 × 575.4`` for 2ω v."""
+        head, _, tail = rule.partition("·")
+        match = re.fullmatch(r"(2?)([ωα])_\{(.*)\}(²?)", head)
+        factor = (self._speed(tail) if "_" in tail else self._length(tail)) if tail else None
+        if match is None or factor is None:
+            return ""
+        rates = self.sheet.omega if match[2] == "ω" else self.sheet.alpha
+        rate = number(abs(rates[match[3]].value), 5) + ("²" if match[4] else "")
+        return " × ".join(filter(None, (match[1], rate, factor)))
+
+    def _length(self, names: str) -> str | None:
+        places = {ref.point: z for ref, z in self.sheet.points.items() if not ref.link}
+        for i in range(1, len(names)):
+            if names[:i] in places and names[i:] in places:
+                arm = abs(places[names[:i]] - places[names[i:]])
+                return number(arm * self.sheet.scales.length / self.sheet.scene.units.metres, 5)
+        return None
+
+    def _speed(self, name: str) -> str | None:
+        vector = self.sheet.vectors("velocity").get(Symbol.parse(name))
+        return None if vector is None else number(abs(vector.span) * self._per("velocity"), 5)
+
+    def _per(self, diagram: DiagramName) -> float:
+        return self.sheet.scales.of(diagram) / self.sheet.scene.units.metres
+
+    def _unit(self, diagram: DiagramName) -> str:
+        return self.unit + {"mechanism": "", "velocity": "/s", "acceleration": "/s²"}[diagram]
+
+    def _scale(self, diagram: DiagramName) -> str:
+        return f"{number(self._per(diagram))} ({self._unit(diagram)})/mm"
+
+
+def plain_words(markup: str) -> str:
+    """Words with symbols as one plain line, for titles and for readers of screens: ``v_B3B2``."""
+    return "".join(p if isinstance(p, str) else "".join(map(_plain_atom, p)) for p in parsed(markup))
+
+
+def _plain_atom(atom: Atom) -> str:
+    up = "".join(map(_plain_atom, atom.sup))
+    down = "".join(map(_plain_atom, atom.sub))
+    return atom.text + (f"^{up}" if up else "") + (f"_{down}" if down else "")

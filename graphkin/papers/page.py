@@ -1,0 +1,313 @@
+"""Figures and steps for the screen: every position of the driver drawn in the same frames, every part with its step.
+
+Whole HTML pages: one file each, which loads nothing and runs no script but its own.
+"""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import json
+import math
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from html import escape
+from importlib.resources import files
+from typing import Any
+
+from graphkin.construction import Plan, execute
+from graphkin.construction.centres import Centres
+from graphkin.construction.sheet import DiagramName, Scales, Sheet
+from graphkin.drawing.box import Box
+from graphkin.drawing.centre_marks import CentreLetters, centre_marks, near_box
+from graphkin.drawing.centres import background
+from graphkin.drawing.conventions import scale_statement
+from graphkin.drawing.headings import drivers, term
+from graphkin.drawing.insets import polygon_with_insets, strip_height
+from graphkin.drawing.layout import Piece, ink_box, joined, layer_groups, moved_piece, settled
+from graphkin.drawing.mechanism import mechanism_piece
+from graphkin.drawing.polygon import extent
+from graphkin.drawing.primitives import Drawing
+from graphkin.drawing.stepwise import births, stepped
+from graphkin.papers.blocks import Document, Heading, Said, clean, said
+from graphkin.papers.html import blocks_html, figure_svg, said_html, words_html
+from graphkin.papers.lesson import Lesson, Stage, plain_words
+from graphkin.papers.pictures import ROOM, WORDS, equation_picture
+from graphkin.papers.problem import given, scene_title
+from graphkin.papers.solution import equation_words, results_blocks, solution, solution_blocks, stage_title, step_items
+from graphkin.words import languages, word
+
+__all__ = ["POSITIONS", "Progress", "View", "common_scales", "document_page", "handout_page", "positions_data"]
+
+Progress = Callable[[int, int], None]  # positions done, and all of them
+POSITIONS = 24
+MECHANISM, POLYGON = (160.0, 218.0), 190.0  # mm that the mechanism in all positions and a polygon may fill
+SERIES = (1.0, 2.0, 2.5, 5.0)
+
+
+@dataclass(frozen=True)
+class View:
+    """One position on the screen: its drawing, and its centres where they can be had."""
+
+    lesson: Lesson
+    centres: Centres | None = None
+
+
+def common_scales(plans: Sequence[Plan], paper: Scales) -> list[Scales]:
+    """Scales for several positions: those of the paper, and coarser ones for the polygons that would be too large.
+
+    The mechanism has one scale in all positions.
+    """
+    sheets = [execute(plan) for plan in plans]
+    metres = sheets[0].scene.units.metres
+    whole = _joined(Box.around(sheet.points.values()) for sheet in sheets)
+    on_paper = sheets[0].scales.length / paper.length
+    length = (
+        _coarser(paper.length * 1e3, on_paper * max(whole.width / MECHANISM[0], whole.height / MECHANISM[1])) * 1e-3
+    )
+
+    def fitting(sheet: Sheet, diagram: DiagramName) -> float:
+        own = paper.of(diagram)
+        size = _size(extent(sheet, diagram)) * sheet.scales.of(diagram)
+        return _coarser(own / metres, size / own / POLYGON) * metres
+
+    return [Scales(length, fitting(sheet, "velocity"), fitting(sheet, "acceleration")) for sheet in sheets]
+
+
+def _size(box: Box) -> float:
+    return max(box.width, box.height)
+
+
+def _coarser(scale: float, factor: float) -> float:
+    """The scale itself where it is coarse enough, else the first of the series so many times coarser."""
+    if factor <= 1.0:
+        return scale
+    power = 10.0 ** math.floor(math.log10(scale * factor))
+    return next(s * power for s in (*SERIES, 10.0) if s * power >= scale * factor * (1 - 1e-9))
+
+
+def positions_data(views: Sequence[View], progress: Progress | None = None) -> dict[str, Any]:
+    """For each position its name, figures and steps, ready for the page, and the stages of all of them, each once."""
+    frames = _Frames(views)
+    positions = []
+    for done, view in enumerate(views, 1):
+        positions.append(frames.data(view))
+        if progress is not None:
+            progress(done, len(views))
+    return {"positions": positions, "stages": frames.stages}
+
+
+class _Frames:
+    """The frames that hold the figures of all positions: equally large, and the fixed pivots always at their places."""
+
+    def __init__(self, views: Sequence[View]) -> None:
+        self.pieces = [
+            mechanism_piece(v.lesson.sheet, v.lesson.letters, (MECHANISM[0] + 20, MECHANISM[1] + 20)) for v in views
+        ]
+        self.mechanism = _joined(box for _, box in self.pieces).grown(ROOM)
+        self.polygons = {d: self._largest(views, d) for d in ("velocity", "acceleration")}
+        self.views = list(views)
+        self.stages: list[dict[str, str]] = []
+        backs = [ink_box(background(piece).drawn) or box for piece, box in self.pieces]
+        shown = [(v.centres, back) for v, back in zip(views, backs, strict=True) if v.centres is not None]
+        self.centres = _joined(near_box(c, back, MECHANISM) for c, back in shown).grown(ROOM) if shown else None
+
+    def data(self, view: View) -> dict[str, Any]:
+        lesson = view.lesson
+        born = births(lesson.sheet)
+        figures = []
+        for name, drawing in self._figures(view):
+            layers = replace(drawing, children=stepped(drawing.children, born)) if name != "centres" else drawing
+            caption = f"{words_html(term(WORDS.get(name, name), lesson.language))} "
+            figures.append({
+                "name": name,
+                "svg": figure_svg(layers, named=name != "centres"),
+                "caption": caption + f'<span class="scale">{words_html(self._scale(lesson, name))}</span>',
+            })  # fmt: skip
+        stages = lesson.stages
+        return {
+            "name": plain_words(drivers(lesson.sheet, lesson.letters)),
+            "label": words_html(drivers(lesson.sheet, lesson.letters)),
+            "figures": figures,
+            "stages": [self._stage(lesson, stage) for stage in stages],
+            "steps": [
+                {"d": stage.diagram, "e": number, "n": item.number, "html": said_html(item.words, "p")
+                 + "".join(f'<p class="work">{words_html(line)}</p>' for line in item.work),
+                 "text": " ".join(plain_words(markup) for _, markup in item.words)}
+                for number, stage in enumerate(stages) for item in step_items(lesson, stage)
+            ],
+        }  # fmt: skip
+
+    def _stage(self, lesson: Lesson, stage: Stage) -> int:
+        """Place of a stage in the table of all: most of them are the same in every position."""
+        svg = ""
+        if stage.equation is not None:
+            words = equation_words(lesson, stage.equation)
+            svg = figure_svg(equation_picture(lesson.sheet, stage.equation, lesson.letters, lesson.language, words))
+        whole = {"title": said_html(stage_title(lesson, stage)), "svg": svg}
+        if whole not in self.stages:
+            self.stages.append(whole)
+        return self.stages.index(whole)
+
+    def _scale(self, lesson: Lesson, name: str) -> str:
+        diagram: DiagramName = name if name in ("velocity", "acceleration") else "mechanism"  # type: ignore[assignment]
+        return scale_statement(lesson.sheet, lesson.letters.convention, diagram)
+
+    def _figures(self, view: View) -> Iterator[tuple[str, Drawing]]:
+        lesson = view.lesson
+        sheet, letters = lesson.sheet, lesson.letters
+        piece, _ = self.pieces[self.views.index(view)]
+        yield "mechanism", self._page(lesson, "mechanism", settled(piece, self.mechanism), self.mechanism)
+        for name in ("velocity", "acceleration"):
+            diagram: DiagramName = "velocity" if name == "velocity" else "acceleration"
+            if not sheet.vectors(diagram):
+                continue
+            half = self.polygons[name] / 2
+            middle = extent(sheet, diagram).centre
+            panel = Box.around((middle - half, middle + half))
+            strip = Box(panel.left, panel.bottom, panel.right, panel.bottom + self._strip(diagram))
+            made, _ = polygon_with_insets(sheet, diagram, letters, lesson.language, panel, 0j, strip)
+            yield name, self._page(lesson, name, made, panel.joined(strip))
+        if view.centres is not None and self.centres is not None:
+            back = background(piece)
+            marks = centre_marks(view.centres, CentreLetters(letters.convention), self.centres, back.drawn)
+            yield "centres", self._page(lesson, "centres", settled(joined((back, marks)), self.centres), self.centres)
+
+    def _largest(self, views: Sequence[View], name: str) -> complex:
+        """Width and height (mm) in which the polygon of every position has room: all are shown equally large."""
+        diagram: DiagramName = "velocity" if name == "velocity" else "acceleration"
+        boxes = [extent(v.lesson.sheet, diagram).grown(ROOM) for v in views]
+        return complex(max(max(b.width for b in boxes), 70.0), max(b.height for b in boxes))
+
+    def _strip(self, diagram: DiagramName) -> float:
+        width = self.polygons[diagram].real
+        return max(strip_height(v.lesson.sheet, diagram, width) for v in self.views)
+
+    def _page(self, lesson: Lesson, name: str, piece: Piece, panel: Box) -> Drawing:
+        moved = moved_piece(piece, -panel.corners[0])
+        title = term(WORDS.get(name, name), lesson.language)
+        desc = drivers(lesson.sheet, lesson.letters)
+        return Drawing(
+            panel.width, panel.height, layer_groups(moved), title, plain_words(desc), languages(lesson.language)[0]
+        )
+
+
+def _joined(boxes: Iterable[Box]) -> Box:
+    first, *rest = list(boxes)
+    for box in rest:
+        first = first.joined(box)
+    return first
+
+
+def document_page(document: Document) -> str:
+    """A document as a page without scripts."""
+    return _page(document, f"<main>\n{blocks_html(document.blocks)}\n</main>")
+
+
+def handout_page(lesson: Lesson, views: Sequence[View], start: int = 0, progress: Progress | None = None) -> str:
+    """The worked solution as a page to step through.
+
+    Parameters
+    ----------
+    lesson : the solution on paper, which is what is printed
+    views : the positions of the driver that the screen shows
+    start : which of them is the given one
+    progress : called with the number of positions done and the number of all
+    """
+    whole = solution(lesson)
+
+    def words(key: str, *args: object) -> str:
+        return said_html(said(key, lesson.language, *args))
+
+    paper = lesson.sheet.scene.sheet.paper
+    data = {
+        **positions_data(views, progress),
+        "start": start,
+        "words": {"stepOf": _plain(said("step of", lesson.language, "{0}", "{1}"))},
+    }
+    buttons = "".join(
+        f'<button type="button" data-go="{go}"><span aria-hidden="true">{sign}</span> {words(key)}</button>'
+        for go, sign, key in (
+            ("first", "|◀", "first step"), ("previous", "◀", "previous step"), ("next", "▶", "next step"),
+            ("last", "▶|", "last step"), ("equation", "▶▶", "next equation"),
+        )
+    )  # fmt: skip
+    body = f"""<header>
+<h1>{said_html(scene_title(lesson))}</h1>
+<div class="given">{blocks_html(given(lesson))}</div>
+</header>
+<main>
+<section id="viewer" class="viewer" aria-label="{_attribute(said("step by step", lesson.language))}" hidden>
+<div class="controls">
+<div class="buttons" role="group" aria-label="{_attribute(said("step slider", lesson.language))}">{buttons}</div>
+<label for="step">{words("step slider")}</label>
+<input type="range" id="step" min="1" max="1" step="1" value="1"><output id="step-out" for="step"></output>
+<label for="place">{words("position slider")}</label>
+<input type="range" id="place" min="0" max="0" step="1" value="0"><output id="place-out" for="place"></output>
+<div id="live" class="live" role="status" aria-live="polite"></div>
+</div>
+<p class="hint">{words("keys")} {words("positions words", len(views))} {words("print hint", paper)}</p>
+<div class="stage">
+<div id="list" class="list" role="region" aria-label="{_attribute(said("steps", lesson.language))}"></div>
+<div id="figures" class="figures" role="region" aria-label="{_attribute(said("the figures", lesson.language))}"></div>
+</div>
+</section>
+<article class="paper">
+{blocks_html((Heading(scene_title(lesson), 2), *solution_blocks(lesson, tuple(given(lesson)))))}
+</article>
+<section class="results">
+{blocks_html(results_blocks(lesson))}
+</section>
+</main>
+<script type="application/json" id="positions">{_json(data)}</script>"""
+    return _page(whole, body, _file("viewer.js"))
+
+
+def _page(document: Document, body: str, script: str = "") -> str:
+    paper = document.paper
+    # in millimetres, since CSS has no names for papers larger than A3
+    style = _file("page.css") + f"@page {{ size: {paper.width:g}mm {paper.height:g}mm }}\n"
+    allowed = f"'{_hash(script)}'" if script else "'none'"
+    policy = (
+        f"default-src 'none'; style-src '{_hash(style)}'; script-src {allowed}; "
+        "img-src data:; base-uri 'none'; form-action 'none'"
+    )
+    tail = f"\n<script>{script}</script>" if script else ""
+    return f"""<!DOCTYPE html>
+<html lang="{word("code in pages", document.languages[0])}">
+<head>
+<meta charset="utf-8">
+<meta http-equiv="Content-Security-Policy" content="{policy}">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>{escape(clean(document.title))}</title>
+<style>{style}</style>
+</head>
+<body>
+{body}{tail}
+</body>
+</html>
+"""
+
+
+@lru_cache(maxsize=4)
+def _file(name: str) -> str:
+    return files("graphkin.papers").joinpath(name).read_text(encoding="utf-8")
+
+
+def _hash(text: str) -> str:
+    return "sha256-" + base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()
+
+
+def _json(data: object) -> str:
+    """Data in a script element: no sign in it can end the element."""
+    text = json.dumps(data, ensure_ascii=False, allow_nan=False, sort_keys=True, separators=(",", ":"))
+    return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
+
+
+def _plain(words: Said) -> str:
+    return " / ".join(text for _, text in words)
+
+
+def _attribute(words: Said) -> str:
+    return escape(_plain(words))

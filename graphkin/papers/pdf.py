@@ -1,0 +1,192 @@
+"""Documents as typeset PDF, with the extra ``pdf`` (Typst): figures at true scale, page numbers, the same bytes every
+time.
+
+Typst stays behind this module.  The template is fixed; the document is handed to it as data, so that no word of a
+scene is ever read as a command.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+import warnings
+from functools import lru_cache
+from importlib.resources import files
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+from graphkin.drawing.primitives import Arc, Circle, Drawing, Group, Line, Polygon, Primitive, Stroke, Text, walk
+from graphkin.drawing.text import Atom, is_italic, parsed, start_runs
+from graphkin.papers.blocks import (
+    Beside,
+    Block,
+    Document,
+    Fields,
+    Heading,
+    Paragraph,
+    Picture,
+    Said,
+    Steps,
+    Together,
+    clean,
+)
+from graphkin.words import word
+
+__all__ = ["can_typeset", "pdf"]
+
+SAG = 0.002  # mm: how far a chord may lie off its arc
+LATIN = "STIXGeneral"  # comes with matplotlib, so that every machine sets the same letters
+CHINESE = (
+    "Noto Serif CJK SC", "Noto Serif SC", "Source Han Serif SC", "Source Han Serif CN", "Songti SC", "SimSun", "STSong",
+    "Noto Serif CJK JP", "Noto Sans CJK SC", "Source Han Sans SC", "Noto Sans SC", "PingFang SC", "Microsoft YaHei",
+    "SimHei", "WenQuanYi Zen Hei", "WenQuanYi Micro Hei", "Droid Sans Fallback",
+)  # fmt: skip
+SIGNS = ("DejaVu Sans Mono", "New Computer Modern")  # come with Typst: for signs that no other face has
+
+
+def can_typeset() -> bool:
+    """Whether the extra ``pdf`` is installed."""
+    return find_spec("typst") is not None
+
+
+def pdf(document: Document) -> bytes:
+    """The document as a PDF on its paper, without a date.
+
+    Raises
+    ------
+    ImportError : the extra ``pdf`` is not installed (see `can_typeset`)
+    """
+    import typst
+
+    names, fonts = _fonts()
+    data = {
+        "title": clean(document.title),
+        "languages": list(document.languages),
+        "page": " / ".join(word("page of", each) for each in document.languages),
+        "fonts": names,
+        "paper": [document.paper.width, document.paper.height],
+        "blocks": [_block(block) for block in document.blocks],
+    }
+    template = files("graphkin.papers").joinpath("template.typ").read_bytes()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        made = typst.compile(
+            template,
+            font_paths=fonts,
+            format="pdf",
+            timestamp=0,
+            sys_inputs={"document": json.dumps(data, ensure_ascii=False, allow_nan=False)},
+        )
+    assert isinstance(made, bytes)
+    return made
+
+
+@lru_cache(maxsize=1)
+def _fonts() -> tuple[list[str], Any]:
+    """Names of the faces in the order of liking, and the faces found, read once."""
+    import matplotlib
+    import typst
+
+    fonts = typst.Fonts(font_paths=[str(Path(matplotlib.get_data_path()) / "fonts" / "ttf")])
+    known = set(fonts.families())
+    return [name for name in (LATIN, *CHINESE, *SIGNS) if name in known], fonts
+
+
+def _block(block: Block) -> dict[str, Any]:
+    if isinstance(block, Heading):
+        return {"kind": "heading", "words": _said(block.words), "level": block.level, "fresh": block.fresh}
+    if isinstance(block, Paragraph):
+        return {"kind": "paragraph", "words": _said(block.words), "small": block.small}
+    if isinstance(block, Fields):
+        return {"kind": "fields", "names": [_said(name) for name in block.names]}
+    if isinstance(block, Steps):
+        items = [
+            {"number": item.number, "words": _said(item.words), "work": [_words(line) for line in item.work]}
+            for item in block.items
+        ]
+        return {"kind": "steps", "items": items}
+    if isinstance(block, Picture):
+        return {
+            "kind": "picture",
+            "drawing": _drawing(block.drawing),
+            "caption": _said(block.caption),
+            "joined": block.joined,
+        }
+    if isinstance(block, Beside):
+        return {"kind": "beside", "blocks": [_block(b) for b in block.blocks], "picture": _block(block.picture)}
+    if isinstance(block, Together):
+        return {"kind": "together", "blocks": [_block(b) for b in block.blocks]}
+    return {
+        "kind": "table",
+        "heads": [_said(head) for head in block.heads],
+        "rows": [[_words(cell) for cell in row] for row in block.rows],
+        "align": block.align,
+        "bold": sorted(block.bold),
+        "roomy": block.roomy,
+    }
+
+
+def _said(said: Said) -> list[tuple[str, list[Any]]]:
+    return [(language, _words(markup)) for language, markup in said]
+
+
+def _words(markup: str) -> list[Any]:
+    """Stretches of words, and symbols as lists of atoms."""
+    return [clean(part) if isinstance(part, str) else _atoms(part) for part in parsed(markup)]
+
+
+def _atoms(atoms: tuple[Atom, ...]) -> list[dict[str, Any]]:
+    return [
+        {"text": clean(atom.text), "italic": is_italic(atom.text), "sub": _atoms(atom.sub), "sup": _atoms(atom.sup)}
+        for atom in atoms
+    ]
+
+
+def _drawing(drawing: Drawing) -> dict[str, Any]:
+    things = [inked for thing in walk(drawing.children) for inked in _ink(thing)]
+    alt = clean(re.sub(r"\s+", " ", f"{drawing.title}. {drawing.desc}").strip())
+    return {"width": _mm(drawing.width), "height": _mm(drawing.height), "alt": alt, "things": things}
+
+
+def _ink(thing: Primitive) -> list[dict[str, Any]]:
+    if isinstance(thing, Group):
+        return []
+    if isinstance(thing, Text):
+        return [
+            {
+                "kind": "text", "at": (_mm(run.x), _mm(run.y)), "size": _mm(run.size), "italic": run.italic,
+                "bold": run.bold, "colour": thing.colour, "text": clean(run.text),
+            }
+            for run in start_runs(thing)
+        ]  # fmt: skip
+    stroke = _pen(thing.stroke)
+    if isinstance(thing, Line):
+        return [{"kind": "line", "points": _pairs((thing.start, thing.inked_end)), "stroke": stroke}]
+    if isinstance(thing, Circle):
+        centre = (_mm(thing.centre.real), _mm(thing.centre.imag))
+        return [{"kind": "circle", "at": centre, "radius": _mm(thing.radius), "fill": thing.fill, "stroke": stroke}]
+    if isinstance(thing, Polygon):
+        return [{"kind": "polygon", "points": _pairs(thing.points), "fill": thing.fill, "stroke": stroke}]
+    points = _chords(thing) if isinstance(thing, Arc) else thing.points
+    return [{"kind": "polyline", "points": _pairs(points), "stroke": stroke}]
+
+
+def _chords(arc: Arc) -> tuple[complex, ...]:
+    """An arc as chords that lie less than ``SAG`` off it."""
+    step = 2 * math.acos(max(0.0, 1 - SAG / max(arc.radius, 2 * SAG)))
+    count = max(2, math.ceil(abs(arc.end - arc.start) / step))
+    return tuple(arc.at(arc.start + (arc.end - arc.start) * i / count) for i in range(count + 1))
+
+
+def _pen(stroke: Stroke | None) -> dict[str, Any] | None:
+    return None if stroke is None else {"width": stroke.width, "dash": stroke.dash, "colour": stroke.colour}
+
+
+def _pairs(points: tuple[complex, ...]) -> list[tuple[float, float]]:
+    return [(_mm(z.real), _mm(z.imag)) for z in points]
+
+
+def _mm(value: float) -> float:
+    return round(value, 4)

@@ -1,0 +1,295 @@
+"""The paper of a handout: its size, what fits between its margins, and the scales that suit it.
+
+Figures of a handout at true scale: whole or as far as drawn, bare for the problem sheet, and frames to draw in.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from graphkin.construction import Plan, Room, execute, plan
+from graphkin.construction.sheet import DiagramName, Equation, Scales, Sheet
+from graphkin.drawing import strokes
+from graphkin.drawing.box import Box
+from graphkin.drawing.conventions import Letters, pole, rows_of, scale_statement
+from graphkin.drawing.dimensions import check_bar
+from graphkin.drawing.equations import write_equation
+from graphkin.drawing.headings import describe, term
+from graphkin.drawing.insets import polygon_with_insets, strip_height
+from graphkin.drawing.layout import ink_box, joined, layer_groups, moved, moved_piece, settled
+from graphkin.drawing.mechanism import mechanism_piece
+from graphkin.drawing.polygon import extent
+from graphkin.drawing.primitives import Circle, Drawing, Group, Polygon, Primitive, Text
+from graphkin.drawing.stepwise import births, so_far, stepped
+from graphkin.drawing.text import rich, runs_width, symbol
+from graphkin.scene.model import Scene
+from graphkin.scene.symbol import Symbol
+from graphkin.words import languages
+
+__all__ = [
+    "A4",
+    "Paper",
+    "blank_equations",
+    "cropped",
+    "draw_frame",
+    "equation_picture",
+    "mechanism_picture",
+    "paper_of",
+    "paper_plan",
+    "parts",
+    "stage_picture",
+]
+
+SIDE, TOP, BOTTOM = 15.0, 13.0, 15.0  # mm, margins
+CAPTION = 7.0  # mm that a line under a figure takes
+COLUMN = 92.0  # mm: a column of words beside a figure, with the gap between them
+
+
+@dataclass(frozen=True)
+class Paper:
+    """A sheet of paper, as it is read (mm)."""
+
+    width: float = 210.0
+    height: float = 297.0
+
+    @property
+    def body(self) -> Box:
+        """What a page holds between its margins, with a caption below it."""
+        return Box(0.0, 0.0, self.width - 2 * SIDE, self.height - TOP - BOTTOM - CAPTION)
+
+    @property
+    def narrow(self) -> float:
+        """Width of a figure so narrow that words stand beside it."""
+        return self.body.width - COLUMN
+
+    @property
+    def filled(self) -> Room:
+        """What figures are to fill at scales that the scene does not give: on A4 150 mm, polygons 140."""
+        return self._room((150.0, 150.0), (140.0, 140.0))
+
+    @property
+    def most(self) -> Room:
+        """What figures may fill, under a heading in two languages: on A4 160 by 180 mm, polygons 157 by 190."""
+        return self._room((160.0, 180.0), (157.0, 190.0))
+
+    def _room(self, mechanism: tuple[float, float], polygon: tuple[float, float]) -> Room:
+        wide, high = self.body.width / A4.body.width, self.body.height / A4.body.height
+        return Room(
+            mechanism=(mechanism[0] * wide, mechanism[1] * high), polygon=(polygon[0] * wide, polygon[1] * high)
+        )
+
+
+A4 = Paper()
+
+
+def paper_of(scene: Scene) -> Paper:
+    """The paper that a scene wishes."""
+    return Paper(*scene.sheet.size)
+
+
+def paper_plan(scene: Scene, values: Mapping[str, float] | None, asked: Sequence[Symbol]) -> Plan:
+    """What to draw, at the scene's own scales where the figures fit the paper so, at coarser ones where they do not."""
+    paper, wishes = paper_of(scene), scene.sheet
+    own = plan(scene, values, asked)
+    if paper != A4:
+        filled = plan(scene, values, asked, paper.filled).scales
+        own = replace(
+            own,
+            scales=Scales(
+                own.scales.length if wishes.length_scale else filled.length,
+                own.scales.velocity if wishes.velocity_scale else filled.velocity,
+                own.scales.acceleration if wishes.acceleration_scale else filled.acceleration,
+            ),
+        )
+    sheet = execute(own)
+    most = paper.most
+    boxes = (Box.around(sheet.points.values()), extent(sheet, "velocity"), extent(sheet, "acceleration"))
+    rooms = (most.mechanism, most.polygon, most.polygon)
+    fits = [box.width <= room[0] and box.height <= room[1] for box, room in zip(boxes, rooms, strict=True)]
+    if all(fits):
+        return own
+    roomed = plan(scene, values, asked, most).scales
+    pairs = zip(
+        fits,
+        (own.scales.length, own.scales.velocity, own.scales.acceleration),
+        (roomed.length, roomed.velocity, roomed.acceleration),
+        strict=True,
+    )
+    return replace(own, scales=Scales(*(mine if good else other for good, mine, other in pairs)))
+
+
+ROOM = 11.0  # mm around a figure, for names
+AROUND = 14.0  # mm around a polygon that is still to be drawn
+FOOT = 9.0  # mm for the scale and the check bar beside it
+LEAST_FRAME = 110.0
+BAR = 50.0  # mm, of the check bar
+WORDS = {"mechanism": "mechanism", "velocity": "velocity polygon", "acceleration": "acceleration polygon"}
+Layers = tuple[Group, ...]
+
+
+def parts(sheet: Sheet, diagram: DiagramName, letters: Letters, language: str) -> Layers:
+    """A figure by layers, every part with the class of its step."""
+    body = paper_of(sheet.scene).body
+    if diagram == "mechanism":
+        piece, content = mechanism_piece(sheet, letters, (body.width, body.height - 20.0))
+        panel = Box(0.0, 0.0, content.width + 2 * ROOM, content.height + 2 * ROOM)
+        piece = settled(moved_piece(piece, panel.centre - content.centre), panel)
+    else:
+        content = extent(sheet, diagram)
+        width = max(content.width + 2 * ROOM, min(body.width, 110.0))
+        panel = Box(0.0, 0.0, width, content.height + 2 * ROOM)
+        strip = Box(0.0, panel.bottom, width, panel.bottom + strip_height(sheet, diagram, width))
+        origin = panel.centre - content.centre
+        piece, _ = polygon_with_insets(sheet, diagram, letters, language, panel, origin, strip)
+    return tuple(g for g in stepped(layer_groups(joined((piece,))), births(sheet)) if isinstance(g, Group))
+
+
+def cropped(
+    children: Iterable[Primitive],
+    title: str,
+    desc: str,
+    language: str,
+    foot: tuple[Text, tuple[Primitive, ...]] | None = None,
+) -> Drawing:
+    """Primitives as a drawing just as large as they are; below them the scale, and its check bar beside or under it."""
+    children = tuple(children)
+    box = (ink_box(children) or Box(0.0, 0.0, 10.0, 10.0)).grown(1.2)
+    if foot is None:
+        return Drawing(box.width, box.height, moved(children, -box.corners[0]), title, desc, languages(language)[0])
+    words, bar = foot
+    lead = runs_width(words.runs) + 8.0
+    wide = box.width >= lead + BAR
+    width = max(box.width, BAR + 2.4)
+    left = max(1.2, (width - lead - BAR) / 2) if wide else (width - BAR) / 2
+    base = box.height + FOOT - 2.0
+    low = (
+        *moved((words,), complex(left, base)),
+        *moved(bar, complex(left + lead, base) if wide else complex(left, base + FOOT)),
+    )
+    whole = moved(children, complex((width - box.width) / 2, 0.0) - box.corners[0])
+    height = box.height + (FOOT if wide else 2 * FOOT)
+    return Drawing(width, height, (*whole, *low), title, desc, languages(language)[0])
+
+
+def stage_picture(
+    sheet: Sheet, layers: Layers, diagram: DiagramName, letters: Letters, language: str, first: int, last: int
+) -> Drawing:
+    """A figure up to step ``last``, what is new since step ``first`` on a light band."""
+    steps = [step.number for step in sheet.steps if step.diagram == diagram]
+    seen = so_far(layers, first if first > steps[0] else last + 1, last)
+    if first <= steps[0]:
+        seen = so_far(layers, steps[0], last)
+        seen = tuple(_without(thing, "new") for thing in seen)
+    return cropped(seen, term(WORDS[diagram], language), "", language, scale_foot(sheet, diagram, letters, language))
+
+
+def scale_foot(
+    sheet: Sheet, diagram: DiagramName, letters: Letters, language: str
+) -> tuple[Text, tuple[Primitive, ...]]:
+    """The scale of a figure, and the bar that checks it, each about the left end of its baseline."""
+    words = Text(0j, rich(scale_statement(sheet, letters.convention, diagram), 3.2))
+    return words, check_bar(0j, rich(term("check bar", language), 2.4))
+
+
+def mechanism_picture(sheet: Sheet, layers: Layers, letters: Letters, language: str) -> Drawing:
+    """The mechanism as a problem shows it: nothing that was found, no arcs."""
+    found = {"answers", "construction"}
+    kept = [_without_results(layer) for layer in layers if layer.id not in found]
+    return cropped(kept, term("mechanism", language), describe_bare(sheet, language), language,
+                   scale_foot(sheet, "mechanism", letters, language))  # fmt: skip
+
+
+def describe_bare(sheet: Sheet, language: str) -> str:
+    """The mechanism in words, without its solution."""
+    return describe(sheet, ("mechanism",), language)
+
+
+def _without_results(layer: Group) -> Group:
+    """Names of angular velocities and accelerations that are to be found go with their arcs; those of drivers stay."""
+    kept = tuple(
+        thing
+        for thing, after in zip(layer.children, (*layer.children[1:], None), strict=False)
+        if not _names_result(thing)
+        and not (isinstance(thing, Group) and "leader" in thing.classes and _names_result(after))
+    )
+    return Group(kept, layer.id, layer.classes, layer.layer, layer.title)
+
+
+def _names_result(thing: Primitive | None) -> bool:
+    return isinstance(thing, Text) and thing.id.startswith(("label-omega-", "label-alpha-"))
+
+
+def _without(thing: Primitive, name: str) -> Primitive:
+    if not isinstance(thing, Group):
+        return thing
+    kept = tuple(_without(c, name) for c in thing.children if not (isinstance(c, Group) and name in c.classes))
+    return Group(kept, thing.id, thing.classes, thing.layer, thing.title)
+
+
+def equation_picture(sheet: Sheet, equation: Equation, letters: Letters, language: str, words: str) -> Drawing:
+    """A vector equation over its rows of sizes and directions; ``words`` say it for those who do not see it."""
+    written = write_equation(sheet, equation, letters, language, paper_of(sheet.scene).body.width - 4.0, 3.8)
+    return cropped(written.children, words, "", language)
+
+
+def draw_frame(
+    sheet: Sheet, diagram: DiagramName, letters: Letters, language: str, height: float | None = None
+) -> Drawing:
+    """A frame to draw a polygon in, with the pole where the polygon will have room, and its scale."""
+    content = extent(sheet, diagram)
+    page = paper_of(sheet.scene).body
+    tall = height or min(page.height - 40.0, max(LEAST_FRAME, content.height + 2 * AROUND))
+    box = Box(0.2, 0.2, page.width - 0.2, tall)
+    # to the nearest 5 mm, so that the place of the pole does not tell the answer
+    at = _snapped(box.centre - content.centre)
+    mark = pole(letters.convention, diagram)
+    words, bar = scale_foot(sheet, diagram, letters, language)
+    children: list[Primitive] = [
+        Polygon(box.corners, "", strokes.DIMENSION),
+        Circle(at, 0.9, fill=strokes.WHITE, stroke=strokes.OUTLINE),
+        Circle(at, 0.3, fill=strokes.BLACK),
+        Text(at + complex(1.6, -1.6), symbol(mark, 3.5)),
+        *moved((words,), complex(3.0, tall - 3.0)),
+        *moved(bar, complex(page.width - 3.0 - BAR, tall - 3.0)),
+    ]
+    title = f"{term(WORDS[diagram], language)}: {mark}"
+    return Drawing(page.width, tall + 0.2, tuple(children), title, "", languages(language)[0])
+
+
+def _snapped(z: complex) -> complex:
+    return complex(5.0 * round(z.real / 5.0), 5.0 * round(z.imag / 5.0))
+
+
+def blank_equations(equations: Iterable[Equation], letters: Letters, language: str, width: float) -> Drawing:
+    """A blank for each equation: a box for each term, above boxes for its size and direction where they are rows."""
+    heads = (
+        (term("size", language), term("direction of", language))
+        if rows_of(letters.convention) in ("rows", "table")
+        else ()
+    )
+    lead = max((runs_width(rich(h, 2.8)) for h in heads), default=0.0) + 2.0
+    children: list[Primitive] = []
+    y = 1.0
+    for equation in equations:
+        cells = [len(side) for side in equation.sides]
+        count = max(2, sum(cells))
+        signs = (
+            ["="] if sum(cells) == 1 else [s for i, n in enumerate(cells) for s in ["="] * (i > 0) + ["+"] * (n - 1)]
+        )
+        cell = min(38.0, (width - lead - 5.0 * (count - 1) - 0.4) / count)
+        x = lead
+        for i in range(count):
+            if i:
+                children.append(Text(complex(x - 2.5, y + 6.2), rich(signs[i - 1], 3.5), "middle"))
+            children.append(_box(x, y, cell, 9.0))
+            children += [_box(x, y + 9.0 + 6.5 * row, cell, 6.5) for row in range(len(heads))]
+            x += cell + 5.0
+        for row, head in enumerate(heads):
+            children.append(Text(complex(0.0, y + 13.6 + 6.5 * row), rich(head, 2.8)))
+        y += 13.0 + 6.5 * len(heads)
+    return Drawing(width, y - 2.0, tuple(children), term("your equations", language), "", languages(language)[0])
+
+
+def _box(x: float, y: float, width: float, height: float) -> Polygon:
+    return Polygon(Box(x, y, x + width, y + height).corners, "", strokes.DIMENSION)

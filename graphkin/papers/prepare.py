@@ -1,0 +1,207 @@
+"""From a scene to its lesson: readings held against the solver, positions for a screen.
+
+The files of a handout, by name.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from graphkin import solver
+from graphkin.checking import Report, compare, predict, read_off
+from graphkin.construction import Plan, execute, plan
+from graphkin.construction.centres import Centres, find_centres
+from graphkin.construction.sheet import Scales, Sheet
+from graphkin.drawing import figures
+from graphkin.drawing.save import drawing_bytes
+from graphkin.errors import Unsolvable
+from graphkin.papers.lesson import Lesson
+from graphkin.papers.page import POSITIONS, Progress, View, common_scales, document_page, handout_page
+from graphkin.papers.pdf import can_typeset, pdf
+from graphkin.papers.pictures import paper_plan
+from graphkin.papers.problem import problem
+from graphkin.papers.solution import answer_key, key_csv, solution
+from graphkin.papers.variants import Variant, asked_of
+from graphkin.scene.model import Scene
+from graphkin.scene.symbol import Symbol
+from graphkin.solver import Motion
+
+__all__ = ["FORMATS", "Papers", "handout_files", "lesson_of", "positions", "usual_count", "views_of"]
+
+MANY_LINKS = 10
+
+
+def lesson_of(what: Plan, motion: Motion, language: str, convention: str) -> Lesson:
+    """The lesson of a plan, with its check and with the tolerances of a pencil drawing."""
+
+    def value(symbol: Symbol) -> complex | float:
+        found = motion.value(symbol)[0]
+        return complex(found) if symbol.is_vector else float(found.real)
+
+    sheet = execute(what)
+    report = compare(sheet, read_off(sheet), value, what.asked)
+    tolerance = predict(what, "pencil", sheet.scene.sheet.tools)
+    return Lesson(sheet, report, tolerance, language, convention, what.asked)
+
+
+def usual_count(scene: Scene) -> int:
+    """How many positions of the driver a page shows where nobody says: fewer of a mechanism of many links, of which
+    each takes its time to draw and to load."""
+    return POSITIONS if len(scene.links) <= MANY_LINKS else POSITIONS // 2
+
+
+def positions(
+    scene: Scene, values: Mapping[str, float] | None, count: int = POSITIONS
+) -> tuple[list[dict[str, float]], int]:
+    """Driver values (rad, m) spread over a turn or over what the motion reaches, and which of them is the given one."""
+    keys = [d.key for d in scene.drivers]
+    own = {d.key: d.values[0] for d in scene.drivers} | dict(values or {})
+    motion = solver.solve(scene, at=values, sweep=count)
+    rows = [dict(zip(keys, map(float, row), strict=True)) for row in motion.values]
+    good = [bool(ok) for ok in motion.ok]
+    if not all(good):
+        # begin behind the gap, so that neighbours on the slider are neighbours in the motion
+        cut = next(i for i in range(len(good)) if good[i] and not good[i - 1]) if any(good) else 0
+        order = [*range(cut, len(good)), *range(cut)]
+        rows = [rows[i] for i in order if good[i]]
+    first = keys[0]
+    at = next((i for i, row in enumerate(rows) if np.isclose(row[first], own[first], rtol=0, atol=1e-9)), None)
+    if at is None:
+        at = sum(row[first] < own[first] for row in rows)
+        rows.insert(at, own)
+    rows[at] = own
+    return rows, at
+
+
+def views_of(
+    scene: Scene,
+    values: Mapping[str, float] | None,
+    asked: Sequence[Symbol],
+    language: str,
+    convention: str,
+    paper: Scales,
+    count: int = POSITIONS,
+    progress: Progress | None = None,
+) -> tuple[list[View], int]:
+    """The positions that the screen shows, each drawn and with its centres, and which of them is the given one.
+
+    ``progress`` is called with the number of positions done and the number of all.  ``paper`` are the scales of the
+    solution on paper, kept wherever the figures fit.  Positions in which the construction fails (dead points) are left
+    out.
+    """
+    rows, start = positions(scene, values, count)
+    plans: list[Plan] = []
+    given = 0
+    for i, row in enumerate(rows):
+        try:
+            found = plan(scene, row, asked)
+            execute(found)
+        except Unsolvable:
+            if i == start:
+                raise
+            continue
+        if i == start:
+            given = len(plans)
+        plans.append(found)
+    sheets = [execute(replace(w, scales=s)) for w, s in zip(plans, common_scales(plans, paper), strict=True)]
+    centres = _centres(scene, sheets, given, progress or _silent)
+    views = []
+    for sheet, here in zip(sheets, centres, strict=True):
+        empty = Report(sheet.instrument, sheet.scales, ())
+        views.append(View(Lesson(sheet, empty, {}, language, convention, tuple(asked)), here))
+    return views, given
+
+
+def _silent(done: int, count: int) -> None:
+    pass
+
+
+def _centres(scene: Scene, sheets: Sequence[Sheet], given: int, progress: Progress) -> list[Centres | None]:
+    """The centres in each position, from the given one onwards and then backwards: each starts from its neighbour."""
+    found: dict[int, Centres | None] = {}
+    for i in (*range(given, len(sheets)), *range(given - 1, -1, -1)):
+        near = found.get(i - 1) if i > given else found.get(i + 1)
+        found[i] = _centres_of(scene, sheets[i], near)
+        progress(len(found), len(sheets))
+    return [found[i] for i in range(len(sheets))]
+
+
+def _centres_of(scene: Scene, sheet: Sheet, near: Centres | None) -> Centres | None:
+    for start in (near, None) if near is not None else (None,):
+        with suppress(Unsolvable):
+            return find_centres(scene, sheet.drivers, sheet=sheet, near=start)
+    return None
+
+
+FORMATS = ("html", "pdf")
+
+
+def handout_files(
+    lesson: Lesson,
+    views: Sequence[View] = (),
+    start: int = 0,
+    formats: Sequence[str] = FORMATS,
+    progress: Progress | None = None,
+) -> Mapping[str, bytes]:
+    """Everything to be written for a lesson.
+
+    ``problem.html`` and ``problem.pdf`` (without answers), ``handout.html`` (the solution to step through),
+    ``solution.pdf``, ``key.html``, ``key.pdf`` and ``key.csv``.  Without the extra ``pdf`` the figure sheets
+    ``mechanism.pdf``, ``velocity.pdf`` and ``acceleration.pdf`` take the place of the typeset ones.
+
+    Parameters
+    ----------
+    views, start : positions of the driver for the screen, and which of them is the given one; without any the given
+        one alone
+    formats : "html", "pdf" or both
+    progress : called with the number of positions done for the screen and the number of all
+    """
+    made: dict[str, bytes] = {}
+    if "html" in formats:
+        made["problem.html"] = document_page(problem(lesson)).encode()
+        made["handout.html"] = handout_page(lesson, views or (View(lesson),), start, progress).encode()
+        made["key.html"] = document_page(answer_key(lesson)).encode()
+    if "pdf" in formats:
+        made |= _typeset(lesson)
+    made["key.csv"] = key_csv(lesson).encode()
+    return made
+
+
+def _typeset(lesson: Lesson) -> dict[str, bytes]:
+    """The typeset papers, or the figure sheets where nothing can be typeset."""
+    if can_typeset():
+        return {
+            "problem.pdf": pdf(problem(lesson)),
+            "solution.pdf": pdf(solution(lesson)),
+            "key.pdf": pdf(answer_key(lesson)),
+        }
+    drawn = figures(lesson.sheet, language=lesson.language, convention=lesson.convention)
+    return {f"{name}.pdf": drawing_bytes(figure, "pdf") for name, figure in drawn.items()}
+
+
+@dataclass(frozen=True)
+class Papers:
+    """Writes the papers of a variant: problem sheet and key in each format, and the worked solution as PDF.
+
+    A value that can be sent to another process.
+    """
+
+    language: str
+    convention: str
+    formats: tuple[str, ...]
+
+    def __call__(self, variant: Variant) -> Mapping[str, bytes]:
+        scene = variant.scene
+        asked = asked_of(scene)
+        lesson = lesson_of(paper_plan(scene, None, asked), solver.solve(scene), self.language, self.convention)
+        made = {"key.csv": key_csv(lesson).encode()}
+        if "html" in self.formats:
+            made["problem.html"] = document_page(problem(lesson)).encode()
+            made["key.html"] = document_page(answer_key(lesson)).encode()
+        if "pdf" in self.formats:
+            made |= _typeset(lesson)
+        return made

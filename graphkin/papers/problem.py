@@ -1,0 +1,147 @@
+"""The problem sheet: the mechanism to scale, what is given and asked, room to solve it with ruler and compass."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from graphkin.drawing.conventions import pole
+from graphkin.drawing.headings import drivers, number, titles
+from graphkin.drawing.tables import given_lengths
+from graphkin.papers.blocks import (
+    Beside,
+    Block,
+    Document,
+    Fields,
+    Heading,
+    Paragraph,
+    Picture,
+    Said,
+    Table,
+    Together,
+    said,
+    sentences,
+    spoken,
+)
+from graphkin.papers.lesson import Lesson, plain_words
+from graphkin.papers.pictures import WORDS, blank_equations, draw_frame, mechanism_picture, paper_of, parts
+from graphkin.scene.model import AngleDriver, Guide, Scene
+from graphkin.words import Phrase, languages, say, word
+
+__all__ = ["given", "paper_title", "problem", "reach", "scene_title"]
+
+BOUND = "\u00a0"  # between a number and its unit no line ends
+RPM = 30.0 / math.pi
+
+
+def problem(lesson: Lesson) -> Document:
+    """The problem sheet of a lesson."""
+    language, paper = lesson.language, paper_of(lesson.sheet.scene)
+    layers = parts(lesson.sheet, "mechanism", lesson.letters, language)
+    figure = Picture(mechanism_picture(lesson.sheet, layers, lesson.letters, language))
+    how = sentences(*(said(key, language) for key in ("solve here", "print true")))
+    words = (*given(lesson), Paragraph(how, small=True))
+    blocks: list[Block] = [
+        Heading(scene_title(lesson), 1),
+        Fields((said("name of student", language), said("class of student", language), said("date", language))),
+    ]
+    if figure.drawing.width <= paper.narrow:
+        blocks.append(Beside(words, figure))
+    else:
+        blocks += [*words, figure]
+    for diagram in ("velocity", "acceleration"):
+        equations = [e for e in lesson.sheet.equations if e.diagram == diagram]
+        if equations and lesson.sheet.vectors(diagram):
+            blocks.append(Heading(said(WORDS[diagram], language), 2, fresh=True))
+            blocks.append(Paragraph(said("your equations", language), small=True))
+            blocks.append(Picture(blank_equations(equations, lesson.letters, language, paper.body.width), joined=True))
+            start = said("your polygon", language, f"${pole(lesson.letters.convention, diagram)}$")
+            frame = draw_frame(lesson.sheet, diagram, lesson.letters, language)
+            blocks.append(Together((Paragraph(start, small=True), Picture(frame))))
+    blocks.append(Together((Heading(said("your results", language), 2), _blank_table(lesson))))
+    return Document(paper_title(lesson, "problem sheet"), languages(language), tuple(blocks), paper)
+
+
+def paper_title(lesson: Lesson, key: str) -> str:
+    """The title of one of the papers, in the first language: that of the scene, and which paper it is."""
+    first = languages(lesson.language)[0]
+    return plain_words(scene_title(lesson)[0][1]) + word("colon", first) + word(key, first)
+
+
+def scene_title(lesson: Lesson) -> Said:
+    """The title of the scene in each language of the handout."""
+    spoken_in = languages(lesson.language)
+    found = titles(lesson.sheet, lesson.language)
+    return tuple(zip(spoken_in, found, strict=False)) if len(found) > 1 else spoken(found[0], lesson.language)
+
+
+def given(lesson: Lesson) -> Iterator[Paragraph]:
+    """What is given, in sentences: lengths, fixed points, guides, drivers; then what is asked, and the source."""
+    scene, letters = lesson.sheet.scene, lesson.letters
+    unit, metres = scene.units.length, scene.units.metres
+    lengths = ", ".join(f"${name}$ = {number(value)}{BOUND}{unit}" for name, value in given_lengths(scene, letters))
+    fixed = ", ".join(
+        f"${letters.point(p)}$ ({number(z.real / metres)}, {number(z.imag / metres)}){BOUND}{unit}"
+        for p, z in scene.frame.points.items()
+    )
+    for key, text in (("lengths given", lengths), ("fixed points", fixed)):
+        if text:
+            yield Paragraph(_labelled(lesson, key, text))
+    guides = [g for g in scene.frame.guides.values() if g.name]
+    if guides:
+        yield Paragraph(
+            tuple(
+                (each, _line("guides", "; ".join(_guide(lesson, g, each) for g in guides), each))
+                for each in languages(lesson.language)
+            )
+        )
+    yield Paragraph(_labelled(lesson, "driver", ", ".join((drivers(lesson.sheet, letters), *_speeds(scene)))))
+    asked = ", ".join(f"${letters.vector(s)}$" for s in lesson.questions)
+    if asked:
+        yield Paragraph(_labelled(lesson, "find", asked))
+    yield from reach(lesson)
+    if scene.source:
+        names = languages(lesson.language)
+        label = " ".join(word("source", each) for each in names) + word("colon", names[-1])
+        yield Paragraph(spoken(label + scene.source.replace("$", "$$"), lesson.language), small=True)
+
+
+def _guide(lesson: Lesson, guide: Guide, language: str) -> str:
+    scene = lesson.sheet.scene
+    name = f"${lesson.letters.guide(guide.name, scene.frame.name)}$"
+    x, y = (number(part / scene.units.metres) for part in (guide.through.real, guide.through.imag))
+    angle = number(math.degrees(math.atan2(guide.direction.imag, guide.direction.real)))
+    return say(Phrase("guide at", (name, x, y, scene.units.length, angle)), language)
+
+
+def reach(lesson: Lesson) -> Iterator[Paragraph]:
+    """That only a part of the mechanism is on the paper, where compass and ruler do not reach the rest, or nothing
+    asked for needs it."""
+    sheet = lesson.sheet
+    missing = ", ".join(link.name for link in sheet.scene.links if link.name not in sheet.poses)
+    phrases = (*((Phrase("part only", (missing,)),) if sheet.stopped and missing else ()), *sheet.left_out)
+    for phrase in phrases:
+        yield Paragraph(tuple((each, lesson.speaker.sentence(phrase, each)) for each in languages(lesson.language)))
+
+
+def _speeds(scene: Scene) -> Iterator[str]:
+    """Speeds of drivers in r/min, where these are the round ones."""
+    for driver in scene.drivers:
+        if isinstance(driver, AngleDriver) and driver.omega:
+            rpm = float(f"{driver.omega * RPM:.9g}")
+            if len(number(rpm)) < len(number(driver.omega)):
+                yield f"$n_{{{driver.link}}}$ = {number(rpm)}{BOUND}r/min"
+
+
+def _labelled(lesson: Lesson, key: str, text: str) -> Said:
+    return tuple((each, _line(key, text, each)) for each in languages(lesson.language))
+
+
+def _line(key: str, text: str, language: str) -> str:
+    return word(key, language) + word("colon", language) + text + word("full stop", language)
+
+
+def _blank_table(lesson: Lesson) -> Table:
+    heads = tuple(said(key, lesson.language) for key in ("quantity", "on paper", "value", "unit", "sense"))
+    rows = tuple((f"${lesson.letters.vector(s)}$", "", "", lesson.unit(s), "") for s in lesson.questions)
+    return Table(heads, rows, "lcclc", roomy=True)

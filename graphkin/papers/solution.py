@@ -1,0 +1,298 @@
+"""The answer key: the table alone, with what to accept from a pencil drawing.
+
+The worked solution: step by step with reasons, equations and figures as far as drawn, results, and their check.
+"""
+
+from __future__ import annotations
+
+import cmath
+import csv
+import io
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from graphkin.checking import COVERAGE, Compared
+from graphkin.construction.sheet import Equation
+from graphkin.drawing.headings import drivers, number
+from graphkin.papers.blocks import (
+    Beside,
+    Block,
+    Document,
+    Heading,
+    Paragraph,
+    Picture,
+    Said,
+    StepItem,
+    Steps,
+    Table,
+    Together,
+    said,
+    sentences,
+    spoken,
+)
+from graphkin.papers.lesson import Lesson, Stage, plain_words
+from graphkin.papers.pictures import WORDS, Layers, equation_picture, paper_of, parts, stage_picture
+from graphkin.papers.problem import given, paper_title, reach, scene_title
+from graphkin.words import Phrase, languages, say, word
+
+__all__ = [
+    "KeyRow",
+    "answer_key",
+    "equation_words",
+    "key_csv",
+    "key_rows",
+    "results_blocks",
+    "solution",
+    "solution_blocks",
+    "stage_title",
+    "step_items",
+]
+
+
+@dataclass(frozen=True)
+class KeyRow:
+    """One line of the key, in scene units: the size of a vector, a rate with its sign.
+
+    ``tolerance`` is three predicted standard deviations of a pencil drawing, None where nothing can be promised.
+    """
+
+    symbol: str
+    unit: str
+    asked: bool
+    on_paper: float
+    exact: float
+    tolerance: float | None
+    direction: float | None
+
+
+def key_rows(lesson: Lesson) -> tuple[KeyRow, ...]:
+    """The lines of the key."""
+    return tuple(_row(lesson, row) for row in lesson.results)
+
+
+def _row(lesson: Lesson, row: Compared) -> KeyRow:
+    symbol = row.symbol
+    spread = lesson.tolerance.get(symbol)
+    bound = (
+        None
+        if spread is None or not math.isfinite(spread.deviation)
+        else lesson.in_unit(symbol, COVERAGE * spread.deviation)
+    )
+    size = abs(row.exact) if symbol.is_vector else float(row.exact.real)
+    angle = math.degrees(math.atan2(complex(row.exact).imag, complex(row.exact).real)) + 0.0
+    has_way = symbol.is_vector and row.reading.on_paper > 1e-6
+    return KeyRow(
+        symbol=str(symbol),
+        unit=lesson.unit(symbol),
+        asked=symbol in lesson.questions,
+        on_paper=row.reading.on_paper,
+        exact=lesson.in_unit(symbol, size),
+        tolerance=bound,
+        direction=angle if has_way else None,
+    )
+
+
+def answer_key(lesson: Lesson) -> Document:
+    """The answer key of a lesson."""
+    language = lesson.language
+    heads = tuple(said(k, language) for k in ("quantity", "on paper", "value", "tolerance", "accept", "unit", "sense"))
+    rows, bold = [], set()
+    for i, (line, row) in enumerate(zip(key_rows(lesson), lesson.results, strict=True)):
+        if line.asked:
+            bold.add(i)
+        size = abs(line.exact)
+        within = ("–", "–")
+        if line.tolerance is not None:
+            low, high = max(0.0, size - line.tolerance), size + line.tolerance
+            places = _places(line.tolerance)
+            within = (f"± {_fixed(line.tolerance, places)}", f"{_fixed(low, places)} … {_fixed(high, places)}")
+        name = f"${lesson.letters.vector(row.symbol)}$"
+        rows.append((name, f"{line.on_paper:.2f}", number(size, 5), *within, line.unit, way(row, language)))
+    tools = lesson.sheet.scene.sheet.tools
+    words = said(
+        "key words", language, *(f"{x:g}" for x in (tools.line_width / 2, tools.ruler, tools.compass, tools.set_square))
+    )
+    blocks: tuple[Block, ...] = (
+        Heading(scene_title(lesson), 1),
+        Heading(said("answer key", language)),
+        *reach(lesson),
+        Table(heads, tuple(rows), "lrrrrll", frozenset(bold)),
+        Paragraph(sentences(words, said("sense words", language)), small=True),
+    )
+    return Document(paper_title(lesson, "answer key"), languages(language), blocks, paper_of(lesson.sheet.scene))
+
+
+def _places(tolerance: float) -> int:
+    """Decimal places that show two digits of a tolerance; negative for tens and hundreds."""
+    return 1 - math.floor(math.log10(tolerance)) if tolerance > 0.0 else 4
+
+
+def _fixed(value: float, places: int) -> str:
+    return f"{round(value, places):.{max(0, places)}f}"
+
+
+def key_csv(lesson: Lesson) -> str:
+    """The key as CSV, in scene units, 9 digits."""
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(["symbol", "unit", "asked", "on_paper_mm", "exact", "tolerance", "direction_deg"])
+    for row in key_rows(lesson):
+        writer.writerow([
+            row.symbol, row.unit, "yes" if row.asked else "no", f"{row.on_paper:.3f}", f"{row.exact:.9g}",
+            "" if row.tolerance is None else f"{row.tolerance:.3g}",
+            "" if row.direction is None else f"{row.direction:.3f}",
+        ])  # fmt: skip
+    return out.getvalue()
+
+
+def solution(lesson: Lesson) -> Document:
+    """The worked solution of a lesson."""
+    blocks = (
+        Heading(scene_title(lesson), 1),
+        *solution_blocks(lesson, tuple(given(lesson))),
+        *results_blocks(lesson),
+    )
+    title = paper_title(lesson, "worked solution")
+    return Document(title, languages(lesson.language), blocks, paper_of(lesson.sheet.scene))
+
+
+def solution_blocks(lesson: Lesson, lead: tuple[Paragraph, ...] = ()) -> Iterator[Block]:
+    """Stage by stage; ``lead`` stands before the first."""
+    layers: dict[str, Layers] = {}
+    for stage in lesson.stages:
+        if stage.diagram not in layers:
+            layers[stage.diagram] = parts(lesson.sheet, stage.diagram, lesson.letters, lesson.language)
+        yield Together(tuple(_stage(lesson, stage, layers[stage.diagram], lead if stage is lesson.stages[0] else ())))
+
+
+def results_blocks(lesson: Lesson) -> Iterator[Block]:
+    """Remarks on the construction, results, and their check."""
+    yield from _remarks(lesson)
+    yield Together(
+        (
+            Heading(said("results", lesson.language)),
+            Paragraph(spoken(drivers(lesson.sheet, lesson.letters), lesson.language)),
+            _results(lesson),
+            Paragraph(_verdict(lesson)),
+            Paragraph(sentences(*(said(key, lesson.language) for key in ("check words", "sense words"))), small=True),
+        )
+    )
+
+
+def stage_title(lesson: Lesson, stage: Stage) -> Said:
+    """What a stage is about: the position, an equation and its kind, or the vectors asked for besides."""
+    if stage.diagram == "mechanism":
+        return said("the position", lesson.language)
+    if stage.equation is None:
+        return said("further vectors", lesson.language)
+    return tuple(
+        (
+            each,
+            say(Phrase("equation numbered", (stage.equation.number,)), each)
+            + word("colon", each)
+            + word(f"for {stage.diagram}", each),
+        )
+        for each in languages(lesson.language)
+    )
+
+
+def step_items(lesson: Lesson, stage: Stage) -> tuple[StepItem, ...]:
+    """The steps of a stage in words and numbers."""
+    speaker = lesson.speaker
+    return tuple(
+        StepItem(
+            step.number,
+            tuple((each, speaker.step(step, each)) for each in languages(lesson.language)),
+            speaker.work(step),
+        )
+        for step in stage.steps
+    )
+
+
+def equation_words(lesson: Lesson, equation: Equation) -> str:
+    """An equation on one line: ``v_B3 = v_B2 + v_B3B2``."""
+    sides = (" + ".join(plain_words(f"${lesson.letters.vector(t.symbol)}$") for t in side) for side in equation.sides)
+    return " = ".join(sides)
+
+
+def _stage(
+    lesson: Lesson, stage: Stage, layers: Layers, lead: tuple[Paragraph, ...]
+) -> Iterator[Heading | Paragraph | Steps | Picture | Beside]:
+    sheet, letters, language = lesson.sheet, lesson.letters, lesson.language
+    heading = Heading(stage_title(lesson, stage))
+    steps = Steps(step_items(lesson, stage))
+    drawn = stage_picture(sheet, layers, stage.diagram, letters, language, stage.first, stage.last)
+    start = next(step.number for step in sheet.steps if step.diagram == stage.diagram)
+    key, args = (
+        ("figure whole", (stage.last,)) if stage.first == start else ("figure so far", (stage.last, stage.first))
+    )
+    caption = tuple(
+        (each, say(Phrase(key, (word(WORDS[stage.diagram], each), *args)), each)) for each in languages(language)
+    )
+    figure = Picture(drawn, caption)
+    beside: tuple[Heading | Paragraph | Steps, ...] = (steps,)
+    if stage.equation is not None:
+        yield heading
+        words = equation_words(lesson, stage.equation)
+        yield Picture(equation_picture(sheet, stage.equation, letters, language, words), joined=True)
+    else:
+        beside = (*lead, heading, steps)
+    if drawn.width <= paper_of(sheet.scene).narrow:
+        yield Beside(beside, figure)
+    else:
+        yield from beside
+        yield figure
+
+
+def _remarks(lesson: Lesson) -> Iterator[Block]:
+    sheet = lesson.sheet
+    notes = [*sheet.notes, *((sheet.stopped,) if sheet.stopped else ())]
+    if notes:
+        yield Heading(said("remarks", lesson.language), 3)
+    for note in notes:
+        yield Paragraph(tuple((each, lesson.speaker.sentence(note, each)) for each in languages(lesson.language)))
+
+
+def _results(lesson: Lesson) -> Table:
+    heads = tuple(said(key, lesson.language) for key in ("quantity", "on paper", "measured", "exact", "unit", "sense"))
+    rows, bold = [], set()
+    for i, row in enumerate(lesson.results):
+        symbol = row.symbol
+        if symbol in lesson.questions:
+            bold.add(i)
+        rows.append((
+            f"${lesson.letters.vector(symbol)}$",
+            f"{row.reading.on_paper:.2f}",
+            number(_plain(lesson, row, row.reading.value), 5),
+            number(_plain(lesson, row, row.exact), 5),
+            lesson.unit(symbol),
+            way(row, lesson.language),
+        ))  # fmt: skip
+    return Table(heads, tuple(rows), "lrrrll", frozenset(bold))
+
+
+def _plain(lesson: Lesson, row: Compared, value: complex | float) -> float:
+    size = abs(value) if row.symbol.is_vector else abs(float(value.real))
+    return lesson.in_unit(row.symbol, size)
+
+
+def way(row: Compared, language: str) -> str:
+    """Direction of a vector in degrees, or the sense of a rate in words; "" where it is zero."""
+    value = row.exact
+    if row.symbol.is_vector:
+        if row.reading.on_paper < 1e-6:
+            return ""
+        angle = round(math.degrees(cmath.phase(complex(value))), 1) + 0.0
+        return f"{180.0 if angle == -180.0 else angle:.1f}°".replace("-", "−")
+    if abs(value) < 1e-9:
+        return ""
+    key = "counter-clockwise" if value.real > 0 else "clockwise"
+    return " ".join(word(key, each) for each in languages(language))
+
+
+def _verdict(lesson: Lesson) -> Said:
+    rows = lesson.report.rows
+    wrong = [row for row in rows if not row.ok]
+    phrase = Phrase("not all agree", (len(wrong), len(rows))) if wrong else Phrase("all agree", (len(rows),))
+    return tuple((each, lesson.speaker.sentence(phrase, each)) for each in languages(lesson.language))

@@ -1,0 +1,269 @@
+"""Variants of a problem: the same mechanism with other round numbers, solvable on paper, and no two with one answer.
+
+A candidate depends on nothing but the seed, the number of the variant and the attempt, so that a set is the same
+whatever computes it.
+"""
+
+from __future__ import annotations
+
+import copy
+import math
+import random
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+from graphkin.checking import predict, read_off
+from graphkin.construction import Sheet, execute
+from graphkin.construction.sheet import Ray
+from graphkin.errors import GraphkinError, Problem, SceneError, Unsolvable
+from graphkin.papers.pictures import paper_plan
+from graphkin.plane import cross
+from graphkin.scene import read
+from graphkin.scene.model import Scene
+from graphkin.scene.symbol import Symbol
+from graphkin.solver import Motion, solve
+from graphkin.structure import Driven, Dyad, analyse
+
+__all__ = ["Answer", "Range", "Unfit", "Variant", "asked_of", "candidate", "examined", "round_step", "varied_keys"]
+
+Source = Mapping[str, Any]
+Path = tuple[str | int, ...]
+
+LEAST_CROSSING = math.radians(20.0)
+LEAST_READING = 10.0  # mm on paper
+WIDEST = 0.15  # an answer that a pencil cannot give more closely is no answer to grade
+STEPS = (1.0, 2.0, 5.0)
+
+
+@dataclass(frozen=True)
+class Range:
+    """How far the data vary: lengths and rates by a part of their size, places by a part of theirs, angles by all."""
+
+    lengths: float = 0.15
+    places: float = 0.08
+    rates: float = 0.25
+    angle_step: float = 5.0
+
+
+@dataclass(frozen=True)
+class Answer:
+    """A right answer in scene units (vectors by size), and how far one drawn in pencil may lie off."""
+
+    symbol: str
+    value: float
+    tolerance: float
+
+
+@dataclass(frozen=True)
+class Variant:
+    """One variant: its name, the mapping of its scene file, its answers, and what should be known of it."""
+
+    name: str
+    source: Source
+    answers: tuple[Answer, ...]
+    remarks: tuple[str, ...] = ()
+
+    @property
+    def scene(self) -> Scene:
+        """The variant as a scene."""
+        return read(self.source)
+
+
+class Unfit(Exception):
+    """A candidate that makes no good problem; the text says why."""
+
+
+def round_step(value: float) -> float:
+    """The step of the 1-2-5 series that is about a sixtieth of a value, so that its multiples look round beside it.
+
+    >>> round_step(580), round_step(90), round_step(0.34)
+    (5.0, 1.0, 0.005)
+    """
+    least = abs(value) / 60.0
+    decade = 10.0 ** math.floor(math.log10(least))
+    return max(s * decade for s in STEPS if s * decade <= least * (1 + 1e-9))
+
+
+def varied_keys(source: Source) -> tuple[tuple[Path, str], ...]:
+    """The numbers of a scene file that variants change, with what they are: "length", "place", "angle", "rate" or
+    "travel".  Zeros stay zero, and so do accelerations and the directions of guides."""
+    found: list[tuple[Path, str]] = []
+    for name, link in source.get("links", {}).items():
+        if "length" in link:
+            found.append((("links", name, "length"), "length"))
+    frame = source.get("frame", {})
+    for point, xy in frame.get("points", {}).items():
+        found += [(("frame", "points", point, i), "place") for i in (0, 1) if xy[i]]
+    for guide, table in frame.get("guides", {}).items():
+        if isinstance(table.get("through"), list):
+            found += [(("frame", "guides", guide, "through", i), "place") for i in (0, 1) if table["through"][i]]
+    drivers = source.get("driver", [])
+    several = isinstance(drivers, list)
+    for i, driver in enumerate(drivers if several else [drivers]):
+        path: Path = ("driver", i) if several else ("driver",)
+        for key in ("angle", "travel", "omega", "rpm", "velocity"):
+            if driver.get(key) or (key == "angle" and key in driver):
+                kind = key if key in ("angle", "travel") else "rate"
+                found.append(((*path, key), kind))
+    return tuple(found)
+
+
+def candidate(source: Source, spread: Range, seed: int, number: int, attempt: int) -> dict[str, Any]:
+    """One try at a variant: every number that varies drawn afresh and rounded; not looked at yet."""
+    dice = random.Random(f"{seed}/{number}/{attempt}")
+    made = copy.deepcopy(dict(source))
+    for path, kind in varied_keys(source):
+        _put(made, path, _drawn(dice, float(_at(source, path)), kind, spread))
+    return made
+
+
+def _drawn(dice: random.Random, value: float, kind: str, spread: Range) -> float:
+    if kind == "angle":
+        turn = round(360.0 / spread.angle_step)
+        angle = spread.angle_step * dice.randrange(turn)
+        return angle if angle <= 180.0 else angle - 360.0
+    part = {"length": spread.lengths, "travel": spread.lengths, "place": spread.places, "rate": spread.rates}[kind]
+    step = round_step(value) * (5.0 if kind == "rate" else 1.0)
+    low, high = math.ceil(abs(value) * (1 - part) / step), math.floor(abs(value) * (1 + part) / step)
+    steps = dice.randint(low, high) if low <= high else max(1, round(abs(value) / step))
+    return math.copysign(float(f"{steps * step:.12g}"), value)
+
+
+def _at(source: Any, path: Path) -> Any:
+    for part in path:
+        source = source[part]
+    return source
+
+
+def _put(made: Any, path: Path, value: float) -> None:
+    _at(made, path[:-1])[path[-1]] = value
+
+
+def asked_of(scene: Scene) -> tuple[Symbol, ...]:
+    """What a problem asks: the scene's own ``find``, else the motion of the last group's joint, and the rates of
+    the links about fixed pivots."""
+    if scene.find:
+        return scene.find
+    structure = analyse(scene)
+    driven = {e.link for e in structure.elements if isinstance(e, Driven)}
+    turning = [k.name for k in scene.links if k.name not in driven and set(k.points) & set(scene.frame.points)]
+    found: list[Symbol] = []
+    last = next((e for e in reversed(structure.elements) if isinstance(e, Dyad)), None)
+    if last is not None:
+        pairs = (last.outer_second, last.inner, last.outer_first)
+        names = [getattr(p, "point", None) or getattr(p, "pin", None) for p in pairs]
+        moving = next((n for n in names if n and n not in scene.frame.points), None)
+        found += [Symbol.parse(f"{k}_{moving}") for k in ("v", "a")] if moving else []
+    found += [Symbol(kind, link=name) for name in turning for kind in ("omega", "alpha")]
+    return tuple(found)
+
+
+def examined(source: Source, base: Source | None, name: str, strict: bool = True) -> Variant:
+    """A variant from the mapping of a scene file, if it makes a good problem.
+
+    Parameters
+    ----------
+    source : the scene file
+    base : where the driver's value was changed, the same file with the value it had, from which the assembly is
+        followed
+    strict : refuse what cannot be drawn well; else say it in the remarks
+
+    Raises
+    ------
+    Unfit : it does not assemble here, or (strict) lines cross under 20 degrees, a reading is under 10 mm, or a pencil
+        drawing can miss an answer by more than 15 %
+    """
+    try:
+        made = _moved(source, base) if base is not None else dict(source)
+        made["find"] = [str(s) for s in asked_of(read(made))]
+        scene = read(made)
+        motion = solve(scene)
+        if motion.status[0] != "ok":
+            raise Unfit(f"{motion.status[0]}: {motion.why[0]}")
+        asked = asked_of(scene)
+        what = paper_plan(scene, None, asked)
+        sheet = execute(what)
+        remarks = list(_remarks(sheet, asked))
+        if remarks and strict:
+            raise Unfit(remarks[0])
+        answers = tuple(_answers(scene, motion, sheet, asked))
+    except Unsolvable as error:
+        raise Unfit(f"{error.status}: {error.why}") from None
+    except GraphkinError as error:
+        raise Unfit(str(error).splitlines()[0]) from None
+    except ArithmeticError as error:
+        raise Unfit(f"the numbers run out of range: {error}") from None
+    predicted = predict(what, "pencil", scene.sheet.tools)
+    bounded = []
+    for symbol, value in answers:
+        bound = predicted[symbol].bound if symbol in predicted else 0.0
+        unit = scene.units.metres if symbol.is_vector else 1.0
+        if not math.isfinite(bound):
+            raise Unfit(f"{symbol} cannot be drawn: so near a dead point a pencil misses it")
+        if bound > WIDEST * abs(value):
+            remarks.append(f"{symbol} cannot be drawn more closely than to {100 * WIDEST:.0f} %")
+            if strict:
+                raise Unfit(remarks[-1])
+        bounded.append(Answer(str(symbol), float(f"{value / unit:.12g}"), float(f"{bound / unit:.6g}")))
+    return Variant(name, made, tuple(bounded), tuple(remarks))
+
+
+def _moved(source: Source, base: Source) -> dict[str, Any]:
+    """The file with its driver's value reached from that of ``base``, and a sketch that tells this assembly."""
+    start, goal = read(base), read(source)
+    motion = solve(start, {d.key: d.values[0] for d in goal.drivers})
+    if motion.status[0] != "ok":
+        raise Unfit(f"{motion.status[0]}: {motion.why[0]}")
+    made = copy.deepcopy(dict(source))
+    made["sketch"] = _sketch(start, motion)
+    return made
+
+
+def _sketch(scene: Scene, motion: Motion) -> dict[str, list[float]]:
+    places = {}
+    for point, names in scene.holders.items():
+        if scene.frame.name not in names:
+            z = complex(motion.position(point)[0]) / scene.units.metres
+            step = round_step(scene.size / scene.units.metres)
+            places[point] = [float(f"{round(c / step) * step:.12g}") for c in (z.real, z.imag)]
+    return places
+
+
+def _remarks(sheet: Sheet, asked: tuple[Symbol, ...]) -> Iterator[str]:
+    """What makes a sheet hard to draw or to read."""
+    if sheet.stopped is not None:
+        yield "it cannot be drawn with ruler and compass alone"
+    for equation in sheet.equations:
+        rays = [s for step in sheet.steps if step.equation == equation.number for s in step.strokes]
+        lines = [r for r in rays if isinstance(r, Ray)]
+        for one, two in pairwise(lines):
+            angle = math.asin(min(1.0, abs(cross(one.along, two.along))))
+            if angle < LEAST_CROSSING:
+                yield f"lines cross at {math.degrees(angle):.0f} degrees only"
+    readings = {r.symbol: r for r in read_off(sheet, asked)}
+    for symbol in asked:
+        if symbol not in readings:
+            yield f"{symbol} is not drawn"
+        elif readings[symbol].on_paper < LEAST_READING and _measured(sheet, symbol):
+            yield f"{symbol} is {readings[symbol].on_paper:.1f} mm on paper only"
+
+
+def _measured(sheet: Sheet, symbol: Symbol) -> bool:
+    """Whether a rate is read off a vector, not given or shared."""
+    if symbol.is_vector:
+        return True
+    rate = (sheet.omega if symbol.kind == "omega" else sheet.alpha).get(symbol.link)
+    return rate is not None and rate.vector is not None
+
+
+def _answers(scene: Scene, motion: Motion, sheet: Sheet, asked: tuple[Symbol, ...]) -> Iterator[tuple[Symbol, float]]:
+    """The exact answers; the drawing must agree with each of them."""
+    drawn = {r.symbol: r.value for r in read_off(sheet, asked)}
+    for symbol in asked:
+        found = complex(motion.value(symbol)[0])
+        value = abs(found) if symbol.is_vector else found.real
+        if symbol in drawn and abs(drawn[symbol] - found) > 1e-6 * max(abs(found), 1e-9):
+            raise SceneError(Problem(str(symbol), "the drawing and the solver disagree"))
+        yield symbol, value

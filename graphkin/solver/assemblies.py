@@ -1,0 +1,244 @@
+"""The assembly of every group at the scene's own position."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from graphkin.errors import Problem, Unsolvable
+from graphkin.scene.model import AngleDriver, Scene
+from graphkin.solver.dyads import Solved
+from graphkin.solver.engine import State, positions
+from graphkin.solver.group_equations import System
+from graphkin.solver.joints import Drive, driver_text
+from graphkin.solver.larger_groups import ClusterSolved, as_place, solve_all, solve_cluster
+from graphkin.solver.pose import Array, Pose
+from graphkin.structure import Cluster, Dyad, Slide, Structure, links_of, pick
+from graphkin.structure.assembly import TOUCH, last_true
+
+__all__ = ["choose_forms", "own_values"]
+
+STARTS = 360
+ROUNDS = 80
+SAME = 1e-6
+
+
+def own_values(scene: Scene) -> Array:
+    """The drivers' values in the scene's own position, shape (drivers,)."""
+    return np.array([d.values[0] for d in scene.drivers])
+
+
+def choose_forms(structure: Structure) -> dict[int, Array]:
+    """The form of each group at the scene's own position: by drawn or sketched points, else by the rule for its kind.
+
+    Returns
+    -------
+    dict from the element's place to the sign of a dyad (0-d array) or the places (members, 3) of a larger group
+
+    Raises
+    ------
+    SceneError
+        nothing tells the assemblies of a larger group apart, or drawn points lie in none
+    Unsolvable
+        the mechanism cannot be assembled here ("not assembled"), or stands in a dead point ("dead point")
+    """
+    drive = Drive.at(structure, own_values(structure.scene)[None])
+    forms: dict[int, Array] = {}
+    for i, element in enumerate(structure.elements):
+        if isinstance(element, Dyad):
+            forms[i] = _choose_sign(structure, i, element, drive, forms)
+        elif isinstance(element, Cluster):
+            state = positions(structure, drive, {k: f[None] for k, f in forms.items()}, i, rates=False)
+            forms[i] = _choose_place(structure, i, element, drive, state.poses)
+    return forms
+
+
+def _choose_sign(structure: Structure, i: int, dyad: Dyad, drive: Drive, forms: Mapping[int, Array]) -> Array:
+    scene = structure.scene
+    states: list[State] = []
+    for sign in (1.0, -1.0):
+        given = {**{k: f[None] for k, f in forms.items()}, i: np.array([sign])}
+        states.append(positions(structure, drive, given, i + 1, rates=False))
+    solved = states[0].groups[i]
+    assert isinstance(solved, Solved)
+    if dyad.kind in ("PRP", "RPP"):
+        sign = float(np.sign(solved.sine[0])) or 1.0
+        if abs(solved.sine[0]) >= states[0].singular[0]:
+            pick(scene, dyad.links, [_places(structure, i, dyad.links, states[0])], 0)
+        return np.array(sign)
+    if not solved.discriminant[0] >= -TOUCH:
+        raise Unsolvable(
+            "not assembled",
+            Problem(
+                f"links {', '.join(dyad.links)}",
+                "they do not reach each other in the scene's own position",
+                _nearest(structure, i, drive, forms),
+            ),
+        )
+    if not abs(solved.sine[0]) >= states[0].singular[0]:
+        return np.array(1.0)
+    candidates = [_places(structure, i, dyad.links, state) for state in states]
+    return np.array((1.0, -1.0)[pick(scene, dyad.links, candidates, 0).index])
+
+
+def _nearest(structure: Structure, i: int, drive: Drive, forms: Mapping[int, Array]) -> str:
+    """The nearest value of the first driver at which everything up to group ``i`` can be assembled."""
+    scene = structure.scene
+    first = scene.drivers[0]
+    wide = np.pi if isinstance(first, AngleDriver) else 2 * scene.size
+
+    def open_(offset: Array) -> Array:
+        value = np.repeat(drive.value, len(offset), axis=0)
+        value[:, 0] += wide * offset
+        state = positions(structure, Drive.at(structure, value), {**forms, i: np.ones(1)}, i + 1, rates=False)
+        gaps = [g.discriminant >= 0 for g in state.groups.values() if isinstance(g, Solved)]
+        return np.asarray(np.logical_and.reduce(np.broadcast_arrays(*gaps)))
+
+    if any(isinstance(e, Cluster) for e in structure.elements[:i]):
+        return ""
+    offset = np.linspace(-1, 1, 721)
+    good = np.flatnonzero(open_(offset))
+    if not len(good):
+        return "no value of the driver assembles them with these lengths"
+    near = offset[good[np.argmin(np.abs(offset[good]))]]
+    limit = last_true(open_, float(near), float(near - np.copysign(1 / 360, near)))
+    value = float(drive.value[0, 0] + wide * limit)
+    return f"the nearest position where they do is at {first.key} = {driver_text(scene, first, value)}"
+
+
+def _places(structure: Structure, i: int, links: Sequence[str], state: State) -> dict[str, complex]:
+    """Where the points lie that only this group has placed."""
+    before = {structure.scene.frame.name}
+    for element in structure.elements[:i]:
+        before.update(links_of(element))
+    known = {p for name in before for p in structure.links[name].points}
+    found: dict[str, complex] = {}
+    for name in links:
+        pose = state.poses[name]
+        for point, place in structure.links[name].points.items():
+            if point not in known:
+                found[point] = complex(np.ravel(pose.z + pose.u * place)[0])
+    return found
+
+
+def _choose_place(structure: Structure, i: int, group: Cluster, drive: Drive, known: Mapping[str, Pose]) -> Array:
+    """All assemblies of a larger group by Newton's method from many starts, and the one that is meant."""
+    found = _assemblies(structure, group, drive, known)
+    if not len(found):
+        raise Unsolvable(
+            "not assembled",
+            Problem(
+                f"links {', '.join(group.links)}", "no assembly of this group was found in the scene's own position"
+            ),
+        )
+    states = [State({**known, **System(structure, group, known, drive).poses(place[None])}) for place in found]
+    candidates = [_places(structure, i, group.links, state) for state in states]
+    return np.asarray(found[pick(structure.scene, group.links, candidates, None).index])
+
+
+def _assemblies(structure: Structure, group: Cluster, drive: Drive, known: Mapping[str, Pose]) -> Array:
+    start = _starts(structure, group, known)
+    many = Drive(*(np.repeat(x, len(start), axis=0) for x in (drive.value, drive.rate, drive.second)))
+    system = System(structure, group, known, many)
+    place, damping = start, np.ones(len(start))
+    members = system.poses(place)
+    open_ = system.constraints(members)[0]
+    for _ in range(ROUNDS):
+        # Levenberg-Marquardt: singular starts need no care
+        matrix = system.matrix(members)
+        turned = np.swapaxes(matrix, 1, 2)
+        normal = turned @ matrix + damping[:, None, None] * 1e-3 * np.eye(matrix.shape[2])
+        step = solve_all(normal, (turned @ open_[..., None])[..., 0])
+        trial = place - system.scaled(step)
+        new_members = system.poses(trial)
+        new_open = system.constraints(new_members)[0]
+        better = np.sum(new_open**2, axis=1) < np.sum(open_**2, axis=1)
+        place = np.where(better[:, None, None], trial, place)
+        damping = np.clip(np.where(better, damping / 5, damping * 4), 1e-12, 1e8)
+        members = system.poses(place)
+        open_ = system.constraints(members)[0]
+    near = np.abs(open_).max(axis=1) < 1e-4
+    if not near.any():
+        return np.zeros((0, len(group.members), 3))
+    solved = solve_cluster(structure, group, known, many[near], place[near], rates=False)
+    return _distinct(structure, group, solved)
+
+
+def _starts(structure: Structure, group: Cluster, known: Mapping[str, Pose]) -> Array:
+    """Starting places: spread over the mechanism; links with drawn or sketched points also near these."""
+    scene = structure.scene
+    rng = np.random.default_rng(20240229)
+    marks = {
+        p: complex(np.ravel(known[n].z + known[n].u * z)[0])
+        for n in known
+        for p, z in structure.links[n].points.items()
+    }
+    hints = {**scene.sketch, **scene.drawn}
+    spots = np.array([*marks.values(), *hints.values()] or [0j])
+    reach = max(scene.size, float(np.ptp(spots.real)), float(np.ptp(spots.imag)))
+    n, m = STARTS, len(group.members)
+    start = np.empty((n, m, 3))
+    start[..., :2] = rng.uniform(-reach, reach, (n, m, 2)) + np.array([spots.real.mean(), spots.imag.mean()])
+    start[..., 2] = rng.uniform(-np.pi, np.pi, (n, m))
+    half = n // 2
+    for k, name in enumerate(group.members):
+        points = structure.links[name].points
+        at = {p: hints.get(p, marks.get(p)) for p in points if p in hints or p in marks}
+        pairs = [(points[p], w) for p, w in at.items() if w is not None]
+        if not pairs:
+            continue
+        local = np.array([z for z, _ in pairs])
+        world = np.array([w for _, w in pairs])
+        turn = np.sum((world - world.mean()) * np.conj(local - local.mean()))
+        angle = np.where(abs(turn) > 0, np.angle(turn) + rng.normal(0, 0.2, half), start[:half, k, 2])
+        origin = world.mean() - np.exp(1j * angle) * local.mean()
+        start[:half, k, 0], start[:half, k, 1], start[:half, k, 2] = origin.real, origin.imag, angle
+    return start
+
+
+def _distinct(structure: Structure, group: Cluster, solved: ClusterSolved) -> Array:
+    """The different assemblies; of those that differ only in the sense of a bar without length the one where what
+    slides lies on the positive side."""
+    good = solved.missed < 1e-11
+    size = structure.scene.size
+    rows: list[int] = []
+    names = group.members
+    for r in np.flatnonzero(good).tolist():
+        same = False
+        for q in rows:
+            far = max(
+                max(
+                    abs(solved.poses[k].z[r] - solved.poses[k].z[q]) / size,
+                    abs(solved.poses[k].u[r] - solved.poses[k].u[q]),
+                )
+                for k in names
+            )
+            same = same or far < SAME
+        if not same:
+            rows.append(r)
+    slides = [p for p in group.pairs if isinstance(p, Slide) and p.a in names and p.b in names]
+
+    def positive(row: int) -> float:
+        travel = 0.0
+        for s in slides:
+            guide = solved.poses[s.b].fixed(s.guide.through, s.guide.direction)
+            travel += float(((solved.poses[s.a].z - guide.z) * np.conj(guide.u)).real[row])
+        return travel
+
+    kept: list[int] = []
+    for r in sorted(rows, key=positive, reverse=True):
+        points = [
+            solved.poses[k].z[r] + solved.poses[k].u[r] * z for k in names for z in structure.links[k].points.values()
+        ]
+        twin = False
+        for q in kept:
+            other = [
+                solved.poses[k].z[q] + solved.poses[k].u[q] * z
+                for k in names
+                for z in structure.links[k].points.values()
+            ]
+            twin = twin or (bool(points) and max(abs(a - b) for a, b in zip(points, other, strict=True)) < SAME * size)
+        if not twin:
+            kept.append(r)
+    return as_place(solved.poses, names)[sorted(kept)]

@@ -1,0 +1,235 @@
+"""The dead points of a mechanism over the range of its driver, to fifty digits, and driver values given from them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from decimal import Decimal
+from itertools import product
+
+import numpy as np
+
+from graphkin.errors import GraphkinError, Problem, Unsolvable
+from graphkin.scene.model import AngleDriver
+from graphkin.solver.assemblies import choose_forms
+from graphkin.solver.decimals import PI, meant_value, working
+from graphkin.solver.dyads import Solved
+from graphkin.solver.engine import finer_of, positions
+from graphkin.solver.joints import Drive, driver_text
+from graphkin.solver.pose import Array
+from graphkin.structure import Cluster, Dyad, Structure, analyse
+from graphkin.structure.assembly import last_true
+
+__all__ = ["DeadPoint", "dead_points", "nearest_dead_point", "settled"]
+
+GRID = 1440
+FAR = 4.0
+MOST_GROUPS = 6
+SMALL = Decimal(10) ** -20
+SETTLED = Decimal(10) ** -48
+TOUCH = 1e-9
+BESIDE = 0.01
+SAME = 1e-9
+
+
+@dataclass(frozen=True)
+class DeadPoint:
+    """A value of the driver (rad, m) at which a group stands in a dead point.
+
+    element : the group, by its place among the elements
+    signs : the assembly of the groups before it
+    sides : on which sides of it the mechanism assembles: -1 below, +1 above
+    """
+
+    value: Decimal
+    element: int
+    signs: Mapping[int, float]
+    sides: tuple[int, ...]
+
+
+def dead_points(structure: Structure, near: float = 0.0) -> list[DeadPoint]:
+    """All dead points of all assemblies within half a turn (four sizes of the mechanism) of a value of its driver; of
+    more than six groups those of the first six (``not_searched`` names the links of the others).
+
+    Raises
+    ------
+    Unsolvable : it has a larger group, whose dead points are known only along its motion
+    """
+    for element in structure.elements:
+        if isinstance(element, Cluster):
+            where = f"links {', '.join(element.links)}"
+            raise Unsolvable("dead point", Problem(where, "dead points are found for groups of two links only"))
+    found: list[DeadPoint] = []
+    dyads = [i for i, e in enumerate(structure.elements) if isinstance(e, Dyad)][:MOST_GROUPS]
+    for k, i in enumerate(dyads):
+        for chosen in product((1.0, -1.0), repeat=k):
+            signs = dict(zip(dyads, chosen, strict=False))
+            for point in _of_group(structure, i, signs, _grid(structure, near)):
+                if not any(p.element == i and p.signs == signs and abs(p.value - point.value) < SAME for p in found):
+                    found.append(point)
+    return found
+
+
+def not_searched(structure: Structure) -> tuple[str, ...]:
+    """Links of groups that stand behind so many others that not all their assemblies are tried."""
+    dyads = [e for e in structure.elements if isinstance(e, Dyad)]
+    return tuple(name for e in dyads[MOST_GROUPS:] for name in e.links)
+
+
+def nearest_dead_point(structure: Structure, i: int, signs: Mapping[int, float], value: float) -> DeadPoint | None:
+    """The dead point of a group within a hundredth of a radian (of the size) of a value of the only driver."""
+    if len(structure.scene.drivers) != 1 or any(isinstance(e, Cluster) for e in structure.elements[: i + 1]):
+        return None
+    unit = 1.0 if isinstance(structure.scene.drivers[0], AngleDriver) else structure.scene.size
+    grid = value + BESIDE * unit * np.linspace(-1.0, 1.0, 42)
+    found = list(_of_group(structure, i, signs, grid))
+    return min(found, key=lambda p: abs(float(p.value) - value), default=None)
+
+
+def _grid(structure: Structure, near: float) -> Array:
+    turning = isinstance(structure.scene.drivers[0], AngleDriver)
+    wide = math.pi if turning else FAR * structure.scene.size
+    return np.asarray(near + wide * np.linspace(-1, 1, GRID + 1))
+
+
+def _of_group(structure: Structure, i: int, signs: Mapping[int, float], grid: Array) -> Iterator[DeadPoint]:
+    def gap(value: Array) -> Array:
+        state = positions(
+            structure, Drive.at(structure, value[:, None]), {**{j: np.asarray(s) for j, s in signs.items()}, i: _ONE},
+            i + 1, rates=False,
+        )  # fmt: skip
+        before = [g.discriminant for j, g in state.groups.items() if j != i and isinstance(g, Solved)]
+        solved = state.groups[i]
+        assert isinstance(solved, Solved)
+        held = np.logical_and.reduce([np.broadcast_to(b >= 0, value.shape) for b in before]) if before else True
+        return np.where(held, np.broadcast_to(solved.discriminant, value.shape), np.nan)
+
+    value = gap(grid)
+    two_sided = getattr(structure.elements[i], "kind", "") in ("PRP", "RPP")
+    for k in range(len(grid) - 1):
+        one, two = value[k], value[k + 1]
+        if not (np.isfinite(one) and np.isfinite(two)):
+            continue
+        if (one > 0) != (two > 0):
+            low, high = (k, k + 1) if one > 0 else (k + 1, k)
+            about = last_true(lambda x: gap(x) > 0, float(grid[low]), float(grid[high]))
+            sides = (-1, 1) if two_sided else ((-1,) if low < high else (1,))
+            exact = _root(structure, i, signs, about)
+        elif k > 0 and 0 <= one <= min(value[k - 1], two) and one < max(value[k - 1], two):
+            about, least = _least(gap, float(grid[k - 1]), float(grid[k + 1]))
+            if not abs(least) < TOUCH:
+                continue
+            sides, exact = (-1, 1), _touch(structure, i, signs, about)
+        else:
+            continue
+        if exact is not None:
+            yield DeadPoint(exact, i, signs, sides)
+
+
+_ONE = np.asarray(1.0)
+
+
+def _least(function: Callable[[Array], Array], low: float, high: float) -> tuple[float, float]:
+    for _ in range(40):
+        at = np.linspace(low, high, 9)
+        value = function(at)
+        k = int(np.nanargmin(value))
+        low, high = float(at[max(k - 1, 0)]), float(at[min(k + 1, 8)])
+    return float(at[k]), float(value[k])
+
+
+class _Gap:
+    """The discriminant of a group in fifty digits."""
+
+    def __init__(self, structure: Structure, i: int, signs: Mapping[int, float]) -> None:
+        forms = {**{j: np.asarray(s) for j, s in signs.items()}, i: _ONE}
+        self.finer = finer_of(structure, forms, ("discriminant", i), lambda program: [program.groups[i].discriminant])
+
+    def __call__(self, value: Decimal) -> Decimal:
+        return self.finer.row(0, {0: value})[0]
+
+
+def _root(structure: Structure, i: int, signs: Mapping[int, float], about: float) -> Decimal | None:
+    """Newton's method on the discriminant, its derivative by differences."""
+    gap = _Gap(structure, i, signs)
+    return _newton(lambda x: gap(x), about)
+
+
+def _touch(structure: Structure, i: int, signs: Mapping[int, float], about: float) -> Decimal | None:
+    """Where the discriminant is least: its derivative is zero."""
+    gap = _Gap(structure, i, signs)
+    step = SMALL.sqrt()
+    return _newton(lambda x: (gap(x + step) - gap(x - step)) / (2 * step), about)
+
+
+def _newton(function: Callable[[Decimal], Decimal], about: float) -> Decimal | None:
+    with working():
+        x = Decimal(about)
+        try:
+            for _ in range(60):
+                slope = (function(x + SMALL) - function(x - SMALL)) / (2 * SMALL)
+                move = function(x) / slope
+                x = x - move
+                if abs(move) < SETTLED * (1 + abs(x)):
+                    return x if abs(x) > 100 * SETTLED else Decimal(0)
+        except ArithmeticError:
+            return None
+    return None
+
+
+def settled(structure: Structure) -> Structure:
+    """The structure of the same scene with the value of its driver, which is given from a dead point.
+
+    Raises
+    ------
+    Unsolvable : "dead point": there is none of that kind, or there are several and none is named
+    """
+    scene = structure.scene
+    driver = scene.drivers[0]
+    dead = driver.dead_point
+    assert dead is not None
+    with working():
+        distance = meant_value(driver, dead.distance)
+    side = 1 if distance > 0 else -1
+    found: list[tuple[DeadPoint, Structure]] = []
+    for point in dead_points(structure, dead.near or 0.0):
+        if side in point.sides:
+            with working():
+                value = point.value + distance
+            here = _at(structure, value)
+            try:
+                forms = choose_forms(here)
+            except GraphkinError:
+                continue
+            if all(float(forms[j]) == s for j, s in point.signs.items()):
+                found.append((point, here))
+    names = ", ".join(driver_text(scene, driver, float(p.value)) for p, _ in found)
+    what = f'driver "{driver.key}"'
+    if not found:
+        how = "begins" if side > 0 else "ends"
+        wanted = "change the sign of the distance, or give the value itself"
+        missing = not_searched(structure)
+        if missing:
+            wanted += f"; links {', '.join(missing)} were not looked at, they stand behind {MOST_GROUPS} other groups"
+        raise Unsolvable("dead point", Problem(what, f"there is no dead point at which the motion {how}", wanted))
+    if dead.near is None and len(found) > 1:
+        raise Unsolvable("dead point", Problem(what, f"there are dead points at {names}",
+                                               "write near = ... to tell which one"))
+    turn = float(2 * PI) if isinstance(driver, AngleDriver) else math.inf
+
+    def away(point: DeadPoint) -> float:
+        off = abs(float(point.value) - (dead.near or 0.0))
+        return min(off, abs(turn - off))
+
+    return min(found, key=lambda pair: away(pair[0]))[1]
+
+
+def _at(structure: Structure, value: Decimal) -> Structure:
+    scene = structure.scene
+    driver = scene.drivers[0]
+    assert driver.dead_point is not None
+    exact = replace(driver.dead_point, exact=str(value))
+    if isinstance(driver, AngleDriver):
+        return analyse(replace(scene, drivers=(replace(driver, angle=float(value), dead_point=exact),)))
+    return analyse(replace(scene, drivers=(replace(driver, travel=float(value), dead_point=exact),)))

@@ -1,0 +1,268 @@
+"""All elements of a structure in their order, at many driver values at once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from graphkin.scene.model import AngleDriver
+from graphkin.solver.dyads import Solved
+from graphkin.solver.extended_precision import Finer
+from graphkin.solver.formula import Real, Vec
+from graphkin.solver.group_errors import bounds as bounds_together
+from graphkin.solver.joints import Drive, turned
+from graphkin.solver.larger_groups import ClusterSolved, solve_cluster
+from graphkin.solver.pose import Array, Pose, rest
+from graphkin.solver.program import FIELDS, GIVEN, Program, program_of
+from graphkin.solver.rendering import Code
+from graphkin.solver.rounding import UNIT
+from graphkin.structure import Cluster, Dyad, Structure, links_of
+
+__all__ = ["SINGULAR", "Bounds", "State", "finer_of", "positions"]
+
+SINGULAR = 1e-7
+"""A group whose two loci cross at a smaller sine than this is at a dead point."""
+TINY = 1e-25
+"""The same where the driver's distance from the dead point is known to fifty digits."""
+SLACK = 1.001
+"""For the rounding of the bounds themselves."""
+FEW = 4
+"""As many positions are computed one by one in plain floats."""
+
+
+class Bounds(NamedTuple):
+    """How far rounding may have moved any point of any link (m, m/s, m/s2) and the angles and their rates (rad, rad/s,
+    rad/s2), each of shape (n,)."""
+
+    position: Array
+    velocity: Array
+    acceleration: Array
+    angle: Array
+    omega: Array
+    alpha: Array
+
+
+_ZERO = np.zeros(1)
+
+
+@dataclass(frozen=True)
+class State:
+    """The mechanism at n positions.
+
+    poses : each link by its name, fields of shape (n,) or broadcasting to it
+    groups : what each group gave, by its place among the elements
+    bounds : how far rounding may have put the links; None where rates were left out
+    rough : bounds of velocity and acceleration, of points as far off as the mechanism is large, for a computation in 16
+        digits throughout, such as a drawing; greater where more digits were used
+    singular : the sine below which a group is at a dead point, smaller where the driver is given from a dead point
+    """
+
+    poses: Mapping[str, Pose]
+    groups: Mapping[int, Solved | ClusterSolved] = field(default_factory=dict)
+    bounds: Bounds | None = None
+    rough: tuple[Array, Array] = (_ZERO, _ZERO)
+    singular: Array = field(default_factory=lambda: np.full(1, SINGULAR))
+
+
+def positions(
+    structure: Structure,
+    drive: Drive,
+    forms: Mapping[int, Array],
+    upto: int | None = None,
+    rates: bool = True,
+    sure: bool = True,
+) -> State:
+    """Solve every element at all positions of the drivers, each position afresh.
+
+    Parameters
+    ----------
+    drive : the rates of each driver are the same at all positions
+    forms : the assembly of each group, by its place among the elements: for a dyad the sign, shape (n,); for a larger
+        group the poses from which Newton's method starts, shape (n, members, 3)
+    upto : solve only the elements before this one
+    rates : False leaves out velocity, acceleration and bounds
+    sure : False leaves out the bounds; with a larger group they need all elements
+
+    Returns
+    -------
+    State; at a position that cannot be assembled the discriminant of a group is negative and the poses mean nothing
+    """
+    with np.errstate(all="ignore"):
+        run = _Run(structure, drive, forms, rates, sure and rates)
+        return run.state(len(structure.elements) if upto is None else upto)
+
+
+def finer_of(
+    structure: Structure, forms: Mapping[int, Array], key: Any, choose: Callable[[Program], list[Real]]
+) -> Finer:
+    """What computes some formulas of a mechanism of dyads in fifty digits, at any value of its drivers."""
+    own = np.array([[d.values[0] for d in structure.scene.drivers]])
+    run = _Run(structure, Drive.at(structure, own), forms, False, False)
+    program = run.fitted.program
+    return run._finer(program.code(key, choose(program)))
+
+
+class _Run:
+    """One evaluation: larger groups one after the other, each from what it hangs on, then all formulas together."""
+
+    def __init__(
+        self, structure: Structure, drive: Drive, forms: Mapping[int, Array], rates: bool, sure: bool
+    ) -> None:
+        self.structure, self.drive, self.forms, self.rates, self.sure = structure, drive, forms, rates, sure
+        self.n = len(drive)
+        self.rate, self.second = (x[0] if self.n else np.zeros(x.shape[1]) for x in (drive.rate, drive.second))
+        self.fitted = program_of(structure, tuple(bool(s) for s in self.second))
+        most = np.abs(drive.value).max(axis=0, initial=0.0)
+        self.rates_of: dict[Any, float] = {}
+        for k, wide in enumerate(most.tolist()):
+            for name, value in (("rate", float(self.rate[k])), ("second", float(self.second[k]))):
+                self.rates_of[name, k] = value
+                self.rates_of["error", name, k] = GIVEN * abs(value)
+            self.rates_of["error", "angle", k] = GIVEN / 2 * wide + UNIT
+            self.rates_of["error", "travel", k] = GIVEN * wide
+        self.clusters: dict[int, ClusterSolved] = {}
+        self.given = self._drivers()
+
+    def _drivers(self) -> dict[Any, Array]:
+        given: dict[Any, Array] = {}
+        for k, driver in enumerate(self.structure.scene.drivers):
+            value = self.drive.value[:, k]
+            if isinstance(driver, AngleDriver):
+                u = turned(value)
+                given["cos", k], given["sin", k] = u.real, u.imag
+            else:
+                given["travel", k] = value
+        for i, form in self.forms.items():
+            if isinstance(self.structure.elements[i], Dyad):
+                given["sign", i] = np.broadcast_to(form, (self.n,))
+        return given
+
+    def state(self, upto: int) -> State:
+        elements = self.structure.elements[:upto]
+        for i, element in enumerate(elements):
+            if isinstance(element, Cluster):
+                self._together(i, element)
+        program = self.fitted.program
+        names = [n for e in elements for n in links_of(e)]
+        dyads = [i for i, e in enumerate(elements) if isinstance(e, Dyad)]
+        parts = ("discriminant", "sine", *(("e1", "e2", "load") if self.rates else ()))
+        fields = FIELDS if self.rates else FIELDS[:2]
+        followed = self.sure and not self.clusters
+        asked = [getattr(program.poses[n], f) for n in names for f in fields]
+        asked += [getattr(program.groups[i], p) for i in dyads for p in parts]
+        asked += program.bounds(names) if followed else []
+        columns = self._values((upto, self.rates, followed), asked)
+        size = self.structure.scene.size
+        rough = _rough(columns[-6:], size) if followed else (_ZERO, _ZERO)
+        fine = np.zeros(self.n, dtype=bool)
+        if names and not self.clusters:
+            finer = self._finer(program.code((upto, self.rates, followed), ()))
+            fine = finer.exact()
+            if followed:
+                finer.refine(asked, columns, len(names))
+            elif fine.any():
+                finer.place(asked, columns)
+        values = iter(columns)
+        poses = {self.structure.scene.frame.name: rest()}
+        poses |= {n: _pose(dict(zip(fields, values, strict=False))) for n in names}
+        groups: dict[int, Solved | ClusterSolved] = dict(self.clusters)
+        for i in dyads:
+            given = dict(zip(parts, values, strict=False))
+            groups[i] = Solved(
+                *(poses[body.links[0]] for body in elements[i].bodies),  # type: ignore[union-attr]
+                *(given.get(p, _LOST) for p in Solved._fields[2:]),
+            )
+        found = list(values)
+        if self.sure and self.clusters:
+            found = bounds_together(self.structure, poses, self.drive, self._known)
+            rough = _rough(found, size)
+        bounds = Bounds(*(_sure(b) for b in found)) if self.sure else None
+        return State(poses, dict(sorted(groups.items())), bounds, rough, np.where(fine, TINY, SINGULAR))
+
+    def _together(self, i: int, group: Cluster) -> None:
+        """Solve a larger group, and give its poses to the formulas of what follows."""
+        program = self.fitted.program
+        known = [n for n in self.structure.links if n in _ends(group) and n in program.poses]
+        known = [n for n in known if n not in group.members and n != self.structure.scene.frame.name]
+        values = iter(self._values(("known", i), [getattr(program.poses[n], f) for n in known for f in FIELDS]))
+        poses = {n: _pose(dict(zip(FIELDS, values, strict=False))) for n in known}
+        poses[self.structure.scene.frame.name] = rest()
+        solved = solve_cluster(self.structure, group, poses, self.drive, np.asarray(self.forms[i]), self.rates)
+        self.clusters[i] = solved
+        for name in group.members:
+            pose = solved.poses[name]
+            for f in FIELDS:
+                value = np.broadcast_to(getattr(pose, f), (self.n,))
+                self.given["pose", name, f, "x"] = np.ascontiguousarray(value.real)
+                if np.iscomplexobj(value):
+                    self.given["pose", name, f, "y"] = np.ascontiguousarray(value.imag)
+
+    def _known(self, name: Any) -> float:
+        """A number of the formulas that is the same at all positions."""
+        return self.fitted.params([name], self.rates_of)[0]
+
+    def _values(self, key: Any, asked: list[Any]) -> list[Array]:
+        """Formulas at all positions: vectors as complex arrays, numbers as real ones."""
+        reals: list[Real] = []
+        for x in asked:
+            reals += [x.real, x.imag] if isinstance(x, Vec) else [x]
+        program = self.fitted.program
+        code = program.code(key, reals)
+        params = self.fitted.params(code.params, self.rates_of)
+        inputs = [self.given[name] for name in code.inputs]
+        if self.n <= FEW:
+            columns = self._one_by_one(code, params, inputs)
+            found: list[Array] = []
+            for x in asked:
+                found.append(columns.pop(0) + 1j * columns.pop(0) if isinstance(x, Vec) else columns.pop(0))
+            return found
+        out: list[Array] = []
+        found = []
+        for x in asked:
+            found.append(np.empty(self.n, dtype=np.complex128 if isinstance(x, Vec) else np.float64))
+            out += [found[-1].real, found[-1].imag] if isinstance(x, Vec) else [found[-1]]
+        code.arrays(code.same(params), inputs, out)
+        return found
+
+    def _finer(self, code: Code) -> Finer:
+        signs = {name: column for name, column in self.given.items() if name[0] == "sign"}
+        drivers = self.structure.scene.drivers
+        return Finer(self.fitted, code, drivers, self.drive.value, self.rate, self.second, signs)
+
+    def _one_by_one(self, code: Code, params: list[float], inputs: list[Array]) -> list[Array]:
+        rows = np.empty((self.n, len(code.asked)))
+        for k in range(self.n):
+            try:
+                rows[k] = code.floats(params, [float(x[k]) for x in inputs])
+            except (ZeroDivisionError, OverflowError):
+                code.arrays(code.same(params), [x[k : k + 1] for x in inputs], list(rows[k : k + 1].T))
+        return list(rows.T)
+
+
+_LOST = np.full(1, np.nan)
+
+
+def _pose(given: Mapping[str, Array]) -> Pose:
+    zero, none = np.zeros(1), np.zeros(1, dtype=np.complex128)
+    still = {"z": none, "u": none, "v": none, "omega": zero, "a": none, "alpha": zero}
+    return Pose(**{**still, **given})
+
+
+def _rough(bounds: Sequence[Array], size: float) -> tuple[Array, Array]:
+    _, velocity, acceleration, _, omega, alpha = bounds
+    return _sure(np.maximum(velocity, size * omega)), _sure(np.maximum(acceleration, size * alpha))
+
+
+def _sure(bound: Array) -> Array:
+    """A bound, infinite where it is not known."""
+    return np.asarray(np.where(np.isnan(bound), np.inf, bound * SLACK))
+
+
+def _ends(group: Cluster) -> set[str]:
+    found = {end for pair in group.pairs for end in (pair.a, pair.b)}
+    for driver in group.drivers:
+        found |= {getattr(driver, "link", ""), getattr(driver, "relative_to", "")}
+    return found

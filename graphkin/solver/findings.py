@@ -1,0 +1,333 @@
+"""What the solver has to say in words: where the motion ends, why a position is dead, which assembly was taken.
+
+Why a mechanism has the wrong mobility: redundant but mobile, over-constrained, not to be closed, wrongly counted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from graphkin.errors import GraphkinError, Problem, Unsolvable
+from graphkin.scene.model import AngleDriver, Scene
+from graphkin.solver.assemblies import choose_forms, own_values
+from graphkin.solver.dead_points import nearest_dead_point, settled
+from graphkin.solver.decimals import meant_value
+from graphkin.solver.dyads import Solved
+from graphkin.solver.engine import SINGULAR, State, positions
+from graphkin.solver.joints import Drive, driver_text
+from graphkin.solver.larger_groups import ClusterSolved
+from graphkin.solver.path import Path, follow_path
+from graphkin.solver.pose import Array
+from graphkin.solver.redundant import Fit, fit
+from graphkin.structure import Cluster, Dyad, Pair, Slide, Structure, Turn, analyse, mobility_of
+
+__all__ = ["assembly_words", "limit_why", "singular", "structure_of", "without_singular"]
+
+OPEN = 1e-9
+CERTIFIED = 0.5
+WEAK = 1e-3
+"""Sine below which a group is near its dead point."""
+HAIR, FAR_OFF = 1e-7, 1e2
+"""A step of a driver (rad, or of the size), and what is far away (of the size)."""
+
+
+def singular(structure: Structure, state: State, n: int) -> Iterator[tuple[int, Array]]:
+    """For each group where it stands in a dead point, shape (n,); near one, where no bound is known, too."""
+    dyads = [i for i, solved in state.groups.items() if isinstance(solved, Solved)]
+    if state.bounds is not None and dyads:
+        lost = ~np.isfinite(sum(np.broadcast_to(b, (n,)) for b in state.bounds))
+        sines = [np.broadcast_to(np.abs(state.groups[i].sine), (n,)) for i in dyads]  # type: ignore[union-attr]
+        weakest = np.argmin(np.nan_to_num(sines, nan=0.0), axis=0)
+        for k, i in enumerate(dyads):
+            # far from any dead point a bound is lost only by the length of a chain: there it is given as unknown
+            yield i, lost & (weakest == k) & ~(sines[k] >= WEAK)
+    for i, solved in state.groups.items():
+        if isinstance(solved, Solved):
+            yield i, np.broadcast_to(~(np.abs(solved.sine) >= state.singular), (n,))
+        else:
+            refused = ~(solved.missed < OPEN) | ~(solved.certificate < CERTIFIED)
+            yield i, ~(solved.condition * SINGULAR <= 1) | refused
+
+
+def without_singular(
+    structure: Structure, state: State, values: Array, forms: Mapping[int, Array], status: Array, why: Sequence[str]
+) -> tuple[Array, list[str]]:
+    """Status and reasons of positions, those told apart that are ok but for a group in a singular position.
+
+    Parameters
+    ----------
+    values, forms : of the drivers and assemblies that were solved, shapes (n, drivers) and (n, ...)
+    status, why : as far as known
+    """
+    status, reasons = status.copy(), list(why)
+    for i, dead in singular(structure, state, len(status)):
+        for k in np.flatnonzero(dead & (status == "ok")):
+            own = {j: f[k : k + 1] for j, f in forms.items()}
+            apart = _apart(structure, i, values[k], own)
+            status[k] = "not assembled" if apart else "dead point"
+            reasons[k] = apart or _dead_why(structure, i, values[k], own)
+    return status, reasons
+
+
+def _apart(structure: Structure, i: int, values: Array, forms: Mapping[int, Array]) -> str:
+    """What to say of a dyad whose guides are parallel and not one line, so that they meet nowhere; "" of any other:
+    a hair further on it would lie far away."""
+    group = structure.elements[i]
+    if not (isinstance(group, Dyad) and group.kind in ("PRP", "RPP")):
+        return ""
+    one = np.ones((1, len(values)))
+    size = structure.scene.size
+    for driver, turns in enumerate(isinstance(d, AngleDriver) for d in structure.scene.drivers):
+        nudged = values[None].copy()
+        nudged[0, driver] += HAIR * (1.0 if turns else size)
+        solved = positions(structure, Drive(nudged, one, 0 * one), forms, i + 1, rates=False).groups[i]
+        assert isinstance(solved, Solved)
+        if max(abs(complex(np.ravel(pose.z)[0])) for pose in (solved.first, solved.second)) > FAR_OFF * size:
+            return f"links {', '.join(group.links)} have parallel guides that lie apart: they meet nowhere"
+    return ""
+
+
+def limit_why(
+    structure: Structure, forms: Mapping[int, Array], start: Array, path: Path, back: Path | None = None
+) -> str:
+    """Why a path ends, at which driver value, and between which values the motion runs."""
+    scene = structure.scene
+    by = structure.elements[path.by if path.by is not None else 0]
+    assert isinstance(by, Dyad | Cluster)
+    moved = np.flatnonzero(path.end != path.start)
+    driver = scene.drivers[int(moved[0])] if len(moved) else scene.drivers[0]
+    column = scene.drivers.index(driver)
+    ends = path.values(np.array([path.reach]))[0]
+    if back is None:
+        back = follow_path(structure, forms, start, start - (path.end - path.start))
+        if isinstance(driver, AngleDriver):
+            full = np.copysign(2 * np.pi, path.start[column] - path.end[column])
+            other = start.copy()
+            other[column] += full
+            back = follow_path(structure, forms, start, other) if len(moved) == 1 else back
+    low, high = sorted((float(ends[column]), float(back.values(np.array([back.reach]))[0][column])))
+    said = (
+        f"links {', '.join(by.links)} {_ending(by)} at {driver.key} = {driver_text(scene, driver, float(ends[column]))}"
+    )
+    if len(moved) > 1:
+        return said + " on the straight way there"
+    return f"{said}; the motion reaches from {driver_text(scene, driver, low)} to {driver_text(scene, driver, high)}"
+
+
+def _ending(group: Dyad | Cluster) -> str:
+    if isinstance(group, Dyad) and group.kind in ("PRP", "RPP"):
+        return "have parallel guides"
+    return "reach the end of their motion"
+
+
+def _dead_why(structure: Structure, i: int, values: Array, forms: Mapping[int, Array]) -> str:
+    """Why group ``i`` stands in a dead point: an infinite rate, or a velocity that is not unique."""
+    scene = structure.scene
+    group = structure.elements[i]
+    assert isinstance(group, Dyad | Cluster)
+    one = np.ones((1, len(scene.drivers)))
+    solved = positions(structure, Drive(values[None], one, 0 * one), forms, i + 1).groups[i]
+    names = ", ".join(group.links)
+    if isinstance(solved, ClusterSolved):
+        if not (solved.missed[0] < OPEN and solved.certificate[0] < CERTIFIED) and solved.condition[0] * SINGULAR <= 1:
+            return f"links {names}: refused, Newton's method has not converged quadratically to a position"
+        u, _, _ = np.linalg.svd(np.nan_to_num(solved.matrix[0]))
+        branch = abs(float(u[:, -1] @ solved.load[0])) <= 1e-5 * float(np.linalg.norm(solved.load[0]))
+        how = "have a singular position"
+    else:
+        e1, e2, load = (complex(np.ravel(x)[0]) for x in (solved.e1, solved.e2, solved.load))
+        along = e1 if abs(e1) > abs(e2) or not np.isfinite(abs(e2)) else e2
+        across = abs((along.conjugate() * load).imag) / (abs(along) or 1.0)
+        branch = not across > 1e-5 * abs(load)
+        assert isinstance(group, Dyad)
+        if group.kind == "RPR" and abs(e2) < 1e-6 * scene.size:
+            how, branch = f"have no direction of their own: {_outer(group)} fall together", True
+        else:
+            how = _in_line(group)
+    end = "the velocity is not unique here, the motion can branch" if branch else "a rate is infinite here"
+    return f"links {names} {how}: dead point, {end}{_where(structure, i, values, forms)}"
+
+
+def _where(structure: Structure, i: int, values: Array, forms: Mapping[int, Array]) -> str:
+    """Where the dead point lies, and how far away."""
+    signs = {j: float(np.ravel(f)[0]) for j, f in forms.items() if isinstance(structure.elements[j], Dyad) and j < i}
+    value = float(values[0])
+    point = nearest_dead_point(structure, i, signs, value)
+    if point is None:
+        return ""
+    scene, driver = structure.scene, structure.scene.drivers[0]
+    away = float(abs(point.value - meant_value(driver, value)))
+    away = away if away > 1e-30 else 0.0
+    unit = (
+        ("deg", np.degrees(away))
+        if isinstance(driver, AngleDriver)
+        else (scene.units.length, away / scene.units.metres)
+    )
+    return f"; it lies at {driver.key} = {driver_text(scene, driver, float(point.value))}, {unit[1]:.3g} {unit[0]} away"
+
+
+def _outer(group: Dyad) -> str:
+    return " and ".join(getattr(p, "point", "") for p in (group.outer_first, group.outer_second))
+
+
+def _in_line(group: Dyad) -> str:
+    def between(one: Pair, two: Pair) -> str:
+        return f"{getattr(one, 'point', '')}{getattr(two, 'point', '')}"
+
+    if group.kind == "RRR":
+        return f"have {between(group.outer_first, group.inner)} and {between(group.inner, group.outer_second)} in line"
+    if group.kind == "RRP":
+        return f"have {between(group.outer_first, group.inner)} square to the guide"
+    if group.kind == "RPR":
+        return f"have {between(group.outer_second, group.outer_first)} square to the guide"
+    return "have parallel guides"
+
+
+def assembly_words(structure: Structure, forms: Mapping[int, Array]) -> tuple[str, ...]:
+    """For each group which assembly was taken, in the order of ``structure.groups``."""
+    words: list[str] = []
+    for i, element in enumerate(structure.elements):
+        if isinstance(element, Dyad):
+            words.append(_dyad_words(structure, element, float(forms[i]) > 0))
+        elif isinstance(element, Cluster):
+            words.append(_cluster_words(structure, element, np.asarray(forms[i])))
+    return tuple(words)
+
+
+def _cluster_words(structure: Structure, group: Cluster, place: Array) -> str:
+    """Sides of the inner joints of a larger group, each seen from the next joint on its one link to that on the other,
+    and where the first of them lies: two assemblies may have all sides in common."""
+    row = place if place.ndim == 2 else place[0]
+    at = {name: (complex(x, y), np.exp(1j * angle)) for name, (x, y, angle) in zip(group.members, row, strict=True)}
+
+    def world(link: str, point: str) -> complex:
+        origin, turned = at[link]
+        return complex(origin + turned * structure.links[link].points[point])
+
+    def other(link: str, point: str) -> str | None:
+        turns = (p.point for p in group.pairs if isinstance(p, Turn) and link in (p.a, p.b))
+        return next((p for p in turns if p != point), None)
+
+    said: list[str] = []
+    where = ""
+    for pair in group.pairs:
+        if not {pair.a, pair.b} <= set(group.members):
+            continue
+        if isinstance(pair, Slide):
+            origin, turned = at[pair.b]
+            along = (at[pair.a][0] - origin) / turned - pair.guide.through
+            positive = (along / pair.guide.direction).real > 0
+            said.append(f"{pair.a} on the {'positive' if positive else 'negative'} side of {_guide(pair)}")
+            continue
+        first, second = other(pair.a, pair.point), other(pair.b, pair.point)
+        if first is None or second is None:
+            continue
+        inner, one, two = world(pair.a, pair.point), world(pair.a, first), world(pair.b, second)
+        z = inner / structure.scene.units.metres
+        where = where or f"{pair.point} at [{z.real:.5g}, {z.imag:.5g}]"
+        side = ((two - one).conjugate() * (inner - one)).imag
+        said.append(f"{pair.point} {'left' if side > 0 else 'right'} of {first} to {second}")
+    return ", ".join([*said, where] if where else said) or "as in the scene's own position"
+
+
+def _dyad_words(structure: Structure, dyad: Dyad, positive: bool) -> str:
+    if dyad.kind == "RRR":
+        inner, first, second = (getattr(p, "point", "") for p in (dyad.inner, dyad.outer_first, dyad.outer_second))
+        return f"{inner} {'left' if positive else 'right'} of {first} to {second}"
+    if dyad.kind == "RRP":
+        pair = dyad.outer_second
+        assert isinstance(pair, Slide)
+        return f"{'further' if positive else 'less far'} along {_guide(pair)}"
+    if dyad.kind == "RPR":
+        pair = dyad.inner
+        assert isinstance(pair, Slide)
+        return f"on the {'positive' if positive else 'negative'} side of {_guide(pair)}"
+    return "the only one"
+
+
+def _guide(pair: Slide) -> str:
+    return f"{pair.b}.{pair.guide.name}" if pair.guide.name else pair.b
+
+
+NEARBY = 0.01
+
+
+def structure_of(scene: Scene) -> Structure:
+    """The structure of a scene, a driver's value that is given from a dead point found.
+
+    Raises
+    ------
+    Unsolvable
+        status "mobility", with the diagnosis: where the count fails, each link is left out in turn, the rest is solved,
+        and the link is laid back into it, in position, velocity and acceleration, here and at a position nearby
+    """
+    try:
+        structure = analyse(scene)
+    except Unsolvable as stop:
+        found = _diagnosis(scene)
+        if found is None:
+            raise
+        raise Unsolvable("mobility", *stop.problems, found) from None
+    unsettled = any(d.dead_point and not d.dead_point.exact for d in scene.drivers)
+    return settled(structure) if unsettled else structure
+
+
+def _diagnosis(scene: Scene) -> Problem | None:
+    tried: list[tuple[str, Fit, bool]] = []
+    for link in reversed(scene.links):
+        if link.redundant or any(link.name in d.key.split("/") for d in scene.drivers):
+            continue
+        without = replace(
+            scene, links=tuple(replace(x, redundant=True) if x.name == link.name else x for x in scene.links), drawn={}
+        )
+        try:
+            structure = analyse(without)
+            forms = choose_forms(structure)
+        except GraphkinError:
+            continue
+        fits: list[Fit] = []
+        for shift in (0.0, NEARBY):
+            value = own_values(scene)[None] + shift * _unit(scene)
+            state = positions(structure, Drive.at(structure, value), {i: f[None] for i, f in forms.items()})
+            laid = fit(without, link, state.poses)
+            if laid is None or any(dead[0] for _, dead in singular(structure, state, 1)):
+                break
+            fits.append(laid)
+        if len(fits) == 2:
+            tried.append((link.name, fits[0], bool(fits[0].fits[0] and fits[1].position[0] < 1e-9)))
+    # a driver too many does not make a link one too many
+    counted = 0 < mobility_of(scene).value < len(scene.drivers)
+    return _verdict([x for x in tried if x[2] or not counted])
+
+
+def _unit(scene: Scene) -> float:
+    """A small step of every driver: an angle, or a part of the size."""
+    return 1.0 if not any("/" in d.key for d in scene.drivers) else scene.size
+
+
+def _verdict(tried: list[tuple[str, Fit, bool]]) -> Problem | None:
+    mobile = [name for name, _, moves in tried if moves]
+    if mobile:
+        return Problem(
+            f"link {mobile[0]}",
+            "it only repeats what the other links already hold: the mechanism is redundant but mobile",
+            f"write redundant = true in [links.{mobile[0]}]",
+        )
+    here = [name for name, laid, _ in tried if laid.position[0] < 1e-9]
+    if here:
+        return Problem(
+            f"link {here[0]}",
+            "it fits in this position, but locks the others: the mechanism is over-constrained",
+            f"leave link {here[0]} out, or one of its joints",
+        )
+    if tried:
+        name, laid, _ = min(tried, key=lambda x: float(x[1].position[0]))
+        return Problem(
+            f"link {name}",
+            f"it does not fit between the others here (by {100 * float(laid.position[0]):.3g} % of the size)",
+            f"leave link {name} out, or one of its joints",
+        )
+    return None

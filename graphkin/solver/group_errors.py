@@ -1,0 +1,305 @@
+"""How sure a mechanism with larger groups is: whether Newton's method has converged, and bounds of the errors.
+
+An error is the inverse of the matrix of all constraints times what these may be off, term by term: what is still open
+of them, the rounding in telling that, and the roundings in the numbers of the scene.  An error of place puts the
+constraints of the rates off, errors of place and rates those of the second rates.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from graphkin.scene.model import AngleDriver
+from graphkin.solver.group_equations import System
+from graphkin.solver.joints import Drive, joint_place
+from graphkin.solver.pose import Array, Pose
+from graphkin.solver.rounding import UNIT
+from graphkin.structure import Pair, Structure, Turn
+
+__all__ = ["bounds", "certificate"]
+
+ROUNDINGS = 32 * UNIT
+FEW = 4 * UNIT
+"""The roundings of a sum of products."""
+_NONE = np.zeros(1)
+
+
+class Errors(NamedTuple):
+    """Bounds of the fields of a pose: place (m), direction, velocity (m/s), omega (rad/s), acceleration (m/s2), alpha
+    (rad/s2), each of shape (n,)."""
+
+    z: Array = _NONE
+    u: Array = _NONE
+    v: Array = _NONE
+    omega: Array = _NONE
+    a: Array = _NONE
+    alpha: Array = _NONE
+
+
+def certificate(system: System, members: Mapping[str, Pose], condition: Array, missed: Array) -> Array:
+    """Kantorovich's number: |J^-1| |step| times how fast the matrix J changes, with step <= |J^-1| |open|.
+
+    Below 1/2 there is a position, the only one within twice the step, and Newton's method converges to it quadratically
+    (Ortega and Rheinboldt, Iterative Solution of Nonlinear Equations in Several Variables, 12.6).
+    """
+    size, rows = system.structure.scene.size, 3 * len(system.group.members)
+    poses = [*members.values(), *system.known.values()]
+    reach = 1 + np.max(np.broadcast_arrays(*(np.abs(p.z) / size for p in poses)), axis=0)
+    step = condition * np.maximum(missed, ROUNDINGS) * rows**0.5
+    return np.asarray(condition * step * 4 * reach * rows**0.5)
+
+
+def bounds(
+    structure: Structure, poses: Mapping[str, Pose], drive: Drive, given: Callable[[tuple[Any, ...]], float]
+) -> list[Array]:
+    """Bounds of the errors of a whole mechanism: the most of any point of any link in position (m), velocity (m/s) and
+    acceleration (m/s2), the most of any link in angle (rad), omega (rad/s) and alpha (rad/s2), each of shape (n,);
+    infinite where they are not known.
+
+    Parameters
+    ----------
+    poses : of all links, with their rates
+    given : how far a number of the scene may be off, by its name as in ``graphkin.solver.program``
+    """
+    system = System.whole(structure, drive)
+    names, n = system.group.members, len(drive)
+    members = {name: poses[name].spread(n) for name in names}
+    every = {**system.known, **members}
+    with np.errstate(all="ignore"):
+        inverse = _inverse(system.matrix(members))
+        sizes = _sizes(system, members, inverse)
+        open_ = [np.abs(x) for x in system.constraints(members)]
+
+        def off(order: int, errors: Mapping[str, Errors]) -> Array:
+            return np.asarray(open_[order] + np.stack(_all(_Rows(system, every, errors, given).off(order), n), axis=1))
+
+        alone = [off(order, {}) for order in range(3)]
+        change = np.zeros(n)
+        found = {name: Errors() for name in names}
+        chained = {name: Errors() for name in names}
+        for order in range(3):
+            # what has happened to the constraints so far, by the rates at which the inverse passes it on
+            tight = sum(w * _times(sizes[k], alone[order - k]) for k, w in enumerate(_BINOMIAL[order]))
+            # and step by step through the constraints of the rates: more, but with what the first leaves out
+            loose = _times(sizes[0], off(order, chained))
+            if order == 0:
+                change = _change(system, every, inverse, np.asarray(tight))
+            grown = 1 / np.maximum(1 - 3 * change, 0.0)[:, None]
+            loose = loose + (grown - 1) * loose.max(axis=1, keepdims=True)
+            found = _with(found, order, tight + (grown - 1) * loose.max(axis=1, keepdims=True), system)
+            chained = _with(chained, order, loose, system)
+        points = [_points(structure, name, members, found[name]) for name in names]
+        return [np.max(np.broadcast_arrays(*column), axis=0) for column in zip(*points, strict=True)]
+
+
+_BINOMIAL = ((1,), (1, 1), (1, 2, 1))
+
+
+def _times(matrix: Array, right: Array) -> Array:
+    return np.asarray(np.einsum("nij,nj->ni", matrix, right))
+
+
+def _with(found: Mapping[str, Errors], order: int, error: Array, system: System) -> dict[str, Errors]:
+    """The errors of place, rate or second rate put to each link."""
+    made: dict[str, Errors] = {}
+    error = np.where(np.isfinite(error), error, np.inf).reshape(len(error), -1, 3)
+    for k, name in enumerate(system.group.members):
+        place, turn = system.structure.scene.size * np.hypot(error[:, k, 0], error[:, k, 1]), error[:, k, 2]
+        fields = dict(zip((("z", "u"), ("v", "omega"), ("a", "alpha"))[order], (place, turn), strict=True))
+        made[name] = found[name]._replace(**fields)
+    return made
+
+
+def _sizes(system: System, members: Mapping[str, Pose], inverse: Array) -> tuple[Array, Array, Array]:
+    """Sizes of the entries of the inverse, and of its first and second rate along the motion.
+
+    With G and A the rates of the matrix these are -S G S and 2 S G S G S - S A S; G and A by differences, which is
+    enough for a bound.
+    """
+    size = system.structure.scene.size
+    fast = np.max([
+        np.fmax(np.fmax(np.abs(p.omega), np.abs(p.v) / size), np.sqrt(np.fmax(np.abs(p.alpha), np.abs(p.a) / size)))
+        for p in members.values()
+    ], axis=0)  # fmt: skip
+    step = 1e-4 / np.where(fast > 0, fast, 1.0)
+
+    def at(t: Array) -> Array:
+        half = t * t / 2
+        return system.matrix({
+            name: replace(p, z=p.z + t * p.v + half * p.a, u=p.u * np.exp(1j * (t * p.omega + half * p.alpha)))
+            for name, p in members.items()
+        })  # fmt: skip
+
+    here, ahead, behind, wide = system.matrix(members), at(step), at(-step), step[:, None, None]
+    first, second = (ahead - behind) / (2 * wide), (ahead - 2 * here + behind) / wide**2
+    bent = inverse @ first @ inverse
+    return np.abs(inverse), np.abs(bent), np.abs(2 * bent @ first @ inverse - inverse @ second @ inverse)
+
+
+def _all(rows: Sequence[Array], n: int) -> list[Array]:
+    return [np.broadcast_to(row, (n,)) for row in rows]
+
+
+def _change(system: System, poses: Mapping[str, Pose], inverse: Array, error: Array) -> Array:
+    """By how much of itself the matrix may change within the error of place, and then, divided by one less this, its
+    inverse (Golub and Van Loan, Matrix Computations, theorem 2.3.4)."""
+    size = system.structure.scene.size
+    column = {name: k for k, name in enumerate(system.group.members)}
+    spread = error.reshape(len(error), -1, 3)
+    still = np.zeros(len(error))
+
+    def turn(name: str) -> Array:
+        return spread[:, column[name], 2] if name in column else still
+
+    def moved(name: str) -> Array:
+        return np.hypot(spread[:, column[name], 0], spread[:, column[name], 1]) if name in column else still
+
+    change = np.zeros(len(error))
+    for pair in system.group.pairs:
+        one, two = (poses[k].fixed(joint_place(system.structure, pair, k)[0]) for k in (pair.a, pair.b))
+        arm, other = (np.abs(j.z - poses[k].z) / size for j, k in ((one, pair.a), (two, pair.b)))
+        change += (arm * turn(pair.a)) ** 2 + (other * turn(pair.b)) ** 2
+        if not isinstance(pair, Turn):
+            far = np.abs(one.z - poses[pair.b].z) / size
+            off = moved(pair.a) + moved(pair.b) + arm * turn(pair.a)
+            # along the guide and across, as either may be a constraint
+            change += 2 * (2 * turn(pair.b)) ** 2 + 2 * ((arm + far) * turn(pair.b) + off) ** 2
+    most = np.sqrt(np.sum(inverse**2, axis=(1, 2)))
+    return np.asarray(most * np.sqrt(change))
+
+
+def _points(structure: Structure, name: str, poses: Mapping[str, Pose], e: Errors) -> tuple[Array, ...]:
+    """The most of any point of a link, coincident points under what slides on it too, and of its turning."""
+    pose = poses[name]
+    r = np.full(len(pose.z), max(map(abs, structure.links[name].points.values()), default=0.0))
+    for slide in structure.slides:
+        if slide.b == name and slide.a in poses:
+            r = np.maximum(r, np.abs(poses[slide.a].z - pose.z))
+    spin, bend = np.abs(pose.omega), np.abs(pose.alpha) + pose.omega**2
+    return (
+        e.z + r * e.u + FEW * (np.abs(pose.z) + r),
+        e.v + r * (e.omega + spin * e.u) + FEW * (np.abs(pose.v) + spin * r),
+        e.a + r * (e.alpha + bend * e.u + (2 * spin + e.omega) * e.omega) + FEW * (np.abs(pose.a) + bend * r),
+        e.u,
+        e.omega,
+        e.alpha,
+    )
+
+
+def _inverse(matrix: Array) -> Array:
+    """The inverse of each matrix; infinite where there is none."""
+    try:
+        return np.asarray(np.linalg.inv(matrix))
+    except np.linalg.LinAlgError:
+        found = np.full_like(matrix, np.inf)
+        for i, one in enumerate(matrix):
+            try:
+                found[i] = np.linalg.inv(one)
+            except np.linalg.LinAlgError:
+                continue
+        return found
+
+
+class _Joint(NamedTuple):
+    """A joint's frame on its link, with bounds of its fields."""
+
+    pose: Pose
+    error: Errors
+
+
+@dataclass(frozen=True)
+class _Rows:
+    """How far each constraint may be off with its unknowns as they are found.
+
+    poses, errors : of every link, errors as far as they are known already
+    """
+
+    system: System
+    poses: Mapping[str, Pose]
+    errors: Mapping[str, Errors]
+    given: Callable[[tuple[Any, ...]], float]
+
+    def off(self, order: int) -> list[Array]:
+        """In the order of the constraints, of their values (0), first (1) or second rates (2)."""
+        rows: list[Array] = []
+        size, structure = self.system.structure.scene.size, self.system.structure
+        for pair in self.system.group.pairs:
+            one, two = self._joint(pair, pair.a), self._joint(pair, pair.b)
+            if isinstance(pair, Turn):
+                gap = (one.error[2 * order] + two.error[2 * order]) / size
+                rows += [gap, gap]
+            else:
+                rows += [_turning(one, two, order), _sliding(one, two, order) / size]
+        for driver in self.system.group.drivers:
+            i = structure.scene.drivers.index(driver)
+            turns = isinstance(driver, AngleDriver)
+            given = self.given(("error", ("angle" if turns else "travel", "rate", "second")[order], i))
+            if isinstance(driver, AngleDriver):
+                one, two = (_Joint(self.poses[k], self._errors(k)) for k in (driver.link, driver.relative_to))
+                rows.append(_turning(one, two, order) + given)
+            else:
+                pair = structure.slide(driver.key)
+                rows.append((_sliding(self._joint(pair, pair.a), self._joint(pair, pair.b), order) + given) / size)
+        return rows
+
+    def _errors(self, name: str) -> Errors:
+        """Of a link; a computed direction may be a little longer or shorter than one."""
+        found = self.errors.get(name, Errors())
+        return found._replace(u=found.u + np.abs(np.abs(self.poses[name].u) - 1))
+
+    def _joint(self, pair: Pair, name: str) -> _Joint:
+        place, direction = joint_place(self.system.structure, pair, name)
+        p, e, far = self.poses[name], self._errors(name), abs(place)
+        written, turned = 0.0, 0.0
+        if isinstance(pair, Turn):
+            written = self.given(("error", "point", name, pair.point))
+        elif name == pair.b:
+            written = self.given(("error", "through", pair.key))
+            turned = self.given(("error", "direction", pair.key))
+        else:
+            turned = self.given(("error", "turn", pair.key))
+        spin, bend = np.abs(p.omega), np.abs(p.alpha) + p.omega**2
+        off = far * (e.u + FEW) + 1.5 * written
+        return _Joint(
+            p.fixed(place, direction),
+            Errors(
+                e.z + off + UNIT * np.abs(p.z),
+                e.u + (1.5 * turned + FEW if direction != 1 else 0.0),
+                e.v + far * e.omega + spin * off + UNIT * np.abs(p.v),
+                e.omega,
+                e.a + far * (e.alpha + (2 * spin + e.omega) * e.omega) + bend * off + UNIT * np.abs(p.a),
+                e.alpha,
+            ),
+        )
+
+
+def _turning(one: _Joint, two: _Joint, order: int) -> Array:
+    """Of the angle between two joints, or its rates."""
+    both = one.error[2 * order + 1] + two.error[2 * order + 1]
+    if order == 0:
+        return np.asarray(both + FEW)
+    a, b = ((j.pose.omega, j.pose.alpha)[order - 1] for j in (one, two))
+    return np.asarray(both + UNIT * (np.abs(a) + np.abs(b)))
+
+
+def _sliding(one: _Joint, two: _Joint, order: int) -> Array:
+    """Of a joint's place in the axes of another, or its rates there."""
+    (p, e), (q, f) = (one.pose, one.error), (two.pose, two.error)
+    gap, slip = np.abs(p.z - q.z), np.abs(p.v - q.v)
+    near, quick = e.z + f.z, e.v + f.v
+    spin, bend = np.abs(q.omega), np.abs(q.alpha) + q.omega**2
+    far = np.abs(p.z) + np.abs(q.z)
+    if order == 0:
+        return np.asarray(gap * f.u + near + FEW * far)
+    fast = np.abs(p.v) + np.abs(q.v)
+    if order == 1:
+        turned = (slip + spin * gap) * f.u + (gap + near) * f.omega
+        return np.asarray(turned + quick + spin * near + FEW * (fast + spin * far))
+    pushed = np.abs(p.a - q.a) + 2 * spin * slip + bend * gap
+    turned = pushed * f.u + 2 * (slip + quick) * f.omega + (gap + near) * (f.alpha + (2 * spin + f.omega) * f.omega)
+    rounded = FEW * (np.abs(p.a) + np.abs(q.a) + 2 * spin * fast + bend * far)
+    return np.asarray(turned + e.a + f.a + 2 * spin * quick + bend * near + rounded)

@@ -1,0 +1,148 @@
+"""The joints of a structure as frames of axes: on links, between links held together, under drivers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import numpy as np
+
+from graphkin.scene.model import AngleDriver, Driver, Scene
+from graphkin.solver.dyads import Joints
+from graphkin.solver.pose import Array, Pose
+from graphkin.structure import Body, Driven, Dyad, Pair, Structure, Turn
+
+__all__ = ["Drive", "Frames", "body_shape", "driven", "driver_text", "dyad_joints", "joint_place", "members", "turned"]
+
+
+@dataclass(frozen=True)
+class Drive:
+    """Values of the drivers and their rates: arrays of shape (positions, drivers), SI."""
+
+    value: Array
+    rate: Array
+    second: Array
+
+    @classmethod
+    def at(cls, structure: Structure, value: Array) -> Drive:
+        """The drivers at these values, with the rates of the scene."""
+        given = np.array([d.values for d in structure.scene.drivers]).reshape(-1, 3)
+        shape = value.shape
+        return cls(value, np.broadcast_to(given[:, 1], shape), np.broadcast_to(given[:, 2], shape))
+
+    def __len__(self) -> int:
+        return len(self.value)
+
+    def __getitem__(self, which: Array | slice) -> Drive:
+        return Drive(self.value[which], self.rate[which], self.second[which])
+
+
+def turned(angle: Array) -> Array:
+    """Unit complex numbers at angles, exact at multiples of 90 degrees (within the rounding of the angle itself)."""
+    u = np.empty(np.shape(angle), dtype=np.complex128)
+    zero = np.abs(angle) * 4e-16
+    for part, function in ((u.real, np.cos), (u.imag, np.sin)):
+        function(angle, part)
+        part[np.abs(part) <= zero] = 0.0
+    return u
+
+
+def driver_text(scene: Scene, driver: Driver, value: float) -> str:
+    """A driver value in its own unit."""
+    if isinstance(driver, AngleDriver):
+        return f"{np.degrees(value):.10g} deg"
+    return f"{value / scene.units.metres:.10g} {scene.units.length}"
+
+
+def joint_place(structure: Structure, pair: Pair, link: str) -> tuple[complex, complex]:
+    """Origin and direction of the joint's frame in the axes of one of its links (at a sliding pair: of the guide)."""
+    if isinstance(pair, Turn):
+        return structure.links[link].points[pair.point], 1 + 0j
+    if link == pair.a:
+        return 0j, pair.turn.conjugate()
+    return pair.guide.through, pair.guide.direction
+
+
+class Frames(Protocol):
+    """Where frames of axes come from: those of joints on their links, and what the drivers give."""
+
+    structure: Structure
+
+    def rest(self, pair: Pair, link: str) -> Pose:
+        """The joint's frame in the axes of one of its links."""
+
+    def turn(self, driver: AngleDriver) -> Pose:
+        """The rotation that an angle driver gives."""
+
+    def travel(self, driver: Driver) -> tuple[Any, Any, Any]:
+        """Value, rate and second rate of a slide driver."""
+
+
+def driven(frames: Frames, element: Driven, poses: Mapping[str, Pose]) -> Pose:
+    """The pose of a link that a driver moves from known links: crank, driven slider."""
+    pair, link = element.pair, element.link
+    base = pair.b if pair.a == link else pair.a
+    mine, theirs = frames.rest(pair, link), frames.rest(pair, base)
+    at = poses[base].fixed(theirs.z, theirs.u)
+    if isinstance(element.driver, AngleDriver):
+        given = frames.turn(element.driver)
+        forward = element.driver.link == link
+        from_ = poses[element.driver.relative_to if forward else element.driver.link]
+        seen = from_.of(given if forward else given.inverse())
+        return at.hung(mine, seen.u, seen.omega, seen.alpha)
+    travel, rate, second = frames.travel(element.driver)
+    if pair.a == link:
+        return at.along(travel, rate, second).of(mine.inverse())
+    return at.along(-travel, -rate, -second).of(mine.inverse())
+
+
+def body_shape(frames: Frames, body: Body, rest: Pose) -> dict[str, Pose]:
+    """Every link of a body in the axes of its base; ``rest`` are axes that do not move."""
+    shape = {body.links[0]: rest}
+    for weld in body.welds:
+        joint = shape[weld.a].of(frames.rest(weld.pair, weld.a))
+        if isinstance(weld.driver, AngleDriver):
+            given = frames.turn(weld.driver)
+            joint = joint.of(given if weld.sign > 0 else given.inverse())
+        else:
+            travel, rate, second = frames.travel(weld.driver)
+            if weld.b != weld.pair.a:
+                travel, rate, second = -travel, -rate, -second
+            joint = joint.along(travel, rate, second)
+        shape[weld.b] = joint.of(frames.rest(weld.pair, weld.b).inverse())
+    return shape
+
+
+def dyad_joints(
+    frames: Frames, dyad: Dyad, shapes: tuple[dict[str, Pose], dict[str, Pose]], poses: Mapping[str, Pose], size: Any
+) -> Joints:
+    """The six joint frames of a dyad."""
+
+    def inside(pair: Pair, shape: Mapping[str, Pose]) -> tuple[Pose, str]:
+        link = pair.a if pair.a in shape else pair.b
+        at = frames.rest(pair, link)
+        return shape[link].fixed(at.z, at.u), link
+
+    def known(pair: Pair, link: str) -> Pose:
+        base = pair.b if link == pair.a else pair.a
+        at = frames.rest(pair, base)
+        return poses[base].fixed(at.z, at.u)
+
+    outer1, link1 = inside(dyad.outer_first, shapes[0])
+    outer2, link2 = inside(dyad.outer_second, shapes[1])
+    return Joints(
+        known(dyad.outer_first, link1),
+        outer1,
+        inside(dyad.inner, shapes[0])[0],
+        known(dyad.outer_second, link2),
+        outer2,
+        inside(dyad.inner, shapes[1])[0],
+        1.0 if link2 == dyad.outer_second.a else -1.0,
+        size,
+    )
+
+
+def members(shape: Mapping[str, Pose], base: Pose) -> dict[str, Pose]:
+    """The links of a body in the world, from the base's pose."""
+    return {link: base.of(pose) for link, pose in shape.items()}

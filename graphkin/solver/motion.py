@@ -1,0 +1,281 @@
+"""Quantities by their symbols, out of a motion.
+
+The motion found: position, velocity and acceleration of every link, point and sliding pair.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+
+from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
+from graphkin.scene.model import Link, Scene
+from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.solver.pose import Array, Pose
+from graphkin.structure import Slide, Structure
+
+__all__ = ["Motion", "Sliding", "evaluate"]
+
+
+def evaluate(motion: Motion, symbol: Symbol) -> Array:
+    """The value of a symbol (see ``Motion.value``)."""
+    if symbol.kind == "omega":
+        return motion.omega(symbol.link)
+    if symbol.kind == "alpha":
+        return motion.alpha(symbol.link)
+    assert symbol.of is not None
+    if symbol.kind in ("v", "a"):
+        one = motion.point(symbol.of.point, symbol.of.link)
+        if symbol.to is None:
+            return np.asarray(one.v if symbol.kind == "v" else one.a)
+        two = motion.point(symbol.to.point, symbol.to.link)
+        return np.asarray(one.v - two.v if symbol.kind == "v" else one.a - two.a)
+    hinge = _hinge(motion, symbol.of, symbol.to)
+    if symbol.to is not None and hinge is not None and symbol.kind != "ar":
+        return _turned(motion, symbol, symbol.of, symbol.to, hinge)
+    if symbol.kind in ("an", "at"):
+        return _turning(motion, symbol, symbol.of)
+    assert symbol.to is not None
+    return _sliding(motion, symbol, symbol.of, symbol.to)
+
+
+def _is_on(motion: Motion, ref: PointRef, link: str) -> bool:
+    """True where the point is one of the link's, or the link's point under that pin."""
+    holders = motion.scene.holders
+    if ref.point not in holders:
+        motion.point(ref.point)
+    if ref.link == link:
+        return True
+    own = not ref.link or ref.link in holders[ref.point]
+    return own and link in holders[ref.point]
+
+
+def _hinge(motion: Motion, of: PointRef, to: PointRef | None) -> str | None:
+    """The turning pair between the links of two coincident points, where it lies elsewhere."""
+    if to is None or of.point != to.point or not (of.link and to.link) or of.link == to.link:
+        return None
+    links = motion.scene.by_name
+    if not {of.link, to.link} <= set(links):
+        return None
+    return next((p for p in links[of.link].points if p in links[to.link].points and p != of.point), None)
+
+
+def _turned(motion: Motion, symbol: Symbol, of: PointRef, to: PointRef, hinge: str) -> Array:
+    """Parts of the acceleration of a point of a link relative to the coincident one of a link that is hinged to it.
+
+    Seen from the second link the first turns about the hinge at the difference of their rates: normal and tangential
+    part of that turn, and the Coriolis term of the second link's own rate.
+    """
+    one, base = motion.poses[of.link], motion.poses[to.link]
+    arm = motion.point(of.point, of.link).z - motion.point(hinge, of.link).z
+    rate = one.omega - base.omega
+    if symbol.kind == "an":
+        return np.asarray(-(rate**2) * arm)
+    if symbol.kind == "at":
+        return np.asarray(1j * (one.alpha - base.alpha) * arm)
+    return np.asarray(-2 * base.omega * rate * arm)
+
+
+def _turning(motion: Motion, symbol: Symbol, of: PointRef) -> Array:
+    """Normal and tangential part of the acceleration of one point of a link about another."""
+    if of.link:
+        motion.link(of.link)
+    frame = motion.scene.frame
+    moving = [link.name for link in motion.scene.links]
+    for name in moving:
+        if not _is_on(motion, of, name):
+            continue
+        pose = motion.poses[name]
+        at = motion.point(of.point, name)
+        if symbol.to is not None:
+            if not _is_on(motion, symbol.to, name):
+                continue
+            arm = at.z - motion.point(symbol.to.point, name).z
+        else:
+            pivot = next((p for p in motion.scene.by_name[name].points if p in frame.points and p != of.point), None)
+            if pivot is None:
+                continue
+            arm = at.z - motion.point(pivot, name).z
+        return np.asarray(-(pose.omega**2) * arm if symbol.kind == "an" else 1j * pose.alpha * arm)
+    wanted = (
+        "both points must be on one link"
+        if symbol.to
+        else f"{of} turns about no fixed point; write {symbol}/A with A on its link"
+    )
+    raise CallError(Problem(str(symbol), "no link makes this part", wanted))
+
+
+def _sliding(motion: Motion, symbol: Symbol, of: PointRef, to: PointRef) -> Array:
+    """Coriolis and sliding part of the acceleration of a point relative to the coincident one of another link."""
+    for ref in (of, to):
+        motion.point(ref.point, ref.link)
+    for pair in motion.slides:
+        block = {pair.a}
+        if pair.slot:
+            block = {pin.of for pin in motion.scene.pins if pin.key == pair.key}
+        sides = (block, {pair.b})
+        for one, two in (sides, sides[::-1]):
+            if of.point != to.point:
+                continue
+            if not any(_is_on(motion, of, n) for n in one) or not any(_is_on(motion, to, n) for n in two):
+                continue
+            first = motion.point(of.point, of.link)
+            second = motion.point(to.point, to.link)
+            omega = motion.poses[pair.b].omega
+            coriolis = 2j * omega * (first.v - second.v)
+            return np.asarray(coriolis if symbol.kind == "ak" else first.a - second.a - coriolis)
+    pairs = [s for s in motion.slides if s.pin]
+    example = (
+        f"write for example {symbol.kind}_{pairs[0].pin}@{pairs[0].b}/{pairs[0].pin}"
+        if pairs
+        else "nothing slides here"
+    )
+    raise CallError(
+        Problem(str(symbol), "these are not coincident points of two links that slide on each other", example)
+    )
+
+
+class Sliding(NamedTuple):
+    """A sliding pair's motion, signed along the guide's sense; ``coriolis`` is a vector (complex), 2 i omega v."""
+
+    travel: Array
+    velocity: Array
+    acceleration: Array
+    coriolis: Array
+
+
+@dataclass(frozen=True)
+class Motion:
+    """A mechanism solved at n positions of its drivers.
+
+    structure : the order of solution
+    values : real, shape (n, drivers), SI
+    status : str, shape (n,): "ok", "dead point" or "not assembled"
+    why : for each position the reason, empty where ok
+    poses : each moving link, the frame, and the blocks of pins, by name; NaN where the status is not ok
+    slides : the sliding pairs and pins in slots, those of redundant links included
+    assembly : for each group, in the order of ``structure.groups``, which assembly was taken
+    velocity_bound, acceleration_bound : real, shape (n,), how far rounding may have moved any point (m/s, m/s2)
+    position_bound : the same for places (m)
+    turning_bound : the same for the angles of links and their first and second rates (rad, rad/s, rad/s2)
+    rough : what the bounds of velocity and acceleration would be if all were computed in 16 digits, as a drawing is
+    turned : over a sweep how far each link has turned since its start, to a few degrees (rad): tells whole turns
+    """
+
+    structure: Structure
+    values: Array
+    status: Array
+    why: tuple[str, ...]
+    poses: Mapping[str, Pose]
+    slides: tuple[Slide, ...]
+    assembly: tuple[str, ...]
+    velocity_bound: Array
+    acceleration_bound: Array
+    turned: Mapping[str, Array] = field(default_factory=dict)
+    position_bound: Array = field(default_factory=lambda: np.zeros(0))
+    rough: tuple[Array, Array] = (np.zeros(0), np.zeros(0))
+    turning_bound: tuple[Array, Array, Array] = (np.zeros(0), np.zeros(0), np.zeros(0))
+
+    @property
+    def scene(self) -> Scene:
+        return self.structure.scene
+
+    @property
+    def ok(self) -> Array:
+        """bool, shape (n,)."""
+        return np.asarray(self.status == "ok")
+
+    def __len__(self) -> int:
+        return len(self.values)
+
+    def require(self) -> Motion:
+        """Itself, if at least one position is ok.  Raises Unsolvable with the first reason otherwise."""
+        if not self.ok.any():
+            raise Unsolvable(str(self.status[0]), Problem(self.scene.name or "scene", self.why[0]))
+        return self
+
+    def link(self, name: str) -> Link:
+        """A link or the block of a pin.  Raises CallError for an unknown name."""
+        if name in self.structure.links:
+            return self.structure.links[name]
+        if name in self.scene.by_name:
+            return self.scene.by_name[name]
+        raise CallError(Problem(f'link "{name}"', "there is no such link", did_you_mean(name, self.scene.by_name)))
+
+    def point(self, point: str, link: str = "") -> Pose:
+        """Axes that move with ``link``, their origin at ``point`` of it, or at its point that lies at that pin now.
+
+        Without a link the pin itself: the point of any link that has it, the frame first.
+        """
+        if point not in self.scene.holders:
+            raise CallError(
+                Problem(f'point "{point}"', "there is no such point", did_you_mean(point, self.scene.holders))
+            )
+        of = self.link(link or self.scene.holders[point][0])
+        pose = self.poses[of.name]
+        if point in of.points:
+            return pose.fixed(of.points[point])
+        pin = self.point(point)
+        arm, spin = pin.z - pose.z, 1j * pose.omega
+        return Pose(
+            pin.z, pose.u, pose.v + spin * arm, pose.omega, pose.a + (1j * pose.alpha + spin * spin) * arm, pose.alpha
+        )
+
+    def position(self, point: str, link: str = "") -> Array:
+        """complex, shape (n,) (m)."""
+        return np.asarray(self.point(point, link).z)
+
+    def velocity(self, point: str, link: str = "") -> Array:
+        """complex, shape (n,) (m/s)."""
+        return np.asarray(self.point(point, link).v)
+
+    def acceleration(self, point: str, link: str = "") -> Array:
+        """complex, shape (n,) (m/s2)."""
+        return np.asarray(self.point(point, link).a)
+
+    def angle(self, link: str) -> Array:
+        """Angle of the link's own x axis (rad): in (-pi, pi] at the first ok position, continuous from there."""
+        angle = np.angle(self.poses[self.link(link).name].u)
+        angle = np.where(angle == -np.pi, np.pi, angle)
+        good = self.ok
+        out = np.full(len(self), np.nan)
+        out[good] = angle[good]
+        if not good.any() or len(self) == 1:
+            return out
+        if link not in self.turned:
+            out[good] = np.unwrap(angle[good])
+            return out
+        first = int(np.argmax(good))
+        since = angle[first] + self.turned[link] - self.turned[link][first]
+        return np.asarray(out + 2 * np.pi * np.rint((since - out) / (2 * np.pi)))
+
+    def omega(self, link: str) -> Array:
+        """real, shape (n,) (rad/s), counter-clockwise positive."""
+        return np.asarray(self.poses[self.link(link).name].omega)
+
+    def alpha(self, link: str) -> Array:
+        """real, shape (n,) (rad/s2), counter-clockwise positive."""
+        return np.asarray(self.poses[self.link(link).name].alpha)
+
+    def slide(self, key: str) -> Sliding:
+        """A sliding pair or pin in slot by its key ("2/3", "B/3").  Raises CallError for an unknown one."""
+        pair = next((s for s in self.slides if s.key == key), None)
+        if pair is None:
+            raise CallError(
+                Problem(
+                    f'slide "{key}"', "there is no such sliding pair", did_you_mean(key, [s.key for s in self.slides])
+                )
+            )
+        guide = self.poses[pair.b].fixed(pair.guide.through, pair.guide.direction)
+        seen = guide.inverse().of(self.poses[pair.a])
+        return Sliding(seen.z.real, seen.v.real, seen.a.real, 2j * guide.omega * guide.u * seen.v.real)
+
+    def value(self, symbol: Symbol) -> Array:
+        """A quantity by its symbol: complex for vectors, real for omega and alpha, shape (n,).
+
+        Raises CallError where the symbol names nothing here.
+        """
+        return evaluate(self, symbol)

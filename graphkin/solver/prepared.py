@@ -1,0 +1,335 @@
+"""A mechanism made ready to give a few quantities at very many positions, or at one in no time."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from typing import Any
+
+import numpy as np
+
+from graphkin.errors import CallError, Problem
+from graphkin.scene.model import AngleDriver, Scene
+from graphkin.solver.assemblies import choose_forms, own_values
+from graphkin.solver.compiled import LONG, Kernel
+from graphkin.solver.dyads import Solved
+from graphkin.solver.engine import SINGULAR, positions
+from graphkin.solver.findings import structure_of
+from graphkin.solver.formula import Real
+from graphkin.solver.joints import turned
+from graphkin.solver.path import Path, follow_path
+from graphkin.solver.pose import Array
+from graphkin.solver.program import Fitted, program_of
+from graphkin.solver.quantities import formulas
+from graphkin.solver.rendering import Code
+from graphkin.solver.way import GivenValues, UniformGrid, quarter
+from graphkin.structure import Cluster, Structure
+
+__all__ = ["Prepared", "prepare"]
+
+CHUNK = 16384
+"""Positions in a piece, so that all columns of one stay in the cache."""
+FAR = 4.0
+CLEAR = 0.2
+"""Where no sine at the nodes of a path is less than this, none between them is near zero."""
+
+
+@dataclass(frozen=True)
+class Prepared:
+    """A mechanism with its assembly followed over the range of its first driver, and the code for what is asked.
+
+    names : of the columns, two for a vector ("v_B.x", "v_B.y")
+    """
+
+    structure: Structure
+    names: tuple[str, ...]
+    start: Array
+    ahead: Path
+    behind: Path
+    wide: float
+    asked: tuple[Real, ...]
+    fitted: Fitted
+
+    # the way of the driver
+
+    @property
+    def turns(self) -> bool:
+        """Whether the first driver is an angle."""
+        return isinstance(self.structure.scene.drivers[0], AngleDriver)
+
+    @cached_property
+    def reach(self) -> tuple[float, float]:
+        """How far the motion goes from the start, against and along the sense of the driver (rad, m)."""
+        return self.behind.reach * abs(self.wide), self.ahead.reach * abs(self.wide)
+
+    @cached_property
+    def _even(self) -> bool:
+        """Whether every position of a turn is far from a singular one, so that none needs to be looked at."""
+        if self.ahead.limit is not None or len(self.ahead.flips):
+            return False
+        t = self.ahead.nodes
+        state = positions(self.structure, self.ahead.drive(t), self.ahead.form(t), rates=False)
+        return all(float(np.min(np.abs(g.sine))) > CLEAR for g in state.groups.values() if isinstance(g, Solved))
+
+    @cached_property
+    def _signs(self) -> dict[Any, float] | None:
+        """The assembly of each group where it is the same everywhere."""
+        if len(self.ahead.flips) or len(self.behind.flips):
+            return None
+        return {("sign", i): float(form[0]) for i, form in self.ahead.form(np.zeros(1)).items()}
+
+    def _offset(self, value: Array) -> tuple[Array, Array]:
+        """How far values of the first driver are from the start in its sense, and which of them the motion reaches."""
+        sense = math.copysign(1.0, self.wide)
+        offset = sense * (value - self.start[0])
+        low, high = self.reach
+        if self.turns:
+            whole = 2 * np.pi
+            offset = np.remainder(offset, whole)
+            if self.ahead.limit is not None:
+                offset = np.where(offset <= high, offset, offset - whole)
+        return offset, (offset >= -low) & (offset <= high)
+
+    # code
+
+    @cached_property
+    def _sines(self) -> tuple[Real, ...]:
+        groups = self.fitted.program.groups
+        return tuple(groups[i].sine for i in sorted(groups))
+
+    @cached_property
+    def _held(self) -> dict[Any, float]:
+        """The drivers but the first."""
+        held: dict[Any, float] = {}
+        for k, driver in enumerate(self.structure.scene.drivers):
+            _, rate, second = driver.values
+            held["rate", k], held["second", k] = rate, second
+            if k:
+                u = complex(turned(self.start[k : k + 1])[0])
+                held["cos", k], held["sin", k], held["travel", k] = u.real, u.imag, float(self.start[k])
+        return held
+
+    @cached_property
+    def _code(self) -> Code:
+        asked = self.asked if self._even else (*self.asked, *self._sines)
+        return Code(self.fitted.program.graph, asked, self._fixed)
+
+    @cached_property
+    def _fixed(self) -> set[Any]:
+        """Inputs that do not change."""
+        return {*self._held, *(self._signs or ())}
+
+    def _given(self, code: Code) -> list[float]:
+        return self.fitted.params(code.params, {**self._held, **(self._signs or {})})
+
+    @cached_property
+    def _params(self) -> list[float]:
+        return self._given(self._code)
+
+    @cached_property
+    def _same(self) -> list[Array] | None:
+        return self._code.same(self._params)
+
+    # one position
+
+    def at(self, value: float) -> tuple[float, ...] | None:
+        """The asked quantities at one value of the first driver, in plain floats; None where there is no such position
+        or it is a dead point."""
+        return self._one(value)
+
+    @cached_property
+    def _one(self) -> Callable[[float], tuple[float, ...] | None]:
+        code = Code(self.fitted.program.graph, (*self.asked, *self._sines), self._fixed)
+        function, params, names, count = code.floats, self._given(code), code.inputs, len(self.asked)
+        everywhere, steady = self._whole, self._signs is not None
+        place = {"cos": 0, "sin": 1, "travel": 2}
+        order = [place.get(name[0], 3) for name in names]
+
+        def one(value: float) -> tuple[float, ...] | None:
+            if not everywhere and not self._offset(np.array([value]))[1][0]:
+                return None
+            given = (*quarter(value), value)
+            if steady:
+                inputs = [given[k] for k in order]
+            else:
+                signs = self._signs_at(np.array([value]))
+                inputs = [given[k] if k < 3 else float(signs[n][0]) for k, n in zip(order, names, strict=True)]
+            try:
+                found = function(params, inputs)
+            except (ZeroDivisionError, OverflowError):
+                return None
+            for sine in found[count:]:
+                if -SINGULAR < sine < SINGULAR:
+                    return None
+            return found[:count]
+
+        return one
+
+    @property
+    def _whole(self) -> bool:
+        return self.turns and self.ahead.limit is None
+
+    def _signs_at(self, value: Array) -> dict[Any, Array]:
+        offset, _ = self._offset(value)
+        ahead = offset >= 0
+        t = np.clip(offset / abs(self.wide), 0, self.ahead.reach)
+        s = np.clip(-offset / abs(self.wide), 0, self.behind.reach)
+        one, two = self.ahead.form(t), self.behind.form(s)
+        return {("sign", i): np.where(ahead, one[i], two[i]) for i in one}
+
+    # many
+
+    @cached_property
+    def _numbers(self) -> Array:
+        """What compiled code takes: the params, then start and way of the driver over its range."""
+        grid = self._grid(1)
+        return np.array([*self._params, grid.start, grid.way])
+
+    @cached_property
+    def _on_grid(self) -> Kernel:
+        return Kernel(self._code, self.turns, True, len(self.asked), SINGULAR)
+
+    @cached_property
+    def _at_values(self) -> Kernel:
+        return Kernel(self._code, self.turns, False, len(self.asked), SINGULAR)
+
+    @cached_property
+    def _clear(self) -> bool:
+        """Whether there is nothing to be looked at: a whole turn of one assembly, far from every dead point."""
+        return self._whole and self._even and self._signs is not None
+
+    def columns(self, values: Array, out: Array | None = None, fast: bool = False) -> tuple[Array, Array]:
+        """The asked quantities at many values of the first driver.
+
+        Parameters
+        ----------
+        values : shape (n,) (rad, m)
+        out : where to put them, shape (len(names), n)
+        fast : compile the formulas with numba, and run them on all cores where the positions are many; the first call
+            takes some seconds
+
+        Returns
+        -------
+        columns : shape (len(names), n), in SI; 0 where not ok
+        ok : bool, shape (n,): False where the motion does not come, and at dead points
+
+        Raises
+        ------
+        CallError : ``fast`` without numba
+        """
+        values = np.asarray(values, dtype=float)
+        out = np.empty((len(self.asked), len(values))) if out is None else out
+        return out, self._all(GivenValues(values), out, fast)
+
+    def _all(self, way: GivenValues | UniformGrid, out: Array, fast: bool) -> Array:
+        n = len(way)
+        if fast:
+            return self._compiled(way, out)
+        if n <= CHUNK:
+            return self._arrays(way, out)
+        parts = [slice(k, min(k + CHUNK, n)) for k in range(0, n, CHUNK)]
+        return np.concatenate([self._arrays(way[p], out[:, p]) for p in parts])
+
+    def _compiled(self, way: GivenValues | UniformGrid, out: Array) -> Array:
+        n = len(way)
+        kernel = self._on_grid if isinstance(way, UniformGrid) else self._at_values
+        if self._clear:
+            kernel(n, self._numbers, *way.given, out)
+            return _every(n)
+        ok = np.ones(n, dtype=bool) if self._whole else self._offset(way.values)[1]
+        signs = {} if self._signs is not None else self._signs_at(way.values)
+        rows = [np.array([signs[name] for name in kernel.signs])] if kernel.signs else []
+        kernel(n, self._numbers, *way.given, *rows, out, *([ok] if kernel.checked else []))
+        if not kernel.checked and not ok.all():
+            out[:, ~ok] = 0.0
+        return ok
+
+    def _arrays(self, way: GivenValues | UniformGrid, out: Array) -> Array:
+        n, count = len(way), len(self.asked)
+        ok = np.ones(n, dtype=bool) if self._whole else self._offset(way.values)[1]
+        given: dict[Any, Array] = {} if self._signs is not None else self._signs_at(way.values)
+        sines = np.empty((len(self._code.asked) - count, n))
+        if self.turns:
+            given["cos", 0], given["sin", 0] = way.turn
+        else:
+            given["travel", 0] = way.values
+        self._code.arrays(self._same, [given[name] for name in self._code.inputs], [*out, *sines])
+        for sine in sines:
+            ok &= np.abs(sine) >= SINGULAR
+        if not ok.all():
+            out[:, ~ok] = 0.0
+        return ok
+
+    def _grid(self, n: int, first: int = 0, last: int | None = None) -> UniformGrid:
+        last = n if last is None else last
+        start, sense = float(self.start[0]), math.copysign(1.0, self.wide)
+        if self.turns:
+            return UniformGrid(start, sense * 2 * math.pi, n, first, last)
+        low, high = self.reach
+        return UniformGrid(start + sense * ((high + low) / n / 2 - low), sense * (high + low), n, first, last)
+
+    def values(self, n: int, first: int = 0, last: int | None = None) -> Array:
+        """Values of the first driver at positions ``first`` to ``last`` (not included) of n over the whole range: a
+        turn from the start on in the sense of the driver, or evenly inside the range of travel."""
+        return self._grid(n, first, last).values
+
+    def sweep(self, n: int, out: Array | None = None, fast: bool = False) -> tuple[Array, Array]:
+        """``columns`` at n positions of the whole range."""
+        out = np.empty((len(self.asked), n)) if out is None else out
+        if fast and n < LONG and self._clear:
+            # nothing but the call: at some hundred positions each line here would be felt
+            self._on_grid.run(0, n, self._numbers, n, 0, out)
+            return out, _every(n)
+        return out, self._all(self._grid(n), out, fast)
+
+    def chunks(self, n: int, size: int = 16 * CHUNK, fast: bool = False) -> Iterator[tuple[int, Array, Array]]:
+        """A sweep of any length in bounded memory: number of the first position, columns and ok of one piece after the
+        other.  The arrays are the same ones each time, filled anew."""
+        room = np.empty((len(self.asked), min(n, size)))
+        for first in range(0, n, size):
+            way = self._grid(n, first, min(first + size, n))
+            out = room[:, : len(way)]
+            yield first, out, self._all(way, out, fast)
+
+
+@lru_cache
+def _every(n: int) -> Array:
+    """n times True, not to be written."""
+    return np.ndarray((n,), np.bool_, b"\1", 0, (0,))
+
+
+def prepare(scene: Scene | Structure, asked: Sequence[str]) -> Prepared:
+    """Make a mechanism ready for many positions.
+
+    Parameters
+    ----------
+    scene : a scene, or its structure
+    asked : columns by name, as in ``graphkin.solver.quantities.formulas``: "B", "v_B", "a_B@3", "omega_3", ...
+
+    Raises
+    ------
+    CallError : a name that names nothing; a mechanism with a larger group, which has no closed form
+    Unsolvable, SceneError : as for ``solve``
+    """
+    structure = structure_of(scene) if isinstance(scene, Scene) else scene
+    scene = structure.scene
+    for element in structure.elements:
+        if isinstance(element, Cluster):
+            raise CallError(
+                Problem(f"links {', '.join(element.links)}", "have no closed form", "solve such a mechanism with solve")
+            )
+    fitted = program_of(structure, tuple(d.values[2] != 0 for d in scene.drivers))
+    found = formulas(fitted.program, structure, asked)
+    forms = choose_forms(structure)
+    start = own_values(scene)
+    first = scene.drivers[0]
+    turning = isinstance(first, AngleDriver)
+    wide = math.copysign(2 * math.pi if turning else FAR * scene.size, first.values[1])
+    step = np.zeros_like(start)
+    step[0] = wide
+    ahead = follow_path(structure, forms, start, start + step)
+    whole = turning and ahead.limit is None
+    behind = ahead if whole else follow_path(structure, forms, start, start - step)
+    return Prepared(structure, tuple(found), start, ahead, behind, wide, tuple(found.values()), fitted)

@@ -1,0 +1,258 @@
+"""The formulas of a structure: every link and group by the values of the drivers, with the bounds of their rounding.
+
+Lengths and places are left open in them, so that one program serves every mechanism that differs in these only.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from decimal import Decimal
+from typing import Any
+from weakref import finalize
+
+from graphkin.scene.model import AngleDriver, Driver
+from graphkin.solver.bounds import FIELDS, LinkBounds
+from graphkin.solver.decimals import DIGITS, meant, meant_direction
+from graphkin.solver.dyads import Joints, Solved, solve_dyad
+from graphkin.solver.formula import ExpressionGraph, Real, Vec
+from graphkin.solver.joints import body_shape, driven, dyad_joints, members
+from graphkin.solver.pose import Pose
+from graphkin.solver.rendering import Code
+from graphkin.solver.rounding import UNIT
+from graphkin.structure import Cluster, Driven, Dyad, Pair, Slide, Structure, Turn
+
+__all__ = ["FIELDS", "GIVEN", "Fitted", "Program", "program_of"]
+
+GIVEN = 3 * UNIT
+"""Relative error of a number of the file after its conversion from decimals and units."""
+
+
+class Program:
+    """The formulas of all mechanisms of one form.
+
+    poses : each link by its name, fields are formulas
+    groups, joints : what each dyad gives, and its joint frames, by its place among the elements
+    bounds : how far each may be off
+    """
+
+    def __init__(self, structure: Structure, moving: Sequence[bool]) -> None:
+        self.graph = ExpressionGraph()
+        self.structure = structure
+        self._moving = moving
+        self._numbers = _numbers(structure)
+        self.joints: dict[int, Joints] = {}
+        self.poses: dict[str, Pose] = {structure.scene.frame.name: self.at_rest(0j, 1 + 0j)}
+        self.groups: dict[int, Solved] = {}
+        for i, element in enumerate(structure.elements):
+            self._add(i, element)
+        self.bounds = LinkBounds(self)
+        self._codes: dict[Any, Code] = {}
+
+    # numbers
+
+    def at_rest(self, place: Any, direction: Any) -> Pose:
+        """Axes that do not move."""
+        zero = self.graph.const(0)
+        none = Vec(zero, zero)
+        return Pose(none + place, none + direction, none, zero, none, zero)
+
+    def number(self, *name: str) -> Vec:
+        """A place or direction of the scene: ("point", link, point), ("turn", slide), ("through", slide), ..."""
+        z = self._numbers[name]
+        return Vec(*(self._part(name, axis, x) for axis, x in (("x", z.real), ("y", z.imag))))
+
+    def _part(self, name: tuple[Any, ...], axis: str, value: float) -> Real:
+        return self.graph.const(value) if value in (0.0, 1.0, -1.0) else self.graph.param((*name, axis))
+
+    def rest(self, pair: Pair, link: str) -> Pose:
+        """The joint's frame in the axes of one of its links."""
+        if isinstance(pair, Turn):
+            return self.at_rest(self.number("point", link, pair.point), 1 + 0j)
+        if link == pair.a:
+            return self.at_rest(0j, self.number("turn", pair.key).conjugate())
+        return self.at_rest(self.number("through", pair.key), self.number("direction", pair.key))
+
+    def guide(self, slide: Slide) -> Pose:
+        """The guide of a sliding pair in the world."""
+        return self.poses[slide.b].fixed(self.number("through", slide.key), self.number("direction", slide.key))
+
+    def _rates(self, driver: Driver) -> tuple[Real, Real]:
+        k = self.structure.scene.drivers.index(driver)
+        second = self.graph.param(("second", k)) if self._moving[k] else self.graph.const(0)
+        return self.graph.param(("rate", k)), second
+
+    def turn(self, driver: AngleDriver) -> Pose:
+        """The rotation that an angle driver gives."""
+        k = self.structure.scene.drivers.index(driver)
+        rate, second = self._rates(driver)
+        none = Vec(self.graph.const(0), self.graph.const(0))
+        return Pose(none, Vec(self.graph.input(("cos", k)), self.graph.input(("sin", k))), none, rate, none, second)
+
+    def travel(self, driver: Driver) -> tuple[Real, Real, Real]:
+        """Value, rate and second rate of a slide driver."""
+        k = self.structure.scene.drivers.index(driver)
+        return self.graph.input(("travel", k)), *self._rates(driver)
+
+    # elements
+
+    def _add(self, i: int, element: Driven | Dyad | Cluster) -> None:
+        if isinstance(element, Driven):
+            self.poses[element.link] = driven(self, element, self.poses)
+        elif isinstance(element, Cluster):
+            for name in element.members:
+                self.poses[name] = self._placed(name)
+        else:
+            rest = self.at_rest(0j, 1 + 0j)
+            shapes = body_shape(self, element.first, rest), body_shape(self, element.second, rest)
+            joints = dyad_joints(self, element, shapes, self.poses, self.graph.param(("size",)))
+            self.joints[i] = joints
+            solved = solve_dyad(element.kind, joints, self.graph.input(("sign", i)))
+            self.groups[i] = solved
+            self.poses.update(members(shapes[0], solved.first))
+            self.poses.update(members(shapes[1], solved.second))
+
+    def _placed(self, name: str) -> Pose:
+        """A link of a larger group, whose pose is given."""
+        parts: dict[str, Any] = {}
+        for part in FIELDS:
+            real = self.graph.input(("pose", name, part, "x"))
+            flat = part in ("omega", "alpha")
+            parts[part] = real if flat else Vec(real, self.graph.input(("pose", name, part, "y")))
+        return Pose(**parts)
+
+    # code
+
+    def code(self, key: Any, asked: Sequence[Real]) -> Code:
+        """The code for some formulas, made once."""
+        if key not in self._codes:
+            self._codes[key] = Code(self.graph, asked)
+        return self._codes[key]
+
+
+def _numbers(structure: Structure) -> dict[tuple[Any, ...], complex]:
+    """Every place and direction that a structure gives, by name."""
+    found: dict[tuple[Any, ...], complex] = {}
+    for name, link in structure.links.items():
+        for point, z in link.points.items():
+            found["point", name, point] = z
+    for s in structure.slides:
+        found["turn", s.key] = s.turn
+        found["through", s.key] = s.guide.through
+        found["direction", s.key] = s.guide.direction
+    return found
+
+
+def _form(structure: Structure) -> Any:
+    """What a program depends on: elements, joints and drivers by name, and which numbers are 0, 1 or -1."""
+    drivers = tuple((type(d).__name__, d.key, getattr(d, "relative_to", "")) for d in structure.scene.drivers)
+    special = tuple(
+        (name, *(x if x in (0.0, 1.0, -1.0) else None for x in (z.real, z.imag)))
+        for name, z in _numbers(structure).items()
+    )
+    return structure.scene.frame.name, drivers, special, tuple(_element_form(e) for e in structure.elements)
+
+
+def _element_form(element: Driven | Dyad | Cluster) -> Any:
+    if isinstance(element, Driven):
+        return element.link, _pair_form(element.pair), element.driver.key
+    if isinstance(element, Cluster):
+        return element.members
+    bodies = [
+        (b.links, tuple((_pair_form(w.pair), w.driver.key, w.a, w.b, w.sign) for w in b.welds)) for b in element.bodies
+    ]
+    pairs = (element.inner, element.outer_first, element.outer_second)
+    return element.kind, *bodies, *(_pair_form(p) for p in pairs)
+
+
+def _pair_form(pair: Pair) -> Any:
+    return (pair.point if isinstance(pair, Turn) else pair.key), pair.a, pair.b
+
+
+@dataclass
+class Fitted:
+    """A program with the numbers of one mechanism."""
+
+    program: Program
+    structure: Structure
+    _found: dict[Any, float] = field(default_factory=dict)
+    _written: dict[Any, tuple[tuple[Decimal, Decimal], bool]] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self._numbers = _numbers(self.structure)
+
+    def params(self, names: Iterable[Any], drivers: Mapping[Any, float]) -> list[float]:
+        """Numbers by their names, with the rates of the drivers and the greatest of their values."""
+        found: list[float] = []
+        for name in names:
+            changing = drivers.get(name)
+            if changing is None and name not in self._found:
+                self._found[name] = self._fixed(name)
+            found.append(self._found[name] if changing is None else changing)
+        return found
+
+    def decimals(self, names: Iterable[Any], drivers: Mapping[Any, Decimal]) -> list[Decimal]:
+        """The same as decimals; numbers that stand so in the file are without error."""
+        return [drivers[name] if name in drivers else self._decimal(name) for name in names]
+
+    def _fixed(self, name: tuple[Any, ...]) -> float:
+        if name[0] == "unit":
+            return UNIT
+        if name[0] == "size":
+            return self.structure.scene.size
+        if name[0] == "reach":
+            return max(map(abs, self.structure.links[name[1]].points.values()), default=0.0)
+        if name[0] == "error":
+            z = self._numbers[name[1:]]
+            exact, known = self._meant(name[1:])
+            if not known:
+                return GIVEN * abs(z)
+            # what the conversion from decimals and units has really changed
+            return max(abs(float(Decimal(z.real) - exact[0])), abs(float(Decimal(z.imag) - exact[1])))
+        z = self._numbers[name[:-1]]
+        return z.real if name[-1] == "x" else z.imag
+
+    def _decimal(self, name: tuple[Any, ...]) -> Decimal:
+        if name[0] == "unit":
+            return Decimal(10) ** -DIGITS
+        if name[0] == "error":
+            return Decimal(0 if self._meant(name[1:])[1] else self._fixed(name))
+        if name[0] in ("size", "reach"):
+            return Decimal(self._fixed(name))
+        return self._meant(name[:-1])[0][0 if name[-1] == "x" else 1]
+
+    def _meant(self, name: tuple[Any, ...]) -> tuple[tuple[Decimal, Decimal], bool]:
+        """What was written in the file for a place or direction, and whether it can be told."""
+        if name not in self._written:
+            z = self._numbers[name]
+            if name[0] in ("turn", "direction"):
+                self._written[name] = meant_direction(z)
+            else:
+                (x, known_x), (y, known_y) = meant(z.real), meant(z.imag)
+                self._written[name] = (x, y), known_x and known_y
+        return self._written[name]
+
+
+_PROGRAMS: dict[Any, Program] = {}
+_FITTED: dict[tuple[int, tuple[bool, ...]], Fitted] = {}
+MOST = 200
+
+
+def program_of(structure: Structure, moving: tuple[bool, ...]) -> Fitted:
+    """The program of a structure, made once for all of its form.
+
+    Parameters
+    ----------
+    moving : for each driver whether it has a second rate
+    """
+    key = (id(structure), moving)
+    if key in _FITTED:
+        return _FITTED[key]
+    form = _form(structure), moving
+    program = _PROGRAMS.pop(form, None) or Program(structure, moving)
+    _PROGRAMS[form] = program
+    while len(_PROGRAMS) > MOST:
+        del _PROGRAMS[next(iter(_PROGRAMS))]
+    fitted = _FITTED[key] = Fitted(program, structure)
+    finalize(structure, _FITTED.pop, key, None)
+    return fitted

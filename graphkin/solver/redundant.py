@@ -1,0 +1,111 @@
+"""Links that only repeat what others hold: placed from their joints, and checked to fit in every rate."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from itertools import combinations
+from typing import NamedTuple
+
+import numpy as np
+
+from graphkin.scene.model import Link, Scene, SlidingPair
+from graphkin.solver.pose import Array, Pose, cross, dot, rest
+from graphkin.structure import Slide, Structure
+
+__all__ = ["Fit", "all_slides", "fit"]
+
+FITS = 1e-9
+
+
+class Fit(NamedTuple):
+    """How a link fits between the others: its pose, and how far it misses, relative to the size and the largest speed
+    and acceleration there, each of shape (n,)."""
+
+    pose: Pose
+    position: Array
+    velocity: Array
+    acceleration: Array
+
+    @property
+    def fits(self) -> Array:
+        return (self.position < FITS) & (self.velocity < FITS) & (self.acceleration < FITS)
+
+
+def all_slides(structure: Structure) -> tuple[Slide, ...]:
+    """The sliding pairs, those of redundant links after the others."""
+    have = {s.key for s in structure.slides}
+    scene = structure.scene
+    return structure.slides + tuple(_slide(scene, s) for s in scene.slidings if s.key not in have)
+
+
+def _slide(scene: Scene, s: SlidingPair) -> Slide:
+    return Slide(s.key, s.link, s.on, scene.by_name[s.on].guides[s.guide], s.turn, s.pin)
+
+
+def fit(scene: Scene, link: Link, poses: Mapping[str, Pose]) -> Fit | None:
+    """Place a link from what it is joined to; None if the links it is joined to do not place it."""
+    with np.errstate(all="ignore"):
+        return _fit(scene, link, poses)
+
+
+def _fit(scene: Scene, link: Link, poses: Mapping[str, Pose]) -> Fit | None:
+    shared = {p: n for p in link.points for n in scene.holders[p] if n in poses and n != link.name}
+    slides = [s for s in scene.slidings if s.link == link.name and s.on in poses]
+    pose = _between_hinges(scene, link, shared, poses) if len(shared) > 1 else None
+    if pose is None:
+        pose = _on_guide(scene, link, shared, slides, poses)
+    if pose is None:
+        return None
+    gaps = [(pose.fixed(link.points[p]), poses[n].fixed(scene.by_name[n].points[p])) for p, n in shared.items()]
+    everything = list(poses.values())
+    size = scene.size
+    speed = _most([np.abs(p.v) + np.abs(p.omega) * size for p in everything])
+    push = _most([np.abs(p.a) + (np.abs(p.alpha) + p.omega**2) * size for p in everything])
+    missed = [[np.abs(a.z - b.z) / size, np.abs(a.v - b.v), np.abs(a.a - b.a)] for a, b in gaps]
+    for s in slides:
+        pair = _slide(scene, s)
+        seen = poses[s.on].fixed(pair.guide.through, pair.guide.direction).inverse().of(pose)
+        turn = seen.u * np.conj(s.turn)
+        missed.append([np.abs(seen.z.imag) / size, np.abs(seen.v.imag), np.abs(seen.a.imag)])
+        missed.append([np.abs(turn - 1), np.abs(seen.omega) * size, np.abs(seen.alpha) * size])
+    place, velocity, acceleration = (_most([m[k] for m in missed]) for k in range(3))
+    return Fit(pose, place, _part(velocity, speed), _part(acceleration, push))
+
+
+def _between_hinges(scene: Scene, link: Link, shared: Mapping[str, str], poses: Mapping[str, Pose]) -> Pose | None:
+    p, q = max(combinations(shared, 2), key=lambda two: abs(link.points[two[0]] - link.points[two[1]]))
+    arm = link.points[q] - link.points[p]
+    if arm == 0:
+        return None
+    one, two = (poses[shared[name]].fixed(scene.by_name[shared[name]].points[name]) for name in (p, q))
+    line, slip, bend = two.z - one.z, two.v - one.v, two.a - one.a
+    square = np.abs(line) ** 2
+    u = line / np.abs(line) * (abs(arm) / arm)
+    omega = cross(line, slip) / square
+    alpha = cross(line, bend) / square - 2 * omega * dot(line, slip) / square
+    return one.hung(rest(link.points[p]), u, omega, alpha)
+
+
+def _on_guide(
+    scene: Scene, link: Link, shared: Mapping[str, str], slides: list[SlidingPair], poses: Mapping[str, Pose]
+) -> Pose | None:
+    if not slides:
+        return None
+    pair = _slide(scene, slides[0])
+    guide = poses[pair.b].fixed(pair.guide.through, pair.guide.direction)
+    u = guide.u * pair.turn
+    for point, holder in shared.items():
+        at = poses[holder].fixed(scene.by_name[holder].points[point])
+        return at.hung(rest(link.points[point]), u, guide.omega, guide.alpha)
+    return None
+
+
+def _most(values: list[Array]) -> Array:
+    most = values[0]
+    for value in values[1:]:
+        most = np.maximum(most, value)
+    return np.asarray(most)
+
+
+def _part(value: Array, whole: Array) -> Array:
+    return np.where(whole > 0, value / np.where(whole > 0, whole, 1.0), value)

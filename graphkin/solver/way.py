@@ -1,0 +1,113 @@
+"""Values of the first driver, as they come or at even steps, and their cosines and sines."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from graphkin.solver.joints import turned
+from graphkin.solver.pose import Array
+
+__all__ = ["GivenValues", "UniformGrid", "quarter"]
+
+NEAR = 1e-14
+HALF_PI = math.pi / 2
+FULL = 7.0
+"""In a longer range of angles (rad) quarter turns are sought among the values."""
+MANY = 2000
+"""From so many even steps on cosines are products."""
+
+
+@dataclass(frozen=True)
+class GivenValues:
+    """Values of the first driver as they come."""
+
+    values: Array
+
+    def __len__(self) -> int:
+        return len(self.values)
+
+    def __getitem__(self, part: slice) -> GivenValues:
+        return GivenValues(self.values[part])
+
+    @property
+    def given(self) -> tuple[Array]:
+        """What compiled code takes."""
+        return (self.values,)
+
+    @property
+    def turn(self) -> tuple[Array, Array]:
+        """Cosines and sines, exact at quarter turns."""
+        c, s = np.cos(self.values), np.sin(self.values)
+        near = np.flatnonzero(np.abs(c * s) < NEAR)
+        if len(near):
+            u = turned(self.values[near])
+            c[near], s[near] = u.real, u.imag
+        return c, s
+
+
+@dataclass(frozen=True)
+class UniformGrid:
+    """Values at even steps over ``way`` in ``n`` parts: start + way / n k, for k from ``first`` to ``last`` (not
+    included)."""
+
+    start: float
+    way: float
+    n: int
+    first: int
+    last: int
+
+    def __len__(self) -> int:
+        return self.last - self.first
+
+    def __getitem__(self, part: slice) -> UniformGrid:
+        return UniformGrid(self.start, self.way, self.n, self.first + part.start, self.first + part.stop)
+
+    @property
+    def step(self) -> float:
+        return self.way / self.n
+
+    @property
+    def values(self) -> Array:
+        steps = np.arange(float(self.first), float(self.last))
+        steps *= self.step
+        steps += self.start
+        return steps
+
+    @property
+    def given(self) -> tuple[int, int]:
+        """What compiled code takes beside start and way."""
+        return self.n, self.first
+
+    @property
+    def turn(self) -> tuple[Array, Array]:
+        """Cosines and sines, exact at quarter turns; of many each as the product of a coarse and a fine turn: two
+        roundings more."""
+        n = len(self)
+        begin, end = self.start + self.step * self.first, self.start + self.step * (self.last - 1)
+        if n < MANY or abs(end - begin) > FULL:
+            values = self.values
+            c, s = np.cos(values), np.sin(values)
+            if abs(end - begin) > FULL:
+                return GivenValues(values).turn
+        else:
+            fine = 1 << (n.bit_length() + 1) // 2
+            coarse, inner = begin + self.step * np.arange(0, n, fine), self.step * np.arange(fine)
+            u = np.multiply.outer(np.cos(coarse) + 1j * np.sin(coarse), np.cos(inner) + 1j * np.sin(inner))
+            flat = u.reshape(-1)[:n]
+            c, s = np.ascontiguousarray(flat.real), np.ascontiguousarray(flat.imag)
+        low, high = min(begin, end) / HALF_PI, max(begin, end) / HALF_PI
+        for m in range(math.ceil(low - 1e-6), math.floor(high + 1e-6) + 1):
+            k = round((m * HALF_PI - begin) / self.step) if self.step else 0
+            value = self.start + self.step * (self.first + k)
+            if 0 <= k < n and abs(value - m * HALF_PI) <= NEAR * (1 + abs(value)):
+                c[k], s[k] = quarter(value)
+        return c, s
+
+
+def quarter(angle: float) -> tuple[float, float]:
+    """Cosine and sine, as ``turned`` gives them."""
+    c, s, zero = math.cos(angle), math.sin(angle), 4e-16 * abs(angle)
+    return 0.0 if abs(c) <= zero else c, 0.0 if abs(s) <= zero else s

@@ -1,0 +1,254 @@
+"""Finding all instant centres: permanent ones, Kennedy's theorem, what it cannot find, infinity."""
+
+from __future__ import annotations
+
+import cmath
+import math
+import random
+from dataclasses import replace
+from itertools import combinations
+from typing import Any
+
+import pytest
+
+from graphkin.api.centred import centres as checked_centres
+from graphkin.construction.centres import Centres, by_centres, find_centres, speeds, velocity_sentences
+from graphkin.scene import library, read
+from graphkin.scene.symbol import Symbol
+
+
+def xy(z: complex) -> list[float]:
+    return [z.real, z.imag]
+
+
+def off_line(centres: Centres) -> float:
+    """How far the three centres of any three links are from one line, on the unit sphere."""
+    worst = 0.0
+    for a, b, c in combinations(centres.links.names, 3):
+        p, q, r = (centres.of(*pair).place for pair in ((a, b), (b, c), (c, a)))
+        if p and q and r:
+            cross = (p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0])
+            worst = max(worst, abs(sum(x * y for x, y in zip(cross, r, strict=True))))
+    return worst
+
+
+@pytest.mark.parametrize("name", library())
+def test_centres_of_scenes_that_come_along_agree_with_the_solver(name: str) -> None:
+    assert checked_centres(name).ok
+
+
+@pytest.mark.parametrize("name", library())
+def test_every_three_centres_of_three_links_lie_on_one_line(name: str) -> None:
+    assert off_line(find_centres(read(name))) <= 1e-12
+
+
+def test_links_at_one_hinge_share_a_permanent_centre_two_by_two() -> None:
+    centres = find_centres(read("toggle-press"))
+    assert {"permanent"} == {centres.of(*pair).kind for pair in combinations(("2", "3", "4"), 2)}
+
+
+def test_a_sliding_pair_has_its_centre_at_infinity_square_to_the_guide() -> None:
+    assert 1j == find_centres(read("slider-crank-offset")).of("3", "4").direction
+
+
+def test_a_pin_in_a_slot_gives_its_common_normal_as_one_line() -> None:
+    found = find_centres(read("cam-eccentric-flat-rocker")).of("1", "2")
+    assert [("O/2",), (("1", "3"), ("2", "3"))] == [line.through for line in found.lines]
+
+
+def test_found_centres_are_numbered_in_the_order_in_which_they_are_found() -> None:
+    found = [c for c in find_centres(read("sixbar-420rpm")).found if c.kind == "found"]
+    assert [1, 2, 3, 4, 5, 6, 7, 8] == [c.number for c in found]
+
+
+def test_each_line_goes_through_centres_found_before() -> None:
+    centres = find_centres(read("shaper-scheme-2"))
+    for centre in centres.found:
+        for line in centre.lines:
+            assert all(centres.of(*pair).number < centre.number for pair in line.through if not isinstance(pair, str))
+
+
+@pytest.mark.parametrize(("name", "known"), [("double-butterfly", 10), ("single-flier", 12)])
+def test_indeterminate_eight_bars_stop_kennedys_theorem_where_the_literature_says(name: str, known: int) -> None:
+    centres = find_centres(read(name))
+    other = min(c.number for c in centres.found if c.way)
+    assert known == sum(c.number < other for c in centres.found)
+
+
+def test_what_kennedys_theorem_cannot_find_says_why_and_how_it_was_found() -> None:
+    (centre,) = find_centres(read("double-butterfly")).indeterminate
+    assert centre.why is not None
+    assert ("superposition", "centre few lines") == (centre.way, centre.why.key)
+
+
+def test_lines_that_fall_together_at_a_special_position_are_recognised() -> None:
+    centres = find_centres(read("hit-two-RPR"), {"1": 0.0})
+    assert ["centre lines together"] == [c.why.key for c in centres.indeterminate if c.why]
+
+
+def test_links_that_do_not_move_relative_to_each_other_have_no_centre() -> None:
+    centre = find_centres(read(_three_parallelograms())).of("2", "7")
+    assert centre.why is not None
+    assert ("undetermined", "centre no motion") == (centre.kind, centre.why.key)
+
+
+def _three_parallelograms() -> dict[str, Any]:
+    """Three rods one after the other that translate alike."""
+    return {
+        "frame": {"name": "0", "points": {"A": [0, 0], "D": [300, 0], "G": [500, 0], "K": [650, 0]}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 150},
+            "2": {"points": ["B", "C"], "length": 300},
+            "3": {"points": ["D", "C"], "length": 150},
+            "5": {"points": ["C", "F"], "length": 200},
+            "6": {"points": ["G", "F"], "length": 150},
+            "7": {"points": ["F", "H"], "length": 150},
+            "8": {"points": ["K", "H"], "length": 150},
+        },
+        "driver": {"link": "1", "angle": 60, "omega": 3},
+        "sketch": {"C": [375, 130], "F": [575, 130], "H": [725, 130]},
+    }
+
+
+def test_centres_do_not_need_the_driver_to_move() -> None:
+    still, moving = (find_centres(read(_four_bar(1.0, omega))).of("1", "3").point for omega in (0.0, 10.0))
+    assert moving == still
+
+
+def test_a_redundant_link_has_centres_too() -> None:
+    scene = _parallelogram()
+    assert "4" in find_centres(read(scene)).links.names
+
+
+def test_links_of_a_parallelogram_that_turn_alike_have_their_centre_at_infinity() -> None:
+    found = find_centres(read(_parallelogram())).of("1", "3")
+    assert found.direction is not None
+    assert abs(found.direction.imag) <= 1e-12
+
+
+def _parallelogram() -> dict[str, Any]:
+    return {
+        "frame": {"name": "0", "points": {"A": [0, 0], "D": [400, 0], "G": [200, 0]}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 150},
+            "2": {"points": ["B", "C"], "length": 400, "at": {"F": [200, 0]}},
+            "3": {"points": ["D", "C"], "length": 150},
+            "4": {"points": ["G", "F"], "length": 150, "redundant": True},
+        },
+        "driver": {"link": "1", "angle": 60, "omega": 3},
+        "sketch": {"C": [475, 130]},
+    }
+
+
+def _four_bar(apart: float, omega: float = 10.0) -> dict[str, Any]:
+    """A four-bar whose rocker is turned by an angle from the direction of its crank."""
+    crank, rocker = cmath.rect(150, 1.1), cmath.rect(300, 1.1 + apart)
+    return {
+        "frame": {"name": "4", "points": {"A": [0, 0], "D": [400, 0]}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 150},
+            "2": {"points": ["B", "C"], "length": abs(400 + rocker - crank)},
+            "3": {"points": ["D", "C"], "length": 300},
+        },
+        "driver": {"link": "1", "angle": math.degrees(1.1), "omega": omega},
+        "sketch": {"C": xy(400 + rocker)},
+    }
+
+
+@pytest.mark.parametrize("power", range(3, 13))
+def test_velocities_by_centres_hold_where_rocker_and_crank_become_parallel(power: int) -> None:
+    found = checked_centres(_four_bar(10.0**-power))
+    worst = max(abs(v.by_centres - v.exact) / max(abs(v.exact), 1e-3) for v in found.velocities if v.symbol.is_vector)
+    assert worst <= 1e-9
+
+
+@pytest.mark.parametrize("power", range(3, 13))
+def test_a_far_centre_keeps_its_direction(power: int) -> None:
+    apart = 10.0**-power
+    centre = find_centres(read(_four_bar(apart))).of("2", "4")
+    way = centre.direction if centre.point is None else centre.point
+    assert way is not None
+    assert abs(math.remainder(cmath.phase(way) - 1.1, math.pi)) <= 2 * apart + 1e-9
+
+
+def sixbar(seed: int) -> dict[str, Any]:
+    """A six-bar of a seed: a four-bar with a dyad at its coupler or its rocker, ending in the frame or on a slider."""
+    rng = random.Random(seed)
+    near = lambda x, y, s: complex(x + rng.uniform(-s, s), y + rng.uniform(-s, s))  # noqa: E731
+    a, d = 0j, near(220, 0, 40)
+    b, c = near(30, 60, 25), near(230, 130, 40)
+    e, f, g = near(150, 190, 40), near(330, 220, 40), near(420, 60, 50)
+    drawn = {"B": xy(b), "C": xy(c), "E": xy(e), "F": xy(f)}
+    links: dict[str, Any] = {
+        "1": {"points": ["A", "B"]},
+        "2": {"points": ["B", "C"]},
+        "3": {"points": ["D", "C"]},
+        "5": {"points": ["E", "F"]},
+    }
+    links["2" if seed % 2 else "3"]["at"] = {"E": "drawn"}
+    frame: dict[str, Any] = {"name": "4", "points": {"A": xy(a), "D": xy(d)}}
+    if seed % 3:
+        frame["points"]["G"] = xy(g)
+        links["6"] = {"points": ["G", "F"]}
+    else:
+        frame["guides"] = {"h": {"through": xy(f), "angle": rng.uniform(-80, 80)}}
+        links["6"] = {"points": ["F"], "on": "4.h"}
+    return {"frame": frame, "links": links, "drawn": drawn, "driver": {"link": "1", "omega": 7}}
+
+
+@pytest.mark.parametrize("seed", range(24))
+def test_all_15_centres_of_any_six_bar_agree_with_the_solver(seed: int) -> None:
+    found = checked_centres(sixbar(seed))
+    assert 15 == sum(error is not None and error <= 1e-9 for error in found.errors.values())
+
+
+@pytest.mark.parametrize("name", ["sixbar-420rpm", "shaper-scheme-2", "oldham-coupling", "hydraulic-cylinder"])
+def test_the_shortest_chain_leads_from_the_driver_in_one_step(name: str) -> None:
+    assert 2 >= max(len(t.chain) for t in speeds(find_centres(read(name))).values())
+
+
+def test_the_sense_is_opposite_where_the_common_centre_lies_between() -> None:
+    centres = find_centres(read("sixbar-420rpm"))
+    assert "centre opposite sense" in [p.key for p in velocity_sentences(centres, speeds(centres))]
+
+
+@pytest.mark.parametrize("name", sorted(library()))
+def test_the_told_rates_multiply_up_to_the_exact_ones(name: str) -> None:
+    found = checked_centres(name)
+    exact = {f"v_{v.symbol.of}": abs(v.exact) for v in found.velocities if v.symbol.kind == "v"}
+    metres = found.scene.units.metres
+    for phrase in velocity_sentences(found.centres, found.turning):
+        if phrase.key == "centre speed":
+            symbol, _, _, _, rate, arm, scale, _ = phrase.args
+            told = float(str(rate)) * float(str(arm)) * float(str(scale).split()[0]) * metres
+            assert told == pytest.approx(exact[str(symbol)], rel=2e-2 if float(str(arm)) < 1 else 2e-3)
+
+
+def test_the_speed_of_a_translating_link_is_that_of_the_crank_at_their_centre() -> None:
+    # the ram has no finite centre: its speed is that of the crank where both have one velocity
+    scene = replace(read("shaper-scheme-2"), find=(Symbol.parse("v_C@6"),))
+    centres = find_centres(scene)
+    (told,) = [p for p in velocity_sentences(centres, speeds(centres)) if p.key == "centre speed"]
+    _, link, _, end, rate, arm, scale, said = told.args
+    exact = abs(checked_centres(scene).velocities[0].exact) / scene.units.metres
+    assert ("2", True) == (link, isinstance(end, tuple))
+    assert float(str(said).split()[0]) == pytest.approx(exact, rel=1e-5)
+    assert float(str(rate)) * float(str(arm)) * float(str(scale).split()[0]) == pytest.approx(exact, rel=2e-3)
+
+
+def test_a_clockwise_link_is_told_with_its_sign() -> None:
+    centres = find_centres(read("shaper-scheme-2"))
+    told = {p.args[0]: p.args[-1] for p in velocity_sentences(centres, speeds(centres)) if "sense" in p.key}
+    assert "−0.739601" == told["4"]
+
+
+def test_a_slider_has_the_velocity_of_the_crank_at_their_centre() -> None:
+    centres = find_centres(read("slider-crank-offset"))
+    common = centres.of("1", "3").point
+    pivot = centres.of("1", "4").point
+    assert common is not None
+    assert pivot is not None
+    omega = read("slider-crank-offset").drivers[0].values[1]
+    value = by_centres(centres, speeds(centres), Symbol.parse("v_C"))
+    assert isinstance(value, complex)
+    assert abs(common - pivot) * centres.sheet.scales.length * abs(omega) == pytest.approx(abs(value), rel=1e-12)

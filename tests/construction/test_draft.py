@@ -1,0 +1,198 @@
+"""The drawing board: what it draws, in what order, and what it says when a line meets nowhere."""
+
+from __future__ import annotations
+
+import cmath
+from dataclasses import replace
+
+import pytest
+
+from graphkin.construction import draft
+from graphkin.construction.sheet import Arc, Ray
+from graphkin.errors import Unsolvable
+from graphkin.plane import cross, dot
+from graphkin.scene import library, read
+from graphkin.scene.symbol import PointRef, Symbol
+
+SIXBAR = "sixbar-guide-40deg"
+
+
+def _vector(sheet, name):
+    symbol = Symbol.parse(name)
+    return sheet.vectors("velocity" if symbol.kind == "v" else "acceleration")[symbol]
+
+
+def test_b3_lies_107_578_mm_from_the_pole_at_10_mm_per_s_a_mm():
+    sheet = draft(read(SIXBAR))
+    assert 107.578 == pytest.approx(abs(sheet.ends["velocity"][PointRef("B", "3")]), abs=5e-4)
+
+
+def test_the_scales_are_those_the_scene_asks_for():
+    scales = draft(read(SIXBAR)).scales
+    assert (2e-3, 1e-2, 1e-1) == pytest.approx((scales.length, scales.velocity, scales.acceleration))
+
+
+def test_a_sliding_vector_is_parallel_to_its_guide():
+    sheet = draft(read(SIXBAR))
+    guide = sheet.poses["3"].axis
+    assert 0 == pytest.approx(cross(_vector(sheet, "ar_B@3/B@2").span, guide), abs=1e-11)
+
+
+def test_a_tangential_vector_is_square_to_its_bar():
+    sheet = draft(read(SIXBAR))
+    bar = sheet.points[PointRef("B")] - sheet.points[PointRef("C")]
+    assert 0 == pytest.approx(dot(_vector(sheet, "at_B@3/C").span, bar), abs=1e-9)
+
+
+def test_the_coriolis_vector_is_the_sliding_velocity_turned_with_the_guide():
+    sheet = draft(read(SIXBAR))
+    slip = _vector(sheet, "v_B@3/B@2").span
+    sense = 1j if sheet.omega["3"].value > 0 else -1j
+    assert 0 == pytest.approx(cmath.phase(_vector(sheet, "ak_B@3/B@2").span / (sense * slip)), abs=1e-12)
+
+
+@pytest.mark.parametrize("name", library())
+def test_every_equation_closes(name):
+    sheet = draft(read(name))
+    for equation in sheet.equations:
+        vectors = sheet.vectors(equation.diagram)
+        ends = [sum(vectors[t.symbol].span for t in side) for side in equation.sides]
+        for end in ends[1:]:
+            assert 0 == pytest.approx(abs(end - ends[0]), abs=1e-9), equation
+
+
+@pytest.mark.parametrize("name", library())
+def test_no_equation_is_drawn_with_more_than_two_unknown_sizes(name):
+    for equation in draft(read(name)).equations:
+        terms = [t for side in equation.sides for t in side if t.direction_known]
+        assert sum(not t.size_known for t in terms) in (0, 2), equation
+
+
+def test_an_image_is_similar_to_its_link_and_turned_the_same_way():
+    sheet = draft(read("four-bar-coupler-point"))
+    link = next(n for n, k in sheet.structure.links.items() if len(k.points) == 3 and n != sheet.scene.frame.name)
+    names = [PointRef(p) for p in sheet.structure.links[link].points]
+    for diagram in ("velocity", "acceleration"):
+        a, b, c = (sheet.ends[diagram][n] for n in names)
+        p, q, r = (sheet.points[n] for n in names)
+        assert (r - p) / (q - p) == pytest.approx((c - a) / (b - a), rel=1e-9), diagram
+
+
+def test_a_position_is_found_with_compass_arcs_of_the_given_lengths():
+    sheet = draft(read("fourbar-150-500-300-400"))
+    radii = sorted(s.radius * sheet.scales.length for step in sheet.steps for s in step.strokes if isinstance(s, Arc))
+    assert [0.3, 0.5] == pytest.approx(radii)
+
+
+def test_a_direction_line_is_drawn_before_the_vector_on_it():
+    steps = draft(read(SIXBAR)).steps
+    ray = next(s.number for s in steps for x in s.strokes if isinstance(x, Ray) and str(x.symbol) == "v_B@3")
+    vector = next(s.number for s in steps if s.phrase.key == "found" and str(s.phrase.args[0]) == "v_B@3")
+    assert ray < vector
+
+
+def test_steps_are_numbered_from_one_without_gaps():
+    steps = draft(read(SIXBAR)).steps
+    assert list(range(1, len(steps) + 1)) == [s.number for s in steps]
+
+
+def test_what_is_asked_for_limits_what_is_drawn():
+    scene = read(SIXBAR)
+    few = draft(scene, find=[Symbol.parse("omega_3")])
+    assert {"6", "1", "2", "3"} == set(few.poses)
+    assert len(few.steps) < len(draft(scene).steps)
+
+
+def test_a_vector_asked_for_that_stands_in_no_equation_is_drawn():
+    sheet = draft(read("four-bar-coupler-point"), find=[Symbol.parse("an_P/B"), Symbol.parse("at_P/B")])
+    arm = sheet.points[PointRef("P")] - sheet.points[PointRef("B")]
+    assert 0 == pytest.approx(cross(_vector(sheet, "an_P/B").span, arm), abs=1e-9)
+    assert 0 == pytest.approx(dot(_vector(sheet, "at_P/B").span, arm), abs=1e-9)
+
+
+def test_a_zero_velocity_is_said_not_drawn_askew():
+    scene = read("slider-crank-offset")
+    still = replace(scene, drivers=(replace(scene.drivers[0], omega=0.0, alpha=0.0),))
+    sheet = draft(still)
+    assert any(note.key == "zero vector" for note in sheet.notes)
+    assert all(abs(end) < 1e-9 for end in sheet.ends["velocity"].values())
+
+
+def test_lines_that_meet_far_away_are_crossed_all_the_same_and_it_is_said():
+    scene = read("slider-crank-s50-e16-K1.2")
+    near = replace(scene, sheet=replace(scene.sheet, velocity_scale=0.05))
+    sheet = draft(near)
+    assert any(note.key == "off the sheet" for note in sheet.notes)
+    v_c = sheet.ends["velocity"][PointRef("C")] * sheet.scales.velocity
+    whole = draft(scene)
+    assert whole.ends["velocity"][PointRef("C")] * whole.scales.velocity == pytest.approx(v_c, rel=1e-12)
+
+
+def test_a_dead_point_is_refused_by_name():
+    mapping = {
+        "frame": {"points": {"A": [0, 0]}, "guides": {"h": {"through": [0, 0], "angle": 0}}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 100},
+            "2": {"points": ["B", "C"], "length": 100},
+            "3": {"points": ["C"], "on": "0.h"},
+        },
+        "driver": {"link": "1", "angle": 90, "omega": 1},
+    }
+    with pytest.raises(Unsolvable, match="2, 3"):
+        draft(read(mapping))
+
+
+CLASS_III = {
+    "title": "triad with a dyad before it",
+    "frame": {"points": {"A": [0, 0], "E": [100, 0], "F": [60, 120], "G": [-60, 0]}},
+    "links": {
+        "1": {"points": ["A", "B"], "length": 30},
+        "2": {"points": ["C", "D"], "length": 50, "at": {"H": {"from": ["C", "D"], "r": [40, 40], "side": "left"}}},
+        "3": {"points": ["B", "C"], "length": 45},
+        "4": {"points": ["E", "D"], "length": 50},
+        "5": {"points": ["F", "H"], "length": 50},
+        "6": {"points": ["B", "K"], "length": 60},
+        "7": {"points": ["G", "K"], "length": 60},
+    },
+    "driver": {"link": "1", "angle": 60, "omega": 1},
+    "sketch": {"C": [30, 65], "D": [80, 50], "H": [55, 90]},
+}
+
+
+def test_a_larger_group_stops_the_drawing_by_name_and_the_rest_is_drawn():
+    sheet = draft(read(CLASS_III))
+    assert sheet.stopped is not None
+    assert ("2, 3, 4, 5", 3) == sheet.stopped.args
+    assert PointRef("K") in sheet.ends["acceleration"]
+    assert PointRef("C") not in sheet.ends["velocity"]
+
+
+def test_the_motion_does_not_reach_past_its_limit():
+    with pytest.raises(Unsolvable, match=r"58\.997"):
+        draft(read("sixbar-AE70"), at={"1": 1.4})
+
+
+def test_a_parallelogram_goes_on_as_one_through_its_change_point():
+    mapping = {
+        "frame": {"points": {"A": [0, 0], "D": [100, 0]}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 40},
+            "2": {"points": ["B", "C"], "length": 100},
+            "3": {"points": ["D", "C"], "length": 40},
+        },
+        "driver": {"link": "1", "angle": 60, "omega": 1},
+    }
+    sheet = draft(read(mapping), at={"1": cmath.pi * 4 / 3})
+    assert sheet.poses["1"].axis == pytest.approx(sheet.poses["3"].axis, abs=1e-9)
+
+
+def test_whole_turns_are_left_out_of_the_way_to_a_position():
+    scene = read("sixbar-AE70")
+    once, thrice = (draft(scene, at={"1": 0.5 + turns * 2 * cmath.pi}) for turns in (0, 3))
+    assert once.points[PointRef("C")] == pytest.approx(thrice.points[PointRef("C")], abs=1e-9)
+
+
+def test_velocities_need_no_acceleration_polygon():
+    sheet = draft(read(SIXBAR), find=[Symbol.parse("v_D")])
+    assert {} == sheet.vectors("acceleration")
+    assert _vector(sheet, "v_D") == _vector(draft(read(SIXBAR)), "v_D")

@@ -1,0 +1,83 @@
+"""Larger groups on the drawing board: position by trial drawings, velocity by superposition."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import pytest
+
+from graphkin import solver
+from graphkin.construction.centres.motion import Worked, work
+from graphkin.construction.reduced_mechanism import clusters, stand_ins
+from graphkin.scene import read
+from graphkin.scene.model import Scene
+from graphkin.structure import analyse
+
+COUPLER_DRIVEN = {
+    "frame": {"points": {"A": [0, 0], "D": [400, 0]}},
+    "links": {
+        "1": {"points": ["A", "B"], "length": 150},
+        "2": {"points": ["B", "C"], "length": 500},
+        "3": {"points": ["C", "D"], "length": 300},
+    },
+    "driver": {"link": "2", "angle": 20, "omega": 2},
+    "sketch": {"B": [75, 130], "C": [550, 260]},
+}
+TRAMMEL = {
+    "frame": {"guides": {"x": {"through": [0, 0], "angle": 0}, "y": {"through": [0, 0], "angle": 90}}},
+    "links": {"1": {"points": ["P", "Q"], "length": 100}},
+    "pins": {"P": {"of": "1", "in": "0.x"}, "Q": {"of": "1", "in": "0.y"}},
+    "driver": {"link": "1", "angle": 130, "omega": 3},
+    "sketch": {"P": [60, 0], "Q": [0, 70]},
+}
+SCENES: dict[str, Any] = {
+    "single flier": "single-flier",
+    "double butterfly": "double-butterfly",
+    "coupler driven": COUPLER_DRIVEN,
+    "trammel": TRAMMEL,
+}
+
+
+def far_from_solver(scene: Scene, turned: float) -> tuple[float, float]:
+    """Largest error of a place (in the mechanism's size) and of an angular velocity (in the driver's)."""
+    driver = scene.drivers[0]
+    at = {driver.key: driver.values[0] + math.radians(turned)}
+    worked, motion = work(scene, at), solver.solve(scene, at)
+    mm = 1.0 / worked.sheet.scales.length
+    names = [link.name for link in scene.links]
+    place = max(abs(worked.sheet.poses[n].origin / mm - complex(motion.poses[n].z[0])) for n in names) / scene.size
+    rate = max(abs(worked.motions[n].omega - float(motion.omega(n)[0])) for n in names) / abs(driver.values[1])
+    return place, rate
+
+
+@pytest.mark.parametrize("turned", [0, 25, -4])
+@pytest.mark.parametrize("name", SCENES)
+def test_position_and_velocity_by_trial_agree_with_the_solver(name: str, turned: float) -> None:
+    assert max(far_from_solver(read(SCENES[name]), turned)) <= 1e-12
+
+
+@pytest.mark.parametrize("turned", [120, 200, 330])
+@pytest.mark.parametrize("name", ["single-flier", "double-butterfly"])
+def test_eight_bars_are_drawn_all_the_way_round(name: str, turned: float) -> None:
+    assert max(far_from_solver(read(name), turned)) <= 1e-12
+
+
+def test_a_mechanism_of_dyads_is_drawn_by_its_polygons() -> None:
+    assert "velocity polygon" == work(read("shaper-scheme-2")).way
+
+
+def test_what_the_superposition_keeps_is_named() -> None:
+    worked: Worked = work(read("single-flier"))
+    assert ("superposition", ("7",)) == (worked.way, worked.kept)
+
+
+def test_no_trial_driver_bears_the_name_of_a_real_one() -> None:
+    scene = read(COUPLER_DRIVEN)
+    (group,) = clusters(analyse(scene))
+    assert "2" not in {stand.driver for stand in stand_ins(scene, group)}
+
+
+def test_a_sheet_found_by_trial_shows_the_link_that_was_left_out() -> None:
+    worked = work(read("single-flier"))
+    assert set(worked.kept) <= set(worked.sheet.poses)

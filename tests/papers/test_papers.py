@@ -1,0 +1,195 @@
+from __future__ import annotations
+
+import csv
+import dataclasses
+import io
+import re
+import subprocess
+
+import pytest
+
+from graphkin.api import check, handout
+from graphkin.drawing.primitives import Line, Text, walk
+from graphkin.papers import prepare as papers
+from graphkin.papers.blocks import Picture, Steps, Table, laid_out
+from graphkin.papers.page import document_page
+from graphkin.papers.pictures import paper_of
+from graphkin.papers.problem import problem
+from graphkin.papers.solution import answer_key, key_rows, solution
+from graphkin.scene import library, read
+
+
+def _pictures(document):
+    return (block.drawing for block in laid_out(document.blocks) if isinstance(block, Picture))
+
+
+def _words(document) -> str:
+    return re.sub("<[^>]*>", "", document_page(document).split("</style>")[1])
+
+
+# -- problem sheet
+
+
+def test_the_problem_sheet_shows_nothing_that_is_asked(shaper):
+    texts = {t.id for d in _pictures(problem(shaper.lesson)) for t in walk(d.children) if isinstance(t, Text)}
+    assert not {
+        i for i in texts if i.startswith(("label-omega", "label-alpha", "label-v_", "label-a_", "label-direction"))
+    }
+
+
+def test_no_number_of_the_key_stands_on_the_problem_sheet(shaper):
+    words = _words(problem(shaper.lesson))
+    assert not [r.symbol for r in shaper.key if f"{r.on_paper:.2f}" in words]
+
+
+def test_the_problem_sheet_asks_for_every_bold_row_of_the_key(shaper):
+    table = next(b for b in laid_out(problem(shaper.lesson).blocks) if isinstance(b, Table))
+    assert sum(row.asked for row in shaper.key) == len(table.rows)
+
+
+def test_the_mechanism_of_the_problem_sheet_is_to_scale(shaper):
+    lesson = shaper.lesson
+    drawing = next(_pictures(problem(lesson)))
+    lengths = {round(abs(t.end - t.start), 2) for t in walk(drawing.children) if isinstance(t, Line)}
+    assert round(0.09 / lesson.sheet.scales.length, 2) in lengths  # the crank of 90 mm
+
+
+def test_what_is_asked_limits_the_problem_sheet():
+    made = handout("shaper-scheme-2", find=["v_C"], formats=("html",), positions=1)
+    assert ["v_C"] == [row.symbol for row in made.key if row.asked]
+
+
+@pytest.mark.parametrize("name", library())
+def test_every_figure_of_every_scene_fits_the_page(name):
+    assert [] == _too_large(handout(name, formats=("pdf",), language="both").lesson)
+
+
+def _too_large(lesson):
+    body = paper_of(lesson.sheet.scene).body
+    sizes = [(d.width, d.height) for paper in (problem, solution) for d in _pictures(paper(lesson))]
+    return [s for s in sizes if s[0] > body.width + 1e-6 or s[1] > body.height]
+
+
+def _on(name, **wishes):
+    scene = read(name)
+    return dataclasses.replace(scene, sheet=dataclasses.replace(scene.sheet, **wishes))
+
+
+PAPERS = [("A5", "portrait"), ("A4", "landscape"), ("A3", "portrait"), ("A3", "landscape"), ("A0", "portrait")]
+
+
+@pytest.mark.parametrize(("paper", "orientation"), PAPERS)
+@pytest.mark.parametrize("name", ["shaper-scheme-2", "sixbar-guide-40deg", "fourbar-150-500-300-400"])
+def test_every_figure_fits_the_paper_that_the_scene_wishes(name, paper, orientation):
+    scene = _on(name, paper=paper, orientation=orientation)
+    assert [] == _too_large(handout(scene, formats=("pdf",), language="both").lesson)
+
+
+def test_the_papers_have_the_size_that_the_scene_wishes():
+    made = handout(_on("slotter-75-150", paper="A3", orientation="landscape"), positions=1).files
+    for name in ("problem.pdf", "solution.pdf", "key.pdf"):
+        assert re.search(rb"/MediaBox ?\[0 0 1190\.5\d* 841\.8\d*\]", made[name]), name
+    for name in ("problem.html", "handout.html"):
+        assert b"size: 420mm 297mm" in made[name]
+
+
+def test_larger_paper_has_larger_figures_unless_the_scene_gives_the_scales():
+    small, large, own = (
+        handout(_on("fourbar-150-500-300-400", **wishes), formats=("pdf",)).lesson.sheet.scales.velocity
+        for wishes in ({}, {"paper": "A2"}, {"paper": "A2", "velocity_scale": 10.0})
+    )
+    assert small > large
+    assert 10e-3 == pytest.approx(own)
+
+
+# -- solution
+
+
+def test_the_solution_has_every_step_once_in_order(shaper):
+    blocks = laid_out(solution(shaper.lesson).blocks)
+    found = [item.number for one in blocks if isinstance(one, Steps) for item in one.items]
+    assert [s.number for s in shaper.lesson.sheet.steps] == found
+
+
+def test_the_last_figure_holds_more_than_the_first(shaper):
+    counts = [
+        sum(1 for _ in walk(d.children))
+        for d in _pictures(solution(shaper.lesson))
+        if d.title == "Acceleration polygon"
+    ]
+    assert counts == sorted(counts)
+    assert counts[0] < counts[-1]
+
+
+# -- key
+
+
+def test_the_key_gives_the_exact_values():
+    made = handout("sixbar-guide-40deg", formats=("pdf",))
+    exact = {row["symbol"]: row["exact"] for row in check("sixbar-guide-40deg").data["readings"]}
+    assert {r.symbol: pytest.approx(exact[r.symbol]) for r in made.key} == {r.symbol: r.exact for r in made.key}
+
+
+def test_a_pencil_drawing_at_the_scales_of_the_key_passes_it():
+    made = handout("fourbar-150-500-300-400", formats=("pdf",))
+    tolerance = {row.symbol: row.tolerance for row in made.key}
+    for seed in range(5):
+        drawn = check("fourbar-150-500-300-400", instrument="pencil", seed=seed)
+        errors = {r["symbol"]: r["error"] for r in drawn.data["readings"]}
+        assert [] == [s for s, most in tolerance.items() if errors[s] > 1.3 * most]
+
+
+def test_the_key_as_csv_has_its_rows(shaper):
+    rows = list(csv.DictReader(io.StringIO(shaper.files["key.csv"].decode())))
+    assert [r.symbol for r in key_rows(shaper.lesson)] == [r["symbol"] for r in rows]
+
+
+# -- PDF
+
+
+def _pdftotext(pdf: bytes, tmp_path) -> str:
+    path = tmp_path / "paper.pdf"
+    path.write_bytes(pdf)
+    try:
+        done = subprocess.run(["pdftotext", "-layout", str(path), "-"], capture_output=True, check=True)
+    except FileNotFoundError:
+        pytest.skip("pdftotext is not installed (Debian: poppler-utils)")
+    return done.stdout.decode()
+
+
+def test_a_typeset_paper_is_a4_and_bears_no_date(shaper):
+    for name in ("problem.pdf", "solution.pdf", "key.pdf"):
+        content = shaper.files[name]
+        assert re.search(rb"/MediaBox ?\[0 0 595\.27\d* 841\.8\d*\]", content), name
+        assert b"CreationDate" not in content
+
+
+def test_the_same_handout_has_the_same_bytes(shaper):
+    again = handout("shaper-scheme-2", language="en", positions=4)
+    assert shaper.files == again.files
+
+
+def test_pages_are_numbered(shaper, tmp_path):
+    text = _pdftotext(shaper.files["solution.pdf"], tmp_path)
+    assert "page 1 of" in text
+    assert "page 2 of" in text
+
+
+def test_chinese_words_are_text_in_the_pdf(six_bar, tmp_path):
+    text = _pdftotext(six_bar.files["solution.pdf"], tmp_path).replace(" ", "")
+    assert "哥氏加速度" in text
+    assert "第1页" in text
+
+
+def test_without_the_extra_the_figure_sheets_are_written_and_it_is_said(monkeypatch):
+    monkeypatch.setattr(papers, "can_typeset", lambda: False)
+    monkeypatch.setattr("graphkin.api.handouts.can_typeset", lambda: False)
+    made = handout("slotter-75-150", formats=("pdf",))
+    assert {"mechanism.pdf", "velocity.pdf", "acceleration.pdf", "key.csv"} == set(made.files)
+    assert ["no pdf extra"] == [note.key for note in made.notes]
+
+
+def test_where_the_drawing_stops_every_paper_says_what_is_not_on_it():
+    lesson = handout("single-flier", formats=("pdf",)).lesson
+    for paper in (problem, solution, answer_key):
+        assert "links 5, 6, 7, 8 are neither drawn nor asked for" in _words(paper(lesson))

@@ -1,0 +1,118 @@
+"""Driver values given from a dead point: right to rounding however near, the assembly as sketched."""
+
+from __future__ import annotations
+
+import math
+
+import mpmath as mp
+import numpy as np
+import pytest
+
+import graphkin
+from graphkin.errors import Unsolvable
+from graphkin.scene import read_text
+from graphkin.solver import Motion, solve, structure_of
+from graphkin.solver.dead_points import dead_points
+from tests import scenes
+
+# 3-4-5: rod and rocker are in line at crank 90 and -90, and fold at 0
+REACHING = """
+[frame]
+points = { A = [0, 0], D = [400, 0] }
+[links.1]
+points = ["A", "B"]
+length = 300
+[links.2]
+points = ["B", "C"]
+length = 200
+[links.3]
+points = ["C", "D"]
+length = 300
+[driver]
+link = "1"
+omega = 10
+from = "dead point"
+{driver}
+[sketch]
+C = {C}
+"""
+
+def at(driver: str, left: bool = True) -> Motion:
+    place = "[300, 280]" if left else "[200, 20]"
+    return solve(read_text(REACHING.replace("{driver}", driver).replace("{C}", place), "scene"))
+
+
+def rocker(distance: str) -> float:
+    """Rate of the rocker at crank 90 deg less a distance, to 50 digits."""
+    with mp.workdps(80):
+        a, b, c, d = mp.mpf("0.3"), mp.mpf("0.2"), mp.mpf("0.3"), mp.mpf("0.4")
+        q = mp.pi / 2 - mp.mpf(distance) * mp.pi / 180
+        pin = a * mp.expj(q)
+        line = pin - d
+        far = abs(line)
+        cosine = (c * c + far * far - b * b) / (2 * c * far)
+        # the rate of the length of the diagonal, then of the angle between it and the rocker
+        slip = (mp.conj(line) * (1j * 10 * pin)).real / far
+        turn = (mp.conj(line) * (1j * 10 * pin)).imag / far**2
+        bend = (1 / c - cosine / far) * slip / mp.sqrt(1 - cosine**2)
+        return float(turn + bend)
+
+
+@pytest.mark.parametrize("distance", ["1e-2", "1e-5", "1e-9", "1e-12"])
+def test_a_rate_is_right_to_rounding_at_any_distance(distance: str) -> None:
+    found = at(f"angle = -{distance}\nnear = 90").omega("3")[0]
+    assert found == pytest.approx(rocker(distance), rel=1e-14)
+
+
+def test_the_bound_stays_at_rounding() -> None:
+    motion = at("angle = -1e-12\nnear = 90")
+    assert motion.turning_bound[1][0] < 1e-14 * abs(motion.omega("3")[0])
+
+
+def test_the_assembly_is_the_sketched_one() -> None:
+    one, other = (at("angle = -1e-9\nnear = 90", left).omega("3")[0] for left in (True, False))
+    assert one * other < 0
+
+
+def test_a_motion_that_begins_has_positive_distances() -> None:
+    assert at("angle = 1e-9\nnear = -90").status[0] == "ok"
+
+
+def test_several_dead_points_are_listed() -> None:
+    with pytest.raises(Unsolvable, match=r"at 0 deg, 90 deg; write near"):
+        at("angle = -1e-9")
+
+
+def test_without_a_dead_point_it_says_so() -> None:
+    text = scenes.FOUR_BAR.replace("angle = 60", 'angle = 1e-9\nfrom = "dead point"')
+    with pytest.raises(Unsolvable, match="no dead point"):
+        solve(read_text(text, "crank-rocker"))
+
+
+def test_a_travel_may_count_from_a_dead_point() -> None:
+    # crank and rod in line at 170
+    text = scenes.PISTON.replace("travel = 150", 'travel = -1e-9\nfrom = "dead point"\nnear = 170')
+    motion = solve(read_text(text + "[sketch]\nB = [49, 1]\n", "scene"))
+    with mp.workdps(60):
+        s = mp.mpf(170) - mp.mpf("1e-9")
+        crank = mp.acos((50**2 + s**2 - 120**2) / (100 * s))
+    assert motion.angle("1")[0] == pytest.approx(float(crank), rel=1e-14)
+
+
+def test_dead_points_have_fifty_digits() -> None:
+    text = REACHING.replace("{driver}", "angle = -1e-9\nnear = 90").replace("{C}", "[300, 280]")
+    found = max(p.value for p in dead_points(structure_of(read_text(text, "scene"))))
+    with mp.workdps(60):
+        assert abs(mp.mpf(str(found)) - mp.pi / 2) < mp.mpf("1e-47")
+
+
+def test_a_dead_position_tells_where_the_dead_point_lies() -> None:
+    motion = solve(read_text(scenes.PARALLELOGRAM, "scene"), at={"1": math.radians(180)})
+    assert motion.why[0].endswith("it lies at 1 = 180 deg, 0 deg away")
+
+
+def test_every_public_function_takes_such_a_scene() -> None:
+    text = REACHING.replace("{driver}", "angle = -5\nnear = 90").replace("{C}", "[300, 280]")
+    given = graphkin.solve(read_text(text, "scene")).motion
+    assert np.degrees(given.scene.drivers[0].values[0]) == pytest.approx(85.0)
+    assert graphkin.check(read_text(text, "scene")).ok

@@ -1,0 +1,27 @@
+"""Random mechanisms that just have a dead point or just miss it (a hundred thousand: tests/bench/hazards.py)."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from graphkin.structure.assembly import Passage
+from tests.bench.hazards import Found, look
+
+
+@pytest.fixture(scope="module")
+def found() -> Found:
+    return look(5000, 11, each=8)
+
+
+def test_nothing_jumps_nor_is_left_open_nor_is_not_a_number(found: Found) -> None:
+    assert found.wrong == []
+
+
+def test_dead_points_are_among_them(found: Found) -> None:
+    assert found.dead > 20
+
+
+def test_a_jump_would_be_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Passage, "sign", lambda self, t: np.ones_like(t))
+    assert any("jumps" in x for x in look(4000, 11, each=6).wrong)

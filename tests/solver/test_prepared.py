@@ -1,0 +1,132 @@
+"""Mechanisms made ready: the same numbers one by one, in blocks, in chunks and compiled, and those of ``solve``."""
+
+from __future__ import annotations
+
+from importlib.util import find_spec
+
+import numpy as np
+import pytest
+
+from graphkin.errors import CallError
+from graphkin.scene import read, read_text
+from graphkin.solver import Prepared, prepare, solve
+from graphkin.solver.compiled import kernel_text
+from tests import scenes
+
+ASKED = ("C", "v_C", "a_C", "omega_3", "alpha_3")
+
+
+def four_bar() -> Prepared:
+    return prepare(read_text(scenes.FOUR_BAR, "four-bar"), ASKED)
+
+
+def test_the_columns_are_those_of_solve() -> None:
+    columns, _ = four_bar().sweep(50)
+    motion = solve(read_text(scenes.FOUR_BAR, "four-bar"), sweep=50)
+    expected = [
+        x
+        for z in (motion.position("C"), motion.velocity("C"), motion.acceleration("C"))
+        for x in (z.real, z.imag)
+    ] + [motion.omega("3"), motion.alpha("3")]
+    for mine, theirs in zip(columns, expected, strict=True):
+        assert mine == pytest.approx(theirs, abs=1e-14 * np.abs(expected).max())
+
+
+def test_each_vector_has_two_columns() -> None:
+    assert four_bar().names[:4] == ("C.x", "C.y", "v_C.x", "v_C.y")
+
+
+def test_one_position_in_plain_floats_is_the_same_to_the_last_bit() -> None:
+    ready = four_bar()
+    values = np.linspace(-3, 3, 40)
+    columns, _ = ready.columns(values)
+    assert [ready.at(float(v)) for v in values] == [tuple(row) for row in columns.T.tolist()]
+
+
+def test_chunks_are_the_sweep_in_pieces() -> None:
+    ready = four_bar()
+    whole, _ = ready.sweep(1000)
+    pieces = np.hstack([columns.copy() for _, columns, _ in ready.chunks(1000, 300)])
+    assert pieces == pytest.approx(whole, abs=1e-14 * np.abs(whole).max())
+
+
+@pytest.mark.parametrize("n", [1999, 2000, 50000])
+def test_many_even_steps_are_as_exact_as_single_ones(n: int) -> None:
+    ready = four_bar()
+    columns, _ = ready.sweep(n)
+    single, _ = ready.columns(ready.values(n))
+    assert np.abs(columns - single).max() < 2e-14 * np.abs(single).max()
+
+
+@pytest.mark.skipif(find_spec("numba") is None, reason="the extra fast is not installed")
+def test_compiled_columns_are_those_of_numpy() -> None:
+    ready = four_bar()
+    slow, _ = ready.sweep(200_000)
+    fast, _ = ready.sweep(200_000, fast=True)
+    assert np.abs(fast - slow).max() < 2e-14 * np.abs(slow).max()
+
+
+MANY = ("B", "C", "B@3", "v_B", "v_C", "a_B", "a_C", "v_C/B", "omega_2", "omega_3", "alpha_2", "alpha_3")
+
+
+@pytest.mark.skipif(find_spec("numba") is None, reason="the extra fast is not installed")
+def test_many_compiled_columns_are_those_of_numpy() -> None:
+    ready = prepare(read_text(scenes.FOUR_BAR, "four-bar"), MANY)
+    slow, _ = ready.sweep(120_000)
+    fast, _ = ready.sweep(120_000, fast=True)
+    assert np.abs(fast - slow).max() < 2e-14 * np.abs(slow).max()
+
+
+def test_no_compiled_loop_fills_more_columns_than_can_be_told_apart() -> None:
+    ready = prepare(read_text(scenes.FOUR_BAR, "four-bar"), MANY)
+    loops = kernel_text(ready._code, True, True, len(ready.names), 1e-7).split("for k in range(m)")[1:]
+    assert [loop.count("[k] = ") - loop.count("good[k] = ") for loop in loops] == [14, 6]
+
+
+def test_positions_out_of_reach_are_marked() -> None:
+    _, ok = prepare(read("sixbar-AE70"), ("v_C",)).columns(np.radians([50, 58.9, 59.1, 180, 301.1]))
+    assert ok.tolist() == [True, True, False, False, True]
+
+
+def test_positions_out_of_reach_have_no_numbers_one_by_one() -> None:
+    assert prepare(read("sixbar-AE70"), ("v_C",)).at(3.0) is None
+
+
+def test_a_change_point_is_marked_as_dead() -> None:
+    _, ok = prepare(read_text(scenes.PARALLELOGRAM, "p"), ("omega_3",)).columns(np.radians([170, 180, 190]))
+    assert ok.tolist() == [True, False, True]
+
+
+def test_a_parallelogram_stays_one_through_its_change_points() -> None:
+    columns, ok = prepare(read_text(scenes.PARALLELOGRAM, "p"), ("omega_2",)).sweep(77)
+    assert np.abs(columns[0, ok]).max() < 1e-9
+
+
+def test_no_column_holds_what_is_not_a_number() -> None:
+    columns, _ = prepare(read_text(scenes.PARALLELOGRAM, "p"), ("a_C", "alpha_2")).columns(np.radians([0, 90, 180]))
+    assert np.isfinite(columns).all()
+
+
+def test_a_travel_is_that_of_solve() -> None:
+    columns, _ = prepare(read("shaper-scheme-2"), ("s_3/4", "theta_4")).sweep(10)
+    motion = solve(read("shaper-scheme-2"), sweep=10)
+    assert columns[0] == pytest.approx(motion.slide("3/4").travel, abs=1e-15)
+
+
+def test_a_driven_slide_is_swept_inside_its_range() -> None:
+    ready = prepare(read_text(scenes.CYLINDER, "c"), ("v_B",))
+    assert ready.values(10) == pytest.approx(0.1 + 0.4 * (np.arange(10) + 0.5) / 10, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("name", "what"),
+    [("Q", "Q"), ("v_Q", "Q"), ("omega_9", "9"), ("s_1/2", "1/2"), ("an_C/B", "an_C/B"), ("nonsense_3", "nonsense")],
+)
+def test_a_name_that_names_nothing_is_refused(name: str, what: str) -> None:
+    with pytest.raises(CallError, match=what):
+        prepare(read_text(scenes.FOUR_BAR, "four-bar"), (name,))
+
+
+def test_a_larger_group_is_refused_by_name() -> None:
+    with pytest.raises(CallError, match="no closed form"):
+        prepare(read_text(scenes.TRIAD, "t"), ("v_C",))

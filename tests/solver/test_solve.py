@@ -1,0 +1,131 @@
+"""Whole mechanisms: every joint closed, rates equal to differences in time, the same motion whatever drives it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from graphkin.scene import library, read, read_text
+from graphkin.scene.model import AngleDriver, Scene, SlideDriver
+from graphkin.solver import Motion, solve
+from tests import scenes
+
+from .checks import closure, differences, slowed
+
+SOLVABLE = (
+    "FOUR_BAR",
+    "PARALLELOGRAM",
+    "DOUBLE_PARALLELOGRAM",
+    "OFFSET_SLIDER",
+    "OFFSET_SWING",
+    "GUIDE_OVER_CRANK",
+    "TWO_SLOTS",
+    "OLDHAM",
+    "TRAMMEL",
+    "CYLINDER",
+    "ARM",
+    "FIVE_BAR",
+    "FLOATING",
+    "TRIAD",
+    "EQUAL_GUIDE",
+)
+
+
+def scene(name: str) -> Scene:
+    return read_text(getattr(scenes, name), name) if name.isupper() else read(name)
+
+
+@pytest.mark.parametrize("name", SOLVABLE)
+def test_every_joint_is_closed(name: str) -> None:
+    assert closure(solve(scene(name))) < 1e-14
+
+
+@pytest.mark.parametrize("name", library())
+def test_every_joint_of_the_scenes_that_come_along_is_closed(name: str) -> None:
+    assert closure(solve(scene(name))) < 1e-14
+
+
+@pytest.mark.parametrize("name", SOLVABLE)
+def test_velocity_and_acceleration_are_the_rates_of_position(name: str) -> None:
+    assert differences(slowed(scene(name), 0.1)) < 3e-6
+
+
+KINDS = {
+    "FOUR_BAR": "RRR",
+    "OFFSET_SLIDER": "RRP",
+    "GUIDE_OVER_CRANK": "RRP",
+    "OFFSET_SWING": "RPR",
+    "TWO_SLOTS": "PRP",
+    "OLDHAM": "RPP",
+    "CYLINDER": "RRR",
+}
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_the_kind_of_the_dyad_is(name: str) -> None:
+    assert [KINDS[name]] == [g.kind for g in solve(scene(name)).structure.groups]
+
+
+# the same mechanism with another link or pair driven in the way it was found to move
+REDRIVEN = [
+    ("FOUR_BAR", "3", "0"), ("FOUR_BAR", "2", "0"), ("FOUR_BAR", "2", "1"), ("FOUR_BAR", "1", "2"),
+    ("FOUR_BAR", "3", "2"), ("FOUR_BAR", "1", "3"), ("FIVE_BAR", "2", "3"), ("CYLINDER", "1", "0"),
+    ("CYLINDER", "2", "0"), ("CYLINDER", "3", "1"), ("OFFSET_SLIDER", "2", "0"), ("OFFSET_SLIDER", "3/0", ""),
+    ("OFFSET_SLIDER", "1", "3"), ("OFFSET_SWING", "3", "0"), ("OFFSET_SWING", "2/3", ""), ("OFFSET_SWING", "3", "1"),
+    ("GUIDE_OVER_CRANK", "1/5", ""), ("GUIDE_OVER_CRANK", "2", "0"), ("TWO_SLOTS", "P/1", ""),
+    ("TWO_SLOTS", "2/0", ""), ("OLDHAM", "2/1", ""), ("OLDHAM", "3", "0"), ("TRAMMEL", "P/0", ""),
+    ("TRIAD", "3", "0"), ("TRIAD", "5", "0"), ("TRIAD", "4", "3"), ("sixbar-guide-40deg", "4/3", ""),
+    ("sixbar-420rpm", "4", "1"),
+]  # fmt: skip
+
+
+def redriven(motion: Motion, key: str, base: str) -> Scene:
+    """The scene with its first driver replaced, and every point sketched where the motion found it."""
+    old = motion.scene
+    if "/" in key:
+        s = motion.slide(key)
+        new: AngleDriver | SlideDriver = SlideDriver(
+            key, float(s.travel[0]), float(s.velocity[0]), float(s.acceleration[0])
+        )
+    else:
+        rates = [float(f(key)[0] - f(base)[0]) for f in (motion.angle, motion.omega, motion.alpha)]
+        new = AngleDriver(key, base, *rates)
+    places = {p: complex(motion.position(p)[0]) for p in old.holders if p not in old.frame.points}
+    return replace(old, drivers=(new, *old.drivers[1:]), sketch=places, drawn={})
+
+
+@pytest.mark.parametrize(("name", "key", "base"), REDRIVEN)
+def test_the_motion_is_the_same_whatever_drives_it(name: str, key: str, base: str) -> None:
+    expected = solve(scene(name))
+    found = solve(redriven(expected, key, base or expected.scene.frame.name))
+    worst = 0.0
+    for link in expected.scene.links:
+        one, two = expected.poses[link.name], found.poses[link.name]
+        worst = max(worst, abs(one.z - two.z)[0], abs(one.u - two.u)[0])
+        for rate in ("v", "omega", "a", "alpha"):
+            most = max(abs(getattr(expected.poses[k.name], rate)[0]) for k in expected.scene.links) or 1.0
+            worst = max(worst, abs(getattr(one, rate) - getattr(two, rate))[0] / most)
+    assert worst < 1e-11
+
+
+def test_an_arm_adds_the_angles_of_its_relative_driver() -> None:
+    assert np.degrees(solve(scene("ARM")).angle("2")[0]) == pytest.approx(90.0, abs=1e-12)
+
+
+def test_two_pins_in_square_slots_hold_a_trammel() -> None:
+    # E lies half a bar beyond Q: x = 50 cos, y = 150 sin of the bar's angle
+    angle = np.radians(130.0)
+    expected = complex(0.05 * np.cos(angle), 0.15 * np.sin(angle))
+    assert expected == pytest.approx(solve(scene("TRAMMEL")).position("E")[0], abs=1e-15)
+
+
+def test_a_cylinder_holds_its_ends_at_its_travel() -> None:
+    motion = solve(scene("CYLINDER"))
+    assert abs(motion.position("B") - motion.position("C"))[0] == pytest.approx(0.25, rel=1e-14)
+
+
+def test_a_redundant_link_is_given_its_motion() -> None:
+    motion = solve(scene("DOUBLE_PARALLELOGRAM"))
+    assert motion.alpha("4")[0] == pytest.approx(motion.alpha("1")[0], rel=1e-13)

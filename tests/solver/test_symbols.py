@@ -1,0 +1,117 @@
+"""Quantities by their symbols: the parts of an acceleration add up and point the right way."""
+
+from __future__ import annotations
+
+import pytest
+
+from graphkin.errors import CallError
+from graphkin.scene import read, read_text
+from graphkin.scene.symbol import Symbol
+from graphkin.solver import Motion, solve
+from tests import scenes
+
+
+@pytest.fixture(scope="module")
+def sixbar() -> Motion:
+    return solve(read("sixbar-guide-40deg"))
+
+
+@pytest.fixture(scope="module")
+def fourbar() -> Motion:
+    return solve(read_text(scenes.FOUR_BAR, "scene"))
+
+
+def value(motion: Motion, symbol: str) -> complex:
+    return complex(motion.value(Symbol.parse(symbol))[0])
+
+
+EXACT = {"v_B": 1220, "v_B@3": 1075.78, "v_B@3/B@2": 575.41,
+         "an_B@3": 3032.76, "at_B@3": 2509.78, "a_B@3": 3936.58,
+         "ak_B@3/B@2": 3244.28, "ar_B@3/B@2": 7725.06, "v_D@3": 472.42, "v_D": 482.722,
+         "a_D@3": 1728.71, "a_D": 554.668,
+         "ak_D/D@3": 559.32, "ar_D/D@3": 1217.82, "v_D/D@3": 99.20}  # fmt: skip
+
+
+@pytest.mark.parametrize("symbol", EXACT)
+def test_the_worked_example_gives(sixbar: Motion, symbol: str) -> None:
+    assert 1000 * abs(value(sixbar, symbol)) == pytest.approx(EXACT[symbol], rel=1e-5)
+
+
+def test_the_bar_of_the_worked_example_turns_clockwise(sixbar: Motion) -> None:
+    assert value(sixbar, "omega_3") == pytest.approx(-2.81912, abs=5e-6)
+
+
+def test_coriolis_and_sliding_part_make_the_relative_acceleration(sixbar: Motion) -> None:
+    parts = value(sixbar, "ak_B@3/B@2") + value(sixbar, "ar_B@3/B@2")
+    assert parts == pytest.approx(value(sixbar, "a_B@3/B@2"), rel=1e-14)
+
+
+def test_the_sliding_part_lies_along_the_guide(sixbar: Motion) -> None:
+    u = sixbar.poses["3"].u[0]
+    assert (value(sixbar, "ar_B@3/B@2") * u.conjugate()).imag == pytest.approx(0, abs=1e-14)
+
+
+def test_coriolis_changes_its_sign_with_the_order_of_the_points(sixbar: Motion) -> None:
+    assert value(sixbar, "ak_B@3/B@2") == pytest.approx(-value(sixbar, "ak_B@2/B@3"), rel=1e-15)
+
+
+def test_coriolis_is_the_relative_velocity_turned_with_the_guide(sixbar: Motion) -> None:
+    # the guide turns clockwise: the relative velocity turned by 90 deg clockwise
+    ratio = value(sixbar, "ak_B@3/B@2") / value(sixbar, "v_B@3/B@2")
+    assert ratio == pytest.approx(-2j * 2.81912, rel=1e-5)
+
+
+def test_the_name_of_the_pin_means_any_link_that_has_it(sixbar: Motion) -> None:
+    assert value(sixbar, "ak_B@3/B@1") == value(sixbar, "ak_B@3/B")
+
+
+def test_normal_and_tangential_part_make_the_relative_acceleration(fourbar: Motion) -> None:
+    parts = value(fourbar, "an_C/B") + value(fourbar, "at_C/B")
+    assert parts == pytest.approx(value(fourbar, "a_C/B"), rel=1e-13)
+
+
+def test_the_normal_part_points_from_the_point_to_the_other(fourbar: Motion) -> None:
+    arm = fourbar.position("B")[0] - fourbar.position("C")[0]
+    ratio = value(fourbar, "an_C/B") / arm
+    assert ratio == pytest.approx(fourbar.omega("2")[0] ** 2, rel=1e-13)
+
+
+def test_the_tangential_part_is_turned_with_alpha(fourbar: Motion) -> None:
+    arm = fourbar.position("C")[0] - fourbar.position("B")[0]
+    assert value(fourbar, "at_C/B") / arm == pytest.approx(1j * fourbar.alpha("2")[0], rel=1e-13)
+
+
+def test_parts_of_one_point_are_about_the_fixed_pivot_of_its_link(fourbar: Motion) -> None:
+    assert value(fourbar, "an_C") + value(fourbar, "at_C") == pytest.approx(value(fourbar, "a_C"), rel=1e-13)
+
+
+def test_parts_of_a_coincident_point_are_about_the_pivot_of_that_link(sixbar: Motion) -> None:
+    assert value(sixbar, "an_B@3") == value(sixbar, "an_B@3/C")
+
+
+IMPOSSIBLE = {"v_Q": "point", "omega_9": "link", "an_E/D": "one link", "an_E": "fixed point", "ak_C/B": "coincident",
+              "v_B@8": "link"}  # fmt: skip
+
+
+@pytest.mark.parametrize("symbol", IMPOSSIBLE)
+def test_a_symbol_that_names_nothing_is_refused(fourbar: Motion, symbol: str) -> None:
+    with pytest.raises(CallError, match=IMPOSSIBLE[symbol]):
+        value(fourbar, symbol)
+
+
+RELATIVE = """
+frame.points = { A = [0, 0], D = [200, 0] }
+links.1 = { points = ["A", "B"], length = 100 }
+links.2 = { points = ["B", "C"], length = 150 }
+links.3 = { points = ["D", "C"], length = 120 }
+driver = { link = "2", relative_to = "1", angle = -50, omega = 2, alpha = 0.5 }
+sketch = { B = [60, 80], C = [190, 120] }
+"""
+
+
+def test_a_link_seen_from_the_link_it_is_hinged_to_turns_about_the_hinge_and_has_a_coriolis_term() -> None:
+    motion = solve(read_text(RELATIVE, "scene"))
+    an, at, ak = (value(motion, f"{kind}_C@2/C@1") for kind in ("an", "at", "ak"))
+    assert abs(an) == pytest.approx(2.0**2 * 0.150, rel=1e-12)
+    assert abs(at) == pytest.approx(0.5 * 0.150, rel=1e-12)
+    assert an + at + ak == pytest.approx(value(motion, "a_C@2/C@1"), rel=1e-12)
