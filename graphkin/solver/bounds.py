@@ -38,20 +38,39 @@ class LinkBounds:
         acceleration (m/s2), angle (rad), its rate (rad/s) and second rate (rad/s2)."""
         most: list[Real] = []
         for link in links:
-            own = self._of_link(link)
+            own = self.of_link(link)
             most = [fmax(a, b) for a, b in zip(own, most, strict=True)] if most else list(own)
         return most or [self.graph.const(0)] * 6
 
-    def _of_link(self, link: str) -> tuple[Real, ...]:
+    def of_link(self, link: str) -> tuple[Real, ...]:
+        """The same for one link."""
         pose = self.program.poses[link]
-        doubt = self._doubt(link)
-        z, u, v, omega, a, alpha = doubt.z, doubt.u, doubt.v, doubt.omega, doubt.a, doubt.alpha
         r = self.graph.param(("reach", link))
         for slide in self.structure.slides:
             # the coincident point under what slides on this link
             if slide.b == link and slide.a in self.program.poses:
                 away = self.program.poses[slide.a].z - pose.z
                 r = fmax(abs(away.real) + abs(away.imag), r)
+        return self._within(link, r)
+
+    def under(self, link: str, own: tuple[Real, ...], arm: Vec, moved: Real) -> tuple[Real, Real]:
+        """Velocity and acceleration of the point of a link at the end of an arm, from the bounds of its own points; the
+        end may be off by ``moved``."""
+        place, speed, push, _, omega, alpha = own
+        pose, far = self.program.poses[link], abs(arm.real) + abs(arm.imag)
+        spin, turning = abs(pose.omega) + omega, abs(pose.alpha) + alpha
+        off = moved + place + 8.0 * self.unit * far
+        # |d(w r)| <= dw r + w dr, and the same with the square of w beside alpha
+        return (
+            speed + far * omega + spin * off,
+            push + far * (alpha + 2.0 * (spin * omega)) + (turning + spin * spin) * off,
+        )
+
+    def _within(self, link: str, r: Real) -> tuple[Real, ...]:
+        """The same for points of a link within a radius."""
+        pose = self.program.poses[link]
+        doubt = self._doubt(link)
+        z, u, v, omega, a, alpha = doubt.z, doubt.u, doubt.v, doubt.omega, doubt.a, doubt.alpha
         spin, bend = abs(pose.omega), abs(pose.alpha) + pose.omega * pose.omega
         place = abs(pose.z.real) + abs(pose.z.imag) + r
         speed = abs(pose.v.real) + abs(pose.v.imag) + spin * r

@@ -10,21 +10,22 @@ from typing import Any
 
 import numpy as np
 
-from graphkin.errors import CallError, Problem
-from graphkin.scene.model import AngleDriver, Scene
 from graphkin.solver.assemblies import choose_forms, own_values
 from graphkin.solver.compiled import LONG, Kernel
+from graphkin.solver.findings import structure_of
 from graphkin.solver.dyads import Solved
 from graphkin.solver.engine import SINGULAR, positions
-from graphkin.solver.findings import structure_of
+from graphkin.solver.findings import singular
 from graphkin.solver.formula import Real
-from graphkin.solver.joints import turned
+from graphkin.solver.joints import Drive, turned
 from graphkin.solver.path import Path, follow_path
 from graphkin.solver.pose import Array
-from graphkin.solver.program import Fitted, program_of
-from graphkin.solver.quantities import formulas
+from graphkin.solver.program import FIELDS, GIVEN, Fitted, program_of
+from graphkin.solver.quantities import Units, bounds, formulas
 from graphkin.solver.rendering import Code
+from graphkin.solver.rounding import UNIT
 from graphkin.solver.way import GivenValues, UniformGrid, quarter
+from graphkin.scene.model import AngleDriver, Scene
 from graphkin.structure import Cluster, Structure
 
 __all__ = ["Prepared", "prepare"]
@@ -32,6 +33,8 @@ __all__ = ["Prepared", "prepare"]
 CHUNK = 16384
 """Positions in a piece, so that all columns of one stay in the cache."""
 FAR = 4.0
+PRODUCTS = 4
+"""Roundings in the cosine and sine of an angle, those of many even steps included."""
 CLEAR = 0.2
 """Where no sine at the nodes of a path is less than this, none between them is near zero."""
 
@@ -41,6 +44,7 @@ class Prepared:
     """A mechanism with its assembly followed over the range of its first driver, and the code for what is asked.
 
     names : of the columns, two for a vector ("v_B.x", "v_B.y")
+    units : what one metre and one radian are in the units of the columns
     """
 
     structure: Structure
@@ -51,6 +55,12 @@ class Prepared:
     wide: float
     asked: tuple[Real, ...]
     fitted: Fitted
+    units: Units = (1.0, 1.0)
+
+    @cached_property
+    def _together(self) -> bool:
+        """Whether there is a larger group, whose poses are found by Newton's method before the formulas are used."""
+        return any(isinstance(e, Cluster) for e in self.structure.elements)
 
     # the way of the driver
 
@@ -67,7 +77,7 @@ class Prepared:
     @cached_property
     def _even(self) -> bool:
         """Whether every position of a turn is far from a singular one, so that none needs to be looked at."""
-        if self.ahead.limit is not None or len(self.ahead.flips):
+        if self.ahead.limit is not None or len(self.ahead.flips) or self._together:
             return False
         t = self.ahead.nodes
         state = positions(self.structure, self.ahead.drive(t), self.ahead.form(t), rates=False)
@@ -76,9 +86,9 @@ class Prepared:
     @cached_property
     def _signs(self) -> dict[Any, float] | None:
         """The assembly of each group where it is the same everywhere."""
-        if len(self.ahead.flips) or len(self.behind.flips):
+        if len(self.ahead.flips) or len(self.behind.flips) or self._together:
             return None
-        return {("sign", i): float(form[0]) for i, form in self.ahead.form(np.zeros(1)).items()}
+        return {("sign", i): float(form[0]) for i, form in self.ahead.form(np.zeros(1)).items() if form.ndim == 1}
 
     def _offset(self, value: Array) -> tuple[Array, Array]:
         """How far values of the first driver are from the start in its sense, and which of them the motion reaches."""
@@ -101,11 +111,15 @@ class Prepared:
 
     @cached_property
     def _held(self) -> dict[Any, float]:
-        """The drivers but the first."""
-        held: dict[Any, float] = {}
+        """Units, rates of the drivers, values of those but the first; and how far each of these may be off."""
+        held: dict[Any, float] = {("per metre",): self.units[0], ("per radian",): self.units[1]}
         for k, driver in enumerate(self.structure.scene.drivers):
             _, rate, second = driver.values
             held["rate", k], held["second", k] = rate, second
+            held["error", "rate", k], held["error", "second", k] = GIVEN * abs(rate), GIVEN * abs(second)
+            far = abs(self.start[k]) + (0.0 if k else abs(self.wide))
+            held["error", "angle", k] = GIVEN * far + PRODUCTS * UNIT
+            held["error", "travel", k] = GIVEN * far
             if k:
                 u = complex(turned(self.start[k : k + 1])[0])
                 held["cos", k], held["sin", k], held["travel", k] = u.real, u.imag, float(self.start[k])
@@ -141,6 +155,8 @@ class Prepared:
 
     @cached_property
     def _one(self) -> Callable[[float], tuple[float, ...] | None]:
+        if self._together:
+            return self._one_together
         code = Code(self.fitted.program.graph, (*self.asked, *self._sines), self._fixed)
         function, params, names, count = code.floats, self._given(code), code.inputs, len(self.asked)
         everywhere, steady = self._whole, self._signs is not None
@@ -167,17 +183,44 @@ class Prepared:
 
         return one
 
+    def _one_together(self, value: float) -> tuple[float, ...] | None:
+        columns, ok = self.columns(np.array([value]))
+        return tuple(columns[:, 0].tolist()) if ok[0] else None
+
     @property
     def _whole(self) -> bool:
         return self.turns and self.ahead.limit is None
 
-    def _signs_at(self, value: Array) -> dict[Any, Array]:
+    def _forms_at(self, value: Array) -> dict[int, Array]:
+        """The form of each group at values of the first driver; beyond its reach that at its end."""
         offset, _ = self._offset(value)
         ahead = offset >= 0
         t = np.clip(offset / abs(self.wide), 0, self.ahead.reach)
         s = np.clip(-offset / abs(self.wide), 0, self.behind.reach)
         one, two = self.ahead.form(t), self.behind.form(s)
-        return {("sign", i): np.where(ahead, one[i], two[i]) for i in one}
+        return {i: np.where(ahead.reshape(-1, *[1] * (form.ndim - 1)), form, two[i]) for i, form in one.items()}
+
+    def _signs_at(self, value: Array) -> dict[Any, Array]:
+        return {("sign", i): form for i, form in self._forms_at(value).items() if form.ndim == 1}
+
+    def _by_newton(self, value: Array, ok: Array) -> dict[Any, Array]:
+        """Inputs of the formulas that come from larger groups, and the bounds of all; positions that are in none of
+        their assemblies are no longer ok."""
+        drivers = np.repeat(self.start[None], len(value), axis=0)
+        # positions out of reach are computed at one that is not
+        drivers[:, 0] = np.where(ok, value, value[int(np.argmax(ok))])
+        forms = self._forms_at(drivers[:, 0])
+        state = positions(self.structure, Drive.at(self.structure, drivers), forms)
+        for _, dead in singular(self.structure, state, len(value)):
+            ok &= ~dead
+        given: dict[Any, Array] = {}
+        for name in (n for e in self.structure.elements if isinstance(e, Cluster) for n in e.members):
+            for field in FIELDS:
+                part = np.broadcast_to(getattr(state.poses[name], field), value.shape)
+                given["pose", name, field, "x"] = np.ascontiguousarray(part.real)
+                given["pose", name, field, "y"] = np.ascontiguousarray(part.imag)
+        assert state.bounds is not None
+        return given | {("bound", k): np.broadcast_to(b, value.shape) for k, b in enumerate(state.bounds)}
 
     # many
 
@@ -225,7 +268,7 @@ class Prepared:
 
     def _all(self, way: GivenValues | UniformGrid, out: Array, fast: bool) -> Array:
         n = len(way)
-        if fast:
+        if fast and not self._together:
             return self._compiled(way, out)
         if n <= CHUNK:
             return self._arrays(way, out)
@@ -249,7 +292,11 @@ class Prepared:
     def _arrays(self, way: GivenValues | UniformGrid, out: Array) -> Array:
         n, count = len(way), len(self.asked)
         ok = np.ones(n, dtype=bool) if self._whole else self._offset(way.values)[1]
+        if not ok.any():
+            out[...] = 0.0
+            return ok
         given: dict[Any, Array] = {} if self._signs is not None else self._signs_at(way.values)
+        given |= self._by_newton(way.values, ok) if self._together else {}
         sines = np.empty((len(self._code.asked) - count, n))
         if self.turns:
             given["cos", 0], given["sin", 0] = way.turn
@@ -300,28 +347,29 @@ def _every(n: int) -> Array:
     return np.ndarray((n,), np.bool_, b"\1", 0, (0,))
 
 
-def prepare(scene: Scene | Structure, asked: Sequence[str]) -> Prepared:
+def prepare(
+    scene: Scene | Structure, asked: Sequence[str], units: Units = (1.0, 1.0), bounded: bool = False
+) -> Prepared:
     """Make a mechanism ready for many positions.
 
     Parameters
     ----------
     scene : a scene, or its structure
     asked : columns by name, as in ``graphkin.solver.quantities.formulas``: "B", "v_B", "a_B@3", "omega_3", ...
+    units : what one metre and one radian are in the units of the columns
+    bounded : after all others a column for each name, of how far rounding may have moved its values
 
     Raises
     ------
-    CallError : a name that names nothing; a mechanism with a larger group, which has no closed form
+    CallError : a name that names nothing
     Unsolvable, SceneError : as for ``solve``
     """
     structure = structure_of(scene) if isinstance(scene, Scene) else scene
     scene = structure.scene
-    for element in structure.elements:
-        if isinstance(element, Cluster):
-            raise CallError(
-                Problem(f"links {', '.join(element.links)}", "have no closed form", "solve such a mechanism with solve")
-            )
     fitted = program_of(structure, tuple(d.values[2] != 0 for d in scene.drivers))
-    found = formulas(fitted.program, structure, asked)
+    found = formulas(fitted.program, structure, asked, units)
+    names = tuple(found)
+    formed = [*found.values(), *(bounds(fitted.program, structure, asked, units).values() if bounded else ())]
     forms = choose_forms(structure)
     start = own_values(scene)
     first = scene.drivers[0]
@@ -332,4 +380,4 @@ def prepare(scene: Scene | Structure, asked: Sequence[str]) -> Prepared:
     ahead = follow_path(structure, forms, start, start + step)
     whole = turning and ahead.limit is None
     behind = ahead if whole else follow_path(structure, forms, start, start - step)
-    return Prepared(structure, tuple(found), start, ahead, behind, wide, tuple(found.values()), fitted)
+    return Prepared(structure, names, start, ahead, behind, wide, tuple(formed), fitted, units)

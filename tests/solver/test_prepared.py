@@ -127,6 +127,10 @@ def test_a_name_that_names_nothing_is_refused(name: str, what: str) -> None:
         prepare(read_text(scenes.FOUR_BAR, "four-bar"), (name,))
 
 
-def test_a_larger_group_is_refused_by_name() -> None:
-    with pytest.raises(CallError, match="no closed form"):
-        prepare(read_text(scenes.TRIAD, "t"), ("v_C",))
+def test_a_larger_group_is_solved_as_by_solve() -> None:
+    scene = read("double-butterfly")
+    columns, ok = prepare(scene, ("a_E", "omega_5")).sweep(4)
+    motion = solve(scene, sweep=4)
+    expected = [motion.acceleration("E").real, motion.acceleration("E").imag, motion.omega("5")]
+    assert ok.all()
+    assert columns == pytest.approx(np.array(expected), abs=1e-11 * np.abs(expected).max())
