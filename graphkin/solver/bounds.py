@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from graphkin.scene.model import AngleDriver
-from graphkin.solver.formula import Real, Vec, fmax, root
+from graphkin.solver.expressions import Real, Vec, fmax, root
 from graphkin.solver.frame_errors import Doubt, carried, of_dyad, seen, within
 from graphkin.solver.joints import body_shape
 from graphkin.solver.pose import Pose

@@ -17,8 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.errors import CallError, Problem
-from graphkin.solver.formula import ExpressionGraph, Real, operands
-from graphkin.solver.rendering import Code
+from graphkin.solver.code import Code
+from graphkin.solver.expressions import ExpressionGraph, Real, operands
 
 __all__ = ["LONG", "Kernel", "kernel_text"]
 

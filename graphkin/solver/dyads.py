@@ -10,7 +10,7 @@ Sources: circle with circle, circle with line, right triangle, line with line as
 Kinematics, Dynamics and Design of Machinery, ch. 5; velocity and acceleration by one 2 x 2 system each, its determinant
 taken from the triangle itself, where nothing cancels, not from the directions found.
 
-The functions compute with formulas (``graphkin.solver.formula``) as well as with arrays.
+The functions compute with formulas (``graphkin.solver.expressions``) as well as with arrays.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from graphkin.solver.formula import fmax, fmin, root, two_sum
+from graphkin.solver.expressions import fmax, fmin, root, two_sum
 from graphkin.solver.pose import Pose, cross, dot
 
 __all__ = ["Joints", "Solved", "solve_dyad"]

@@ -9,15 +9,15 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from graphkin.scene.model import AngleDriver
+from graphkin.solver.code import Code
 from graphkin.solver.dyads import Solved
+from graphkin.solver.expressions import Real, Vec
 from graphkin.solver.extended_precision import Finer
-from graphkin.solver.formula import Real, Vec
 from graphkin.solver.group_errors import bounds as bounds_together
 from graphkin.solver.joints import Drive, turned
 from graphkin.solver.larger_groups import ClusterSolved, solve_cluster
 from graphkin.solver.pose import Array, Pose, rest
 from graphkin.solver.program import FIELDS, GIVEN, Program, program_of
-from graphkin.solver.rendering import Code
 from graphkin.solver.rounding import UNIT
 from graphkin.structure import Cluster, Dyad, Structure, links_of
 
@@ -101,7 +101,7 @@ def finer_of(
     """What computes some formulas of a mechanism of dyads in fifty digits, at any value of its drivers."""
     own = np.array([[d.values[0] for d in structure.scene.drivers]])
     run = _Run(structure, Drive.at(structure, own), forms, False, False)
-    program = run.fitted.program
+    program = run.dimensioned.program
     return run._finer(program.code(key, choose(program)))
 
 
@@ -114,7 +114,7 @@ class _Run:
         self.structure, self.drive, self.forms, self.rates, self.sure = structure, drive, forms, rates, sure
         self.n = len(drive)
         self.rate, self.second = (x[0] if self.n else np.zeros(x.shape[1]) for x in (drive.rate, drive.second))
-        self.fitted = program_of(structure, tuple(bool(s) for s in self.second))
+        self.dimensioned = program_of(structure, tuple(bool(s) for s in self.second))
         most = np.abs(drive.value).max(axis=0, initial=0.0)
         self.rates_of: dict[Any, float] = {}
         for k, wide in enumerate(most.tolist()):
@@ -145,7 +145,7 @@ class _Run:
         for i, element in enumerate(elements):
             if isinstance(element, Cluster):
                 self._together(i, element)
-        program = self.fitted.program
+        program = self.dimensioned.program
         names = [n for e in elements for n in links_of(e)]
         dyads = [i for i, e in enumerate(elements) if isinstance(e, Dyad)]
         parts = ("discriminant", "sine", *(("e1", "e2", "load") if self.rates else ()))
@@ -184,7 +184,7 @@ class _Run:
 
     def _together(self, i: int, group: Cluster) -> None:
         """Solve a larger group, and give its poses to the formulas of what follows."""
-        program = self.fitted.program
+        program = self.dimensioned.program
         known = [n for n in self.structure.links if n in _ends(group) and n in program.poses]
         known = [n for n in known if n not in group.members and n != self.structure.scene.frame.name]
         values = iter(self._values(("known", i), [getattr(program.poses[n], f) for n in known for f in FIELDS]))
@@ -202,16 +202,16 @@ class _Run:
 
     def _known(self, name: Any) -> float:
         """A number of the formulas that is the same at all positions."""
-        return self.fitted.params([name], self.rates_of)[0]
+        return self.dimensioned.params([name], self.rates_of)[0]
 
     def _values(self, key: Any, asked: list[Any]) -> list[Array]:
         """Formulas at all positions: vectors as complex arrays, numbers as real ones."""
         reals: list[Real] = []
         for x in asked:
             reals += [x.real, x.imag] if isinstance(x, Vec) else [x]
-        program = self.fitted.program
+        program = self.dimensioned.program
         code = program.code(key, reals)
-        params = self.fitted.params(code.params, self.rates_of)
+        params = self.dimensioned.params(code.params, self.rates_of)
         inputs = [self.given[name] for name in code.inputs]
         if self.n <= FEW:
             columns = self._one_by_one(code, params, inputs)
@@ -230,7 +230,7 @@ class _Run:
     def _finer(self, code: Code) -> Finer:
         signs = {name: column for name, column in self.given.items() if name[0] == "sign"}
         drivers = self.structure.scene.drivers
-        return Finer(self.fitted, code, drivers, self.drive.value, self.rate, self.second, signs)
+        return Finer(self.dimensioned, code, drivers, self.drive.value, self.rate, self.second, signs)
 
     def _one_by_one(self, code: Code, params: list[float], inputs: list[Array]) -> list[Array]:
         rows = np.empty((self.n, len(code.asked)))

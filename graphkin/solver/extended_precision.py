@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 
 from graphkin.scene.model import AngleDriver, Driver
+from graphkin.solver.code import Code
 from graphkin.solver.decimals import cos_sin, meant, meant_angle, working
-from graphkin.solver.formula import Vec
+from graphkin.solver.expressions import Vec
 from graphkin.solver.pose import Array
-from graphkin.solver.program import FIELDS, GIVEN, Fitted
-from graphkin.solver.rendering import Code
+from graphkin.solver.program import FIELDS, GIVEN, DimensionedProgram
 from graphkin.solver.rounding import UNIT
 
 __all__ = ["Finer"]
@@ -33,7 +33,7 @@ class Finer:
     signs : the other inputs of the formulas, by name, shape (n,)
     """
 
-    fitted: Fitted
+    dimensioned: DimensionedProgram
     code: Code
     drivers: Sequence[Driver]
     value: Array
@@ -68,7 +68,7 @@ class Finer:
         """Replace the rough positions in ``columns``: those of ``asked``, which begin with the fields of so many links
         and end with their bounds."""
         speed, push = (self._largest(columns, links, k) for k in (1, 2))
-        size = self.fitted.structure.scene.size
+        size = self.dimensioned.structure.scene.size
         velocity, acceleration = columns[-5] + size * columns[-2], columns[-4] + size * columns[-1]
         rough = ~(np.maximum(velocity / speed, acceleration / push) < ROUGH) | self.exact()
         with working():
@@ -83,7 +83,7 @@ class Finer:
 
     def _largest(self, columns: Sequence[Array], links: int, order: int) -> Array:
         """Largest place, velocity or acceleration, for points as far off as the mechanism is large."""
-        size = self.fitted.structure.scene.size
+        size = self.dimensioned.structure.scene.size
         most = np.full(len(columns[0]), 1e-300)
         for n in range(links):
             own = columns[len(FIELDS) * n : len(FIELDS) * (n + 1)]
@@ -111,5 +111,5 @@ class Finer:
             for name, rate in (("rate", float(self.rate[j])), ("second", float(self.second[j]))):
                 given[name, j], exact = meant(rate)
                 given["error", name, j] = Decimal(0 if exact else GIVEN * abs(rate))
-        params = self.fitted.decimals(self.code.params, given)
+        params = self.dimensioned.decimals(self.code.params, given)
         return self.code.decimals(params, [given[name] for name in self.code.inputs])

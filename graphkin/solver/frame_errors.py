@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from graphkin.solver.dyads import Joints, Solved
-from graphkin.solver.formula import Vec, fmax, root
+from graphkin.solver.expressions import Vec, fmax, root
 from graphkin.solver.pose import Pose, cross
 
 __all__ = ["Doubt", "carried", "of_dyad", "seen", "within"]

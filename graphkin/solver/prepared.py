@@ -10,22 +10,21 @@ from typing import Any
 
 import numpy as np
 
+from graphkin.scene.model import AngleDriver, Scene
 from graphkin.solver.assemblies import choose_forms, own_values
+from graphkin.solver.code import Code
 from graphkin.solver.compiled import LONG, Kernel
-from graphkin.solver.findings import structure_of
+from graphkin.solver.driver_values import GivenValues, UniformGrid, quarter
 from graphkin.solver.dyads import Solved
 from graphkin.solver.engine import SINGULAR, positions
-from graphkin.solver.findings import singular
-from graphkin.solver.formula import Real
+from graphkin.solver.expressions import Real
+from graphkin.solver.findings import singular, structure_of
 from graphkin.solver.joints import Drive, turned
 from graphkin.solver.path import Path, follow_path
 from graphkin.solver.pose import Array
-from graphkin.solver.program import FIELDS, GIVEN, Fitted, program_of
+from graphkin.solver.program import FIELDS, GIVEN, DimensionedProgram, program_of
 from graphkin.solver.quantities import Units, bounds, formulas
-from graphkin.solver.rendering import Code
 from graphkin.solver.rounding import UNIT
-from graphkin.solver.way import GivenValues, UniformGrid, quarter
-from graphkin.scene.model import AngleDriver, Scene
 from graphkin.structure import Cluster, Structure
 
 __all__ = ["Prepared", "prepare"]
@@ -54,7 +53,7 @@ class Prepared:
     behind: Path
     wide: float
     asked: tuple[Real, ...]
-    fitted: Fitted
+    dimensioned: DimensionedProgram
     units: Units = (1.0, 1.0)
 
     @cached_property
@@ -106,7 +105,7 @@ class Prepared:
 
     @cached_property
     def _sines(self) -> tuple[Real, ...]:
-        groups = self.fitted.program.groups
+        groups = self.dimensioned.program.groups
         return tuple(groups[i].sine for i in sorted(groups))
 
     @cached_property
@@ -128,7 +127,7 @@ class Prepared:
     @cached_property
     def _code(self) -> Code:
         asked = self.asked if self._even else (*self.asked, *self._sines)
-        return Code(self.fitted.program.graph, asked, self._fixed)
+        return Code(self.dimensioned.program.graph, asked, self._fixed)
 
     @cached_property
     def _fixed(self) -> set[Any]:
@@ -136,7 +135,7 @@ class Prepared:
         return {*self._held, *(self._signs or ())}
 
     def _given(self, code: Code) -> list[float]:
-        return self.fitted.params(code.params, {**self._held, **(self._signs or {})})
+        return self.dimensioned.params(code.params, {**self._held, **(self._signs or {})})
 
     @cached_property
     def _params(self) -> list[float]:
@@ -157,7 +156,7 @@ class Prepared:
     def _one(self) -> Callable[[float], tuple[float, ...] | None]:
         if self._together:
             return self._one_together
-        code = Code(self.fitted.program.graph, (*self.asked, *self._sines), self._fixed)
+        code = Code(self.dimensioned.program.graph, (*self.asked, *self._sines), self._fixed)
         function, params, names, count = code.floats, self._given(code), code.inputs, len(self.asked)
         everywhere, steady = self._whole, self._signs is not None
         place = {"cos": 0, "sin": 1, "travel": 2}
@@ -366,10 +365,10 @@ def prepare(
     """
     structure = structure_of(scene) if isinstance(scene, Scene) else scene
     scene = structure.scene
-    fitted = program_of(structure, tuple(d.values[2] != 0 for d in scene.drivers))
-    found = formulas(fitted.program, structure, asked, units)
+    dimensioned = program_of(structure, tuple(d.values[2] != 0 for d in scene.drivers))
+    found = formulas(dimensioned.program, structure, asked, units)
     names = tuple(found)
-    formed = [*found.values(), *(bounds(fitted.program, structure, asked, units).values() if bounded else ())]
+    formed = [*found.values(), *(bounds(dimensioned.program, structure, asked, units).values() if bounded else ())]
     forms = choose_forms(structure)
     start = own_values(scene)
     first = scene.drivers[0]
@@ -380,4 +379,4 @@ def prepare(
     ahead = follow_path(structure, forms, start, start + step)
     whole = turning and ahead.limit is None
     behind = ahead if whole else follow_path(structure, forms, start, start - step)
-    return Prepared(structure, names, start, ahead, behind, wide, tuple(formed), fitted, units)
+    return Prepared(structure, names, start, ahead, behind, wide, tuple(formed), dimensioned, units)

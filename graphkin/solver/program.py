@@ -13,16 +13,16 @@ from weakref import finalize
 
 from graphkin.scene.model import AngleDriver, Driver
 from graphkin.solver.bounds import FIELDS, LinkBounds
+from graphkin.solver.code import Code
 from graphkin.solver.decimals import DIGITS, meant, meant_direction
 from graphkin.solver.dyads import Joints, Solved, solve_dyad
-from graphkin.solver.formula import ExpressionGraph, Real, Vec
+from graphkin.solver.expressions import ExpressionGraph, Real, Vec
 from graphkin.solver.joints import body_shape, driven, dyad_joints, members
 from graphkin.solver.pose import Pose
-from graphkin.solver.rendering import Code
 from graphkin.solver.rounding import UNIT
 from graphkin.structure import Cluster, Driven, Dyad, Pair, Slide, Structure, Turn
 
-__all__ = ["FIELDS", "GIVEN", "Fitted", "Program", "program_of"]
+__all__ = ["FIELDS", "GIVEN", "DimensionedProgram", "Program", "program_of"]
 
 GIVEN = 3 * UNIT
 """Relative error of a number of the file after its conversion from decimals and units."""
@@ -170,7 +170,7 @@ def _pair_form(pair: Pair) -> Any:
 
 
 @dataclass
-class Fitted:
+class DimensionedProgram:
     """A program with the numbers of one mechanism."""
 
     program: Program
@@ -234,11 +234,11 @@ class Fitted:
 
 
 _PROGRAMS: dict[Any, Program] = {}
-_FITTED: dict[tuple[int, tuple[bool, ...]], Fitted] = {}
+_DIMENSIONED: dict[tuple[int, tuple[bool, ...]], DimensionedProgram] = {}
 MOST = 200
 
 
-def program_of(structure: Structure, moving: tuple[bool, ...]) -> Fitted:
+def program_of(structure: Structure, moving: tuple[bool, ...]) -> DimensionedProgram:
     """The program of a structure, made once for all of its form.
 
     Parameters
@@ -246,13 +246,13 @@ def program_of(structure: Structure, moving: tuple[bool, ...]) -> Fitted:
     moving : for each driver whether it has a second rate
     """
     key = (id(structure), moving)
-    if key in _FITTED:
-        return _FITTED[key]
+    if key in _DIMENSIONED:
+        return _DIMENSIONED[key]
     form = _form(structure), moving
     program = _PROGRAMS.pop(form, None) or Program(structure, moving)
     _PROGRAMS[form] = program
     while len(_PROGRAMS) > MOST:
         del _PROGRAMS[next(iter(_PROGRAMS))]
-    fitted = _FITTED[key] = Fitted(program, structure)
-    finalize(structure, _FITTED.pop, key, None)
-    return fitted
+    dimensioned = _DIMENSIONED[key] = DimensionedProgram(program, structure)
+    finalize(structure, _DIMENSIONED.pop, key, None)
+    return dimensioned

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from typing import cast
 
 from graphkin.errors import CallError, Problem, did_you_mean
-from graphkin.solver.formula import Real, Vec, fmax
+from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.solver.expressions import Real, Vec, fmax
 from graphkin.solver.pose import Pose
 from graphkin.solver.program import Program
-from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Cluster, Structure
 
 __all__ = ["Units", "bounds", "formulas"]

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 
-from graphkin.solver.formula import ExpressionGraph, Real, fmax, fmin, operands, root
+from graphkin.solver.expressions import ExpressionGraph, Real, fmax, fmin, operands, root
 
 __all__ = ["UNIT", "Rounding"]
 

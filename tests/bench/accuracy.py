@@ -24,7 +24,7 @@ from graphkin.solver import engine
 from graphkin.solver import extended_precision as finer
 from graphkin.solver.assemblies import choose_forms, own_values
 from graphkin.solver.decimals import PI, meant, working
-from graphkin.solver.formula import Vec
+from graphkin.solver.expressions import Vec
 from graphkin.solver.joints import Drive
 from graphkin.solver.path import follow_path
 from graphkin.solver.program import FIELDS
@@ -179,7 +179,7 @@ class _Exact:
 def _exact_rows(structure: Structure, drive: Drive, forms: dict[int, Any], degrees: np.ndarray) -> Any:
     """Function of the number of a position to its links in 50 digits, with the driver at just these degrees."""
     run = engine._Run(structure, drive, forms, True, True)
-    program = run.fitted.program
+    program = run.dimensioned.program
     names = [n for n in structure.links if n != structure.scene.frame.name]
     asked = [getattr(program.poses[n], f) for n in names for f in FIELDS]
     reals = [x for z in asked for x in ((z.real, z.imag) if isinstance(z, Vec) else (z,))]

@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from graphkin.solver.code import Code
 from graphkin.solver.decimals import cos_sin, meant
-from graphkin.solver.formula import ExpressionGraph, Real, root
-from graphkin.solver.rendering import Code
+from graphkin.solver.expressions import ExpressionGraph, Real, root
 from graphkin.solver.rounding import UNIT, Rounding
 
 number = st.floats(0.01, 100.0)

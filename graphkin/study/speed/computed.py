@@ -16,9 +16,9 @@ from graphkin import solver
 from graphkin.scene.model import AngleDriver
 from graphkin.solver import Prepared
 from graphkin.solver.assemblies import choose_forms
+from graphkin.solver.code import Code
 from graphkin.solver.program import program_of
 from graphkin.solver.quantities import formulas
-from graphkin.solver.rendering import Code
 from graphkin.study.equations import Equations, Solution
 from graphkin.study.speed.course import Work
 from graphkin.study.speed.entry import Entry, best_time
@@ -107,15 +107,16 @@ def one_by_one(work: Work, repeats: int, tag: str) -> Entry:
 def single_precision(work: Work, kinds: str) -> Callable[[Array], Array]:
     """The same formulas in numbers of 7 digits: a function of the values of the first driver."""
     structure, drivers = work.structure, work.scene.drivers
-    fitted = program_of(structure, tuple(d.values[2] != 0 for d in drivers))
-    code = Code(fitted.program.graph, list(formulas(fitted.program, structure, columns_of(work, kinds)).values()))
+    dimensioned = program_of(structure, tuple(d.values[2] != 0 for d in drivers))
+    program = dimensioned.program
+    code = Code(program.graph, list(formulas(program, structure, columns_of(work, kinds)).values()))
     forms = choose_forms(structure)
     given: dict[Any, float] = {}
     for k, driver in enumerate(drivers):
         value, given["rate", k], given["second", k] = driver.values
         given["cos", k], given["sin", k], given["travel", k] = math.cos(value), math.sin(value), value
     given |= {("sign", i): float(form) for i, form in forms.items()}
-    same = [np.asarray(x, dtype=np.float32) for x in code.same(fitted.params(code.params, given)) or []]
+    same = [np.asarray(x, dtype=np.float32) for x in code.same(dimensioned.params(code.params, given)) or []]
 
     def run(values: Array) -> Array:
         moving = {("cos", 0): np.cos(values), ("sin", 0): np.sin(values), ("travel", 0): values}

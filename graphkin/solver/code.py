@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from graphkin.solver.decimals import decimal_function
-from graphkin.solver.formula import LEAVES, ExpressionGraph, Real, operands
+from graphkin.solver.expressions import LEAVES, ExpressionGraph, Real, operands
 from graphkin.solver.pose import Array
 
 __all__ = ["BLOCK", "Code"]

@@ -1,4 +1,4 @@
-"""Values of the first driver, as they come or at even steps, and their cosines and sines."""
+"""Values of the first driver: given ones, or at even steps; with their cosines and sines."""
 
 from __future__ import annotations
 
