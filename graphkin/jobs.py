@@ -30,7 +30,7 @@ from typing import IO, Any, Generic, TypeVar
 from graphkin.errors import CallError, Problem
 from graphkin.version import __version__
 
-__all__ = ["Checkpoints", "Piece", "Progress", "Started", "Workers", "cluster", "whole_file"]
+__all__ = ["Checkpoints", "Piece", "Progress", "Started", "Workers", "cluster", "key_of", "process_pool", "whole_file"]
 
 Progress = Callable[[int, int], None]
 """Called with how much is done, and with all there is to do."""
@@ -65,6 +65,14 @@ def whole_file(path: Path) -> Iterator[IO[bytes]]:
 # what is done
 
 
+def key_of(*parts: object) -> str:
+    """A key that two jobs share only if their parts are the same (as JSON, or else by ``repr``), and the program."""
+    key = hashlib.sha256(repr(__version__).encode())
+    for part in parts:
+        key.update(json.dumps(part, sort_keys=True, default=repr).encode() + b"\n")
+    return key.hexdigest()[:24]
+
+
 @dataclass(frozen=True)
 class Piece:
     """A finished piece of work: facts about it, and where its content begins in its file."""
@@ -90,12 +98,9 @@ class Checkpoints:
     place: Path
 
     @classmethod
-    def of(cls, folder: Path, kind: str, *parts: object) -> Checkpoints:
-        """Those of a job in a folder; two jobs share them only if their parts are the same (as JSON, or by repr)."""
-        key = hashlib.sha256(repr(__version__).encode())
-        for part in parts:
-            key.update(json.dumps(part, sort_keys=True, default=repr).encode() + b"\n")
-        return cls(folder / f".{kind}-{key.hexdigest()[:24]}")
+    def of(cls, folder: Path, kind: str, key: str) -> Checkpoints:
+        """Those of a job in a folder."""
+        return cls(folder / f".{kind}-{key}")
 
     def open(self, **facts: object) -> None:
         """Make the folder, with a file that says in words what it holds."""

@@ -153,6 +153,13 @@ class Table:
         """Names with units."""
         return tuple(c.head for c in self.columns)
 
+    @classmethod
+    def joined(cls, tables: Sequence[Table]) -> Table:
+        """Tables with the same columns, one after the other."""
+        rows = zip(*(t.columns for t in tables), strict=True)
+        made = tuple(replace(same[0], values=np.concatenate([c.values for c in same])) for same in rows)
+        return cls(made, tables[0].index)
+
     def rows(self, some: slice = slice(None)) -> Table:
         """Some rows of it."""
         return Table(tuple(replace(c, values=c.values[some]) for c in self.columns), self.index)

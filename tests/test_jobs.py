@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 
 from graphkin.errors import CallError
-from graphkin.jobs import Checkpoints, Workers, cluster, whole_file
+from graphkin.jobs import Checkpoints, Workers, cluster, key_of, whole_file
 
 PROGRAM = """
 import os, sys, time
@@ -144,7 +144,7 @@ def test_processes_end_with_the_program_that_is_killed_or_interrupted(
 
 
 def test_a_checkpoint_gives_back_facts_and_content(tmp_path: Path) -> None:
-    points = Checkpoints.of(tmp_path, "sweep", {"a": 1})
+    points = Checkpoints.of(tmp_path, "sweep", "1f")
     points.open(rows=3)
     points.save(7, {"good": 3}, b"1,2\n")
     piece = points.load(7)
@@ -154,14 +154,14 @@ def test_a_checkpoint_gives_back_facts_and_content(tmp_path: Path) -> None:
 
 
 def test_a_checkpoint_that_is_half_written_does_not_count(tmp_path: Path) -> None:
-    points = Checkpoints.of(tmp_path, "sweep")
+    points = Checkpoints.of(tmp_path, "sweep", "1f")
     points.open()
     (points.place / ".0000003.k3j_x9a1").write_bytes(b'{"good": 3}\n1,')
     assert set() == points.done()
 
 
-def test_checkpoints_of_another_job_are_others(tmp_path: Path) -> None:
-    assert Checkpoints.of(tmp_path, "sweep", {"n": 1}).place != Checkpoints.of(tmp_path, "sweep", {"n": 2}).place
+def test_another_job_has_another_key() -> None:
+    assert key_of({"n": 1}, "a") != key_of({"n": 2}, "a")
 
 
 def test_a_file_that_fails_leaves_the_one_before(tmp_path: Path) -> None:

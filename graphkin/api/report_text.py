@@ -120,14 +120,14 @@ MOST_CURVES = 40
 def told_turn(swept: Swept) -> str:
     """The whole summary as lines of text."""
     language = swept.language
-    scene = swept.plan.scene
+    scene = swept.over.scene
     title = scene.title_in(language)
     lines = [title]
     if swept.turn is not None:
         lines += _turn(swept.turn, language)
-    if swept.plan.designs.keys:
+    if swept.over.designs.keys:
         outcomes = ", ".join(f"{n} {status}" for status, n in swept.outcomes.items())
-        lines.append(say(Phrase("designs solved", (len(swept.plan.designs), outcomes)), language))
+        lines.append(say(Phrase("designs solved", (len(swept.over.designs), outcomes)), language))
     lines.append(say(Phrase("positions solved", (swept.good, swept.rows)), language))
     return "\n".join(lines)
 

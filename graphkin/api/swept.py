@@ -5,67 +5,127 @@ from __future__ import annotations
 import html
 import os
 import tomllib
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from graphkin.api.arguments import At, SceneLike, as_scene, asked_symbols, driver_values, known_words
 from graphkin.api.files import write_files
 from graphkin.errors import CallError, Problem
+from graphkin.jobs import Progress, Workers, cluster
 from graphkin.scene import library, library_text
 from graphkin.scene.model import Scene
 from graphkin.scene.symbol import Symbol
+from graphkin.table import Table, have
 
 if TYPE_CHECKING:
+    import pandas
+    import xarray
+
     from graphkin.drawing import Drawing
-    from graphkin.study import Plan, Progress, Turn
-    from graphkin.study import Swept as Tables
+    from graphkin.study import Sweep, Turn
+    from graphkin.study.sweeps import Arrays, Found
 
 __all__ = ["Swept", "sweep"]
 
 MOST_POSITIONS = 1_000_000_000
-IN_MEMORY = 2_000_000
-"""Rows of a table that are kept in memory where no folder is given."""
+IN_MEMORY = 200_000_000
+"""Numbers of a table that are kept in memory where no folder is given."""
 
 
 @dataclass(frozen=True, repr=False)
 class Swept:
     """The motion over a turn of one scene, or of many designs of it.
 
-    turn : the study of the scene itself (limit positions, K, transmission, classes, extremes; SI); None over designs
-    tables : the text of "table.csv" and "designs.csv", or where they were written if a folder was given
-    outcomes : over designs how many came out with each status
+    ``swept["v_C"]`` is what is asked by its symbol, as arrays in SI: complex for vectors; over designs of shape
+    (designs, positions).  ``table`` has everything in the scene's units, with the drivers' values and the status of
+    each position.  Table, study and figures are made when they are first asked for.
     """
 
-    plan: Plan
-    turn: Turn | None
-    tables: Mapping[str, str | Path]
-    rows: int
-    good: int
-    outcomes: Mapping[str, int]
+    over: Sweep
+    found: Found
     language: str
+    arrays: Arrays | None = None
+
+    @property
+    def rows(self) -> int:
+        """Positions of all designs."""
+        return self.found.rows
+
+    @property
+    def good(self) -> int:
+        """Positions that are solved."""
+        return self.found.good
 
     @property
     def ok(self) -> bool:
         """Whether one position at least is solved."""
         return self.good > 0
 
+    @property
+    def outcomes(self) -> Mapping[str, int]:
+        """Over designs how many came out with each status."""
+        return Counter(outcome.status for outcome in self.found.outcomes)
+
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        """A quantity (SI) by its symbol, as far as it was asked for, or any column of the table by its name: NaN where
+        there is none.  Raises CallError for an unknown one."""
+        from graphkin.study.watched import in_si
+
+        scene, watched = self.over.scene, self.over.base.watched
+        k = next((k for k, w in enumerate(watched) if w.name == name), None)
+        if k is not None and self.arrays is not None:
+            parts = self.arrays.parts[k]
+            return parts[0] if len(parts) == 1 else parts[0] + 1j * parts[1]
+        if k is None:
+            values = in_si(scene, self.table.column(name))
+        else:
+            shown = [in_si(scene, self.table.column(c.name)) for c in watched[k].columns(scene, [np.zeros(0)] * 2)]
+            values = shown[-2] + 1j * shown[-1] if watched[k].is_vector else shown[0]
+        return values.reshape(-1, self.over.positions) if self.over.designs.keys else values
+
+    @cached_property
+    def table(self) -> Table:
+        """A row for each position: what is asked in the scene's units, degrees for angles, and its status."""
+        if self.arrays is not None:
+            return self.over.base.table_of(self.arrays, 0, self.over.positions)
+        if self.found.table is not None:
+            return self.found.table
+        return Table.read_csv(self.found.files[0], self.over.head)
+
+    @cached_property
+    def designs(self) -> Table | None:
+        """Over designs a row for each: what was replaced, how it came out, strokes, K, least transmission angles."""
+        from graphkin.study.sweeps import designs_table
+
+        return designs_table(self.over, self.found.outcomes) if self.over.designs.keys else None
+
+    @cached_property
+    def turn(self) -> Turn | None:
+        """The study of the scene itself (limit positions, K, transmission, classes, extremes); None over designs."""
+        from graphkin.study import study_turn
+
+        return None if self.over.designs.keys else study_turn(self.over.base.course, self.over.asked)
+
     @cached_property
     def data(self) -> dict[str, Any]:
         """The object that ``graphkin sweep --json`` prints."""
         from graphkin.study import to_json
 
-        data: dict[str, Any] = to_json(self.turn) if self.turn is not None else {"title": self.plan.scene.title}
+        data: dict[str, Any] = to_json(self.turn) if self.turn is not None else {"title": self.over.scene.title}
         data["positions"] = {"rows": self.rows, "ok": self.good}
-        if self.plan.designs.keys:
+        if self.over.designs.keys:
             data["designs"] = {
-                "keys": list(self.plan.designs.keys), "count": len(self.plan.designs), "outcomes": dict(self.outcomes)
+                "keys": list(self.over.designs.keys), "count": len(self.over.designs), "outcomes": dict(self.outcomes)
             }
-        data["files"] = [str(p) for p in self.tables.values() if isinstance(p, Path)]
+        data["files"] = [str(p) for p in self.found.files]
         return data
 
     @cached_property
@@ -75,11 +135,31 @@ class Swept:
 
         return {} if self.turn is None else diagrams(self.turn, self.language)
 
-    @property
-    def table(self) -> str:
-        """The table as the text of a CSV file."""
-        held = self.tables["table.csv"]
-        return held.read_text(encoding="utf-8") if isinstance(held, Path) else held
+    def to_pandas(self) -> pandas.DataFrame:
+        """The table as a frame of pandas.  Raises CallError where that is not installed."""
+        return self.table.to_pandas()
+
+    def to_xarray(self) -> xarray.Dataset:
+        """The table as a data set of xarray with units, over ``position`` or over ``design`` and ``position``, with
+        what is replaced as coordinates of the designs.  Raises CallError where it is not installed."""
+        data = self.table.to_xarray()
+        return data.assign_coords({key: ("design", data[key].values[:, 0]) for key in self.over.designs.keys})
+
+    def write(self, folder: str | os.PathLike[str], formats: Sequence[str] = ("svg",)) -> list[Path]:
+        """Write table.csv (and table.parquet where pyarrow is installed), designs.csv and the figures; returns the
+        paths.
+
+        Raises
+        ------
+        CallError : an unknown format, a folder that cannot be written
+        """
+        target = Path(folder)
+        known_words(formats)
+        write_files(target, {})
+        tables = {"table.csv": self.table} | ({"designs.csv": self.designs} if self.designs is not None else {})
+        if have("pyarrow"):
+            tables["table.parquet"] = self.table
+        return [table.write(target / name) for name, table in tables.items()] + self.write_figures(target, formats)
 
     def write_figures(self, folder: str | os.PathLike[str], formats: Sequence[str] = ("svg",)) -> list[Path]:
         """Write the figures; returns the paths.  Raises CallError for an unknown format or a folder that cannot be
@@ -91,7 +171,7 @@ class Swept:
         return write_files(Path(folder), files)
 
     def __repr__(self) -> str:
-        return f"<Swept {self.plan.scene.name}: {self.good} of {self.rows} positions>"
+        return f"<Swept {self.over.scene.name}: {self.good} of {self.rows} positions>"
 
     def _repr_html_(self) -> str:
         from graphkin.api.report_text import told_turn
@@ -122,6 +202,9 @@ def sweep(
 ) -> Swept:
     """Follow a scene over the whole turn of its driver, alone or as many designs.
 
+    Velocities, accelerations and rates that ``find`` names come at the speed of the prepared engine (see
+    `graphkin.solver.prepare`): a million positions in some milliseconds.  Everything else is made when it is asked for.
+
     Parameters
     ----------
     scene, at, find : as for `check`; over designs a file, a name or a mapping
@@ -132,7 +215,8 @@ def sweep(
         "40,50,60" or a sequence a list; several keys give every combination
     designs_file : a CSV file whose head names such keys
     executor : any ``concurrent.futures.Executor``; the result is the same, byte for byte
-    workers : number of processes instead; scheduler: address of a Dask cluster instead
+    workers : number of processes instead, for a sweep that takes some seconds; scheduler: address of a Dask cluster
+        instead
     progress : called with the rows done and all rows
 
     Raises
@@ -146,9 +230,12 @@ def sweep(
     >>> slider = swept.data["outputs"][0]
     >>> f"stroke {slider['stroke']:.10f}, K {slider['K']:.10f}"
     'stroke 50.0000000000, K 1.2000000000'
+    >>> swept = sweep("shaper-scheme-2", positions=100_000, find=["v_C"])
+    >>> f"{abs(swept['v_C']).max():.3f} m/s at most"
+    '1.346 m/s at most'
     """
-    from graphkin.study import Plan, course_of, designs_of, have_parquet, run, study_turn
-    from graphkin.study import scheduler as cluster
+    from graphkin.study import Sweep, collect, designs_of, write_tables
+    from graphkin.study.sweeps import Found
 
     known_words(formats, language)
     _checked_call(positions, workers, executor, scheduler)
@@ -163,34 +250,31 @@ def sweep(
         from graphkin.study.designs import applied
 
         applied(source, made.keys, made[0])  # keys that the scene does not have
-    asked = asked_symbols(given, find)
     start = driver_values(given, at) or {}
-    plan = Plan(source, name, made, positions, asked, tuple(sorted(start.items())))
-    turn = None if made.keys else study_turn(course_of(given, start), asked)
+    over = Sweep(source, name, made, positions, asked_symbols(given, find), tuple(sorted(start.items())))
     spoken = language or given.sheet.language
+    if out is None:
+        numbers = over.rows * len(over.head.columns)
+        if numbers > IN_MEMORY:
+            raise CallError(Problem("sweep", f"{over.rows} rows", "give a folder, out=... or -o"))
+        arrays = None if made.keys else over.base.arrays()
+        if arrays is not None:
+            return Swept(over, Found(over.rows, int(np.count_nonzero(arrays.ok))), spoken, arrays)
+    if not made.keys:
+        _ = over.base.course  # a start that cannot be assembled
     through = cluster(scheduler) if scheduler else executor
     try:
-        if out is None:
-            if plan.rows > IN_MEMORY:
-                raise CallError(Problem("sweep", f"{plan.rows} rows", "give a folder, out=... or -o"))
-            with TemporaryDirectory() as folder:
-                done = run(plan, Path(folder), through, workers, progress=progress)
-                tables: dict[str, str | Path] = {
-                    t: (Path(folder) / t).read_text(encoding="utf-8") for t in done.tables
-                }
-            return _swept(plan, turn, tables, done, spoken)
-        done = run(plan, Path(out), through, workers, have_parquet(), progress)
+        with Workers(through, workers if over.long else None) as working:
+            if out is None:
+                return Swept(over, collect(over, working, progress), spoken)
+            found = write_tables(over, Path(out), working, have("pyarrow"), progress)
     finally:
         if scheduler and through is not None:
             through.shutdown()
-    swept = _swept(plan, turn, {t: Path(out) / t for t in done.tables}, done, spoken)
-    if turn is not None:
+    swept = Swept(over, found, spoken)
+    if not made.keys:
         swept.write_figures(out, formats)
     return swept
-
-
-def _swept(plan: Plan, turn: Turn | None, tables: Mapping[str, str | Path], done: Tables, language: str) -> Swept:
-    return Swept(plan, turn, tables, done.rows, done.good, done.outcomes, language)
 
 
 def _checked_call(

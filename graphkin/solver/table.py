@@ -2,25 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
-from graphkin.scene.model import SlideDriver
+from graphkin.scene.model import Scene, SlideDriver
 from graphkin.solver.motion import Motion
 from graphkin.solver.pose import Array
-from graphkin.structure import Cluster, Dyad
+from graphkin.structure import Cluster, Dyad, Slide
 
 __all__ = ["listed_points", "to_json"]
 
 
-def listed_points(motion: Motion) -> tuple[tuple[str, str], ...]:
+def listed_points(scene: Scene, slides: Sequence[Slide]) -> tuple[tuple[str, str], ...]:
     """Every point of a moving link, on every link that has it, and every coincident point under a sliding pin:
     (point, link) in the order of the file."""
-    scene = motion.scene
     found = [(p, link.name) for link in scene.links for p in link.points]
     moving = {link.name for link in scene.links}
-    for pair in motion.slides:
+    for pair in slides:
         if pair.pin and pair.b in moving and (pair.pin, pair.b) not in found:
             found.append((pair.pin, pair.b))
     place = {link.name: i for i, link in enumerate(scene.links)}
@@ -39,7 +39,7 @@ def to_json(motion: Motion) -> dict[str, Any]:
             "omega": _numbers(motion.omega(link.name)),
             "alpha": _numbers(motion.alpha(link.name)),
         }
-    for point, name in listed_points(motion):
+    for point, name in listed_points(scene, motion.slides):
         at = motion.point(point, name)
         columns["points"][f"{point}@{name}"] = {
             "position": _pairs(at.z / metres),

@@ -8,6 +8,7 @@ import math
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import islice
 from typing import Any
 
@@ -36,6 +37,13 @@ class Designs:
     def __len__(self) -> int:
         each = math.prod(len(values) for values in self.grid)
         return each if self.rows is None else each * len(self.rows)
+
+    @cached_property
+    def worded(self) -> tuple[bool, ...]:
+        """For each key whether some of its values are words."""
+        named = len(self.keys) - len(self.grid)
+        words = [any(isinstance(r[k], str) for r in self.rows or ()) for k in range(named)]
+        return (*words, *(any(isinstance(v, str) for v in values) for values in self.grid))
 
     def __getitem__(self, index: int) -> tuple[Value, ...]:
         """The values of one design, in the order of the keys."""

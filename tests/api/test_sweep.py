@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import json
+import math
 from pathlib import Path
 
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
 import graphkin
 from graphkin.cli import app
 from graphkin.errors import CallError, Unsolvable
+from graphkin.scene.model import AngleDriver
+from graphkin.scene.symbol import Symbol
 
 NAME = "slider-crank-s50-e16-K1.2"
 
@@ -39,8 +43,86 @@ def test_figures_are_written_in_the_formats_asked_for(tmp_path: Path) -> None:
 
 
 def test_find_limits_the_columns() -> None:
-    head = graphkin.sweep(NAME, positions=1, find=["omega_2"]).table.splitlines()[0]
+    head = graphkin.sweep(NAME, positions=1, find=["omega_2"]).table.csv().splitlines()[0]
     assert head == "position,driver_1 (deg),omega_2 (rad/s),status,why"
+
+
+def test_arrays_are_those_of_the_solver() -> None:
+    motion = graphkin.solve(NAME, sweep=500).motion
+    swept = graphkin.sweep(NAME, positions=500, find=["v_B", "omega_2", "a_C", "at_C/B"])
+    quick = graphkin.sweep(NAME, positions=500, find=["v_B", "omega_2", "a_C"])
+    assert (None, True) == (swept.arrays, quick.arrays is not None)
+    for name in ("v_B", "omega_2", "a_C"):
+        right = motion.value(Symbol.parse(name))
+        np.testing.assert_allclose(swept[name], right, rtol=0, atol=1e-12 * np.abs(right).max())
+        np.testing.assert_allclose(quick[name], right, rtol=0, atol=1e-12 * np.abs(right).max())
+
+
+def test_arrays_of_everything_are_named_by_what_they_are() -> None:
+    swept, motion = graphkin.sweep(NAME, positions=12), graphkin.solve(NAME, sweep=12).motion
+    np.testing.assert_allclose(motion.position("C"), swept["C"], rtol=1e-12)
+    np.testing.assert_allclose(motion.slide("3/4").velocity, swept["v_3/4"], atol=1e-12)
+    np.testing.assert_allclose(np.degrees(motion.values[:, 0]), swept.table["driver_1"], atol=1e-10)
+
+
+def test_arrays_over_designs_have_a_row_for_each() -> None:
+    designs = {"links.1.length": [150, 1500]}
+    swept = graphkin.sweep("fourbar-150-500-300-400", positions=12, find=["v_C"], designs=designs)
+    assert ((2, 12), [True, False]) == (swept["v_C"].shape, np.isfinite(swept["v_C"]).all(axis=1).tolist())
+
+
+def test_what_the_motion_does_not_reach_is_nan_with_its_reason() -> None:
+    swept = graphkin.sweep("sixbar-AE70", positions=12, find=["v_B"])
+    bad = np.isnan(swept["v_B"])
+    assert (8, 4) == (bad.sum(), swept.good)
+    assert all("the motion reaches from" in why for why in swept.table["why"][bad])
+
+
+def test_what_comes_from_the_prepared_engine_is_what_the_solver_gives() -> None:
+    for name in ("sixbar-AE70", "shaper-scheme-2", "hydraulic-cylinder"):
+        point = next(p for link in reversed(graphkin.read(name).links) for p in link.points)
+        quick = graphkin.sweep(name, positions=90, find=[f"v_{point}"])
+        whole = graphkin.sweep(name, positions=90, find=[f"v_{point}", f"a_{point}"], at=_own(name))
+        assert (True, None) == (quick.arrays is not None, whole.arrays)
+        one, other = quick[f"v_{point}"], whole[f"v_{point}"]
+        assert np.array_equal(quick.table["status"], whole.table["status"])
+        np.testing.assert_allclose(one, other, rtol=0, atol=1e-9 * np.nanmax(np.abs(other)))
+
+
+def _own(name: str) -> float:
+    scene = graphkin.read(name)
+    driver = scene.drivers[0]
+    return math.degrees(driver.angle) if isinstance(driver, AngleDriver) else driver.travel / scene.units.metres
+
+
+def test_nothing_is_studied_that_is_not_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("graphkin.study.study_turn", None)
+    monkeypatch.setattr("graphkin.study.sweeps.course_of", None)
+    assert 3 == len(graphkin.sweep(NAME, positions=3, find=["v_B"])["v_B"])
+
+
+def test_a_written_sweep_gives_its_arrays_back(tmp_path: Path) -> None:
+    here = graphkin.sweep(NAME, positions=30, find=["v_C", "at_C/B"])
+    there = graphkin.sweep(NAME, tmp_path, positions=30, find=["v_C", "at_C/B"])
+    np.testing.assert_allclose(here["v_C"], there["v_C"], rtol=1e-15)
+    assert here.table.csv() == there.table.csv() == (tmp_path / "table.csv").read_text()
+
+
+def test_what_is_in_memory_writes_the_files_of_the_command(tmp_path: Path) -> None:
+    call(NAME, "-o", str(tmp_path / "a"), "-q")
+    graphkin.sweep(NAME).write(tmp_path / "b")
+    one, other = ({p.name: p.read_bytes() for p in (tmp_path / x).iterdir()} for x in "ab")
+    assert one.keys() == other.keys()
+    assert one["table.csv"] == other["table.csv"]
+
+
+def test_xarray_has_units_and_what_is_replaced_as_coordinates() -> None:
+    pytest.importorskip("xarray", reason="xarray is not installed")
+    lengths = [150.0, 160.0]
+    data = graphkin.sweep(
+        "fourbar-150-500-300-400", positions=6, find=["omega_3"], designs={"links.1.length": lengths}
+    ).to_xarray()
+    assert ("rad/s", lengths) == (data.omega_3.attrs["units"], data["links.1.length"].values.tolist())
 
 
 def test_a_wrong_key_is_a_wrong_call(tmp_path: Path) -> None:

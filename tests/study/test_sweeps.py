@@ -5,6 +5,9 @@ from __future__ import annotations
 import hashlib
 import os
 import signal
+import subprocess
+import sys
+import time
 import tomllib
 from collections.abc import Callable
 from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
@@ -16,24 +19,35 @@ from typing import Any
 
 import pytest
 
-from graphkin.errors import CallError
+from graphkin.jobs import Progress, Workers, cluster
 from graphkin.scene import library_text, read
 from graphkin.scene.symbol import Symbol
-from graphkin.study import Plan, designs_of, run, scheduler
-from graphkin.study import chunks as chunks_room
+from graphkin.study import Sweep, collect, designs_of, sweeps, write_tables
 
 
 @pytest.fixture
-def plan(monkeypatch: pytest.MonkeyPatch) -> Plan:
-    monkeypatch.setattr(chunks_room, "BLOCK", 40)
+def plan(monkeypatch: pytest.MonkeyPatch) -> Sweep:
+    monkeypatch.setattr(sweeps, "BLOCK", 40)
     return new_plan()
 
 
-def new_plan() -> Plan:
+def run(
+    sweep: Sweep,
+    folder: Path,
+    executor: Executor | None = None,
+    processes: int | None = None,
+    parquet: bool = False,
+    progress: Progress | None = None,
+) -> None:
+    with Workers(executor, processes) as workers:
+        write_tables(sweep, folder, workers, parquet, progress)
+
+
+def new_plan() -> Sweep:
     source = tomllib.loads(library_text("fourbar-150-500-300-400"))
     # some of them cannot turn fully, the last cannot be assembled at all
     designs = designs_of({"links.1.length": "100,150,250,1000", "driver.omega": "5,-5"})
-    return Plan(source, "four-bar", designs, 20, (Symbol.parse("omega_3"), Symbol.parse("v_C")))
+    return Sweep(source, "four-bar", designs, 20, (Symbol.parse("omega_3"), Symbol.parse("v_C")))
 
 
 def prints(folder: Path) -> dict[str, str]:
@@ -56,20 +70,20 @@ class Synchronous(Executor):
         return future
 
 
-def test_every_design_has_its_rows_whatever_became_of_it(plan: Plan, tmp_path: Path) -> None:
+def test_every_design_has_its_rows_whatever_became_of_it(plan: Sweep, tmp_path: Path) -> None:
     run(plan, tmp_path)
     lines = (tmp_path / "table.csv").read_text().splitlines()
     assert len(lines) == 1 + 8 * 20
 
 
-def test_a_design_that_fails_is_a_row_with_status_and_reason(plan: Plan, tmp_path: Path) -> None:
+def test_a_design_that_fails_is_a_row_with_status_and_reason(plan: Sweep, tmp_path: Path) -> None:
     run(plan, tmp_path)
     last = (tmp_path / "designs.csv").read_text().splitlines()[-1]
     assert "not assembled" in last
     assert "do not reach each other" in last
 
 
-def test_another_executor_gives_the_same_bytes(plan: Plan, tmp_path: Path) -> None:
+def test_another_executor_gives_the_same_bytes(plan: Sweep, tmp_path: Path) -> None:
     run(plan, tmp_path / "a")
     with ThreadPoolExecutor(3) as pool:
         run(plan, tmp_path / "b", pool)
@@ -79,11 +93,11 @@ def test_another_executor_gives_the_same_bytes(plan: Plan, tmp_path: Path) -> No
 def test_processes_give_the_same_bytes(tmp_path: Path) -> None:
     plan = replace(new_plan(), positions=9000)
     run(plan, tmp_path / "a")
-    run(plan, tmp_path / "b", workers=2)
+    run(plan, tmp_path / "b", processes=2)
     assert prints(tmp_path / "a") == prints(tmp_path / "b")
 
 
-def test_a_broken_executor_loses_nothing(plan: Plan, tmp_path: Path) -> None:
+def test_a_broken_executor_loses_nothing(plan: Sweep, tmp_path: Path) -> None:
     run(plan, tmp_path / "a")
     run(plan, tmp_path / "b", Synchronous(most=2))
     assert prints(tmp_path / "a") == prints(tmp_path / "b")
@@ -105,7 +119,7 @@ def test_a_killed_process_loses_nothing(tmp_path: Path) -> None:
     assert prints(tmp_path / "a") == prints(tmp_path / "b")
 
 
-def test_an_interrupted_sweep_goes_on_where_it_stopped(plan: Plan, tmp_path: Path) -> None:
+def test_an_interrupted_sweep_goes_on_where_it_stopped(plan: Sweep, tmp_path: Path) -> None:
     run(plan, tmp_path / "a")
 
     def interrupt(done: int, total: int) -> None:
@@ -119,7 +133,7 @@ def test_an_interrupted_sweep_goes_on_where_it_stopped(plan: Plan, tmp_path: Pat
     assert (2, prints(tmp_path / "a")) == (rest.given, prints(tmp_path / "b"))
 
 
-def test_an_interrupted_sweep_shows_no_table(plan: Plan, tmp_path: Path) -> None:
+def test_an_interrupted_sweep_shows_no_table(plan: Sweep, tmp_path: Path) -> None:
     def interrupt(done: int, total: int) -> None:
         if done:
             raise KeyboardInterrupt
@@ -129,11 +143,11 @@ def test_an_interrupted_sweep_shows_no_table(plan: Plan, tmp_path: Path) -> None
     assert [p for p in tmp_path.iterdir() if not p.name.startswith(".")] == []
 
 
-def test_chunks_of_another_sweep_are_not_used(plan: Plan) -> None:
+def test_chunks_of_another_sweep_are_not_used(plan: Sweep) -> None:
     assert plan.key != replace(plan, positions=21).key
 
 
-def test_a_finished_sweep_leaves_nothing_behind(plan: Plan, tmp_path: Path) -> None:
+def test_a_finished_sweep_leaves_nothing_behind(plan: Sweep, tmp_path: Path) -> None:
     run(plan, tmp_path)
     assert ["designs.csv", "table.csv"] == sorted(p.name for p in tmp_path.iterdir())
 
@@ -141,22 +155,22 @@ def test_a_finished_sweep_leaves_nothing_behind(plan: Plan, tmp_path: Path) -> N
 def test_positions_of_a_long_turn_are_the_same_in_one_chunk_or_many(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    long = Plan(read("slider-crank-offset"), "x", designs_of(None), 100)
+    long = Sweep(read("slider-crank-offset"), "x", designs_of(None), 100)
     run(long, tmp_path / "a")
-    monkeypatch.setattr(chunks_room, "BLOCK", 64)
+    monkeypatch.setattr(sweeps, "BLOCK", 64)
     run(replace(long), tmp_path / "b")
     assert prints(tmp_path / "a") == prints(tmp_path / "b")
 
 
 def test_a_position_out_of_reach_has_its_reason(tmp_path: Path) -> None:
-    run(Plan(read("sixbar-AE70"), "x", designs_of(None), 12), tmp_path)
+    run(Sweep(read("sixbar-AE70"), "x", designs_of(None), 12), tmp_path)
     rows = (tmp_path / "table.csv").read_text().splitlines()[1:]
     away = [r for r in rows if "not assembled" in r]
     assert len(away) == 8
     assert all("the motion reaches from" in r for r in away)
 
 
-def test_parquet_holds_the_numbers_of_the_csv(plan: Plan, tmp_path: Path) -> None:
+def test_parquet_holds_the_numbers_of_the_csv(plan: Sweep, tmp_path: Path) -> None:
     parquet = pytest.importorskip("pyarrow.parquet", reason="pyarrow is not installed")
     csv = pytest.importorskip("pyarrow.csv", reason="pyarrow is not installed")
     run(plan, tmp_path, parquet=True)
@@ -168,19 +182,50 @@ def test_a_dask_cluster_that_loses_a_worker_gives_the_same_bytes(tmp_path: Path)
     distributed = pytest.importorskip("distributed", reason="the extra cluster is not installed")
     plan = replace(new_plan(), positions=9000)
     run(plan, tmp_path / "a")
-    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
-        victims = [next(iter(cluster.workers.values())).pid]
+    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as local:
+        victims = [next(iter(local.workers.values())).pid]
 
         def kill(done: int, total: int) -> None:
             if done > 0 and victims:
                 os.kill(victims.pop(), signal.SIGKILL)
 
-        with scheduler(cluster.scheduler_address) as executor:
+        with cluster(local.scheduler_address) as executor:
             run(plan, tmp_path / "b", executor, progress=kill)
     assert prints(tmp_path / "a") == prints(tmp_path / "b")
 
 
-def test_a_scheduler_that_does_not_answer_is_a_wrong_call() -> None:
-    pytest.importorskip("distributed", reason="the extra cluster is not installed")
-    with pytest.raises(CallError, match="no Dask scheduler answers"):
-        scheduler("nonsense address")
+
+
+def test_a_sweep_in_memory_is_the_one_in_the_file(plan: Sweep, tmp_path: Path) -> None:
+    run(plan, tmp_path)
+    with Workers() as workers:
+        table = collect(plan, workers).table
+    assert table is not None
+    assert (tmp_path / "table.csv").read_text() == table.csv()
+
+
+def test_a_long_sweep_through_processes_in_memory_is_the_same_as_here(plan: Sweep) -> None:
+    with Workers() as here, Workers(processes=2) as there:
+        one, other = collect(plan, here).table, collect(plan, there).table
+    assert one is not None
+    assert other is not None
+    assert one.csv() == other.csv()
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="no SIGKILL on this system")
+@pytest.mark.parametrize("sent", ["SIGKILL", "SIGINT"])
+def test_a_killed_or_interrupted_command_goes_on(tmp_path: Path, sent: str) -> None:
+    name = "fourbar-150-500-300-400"
+    call = [sys.executable, "-c", "from graphkin.cli import main; main()", "sweep", name, "-q", "--find", "v_C",
+            "--positions", "250000", "-o"]  # fmt: skip
+    first = subprocess.Popen([*call, str(tmp_path / "b")], stderr=subprocess.DEVNULL)
+    deadline = time.monotonic() + 60
+    while not list(tmp_path.glob("b/.sweep-*/0000001")) and time.monotonic() < deadline:
+        time.sleep(0.005)
+    first.send_signal(getattr(signal, sent))
+    first.wait()
+    left = len(list(tmp_path.glob("b/.sweep-*/0*")))
+    assert 2 <= left < 16
+    subprocess.run([*call, str(tmp_path / "b")], check=True)
+    run(Sweep(read(name), name, designs_of(None), 250_000, (Symbol.parse("v_C"),)), tmp_path / "a", parquet=True)
+    assert prints(tmp_path / "a").items() <= prints(tmp_path / "b").items()

@@ -1,0 +1,473 @@
+"""Sweeps: a mechanism, or many designs of it, followed over the range of the driver; in memory, or into files.
+
+The table is cut into pieces that depend on nothing but the sweep itself, so that it is the same whoever makes them, and
+whenever: an interrupted sweep goes on in its folder from the pieces that are done.
+"""
+
+from __future__ import annotations
+
+import io
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable
+from graphkin.jobs import Checkpoints, Progress, Workers, key_of
+from graphkin.scene import read
+from graphkin.scene.model import Scene
+from graphkin.scene.symbol import Symbol
+from graphkin.solver import prepare, structure_of
+from graphkin.solver.prepared import Prepared
+from graphkin.structure import Structure
+from graphkin.study.course import Course, course_of
+from graphkin.study.designs import Designs, Value, applied
+from graphkin.study.summary import row
+from graphkin.study.turn import study_turn
+from graphkin.study.watched import Watched, driver_columns, watched_of
+from graphkin.table import Column, Table, parquet_of_csv
+
+__all__ = ["Arrays", "Design", "Found", "Outcome", "Sweep", "collect", "designs_table", "write_tables"]
+
+Array = NDArray[Any]
+Parts = tuple[tuple[Array, ...], ...]
+
+BLOCK = 16384
+"""Positions in a piece, about."""
+MOST_DESIGNS = 64
+"""Designs in a piece, so that all workers have some."""
+LONG = 5.0
+"""Seconds of work (estimated) from which processes pay."""
+PREPARED = ("v", "a", "omega", "alpha")
+"""Kinds of symbols that a prepared mechanism gives."""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """How one design came out.
+
+    design : its number from 0
+    status, why : "ok"; "partly" (some positions have no values, with the reason of the first); or why none has
+    cells : range, strokes, K, least transmission angles (see `graphkin.study.summary.row`)
+    good : positions that are ok
+    """
+
+    design: int
+    status: str
+    why: str
+    cells: Mapping[str, float | str | None]
+    good: int
+
+
+@dataclass(frozen=True)
+class Found:
+    """What a sweep came to: rows in all, rows that are ok, and over designs how each came out.
+
+    table : in memory; None where it was written into files
+    """
+
+    rows: int
+    good: int
+    outcomes: tuple[Outcome, ...] = ()
+    table: Table | None = None
+    files: tuple[Path, ...] = ()
+
+
+@dataclass(frozen=True)
+class Arrays:
+    """What a prepared mechanism gives at all positions of a sweep.
+
+    parts : for each quantity that is watched its values (SI), two for a vector; NaN where not ok
+    ok : bool, shape (positions,)
+    """
+
+    parts: Parts
+    ok: Array
+
+
+@dataclass(frozen=True)
+class Design:
+    """One mechanism, followed over so many positions.
+
+    asked : what the table shows; nothing: everything that moves
+    at : driver values to start from (SI), by driver key
+    """
+
+    scene: Scene
+    positions: int
+    asked: tuple[Symbol, ...]
+    at: tuple[tuple[str, float], ...]
+
+    @cached_property
+    def structure(self) -> Structure:
+        return structure_of(self.scene)
+
+    @cached_property
+    def watched(self) -> tuple[Watched, ...]:
+        """What the table shows."""
+        return watched_of(self.structure, self.asked)
+
+    @cached_property
+    def course(self) -> Course:
+        """Its way under the first driver.  Raises Unsolvable."""
+        return course_of(self.scene, dict(self.at))
+
+    @cached_property
+    def engine(self) -> Prepared | None:
+        """The mechanism prepared for what is asked; None where it has no closed form for that, where everything is
+        asked, or where it starts elsewhere than the scene."""
+        if not self.asked or self.at or any(s.kind not in PREPARED for s in self.asked):
+            return None
+        try:
+            return prepare(self.structure, [str(s) for s in self.asked])
+        except CallError:
+            return None
+
+    def arrays(self) -> Arrays | None:
+        """All positions at once, where the mechanism can be prepared."""
+        if self.engine is None:
+            return None
+        return self._arrays(self.engine, *self.engine.sweep(self.positions))
+
+    def _arrays(self, engine: Prepared, columns: Array, ok: Array) -> Arrays:
+        if not ok.all():
+            columns[:, ~ok] = np.nan
+        by_name = dict(zip(engine.names, columns, strict=True))
+        ends = {True: (".x", ".y"), False: ("",)}
+        return Arrays(tuple(tuple(by_name[w.name + e] for e in ends[w.is_vector]) for w in self.watched), ok)
+
+    def table(self, first: int, last: int) -> Table:
+        """Positions ``first`` to ``last`` (not included): driver values, what is watched, status and reason."""
+        if self.engine is not None:
+            found = self.engine.columns(self.engine.values(self.positions, first, last))
+            return self.table_of(self._arrays(self.engine, *found), first, last)
+        motion = self.course.motion(self.course.table_offsets(self.positions, first, last))
+        parts = tuple(w.parts(self.course, motion) for w in self.watched)
+        return self._table(first, motion.values, parts, motion.status.tolist(), motion.why)
+
+    def table_of(self, arrays: Arrays, first: int, last: int) -> Table:
+        """The table of what a prepared mechanism gave."""
+        assert self.engine is not None
+        n = last - first
+        values = np.repeat(self.engine.start[None], n, axis=0)
+        values[:, 0] = self.engine.values(self.positions, first, last)
+        status, why, parts = ["ok"] * n, [""] * n, arrays.parts
+        bad = np.flatnonzero(~arrays.ok)
+        if len(bad):
+            parts = tuple(tuple(part.copy() for part in own) for own in parts)
+        for some in (bad[k : k + BLOCK] for k in range(0, len(bad), BLOCK)):
+            # why there is nothing there the solver says, and it has the last word on whether there is
+            motion = self.course.motion(self.course.table_offsets(self.positions, first, last)[some])
+            for own, watched in zip(parts, self.watched, strict=True):
+                for part, found in zip(own, watched.parts(self.course, motion), strict=True):
+                    part[some] = found
+            for k, said, reason in zip(some.tolist(), motion.status.tolist(), motion.why, strict=True):
+                status[k], why[k] = said, reason
+        return self._table(first, values, parts, status, why)
+
+    def blank(self, first: int, last: int, status: str = "", why: str = "") -> Table:
+        """The table of positions that have no values."""
+        nothing = np.full(last - first, np.nan)
+        parts = tuple((nothing,) * (1 + w.is_vector) for w in self.watched)
+        return self._table(first, np.stack([nothing] * len(self.scene.drivers), axis=1), parts, [status], [why])
+
+    def _table(self, first: int, values: Array, parts: Parts, status: Sequence[str], why: Sequence[str]) -> Table:
+        n = len(values)
+        shown = (c for w, own in zip(self.watched, parts, strict=True) for c in w.columns(self.scene, own))
+        return Table(
+            (
+                Column("position", np.arange(first + 1, first + n + 1)),
+                *driver_columns(self.scene, values),
+                *shown,
+                _words("status", status, n),
+                _words("why", why, n),
+            ),
+            ("position",),
+        )
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """A whole sweep: positions of one mechanism, or of many designs of it.
+
+    source : the scene, or the mapping of its file where designs replace numbers in it
+    asked, at : as for a `Design`
+    """
+
+    source: Scene | Mapping[str, Any]
+    name: str
+    designs: Designs
+    positions: int
+    asked: tuple[Symbol, ...] = ()
+    at: tuple[tuple[str, float], ...] = ()
+
+    @property
+    def rows(self) -> int:
+        """Rows of the table."""
+        return len(self.designs) * self.positions
+
+    @property
+    def scene(self) -> Scene:
+        """The scene itself, with nothing replaced."""
+        return self.base.scene
+
+    @cached_property
+    def base(self) -> Design:
+        """The scene itself as a design."""
+        scene = self.source if isinstance(self.source, Scene) else read(self.source)
+        return Design(scene, self.positions, self.asked, self.at)
+
+    @cached_property
+    def head(self) -> Table:
+        """The table without rows.  Raises Unsolvable for a wrong mobility."""
+        values = ["" if word else 0.0 for word in self.designs.worded]
+        return _with_design(self.base.blank(0, 0), self.designs.keys, 0, values)
+
+    @cached_property
+    def key(self) -> str:
+        """A key that two sweeps share only if they give the same results."""
+        source = repr(self.source) if isinstance(self.source, Scene) else dict(self.source)
+        asked = [str(s) for s in self.asked]
+        return key_of(BLOCK, source, self.name, repr(self.designs), self.positions, asked, self.at)
+
+    @property
+    def long(self) -> bool:
+        """Whether it takes so long that processes pay."""
+        each = 0.05 if self.designs.keys else 0.0
+        return len(self.designs) * each + self.rows * len(self.head.columns) * 2e-7 > LONG
+
+    @property
+    def pieces(self) -> int:
+        """How many pieces the sweep is cut into."""
+        if self.positions > BLOCK:
+            return len(self.designs) * -(-self.positions // BLOCK)
+        return -(-len(self.designs) // self._together)
+
+    @property
+    def _together(self) -> int:
+        """Designs in a piece."""
+        return max(1, min(BLOCK // self.positions, MOST_DESIGNS))
+
+    def piece(self, number: int, text: bool) -> Piece:
+        """One piece, with all that is needed to make it."""
+        if self.positions > BLOCK:
+            design, block = divmod(number, -(-self.positions // BLOCK))
+            some, first = range(design, design + 1), block * BLOCK
+            last = min(first + BLOCK, self.positions)
+        else:
+            some = range(number * self._together, min((number + 1) * self._together, len(self.designs)))
+            first, last = 0, self.positions
+        designs = tuple((k, self.designs[k]) for k in some)
+        # the values of all other designs stay at home
+        alone = replace(self, designs=Designs(self.designs.keys))
+        return Piece(self.key, alone, self.designs.worded, designs, first, last, text)
+
+
+@dataclass(frozen=True)
+class Piece:
+    """Some designs of a sweep, or some positions of one; its table is wanted as text or as it is."""
+
+    key: str
+    sweep: Sweep
+    worded: tuple[bool, ...]
+    designs: tuple[tuple[int, tuple[Value, ...]], ...]
+    first: int
+    last: int
+    text: bool
+
+
+@dataclass(frozen=True)
+class Made:
+    """What a piece gives: its table, or the text of it, how its designs came out, and rows that are ok."""
+
+    table: Table | None
+    text: bytes
+    outcomes: tuple[Outcome, ...]
+    good: int
+
+
+_LATEST: dict[tuple[str, int], Design | tuple[str, str]] = {}
+"""The design that was followed last, or why there is none: the pieces of a long one share it."""
+
+
+def make(piece: Piece) -> Made:
+    """Make one piece.  What goes wrong with a design is said in its rows; nothing is raised for it."""
+    made = [_rows(piece, number, values) for number, values in piece.designs]
+    table = Table.joined([t for t, _ in made])
+    outcomes = tuple(o for _, o in made)
+    text = b""
+    if piece.text:
+        out = io.BytesIO()
+        table.write_csv(out, head=False)
+        text = out.getvalue()
+    good = sum(o.good for o in outcomes)
+    return Made(None if piece.text else table, text, outcomes if piece.sweep.designs.keys else (), good)
+
+
+def _rows(piece: Piece, number: int, values: tuple[Value, ...]) -> tuple[Table, Outcome]:
+    design = _LATEST.get((piece.key, number))
+    if design is None:
+        design = _followed(piece.sweep, values)
+        _LATEST.clear()
+        _LATEST[piece.key, number] = design
+    keys = piece.sweep.designs.keys
+    cells: dict[str, float | str | None] = {}
+    if isinstance(design, tuple):
+        status, why = design
+        good, table = 0, piece.sweep.base.blank(piece.first, piece.last, status, why)
+    else:
+        table = design.table(piece.first, piece.last)
+        bad = np.flatnonzero(table["status"] != "ok")
+        good = len(table) - len(bad)
+        status, why = (table["status"][bad[0]], table["why"][bad[0]]) if len(bad) else ("ok", "")
+        if keys and piece.first == 0:
+            cells = row(study_turn(design.course, everything=False))
+    shown = [str(v) if word else v for v, word in zip(values, piece.worded, strict=True)]
+    return _with_design(table, keys, number, shown), Outcome(number, status, why, cells, good)
+
+
+def _followed(sweep: Sweep, values: tuple[Value, ...]) -> Design | tuple[str, str]:
+    """A design whose way is known, or the status and the reason why it has none."""
+    try:
+        if isinstance(sweep.source, Scene):
+            design = sweep.base
+        else:
+            scene = read(applied(sweep.source, sweep.designs.keys, values))
+            design = Design(scene, sweep.positions, sweep.asked, sweep.at)
+        if design.engine is None or sweep.designs.keys:
+            _ = design.course
+        return design
+    except Unsolvable as error:
+        return error.status, error.why
+    except GraphkinError as error:
+        return "wrong scene", " ".join(str(p) for p in error.problems)
+
+
+def _with_design(table: Table, keys: Sequence[str], number: int, values: Sequence[Value]) -> Table:
+    """The table of a design, with its number and what is replaced in it before it."""
+    if not keys:
+        return table
+    n = len(table)
+    replaced = (
+        _words(key, [value], n) if isinstance(value, str) else Column(key, np.full(n, float(value)))
+        for key, value in zip(keys, values, strict=True)
+    )
+    return Table((Column("design", np.full(n, number + 1)), *replaced, *table.columns), ("design", "position"))
+
+
+def _words(name: str, words: Sequence[str], n: int) -> Column:
+    """A column of words; a single one stands in every row."""
+    values = np.empty(n, dtype=object)
+    values[:] = words[0] if len(words) == 1 else words
+    return Column(name, values)
+
+
+def collect(sweep: Sweep, workers: Workers, progress: Progress | None = None) -> Found:
+    """A whole sweep in memory."""
+    made: list[Made] = []
+    for piece in workers.results(make, ((sweep.piece(k, False),) for k in range(sweep.pieces))):
+        made.append(piece)
+        _count(sweep, len(made), progress)
+    table = Table.joined([m.table for m in made if m.table is not None])
+    return _found(sweep, ((m.outcomes, m.good) for m in made), table)
+
+
+def write_tables(
+    sweep: Sweep, folder: Path, workers: Workers, parquet: bool = False, progress: Progress | None = None
+) -> Found:
+    """Make what is missing of a sweep and write its tables into a folder; they appear whole or not at all.
+
+    Parameters
+    ----------
+    parquet : whether table.parquet is written too
+    progress : called with the rows that are done and all rows
+
+    Raises
+    ------
+    CallError : the folder cannot be written
+    """
+    # what is wrong with the scene itself is said before anything is written
+    _ = sweep.head
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        points = Checkpoints.of(folder, "sweep", sweep.key)
+        points.open(scene=sweep.name, pieces=sweep.pieces, rows=sweep.rows)
+        have = points.done()
+        missing = [k for k in range(sweep.pieces) if k not in have]
+        done = sweep.pieces - len(missing)
+        _count(sweep, done, progress)
+        results = workers.results(make, ((sweep.piece(k, True),) for k in missing))
+        for number, made in zip(missing, results, strict=True):
+            outcomes = [asdict(o) for o in made.outcomes]
+            points.save(number, {"outcomes": outcomes, "good": made.good}, made.text)
+            done += 1
+            _count(sweep, done, progress)
+        return _merged(sweep, points, folder, parquet)
+    except OSError as error:
+        raise CallError(
+            Problem(str(folder), f"cannot be written: {error.strerror or error}", "give another folder with -o")
+        ) from None
+
+
+def _merged(sweep: Sweep, points: Checkpoints, folder: Path, parquet: bool) -> Found:
+    """All pieces in their order as tables in the folder of results; the pieces are removed."""
+    facts = []
+    files = [folder / "table.csv"]
+    with open(points.place / "table.csv", "wb") as out:
+        sweep.head.write_csv(out)
+        for piece in map(points.load, range(sweep.pieces)):
+            piece.copy(out)
+            facts.append(piece.facts)
+    found = _found(
+        sweep, ((tuple(Outcome(**o) for o in f["outcomes"]), f["good"]) for f in facts), None
+    )
+    if sweep.designs.keys:
+        files.append(folder / "designs.csv")
+        with open(points.place / "designs.csv", "wb") as out:
+            designs_table(sweep, found.outcomes).write_csv(out)
+    if parquet:
+        files.append(folder / "table.parquet")
+        with open(points.place / "table.parquet", "wb") as out:
+            parquet_of_csv(points.place / "table.csv", sweep.head, out)
+    for file in files:
+        os.replace(points.place / file.name, file)
+    points.close()
+    return replace(found, files=tuple(files))
+
+
+def _count(sweep: Sweep, done: int, progress: Progress | None) -> None:
+    if progress is not None:
+        progress(min(sweep.rows, round(sweep.rows * done / sweep.pieces)), sweep.rows)
+
+
+def _found(sweep: Sweep, made: Iterable[tuple[tuple[Outcome, ...], int]], table: Table | None) -> Found:
+    """What a sweep came to, from what its pieces say: a design is "ok", "partly" so (some positions could not be
+    given), or has the status of the first that could not."""
+    good = 0
+    parts: dict[int, list[Outcome]] = {}
+    for outcomes, rows in made:
+        good += rows
+        for outcome in outcomes:
+            parts.setdefault(outcome.design, []).append(outcome)
+    whole = []
+    for design, own in sorted(parts.items()):
+        right = sum(o.good for o in own)
+        said = next((o for o in own if o.why), own[0])
+        status = "ok" if right == sweep.positions else "partly" if right else said.status
+        cells = next((o.cells for o in own if o.cells), {})
+        whole.append(Outcome(design, status, said.why, cells, right))
+    return Found(sweep.rows, good, tuple(whole), table)
+
+
+def designs_table(sweep: Sweep, outcomes: Sequence[Outcome]) -> Table:
+    """A row for each design: what was replaced, how it came out, strokes, K, least transmission angles."""
+    names = tuple(dict.fromkeys(name for o in outcomes for name in o.cells))
+    rows = (
+        (o.design + 1, *sweep.designs[o.design], o.status, *(o.cells.get(n) for n in names), o.why) for o in outcomes
+    )
+    return Table.of(("design", *sweep.designs.keys, "status", *names, "why"), rows)
