@@ -28,10 +28,11 @@ from graphkin.words import Phrase, languages, say
 
 __all__ = ["BLOCK", "GUTTER", "MARGIN", "SheetPlan", "sheet_page", "sheet_plan", "sheet_room"]
 
-PAPERS = {"A4": (210.0, 297.0), "A3": (297.0, 420.0), "A2": (420.0, 594.0), "A1": (594.0, 841.0), "A0": (841.0, 1189.0)}
 MARGIN, GUTTER, CAPTION = 10.0, 2.0, 5.5
 HEAD, BLOCK = 11.0, 16.0  # heading above, title block below
 FILL = 0.87  # of a panel, by the polygon with the finest scale
+BAR_ROOM, SCALES_ROOM = 56.0, 33.0  # least widths in the title block, for the check bar and for the scales
+EQUATIONS_ROOM = 20.0  # least height of the equations above insets of Coriolis terms
 AROUND_MECHANISM = (13.0, 15.0)  # mm for symbols and names
 # Height of the mechanism's panel by that of a polygon's: the usual one, and such as tall mechanisms may have.
 HEIGHTS = (1.08, 1.33, 1.43)
@@ -66,10 +67,9 @@ def _mechanism_room(plan: SheetPlan) -> tuple[float, float]:
 
 def _plans(scene: Scene) -> tuple[SheetPlan, ...]:
     """The usual plan of a page, and those for taller mechanisms."""
-    short, long = PAPERS.get(scene.sheet.paper, PAPERS["A4"])
     if scene.sheet.orientation == "landscape":
-        return (_landscape(long, short),)
-    return tuple(_portrait(short, long, tall) for tall in HEIGHTS)
+        return (_landscape(*scene.sheet.size),)
+    return tuple(_portrait(*scene.sheet.size, tall) for tall in HEIGHTS)
 
 
 def sheet_plan(sheet: Sheet) -> SheetPlan:
@@ -225,6 +225,8 @@ def _polygon(
 def _equations(sheet: Sheet, letters: Letters, language: str, box: Box, senses: list[CoriolisTerm]) -> Piece:
     """The equations, and below them the insets of Coriolis terms that found no room in their panel."""
     insets = INSET[1] + GUTTER if senses else 0.0
+    if box.height < insets + EQUATIONS_ROOM:  # on small paper the equations come first
+        senses, insets = [], 0.0
     blocks, left_out = write_equations(sheet, letters, language, box.width, box.height - insets)
     written: list[Primitive] = [Group(moved(blocks, complex(box.left, box.top)), id="equations")]
     if left_out:
@@ -239,7 +241,8 @@ def _equations(sheet: Sheet, letters: Letters, language: str, box: Box, senses: 
 
 def _title_block(sheet: Sheet, report: Report | None, letters: Letters, language: str, box: Box) -> Piece:
     lines: list[Primitive] = [Polygon(box.corners, "", strokes.OUTLINE)]
-    one, two = box.left + 0.36 * box.width, box.left + 0.66 * box.width
+    two = min(box.left + 0.66 * box.width, box.right - BAR_ROOM)
+    one = min(box.left + 0.36 * box.width, two - SCALES_ROOM)
     lines += [Line(complex(x, box.top), complex(x, box.bottom), strokes.DIMENSION) for x in (one, two)]
     words: list[Primitive] = []
     names = titles(sheet, language)

@@ -93,7 +93,7 @@ def _alike(one: _Row, two: _Row) -> bool:
 
 def _grid(count: int, area: Box, heads: int) -> tuple[int, int, float]:
     """How many rows fit under so many lines of heading, in how many columns, how high."""
-    widest = 3 if area.width > 170 else 2
+    widest = 3 if area.width > 170 else 2 if area.width > 100 else 1
     for columns in range(1, widest + 1):
         if area.width / columns > 95 and columns < widest:
             continue  # too wide to read across

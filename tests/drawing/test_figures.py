@@ -7,13 +7,17 @@ import json
 import math
 import re
 import xml.etree.ElementTree as ET
+from dataclasses import replace
 from functools import lru_cache
 
 import pytest
 
 from graphkin.construction import Sheet, draft
-from graphkin.drawing import figures, sheet_room, svg_bytes
+from graphkin.drawing import Box, Drawing, Text, figures, sheet_room, svg_bytes
+from graphkin.drawing.primitives import walk
+from graphkin.drawing.text import text_box
 from graphkin.scene import library, read
+from graphkin.scene.model import PAPERS
 
 SVG = "{http://www.w3.org/2000/svg}"
 GUIDE = "sixbar-guide-40deg"
@@ -277,3 +281,28 @@ def test_no_two_feet_of_components_bear_the_same_name(convention):
     feet = [g for g in page.iter() if g.get("id", "").startswith("label-foot-")]
     names = ["".join(g.itertext()) for g in feet]
     assert 2 == len(set(names)) == len(names)
+
+
+def on_paper(name: str, paper: str, orientation: str) -> Drawing:
+    scene = read(name)
+    scene = replace(scene, sheet=replace(scene.sheet, paper=paper, orientation=orientation))
+    small = draft(scene, room=sheet_room(scene))
+    return figures(small, small)["sheet"]
+
+
+@pytest.mark.parametrize("orientation", ["portrait", "landscape"])
+@pytest.mark.parametrize("paper", PAPERS)
+def test_the_sheet_is_as_large_as_the_paper_that_the_scene_wishes(paper: str, orientation: str) -> None:
+    short, long = PAPERS[paper]
+    page = on_paper("shaper-scheme-2", paper, orientation)
+    assert (short, long) == tuple(sorted((page.width, page.height)))
+    assert (orientation == "landscape") == (page.width > page.height)
+
+
+@pytest.mark.parametrize("orientation", ["portrait", "landscape"])
+@pytest.mark.parametrize("name", ["shaper-scheme-2", "sixbar-guide-40deg", "four-bar-coupler-point"])
+def test_nothing_runs_off_a_small_sheet_and_no_words_stand_on_each_other(name: str, orientation: str) -> None:
+    page = on_paper(name, "A5", orientation)
+    texts = [text_box(thing) for thing in walk(page.children) if isinstance(thing, Text)]
+    assert all(Box(0.0, 0.0, page.width, page.height).grown(-5.0).holds(box) for box in texts)
+    assert [] == [(a, b) for i, a in enumerate(texts) for b in texts[:i] if a.grown(-0.3).overlaps(b)]
