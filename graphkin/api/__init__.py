@@ -6,6 +6,7 @@ from graphkin.api.centroded import Centroded, centrodes
 from graphkin.api.checked import Checked, check
 from graphkin.api.drawn import Drawn, draw
 from graphkin.api.handouts import Handout, handout
+from graphkin.api.prepared import Prepared, Samples, prepare
 from graphkin.api.problem_sets import ProblemSet, problem_set
 from graphkin.api.scene_list import Listed, scenes
 from graphkin.api.solved import Solved, solve
@@ -20,7 +21,9 @@ __all__ = [
     "Drawn",
     "Handout",
     "Listed",
+    "Prepared",
     "ProblemSet",
+    "Samples",
     "Solved",
     "SpeedAccuracy",
     "Stability",
@@ -31,6 +34,7 @@ __all__ = [
     "check",
     "draw",
     "handout",
+    "prepare",
     "problem_set",
     "scenes",
     "solve",

@@ -238,7 +238,7 @@ class Prepared:
         return Kernel(self._code, self.turns, False, len(self.asked), SINGULAR)
 
     @cached_property
-    def _clear(self) -> bool:
+    def clear(self) -> bool:
         """Whether there is nothing to be looked at: a whole turn of one assembly, far from every dead point."""
         return self._whole and self._even and self._signs is not None
 
@@ -277,7 +277,7 @@ class Prepared:
     def _compiled(self, way: GivenValues | UniformGrid, out: Array) -> Array:
         n = len(way)
         kernel = self._on_grid if isinstance(way, UniformGrid) else self._at_values
-        if self._clear:
+        if self.clear:
             kernel(n, self._numbers, *way.given, out)
             return _every(n)
         ok = np.ones(n, dtype=bool) if self._whole else self._offset(way.values)[1]
@@ -324,7 +324,7 @@ class Prepared:
     def sweep(self, n: int, out: Array | None = None, fast: bool = False) -> tuple[Array, Array]:
         """``columns`` at n positions of the whole range."""
         out = np.empty((len(self.asked), n)) if out is None else out
-        if fast and n < LONG and self._clear:
+        if fast and n < LONG and self.clear:
             # nothing but the call: at some hundred positions each line here would be felt
             self._on_grid.run(0, n, self._numbers, n, 0, out)
             return out, _every(n)

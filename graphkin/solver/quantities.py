@@ -7,6 +7,7 @@ from typing import cast
 
 from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.solver.engine import SLACK
 from graphkin.solver.expressions import Real, Vec, fmax
 from graphkin.solver.pose import Pose
 from graphkin.solver.program import Program
@@ -51,7 +52,7 @@ def bounds(program: Program, structure: Structure, asked: Sequence[str], units: 
     With a larger group they are made from the bounds of the whole mechanism, inputs ("bound", 0) to ("bound", 5).
     """
     quantities = {name: _Quantity(program, structure, name) for name in asked}
-    return {name: q.bound() * q.scale(units) for name, q in quantities.items()}
+    return {name: SLACK * (q.bound() * q.scale(units)) for name, q in quantities.items()}
 
 
 class _Quantity:

@@ -1,0 +1,238 @@
+"""``prepare``: a mechanism made ready for an inner loop, at one position in no time, at millions, as many designs."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+from importlib.util import find_spec
+from numbers import Integral
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from graphkin.api.arguments import SceneLike, as_scene
+from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.scene.model import AngleDriver, Scene
+from graphkin.scene.symbol import Symbol
+
+if TYPE_CHECKING:
+    from graphkin import solver
+    from graphkin.table import Table
+
+__all__ = ["Prepared", "Samples", "prepare"]
+
+Reals = NDArray[np.float64]
+
+MANY = 500_000
+"""From so many positions in one call on the formulas are compiled where that can be done; it takes a second or two."""
+MOST = 1_000_000_000
+
+
+@dataclass(slots=True, eq=False, repr=False)  # not frozen: that would take longer than a hundred positions
+class Samples:
+    """The quantities of a prepared mechanism at many positions.
+
+    ``samples["v_C"]`` is a complex array, ``samples["v_C.x"]`` and ``samples["omega_3"]`` are real ones, shape (n,),
+    in the units of ``Prepared.units``; NaN where ``ok`` is False.
+
+    values : real, shape (columns, n), in the order of ``Prepared.names``
+    ok : bool, shape (n,): False at positions that the motion does not reach, and at dead points
+    """
+
+    prepared: Prepared
+    values: Reals
+    ok: NDArray[np.bool_]
+    _driver: Reals | None
+    _bounds: Reals | None
+
+    def __len__(self) -> int:
+        return len(self.ok)
+
+    def __getitem__(self, name: str) -> NDArray[np.float64] | NDArray[np.complex128]:
+        """A quantity or a column by its name.  Raises CallError for one that was not asked for."""
+        names = self.prepared.names
+        if name in names:
+            return np.asarray(self.values[names.index(name)])
+        self.prepared.known(name)
+        first = names.index(f"{name}.x")
+        return np.asarray(self.values[first] + 1j * self.values[first + 1])
+
+    def bound(self, name: str) -> Reals:
+        """How far rounding may have moved a quantity, shape (n,), in its unit: both components of a vector; infinite
+        where nothing is known.  Raises CallError where bounds were not asked for."""
+        if self._bounds is None:
+            raise CallError(Problem("bound", "no bounds were asked for", "prepare with bounds=True"))
+        return np.asarray(self._bounds[self.prepared.known(name)])
+
+    @property
+    def driver(self) -> Reals:
+        """Values of the first driver, shape (n,) (degrees, or the scene's length unit)."""
+        return self.prepared.driver_values(len(self)) if self._driver is None else self._driver
+
+    @property
+    def table(self) -> Table:
+        """A row for each position: the driver, the columns, and whether there is such a position."""
+        from graphkin.table import Column, Table
+
+        first, units = self.prepared.scene.drivers[0], self.prepared.units
+        unit = "deg" if isinstance(first, AngleDriver) else self.prepared.scene.units.length
+        columns = [Column(f"driver_{first.key}", np.round(self.driver, 11), unit)]
+        for name, values in zip(self.prepared.names, self.values, strict=True):
+            symbol = name.removesuffix(".x").removesuffix(".y")
+            columns.append(Column(name, values, units[symbol], symbol))
+        return Table((*columns, Column("ok", self.ok)))
+
+    def __repr__(self) -> str:
+        return f"<Samples of {', '.join(self.prepared.asked)}: {int(self.ok.sum())} of {len(self)} positions>"
+
+    def _repr_html_(self) -> str:
+        return self.table._repr_html_()
+
+
+@dataclass(frozen=True, repr=False)
+class Prepared:
+    """A mechanism with its assembly followed over the whole range of its first driver, and the code for what is asked.
+
+    asked : the quantities, as they were named
+    names : of the columns, two for a vector ("v_B.x", "v_B.y")
+    fast : whether formulas are compiled (numba, the extra ``fast``): True always, False never, None for many positions
+    """
+
+    asked: tuple[str, ...]
+    bounded: bool
+    fast: bool | None
+    ready: solver.Prepared
+
+    @property
+    def scene(self) -> Scene:
+        return self.ready.structure.scene
+
+    @cached_property
+    def names(self) -> tuple[str, ...]:
+        return self.ready.names
+
+    @cached_property
+    def units(self) -> dict[str, str]:
+        """The unit of each quantity asked for: the scene's length unit, seconds, degrees for angles, but radians in
+        their rates (rad/s, rad/s2)."""
+        length = self.scene.units.length
+        kinds = {"v": f"{length}/s", "a": f"{length}/s2", "theta": "deg", "omega": "rad/s", "alpha": "rad/s2"}
+        return {name: kinds.get(name.partition("_")[0] if "_" in name else "", length) for name in self.asked}
+
+    def known(self, name: str) -> int:
+        """Place of a quantity among those asked for.  Raises CallError for another one."""
+        if name not in self.asked:
+            raise CallError(Problem(f'"{name}"', "was not asked for", did_you_mean(name, [*self.asked, *self.names])))
+        return self.asked.index(name)
+
+    def driver_values(self, n: int) -> Reals:
+        """The values of the first driver at which ``sweep(n)`` computes, shape (n,)."""
+        return self.ready.values(n) / self._own_unit
+
+    @cached_property
+    def _own_unit(self) -> float:
+        return math.radians(1.0) if self.ready.turns else self.scene.units.metres
+
+    def at(self, value: float) -> tuple[float, ...] | None:
+        """The columns at one value of the first driver, as plain floats; in some microseconds.
+
+        Parameters
+        ----------
+        value : in the driver's own unit (degrees, or travel in the scene's length unit)
+
+        Returns
+        -------
+        In the order of ``names``; None where the motion does not come, and at a dead point
+        """
+        found = self.ready.at(math.radians(value) if self.ready.turns else value * self._own_unit)
+        return found if found is None or not self.bounded else found[: len(self.names)]
+
+    def columns(self, values: ArrayLike) -> Samples:
+        """The quantities at given values of the first driver, shape (n,), in its own unit."""
+        own = np.atleast_1d(np.asarray(values, dtype=float))
+        given = np.radians(own) if self.ready.turns else own * self._own_unit
+        return self._samples(*self.ready.columns(given, fast=self._compiled(len(own))), own)
+
+    def sweep(self, n: int) -> Samples:
+        """The quantities at n positions of the whole range: a turn from the scene's own position on, in the sense of
+        the driver; of a driven slide evenly inside the range of travel.  As fast as the memory takes the columns: about
+        5 ns a position compiled, 30 in NumPy.
+
+        Raises
+        ------
+        CallError : n is no number of positions; numba is to compile (``fast=True``) and is not installed
+        """
+        if not isinstance(n, Integral) or not 1 <= n <= MOST:
+            raise CallError(Problem("sweep", f"{n} positions", f"give a whole number from 1 to {MOST}"))
+        return self._samples(*self.ready.sweep(int(n), None, self._compiled(int(n))), None)
+
+    def _compiled(self, n: int) -> bool:
+        if self.fast is None:
+            return n >= MANY and find_spec("numba") is not None
+        return self.fast
+
+    def _samples(self, columns: Reals, ok: NDArray[np.bool_], driver: Reals | None) -> Samples:
+        if not self.ready.clear and not ok.all():
+            columns[:, ~ok] = np.nan
+        if not self.bounded:
+            return Samples(self, columns, ok, driver, None)
+        count = len(self.names)
+        bounds = np.where(ok, np.nan_to_num(columns[count:], nan=np.inf, posinf=np.inf), np.nan)
+        return Samples(self, columns[:count], ok, driver, bounds)
+
+    def __repr__(self) -> str:
+        return f"<Prepared {self.scene.name}: {', '.join(self.asked)}>"
+
+
+def prepare(
+    scene: SceneLike, find: str | Symbol | Iterable[str | Symbol], bounds: bool = False, fast: bool | None = None
+) -> Prepared:
+    """Make a mechanism ready to give a few quantities very often: for an optimiser, a simulation, a table of millions.
+
+    The scene is read and analysed, its assembly followed over the whole range of its first driver, and what is asked
+    for is written out as code, all of it once.
+
+    Parameters
+    ----------
+    scene : a file, the name of a scene that comes along, a mapping of the same shape, or a `Scene`
+    find : quantities by name: "C" (place of a point), "v_C", "a_C", "a_B@3" (of the point of link 3 that lies at B),
+        "v_C/B" (relative), "theta_3", "omega_3", "alpha_3" (of a link), "s_3/4" (travel of a sliding pair)
+    bounds : also how far rounding may have moved each of them, ``Samples.bound``
+    fast : compile the formulas with numba (the extra ``fast``): True on the first call, which then takes a second or
+        two; False never; None in calls for 500,000 positions or more, where numba is installed
+
+    Returns
+    -------
+    Prepared; all its values are in the scene's length unit, seconds and degrees, rates of angles in rad/s and rad/s2
+
+    Raises
+    ------
+    SceneError, CallError : the file or the call is wrong, a name that names nothing
+    Unsolvable : wrong mobility; the scene's own position cannot be assembled, or is a dead point
+
+    A mechanism with a group larger than a dyad has no closed form: it is served too, by Newton's method at each
+    position, some hundred times slower.
+
+    Examples
+    --------
+    >>> shaper = prepare("shaper-scheme-2", ["v_C", "omega_4"])
+    >>> shaper.names
+    ('v_C.x', 'v_C.y', 'omega_4')
+    >>> ["%.4f" % x for x in shaper.at(90)]
+    ['795.1085', '0.0000', '-1.3709']
+    >>> turn = shaper.sweep(360)
+    >>> fastest = abs(turn["v_C"]).argmax()
+    >>> f"{abs(turn['v_C'][fastest]):.1f} {shaper.units['v_C']} at {turn.driver[fastest]:.1f} deg"
+    '1345.6 mm/s at -90.1 deg'
+    """
+    from graphkin import solver
+
+    given = as_scene(scene)
+    asked = tuple(str(name) for name in ([find] if isinstance(find, str | Symbol) else find))
+    if not asked:
+        raise CallError(Problem("find", "asks for nothing", 'name quantities, for example ["v_C", "omega_3"]'))
+    units = 1.0 / given.units.metres, math.degrees(1.0)
+    return Prepared(asked, bounds, fast, solver.prepare(given, asked, units, bounds))

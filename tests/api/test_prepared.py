@@ -1,0 +1,128 @@
+"""``graphkin.prepare``: the values are those of ``solve`` in the scene's units, within the bounds that are told."""
+
+from __future__ import annotations
+
+from importlib.util import find_spec
+
+import numpy as np
+import pytest
+
+import graphkin
+from graphkin.api.prepared import Prepared
+from graphkin.scene import read_text
+from graphkin.scene.symbol import Symbol
+from tests import scenes
+from tests.mechanisms import KINDS, random_scene
+
+ASKED = ["C", "v_C", "a_C", "a_B@4", "v_C/B", "omega_4", "alpha_4", "theta_4", "s_3/4"]
+
+
+def shaper(**wishes: bool) -> Prepared:
+    return graphkin.prepare("shaper-scheme-2", ASKED, **wishes)
+
+
+def test_a_turn_has_the_values_of_solve_in_the_units_of_the_scene():
+    samples, motion = shaper().sweep(30), graphkin.solve("shaper-scheme-2", sweep=30).motion
+    assert motion.velocity("C") * 1000 == pytest.approx(samples["v_C"], abs=1e-9)
+    assert motion.acceleration("B", "4") * 1000 == pytest.approx(samples["a_B@4"], abs=1e-8)
+    assert motion.slide("3/4").travel * 1000 == pytest.approx(samples["s_3/4"], abs=1e-9)
+    assert motion.omega("4") == pytest.approx(samples["omega_4"], abs=1e-12)
+    assert np.degrees(motion.angle("4")) == pytest.approx(samples["theta_4"], abs=1e-9)
+
+
+def test_one_position_is_that_of_solve_at_the_same_degrees():
+    motion = graphkin.solve("shaper-scheme-2", at=100).motion
+    assert complex(motion.velocity("C")[0]) * 1000 == pytest.approx(complex(*shaper().at(100)[2:4]), abs=1e-9)
+
+
+def test_given_values_are_those_of_the_sweep_there():
+    ready = shaper()
+    turn = ready.sweep(50)
+    assert ready.columns(turn.driver).values == pytest.approx(turn.values, abs=1e-7)
+
+
+def test_velocity_is_the_rate_of_the_place():
+    ready, step = shaper(), 1e-4
+    seconds = np.radians(step) / abs(ready.scene.drivers[0].values[1])
+    turn = ready.sweep(20)
+    before, after = (ready.columns(turn.driver + d)["C"] for d in (step, -step))  # it turns clockwise
+    assert turn["v_C"] == pytest.approx((after - before) / (2 * seconds), abs=1e-3)
+
+
+def test_a_driven_slide_takes_travel_in_the_unit_of_the_scene():
+    ready = graphkin.prepare("hydraulic-cylinder", ["omega_1"])
+    value = ready.sweep(5).driver[2]
+    omega = graphkin.solve("hydraulic-cylinder", at=float(value)).motion.omega("1")
+    assert omega[0] == pytest.approx(ready.at(float(value))[0], rel=1e-12)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_no_value_is_further_from_that_of_solve_than_both_bounds_say(kind):
+    scene = graphkin.read(random_scene(3, (kind, "RRR")))
+    links = [link.name for link in scene.links]
+    asked = [f"{what}_{link}" for link in links for what in ("omega", "alpha")] + [f"a_{p}" for p in scene.holders]
+    samples, motion = graphkin.prepare(scene, asked, bounds=True).sweep(40), graphkin.solve(scene, sweep=40).motion
+    both = samples.ok & motion.ok
+    assert both.any()
+    for name in asked:
+        metres = scene.units.metres if name.startswith("a_") else 1.0
+        exact = motion.value(Symbol.parse(name)) / metres
+        size = {"o": motion.turning_bound[1], "a": motion.turning_bound[2]}[name[0]]
+        known = (motion.acceleration_bound if name.startswith("a_") else size) / metres
+        off = np.abs(samples[name] - exact)[both]
+        assert (off <= (1.5 * samples.bound(name) + known)[both]).all(), name
+
+
+def test_bounds_that_were_not_asked_for_are_refused():
+    with pytest.raises(graphkin.CallError, match="bounds=True"):
+        shaper().sweep(3).bound("v_C")
+
+
+def test_the_bounds_of_a_shaper_are_a_few_roundings():
+    samples = shaper(bounds=True).sweep(100)
+    assert np.max(samples.bound("v_C")) < 1e-12 * np.abs(samples["v_C"]).max()
+
+
+@pytest.mark.skipif(find_spec("numba") is None, reason="the extra fast is not installed")
+def test_compiled_samples_are_those_of_numpy():
+    slow, fast = shaper(fast=False).sweep(1000), shaper(fast=True).sweep(1000)
+    assert np.abs(fast.values - slow.values).max() < 2e-14 * np.abs(slow.values).max()
+
+
+def test_positions_out_of_reach_have_no_numbers():
+    samples = graphkin.prepare("sixbar-AE70", "v_C").columns([50, 180])
+    assert [True, False] == samples.ok.tolist()
+    assert [False, True] == np.isnan(samples["v_C"]).tolist()
+
+
+def test_a_larger_group_is_served_too():
+    samples = graphkin.prepare("double-butterfly", ["v_E"], bounds=True).sweep(3)
+    motion = graphkin.solve("double-butterfly", sweep=3).motion
+    off = np.abs(samples["v_E"] - motion.velocity("E") / motion.scene.units.metres)
+    assert (off <= samples.bound("v_E")).all()
+
+
+def test_the_table_has_the_driver_and_each_column_with_its_unit():
+    heads = graphkin.prepare("shaper-scheme-2", ["v_C", "omega_4"]).sweep(4).table.heads
+    assert ("driver_2 (deg)", "v_C.x (mm/s)", "v_C.y (mm/s)", "omega_4 (rad/s)", "ok") == heads
+
+
+@pytest.mark.parametrize(("find", "what"), [("v_Q", "Q"), (["omega_9"], "9"), ([], "nothing")])
+def test_what_names_nothing_is_refused(find, what):
+    with pytest.raises(graphkin.CallError, match=what):
+        graphkin.prepare("shaper-scheme-2", find)
+
+
+def test_a_quantity_that_was_not_asked_for_is_refused_with_what_was():
+    with pytest.raises(graphkin.CallError, match="v_C"):
+        graphkin.prepare("shaper-scheme-2", "v_C").sweep(3)["v_B"]
+
+
+@pytest.mark.parametrize("n", [0, 1.5, -3, 10**10])
+def test_no_number_of_positions_is_refused(n):
+    with pytest.raises(graphkin.CallError, match="positions"):
+        graphkin.prepare("shaper-scheme-2", "v_C").sweep(n)
+
+
+def test_a_scene_of_the_tests_without_units_is_in_millimetres():
+    assert "mm/s" == graphkin.prepare(read_text(scenes.FOUR_BAR, "f"), "v_C").units["v_C"]
