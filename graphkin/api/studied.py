@@ -15,7 +15,7 @@ from graphkin.api.files import write_files
 from graphkin.errors import CallError, Problem, did_you_mean
 
 if TYPE_CHECKING:
-    from graphkin.drawing import Drawing
+    from graphkin.drawing import Chart
     from graphkin.study.limits import Trial
     from graphkin.study.speed import Race
 
@@ -30,7 +30,7 @@ class SpeedAccuracy:
     language: str
 
     @cached_property
-    def figures(self) -> Mapping[str, Drawing]:
+    def figures(self) -> Mapping[str, Chart]:
         """The chart: velocity and acceleration side by side."""
         from graphkin.study.speed import page
 
@@ -105,7 +105,7 @@ class Stability:
         return next(trial for trial in self.trials if trial.key == kind)
 
     @cached_property
-    def figures(self) -> Mapping[str, Drawing]:
+    def figures(self) -> Mapping[str, Chart]:
         """The charts by name, six singularities on each."""
         from graphkin.study.limits import pages
 
@@ -175,17 +175,13 @@ def stability(
 
 
 def _written(
-    folder: Path, figures: Mapping[str, Drawing], name: str, table: str, formats: Sequence[str]
+    folder: Path, figures: Mapping[str, Chart], name: str, table: str, formats: Sequence[str]
 ) -> list[Path]:
-    from graphkin.drawing.save import drawing_bytes
-
     known_words(formats)
-    files = {f"{n}.{kind}": drawing_bytes(f, kind) for n, f in figures.items() for kind in formats}
+    files = {f"{n}.{kind}": f.content(kind) for n, f in figures.items() for kind in formats}
     return write_files(folder, {**files, name: table.encode()})
 
 
-def _shown(figures: Mapping[str, Drawing]) -> str:
-    from graphkin.drawing import svg_bytes
-
-    return "".join(f"<figure>{svg_bytes(f).decode()}<figcaption>{html.escape(f.title)}</figcaption></figure>"
+def _shown(figures: Mapping[str, Chart]) -> str:
+    return "".join(f"<figure>{f._repr_svg_()}<figcaption>{html.escape(f.title)}</figcaption></figure>"
                    for f in figures.values())

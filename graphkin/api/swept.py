@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     import pandas
     import xarray
 
-    from graphkin.drawing import Drawing
+    from graphkin.drawing import Chart, Drawing
     from graphkin.study import Sweep, Turn
     from graphkin.study.sweeps import Arrays, Found
 
@@ -129,7 +129,7 @@ class Swept:
         return data
 
     @cached_property
-    def figures(self) -> Mapping[str, Drawing]:
+    def figures(self) -> Mapping[str, Chart | Drawing]:
         """Motion diagrams of the outputs and coupler curves by name; none over designs."""
         from graphkin.study import diagrams
 
@@ -180,9 +180,7 @@ class Swept:
         shown = f"<pre>{html.escape(lines)}</pre>"
         if self.turn is None:
             return shown
-        from graphkin.drawing import svg_bytes
-
-        return shown + "".join(svg_bytes(f).decode() for f in list(self.figures.values())[:2])
+        return shown + "".join(f._repr_svg_() for f in list(self.figures.values())[:2])
 
 
 def sweep(

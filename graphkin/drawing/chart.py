@@ -1,4 +1,4 @@
-"""Charts in millimetres of the page: axes with ticks, curves, markers, a legend, labels placed clear of everything.
+"""Charts on a page in millimetres: axes, curves and marks by matplotlib, words and labels as on every other figure.
 
 Everything is told by dash and shape of marker, so that black on white is enough.
 """
@@ -6,39 +6,71 @@ Everything is told by dash and shape of marker, so that black on white is enough
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Literal
+import os
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from html import escape
+from io import BytesIO
+from itertools import pairwise
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
 
-from graphkin.drawing import strokes
+import numpy as np
+from numpy.typing import ArrayLike
+
 from graphkin.drawing.box import Box
-from graphkin.drawing.obstacles import Obstacles, obstacles_of
-from graphkin.drawing.placing import Label, place
-from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Polyline, Primitive, Stroke, Text
-from graphkin.drawing.text import rich, runs_width
+from graphkin.drawing.obstacles import Obstacles
+from graphkin.drawing.page import (
+    MM_PER_INCH,
+    POINTS_PER_MM,
+    empty_page,
+    faces,
+    figure_pdf,
+    figure_png,
+    ink,
+    own_settings,
+    whole_pixels,
+)
+from graphkin.drawing.placing import Label, Mark, place
+from graphkin.drawing.primitives import Primitive, Stroke, Text
+from graphkin.drawing.save import FORMATS, save
+from graphkin.drawing.svg import FONTS
+from graphkin.drawing.text import has_cjk, rich
+from graphkin.errors import CallError, Problem
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes as Axes  # also for those who paint charts
+    from matplotlib.axis import Axis
+    from matplotlib.figure import Figure as Figure
+    from matplotlib.transforms import Transform
 
 __all__ = [
+    "BEHIND",
     "SOLID_AND_DASHED",
-    "Axis",
     "Chart",
-    "Curve",
-    "Marks",
-    "chart_group",
-    "degree_axis",
-    "legend",
-    "linear_axis",
-    "log_axis",
+    "Shape",
+    "add_labels",
+    "add_legend",
+    "add_panel",
+    "add_words",
+    "count_powers",
+    "count_steps",
+    "degree_step",
+    "look",
     "marker",
 ]
 
+Look = dict[str, Any]
+"""Properties of a line of matplotlib, by their names there."""
 Shape = Literal["circle", "disc", "up", "down", "square", "diamond", "cross"]
 
-FRAME = Stroke(0.25)
-GRID = Stroke(0.1, colour="#b8b8b8")
-ZERO = Stroke(0.18)
-TICK = 1.2  # mm
 NUMBER, TITLE = 2.5, 3.0  # letters, mm
-MARKER = 0.85  # half of a marker, mm
+MARKER = 1.8  # mm across
+IN_FRONT = 100
+"""Place in the order of drawing from which words stand: in front of all curves."""
+BEHIND = 1.5
+"""Lines of this order or less (zero lines, limit positions) are ground: labels keep off them only where they can."""
 
 # Kinds of curve in the order of use: told apart without colour.
 SOLID_AND_DASHED: tuple[Stroke, ...] = (
@@ -51,233 +83,266 @@ SOLID_AND_DASHED: tuple[Stroke, ...] = (
     Stroke(0.25, (0.9, 0.9)),
     Stroke(0.25, (4.0, 1.0, 0.9, 1.0)),
 )
+_SIGNS: dict[Shape, str] = {
+    "circle": "o", "disc": "o", "up": "^", "down": "v", "square": "s", "diamond": "D", "cross": "x",
+}  # fmt: skip
+_SMALLER = {"up": 0.9, "down": 0.9, "diamond": 0.8, "square": 0.9}  # of the side, to look as large as a disc
 
-
-@dataclass(frozen=True)
-class Axis:
-    """A scale: range, ticks with the words at them, a title (markup of ``typeset.rich``)."""
-
-    low: float
-    high: float
-    ticks: tuple[tuple[float, str], ...]
-    title: str = ""
-    log: bool = False
-
-    def share(self, value: float) -> float:
-        """Where a value lies, from 0 at the low end to 1 at the high end."""
-        if self.log:
-            return (math.log10(value) - math.log10(self.low)) / (math.log10(self.high) - math.log10(self.low))
-        return (value - self.low) / (self.high - self.low)
-
-
-@dataclass(frozen=True)
-class Curve:
-    """Points joined by a line; a point that is not finite breaks it."""
-
-    x: Sequence[float]
-    y: Sequence[float]
-    stroke: Stroke = SOLID_AND_DASHED[0]
-
-
-@dataclass(frozen=True)
-class Marks:
-    """Markers at points, each with a label or "" (markup)."""
-
-    x: Sequence[float]
-    y: Sequence[float]
-    shape: Shape = "circle"
-    labels: Sequence[str] = ()
-    colour: str = strokes.BLACK
+_SETTINGS = {
+    "text.parse_math": True,  # powers at ticks; words never are
+    "font.family": ["STIXGeneral"],
+    "font.size": NUMBER * POINTS_PER_MM,
+    "mathtext.fontset": "stix",
+    "svg.fonttype": "none",
+    "svg.hashsalt": "graphkin",
+    "axes.linewidth": 0.25 * POINTS_PER_MM,
+    "axes.axisbelow": True,
+    "axes.formatter.limits": (-3, 6),
+    "axes.formatter.useoffset": False,
+    "axes.grid": True,
+    "grid.color": "#b8b8b8",
+    "grid.linewidth": 0.1 * POINTS_PER_MM,
+    "lines.solid_capstyle": "butt",
+    "lines.solid_joinstyle": "round",
+    **{f"{axis}tick.direction": "in" for axis in "xy"},
+    **{f"{axis}tick.major.size": 1.2 * POINTS_PER_MM for axis in "xy"},
+    **{f"{axis}tick.major.width": 0.25 * POINTS_PER_MM for axis in "xy"},
+    "xtick.major.pad": 1.6 * POINTS_PER_MM,
+    "ytick.major.pad": 1.2 * POINTS_PER_MM,
+    **{f"{axis}tick.minor.size": 0.0 for axis in "xy"},
+}
+_FAMILY = re.compile("; font-family: 'STIXGeneral'(?:, '[^']*')*")
 
 
 @dataclass(frozen=True)
 class Chart:
-    """Curves and markers over one pair of axes; ``panel`` is the area between the axes on the page (mm)."""
+    """A page drawn by matplotlib: size in mm, title and description in words, language, facts for programs.
 
-    panel: Box
-    x: Axis
-    y: Axis
-    curves: tuple[Curve, ...] = ()
-    marks: tuple[Marks, ...] = ()
-    x_words: bool = True
-    id: str = ""
-    title: str = ""
-
-    def at(self, x: float, y: float) -> complex:
-        """Where a point lies on the page."""
-        return complex(
-            self.panel.left + self.x.share(x) * self.panel.width,
-            self.panel.bottom - self.y.share(y) * self.panel.height,
-        )
-
-
-def linear_axis(low: float, high: float, title: str = "", most: int = 6, margin: float = 0.08) -> Axis:
-    """An axis over a range of values, with a margin, and ticks of the series 1, 2, 2.5, 5."""
-    wide = high - low
-    if not wide > 1e-12 * max(abs(low), abs(high)):
-        wide = abs(high) or 1.0
-        low, high = low - wide / 2, high + wide / 2
-    low, high = low - margin * wide, high + margin * wide
-    step = next_step((high - low) / most)
-    first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
-    decimals = max(0, -math.floor(math.log10(step) + 1e-9))
-    if step * 10**decimals % 1 > 1e-9:
-        decimals += 1
-    ticks = tuple((k * step, written(k * step, decimals, step)) for k in range(first, last + 1))
-    return Axis(low, high, ticks, title)
-
-
-def next_step(least: float) -> float:
-    """The next number of the series 1, 2, 2.5, 5 times a power of ten.
-
-    >>> next_step(0.21), next_step(60)
-    (0.25, 100.0)
+    ``paint`` puts panels, curves and words on an empty figure of that size; it is called anew for every file, so that
+    no two of them share anything.
     """
-    power = 10.0 ** math.floor(math.log10(least))
-    return next(m * power for m in (1.0, 2.0, 2.5, 5.0, 10.0) if m * power >= least * (1 - 1e-9))
+
+    width: float
+    height: float
+    paint: Callable[[Figure], None]
+    title: str = ""
+    desc: str = ""
+    lang: str = "en"
+    metadata: Mapping[str, object] = field(default_factory=dict)
+
+    def figure(self, dpi: float = 72.0) -> Figure:
+        """The page as a matplotlib figure of its own, to be changed at will."""
+        with own_settings(**_SETTINGS):
+            figure = self._painted(self.width, self.height, dpi)
+            figure.draw_without_rendering()  # ticks are made where they are first drawn, with the settings of then
+            return figure
+
+    def content(self, format: str, dpi: float = 200.0) -> bytes:
+        """The page as a file of a format, "svg", "pdf" or "png" (``dpi`` for png only).
+
+        Raises
+        ------
+        CallError : another format
+
+        Warns
+        -----
+        MissingFont : of PDF and PNG, where it holds Chinese and the machine has no face for it
+        """
+        if format not in FORMATS:
+            raise CallError(Problem("format", f'"{format}"', f"known here: {', '.join(FORMATS)}"))
+        chinese = has_cjk(self.title) or self.lang.startswith("zh")
+        if format != "svg":
+            faces(chinese)  # warns
+        with own_settings(**_SETTINGS):
+            if format == "png":
+                return figure_png(self._painted(whole_pixels(self.width, dpi), whole_pixels(self.height, dpi), dpi))
+            figure = self._painted(self.width, self.height)
+            return figure_pdf(figure, self.title, chinese) if format == "pdf" else self._svg(figure)
+
+    def save(self, path: str | os.PathLike[str], dpi: float = 200.0) -> Path:
+        """Write the page to a file, as SVG, PDF or PNG by the ending of its name; returns the path."""
+        return save(self, path, dpi)
+
+    def _repr_svg_(self) -> str:
+        return self.content("svg").decode()
+
+    def _painted(self, width: float, height: float, dpi: float = 72.0) -> Figure:
+        figure: Figure = empty_page(width, height, dpi)
+        self.paint(figure)
+        return figure
+
+    def _svg(self, figure: Figure) -> bytes:
+        """With the faces, the language and the description that all figures have."""
+        from matplotlib.backends.backend_svg import FigureCanvasSVG
+
+        buffer = BytesIO()
+        facts = {"Title": self.title, "Description": self.desc, "Language": self.lang, "Creator": "graphkin"}
+        FigureCanvasSVG(figure).print_svg(buffer, metadata={**facts, "Date": None})
+        text = _FAMILY.sub("", buffer.getvalue().decode())
+        start = f'<svg role="img" lang="{self.lang}" xml:lang="{self.lang}" font-family="{FONTS}" '
+        text = text[text.index("<svg ") :].replace("<svg ", start, 1)
+        text = text.replace("</title>", f"</title>\n <desc>{escape(self.desc)}</desc>", 1)
+        return f'<?xml version="1.0" encoding="utf-8"?>\n{text}'.encode()
 
 
-def written(value: float, decimals: int, step: float) -> str:
-    """A number at a tick: plain where that is short, else with a power of ten."""
-    if abs(value) < step * 1e-6:
-        return "0"
-    if step >= 1e-3 and abs(value) < 1e6:
-        return f"{value:.{decimals}f}".replace("-", "−")
-    power = math.floor(math.log10(abs(value)) + 1e-12)
-    digits = f"{value / 10.0**power:.3g}".replace("-", "−")
-    raised = str(power).replace("-", "−")
-    return f"{digits}·$10^{{{raised}}}$"
+def add_panel(figure: Figure, box: Box, id: str, title: str = "", x_title: str = "") -> Axes:
+    """Axes whose frame is a box of the page (mm): the title of what goes up stands over it, that of what goes right
+    below its right end (markup of ``text.rich``)."""
+    width, height = _size(figure)
+    shares = box.left / width, 1 - box.bottom / height, box.width / width, box.height / height
+    axes = figure.add_axes(shares, gid=id)
+    add_words(figure, Text(complex(box.left, box.top - 1.8), rich(title, TITLE)))
+    add_words(figure, Text(complex(box.right, box.bottom + 6.0 + NUMBER), rich(x_title, TITLE), "end"))
+    axes.yaxis.set_offset_position("right")  # a power of ten, where the titles leave room
+    axes.xaxis.get_offset_text().set(x=0.0, horizontalalignment="left")
+    return axes
 
 
-def degree_axis(low: float, high: float, title: str = "", most: int = 13) -> Axis:
-    """An axis of angles in degrees, ticks at 30, 45, 60, 90 or at parts of them."""
-    wide = high - low
-    step = next((s for s in (1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 60.0, 90.0, 180.0) if wide / s <= most), 360.0)
-    first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
-    ticks = tuple((k * step, f"{k * step:g}".replace("-", "−")) for k in range(first, last + 1))
-    return Axis(low, high, ticks, title)
+def add_words(figure: Figure, *things: Primitive) -> None:
+    """Texts, and strokes that belong to them, in mm of the page."""
+    for thing in things:
+        chinese = isinstance(thing, Text) and has_cjk(thing.string)
+        ink(figure, (thing,), faces(chinese, warn=False), IN_FRONT)
 
 
-def log_axis(low: float, high: float, title: str = "", most: int = 9) -> Axis:
-    """An axis of powers of ten over a range of positive values."""
+def add_legend(figure: Figure, at: complex, entries: Sequence[tuple[Look, str]]) -> None:
+    """A legend in one line: pieces of curves (``look``) and markers, with their words; ``at`` is its left end."""
+    from matplotlib.lines import Line2D
+
+    width, height = _size(figure)
+    legend = figure.legend(
+        [Line2D([], [], **style) for style, _ in entries], [words for _, words in entries],
+        loc="center left", bbox_to_anchor=(at.real / width, 1 - at.imag / height), ncols=len(entries), frameon=False,
+        borderpad=0.0, borderaxespad=0.0, handlelength=8.0 / TITLE, handletextpad=0.5, columnspacing=2.0,
+        prop={"family": faces(any(has_cjk(words) for _, words in entries), warn=False), "size": TITLE * POINTS_PER_MM},
+    )  # fmt: skip
+    legend.set_zorder(IN_FRONT)
+
+
+def look(stroke: Stroke) -> Look:
+    """A stroke as matplotlib's properties of a line."""
+    dash = (0.0, tuple(mm * POINTS_PER_MM for mm in stroke.dash)) if stroke.dash else "-"
+    return {"linewidth": stroke.width * POINTS_PER_MM, "linestyle": dash, "color": stroke.colour}
+
+
+def marker(shape: Shape, stroke: Stroke | None = None) -> Look:
+    """A marker as matplotlib's properties of a line, which itself is drawn with a stroke or not at all.  It is drawn
+    whole at the edge of a panel."""
+    return {
+        **({"linestyle": "", "color": "#000000"} if stroke is None else look(stroke)),
+        "marker": _SIGNS[shape],
+        "markersize": MARKER * _SMALLER.get(shape, 1.0) * POINTS_PER_MM,
+        "markerfacecolor": "#ffffff" if shape == "circle" else "#000000",
+        "markeredgewidth": 0.25 * POINTS_PER_MM,
+        "clip_on": False,
+        "snap": False,
+    }
+
+
+def count_steps(axis: Axis, step: float | None = None, most: int = 6) -> None:
+    """Ticks of an axis at whole steps; at steps of the series 1, 2, 2.5, 5 where none is given."""
+    from matplotlib.ticker import MaxNLocator, MultipleLocator, ScalarFormatter
+
+    class Numbers(ScalarFormatter):
+        """Plain numbers; the power of ten that they all stand for is set as one."""
+
+        def get_offset(self) -> str:
+            power = super().get_offset().removeprefix("1e")
+            return f"$\\times\\mathdefault{{10^{{{power}}}}}$" if power else ""
+
+    axis.set_major_formatter(Numbers())
+    axis.set_major_locator(MultipleLocator(step) if step else MaxNLocator(most, steps=(1, 2, 2.5, 5, 10)))
+
+
+def degree_step(wide: float, most: int = 13) -> float:
+    """Ticks of an axis of angles (degrees): 30, 45, 60, 90 or parts of them, at most so many."""
+    steps = (1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 60.0, 90.0, 180.0)
+    return next((step for step in steps if wide / step <= most), 360.0)
+
+
+def count_powers(axes: Axes, which: Literal["x", "y"], low: float, high: float, most: int = 9) -> tuple[float, float]:
+    """A scale of powers of ten for positive values; returns its ends, whole powers."""
+    from matplotlib.ticker import FixedLocator
+
     first, last = math.floor(math.log10(low)), math.ceil(math.log10(high))
     last = max(last, first + 1)
-    every = max(1, math.ceil((last - first) / most))
-    ticks = tuple((10.0**k, f"$10^{{{str(k).replace('-', '−')}}}$") for k in range(first, last + 1, every))
-    return Axis(10.0**first, 10.0**last, ticks, title, log=True)
+    ends = 10.0**first, 10.0**last
+    axes.set(**{f"{which}scale": "log", f"{which}lim": ends})
+    axis = axes.xaxis if which == "x" else axes.yaxis
+    axis.set_major_locator(FixedLocator([10.0**k for k in range(first, last + 1, math.ceil((last - first) / most))]))
+    axis.minorticks_off()
+    return ends
 
 
-def marker(at: complex, shape: Shape, colour: str = strokes.BLACK) -> Primitive:
-    """One marker: open circle, disc, triangle up or down, square, diamond, or a cross."""
-    r = MARKER
-    if shape in ("circle", "disc"):
-        line = Stroke(0.25, colour=colour)
-        return Circle(at, r, fill=strokes.WHITE if shape == "circle" else colour, stroke=line)
-    corners = {
-        "up": (-1j * r, r + 0.8j * r, -r + 0.8j * r),
-        "down": (1j * r, r - 0.8j * r, -r - 0.8j * r),
-        "square": (-r - 1j * r, r - 1j * r, r + 1j * r, -r + 1j * r),
-        "diamond": (-1.2j * r, 1.2 * r, 1.2j * r, -1.2 * r),
-    }
-    if shape == "cross":
-        line = Stroke(0.25, colour=colour)
-        return Group((Line(at - r - 1j * r, at + r + 1j * r, line), Line(at - r + 1j * r, at + r - 1j * r, line)))
-    return Polygon(tuple(complex(at + c) for c in corners[shape]), fill=colour)
+def add_labels(
+    axes: Axes,
+    labels: Sequence[tuple[str, ArrayLike]],
+    sizes: Sequence[float] = (NUMBER,),
+    toward: Sequence[tuple[float, ...]] = (),
+) -> None:
+    """Words at points or stretches of the curves, in the panel and clear of all that is drawn there and of each other.
+
+    Parameters
+    ----------
+    labels : markup of each, with a point (x, y) or the two ends of a stretch, shape (2, 2), in values of the axes
+    sizes : letters (mm), the largest with which all stand clear is taken
+    toward : directions (rad) from each point in the order of liking
+    """
+    panel, obstacles = _box(axes), _in_the_way(axes)
+    marks: list[Mark] = []
+    for _, at in labels:
+        ends = _on_page(_figure(axes), axes.transData, np.atleast_2d(at))
+        marks.append(ends[0] if len(ends) == 1 else (ends[0], ends[1]))
+    liked = toward or ((),) * len(labels)
+    for size in sizes:
+        asked = [
+            Label(Text(0j, rich(words, size)), mark, directions)
+            for (words, _), mark, directions in zip(labels, marks, liked, strict=True)
+        ]
+        placed = place(asked, panel, obstacles)
+        if all(one.clear for one in placed):
+            break
+    for k, one in enumerate(placed, 1):
+        text = replace(one.text, id=f"{axes.get_gid()}-label-{k}")
+        add_words(_figure(axes), text, *([one.leader] if one.leader is not None else []))
 
 
-def chart_group(chart: Chart) -> Group:
-    """A chart as one group: grid, axes, curves, markers, labels."""
-    axes = _axes(chart)
-    lines: list[Primitive] = []
-    for curve in chart.curves:
-        lines += [Polyline(part, curve.stroke) for part in _parts(chart, curve)]
-    dots: list[Primitive] = []
-    wishes: list[Label] = []
-    for marks in chart.marks:
-        for k, (x, y) in enumerate(zip(marks.x, marks.y, strict=True)):
-            at = chart.at(x, y)
-            dots.append(marker(at, marks.shape, marks.colour))
-            words = marks.labels[k] if k < len(marks.labels) else ""
-            if words:
-                up = marks.shape != "down"
-                text = Text(0j, rich(words, NUMBER), colour=marks.colour)
-                wishes.append(Label(text, at, ((math.pi / 2 if up else -math.pi / 2),)))
-    in_the_way = obstacles_of((*lines, *dots)) + Obstacles(solid=_edges(chart.panel))
-    placed = place(wishes, chart.panel, in_the_way)
-    labels: list[Primitive] = []
-    for label in placed:
-        labels += [label.text] + ([label.leader] if label.leader is not None else [])
-    children = (Group(axes, classes=("axes",)), Group((*lines, *dots), classes=("curves",)),
-                Group(tuple(labels), classes=("labels",)))
-    return Group(children, id=chart.id, title=chart.title)
+def _figure(axes: Axes) -> Figure:
+    return axes.figure  # type: ignore[return-value]  # none of ours is part of another
 
 
-def legend(at: complex, entries: Sequence[tuple[Stroke | Shape, str]], gap: float = 6.0) -> tuple[Primitive, ...]:
-    """A legend in one line: a piece of each curve or a marker, and its words (markup); ``at`` is its left end."""
-    made: list[Primitive] = []
-    x = at.real
-    for kind, words in entries:
-        middle = complex(x + 4.0, at.imag)
-        if isinstance(kind, Stroke):
-            made.append(Line(complex(x, at.imag), complex(x + 8.0, at.imag), kind))
-        else:
-            middle = complex(x + 1.5, at.imag)
-            made.append(marker(middle, kind))
-        start = x + (9.5 if isinstance(kind, Stroke) else 4.0)
-        runs = rich(words, TITLE)
-        made.append(Text(complex(start, at.imag + 0.33 * TITLE), runs))
-        x = start + runs_width(runs) + gap
-    return tuple(made)
+def _size(figure: Figure) -> tuple[float, float]:
+    """Width and height of the page (mm)."""
+    width, height = figure.get_size_inches() * MM_PER_INCH
+    return float(width), float(height)
 
 
-def _edges(box: Box) -> tuple[tuple[complex, complex], ...]:
-    a, b, c, d = box.corners
-    return (a, b), (b, c), (c, d), (d, a)
+def _on_page(figure: Figure, transform: Transform, points: ArrayLike) -> list[complex]:
+    """Points, shape (n, 2), in mm of the page."""
+    x, y = (transform - figure.dpi_scale_trans).transform(points).T * MM_PER_INCH
+    return [complex(a, b) for a, b in zip(x, _size(figure)[1] - y, strict=True)]
 
 
-def _axes(chart: Chart) -> tuple[Primitive, ...]:
-    panel = chart.panel
-    made: list[Primitive] = []
-    for value, _ in chart.x.ticks:
-        x = chart.at(value, chart.y.low).real
-        made.append(Line(complex(x, panel.top), complex(x, panel.bottom), GRID))
-    for value, _ in chart.y.ticks:
-        y = chart.at(chart.x.low, value).imag
-        zero = value == 0 and not chart.y.log
-        made.append(Line(complex(panel.left, y), complex(panel.right, y), ZERO if zero else GRID))
-    made += [Line(start, end, FRAME) for start, end in _edges(panel)]
-    for value, words in chart.x.ticks:
-        x = chart.at(value, chart.y.low).real
-        made.append(Line(complex(x, panel.bottom), complex(x, panel.bottom - TICK), FRAME))
-        if chart.x_words:
-            below = 1.2 + NUMBER * 0.8 + (0.8 if chart.x.log else 0.0)  # exponents stand clear of the other axis
-            made.append(Text(complex(x, panel.bottom + below), rich(words, NUMBER), "middle"))
-    for value, words in chart.y.ticks:
-        y = chart.at(chart.x.low, value).imag
-        made.append(Line(complex(panel.left, y), complex(panel.left + TICK, y), FRAME))
-        made.append(Text(complex(panel.left - 1.2, y + 0.33 * NUMBER), rich(words, NUMBER), "end"))
-    if chart.y.title:
-        made.append(Text(complex(panel.left, panel.top - 1.8), rich(chart.y.title, TITLE)))
-    if chart.x.title and chart.x_words:
-        made.append(
-            Text(complex(panel.right, panel.bottom + 3.0 + NUMBER + TITLE * 0.8), rich(chart.x.title, TITLE), "end")
-        )
-    return tuple(made)
+def _box(axes: Axes) -> Box:
+    """The frame of axes on the page (mm)."""
+    width, height = _size(_figure(axes))
+    share = axes.get_position()
+    return Box(share.x0 * width, (1 - share.y1) * height, share.x1 * width, (1 - share.y0) * height)
 
 
-def _parts(chart: Chart, curve: Curve) -> list[tuple[complex, ...]]:
-    """The stretches of a curve between the points where it is broken, cut off at the panel."""
-    parts: list[list[complex]] = [[]]
-    last: complex | None = None
-    for x, y in zip(curve.x, curve.y, strict=True):
-        here = chart.at(x, y) if math.isfinite(x) and math.isfinite(y) else None
-        seen = chart.panel.grown(1e-6).clip(last, here) if here is not None and last is not None else None
-        if seen is None:
-            if parts[-1]:
-                parts.append([])
-        else:
-            if not parts[-1] or abs(parts[-1][-1] - seen[0]) > 1e-9:
-                parts.append([seen[0]])
-            parts[-1].append(seen[1])
-        last = here
-    return [tuple(part) for part in parts if len(part) > 1]
+def _in_the_way(axes: Axes) -> Obstacles:
+    """Frame, curves and markers of axes as obstacles on the page."""
+    box = _box(axes)
+    solid = [*pairwise((*box.corners, box.corners[0]))]
+    ground: list[tuple[complex, complex]] = []
+    areas: list[Box] = []
+    for line in axes.lines:
+        points = _on_page(_figure(axes), line.get_transform(), line.get_xydata())
+        if line.get_linestyle() != "None":
+            found = (box.clip(a, b) for a, b in pairwise(points) if math.isfinite(abs(a - b)))
+            kept = ground if line.get_zorder() <= BEHIND else solid
+            kept.extend(one for one in found if one is not None)
+        if line.get_marker() not in ("", "None", None):
+            reach = line.get_markersize() / POINTS_PER_MM / 2
+            areas += [Box.around((z,)).grown(reach) for z in points if math.isfinite(abs(z))]
+    return Obstacles(tuple(solid), tuple(ground), tuple(areas))

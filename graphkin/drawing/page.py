@@ -1,7 +1,7 @@
 """Drawings as PDF and PNG at true size, from the same primitives as the SVG, the same bytes every time.
 
-matplotlib stays behind this module.  Latin and Greek are set in STIX General, which comes with matplotlib; Chinese in
-the first known Chinese face of the machine.
+Only this module and the charts know matplotlib.  Latin and Greek are set in STIX General, which comes with matplotlib;
+Chinese in the first known Chinese face of the machine.
 """
 
 from __future__ import annotations
@@ -9,14 +9,31 @@ from __future__ import annotations
 import math
 import re
 import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import lru_cache
 from io import BytesIO
+from threading import RLock
 from typing import Any
 
-from graphkin.drawing.primitives import Arc, Circle, Drawing, Group, Line, Polygon, Polyline, Text, walk
+from graphkin.drawing.primitives import (
+    Arc,
+    Circle,
+    Drawing,
+    Group,
+    Line,
+    Polygon,
+    Polyline,
+    Primitive,
+    Text,
+    walk,
+)
 from graphkin.drawing.text import has_cjk, start_runs
 
-__all__ = ["MissingFont", "pdf_bytes", "png_bytes"]
+__all__ = [
+    "MM_PER_INCH", "POINTS_PER_MM", "MissingFont", "empty_page", "faces", "figure_pdf", "figure_png", "ink",
+    "own_settings", "pdf_bytes", "png_bytes", "whole_pixels",
+]  # fmt: skip
 
 MM_PER_INCH, POINTS_PER_MM = 25.4, 72 / 25.4
 
@@ -44,10 +61,22 @@ _SETTINGS = {
     "pdf.use14corefonts": False,
     "pdf.inheritcolor": False,
 }
+_ALONE = RLock()
 
 
 class MissingFont(UserWarning):
     """No Chinese face is installed: Chinese words in a PDF or PNG come out as empty boxes."""
+
+
+@contextmanager
+def own_settings(**further: object) -> Iterator[None]:
+    """matplotlib with settings of ours whatever the user's are, which come back afterwards; as they are settings of the
+    whole process, one thread at a time."""
+    from matplotlib import style
+
+    with _ALONE, style.context(["default", {**_SETTINGS, **further}]), warnings.catch_warnings():
+        warnings.filterwarnings("ignore", message="Glyph .* missing from")
+        yield
 
 
 def pdf_bytes(drawing: Drawing) -> bytes:
@@ -57,21 +86,12 @@ def pdf_bytes(drawing: Drawing) -> bytes:
     -----
     MissingFont : once for the drawing, where it holds Chinese and the machine has no face for it
     """
-    import matplotlib
-    from matplotlib.backends.backend_pdf import FigureCanvasPdf
-
-    # Chinese faces mostly hold PostScript outlines, which do not fit into a TrueType (42) font of a PDF; as Type 3 any
-    # outlines do.  TrueType is what printers ask for, so it is used wherever it can be.
-    font_type = 3 if _holds_cjk(drawing) else 42
-    with matplotlib.rc_context({**_SETTINGS, "pdf.fonttype": font_type}), warnings.catch_warnings():
-        family = _family(drawing)
-        warnings.filterwarnings("ignore", message="Glyph .* missing from")
-        figure = _figure(drawing, drawing.width / MM_PER_INCH, drawing.height / MM_PER_INCH, 72.0, family)
-        figure.patch.set_visible(False)
-        buffer = BytesIO()
-        facts = {"Title": drawing.title or None, "CreationDate": None, "Producer": None, "Creator": "graphkin"}
-        FigureCanvasPdf(figure).print_pdf(buffer, metadata=facts)
-    return buffer.getvalue()
+    chinese = _holds_cjk(drawing)
+    family = faces(chinese)
+    with own_settings():
+        figure = empty_page(drawing.width, drawing.height)
+        ink(figure, drawing.children, family)
+        return figure_pdf(figure, drawing.title, chinese)
 
 
 def png_bytes(drawing: Drawing, dpi: float = 200.0) -> bytes:
@@ -81,33 +101,62 @@ def png_bytes(drawing: Drawing, dpi: float = 200.0) -> bytes:
     -----
     MissingFont : as ``pdf_bytes``
     """
-    import matplotlib
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    family = faces(_holds_cjk(drawing))
+    with own_settings():
+        figure = empty_page(whole_pixels(drawing.width, dpi), whole_pixels(drawing.height, dpi), dpi)
+        ink(figure, drawing.children, family)
+        return figure_png(figure)
 
-    with matplotlib.rc_context(_SETTINGS), warnings.catch_warnings():
-        family = _family(drawing)
-        warnings.filterwarnings("ignore", message="Glyph .* missing from")
-        # Whole pixels, or the canvas cuts the last one off and all heights shift.
-        across, down = (math.ceil(mm * dpi / MM_PER_INCH - 1e-6) for mm in (drawing.width, drawing.height))
-        figure = _figure(drawing, across / dpi, down / dpi, dpi, family)
-        buffer = BytesIO()
-        FigureCanvasAgg(figure).print_png(buffer, metadata={"Software": None})
+
+def whole_pixels(mm: float, dpi: float) -> float:
+    """A length (mm) rounded up to whole pixels, or the canvas cuts the last one off and all heights shift."""
+    return math.ceil(mm * dpi / MM_PER_INCH - 1e-6) / dpi * MM_PER_INCH
+
+
+def empty_page(width: float, height: float, dpi: float = 72.0) -> Any:
+    """A white matplotlib figure of a size in mm."""
+    from matplotlib.figure import Figure
+
+    size = width / MM_PER_INCH, height / MM_PER_INCH
+    return Figure(figsize=size, dpi=dpi, facecolor="white", edgecolor="none", linewidth=0.0)
+
+
+def ink(figure: Any, children: tuple[Primitive, ...], family: list[str], order: int = 0) -> None:
+    """Put strokes, fills and texts (mm from the left upper corner, y down) on a figure, from a place in its order of
+    drawing on."""
+    from matplotlib.transforms import Affine2D
+
+    height = figure.get_figheight()
+    page = Affine2D().scale(1 / MM_PER_INCH, -1 / MM_PER_INCH).translate(0.0, height) + figure.dpi_scale_trans
+    for place, thing in enumerate(walk(children), order):
+        if isinstance(thing, Text):
+            _add_text(figure, thing, page, place, family)
+        elif not isinstance(thing, Group):
+            _add_shape(figure, thing, page, place)
+
+
+def figure_pdf(figure: Any, title: str, chinese: bool) -> bytes:
+    """A figure as a PDF of one page without a date."""
+    from matplotlib import rc_context
+    from matplotlib.backends.backend_pdf import FigureCanvasPdf
+
+    figure.patch.set_visible(False)
+    buffer = BytesIO()
+    facts = {"Title": title or None, "CreationDate": None, "Producer": None, "Creator": "graphkin"}
+    # Chinese faces mostly hold PostScript outlines, which do not fit into a TrueType (42) font of a PDF; as Type 3 any
+    # outlines do.  TrueType is what printers ask for, so it is used wherever it can be.
+    with rc_context({"pdf.fonttype": 3 if chinese else 42}):
+        FigureCanvasPdf(figure).print_pdf(buffer, metadata=facts)
     return buffer.getvalue()
 
 
-def _figure(drawing: Drawing, width: float, height: float, dpi: float, family: list[str]) -> Any:
-    """All strokes, fills and texts on a page of a size in inches."""
-    from matplotlib.figure import Figure
-    from matplotlib.transforms import Affine2D
+def figure_png(figure: Any) -> bytes:
+    """A figure as a PNG, at its own dots per inch."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-    figure = Figure(figsize=(width, height), dpi=dpi, facecolor="white", edgecolor="none", linewidth=0.0)
-    page = Affine2D().scale(1 / MM_PER_INCH, -1 / MM_PER_INCH).translate(0.0, height) + figure.dpi_scale_trans
-    for order, thing in enumerate(walk(drawing.children)):
-        if isinstance(thing, Text):
-            _add_text(figure, thing, page, order, family)
-        elif not isinstance(thing, Group):
-            _add_shape(figure, thing, page, order)
-    return figure
+    buffer = BytesIO()
+    FigureCanvasAgg(figure).print_png(buffer, metadata={"Software": None})
+    return buffer.getvalue()
 
 
 def _add_shape(figure: Any, thing: Line | Polyline | Polygon | Circle | Arc, page: Any, order: int) -> None:
@@ -158,7 +207,7 @@ def _pairs(points: tuple[complex, ...]) -> list[tuple[float, float]]:
 
 
 def _add_text(figure: Any, text: Text, page: Any, order: int, family: list[str]) -> None:
-    for run in start_runs(text):
+    for k, run in enumerate(start_runs(text)):
         figure.text(
             run.x,
             run.y,
@@ -174,6 +223,7 @@ def _add_text(figure: Any, text: Text, page: Any, order: int, family: list[str])
             zorder=order,
             clip_on=False,
             parse_math=False,
+            gid=text.id if text.id and k == 0 else None,
         )
 
 
@@ -181,20 +231,21 @@ def _holds_cjk(drawing: Drawing) -> bool:
     return any(isinstance(thing, Text) and has_cjk(thing.string) for thing in walk(drawing.children))
 
 
-def _family(drawing: Drawing) -> list[str]:
+def faces(chinese: bool, warn: bool = True) -> list[str]:
     """Faces in the order in which a glyph is looked for.  Warns MissingFont."""
-    if not _holds_cjk(drawing):
+    if not chinese:
         return ["STIXGeneral"]
-    chinese = _chinese_face()
-    if chinese is None:
+    face = _chinese_face()
+    if face is not None:
+        return ["STIXGeneral", face]
+    if warn:
         warnings.warn(
             "no Chinese font is installed, so Chinese words in PDF and PNG are empty boxes; "
             "install one (Debian: fonts-noto-cjk) or take the SVG",
             MissingFont,
             stacklevel=3,
         )
-        return ["STIXGeneral"]
-    return ["STIXGeneral", chinese]
+    return ["STIXGeneral"]
 
 
 @lru_cache(maxsize=1)

@@ -5,23 +5,32 @@ from __future__ import annotations
 import os
 import tempfile
 from pathlib import Path
+from typing import Protocol
 
 from graphkin.drawing.primitives import Drawing
 from graphkin.drawing.svg import svg_bytes
 from graphkin.errors import CallError, Problem
 
-__all__ = ["FORMATS", "drawing_bytes", "save", "write_whole"]
+__all__ = ["FORMATS", "OtherPage", "drawing_bytes", "save", "write_whole"]
 
 FORMATS = ("svg", "pdf", "png")
 
 
-def drawing_bytes(drawing: Drawing, format: str, dpi: float = 200.0) -> bytes:
+class OtherPage(Protocol):
+    """A page that is no drawing of primitives (a chart), and knows itself how it becomes a file."""
+
+    def content(self, format: str, dpi: float = 200.0) -> bytes: ...
+
+
+def drawing_bytes(drawing: Drawing | OtherPage, format: str, dpi: float = 200.0) -> bytes:
     """The drawing as a file of a format, "svg", "pdf" or "png" (``dpi`` for png only).
 
     Raises
     ------
     CallError : another format
     """
+    if not isinstance(drawing, Drawing):
+        return drawing.content(format, dpi)
     if format == "svg":
         return svg_bytes(drawing)
     if format in FORMATS:
@@ -31,7 +40,7 @@ def drawing_bytes(drawing: Drawing, format: str, dpi: float = 200.0) -> bytes:
     raise CallError(Problem("format", f'"{format}"', f"known here: {', '.join(FORMATS)}"))
 
 
-def save(drawing: Drawing, path: str | os.PathLike[str], dpi: float = 200.0) -> Path:
+def save(drawing: Drawing | OtherPage, path: str | os.PathLike[str], dpi: float = 200.0) -> Path:
     """Write the drawing to a file, as SVG, PDF or PNG by the ending of its name, and return the path.
 
     The file appears whole or not at all; one of the same name is replaced.

@@ -7,8 +7,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from graphkin.drawing import Box, Drawing, Group, Line, Polyline, Primitive, Stroke, Text, strokes
-from graphkin.drawing.chart import marker, next_step
+from graphkin.drawing import Box, Circle, Drawing, Group, Line, Polyline, Primitive, Stroke, Text, strokes
 from graphkin.drawing.obstacles import obstacles_of
 from graphkin.drawing.placing import Label, place
 from graphkin.drawing.symbols import block_with_pin, fixed_pivot, rigid_link, turning_pair
@@ -23,8 +22,8 @@ from graphkin.study.paper import (
     WIDTH,
     driver_axis,
     driver_number,
-    first_offset,
     heading,
+    next_step,
     number,
     title_of,
 )
@@ -34,6 +33,7 @@ from graphkin.words import Phrase, say, word
 __all__ = ["coupler_points", "curve_page"]
 
 TICKS = 12
+DOT = 0.85  # mm, radius of a mark on the curve
 
 
 def coupler_points(scene: Scene) -> tuple[tuple[str, str], ...]:
@@ -59,14 +59,13 @@ def curve_page(turn: Turn, point: str, link: str, language: str) -> Drawing:
     low, high = course.ends
     offsets = np.linspace(low, high, POINTS)
     path = course.motion(offsets).position(point, link)
-    first = first_offset(course) if course.full else low
+    axis = driver_axis(course, language)
     steps = TICKS * max(course.turns, 1)
     if course.full:
-        ticks = (first + np.arange(steps) * (high - low) / steps) % high
+        ticks = (axis.first + np.arange(steps) * (high - low) / steps) % high
     else:
-        at_axis = np.array([v for v, _ in driver_axis(course, language).ticks])
         angle = isinstance(course.driver, AngleDriver)
-        values = np.radians(at_axis) if angle else at_axis * scene.units.metres
+        values = np.radians(axis.ticks) if angle else axis.ticks * scene.units.metres
         ticks = (values - course.start[0]) * course.sense
     at = course.motion(ticks).position(point, link)
     here = course.motion(np.zeros(1))
@@ -83,7 +82,7 @@ def curve_page(turn: Turn, point: str, link: str, language: str) -> Drawing:
         return panel.centre + complex(w.real, -w.imag)
 
     skeleton = _skeleton(turn, places, page)
-    dots = [marker(page(complex(z)), "disc") for z in at if math.isfinite(abs(z))]
+    dots = [Circle(page(complex(z)), DOT, strokes.BLACK, Stroke(0.25)) for z in at if math.isfinite(abs(z))]
     axis_unit = "°" if isinstance(course.driver, AngleDriver) else ""
     numbers = [driver_number(scene, float(course.value(t))) for t in ticks]
     numbers = [round(n, 9) + 0.0 for n in numbers]

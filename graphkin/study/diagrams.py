@@ -2,23 +2,28 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.drawing import Box, Drawing, Group, Primitive, Stroke
+from graphkin.drawing import Box, Chart, Drawing
 from graphkin.drawing.chart import (
+    BEHIND,
     SOLID_AND_DASHED,
-    Axis,
-    Chart,
-    Curve,
-    Marks,
-    chart_group,
-    degree_axis,
-    legend,
-    linear_axis,
+    add_labels,
+    add_legend,
+    add_panel,
+    add_words,
+    count_steps,
+    degree_step,
+    look,
+    marker,
 )
+from graphkin.drawing.primitives import Stroke
 from graphkin.scene.model import AngleDriver
 from graphkin.study.coupler import coupler_points, curve_page
 from graphkin.study.course import Course
@@ -28,20 +33,20 @@ from graphkin.study.paper import (
     LEFT,
     RIGHT,
     WIDTH,
-    axis_offsets,
+    DriverAxis,
     driver_axis,
     driver_number,
-    first_offset,
     heading,
     number,
     title_of,
-    unit_words,
-    with_unit,
 )
 from graphkin.study.quantities import Quantity, link_quantities, slide_quantities
-from graphkin.study.trace import Traced
+from graphkin.study.trace import Extreme, Traced
 from graphkin.study.turn import Output, Turn
 from graphkin.words import Phrase, say, word
+
+if TYPE_CHECKING:
+    from graphkin.drawing.chart import Axes, Figure
 
 __all__ = ["diagrams"]
 
@@ -50,9 +55,13 @@ Array = NDArray[np.float64]
 TOP, GAP = 40.0, 10.0
 BESIDE = 1e-3
 """Of the course: so far beside a place that may be a dead point."""
+MARGIN = 0.14
+"""Of the range of values, above and below the curve: room for the labels of its extremes."""
+ZERO = Stroke(0.18)
+LIMIT = Stroke(0.18, (4.0, 0.9, 0.9, 0.9))
 
 
-def diagrams(turn: Turn, language: str = "en", positions: int = 12) -> dict[str, Drawing]:
+def diagrams(turn: Turn, language: str = "en", positions: int = 12) -> dict[str, Chart | Drawing]:
     """The motion diagrams of each output and the curve of each coupler point, by name of file.
 
     Parameters
@@ -61,7 +70,7 @@ def diagrams(turn: Turn, language: str = "en", positions: int = 12) -> dict[str,
     """
     quantities = [o.quantity for o in turn.outputs]
     dots = measured(turn.course, quantities, positions) if positions else {q: [] for q in quantities}
-    pages: dict[str, Drawing] = {}
+    pages: dict[str, Chart | Drawing] = {}
     for output in turn.outputs:
         quantity = output.quantity
         kind = "link" if quantity.kind == "theta" else "slide"
@@ -71,36 +80,83 @@ def diagrams(turn: Turn, language: str = "en", positions: int = 12) -> dict[str,
     return pages
 
 
-def _motion_page(turn: Turn, output: Output, dots: Sequence[tuple[float, ...]], language: str) -> Drawing:
+@dataclass(frozen=True)
+class _Panel:
+    """What one panel shows, in units of the figure.
+
+    curve, dots : shape (n, 2), driver and value; extremes : with the value as it is shown, in ``span`` alone
+    """
+
+    quantity: Quantity
+    title: str
+    curve: Array
+    dots: Array
+    extremes: tuple[tuple[Extreme, float, float], ...]
+    span: tuple[float, float]
+
+    @property
+    def counts_degrees(self) -> bool:
+        return self.quantity.kind == "theta" and self.span[1] - self.span[0] > 60 * (1 + 2 * MARGIN)
+
+
+def _motion_page(turn: Turn, output: Output, dots: Sequence[tuple[float, ...]], language: str) -> Chart:
     scene, quantity = turn.scene, output.quantity
     turns = quantity.kind == "theta"
     curves = link_quantities(quantity.of) if turns else slide_quantities(quantity.of)
     traced = {t.quantity: t for t in turn.curves}
-    x_axis = driver_axis(turn.course, language)
-    offsets = axis_offsets(turn.course)
-    motion = turn.course.motion(offsets)
-    tall = (HEIGHT - TOP - 20.0 - 2 * GAP) / 3
-    made: list[Primitive] = []
-    for k, q in enumerate(curves):
-        top = TOP + k * (tall + GAP)
-        values = _shown(turn.course, q, offsets, q.values(turn.course, motion))
-        marks = [(d[0], d[k + 1]) for d in dots]
-        made.append(
-            _panel(turn, q, traced.get(q), offsets, values, marks,
-                   Box(LEFT, top, WIDTH - RIGHT, top + tall), x_axis, k == 2)
-        )
+    axis = driver_axis(turn.course, language)
+    panels = [_panel(turn, axis, q, traced.get(q), [(d[0], d[k + 1]) for d in dots]) for k, q in enumerate(curves)]
+    limits = sorted(
+        {float(axis.at(np.array(e.offset))) for e in (output.low, output.high) if e is not None and e.kind != "end"}
+    )  # those at the ends of the axis are its frame
+    kinds = {e.kind for panel in panels for e, _, _ in panel.extremes}
     title = say(Phrase("motion of link" if turns else "motion of slide", (quantity.of.split("/")[0],)), language)
-    head = heading(scene, title.replace("$", "$$"), _facts(turn, output, language), language)
-    entries: list[tuple[Stroke | str, str]] = [(SOLID_AND_DASHED[0], word("analytic curve", language))]
-    if dots:
-        entries.append(("circle", word("measured dots", language)))
-    entries += [("up", word("greatest", language)), ("down", word("least", language))]
-    made += legend(complex(LEFT, TOP - 9.5), entries)  # type: ignore[arg-type]
-    return Drawing(
-        WIDTH, HEIGHT, (Group(head, id="heading"), *made), title=f"{title}: {title_of(scene, language)}",
-        desc=" ".join(_facts(turn, output, language)), lang=language,
+    facts = _facts(turn, output, language)
+    tall = (HEIGHT - TOP - 20.0 - 2 * GAP) / 3
+
+    def paint(figure: Figure) -> None:
+        add_words(figure, *heading(scene, title.replace("$", "$$"), facts, language))
+        entries = [(look(SOLID_AND_DASHED[0]), word("analytic curve", language))]
+        if dots:
+            entries.append((marker("circle"), word("measured dots", language)))
+        if "max" in kinds:
+            entries.append((marker("up"), word("greatest", language)))
+        if "min" in kinds:
+            entries.append((marker("down"), word("least", language)))
+        if limits:
+            entries.append((look(LIMIT), word("limit marks", language)))
+        add_legend(figure, complex(LEFT, TOP - 9.5), entries)
+        for k, panel in enumerate(panels):
+            top = TOP + k * (tall + GAP)
+            last = k == len(panels) - 1
+            box = Box(LEFT, top, WIDTH - RIGHT, top + tall)
+            axes = add_panel(figure, box, panel.quantity.name.replace("/", "-"), panel.title, axis.title * last)
+            _draw(axes, panel, axis, limits)
+            axes.tick_params(labelbottom=last)
+
+    return Chart(
+        WIDTH, HEIGHT, paint, title=f"{title}: {title_of(scene, language)}", desc=" ".join(facts), lang=language,
         metadata={"scene": scene.name, "units": scene.units.length, "output": quantity.of},
-    )
+    )  # fmt: skip
+
+
+def _draw(axes: Axes, panel: _Panel, axis: DriverAxis, limits: Sequence[float]) -> None:
+    """One panel; zero lines and limit positions lie behind the curve."""
+    axes.set_xlim(axis.left, axis.right)
+    axes.set_ylim(*panel.span)
+    count_steps(axes.xaxis, axis.step)
+    count_steps(axes.yaxis, degree_step(panel.span[1] - panel.span[0], 7) if panel.counts_degrees else None)
+    axes.axhline(0.0, zorder=BEHIND, **look(ZERO))
+    for limit in limits:
+        axes.axvline(limit, zorder=BEHIND, **look(LIMIT))
+    axes.plot(*panel.curve.T, **look(SOLID_AND_DASHED[0]))
+    axes.plot(*panel.dots.T, **marker("circle"))
+    labels, toward = [], []
+    for kind, x, value in ((e.kind, x, value) for e, x, value in panel.extremes):
+        axes.plot([x], [value], **marker("up" if kind == "max" else "down"))
+        labels.append((number(value), (x, value)))
+        toward.append((math.pi / 2 if kind == "max" else -math.pi / 2,))
+    add_labels(axes, labels, toward=toward)
 
 
 def _facts(turn: Turn, output: Output, language: str) -> list[str]:
@@ -110,7 +166,7 @@ def _facts(turn: Turn, output: Output, language: str) -> list[str]:
         return [word("does not move" if output.position.constant is not None else "turns on", language)]
     unit = quantity.unit(scene, degrees=True)
     key = "swing is" if quantity.kind == "theta" else "stroke is"
-    facts = [say(Phrase(key, (with_unit(quantity.in_units(scene, stroke, degrees=True), unit),)), language)]
+    facts = [say(Phrase(key, (_with_unit(quantity.in_units(scene, stroke, degrees=True), unit),)), language)]
     back = turn.quick_return(output)
     if back is not None:
         facts.append(say(Phrase("K is", (number(back[0]),)), language).replace("K", "$K$", 1))
@@ -118,33 +174,65 @@ def _facts(turn: Turn, output: Output, language: str) -> list[str]:
     assert low is not None
     assert high is not None
     driver = "deg" if isinstance(scene.drivers[0], AngleDriver) else scene.units.length
-    places = [with_unit(driver_number(scene, e.driver), driver) for e in sorted((low, high), key=lambda e: e.driver)]
+    places = [_with_unit(driver_number(scene, e.driver), driver) for e in sorted((low, high), key=lambda e: e.driver)]
     facts.append(say(Phrase("limits at", (", ".join(places),)), language))
     return facts
 
 
-def _x(course: Course, offset: Array) -> Array:
-    """Where offsets lie on the axis of the driver, in its own unit."""
-    scene = course.scene
-    if not course.full:
-        values = course.value(offset)
-        return np.asarray(np.degrees(values) if isinstance(course.driver, AngleDriver) else values / scene.units.metres)
-    high = course.ends[1]
-    along = (np.asarray(offset) - first_offset(course)) % high
-    along = np.where(along > high * (1 - 1e-12), 0.0, along)
-    return np.asarray(np.degrees(along if course.sense > 0 else high - along))
+def _unit_words(unit: str) -> str:
+    """A unit as it is printed."""
+    return {"deg": "°"}.get(unit, unit.replace("s2", "s²"))
 
 
-def _shown(course: Course, quantity: Quantity, offset: Array, values: Array) -> Array:
+def _with_unit(value: float, unit: str) -> str:
+    """A number with its unit."""
+    return f"{number(value, 6)}{'' if unit == 'deg' else ' '}{_unit_words(unit)}"
+
+
+def _panel(
+    turn: Turn, axis: DriverAxis, quantity: Quantity, traced: Traced | None, dots: Sequence[tuple[float, float]]
+) -> _Panel:
+    course, scene = turn.course, turn.scene
+    offsets = axis.offsets
+    x = axis.at(offsets)
+    values = _shown(axis, quantity, offsets, quantity.values(course, course.motion(offsets)))
+    if course.full:
+        # the axis ends where it begins, a turn later
+        x[0], x[-1] = axis.left, axis.right
+        gain = _gain(course, quantity) if quantity.kind == "theta" else 0.0
+        values[-1] = values[0] + quantity.in_units(scene, gain, degrees=True)
+    low, high = _span(course, values)
+    span = low - MARGIN * (high - low), high + MARGIN * (high - low)
+    letter, name = quantity.kind, quantity.of.split("/")[0]
+    greek = {"theta": "θ", "omega": "ω", "alpha": "α"}.get(letter, letter)
+    title = f"${greek}_{{{name}}}$ ({_unit_words(quantity.unit(scene, degrees=True))})"
+    at = np.array([d[0] for d in dots])
+    read = np.array([d[1] for d in dots])
+    if len(dots) and quantity.kind == "theta":
+        # an angle measured on paper tells no whole turns
+        near = quantity.values(course, course.motion(at))
+        read = read + 2 * np.pi * np.rint((near - read) / (2 * np.pi))
+    points = np.stack([axis.at(at), _shown(axis, quantity, at, read)], axis=1) if len(dots) else np.zeros((0, 2))
+    points = points[(points[:, 1] >= span[0]) & (points[:, 1] <= span[1])]  # none is NaN then, none off the panel
+    extremes = [e for e in (traced.extremes if traced else ()) if e.kind != "end"]
+    places = np.array([e.offset for e in extremes])
+    shown = _shown(axis, quantity, places, np.array([e.value for e in extremes]))
+    marked = [
+        (e, float(place), float(value)) for e, place, value in zip(extremes, axis.at(places), shown, strict=True)
+        if span[0] <= value <= span[1]
+    ]  # fmt: skip
+    return _Panel(quantity, title, np.stack([x, values], axis=1), points, tuple(marked), span)
+
+
+def _shown(axis: DriverAxis, quantity: Quantity, offset: Array, values: Array) -> Array:
     """Values in units of the figure; an angle of a link without a jump along the axis."""
-    scene = course.scene
+    course = axis.course
     values = np.asarray(values, dtype=float)
     if quantity.kind == "theta" and course.full:
-        start = first_offset(course)
-        values = np.where(offset < start - 1e-12, values + _gain(course, quantity), values)
-        left = quantity.values(course, course.motion(np.array([start + BESIDE * course.ends[1]])))[0]
+        values = np.where(offset < axis.first - 1e-12, values + _gain(course, quantity), values)
+        left = quantity.values(course, course.motion(np.array([axis.first + BESIDE * course.ends[1]])))[0]
         values = values - 2 * np.pi * np.rint(left / (2 * np.pi))
-    return np.array([quantity.in_units(scene, v, degrees=True) for v in values])
+    return np.array([quantity.in_units(course.scene, v, degrees=True) for v in values])
 
 
 def _gain(course: Course, quantity: Quantity) -> float:
@@ -154,64 +242,17 @@ def _gain(course: Course, quantity: Quantity) -> float:
     return float(2 * np.pi * np.rint((last - first) / (2 * np.pi)))
 
 
-def _panel(
-    turn: Turn,
-    quantity: Quantity,
-    traced: Traced | None,
-    offsets: Array,
-    values: Array,
-    dots: Sequence[tuple[float, float]],
-    panel: Box,
-    x_axis: Axis,
-    last: bool,
-) -> Group:
-    course, scene = turn.course, turn.scene
-    x = _x(course, offsets)
-    if course.full:
-        # the axis ends where it begins, a turn later
-        x[0], x[-1] = x_axis.low, x_axis.high
-        gain = _gain(course, quantity) if quantity.kind == "theta" else 0.0
-        values[-1] = values[0] + quantity.in_units(scene, gain, degrees=True)
-    low, high = _span(course, values)
-    letter, name = quantity.kind, quantity.of.split("/")[0]
-    greek = {"theta": "θ", "omega": "ω", "alpha": "α"}.get(letter, letter)
-    title = f"${greek}_{{{name}}}$ ({unit_words(quantity.unit(scene, degrees=True))})"
-    y_axis = linear_axis(low, high, title, margin=0.14)
-    if quantity.kind == "theta" and high - low > 60:
-        y_axis = degree_axis(y_axis.low, y_axis.high, title, most=7)
-    marks: list[Marks] = []
-    if dots:
-        at = np.array([d[0] for d in dots])
-        read = np.array([d[1] for d in dots])
-        if quantity.kind == "theta":
-            # an angle measured on paper tells no whole turns
-            near = quantity.values(course, course.motion(at))
-            read = read + 2 * np.pi * np.rint((near - read) / (2 * np.pi))
-        shown = _shown(course, quantity, at, read)
-        known = np.isfinite(shown)
-        marks.append(Marks(list(_x(course, at[known])), list(shown[known]), "circle"))
-    for kind, shape in (("max", "up"), ("min", "down")):
-        found = [e for e in (traced.extremes if traced else ()) if e.kind == kind]
-        if found:
-            places = np.array([e.offset for e in found])
-            shown = _shown(course, quantity, places, np.array([e.value for e in found]))
-            inside = [k for k, v in enumerate(shown) if y_axis.low <= v <= y_axis.high]
-            labels = [number(float(shown[k])) for k in inside]
-            at_x = _x(course, places)
-            marks.append(Marks([float(at_x[k]) for k in inside], [float(shown[k]) for k in inside],
-                               "up" if shape == "up" else "down", labels))
-    chart = Chart(panel, x_axis, y_axis, (Curve(list(x), list(values)),), tuple(marks), last,
-                  id=f"chart-{quantity.name.replace('/', '-')}", title=quantity.name)
-    return chart_group(chart)
-
-
 def _span(course: Course, values: Array) -> tuple[float, float]:
     """The range of values worth showing: near the ends of a limited motion rates grow without bound."""
     good = values[np.isfinite(values)]
     if not len(good):
         return 0.0, 1.0
-    if course.full:
-        return float(good.min()), float(good.max())
-    low, high = np.percentile(good, (10, 90))
-    wide = high - low
-    return float(max(good.min(), low - 0.8 * wide)), float(min(good.max(), high + 0.8 * wide))
+    low, high = float(good.min()), float(good.max())
+    if not course.full:
+        least, most = np.percentile(good, (10, 90))
+        wide = 0.8 * (most - least)
+        low, high = float(max(low, least - wide)), float(min(high, most + wide))
+    if not high - low > 1e-12 * max(abs(low), abs(high)):  # a constant
+        half = abs(high) / 2 or 0.5
+        return low - half, high + half
+    return low, high

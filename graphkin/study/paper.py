@@ -1,15 +1,16 @@
-"""What the pages of a sweep share: headings, numbers with units, the axis of the driver."""
+"""What the pages of a turn share: headings, numbers with units, the axis of the driver."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.drawing import Primitive, Text
-from graphkin.drawing.chart import Axis, degree_axis, linear_axis
+from graphkin.drawing.chart import degree_step
 from graphkin.drawing.text import rich
 from graphkin.scene.model import AngleDriver, Scene
 from graphkin.study.course import Course
@@ -21,15 +22,13 @@ __all__ = [
     "POINTS",
     "RIGHT",
     "WIDTH",
-    "axis_offsets",
+    "DriverAxis",
     "driver_axis",
     "driver_number",
-    "first_offset",
     "heading",
+    "next_step",
     "number",
     "title_of",
-    "unit_words",
-    "with_unit",
 ]
 
 Array = NDArray[np.float64]
@@ -58,48 +57,76 @@ def number(value: float, digits: int = 5) -> str:
     return f"{value:.{digits}g}".replace("-", "−")
 
 
-def unit_words(unit: str) -> str:
-    """A unit as it is printed."""
-    return {"deg": "°", "rad/s2": "rad/s²"}.get(unit, unit.replace("s2", "s²"))
-
-
-def with_unit(value: float, unit: str, digits: int = 6) -> str:
-    """A number with its unit."""
-    return f"{number(value, digits)}{'' if unit == 'deg' else ' '}{unit_words(unit)}"
-
-
 def driver_number(scene: Scene, value: float) -> float:
     """A value of the first driver in degrees or in the scene's unit."""
     return math.degrees(value) if isinstance(scene.drivers[0], AngleDriver) else value / scene.units.metres
 
 
-def driver_axis(course: Course, language: str) -> Axis:
-    """The driver's value from left to right as it moves."""
+def next_step(least: float) -> float:
+    """The next number of the series 1, 2, 2.5, 5 times a power of ten.
+
+    >>> next_step(0.21), next_step(60)
+    (0.25, 100.0)
+    """
+    power = 10.0 ** math.floor(math.log10(least))
+    return next(m * power for m in (1.0, 2.0, 2.5, 5.0, 10.0) if m * power >= least * (1 - 1e-9))
+
+
+@dataclass(frozen=True)
+class DriverAxis:
+    """The driver's value from left to right as it moves: degrees, or the scene's unit of length.
+
+    left, right : values at the ends; an axis of a whole turn begins at 0, going up or down
+    step : of the ticks
+    first : the offset of the course at the left end
+    """
+
+    course: Course
+    left: float
+    right: float
+    step: float
+    first: float
+    title: str
+
+    @property
+    def offsets(self) -> Array:
+        """Offsets of the course in the order in which they are drawn; dense near the ends of a limited motion."""
+        low, high = self.course.ends
+        if not self.course.full:
+            half = np.linspace(0, np.pi, POINTS)
+            return np.asarray(low + (high - low) * np.sin(half / 2) ** 2)
+        return np.asarray((np.linspace(0.0, high, POINTS) + self.first) % high)
+
+    @property
+    def ticks(self) -> Array:
+        low, high = sorted((self.left, self.right))
+        first, last = math.ceil(low / self.step - 1e-9), math.floor(high / self.step + 1e-9)
+        return np.asarray(self.step * np.arange(first, last + 1))
+
+    def at(self, offset: Array) -> Array:
+        """Where offsets lie on the axis."""
+        course, scene = self.course, self.course.scene
+        if not course.full:
+            values = course.value(offset)
+            angle = isinstance(course.driver, AngleDriver)
+            return np.asarray(np.degrees(values) if angle else values / scene.units.metres)
+        high = course.ends[1]
+        along = (np.asarray(offset) - self.first) % high
+        along = np.where(along > high * (1 - 1e-12), 0.0, along)
+        return np.asarray(np.degrees(along if course.sense > 0 else high - along))
+
+
+def driver_axis(course: Course, language: str) -> DriverAxis:
+    """The axis for the whole way of the driver."""
     scene, driver = course.scene, course.driver
     name = driver.key.split("/")[0]
     angle = isinstance(driver, AngleDriver)
     symbol = f"$φ_{{{name}}}$ (°)" if angle else f"$s_{{{name}}}$ ({scene.units.length})"
-    title = say(Phrase("of the driver", (symbol,)), language)
     if course.full:
         low, high = 0.0, 360.0 * course.turns
     else:
         low, high = sorted(driver_number(scene, float(course.value(np.array(e)))) for e in course.ends)
-    axis = degree_axis(low, high, title) if angle else linear_axis(low, high, title, most=12, margin=0.0)
-    if course.sense > 0:
-        return axis
-    return Axis(axis.high, axis.low, axis.ticks, axis.title)
-
-
-def axis_offsets(course: Course) -> Array:
-    """Offsets in the order in which they are drawn, left to right; dense near the ends of a limited motion."""
-    low, high = course.ends
-    if not course.full:
-        half = np.linspace(0, np.pi, POINTS)
-        return np.asarray(low + (high - low) * np.sin(half / 2) ** 2)
-    return np.asarray((np.linspace(0.0, high, POINTS) + first_offset(course)) % high)
-
-
-def first_offset(course: Course) -> float:
-    """The offset at which the axis begins: driver at 0 going up, or at whole turns going down."""
-    high = course.ends[1]
-    return float((-course.start[0] * course.sense) % high)
+    step = degree_step(high - low) if angle else next_step((high - low) / 12)
+    first = float((-course.start[0] * course.sense) % course.ends[1]) if course.full else course.ends[0]
+    left, right = (low, high) if course.sense > 0 else (high, low)
+    return DriverAxis(course, left, right, step, first, say(Phrase("of the driver", (symbol,)), language))

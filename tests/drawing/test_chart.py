@@ -1,79 +1,218 @@
-"""Charts: axes, curves cut at the panel, labels clear of the curves."""
+"""Charts: axes, curves cut at the panel, labels clear of the curves, files that are the same wherever they are made."""
 
 from __future__ import annotations
 
+import io
 import math
+import re
+from concurrent.futures import ThreadPoolExecutor
+from itertools import pairwise
 
+import numpy as np
 import pytest
 
-from graphkin.drawing import Box, Line, Polyline, Text
-from graphkin.drawing.chart import Axis, Chart, Curve, Marks, chart_group, degree_axis, linear_axis, log_axis, next_step
-from graphkin.drawing.primitives import walk
-from graphkin.drawing.text import text_box
+from graphkin.drawing import Box, Chart
+from graphkin.drawing.chart import (
+    SOLID_AND_DASHED,
+    add_labels,
+    add_legend,
+    add_panel,
+    add_words,
+    count_powers,
+    count_steps,
+    degree_step,
+    look,
+    marker,
+)
+from graphkin.drawing.page import MissingFont
+from graphkin.drawing.primitives import Text
+from graphkin.drawing.svg import FONTS
+from graphkin.drawing.text import rich
+from graphkin.errors import CallError
+from tests.drawing.chart_words import overlapping, word_boxes
 
 PANEL = Box(20, 20, 120, 80)
-UNIT = Axis(0.0, 1.0, ((0.0, "0"), (1.0, "1")))
+X = np.linspace(0.0, 1.0, 51)
+WAVE = 0.5 + 0.4 * np.sin(12 * X)
+
+
+def chart(paint, **more) -> Chart:
+    """A page with one panel, which is painted by a function of its axes."""
+    return Chart(140.0, 100.0, lambda figure: paint(add_panel(figure, PANEL, "p", "$y$ (mm)", "$x$ (°)")), **more)
+
+
+def axes(paint):
+    return chart(paint).figure().axes[0]
+
+
+def numbers(axis) -> list[str]:
+    low, high = axis.get_view_interval()
+    axis.figure.draw_without_rendering()
+    slack = 1e-9 * (high - low)
+    return [t.label1.get_text() for t in axis.get_major_ticks() if low - slack <= t.get_loc() <= high + slack]
+
+
+def linear(low: float, high: float, step: float | None = None, most: int = 6) -> list[str]:
+    def paint(panel) -> None:
+        panel.set_ylim(low, high)
+        count_steps(panel.yaxis, step, most)
+
+    return numbers(axes(paint).yaxis)
+
+
+def wave(panel) -> None:
+    panel.set(xlim=(0, 1), ylim=(-0.1, 1))
+    panel.plot(X, WAVE, **look(SOLID_AND_DASHED[0]))
+    peaks = [(X[k], WAVE[k]) for k in (6, 20, 33)]
+    panel.plot(*zip(*peaks, strict=True), **marker("up"))
+    add_labels(panel, [("0.900", peaks[0]), ("0.100", peaks[1]), ("速度 $v_B$", peaks[2])])
+
+
+WAVES = chart(wave, title="A wave", desc="up & down", lang="zh")
+
+
+def pixels(page: Chart, dpi: float = 254.0) -> np.ndarray:
+    from PIL import Image
+
+    return np.asarray(Image.open(io.BytesIO(page.content("png", dpi))).convert("L"))
 
 
 def test_ticks_of_a_linear_axis_are_round_numbers() -> None:
-    assert ["−100", "−50", "0", "50", "100"] == [words for _, words in linear_axis(-100, 100).ticks]
+    assert ["−100", "−50", "0", "50", "100"] == linear(-116, 116)
 
 
 def test_ticks_of_quarters_have_their_digits() -> None:
-    assert ["0", "0.25", "0.50", "0.75", "1.00"] == [w for _, w in linear_axis(0, 1, most=4, margin=0).ticks]
+    assert ["0.00", "0.25", "0.50", "0.75", "1.00"] == linear(0, 1, most=4)
+
+
+def test_large_numbers_have_one_power_of_ten_for_all() -> None:
+    def paint(panel) -> None:
+        panel.set_ylim(0, 4e7)
+        count_steps(panel.yaxis)
+
+    assert r"$\times\mathdefault{10^{7}}$" in [words for words, _ in word_boxes(chart(paint))]
 
 
 def test_a_turn_has_a_tick_every_thirty_degrees() -> None:
-    assert list(range(0, 361, 30)) == [value for value, _ in degree_axis(0, 360).ticks]
+    assert [str(k) for k in range(0, 361, 30)] == linear(0, 360, degree_step(360))
+
+
+def scale(low: float, high: float):
+    return axes(lambda panel: count_powers(panel, "y", low, high))
 
 
 def test_a_log_axis_has_powers_of_ten() -> None:
-    assert [1e-3, 1e-2, 1e-1, 1.0] == pytest.approx([value for value, _ in log_axis(2e-3, 0.7).ticks])
+    assert [1e-3, 1e-2, 1e-1, 1.0] == pytest.approx(list(scale(2e-3, 0.7).get_yticks()))
 
 
 def test_a_log_axis_puts_the_mean_power_in_the_middle() -> None:
-    assert log_axis(1e-4, 1.0).share(1e-2) == pytest.approx(0.5)
+    panel = scale(1e-4, 1.0)
+    assert 0.5 == pytest.approx(panel.transAxes.inverted().transform(panel.transData.transform((0.5, 1e-2)))[1])
 
 
-@pytest.mark.parametrize(("least", "step"), [(0.2, 0.2), (0.21, 0.25), (0.3, 0.5), (60, 100)])
-def test_steps_are_of_the_series(least: float, step: float) -> None:
-    assert next_step(least) == pytest.approx(step)
-
-
-def test_a_constant_has_an_axis() -> None:
-    axis = linear_axis(5.0, 5.0)
-    assert axis.low < 5.0 < axis.high
-
-
-def test_an_axis_may_run_downwards() -> None:
-    chart = Chart(PANEL, Axis(360.0, 0.0, ()), UNIT)
-    assert chart.at(360.0, 0.0) == complex(20, 80)
+def test_the_panel_stands_where_its_box_is() -> None:
+    share = axes(wave).get_position()
+    assert (20, 120, 20, 80) == pytest.approx((share.x0 * 140, share.x1 * 140, 100 - share.y1 * 100,
+                                               100 - share.y0 * 100))
 
 
 def test_a_curve_is_cut_off_at_the_panel() -> None:
-    group = chart_group(Chart(PANEL, UNIT, UNIT, (Curve([0, 0.5, 1], [0, 2, 0]),)))
-    lines = [t for t in walk((group,)) if isinstance(t, Polyline)]
-    assert len(lines) == 2
-    assert all(PANEL.grown(1e-5).holds(Box.around(line.points)) for line in lines)
+    def paint(panel) -> None:
+        panel.set(xlim=(0, 1), ylim=(0, 1))
+        panel.plot([0, 0.5, 1], [0, 2, 0], **look(SOLID_AND_DASHED[0]))
+
+    above = pixels(Chart(140.0, 100.0, lambda figure: paint(add_panel(figure, PANEL, "p"))))[: 200 - 3, 250:]
+    assert above.min() == 255
 
 
 def test_a_curve_breaks_where_it_has_no_value() -> None:
-    group = chart_group(Chart(PANEL, UNIT, UNIT, (Curve([0, 0.2, 0.4, 0.6, 1], [0, 0.5, math.nan, 0.5, 1]),)))
-    assert len([t for t in walk((group,)) if isinstance(t, Polyline)]) == 2
+    def paint(panel) -> None:
+        panel.set(xlim=(0, 1), ylim=(0, 1))
+        panel.plot([0, 0.2, 0.4, 0.6, 1], [0, 0.5, math.nan, 0.5, 1], **look(SOLID_AND_DASHED[0]))
+
+    gap = pixels(chart(paint))[210:780, 410:790]  # between 0.2 and 0.6
+    assert gap.min() > 128  # nothing but the grid
 
 
-def test_labels_are_clear_of_the_curve() -> None:
-    x = [k / 50 for k in range(51)]
-    y = [0.5 + 0.4 * math.sin(12 * v) for v in x]
-    marks = Marks([x[6], x[20], x[33]], [y[6], y[20], y[33]], "up", ["0.900", "0.100", "0.899"])
-    group = chart_group(Chart(PANEL, UNIT, UNIT, (Curve(x, y),), (marks,)))
-    labels = [t for t in walk((group.children[-1],)) if isinstance(t, Text)]
-    curve = next(t for t in walk((group,)) if isinstance(t, Polyline))
+def test_labels_are_clear_of_the_curve_and_of_each_other() -> None:
+    labels = [box for words, box in word_boxes(WAVES) if words in ("0.900", "0.100") or "速度" in words]
+    curve = [complex(20 + 100 * x, 80 - 60 * (y + 0.1) / 1.1) for x, y in zip(X, WAVE, strict=True)]
     assert len(labels) == 3
-    assert not any(text_box(t).clip(a, b) for t in labels for a, b in zip(curve.points, curve.points[1:], strict=False))
+    assert not any(box.clip(a, b) for box in labels for a, b in pairwise(curve))
+    assert [] == overlapping(WAVES)
 
 
-def test_the_zero_line_is_heavier_than_the_grid() -> None:
-    group = chart_group(Chart(PANEL, UNIT, linear_axis(-1, 1)))
-    across = {t.stroke.width for t in walk((group,)) if isinstance(t, Line) and t.start.imag == t.end.imag}
-    assert {0.1, 0.18} <= across
+def test_a_legend_has_a_line_or_a_marker_for_each_of_its_words() -> None:
+    entries = [(look(SOLID_AND_DASHED[1]), "计算值"), (marker("circle"), "measured")]
+    legend = Chart(140.0, 100.0, lambda figure: add_legend(figure, 20 + 10j, entries)).figure().legends[0]
+    assert ["计算值", "measured"] == [text.get_text() for text in legend.get_texts()]
+    assert ["None", "o"] == [str(line.get_marker()) for line in legend.get_lines()]
+
+
+@pytest.mark.parametrize("format", ["svg", "pdf", "png"])
+def test_the_bytes_are_the_same_again(format: str) -> None:
+    assert WAVES.content(format) == WAVES.content(format)
+
+
+def test_threads_give_the_same_bytes_and_leave_the_users_settings_alone() -> None:
+    import matplotlib
+
+    with matplotlib.rc_context({"font.family": ["monospace"], "lines.linewidth": 7.0, "svg.fonttype": "path"}):
+        before = dict(matplotlib.rcParams)
+        with ThreadPoolExecutor(6) as threads:
+            made = list(threads.map(WAVES.content, ["svg", "png", "pdf"] * 4))
+        assert before == dict(matplotlib.rcParams)
+    assert 3 == len(set(made))
+    assert made[0] == WAVES.content("svg")
+
+
+def test_the_svg_holds_text_in_the_faces_of_all_figures() -> None:
+    svg = WAVES.content("svg").decode()
+    assert ">速度</text>" in svg
+    assert f'font-family="{FONTS}"' in svg
+    assert "font-family:" not in svg
+
+
+def test_the_svg_is_true_to_size_and_has_no_date() -> None:
+    svg = WAVES.content("svg").decode()
+    width, height = (float(re.search(rf'{side}="([\d.]+)pt"', svg)[1]) / 72 * 25.4 for side in ("width", "height"))
+    assert (140, 100) == pytest.approx((width, height), abs=1e-3)
+    assert "<dc:date>" not in svg
+
+
+def test_the_svg_says_title_words_and_language() -> None:
+    svg = WAVES.content("svg").decode()
+    assert '<svg role="img" lang="zh" xml:lang="zh"' in svg
+    assert "<title>A wave</title>" in svg
+    assert "<desc>up &amp; down</desc>" in svg
+
+
+def test_the_svg_is_well_formed() -> None:
+    from xml.etree import ElementTree
+
+    assert ElementTree.fromstring(WAVES.content("svg")).tag.endswith("svg")
+
+
+def test_the_ending_of_the_name_chooses_the_format(tmp_path) -> None:
+    heads = {"svg": b"<?xml", "pdf": b"%PDF", "png": b"\x89PNG"}
+    assert all(WAVES.save(tmp_path / f"a.{end}").read_bytes().startswith(head) for end, head in heads.items())
+
+
+def test_an_unknown_format_is_named() -> None:
+    with pytest.raises(CallError, match="gif"):
+        WAVES.content("gif")
+
+
+def test_the_png_has_as_many_pixels_as_the_page() -> None:
+    assert (1000, 1400) == pixels(WAVES).shape
+
+
+def test_a_missing_chinese_font_is_a_warning_and_no_failure(monkeypatch) -> None:
+    monkeypatch.setattr("graphkin.drawing.page._chinese_face", lambda: None)
+    with pytest.warns(MissingFont):
+        assert WAVES.content("png")
+
+
+def test_dollar_signs_of_words_are_words() -> None:
+    page = Chart(140.0, 100.0, lambda figure: add_words(figure, Text(20 + 20j, rich("5 $$ and $$"))))
+    assert "5 $ and $" in page.content("svg").decode()

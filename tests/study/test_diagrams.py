@@ -7,18 +7,20 @@ import json
 import numpy as np
 import pytest
 
-from graphkin.drawing import Box, Circle, Drawing, Group, Line, Polyline, Text
+from graphkin.drawing import Box, Chart, Drawing, Group, Line, Polyline, Text
 from graphkin.drawing.primitives import walk
 from graphkin.drawing.text import text_box
 from graphkin.scene import read, read_text
 from graphkin.study import course_of, diagrams, study_turn
 from graphkin.study.coupler import coupler_points
 from graphkin.study.measured import measured
+from graphkin.study.paper import next_step
 from graphkin.study.quantities import link_quantities, slide_quantities
 from tests import scenes
+from tests.drawing.chart_words import off_the_page, overlapping
 
 
-def pages(name: str, language: str = "en", positions: int = 12) -> dict[str, Drawing]:
+def pages(name: str, language: str = "en", positions: int = 12) -> dict[str, Chart | Drawing]:
     return diagrams(study_turn(course_of(read(name))), language, positions)
 
 
@@ -41,10 +43,16 @@ def test_pins_of_cranks_and_sliders_are_no_coupler_points() -> None:
     assert coupler_points(read("slider-crank-s50-e16-K1.2")) == ()
 
 
-@pytest.mark.parametrize("name", ["sixbar-guide-40deg", "sixbar-AE70", "hydraulic-cylinder"])
+MECHANISMS = ["sixbar-guide-40deg", "sixbar-AE70", "hydraulic-cylinder", "shaper-scheme-2"]
+
+
+@pytest.mark.parametrize("name", MECHANISMS)
 @pytest.mark.parametrize("language", ["en", "zh"])
 def test_nothing_runs_off_the_page(name: str, language: str) -> None:
     for page in pages(name, language, positions=2).values():
+        if isinstance(page, Chart):
+            assert [] == off_the_page(page)
+            continue
         paper = Box(0, 0, page.width, page.height)
         for thing in walk(page.children):
             if isinstance(thing, Text):
@@ -55,15 +63,75 @@ def test_nothing_runs_off_the_page(name: str, language: str) -> None:
                 assert paper.holds(Box.around(thing.points))
 
 
+@pytest.mark.parametrize("name", MECHANISMS)
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_no_two_words_of_a_motion_diagram_overlap(name: str, language: str) -> None:
+    charts = [page for page in pages(name, language, positions=2).values() if isinstance(page, Chart)]
+    assert charts
+    assert [] == [pair for page in charts for pair in overlapping(page)]
+
+
+def lines(page: Chart, panel: str) -> dict[str, np.ndarray]:
+    """What a panel shows: the curve, the dots, in values of its axes."""
+    axes = next(a for a in page.figure().axes if a.get_gid() == panel)
+    curve = next(line for line in axes.lines if len(line.get_xdata()) > 100)
+    dots = next(line for line in axes.lines if line.get_marker() == "o")
+    return {"curve": np.array(curve.get_xydata()), "dots": np.array(dots.get_xydata())}
+
+
 def test_twelve_measured_points_lie_on_each_curve() -> None:
     page = pages("slider-crank-offset")["motion-slide-3-4"]
-    charts = [g for g in page.children if isinstance(g, Group) and g.id.startswith("chart-")]
-    for chart in charts:
-        things = list(walk((chart,)))
-        curve = np.array(next(t for t in things if isinstance(t, Polyline)).points)
-        dots = [t.centre for t in things if isinstance(t, Circle)]
+    for panel in ("s_3-4", "v_3-4", "a_3-4"):
+        shown = lines(page, panel)
+        curve, dots = shown["curve"], shown["dots"]
         assert len(dots) == 12
-        assert all(np.abs(curve - z).min() < 0.25 for z in dots)
+        near = np.interp(dots[:, 0], *curve[np.argsort(curve[:, 0])].T)
+        assert np.abs(dots[:, 1] - near).max() < 2e-4 * np.ptp(curve[:, 1])
+
+
+def test_the_curve_shows_the_values_of_the_solver() -> None:
+    course = course_of(read("shaper-scheme-2"))
+    page = pages("shaper-scheme-2", positions=0)["motion-slide-6-1"]
+    for quantity in slide_quantities("6/1"):
+        curve = lines(page, quantity.name.replace("/", "-"))["curve"]
+        sense = np.sign(course.driver.values[1])
+        offsets = ((np.radians(curve[1:-1, 0]) - course.start[0]) * sense) % (2 * np.pi)
+        right = quantity.values(course, course.motion(offsets)) * 1e3
+        assert right == pytest.approx(curve[1:-1, 1], rel=1e-7, abs=1e-6 * np.ptp(right))
+
+
+def test_extremes_are_marked_where_they_are_and_say_how_much() -> None:
+    turn = study_turn(course_of(read("shaper-scheme-2")))
+    page = diagrams(turn, positions=0)["motion-slide-6-1"]
+    axes = next(a for a in page.figure().axes if a.get_gid() == "v_6-1")
+    found = next(t for t in turn.curves if t.quantity.name == "v_6/1").extremes
+    marked = {(line.get_marker(), *np.round(line.get_xydata()[0], 6)) for line in axes.lines
+              if line.get_marker() in ("^", "v")}
+    assert marked == {("^" if e.kind == "max" else "v", round(np.degrees(e.driver), 6), round(e.value * 1e3, 6))
+                      for e in found}
+    assert {f"{e.value * 1e3:.5g}".replace("-", "−") for e in found} <= {t.get_text() for t in axes.figure.texts}
+
+
+def test_limit_positions_are_lines_through_all_panels() -> None:
+    turn = study_turn(course_of(read("shaper-scheme-2")))
+    output = next(o for o in turn.outputs if o.quantity.of == "6/1")
+    page = diagrams(turn, positions=0)["motion-slide-6-1"]
+    right = sorted(np.degrees([output.low.driver, output.high.driver]))
+    for axes in page.figure().axes:
+        upright = sorted(line.get_xdata()[0] for line in axes.lines if len(set(line.get_xdata())) == 1
+                         and len(line.get_xdata()) == 2)
+        assert right == pytest.approx(upright)
+
+
+def test_the_axis_of_a_driver_that_turns_backwards_runs_downwards() -> None:
+    page = pages("shaper-scheme-2", positions=0)["motion-slide-6-1"]
+    assert {(360.0, 0.0)} == {axes.get_xlim() for axes in page.figure().axes}
+
+
+def test_the_zero_line_is_heavier_than_the_grid() -> None:
+    axes = pages("shaper-scheme-2", positions=0)["motion-slide-6-1"].figure().axes[1]
+    zero = next(line for line in axes.lines if set(line.get_ydata()) == {0.0})
+    assert zero.get_linewidth() > 1.5 * axes.get_ygridlines()[0].get_linewidth()
 
 
 def test_the_coupler_curve_is_drawn_in_its_scale() -> None:
@@ -81,9 +149,21 @@ def test_the_coupler_curve_is_drawn_in_its_scale() -> None:
 def test_a_change_point_at_the_end_of_the_axis_is_a_gap_in_the_curve_only(angle: str) -> None:
     scene = read_text(scenes.PARALLELOGRAM.replace("angle = 60", f"angle = {angle}"), "p")
     page = diagrams(study_turn(course_of(scene)), positions=12)["motion-link-3"]
-    dots = [c for group in page.children for c in walk((group,)) if isinstance(c, Circle)]
-    assert all(np.isfinite(c.centre) for c in dots)
+    assert all(np.isfinite(lines(page, panel)["dots"]).all() for panel in ("theta_3", "omega_3", "alpha_3"))
+
+
+@pytest.mark.parametrize(("least", "step"), [(0.2, 0.2), (0.21, 0.25), (0.3, 0.5), (60, 100)])
+def test_steps_are_of_the_series(least: float, step: float) -> None:
+    assert next_step(least) == pytest.approx(step)
+
+
+def test_a_constant_has_an_axis() -> None:
+    page = pages("oldham-coupling", positions=2)["motion-link-3"]
+    speed = next(axes for axes in page.figure().axes if axes.get_gid() == "omega_3")
+    low, high = speed.get_ylim()
+    assert all(low < y < high for line in speed.lines if len(line.get_xdata()) > 100 for y in line.get_ydata())
 
 
 def test_the_same_scene_gives_the_same_pages() -> None:
-    assert pages("slotter-75-150", positions=2) == pages("slotter-75-150", positions=2)
+    one, two = ({n: page._repr_svg_() for n, page in pages("slotter-75-150", positions=2).items()} for _ in "ab")
+    assert one == two

@@ -9,13 +9,11 @@ import numpy as np
 import pytest
 
 import graphkin
-from graphkin.drawing import Text
-from graphkin.drawing.primitives import walk
-from graphkin.drawing.text import text_box
 from graphkin.scene import read
 from graphkin.study.speed import Race, page, race, race_csv, to_json
 from graphkin.study.speed import entry as timing
 from graphkin.study.speed.peers import Skipped, pylinkage
+from tests.drawing.chart_words import off_the_page, overlapping
 
 SIXBAR = "sixbar-guide-40deg"
 
@@ -147,9 +145,22 @@ def _elsewhere(found: Race, seed: int) -> Race:
 @pytest.mark.parametrize("language", ["en", "zh"])
 @pytest.mark.parametrize("seed", range(12))
 def test_no_two_labels_of_the_chart_overlap_on_any_machine(seed: int, language: str) -> None:
-    drawn = page(_elsewhere(_spread(raced()), seed), language).children
-    boxes = [text_box(t) for t in walk(drawn) if isinstance(t, Text)]
-    assert [] == [(a, b) for i, a in enumerate(boxes) for b in boxes[:i] if a.grown(-0.2).overlaps(b)]
+    drawn = page(_elsewhere(_spread(raced()), seed), language)
+    assert [] == overlapping(drawn)
+    assert [] == off_the_page(drawn)
+
+
+@pytest.mark.parametrize(("kind", "cost", "error"), [
+    ("velocity", "velocity_cost", "velocity_error"), ("acceleration", "acceleration_cost", "acceleration_error"),
+])  # fmt: skip
+def test_every_method_is_a_point_of_the_chart(kind: str, cost: str, error: str) -> None:
+    race = _spread(raced())
+    panel = next(axes for axes in page(race).figure().axes if axes.get_gid() == f"speed-{kind}")
+    shown = {(x, y) for line in panel.lines if line.get_marker() != "None" for x, y in line.get_xydata()}
+    assert shown == {
+        (getattr(e, cost), max(getattr(e, error), 1.5e-19)) for e in race.entries
+        if getattr(e, error) is not None and getattr(e, error) <= 10.0
+    }  # fmt: skip
 
 
 def test_the_table_has_a_row_for_every_method_and_the_floor() -> None:

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from graphkin.study.limits import KINDS, Law, Trial, laws_csv, pages, run_trials, to_json
+from tests.drawing.chart_words import off_the_page, overlapping
 
 SLOPE = 0.15
 MEANINGFUL = 0.05  # an error beyond this is no answer
@@ -114,9 +115,7 @@ def test_a_velocity_through_a_centre_at_infinity_is_right() -> None:
 
 
 def test_the_chart_says_the_slopes_on_its_curves() -> None:
-    from graphkin.drawing import svg_bytes
-
-    text = svg_bytes(pages([trial("crossing height")])["stability"]).decode()
+    text = pages([trial("crossing height")])["stability"]._repr_svg_()
     assert "(−1)" in text
 
 
@@ -133,13 +132,16 @@ def test_a_refusal_is_null_in_the_data() -> None:
 
 @pytest.mark.parametrize("language", ["en", "zh"])
 def test_no_two_labels_of_the_charts_overlap(language: str) -> None:
-    from graphkin.drawing import Text
-    from graphkin.drawing.primitives import walk
-    from graphkin.drawing.text import text_box
+    for chart in pages([trial(kind) for kind in KINDS], language).values():
+        assert [] == overlapping(chart)
+        assert [] == off_the_page(chart)
 
-    for drawing in pages([trial(kind) for kind in KINDS], language).values():
-        boxes = [text_box(t) for t in walk(drawing.children) if isinstance(t, Text)]
-        assert [] == [(a, b) for i, a in enumerate(boxes) for b in boxes[:i] if a.grown(-0.2).overlaps(b)]
+
+def test_the_curves_show_the_errors_of_the_table() -> None:
+    found = trial("crossing height")
+    panel = pages([found])["stability"].figure().axes[0]
+    shown = [[tuple(p) for p in line.get_xydata()] for line in panel.lines]
+    assert shown == [list(zip(law.x, law.error, strict=True)) for law in found.laws]
 
 
 @pytest.mark.parametrize("kind", ["dead point RRR", "dead point RRP", "dead point RPR"])

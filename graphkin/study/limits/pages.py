@@ -4,15 +4,27 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
-from graphkin.drawing import Box, Drawing, Group, Primitive, Stroke, Text
-from graphkin.drawing.chart import SOLID_AND_DASHED, Chart, Curve, Marks, Shape, chart_group, legend, log_axis
+from graphkin.drawing import Box, Chart, Stroke, Text
+from graphkin.drawing.chart import (
+    SOLID_AND_DASHED,
+    Shape,
+    add_labels,
+    add_legend,
+    add_panel,
+    add_words,
+    count_powers,
+    look,
+    marker,
+)
 from graphkin.drawing.layout import wrapped
-from graphkin.drawing.placing import Label
 from graphkin.drawing.text import rich
-from graphkin.study.beside import placed_beside
 from graphkin.study.limits.law import Law, Trial
 from graphkin.words import say, word
+
+if TYPE_CHECKING:
+    from graphkin.drawing.chart import Figure
 
 __all__ = ["pages"]
 
@@ -28,7 +40,7 @@ DOTS: dict[str, Shape] = {"Newton": "circle", "drawing": "cross", "drawn": "cros
 LOW, HIGH = 1e-17, 1e2
 
 
-def pages(trials: Sequence[Trial], language: str = "en") -> dict[str, Drawing]:
+def pages(trials: Sequence[Trial], language: str = "en") -> dict[str, Chart]:
     """The trials on pages of six, by name: "stability", and "stability-2" for the next."""
     made = {}
     for k in range(0, len(trials), PER_PAGE):
@@ -37,74 +49,83 @@ def pages(trials: Sequence[Trial], language: str = "en") -> dict[str, Drawing]:
     return made
 
 
-def _page(trials: Sequence[Trial], language: str) -> Drawing:
-    title = word("stability title", language)
-    facts = word("stability facts", language)
-    head: tuple[Primitive, ...] = (
-        Text(complex(LEFT, 14.0), rich(title, 5.0, bold=True)),
-        Text(complex(LEFT, 20.0), rich(facts, 3.0)),
-        *legend(complex(LEFT, 26.0), [
-            (DOTS["Newton"], word("newton marks", language)),
-            (DOTS["drawing"], word("drawing marks", language)),
-            (DOTS["pencil"], word("pencil marks", language)),
-            ("square", word("stop marks", language)),
-        ]),
-    )  # fmt: skip
-    cells: list[Primitive] = []
-    for k, trial in enumerate(trials):
-        corner = complex(LEFT + (k % 2) * CELL.real, TOP + (k // 2) * CELL.imag)
-        cells.append(_cell(trial, corner, language))
-    if len(trials) % 2:
-        cells.append(_lesson(complex(LEFT + CELL.real, TOP + (len(trials) // 2) * CELL.imag), language))
+def _page(trials: Sequence[Trial], language: str) -> Chart:
+    title, facts = word("stability title", language), word("stability facts", language)
+    corners = [complex(LEFT + (k % 2) * CELL.real, TOP + (k // 2) * CELL.imag) for k in range(PER_PAGE + 1)]
+    marks: tuple[Shape, ...] = (DOTS["Newton"], DOTS["drawing"], DOTS["pencil"], "square")
+
+    def paint(figure: Figure) -> None:
+        heads = Text(complex(LEFT, 14.0), rich(title, 5.0, bold=True)), Text(complex(LEFT, 20.0), rich(facts, 3.0))
+        add_words(figure, *heads)
+        keys = ("newton marks", "drawing marks", "pencil marks", "stop marks")
+        told = [(marker(shape), word(key, language)) for shape, key in zip(marks, keys, strict=True)]
+        add_legend(figure, complex(LEFT, 25.2), told)
+        for trial, corner in zip(trials, corners, strict=False):
+            _draw(figure, trial, corner, language)
+        if len(trials) % 2:
+            add_words(figure, *_lesson(corners[len(trials)], language))
+
     told = "; ".join(word(t.key, language) for t in trials)
-    return Drawing(
-        WIDTH, HEIGHT, (Group(head, id="heading"), *cells), title=title, desc=f"{facts}: {told}", lang=language,
+    return Chart(
+        WIDTH, HEIGHT, paint, title=title, desc=f"{facts}: {told}", lang=language,
         metadata={"study": "stability", "singularities": [t.key for t in trials]},
     )  # fmt: skip
 
 
-def _cell(trial: Trial, corner: complex, language: str) -> Group:
-    panel = Box(corner.real + INDENT, corner.imag + 6.0, corner.real + INDENT + PLOT.real, corner.imag + 6 + PLOT.imag)
+def _draw(figure: Figure, trial: Trial, corner: complex, language: str) -> None:
+    """The curves of one trial, each with its name, and below them where methods stop."""
+    left, top = corner.real + INDENT, corner.imag + 6.0
+    box = Box(left, top, left + PLOT.real, top + PLOT.imag)
+    axes = add_panel(figure, box, f"trial-{trial.key.replace(' ', '-')}", x_title=word(trial.distance, language))
     shown = [e for law in trial.laws for e in law.error if math.isfinite(e) and e > 0]
-    y_axis = log_axis(max(min(shown) / 2, LOW), min(max(shown) * 2, HIGH), most=9)
     xs = [x for law in trial.laws for x in law.x]
-    x_axis = log_axis(min(xs) * 1.001, max(xs) * 0.999, f"{word(trial.distance, language)}", most=8)
-    curves, marks, wishes = [], [], []
-    for law, stroke in zip(trial.laws, _strokes(trial.laws), strict=True):
-        points = [(x, max(e, y_axis.low)) for x, e in zip(law.x, law.error, strict=True) if math.isfinite(e)]
-        points = [(x, e) for x, e in points if e <= y_axis.high]
+    count_powers(axes, "x", min(xs) * 1.001, max(xs) * 0.999, most=8)
+    low, high = count_powers(axes, "y", max(min(shown) / 2, LOW), min(max(shown) * 2, HIGH))
+    labels = []
+    for k, (law, stroke) in enumerate(zip(trial.laws, _strokes(trial.laws), strict=True)):
+        points = [(x, max(e, low)) for x, e in zip(law.x, law.error, strict=True) if math.isfinite(e)]
+        points = [(x, e) for x, e in points if e <= high]
         if stroke is not None and not _repeated(trial.laws, law):
-            curves.append(Curve([x for x, _ in points], [e for _, e in points], stroke))
+            axes.plot([x for x, _ in points], [e for _, e in points], **look(stroke))
         shape = _dot(law)
         if shape is not None:
             some = points[:: 1 if len(points) < 12 else 2]
-            marks.append(Marks([x for x, _ in some], [e for _, e in some], shape))
+            axes.plot([x for x, _ in some], [e for _, e in some], **marker(shape))
         if law.stops is not None and points:
-            last = min(points, key=lambda p: p[0])
-            marks.append(Marks([last[0]], [last[1]], "square"))
-        wishes.append((law, points))
-    chart = Chart(panel, x_axis, y_axis, tuple(curves), tuple(marks), id=f"trial-{trial.key.replace(' ', '-')}")
-    drawn = chart_group(chart)
-    labels = _labels(chart, wishes, drawn, language)
-    words: list[Primitive] = [Text(complex(corner.real, corner.imag + 2.5), rich(word(trial.key, language), 3.2, True))]
-    y = panel.bottom + 14.0
-    for fate in trial.fates:
-        for runs in wrapped(say(fate, language), LETTERS, CELL.real - 4.0):
-            words.append(Text(complex(corner.real, y), runs))
-            y += 3.3
-    return Group((drawn, *labels, *words), id=chart.id, title=word(trial.key, language))
+            axes.plot(*([value] for value in min(points)), **marker("square"))
+        if points:
+            labels.append((_words(law, language), _stretch(law, points, k, len(trial.laws))))
+    add_labels(axes, labels)
+    fates = [runs for fate in trial.fates for runs in wrapped(say(fate, language), LETTERS, CELL.real - 4.0)]
+    add_words(
+        figure,
+        Text(complex(corner.real, corner.imag + 2.5), rich(word(trial.key, language), 3.2, True)),
+        *(Text(complex(corner.real, box.bottom + 14.0 + 3.3 * k), runs) for k, runs in enumerate(fates)),
+    )
 
 
-def _lesson(corner: complex, language: str) -> Group:
+def _stretch(
+    law: Law, points: Sequence[tuple[float, float]], k: int, laws: int
+) -> tuple[tuple[float, float], tuple[float, float]]:
+    """The piece of a curve that bears its name: for the k-th of some curves each at another height, since they may lie
+    together."""
+    inside = [p for p in points if law.window[0] <= p[0] <= law.window[1] and p[1] < law.lost]
+    inside = inside if len(inside) > 1 else list(points)
+    middle = len(inside) * (laws - k) // (laws + 1)
+    near = inside[max(middle - 1, 0) : middle + 2]
+    return near[0], near[-1]
+
+
+def _lesson(corner: complex, language: str) -> list[Text]:
     """What to take from all of it, in the place that is left."""
-    lines: list[Primitive] = [Text(complex(corner.real, corner.imag + 2.5), rich(word("lesson", language), 3.2, True))]
+    lines = [Text(complex(corner.real, corner.imag + 2.5), rich(word("lesson", language), 3.2, True))]
     y = corner.imag + 10.0
     for key in ("lesson place", "lesson digits", "lesson pencil", "lesson centres", "lesson says"):
         for runs in wrapped(word(key, language), 3.0, CELL.real - 10.0):
             lines.append(Text(complex(corner.real, y), runs))
             y += 4.2
         y += 2.2
-    return Group(tuple(lines), id="lesson")
+    return lines
 
 
 def _strokes(laws: Sequence[Law]) -> list[Stroke | None]:
@@ -126,23 +147,6 @@ def _dot(law: Law) -> Shape | None:
 def _repeated(laws: Sequence[Law], law: Law) -> bool:
     """Whether the same curve is drawn for an earlier law already (two branches of one curve)."""
     return next(i for i, other in enumerate(laws) if other.key == law.key) != laws.index(law)
-
-
-def _labels(
-    chart: Chart, wishes: Sequence[tuple[Law, Sequence[tuple[float, float]]]], drawn: Group, language: str
-) -> list[Primitive]:
-    """The name of each curve with its slope beside it."""
-    asked: list[Label] = []
-    for i, (law, points) in enumerate(wishes):
-        inside = [p for p in points if law.window[0] <= p[0] <= law.window[1] and p[1] < law.lost]
-        inside = inside if len(inside) > 1 else list(points)
-        if not inside:
-            continue
-        k = len(inside) * (len(wishes) - i) // (len(wishes) + 1)  # each at another height, for those that lie together
-        near = inside[max(k - 1, 0) : k + 2]
-        ends = chart.at(*near[0]), chart.at(*near[-1])
-        asked.append(Label(Text(0j, rich(_words(law, language), LETTERS)), ends))
-    return placed_beside(chart, drawn, asked)
 
 
 def _words(law: Law, language: str) -> str:

@@ -4,18 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import replace
+from typing import TYPE_CHECKING
 
-from graphkin.drawing import Box, Drawing, Group, Line, Primitive, Stroke, Text
-from graphkin.drawing.chart import Chart, Curve, Marks, Shape, chart_group, log_axis
+from graphkin.drawing import Box, Chart, Stroke, Text
+from graphkin.drawing.chart import Shape, add_labels, add_panel, add_words, count_powers, look, marker
 from graphkin.drawing.layout import wrapped
-from graphkin.drawing.obstacles import Obstacles, obstacles_of
-from graphkin.drawing.placing import Label, Mark, place
 from graphkin.drawing.text import rich
 from graphkin.scene.symbol import Symbol
 from graphkin.study.speed.entry import Entry
 from graphkin.study.speed.run import Race
 from graphkin.words import Phrase, say, word
+
+if TYPE_CHECKING:
+    from graphkin.drawing.chart import Figure
 
 __all__ = ["page"]
 
@@ -49,43 +50,47 @@ NUMBERED = {"newton": ("1", "2", "3", "4"), "differences": ("1e-1", "1e-4", "1e-
 """Which points of a curve bear their number."""
 
 
-def page(race: Race, language: str = "en") -> Drawing:
+def page(race: Race, language: str = "en") -> Chart:
     """One page for both."""
     title = word("speed title", language)
-    scene = race.scene
-    name = scene.title_in(language)
+    name = race.scene.title_in(language)
     versions = ", ".join(f"{n} {v}" for n, v in race.machine.versions)
     facts = say(
         Phrase("speed facts", (race.machine.cores, race.machine.processor, versions, race.repeats, race.count,
                                race.places)), language)  # fmt: skip
     wide = WIDTH - LEFT - RIGHT
-    words: list[Primitive] = [
-        Text(complex(LEFT - 12, 13.0), rich(title, 5.0, bold=True)),
-        Text(complex(LEFT - 12, 19.0), rich(name.replace("$", "$$"), 3.5)),
-    ]
-    y = 24.0
-    for runs in wrapped(facts.replace("$", "$$"), LETTERS, wide + 12):
-        words.append(Text(complex(LEFT - 12, y), runs))
-        y += 3.3
     half = (wide - GAP) / 2
-    panels = [Box(x, TOP, x + half, HEIGHT - BOTTOM) for x in (LEFT, LEFT + half + GAP)]
-    charts = [
-        _chart(race, panel, kind, language) for panel, kind in zip(panels, ("velocity", "acceleration"), strict=True)
-    ]
-    y = HEIGHT - BOTTOM + 16.0
+
+    def paint(figure: Figure) -> None:
+        add_words(
+            figure,
+            Text(complex(LEFT - 12, 13.0), rich(title, 5.0, bold=True)),
+            Text(complex(LEFT - 12, 19.0), rich(name.replace("$", "$$"), 3.5)),
+            *_lines([facts.replace("$", "$$")], 24.0, LETTERS, 3.3),
+            *_lines(_lessons(race, language), HEIGHT - BOTTOM + 16.0, 2.8, 3.8),
+        )
+        for kind, left in (("velocity", LEFT), ("acceleration", LEFT + half + GAP)):
+            _draw(figure, race, kind, Box(left, TOP, left + half, HEIGHT - BOTTOM), language)
+
+    return Chart(
+        WIDTH, HEIGHT, paint, title=f"{title}: {name}", desc=facts, lang=language,
+        metadata={"study": "speed-accuracy", "scene": race.scene.name},
+    )  # fmt: skip
+
+
+def _lessons(race: Race, language: str) -> list[str]:
     lines = [word(f"speed lesson {key}", language) for key in ("draw", "compute", "lose")]
     lines.append(say(Phrase("speed hand", (race.acts,)), language))
     if race.skipped:
         told = "; ".join(f"{peer} {say(why, language)}" for peer, why in race.skipped)
         lines.append(say(Phrase("skipped", (told,)), language))
-    for line in lines:
-        for runs in wrapped(line, 2.8, wide + 12):
-            words.append(Text(complex(LEFT - 12, y), runs))
-            y += 3.8
-    return Drawing(
-        WIDTH, HEIGHT, (Group(tuple(words), id="heading"), *charts), title=f"{title}: {name}", desc=facts,
-        lang=language, metadata={"study": "speed-accuracy", "scene": scene.name},
-    )  # fmt: skip
+    return lines
+
+
+def _lines(paragraphs: Sequence[str], y: float, letters: float, step: float) -> list[Text]:
+    """Paragraphs (markup) over the width of the page, from a baseline down."""
+    lines = [runs for markup in paragraphs for runs in wrapped(markup, letters, WIDTH - LEFT - RIGHT + 12)]
+    return [Text(complex(LEFT - 12, y + k * step), runs) for k, runs in enumerate(lines)]
 
 
 def _points(entries: Sequence[Entry], kind: str) -> list[tuple[Entry, float, float]]:
@@ -100,71 +105,29 @@ def _points(entries: Sequence[Entry], kind: str) -> list[tuple[Entry, float, flo
     return found
 
 
-def _chart(race: Race, panel: Box, kind: str, language: str) -> Group:
+def _draw(figure: Figure, race: Race, kind: str, box: Box, language: str) -> None:
     points = _points(race.entries, kind)
     costs = [c for _, c, _ in points]
     floor = race.copying[kind == "acceleration"]
-    x_axis = log_axis(min(floor, *costs) / 1.5, max(costs) * 1.5, word("cost of a position", language), most=14)
-    y_axis = replace(log_axis(LOWEST, HIGHEST, most=9), title=f"{word(f'speed of {kind}', language)}: "
-                     f"{word('largest error', language)}")  # fmt: skip
+    title = f"{word(f'speed of {kind}', language)}: {word('largest error', language)}"
+    axes = add_panel(figure, box, f"speed-{kind}", title, word("cost of a position", language))
+    count_powers(axes, "x", min(floor, *costs) / 1.5, max(costs) * 1.5, most=14)
+    count_powers(axes, "y", LOWEST, HIGHEST)
     points = [p for p in points if p[2] <= HIGHEST]
-    curves = [*_curves(points), Curve([floor] * 2, [LOWEST, HIGHEST], FLOOR)]
-    marks = []
-    for family, shape in SHAPES.items():
-        own = [p for p in points if p[0].family == family]
-        marks.append(Marks([c for _, c, _ in own], [e for _, _, e in own], shape))
-    chart = Chart(panel, x_axis, y_axis, tuple(curves), tuple(marks), id=f"speed-{kind}")
-    drawn = chart_group(chart)
-    return Group(
-        (drawn, *_saved(chart, points), *_labels(race, chart, points, floor, drawn, language)), id=f"panel-{kind}",
-        title=word(f"speed of {kind}", language),
-    )  # fmt: skip
-
-
-def _curves(points: Sequence[tuple[Entry, float, float]]) -> list[Curve]:
-    found = []
+    axes.plot([floor] * 2, [LOWEST, HIGHEST], **look(FLOOR))
     for name, stroke in LINES.items():
         own = [p for p in points if p[0].family == name or (name == "pencil" and p[0].key == "pencil")]
-        if len(own) > 1:
-            found.append(Curve([c for _, c, _ in own], [e for _, _, e in own], stroke))
-    return found
-
-
-def _saved(chart: Chart, points: Sequence[tuple[Entry, float, float]]) -> list[Primitive]:
-    """Lines from each whole run to the one that is limited to what is asked."""
-    found: list[Primitive] = []
-    for e, cost, error in points:
-        if e.tag == "asked":
-            whole = next((p for p in points if p[0].key == e.key and not p[0].tag), None)
-            if whole is not None:
-                found.append(Line(chart.at(whole[1], whole[2]), chart.at(cost, error), SAVED))
-    return found
-
-
-def _labels(
-    race: Race, chart: Chart, points: Sequence[tuple[Entry, float, float]], floor: float, drawn: Group, language: str
-) -> list[Primitive]:
-    x = chart.at(floor, HIGHEST).real
-    stretch = complex(x, chart.panel.top + 6.0), complex(x, chart.panel.top + 24.0)
-    named = [(_words(race, e, points, language), chart.at(cost, error)) for e, cost, error in points]
-    wishes: list[tuple[str, Mark]] = [(words, at) for words, at in named if words]
-    wishes.append((word("copying", language), stretch))
-    corners = chart.panel.corners
-    frame = Obstacles(solid=tuple(zip(corners, (*corners[1:], corners[0]), strict=True)))
-    curves = next(c for c in drawn.children if isinstance(c, Group) and "curves" in c.classes)
-    there = obstacles_of((curves,)) + frame
-    in_the_way = Obstacles(there.solid + there.dashed, areas=there.areas)
-    for size in LETTERS_TRIED:
-        asked = [Label(Text(0j, rich(words, size)), mark) for words, mark in wishes]
-        placed = place(asked, chart.panel, in_the_way)
-        if all(label.clear for label in placed):
-            break
-    found: list[Primitive] = []
-    for label in placed:
-        found.append(replace(label.text, classes=("label",)))
-        if label.leader is not None:
-            found.append(label.leader)
-    return found
+        axes.plot([c for _, c, _ in own], [e for _, _, e in own], **look(stroke))
+    for e, cost, error in points:  # lines from each whole run to the one that is limited to what is asked
+        whole = next((p for p in points if p[0].key == e.key and not p[0].tag and e.tag == "asked"), None)
+        if whole is not None:
+            axes.plot([whole[1], cost], [whole[2], error], **look(SAVED))
+    for family, shape in SHAPES.items():
+        own = [p for p in points if p[0].family == family]
+        axes.plot([c for _, c, _ in own], [e for _, _, e in own], **marker(shape))
+    named = [(_words(race, e, points, language), (cost, error)) for e, cost, error in points]
+    stretch = (floor, HIGHEST / 20), (floor, HIGHEST / 2e4)
+    add_labels(axes, [*((w, at) for w, at in named if w), (word("copying", language), stretch)], LETTERS_TRIED)
 
 
 def _words(race: Race, entry: Entry, points: Sequence[tuple[Entry, float, float]], language: str) -> str:
