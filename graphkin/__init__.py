@@ -47,35 +47,18 @@ from graphkin.errors import CallError, GraphkinError, SceneError, Unsolvable
 from graphkin.version import __version__
 
 if TYPE_CHECKING:
-    from graphkin.api import (
-        Audited,
-        Centred,
-        Centroded,
-        Checked,
-        Drawn,
-        Handout,
-        Listed,
-        Prepared,
-        ProblemSet,
-        Samples,
-        Solved,
-        SpeedAccuracy,
-        Stability,
-        Swept,
-        audit,
-        centres,
-        centrodes,
-        check,
-        draw,
-        handout,
-        prepare,
-        problem_set,
-        scenes,
-        solve,
-        speed_accuracy,
-        stability,
-        sweep,
-    )
+    from graphkin.api.audited import Audited, audit
+    from graphkin.api.centred import Centred, centres
+    from graphkin.api.centroded import Centroded, centrodes
+    from graphkin.api.checked import Checked, check
+    from graphkin.api.drawn import Drawn, draw
+    from graphkin.api.handouts import Handout, handout
+    from graphkin.api.prepared import Prepared, Samples, prepare
+    from graphkin.api.problem_sets import ProblemSet, problem_set
+    from graphkin.api.scene_list import Listed, scenes
+    from graphkin.api.solved import Solved, solve
+    from graphkin.api.studied import SpeedAccuracy, Stability, speed_accuracy, stability
+    from graphkin.api.swept import Swept, sweep
     from graphkin.scene import read
     from graphkin.scene.model import Scene
 
@@ -116,13 +99,35 @@ __all__ = [
     "sweep",
 ]
 
-_PLACES = {"read": "graphkin.scene", "Scene": "graphkin.scene.model"}
+_PLACES = {
+    "api.audited": "Audited audit",
+    "api.centred": "Centred centres",
+    "api.centroded": "Centroded centrodes",
+    "api.checked": "Checked check",
+    "api.drawn": "Drawn draw",
+    "api.handouts": "Handout handout",
+    "api.prepared": "Prepared Samples prepare",
+    "api.problem_sets": "ProblemSet problem_set",
+    "api.scene_list": "Listed scenes",
+    "api.solved": "Solved solve",
+    "api.studied": "SpeedAccuracy Stability speed_accuracy stability",
+    "api.swept": "Swept sweep",
+    "scene": "read",
+    "scene.model": "Scene",
+}
 
 
 def __getattr__(name: str) -> Any:
-    # the public functions are loaded when they are first used, so that importing graphkin costs next to nothing
-    if name.startswith("_") or name not in __all__:
-        raise AttributeError(f"module 'graphkin' has no attribute {name!r}")
+    # each public name is loaded when it is first used, so that importing graphkin costs next to nothing, and a program
+    # that checks a scene does not wait for the papers
     from importlib import import_module
 
-    return getattr(import_module(_PLACES.get(name, "graphkin.api")), name)
+    for place, names in _PLACES.items():
+        if name in names.split():
+            value = globals()[name] = getattr(import_module(f"graphkin.{place}"), name)
+            return value
+    raise AttributeError(f"module 'graphkin' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

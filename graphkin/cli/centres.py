@@ -42,7 +42,7 @@ def centres(
     quiet: QuietOption = False,
 ) -> None:
     """All instant centres, how each was found, and the velocities by centres."""
-    from graphkin.api import centres as finding
+    from graphkin.api.centred import centres as finding
     from graphkin.api.centred import told_centres
 
     wanted, values = listed(formats), driver_values(at)
@@ -73,7 +73,7 @@ def _roll(
     scene: str, link: str, point: str, values: float | dict[str, float] | None, out: Path | None, formats: list[str],
     lang: str | None, convention: str | None, as_json: bool, quiet: bool,
 ) -> None:  # fmt: skip
-    from graphkin.api import centrodes
+    from graphkin.api.centroded import centrodes
 
     rolled = centrodes(scene, link, point, values, None, formats, lang, convention)
     paths = rolled.write(out, formats)

@@ -33,7 +33,7 @@ from graphkin.errors import Unsolvable
 from graphkin.words import languages
 
 if TYPE_CHECKING:
-    from graphkin.api import Checked
+    from graphkin.api.checked import Checked
 
 __all__ = ["audit", "check", "draw", "print_check", "unchecked"]
 
@@ -53,8 +53,8 @@ def check(
     quiet: QuietOption = False,
 ) -> None:
     """Measure the drawn diagrams and compare every reading with the analytic solver."""
-    from graphkin.api import check as checking
     from graphkin.api.arguments import known_words
+    from graphkin.api.checked import check as checking
 
     known_words(None, lang, convention, instrument)
     with unsolvable_as_json(as_json, unchecked):
@@ -133,7 +133,7 @@ def draw(
     quiet: QuietOption = False,
 ) -> None:
     """Draw the mechanism, the velocity and the acceleration polygon; measure and check them."""
-    from graphkin.api import draw as drawing
+    from graphkin.api.drawn import draw as drawing
 
     wanted = listed(formats)
     with unsolvable_as_json(as_json, unchecked):
@@ -159,7 +159,7 @@ def audit(
     quiet: QuietOption = False,
 ) -> None:
     """Judge the scene's printed values, or people's answers: right, within drafting accuracy, or wrong and why."""
-    from graphkin.api import audit as auditing
+    from graphkin.api.audited import audit as auditing
 
     audited = auditing(scene, answers, driver_values(at), lang)
     paths = audited.write(out) if out is not None else []

@@ -56,7 +56,7 @@ def handout(
     quiet: QuietOption = False,
 ) -> None:
     """Problem sheet, worked solution with every step, and answer key; or a set of them with other numbers."""
-    from graphkin.api import handout as handing
+    from graphkin.api.handouts import handout as handing
     from graphkin.words import languages, say
 
     wanted = listed(formats)
@@ -85,8 +85,8 @@ def _problem_set(
     convention: str | None, variants: int | None,
     seed: int, rows: Path | None, workers: int | None, as_json: bool, quiet: bool,
 ) -> None:  # fmt: skip
-    from graphkin.api import problem_set
     from graphkin.api.handouts import papers_of
+    from graphkin.api.problem_sets import problem_set
     from graphkin.scene import read
 
     target = out if out is not None else Path(read(scene).name)

@@ -27,7 +27,7 @@ from graphkin.cli.output import print_json, print_paths, print_table, unsolvable
 from graphkin.errors import CallError, Problem
 
 if TYPE_CHECKING:
-    from graphkin.api import Solved
+    from graphkin.api.solved import Solved
 
 __all__ = ["scenes", "solve"]
 
@@ -61,7 +61,7 @@ def scenes(
 
 
 def _list(as_json: bool) -> None:
-    from graphkin.api import scenes as listed
+    from graphkin.api.scene_list import scenes as listed
 
     found = listed()
     if as_json:
@@ -94,9 +94,9 @@ def solve(
     quiet: QuietOption = False,
 ) -> None:
     """The analytic solution alone, at one position or over a turn."""
-    from graphkin.api import solve as solving
     from graphkin.api.arguments import known_words
     from graphkin.api.solved import refused
+    from graphkin.api.solved import solve as solving
 
     known_words(None, lang, convention, instrument)
     values = driver_values(at)

@@ -11,7 +11,7 @@ from graphkin.cli.options import JsonOption, LangOption, QuietOption, SceneArgum
 from graphkin.cli.output import print_json, print_paths
 
 if TYPE_CHECKING:
-    from graphkin.api import SpeedAccuracy, Stability
+    from graphkin.api.studied import SpeedAccuracy, Stability
 
 __all__ = ["study"]
 
@@ -31,7 +31,7 @@ def speed_accuracy(
     quiet: QuietOption = False,
 ) -> None:
     """Cost of a position against the largest error, for all methods, measured on this machine."""
-    from graphkin.api import speed_accuracy as racing
+    from graphkin.api.studied import speed_accuracy as racing
 
     _write(racing(scene, repeats, lang), out, formats, as_json, quiet)
 
@@ -47,7 +47,7 @@ def stability(
     quiet: QuietOption = False,
 ) -> None:
     """Errors beside every kind of singular position: how fast they grow, where methods stop and how they say so."""
-    from graphkin.api import stability as measuring
+    from graphkin.api.studied import stability as measuring
 
     _write(measuring(language=lang or "en"), out, formats, as_json, quiet)
 

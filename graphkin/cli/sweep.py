@@ -57,8 +57,8 @@ def sweep(
     quiet: QuietOption = False,
 ) -> None:
     """Tables and motion diagrams over a turn, limit positions, strokes and K; and the same over designs."""
-    from graphkin.api import sweep as sweeping
     from graphkin.api.report_text import told_turn
+    from graphkin.api.swept import sweep as sweeping
     from graphkin.scene import read
 
     target = out if out is not None else Path(read(scene).name)

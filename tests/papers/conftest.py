@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from graphkin.api import handout
+from graphkin.api.handouts import handout
 
 
 @pytest.fixture(scope="session")

@@ -8,7 +8,7 @@ from html.parser import HTMLParser
 
 import pytest
 
-from graphkin.api import handout
+from graphkin.api.handouts import handout
 from graphkin.papers.blocks import clean
 from graphkin.scene import read
 

@@ -7,7 +7,7 @@ import re
 
 import pytest
 
-from graphkin.api import handout
+from graphkin.api.handouts import handout
 
 
 def _data(page: str) -> dict:

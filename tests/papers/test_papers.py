@@ -8,7 +8,8 @@ import subprocess
 
 import pytest
 
-from graphkin.api import check, handout
+from graphkin.api.checked import check
+from graphkin.api.handouts import handout
 from graphkin.drawing.primitives import Line, Text, walk
 from graphkin.papers import prepare as papers
 from graphkin.papers.blocks import Picture, Steps, Table, laid_out
