@@ -1,6 +1,7 @@
 """What callers wish of figures and papers, in words: formats, language, convention, instrument.
 
-What callers may give: a scene in any of its forms, driver values in the driver's own unit, symbols by name.
+What callers may give: a scene in any of its forms, driver values in the driver's own unit, symbols by name, and a
+folder for the files of the result.
 """
 
 from __future__ import annotations
@@ -9,9 +10,11 @@ import math
 import os
 from collections.abc import Iterable, Mapping, Sequence
 from numbers import Real
+from pathlib import Path
 from typing import Any, get_args
 
 from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.jobs import whole_file
 from graphkin.scene import read
 from graphkin.scene.model import AngleDriver, Convention, Driver, Scene
 from graphkin.scene.symbol import Symbol
@@ -29,6 +32,7 @@ __all__ = [
     "for_paper",
     "known_words",
     "own_unit",
+    "write_files",
 ]
 
 FORMATS = ("svg", "pdf", "png")
@@ -168,3 +172,22 @@ def _unknown_names(scene: Scene, symbol: Symbol) -> list[Problem]:
             wanted = did_you_mean(ref.point, scene.holders)
             problems.append(Problem(f"find {symbol}", f'there is no point "{ref.point}"', wanted))
     return problems
+
+
+def write_files(folder: Path, files: Mapping[str, bytes]) -> list[Path]:
+    """Write files by name into a folder, which is made if it is not there, each whole or not at all; returns their
+    paths.
+
+    Raises
+    ------
+    CallError : the folder cannot be written
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        for name, content in files.items():
+            with whole_file(folder / name) as out:
+                out.write(content)
+    except OSError as error:
+        where = Problem(str(folder), f"cannot be written: {error.strerror}", "give another folder with -o")
+        raise CallError(where) from None
+    return [folder / name for name in files]

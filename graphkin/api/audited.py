@@ -13,9 +13,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from graphkin.api.answers import Answers, AnswersLike, as_answers
-from graphkin.api.arguments import At, SceneLike, as_scene, driver_values, known_words, own_unit
+from graphkin.api.arguments import At, SceneLike, as_scene, driver_values, known_words, own_unit, write_files
 from graphkin.api.checked import in_scene_units, solved_here
-from graphkin.api.files import write_files
 from graphkin.checking import Case, Judged, judge, predict, printed_values
 from graphkin.checking.slips import Table
 from graphkin.construction import plan

@@ -16,9 +16,17 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from graphkin.api.arguments import ON_SHEETS, At, SceneLike, as_scene, driver_values, for_paper, known_words
+from graphkin.api.arguments import (
+    ON_SHEETS,
+    At,
+    SceneLike,
+    as_scene,
+    driver_values,
+    for_paper,
+    known_words,
+    write_files,
+)
 from graphkin.api.checked import solved_here
-from graphkin.api.files import write_files
 from graphkin.construction import Room
 from graphkin.construction.centres import Centre, Centres, Turning, by_centres, find_centres, speeds, velocity_sentences
 from graphkin.construction.centres.pairs import Pair, normal, wedge

@@ -14,10 +14,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.api.arguments import ON_SHEETS, At, SceneLike, as_scene, driver_values, known_words
+from graphkin.api.arguments import ON_SHEETS, At, SceneLike, as_scene, driver_values, known_words, write_files
 from graphkin.api.centred import found_centres
 from graphkin.api.checked import solved_here
-from graphkin.api.files import write_files
 from graphkin.construction.centres import Centres
 from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.scene.model import Scene

@@ -11,9 +11,17 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from graphkin.api.arguments import ON_SHEETS, At, SceneLike, asked_symbols, driver_values, for_paper, known_words
+from graphkin.api.arguments import (
+    ON_SHEETS,
+    At,
+    SceneLike,
+    asked_symbols,
+    driver_values,
+    for_paper,
+    known_words,
+    write_files,
+)
 from graphkin.api.checked import Checked, checked, hand_of, reading_row, solved_here
-from graphkin.api.files import write_files
 from graphkin.api.report_text import told
 from graphkin.construction import plan
 from graphkin.scene.symbol import Symbol

@@ -18,9 +18,9 @@ from graphkin.api.arguments import (
     driver_values,
     for_paper,
     known_words,
+    write_files,
 )
 from graphkin.api.checked import solved_here
-from graphkin.api.files import write_files
 from graphkin.errors import CallError, Problem
 from graphkin.papers.lesson import Lesson
 from graphkin.papers.page import Progress

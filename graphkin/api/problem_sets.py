@@ -5,20 +5,20 @@ from __future__ import annotations
 import csv
 import io
 import os
+import re
 import tomllib
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from graphkin.api.answers import table_of, with_points
-from graphkin.api.arguments import SceneLike, as_scene, asked_symbols
-from graphkin.api.files import half_written, write_files
+from graphkin.api.arguments import SceneLike, as_scene, asked_symbols, write_files
 from graphkin.errors import CallError, GraphkinError, Problem
+from graphkin.jobs import Progress, Workers
 from graphkin.papers.data_rows import Columns, columns_of, replaced
-from graphkin.papers.jobs import Job, jobs_of_rows, jobs_of_seed
-from graphkin.papers.problem_set import MadeSet, Render, make
+from graphkin.papers.problem_set import Job, MadeSet, Render, jobs_of_rows, jobs_of_seed, make
 from graphkin.papers.variants import Range, Variant, asked_of, varied_keys
 from graphkin.scene import library, library_text
 from graphkin.scene.model import Scene
@@ -26,7 +26,6 @@ from graphkin.scene.source import safe_name
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.writing import as_mapping, toml_text
 from graphkin.study.designs import applied
-from graphkin.study.processes import RenewedPool
 
 __all__ = ["ProblemSet", "problem_set"]
 
@@ -95,7 +94,7 @@ def problem_set(
     executor: Executor | None = None,
     workers: int | None = None,
     render: Render | None = None,
-    progress: Callable[[int, int], None] | None = None,
+    progress: Progress | None = None,
     find: Iterable[str | Symbol] | None = None,
 ) -> ProblemSet:
     """Make a set of problems from one scene: the same mechanism with other numbers for everyone.
@@ -129,7 +128,6 @@ def problem_set(
     given = as_scene(source)
     jobs, unused = _jobs(source, variants, seed, rows, spread or Range())
     folder = Path(out) if out is not None else None
-    own = RenewedPool(workers) if executor is None and workers and workers > 1 else None
     left: list[Path] = []
     if folder is not None:
         write_files(folder, {})
@@ -149,12 +147,15 @@ def problem_set(
             for path in left:
                 path.unlink(missing_ok=True)
 
-    try:
-        made = make(jobs, folder, executor or own, workers or 1, keep, render, progress, finish)
-    finally:
-        if own is not None:
-            own.shutdown(cancel_futures=True)
+    with Workers(executor, workers) as working:
+        made = make(jobs, working, folder, keep, render, progress, finish)
     return ProblemSet(given, made, unused, folder)
+
+
+def half_written(folder: Path, stem: str) -> list[Path]:
+    """What a process that was killed while writing files of this stem has left in a folder."""
+    pattern = re.compile(rf"\.{re.escape(stem)}-.*\.[a-z0-9_]{{8}}")
+    return [path for path in folder.glob(".*") if pattern.fullmatch(path.name)]
 
 
 def _source(scene: SceneLike) -> tuple[dict[str, Any], str]:

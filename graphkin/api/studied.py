@@ -10,8 +10,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from graphkin.api.arguments import SceneLike, as_scene, known_words
-from graphkin.api.files import write_files
+from graphkin.api.arguments import SceneLike, as_scene, known_words, write_files
 from graphkin.errors import CallError, Problem, did_you_mean
 
 if TYPE_CHECKING:

@@ -16,8 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.api.arguments import At, SceneLike, as_scene, asked_symbols, driver_values, known_words
-from graphkin.api.files import write_files
+from graphkin.api.arguments import At, SceneLike, as_scene, asked_symbols, driver_values, known_words, write_files
 from graphkin.errors import CallError, Problem
 from graphkin.jobs import Progress, Workers, cluster
 from graphkin.scene import library, library_text

@@ -111,8 +111,8 @@ def _print_readings(checked: Checked, language: str) -> None:
 
 
 def _write(folder: Path, checked: Checked, language: str) -> None:
+    from graphkin.api.arguments import write_files
     from graphkin.api.drawn import readings_csv
-    from graphkin.api.files import write_files
     from graphkin.api.report_text import told
 
     report = told(checked, language)

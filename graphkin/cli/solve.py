@@ -103,7 +103,7 @@ def solve(
     with unsolvable_as_json(as_json, lambda error: refused(scene, values, error)):
         solved = solving(scene, values, sweep)
     if out is not None:
-        from graphkin.api.files import write_files
+        from graphkin.api.arguments import write_files
 
         text = json.dumps(solved.data, ensure_ascii=False, allow_nan=False) + "\n"
         write_files(out, {"solution.json": text.encode()})

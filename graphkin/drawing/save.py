@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import os
-import tempfile
 from pathlib import Path
 from typing import Protocol
 
 from graphkin.drawing.primitives import Drawing
 from graphkin.drawing.svg import svg_bytes
 from graphkin.errors import CallError, Problem
+from graphkin.jobs import whole_file
 
-__all__ = ["FORMATS", "OtherPage", "drawing_bytes", "save", "write_whole"]
+__all__ = ["FORMATS", "OtherPage", "drawing_bytes", "save"]
 
 FORMATS = ("svg", "pdf", "png")
 
@@ -51,24 +51,7 @@ def save(drawing: Drawing | OtherPage, path: str | os.PathLike[str], dpi: float 
     OSError : the place cannot be written
     """
     target = Path(path)
-    write_whole(target, drawing_bytes(drawing, target.suffix.lower().removeprefix("."), dpi))
+    content = drawing_bytes(drawing, target.suffix.lower().removeprefix("."), dpi)
+    with whole_file(target) as out:
+        out.write(content)
     return target
-
-
-def write_whole(path: Path, content: bytes) -> None:
-    """Write a file by way of a temporary one beside it, so that nobody ever sees half of it.  Raises OSError."""
-    handle, temporary = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
-    try:
-        with os.fdopen(handle, "wb") as file:
-            file.write(content)
-        os.chmod(temporary, 0o666 & ~_umask())
-        os.replace(temporary, path)
-    except BaseException:
-        os.unlink(temporary)
-        raise
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask

@@ -1,4 +1,8 @@
-"""A set of problems: a variant for each student, made by any executor, kept as it grows, none lost."""
+"""A set of problems: a variant for each student, made by whatever works, kept as it grows, none lost.
+
+In the folder of results a hidden one holds what is finished until the set is whole; a variant whose files are gone is
+made again.
+"""
 
 from __future__ import annotations
 
@@ -6,30 +10,50 @@ import json
 import re
 from collections import Counter, deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from concurrent.futures import Executor, Future
-from contextlib import suppress
-from dataclasses import dataclass, field
-from functools import partial
+from dataclasses import asdict, dataclass, field, is_dataclass
 from itertools import islice
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 from graphkin.errors import GraphkinError
-from graphkin.papers.jobs import Job, Made
-from graphkin.papers.notes import Notes
-from graphkin.papers.variants import Answer, Unfit, Variant, candidate, examined, varied_keys
+from graphkin.jobs import Checkpoints, Progress, Started, Workers, key_of
+from graphkin.papers.variants import Answer, Range, Unfit, Variant, candidate, examined, varied_keys
 
-__all__ = ["Failure", "MadeSet", "distinct", "make"]
+__all__ = ["Failure", "Job", "MadeSet", "Render", "distinct", "jobs_of_rows", "jobs_of_seed", "make"]
 
 ATTEMPTS = 60  # tries at one variant before it is given up
-AHEAD = 4  # variants handed out for each worker, so that memory stays bounded and none waits
 
 # of a title: the data that it names ("…, scheme 2, position 7", "… 150, 500, 300")
 _DATA = re.compile(r"(?:\s+[\d.]+(?=[,、]\s*\d))?\s*[,:，：;；(（、][^,:，：;；(（、]*\d.*$")
 
 Source = Mapping[str, Any]
 Render = Callable[[Variant], Mapping[str, bytes]]
-Result = TypeVar("Result")
+
+
+@dataclass(frozen=True)
+class Job:
+    """One variant to make: drawn from a seed within a range, or a row of given data.
+
+    ``source`` is the scene file to vary, or that of the row; ``base`` the row's with the driver where it was;
+    ``trouble`` what is wrong with a row.
+    """
+
+    name: str
+    number: int
+    source: Source
+    spread: Range | None = None
+    seed: int = 0
+    base: Source | None = None
+    trouble: str = ""
+
+
+@dataclass(frozen=True)
+class Made:
+    """What became of a job: a variant with the attempt that gave it, or why there is none."""
+
+    variant: Variant | None
+    attempt: int = 0
+    why: str = ""
 
 
 @dataclass(frozen=True)
@@ -53,6 +77,19 @@ class MadeSet:
     def ok(self) -> bool:
         """Whether every variant was made."""
         return not self.failures
+
+
+def jobs_of_seed(source: Source, count: int, seed: int, spread: Range) -> Iterator[Job]:
+    """One job for each of so many variants of a scene file."""
+    digits = max(2, len(str(count)))
+    for number in range(1, count + 1):
+        yield Job(f"{number:0{digits}d}", number, source, spread, seed)
+
+
+def jobs_of_rows(rows: Iterable[tuple[str, Source, Source | None, str]]) -> Iterator[Job]:
+    """One job for each row of data: name, scene file, the file with the driver where it was, what is wrong with it."""
+    for number, (name, source, base, trouble) in enumerate(rows, 1):
+        yield Job(name, number, source, base=base, trouble=trouble)
 
 
 def work(job: Job, attempt: int) -> Made:
@@ -118,149 +155,138 @@ def distinct(one: Sequence[Answer], others: Iterator[Sequence[Answer]]) -> bool:
 
 def make(
     jobs: Sequence[Job],
+    workers: Workers,
     folder: Path | None = None,
-    executor: Executor | None = None,
-    workers: int = 1,
     keep: Callable[[Variant, Mapping[str, bytes]], Iterable[str]] | None = None,
     render: Render | None = None,
-    progress: Callable[[int, int], None] | None = None,
+    progress: Progress | None = None,
     finish: Callable[[MadeSet], None] | None = None,
 ) -> MadeSet:
     """Make every variant of a set, in order, each different in its answers from those before.
 
     Parameters
     ----------
-    folder : where finished variants are noted down, so that an interrupted set goes on
-    executor : any that follows ``concurrent.futures.Executor``; without one, and where it fails, the work is done here
-    workers : how many variants it can work on at once
+    folder : where finished variants are kept, so that an interrupted set goes on
     keep : called with each variant in order, and with its rendered files; gives the names of the files it wrote
-    render : called in the executor for each variant accepted; gives files by name
+    render : called by the workers for each variant accepted; gives files by name
     progress : called with the number done and the number of all
-    finish : called with the whole set, before the notes of what is done are taken away
+    finish : called with the whole set, before the checkpoints of what is done are taken away
 
     A variant whose papers cannot be made or written is a failure, and the next call tries it again.
     """
     made = MadeSet()
-    notes = Notes(folder, jobs, render, ATTEMPTS)
-    seen = notes.read()
-    ahead = AHEAD * max(workers, 1)
-    waiting = iter(jobs)
-    taken: list[tuple[Answer, ...]] = []  # answers of every variant accepted, whatever becomes of its papers
-    queue: deque[tuple[Job, Callable[[], Made]]] = deque()
-    rendering: deque[tuple[Job, Made, Variant, Callable[[], _Papers]]] = deque()
+    points = Checkpoints.of(folder, "set", _key(jobs, render)) if folder is not None and jobs else None
+    done = _finished(points)
+    if points is not None:
+        points.open(variants=len(jobs))
+    again = False
 
-    def refill() -> None:
-        for job in islice(waiting, ahead - len(queue)):
-            noted = seen.get(job.number)
-            queue.append((job, partial(_given, noted) if noted else _started(executor, work, job, 0)))
-
-    def settled(job: Job, result: Made) -> Made:
-        while job.spread and result.variant and not distinct(result.variant.answers, iter(taken)):
-            result = _started(executor, work, job, result.attempt + 1)()
-        return result
-
-    def fail(job: Job, why: str) -> None:
-        made.failures.append(Failure(job.name, why))
-        count()
-
-    def succeed(job: Job, variant: Variant) -> None:
-        made.names.append(job.name)
-        made.answers[job.name] = variant.answers
-        if variant.remarks:
-            made.remarks[job.name] = variant.remarks
-        count()
-
-    def count() -> None:
+    def settle(job: Job, result: Made, papers: Started[Papers] | None) -> None:
+        nonlocal again
+        rendered = papers.result() if papers is not None else Papers()
+        why = result.why or rendered.why
+        files: tuple[str, ...] = ()
+        if papers is not None and keep is not None and result.variant is not None and not why:
+            try:
+                files = tuple(keep(result.variant, rendered.files))
+            except Exception as error:
+                why = _reason(error)
+        if result.variant is not None and why:
+            again = True
+        elif points is not None and job.number not in done:
+            points.save(job.number, {**asdict(result), "files": files})
+        if result.variant is None or why:
+            made.failures.append(Failure(job.name, why))
+        else:
+            made.names.append(job.name)
+            made.answers[job.name] = result.variant.answers
+            if result.variant.remarks:
+                made.remarks[job.name] = result.variant.remarks
         if progress is not None:
             progress(len(made.names) + len(made.failures), len(jobs))
 
-    whole = True
-
-    def hand_over(most: int) -> None:
-        nonlocal whole
-        while len(rendering) > most:
-            job, result, variant, started = rendering.popleft()
-            papers = started()
-            why = papers.why
-            written: tuple[str, ...] = ()
-            if not why and keep is not None:
-                try:
-                    written = tuple(keep(variant, papers.files))
-                except Exception as error:
-                    why = _reason(error)
-            if why:
-                whole = False
-                fail(job, why)
-            else:
-                notes.add(job, result, written)
-                succeed(job, variant)
-
-    refill()
-    while queue:
-        job, started = queue.popleft()
-        result = started() if job.number in seen else settled(job, started())
-        if result.variant is None:
-            hand_over(0)
-            if job.number not in seen:
-                notes.add(job, result)
-            fail(job, result.why)
-        else:
-            taken.append(result.variant.answers)
-            if job.number in seen:
-                hand_over(0)
-                succeed(job, result.variant)
-            else:
-                rendering.append((job, result, result.variant, _started(executor, _rendered, render, result.variant)))
-                hand_over(ahead if executor is not None and render is not None else 0)
-        refill()
-    hand_over(0)
+    waiting: deque[tuple[Job, Made, Started[Papers] | None]] = deque()
+    for job, result in _accepted(jobs, done, workers):
+        new = result.variant is not None and job.number not in done
+        waiting.append((job, result, workers.start(_rendered, render, result.variant) if new else None))
+        while len(waiting) > (workers.ahead if render is not None else 0):
+            settle(*waiting.popleft())
+    for one in waiting:
+        settle(*one)
     if finish is not None:
         finish(made)
-    if whole:
-        notes.close()
+    if points is not None and not again:
+        points.close()
     return made
 
 
+def _accepted(jobs: Iterable[Job], done: Mapping[int, Made], workers: Workers) -> Iterator[tuple[Job, Made]]:
+    """What becomes of each job, in order; variants drawn from a seed are distinct from all before them."""
+    taken: list[tuple[Answer, ...]] = []
+    queue: deque[tuple[Job, Started[Made] | None]] = deque()
+    left = iter(jobs)
+    while True:
+        for job in islice(left, 1 + workers.ahead - len(queue)):
+            queue.append((job, None if job.number in done else workers.start(work, job, 0)))
+        if not queue:
+            return
+        job, started = queue.popleft()
+        result = done[job.number] if started is None else started.result()
+        while (
+            started is not None
+            and job.spread is not None
+            and result.variant is not None
+            and not distinct(result.variant.answers, iter(taken))
+        ):
+            result = workers.start(work, job, result.attempt + 1).result()
+        if result.variant is not None:
+            taken.append(result.variant.answers)
+        yield job, result
+
+
+def _key(jobs: Sequence[Job], render: Render | None) -> str:
+    """A key of the set: other papers are another set."""
+    papers = repr(render) if is_dataclass(render) else getattr(render, "__qualname__", "")
+    # jobs drawn from one seed share their scene: only the first is written out
+    drawn = (asdict(job) if job.spread is None or job.number == 1 else (job.name, job.number) for job in jobs)
+    return key_of(ATTEMPTS, papers, *drawn)
+
+
+def _finished(points: Checkpoints | None) -> dict[int, Made]:
+    """Finished jobs by number, of those whose files are all there."""
+    found: dict[int, Made] = {}
+    for number in points.done() if points is not None else ():
+        assert points is not None
+        facts = points.load(number).facts
+        if all((points.place.parent / name).is_file() for name in facts["files"]):
+            found[number] = _made(facts)
+    return found
+
+
+def _made(facts: Mapping[str, Any]) -> Made:
+    v = facts["variant"]
+    if v is None:
+        return Made(None, facts["attempt"], facts["why"])
+    answers = tuple(Answer(**a) for a in v["answers"])
+    return Made(Variant(v["name"], v["source"], answers, tuple(v["remarks"])), facts["attempt"], facts["why"])
+
+
 @dataclass(frozen=True)
-class _Papers:
+class Papers:
     """Rendered files by name, or why there are none."""
 
     files: Mapping[str, bytes] = field(default_factory=dict)
     why: str = ""
 
 
-def _rendered(render: Render | None, variant: Variant) -> _Papers:
+def _rendered(render: Render | None, variant: Variant) -> Papers:
     try:
-        return _Papers(render(variant)) if render is not None else _Papers()
+        return Papers(render(variant)) if render is not None else Papers()
     except Exception as error:  # whatever goes wrong with one must not take the others along
-        return _Papers(why=_reason(error))
+        return Papers(why=_reason(error))
 
 
 def _reason(error: Exception) -> str:
     """What went wrong in one line; what the program did not foresee with the kind of error."""
     text = (str(error).splitlines() or [""])[0][:300]
     return text if isinstance(error, GraphkinError) else f"{type(error).__name__}: {text}"
-
-
-def _given(made: Made) -> Made:
-    return made
-
-
-def _started(executor: Executor | None, task: Callable[..., Result], *args: Any) -> Callable[[], Result]:
-    """Start a task that raises nothing: what is returned gives its result.
-
-    Without an executor it is done here, and where the executor fails it (a broken pool, a lost worker, what cannot be
-    sent there).
-    """
-    future: Future[Result] | None = None
-    if executor is not None:
-        with suppress(Exception):
-            future = executor.submit(task, *args)
-
-    def result() -> Result:
-        if future is not None:
-            with suppress(Exception):
-                return future.result()
-        return task(*args)
-
-    return result

@@ -124,9 +124,8 @@ def test_an_interrupted_set_goes_on_where_it_was(tmp_path, monkeypatch):
 
     with pytest.raises(KeyboardInterrupt):
         problem_set(FOUR_BAR, 4, 1, out=tmp_path, progress=stop)
-    (notes,) = tmp_path.glob(".set-*.jsonl")
-    with notes.open("a") as stream:
-        stream.write('{"number": 3, "vari')
+    (kept,) = tmp_path.glob(".set-*")
+    (kept / ".0000003.k3j_x9a1").write_text('{"number": 3, "vari')
     worked = []
     work = room.work
     monkeypatch.setattr(room, "work", lambda job, attempt: worked.append(job.number) or work(job, attempt))
