@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
 from graphkin.construction.dyads import drive, meet
 from graphkin.construction.reduced_mechanism import StandIn, clusters, stand_ins
@@ -13,6 +13,7 @@ from graphkin.construction.sheet import Pose
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, Scene
 from graphkin.structure import Driven, Dyad, Structure, analyse
+from graphkin.structure.assembly import ways
 
 __all__ = ["best_stand", "followed", "trial_value"]
 
@@ -29,23 +30,13 @@ Table = Mapping[tuple[str, ...], Sequence[StandIn]]
 
 def followed(scene: Scene, own: Mapping[str, float], values: Mapping[str, float], poses: Poses) -> dict[str, Pose]:
     last: Unsolvable | None = None
-    for target in _ways(scene, own, values):
+    for way in ways(scene.drivers, [own[d.key] for d in scene.drivers], [values[d.key] for d in scene.drivers]):
         try:
-            return _walk(scene, own, target, poses)
+            return _walk(scene, own, dict(zip((d.key for d in scene.drivers), way, strict=True)), poses)
         except Unsolvable as stop:
             last = last or stop
     assert last is not None
     raise last
-
-
-def _ways(scene: Scene, own: Mapping[str, float], values: Mapping[str, float]) -> Iterator[dict[str, float]]:
-    yield dict(values)
-    around = dict(values)
-    for d in scene.drivers:
-        if isinstance(d, AngleDriver) and values[d.key] != own[d.key]:
-            around[d.key] = values[d.key] - math.copysign(2 * math.pi, values[d.key] - own[d.key])
-    if around != dict(values):
-        yield around
 
 
 def _walk(scene: Scene, own: Mapping[str, float], target: Mapping[str, float], start: Poses) -> dict[str, Pose]:

@@ -17,10 +17,10 @@ from graphkin.construction.dyads import Meeting, drive, meet
 from graphkin.construction.rigid import Frame
 from graphkin.construction.sheet import Mark, Pose
 from graphkin.errors import Problem, Unsolvable
-from graphkin.scene.model import AngleDriver, Driver, Scene
+from graphkin.scene.model import AngleDriver, Scene
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import Driven, Dyad, Element, Structure, Turn, links_of, pick
-from graphkin.structure.assembly import follow
+from graphkin.structure.assembly import follow, ways
 from graphkin.words import Phrase
 
 __all__ = ["DEAD", "Position", "branches_at", "draw_position", "place"]
@@ -128,7 +128,8 @@ def branches_at(structure: Structure, elements: Sequence[Element], values: Mappi
     if all(values[k] == v for k, v in own.items()):
         return chosen
     limits = []
-    for target in _ways(structure.scene.drivers, own, values):
+    for way in ways(structure.scene.drivers, [*own.values()], [values[k] for k in own]):
+        target = dict(zip(own, way, strict=True))
         branches, limit = _follow(structure, elements, own, target, chosen)
         if limit is None:
             return branches
@@ -156,20 +157,6 @@ def _choose(structure: Structure, elements: Sequence[Element], own: Mapping[str,
             chosen[i] = pick(scene, element.links, candidates, 0).index
             frame.poses.update(meeting.poses[chosen[i]])
     return chosen
-
-
-def _ways(drivers: Sequence[Driver], own: Mapping[str, float], values: Mapping[str, float]) -> list[dict[str, float]]:
-    """The straight way, whole turns left out, and for angles the other way round."""
-    straight: dict[str, float] = {}
-    around: dict[str, float] = {}
-    for d in drivers:
-        way = values[d.key] - own[d.key]
-        turns = isinstance(d, AngleDriver) and way != 0.0
-        if turns and abs(way) > 2 * math.pi:
-            way = math.remainder(way, 2 * math.pi)
-        straight[d.key] = own[d.key] + way
-        around[d.key] = straight[d.key] - (math.copysign(2 * math.pi, way) if turns else 0.0)
-    return [straight] if around == straight else [straight, around]
 
 
 def _follow(
@@ -251,7 +238,7 @@ def _out_of_reach(scene: Scene, values: Mapping[str, float], limits: Sequence[Ma
         return f"{value / scene.units.metres:.6f} {scene.units.length}"
 
     key = scene.drivers[0].key
-    ends = sorted(limit[key] for limit in limits)
+    ends = sorted({f(limit[key] for limit in limits) for f in (min, max)})
     asked = ", ".join(f"{k} at {shown(k, v)}" for k, v in values.items())
     reach = " and ".join(shown(key, v) for v in ends)
     word = "between" if len(ends) > 1 else "up to"

@@ -1,19 +1,21 @@
 """The analytic solver: dyads in closed form, higher groups by Newton, whole sweeps as arrays."""
 
+from graphkin.solver.driver_range import DriverRange, driver_range
 from graphkin.solver.findings import structure_of
 from graphkin.solver.motion import Motion, Sliding
 from graphkin.solver.prepared import Prepared, prepare
-from graphkin.solver.solve import solve, solve_structure
+from graphkin.solver.solve import solve
 from graphkin.solver.table import listed_points, to_json
 
 __all__ = [
+    "DriverRange",
     "Motion",
     "Prepared",
     "Sliding",
+    "driver_range",
     "listed_points",
     "prepare",
     "solve",
-    "solve_structure",
     "structure_of",
     "to_json",
 ]

@@ -255,8 +255,8 @@ def _guide(pair: Slide) -> str:
 NEARBY = 0.01
 
 
-def structure_of(scene: Scene) -> Structure:
-    """The structure of a scene, a driver's value that is given from a dead point found.
+def structure_of(scene: Scene | Structure) -> Structure:
+    """The structure of a scene, a driver's value that is given from a dead point found; a structure as it is.
 
     Raises
     ------
@@ -264,6 +264,8 @@ def structure_of(scene: Scene) -> Structure:
         status "mobility", with the diagnosis: where the count fails, each link is left out in turn, the rest is solved,
         and the link is laid back into it, in position, velocity and acceleration, here and at a position nearby
     """
+    if isinstance(scene, Structure):
+        return scene
     try:
         structure = analyse(scene)
     except Unsolvable as stop:

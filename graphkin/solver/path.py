@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -19,8 +20,10 @@ from graphkin.solver.pose import Array
 from graphkin.structure import Cluster, Dyad, Structure
 from graphkin.structure.assembly import Passage, follow
 
-__all__ = ["Path", "Walk", "follow_path", "walk_cluster"]
+__all__ = ["FAR", "Path", "Walk", "follow_path", "walk_cluster"]
 
+FAR = 4.0
+"""A slide driver that nothing limits is followed this many sizes of the mechanism to either side."""
 CLOSE = 2e-13
 """A position is found where no constraint is open by more, with lengths in the size."""
 LEAST = 1e-13
@@ -197,15 +200,24 @@ class Path:
         """The form of each group at these parameters, for ``positions``."""
         return {i: form(t) for i, form in self.forms.items()}
 
+    @cached_property
+    def last_forms(self) -> dict[int, Array]:
+        """The form of each group at the end of the path."""
+        return {i: form[0] for i, form in self.form(np.ones(1)).items()}
+
     def turned(self, t: Array) -> dict[str, Array]:
         """How far each link has turned from the start (rad), whole turns included, to a few degrees."""
+        return {name: np.interp(t, self.nodes, angle) for name, angle in self._turned.items()}
+
+    @cached_property
+    def _turned(self) -> dict[str, Array]:
         nodes = _beside(self.flips, self.nodes)
         poses = positions(self.structure, self.drive(nodes), self.form(nodes), rates=False).poses
         found: dict[str, Array] = {}
         for name, pose in poses.items():
             u = np.nan_to_num(np.broadcast_to(pose.u, nodes.shape), nan=1.0)
             steps = np.angle(u[1:] * np.conj(u[:-1]))
-            found[name] = np.interp(t, self.nodes, np.concatenate(([0.0], np.cumsum(steps))))
+            found[name] = np.concatenate(([0.0], np.cumsum(steps)))
         return found
 
     def drive(self, t: Array) -> Drive:

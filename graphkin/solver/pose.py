@@ -110,6 +110,10 @@ class Pose:
             alpha,
         )
 
+    def where(self, ok: Array) -> Pose:
+        """The same where ok, NaN elsewhere."""
+        return Pose(*(np.where(ok, x, np.nan) for x in (self.z, self.u, self.v, self.omega, self.a, self.alpha)))
+
     def spread(self, n: int) -> Pose:
         """The same with every field of shape (n,)."""
         z, u, v, a = (np.array(np.broadcast_to(x, (n,)), dtype=np.complex128) for x in (self.z, self.u, self.v, self.a))

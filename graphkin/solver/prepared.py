@@ -11,16 +11,15 @@ from typing import Any
 import numpy as np
 
 from graphkin.scene.model import AngleDriver, Scene
-from graphkin.solver.assemblies import choose_forms, own_values
 from graphkin.solver.code import Code
 from graphkin.solver.compiled import LONG, Kernel
+from graphkin.solver.driver_range import DriverRange, driver_range
 from graphkin.solver.driver_values import GivenValues, UniformGrid, quarter
 from graphkin.solver.dyads import Solved
 from graphkin.solver.engine import SINGULAR, positions
 from graphkin.solver.expressions import Real
 from graphkin.solver.findings import singular, structure_of
 from graphkin.solver.joints import Drive, turned
-from graphkin.solver.path import Path, follow_path
 from graphkin.solver.pose import Array
 from graphkin.solver.program import FIELDS, GIVEN, DimensionedProgram, program_of
 from graphkin.solver.quantities import Units, bounds, formulas
@@ -31,7 +30,6 @@ __all__ = ["Prepared", "prepare"]
 
 CHUNK = 16384
 """Positions in a piece, so that all columns of one stay in the cache."""
-FAR = 4.0
 PRODUCTS = 4
 """Roundings in the cosine and sine of an angle, those of many even steps included."""
 CLEAR = 0.2
@@ -46,12 +44,8 @@ class Prepared:
     units : what one metre and one radian are in the units of the columns
     """
 
-    structure: Structure
     names: tuple[str, ...]
-    start: Array
-    ahead: Path
-    behind: Path
-    wide: float
+    range: DriverRange
     asked: tuple[Real, ...]
     dimensioned: DimensionedProgram
     units: Units = (1.0, 1.0)
@@ -64,42 +58,33 @@ class Prepared:
     # the way of the driver
 
     @property
+    def structure(self) -> Structure:
+        return self.range.structure
+
+    @property
     def turns(self) -> bool:
         """Whether the first driver is an angle."""
-        return isinstance(self.structure.scene.drivers[0], AngleDriver)
-
-    @cached_property
-    def reach(self) -> tuple[float, float]:
-        """How far the motion goes from the start, against and along the sense of the driver (rad, m)."""
-        return self.behind.reach * abs(self.wide), self.ahead.reach * abs(self.wide)
+        return isinstance(self.range.driver, AngleDriver)
 
     @cached_property
     def _even(self) -> bool:
         """Whether every position of a turn is far from a singular one, so that none needs to be looked at."""
-        if self.ahead.limit is not None or len(self.ahead.flips) or self._together:
+        ahead = self.range.ahead
+        if ahead.limit is not None or len(ahead.flips) or self._together:
             return False
-        t = self.ahead.nodes
-        state = positions(self.structure, self.ahead.drive(t), self.ahead.form(t), rates=False)
+        t = ahead.nodes
+        state = positions(self.structure, ahead.drive(t), ahead.form(t), rates=False)
         return all(float(np.min(np.abs(g.sine))) > CLEAR for g in state.groups.values() if isinstance(g, Solved))
 
     @cached_property
     def _signs(self) -> dict[Any, float] | None:
         """The assembly of each group where it is the same everywhere."""
-        if len(self.ahead.flips) or len(self.behind.flips) or self._together:
+        if len(self.range.ahead.flips) or len(self.range.behind.flips) or self._together:
             return None
-        return {("sign", i): float(form[0]) for i, form in self.ahead.form(np.zeros(1)).items() if form.ndim == 1}
+        return {("sign", i): float(form[0]) for i, form in self.range.forms(np.zeros(1)).items() if form.ndim == 1}
 
-    def _offset(self, value: Array) -> tuple[Array, Array]:
-        """How far values of the first driver are from the start in its sense, and which of them the motion reaches."""
-        sense = math.copysign(1.0, self.wide)
-        offset = sense * (value - self.start[0])
-        low, high = self.reach
-        if self.turns:
-            whole = 2 * np.pi
-            offset = np.remainder(offset, whole)
-            if self.ahead.limit is not None:
-                offset = np.where(offset <= high, offset, offset - whole)
-        return offset, (offset >= -low) & (offset <= high)
+    def _reached(self, value: Array) -> Array:
+        return self.range.reaches(self.range.offsets(value))
 
     # code
 
@@ -116,12 +101,12 @@ class Prepared:
             _, rate, second = driver.values
             held["rate", k], held["second", k] = rate, second
             held["error", "rate", k], held["error", "second", k] = GIVEN * abs(rate), GIVEN * abs(second)
-            far = abs(self.start[k]) + (0.0 if k else abs(self.wide))
+            far = abs(self.range.start[k]) + (0.0 if k else abs(self.range.wide))
             held["error", "angle", k] = GIVEN * far + PRODUCTS * UNIT
             held["error", "travel", k] = GIVEN * far
             if k:
-                u = complex(turned(self.start[k : k + 1])[0])
-                held["cos", k], held["sin", k], held["travel", k] = u.real, u.imag, float(self.start[k])
+                u = complex(turned(self.range.start[k : k + 1])[0])
+                held["cos", k], held["sin", k], held["travel", k] = u.real, u.imag, float(self.range.start[k])
         return held
 
     @cached_property
@@ -163,7 +148,7 @@ class Prepared:
         order = [place.get(name[0], 3) for name in names]
 
         def one(value: float) -> tuple[float, ...] | None:
-            if not everywhere and not self._offset(np.array([value]))[1][0]:
+            if not everywhere and not self._reached(np.array([value]))[0]:
                 return None
             given = (*quarter(value), value)
             if steady:
@@ -188,16 +173,11 @@ class Prepared:
 
     @property
     def _whole(self) -> bool:
-        return self.turns and self.ahead.limit is None
+        return self.range.full
 
     def _forms_at(self, value: Array) -> dict[int, Array]:
         """The form of each group at values of the first driver; beyond its reach that at its end."""
-        offset, _ = self._offset(value)
-        ahead = offset >= 0
-        t = np.clip(offset / abs(self.wide), 0, self.ahead.reach)
-        s = np.clip(-offset / abs(self.wide), 0, self.behind.reach)
-        one, two = self.ahead.form(t), self.behind.form(s)
-        return {i: np.where(ahead.reshape(-1, *[1] * (form.ndim - 1)), form, two[i]) for i, form in one.items()}
+        return self.range.forms(self.range.offsets(value) / abs(self.range.wide))
 
     def _signs_at(self, value: Array) -> dict[Any, Array]:
         return {("sign", i): form for i, form in self._forms_at(value).items() if form.ndim == 1}
@@ -205,7 +185,7 @@ class Prepared:
     def _by_newton(self, value: Array, ok: Array) -> dict[Any, Array]:
         """Inputs of the formulas that come from larger groups, and the bounds of all; positions that are in none of
         their assemblies are no longer ok."""
-        drivers = np.repeat(self.start[None], len(value), axis=0)
+        drivers = np.repeat(self.range.start[None], len(value), axis=0)
         # positions out of reach are computed at one that is not
         drivers[:, 0] = np.where(ok, value, value[int(np.argmax(ok))])
         forms = self._forms_at(drivers[:, 0])
@@ -280,7 +260,7 @@ class Prepared:
         if self.clear:
             kernel(n, self._numbers, *way.given, out)
             return _every(n)
-        ok = np.ones(n, dtype=bool) if self._whole else self._offset(way.values)[1]
+        ok = np.ones(n, dtype=bool) if self._whole else self._reached(way.values)
         signs = {} if self._signs is not None else self._signs_at(way.values)
         rows = [np.array([signs[name] for name in kernel.signs])] if kernel.signs else []
         kernel(n, self._numbers, *way.given, *rows, out, *([ok] if kernel.checked else []))
@@ -290,7 +270,7 @@ class Prepared:
 
     def _arrays(self, way: GivenValues | UniformGrid, out: Array) -> Array:
         n, count = len(way), len(self.asked)
-        ok = np.ones(n, dtype=bool) if self._whole else self._offset(way.values)[1]
+        ok = np.ones(n, dtype=bool) if self._whole else self._reached(way.values)
         if not ok.any():
             out[...] = 0.0
             return ok
@@ -310,11 +290,11 @@ class Prepared:
 
     def _grid(self, n: int, first: int = 0, last: int | None = None) -> UniformGrid:
         last = n if last is None else last
-        start, sense = float(self.start[0]), math.copysign(1.0, self.wide)
+        start, sense = float(self.range.start[0]), self.range.sense
         if self.turns:
             return UniformGrid(start, sense * 2 * math.pi, n, first, last)
-        low, high = self.reach
-        return UniformGrid(start + sense * ((high + low) / n / 2 - low), sense * (high + low), n, first, last)
+        low, high = self.range.ends
+        return UniformGrid(start + sense * ((high - low) / n / 2 + low), sense * (high - low), n, first, last)
 
     def values(self, n: int, first: int = 0, last: int | None = None) -> Array:
         """Values of the first driver at positions ``first`` to ``last`` (not included) of n over the whole range: a
@@ -363,20 +343,9 @@ def prepare(
     CallError : a name that names nothing
     Unsolvable, SceneError : as for ``solve``
     """
-    structure = structure_of(scene) if isinstance(scene, Scene) else scene
-    scene = structure.scene
-    dimensioned = program_of(structure, tuple(d.values[2] != 0 for d in scene.drivers))
+    structure = structure_of(scene)
+    dimensioned = program_of(structure, tuple(d.values[2] != 0 for d in structure.scene.drivers))
     found = formulas(dimensioned.program, structure, asked, units)
     names = tuple(found)
     formed = [*found.values(), *(bounds(dimensioned.program, structure, asked, units).values() if bounded else ())]
-    forms = choose_forms(structure)
-    start = own_values(scene)
-    first = scene.drivers[0]
-    turning = isinstance(first, AngleDriver)
-    wide = math.copysign(2 * math.pi if turning else FAR * scene.size, first.values[1])
-    step = np.zeros_like(start)
-    step[0] = wide
-    ahead = follow_path(structure, forms, start, start + step)
-    whole = turning and ahead.limit is None
-    behind = ahead if whole else follow_path(structure, forms, start, start - step)
-    return Prepared(structure, names, start, ahead, behind, wide, tuple(formed), dimensioned, units)
+    return Prepared(names, driver_range(structure), tuple(formed), dimensioned, units)

@@ -8,11 +8,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import Link, Scene, SlidingPair
 from graphkin.solver.pose import Array, Pose, cross, dot, rest
 from graphkin.structure import Slide, Structure
 
-__all__ = ["Fit", "all_slides", "fit"]
+__all__ = ["Fit", "all_slides", "fit", "place_redundant"]
 
 FITS = 1e-9
 
@@ -29,6 +30,43 @@ class Fit(NamedTuple):
     @property
     def fits(self) -> Array:
         return (self.position < FITS) & (self.velocity < FITS) & (self.acceleration < FITS)
+
+
+def place_redundant(structure: Structure, poses: dict[str, Pose], ok: Array) -> None:
+    """Put the redundant links among the poses of the others.
+
+    Parameters
+    ----------
+    poses : of all other links, each field of shape (n,)
+    ok : positions that are told, shape (n,)
+
+    Raises
+    ------
+    Unsolvable : "mobility": a link does not repeat what the others hold, or nothing holds it
+    """
+    scene = structure.scene
+    waiting = [link for link in scene.links if link.redundant]
+    while waiting:
+        for link in waiting:
+            found = fit(scene, link, poses)
+            if found is not None:
+                break
+        else:
+            names = ", ".join(link.name for link in waiting)
+            raise Unsolvable("mobility", Problem(f"links {names}", "redundant, but nothing holds both ends of them"))
+        waiting.remove(link)
+        bad = ok & ~found.fits
+        if bad.any():
+            k = int(np.argmax(bad))
+            missed = float(found.position[k]) * scene.size / scene.units.metres
+            how = (
+                f"it misses its joints by {missed:.4g} {scene.units.length}"
+                if found.position[k] >= FITS
+                else "it fits here, but would stop the motion"
+            )
+            wanted = "a redundant link must repeat what the others hold"
+            raise Unsolvable("mobility", Problem(f"links.{link.name}.redundant", how, wanted))
+        poses[link.name] = found.pose
 
 
 def all_slides(structure: Structure) -> tuple[Slide, ...]:

@@ -1,6 +1,6 @@
-"""Which of the possible assemblies a scene means.
+"""Which of the possible assemblies a scene means, and how it goes on along a path of driver values.
 
-Along a path of driver values: where an assembly ends, and where its two forms pass through each other.
+Which ways lead to a goal, where an assembly ends on one of them, and where its two forms pass through each other.
 
 A group of two links has a discriminant: positive where it can be assembled in two forms, zero where they fall
 together.  Along a path the form is kept while it stays positive.  Where it only touches zero (a change point, the
@@ -9,17 +9,19 @@ parallelogram in line) the smooth motion goes over to the other sign; where it g
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import product
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.errors import Problem, SceneError
-from graphkin.scene.model import Scene
+from graphkin.scene.model import AngleDriver, Driver, Scene
 
-__all__ = ["TOUCH", "Choice", "Passage", "follow", "last_true", "pick"]
+__all__ = ["TOUCH", "Choice", "Passage", "follow", "last_true", "pick", "ways"]
 
 
 @dataclass(frozen=True)
@@ -93,6 +95,19 @@ def _several(scene: Scene, links: Sequence[str], candidates: Sequence[Mapping[st
 
 def _place(scene: Scene, z: complex) -> str:
     return f"[{z.real / scene.units.metres:.7g}, {z.imag / scene.units.metres:.7g}]"
+
+
+def ways(drivers: Sequence[Driver], start: Sequence[float], goal: Sequence[float]) -> Iterator[tuple[float, ...]]:
+    """Driver values (rad, m) at which the mechanism stands as at the goal: straight on, whole turns left out, then with
+    drivers that turn the other way round."""
+    choices: list[tuple[float, ...]] = []
+    for driver, a, b in zip(drivers, start, goal, strict=True):
+        if isinstance(driver, AngleDriver) and a != b:
+            direct = a + math.remainder(b - a, 2 * math.pi) if abs(b - a) > 2 * math.pi else b
+            choices.append((direct, direct - math.copysign(2 * math.pi, direct - a)))
+        else:
+            choices.append((b,))
+    return product(*choices)
 
 
 Reals = NDArray[np.float64]

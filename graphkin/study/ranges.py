@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from graphkin.scene.model import AngleDriver
 from graphkin.solver.engine import positions
 from graphkin.solver.joints import Drive
+from graphkin.solver.path import FAR
 from graphkin.structure import Cluster, Dyad
 from graphkin.structure.assembly import last_true
 from graphkin.study.course import Course
@@ -21,7 +22,6 @@ Array = NDArray[np.float64]
 
 GRID = 1440
 MOST_GROUPS = 7
-FAR = 4.0
 
 
 @dataclass(frozen=True)

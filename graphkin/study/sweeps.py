@@ -115,7 +115,7 @@ class Design:
     @cached_property
     def course(self) -> Course:
         """Its way under the first driver.  Raises Unsolvable."""
-        return course_of(self.scene, dict(self.at))
+        return course_of(self.structure, dict(self.at))
 
     @cached_property
     def engine(self) -> Prepared | None:
@@ -154,7 +154,7 @@ class Design:
         """The table of what a prepared mechanism gave."""
         assert self.engine is not None
         n = last - first
-        values = np.repeat(self.engine.start[None], n, axis=0)
+        values = np.repeat(self.engine.range.start[None], n, axis=0)
         values[:, 0] = self.engine.values(self.positions, first, last)
         status, why, parts = ["ok"] * n, [""] * n, arrays.parts
         bad = np.flatnonzero(~arrays.ok)

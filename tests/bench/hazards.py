@@ -20,7 +20,7 @@ import numpy as np
 from graphkin.errors import GraphkinError
 from graphkin.scene import read
 from graphkin.scene.model import Scene
-from graphkin.solver import Motion, solve_structure, structure_of, to_json
+from graphkin.solver import Motion, solve, structure_of, to_json
 from graphkin.solver.dead_points import dead_points
 from graphkin.structure import Structure
 
@@ -92,8 +92,8 @@ def look(positions: int, seed: int, each: int = 24) -> Found:
         scene, smooth = hazardous(rng)
         try:
             structure = structure_of(scene)
-            motion = solve_structure(structure, sweep=each)
-            fine = solve_structure(structure, sweep=each * MORE)
+            motion = solve(structure, sweep=each)
+            fine = solve(structure, sweep=each * MORE)
             near = _near(rng, structure, each)
         except GraphkinError:
             continue
@@ -101,7 +101,7 @@ def look(positions: int, seed: int, each: int = 24) -> Found:
         wrong = [*_not_finite(motion), *_jumps(motion, fine, smooth), *_open(fine)]
         found.wrong += [f"{x} in a sweep of {scene}" for x in wrong]
         for value in near:
-            one = solve_structure(structure, at={"1": value})
+            one = solve(structure, at={"1": value})
             _count(found, one)
             found.wrong += [f"{x} at {value!r} of {scene}" for x in (*_not_finite(one), *_open(one))]
     return found
