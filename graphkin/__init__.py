@@ -53,7 +53,7 @@ if TYPE_CHECKING:
     from graphkin.api.checked import Checked, check
     from graphkin.api.drawn import Drawn, draw
     from graphkin.api.handouts import Handout, handout
-    from graphkin.api.prepared import Prepared, Samples, prepare
+    from graphkin.api.prepared import Prepared, PreparedDesigns, Samples, prepare
     from graphkin.api.problem_sets import ProblemSet, problem_set
     from graphkin.api.scene_list import Listed, scenes
     from graphkin.api.solved import Solved, solve
@@ -73,6 +73,7 @@ __all__ = [
     "Handout",
     "Listed",
     "Prepared",
+    "PreparedDesigns",
     "ProblemSet",
     "Samples",
     "Scene",
@@ -106,7 +107,7 @@ _PLACES = {
     "api.checked": "Checked check",
     "api.drawn": "Drawn draw",
     "api.handouts": "Handout handout",
-    "api.prepared": "Prepared Samples prepare",
+    "api.prepared": "Prepared PreparedDesigns Samples prepare",
     "api.problem_sets": "ProblemSet problem_set",
     "api.scene_list": "Listed scenes",
     "api.solved": "Solved solve",

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import os
+import tomllib
 from collections.abc import Iterable, Mapping, Sequence
 from numbers import Real
 from pathlib import Path
@@ -15,9 +16,10 @@ from typing import Any, get_args
 
 from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.jobs import whole_file
-from graphkin.scene import read
+from graphkin.scene import library, library_text, read
 from graphkin.scene.model import AngleDriver, Convention, Driver, Scene
 from graphkin.scene.symbol import Symbol
+from graphkin.scene.writing import as_mapping
 from graphkin.words import BOTH, LANGUAGES
 
 __all__ = [
@@ -31,6 +33,7 @@ __all__ = [
     "driver_values",
     "for_paper",
     "known_words",
+    "mapping_of",
     "own_unit",
     "write_files",
 ]
@@ -90,6 +93,17 @@ def as_scene(scene: SceneLike) -> Scene:
 
         return structure_of(given).scene
     return given
+
+
+def mapping_of(scene: SceneLike) -> Mapping[str, Any]:
+    """The tables and keys of a scene's file; of a scene that is read already those that would read as it."""
+    if isinstance(scene, Mapping):
+        return scene
+    if isinstance(scene, Scene):
+        return as_mapping(scene)
+    as_scene(scene)  # every problem of the file
+    text = library_text(str(scene)) if str(scene) in library() and not Path(scene).is_file() else None
+    return tomllib.loads(text if text is not None else Path(scene).read_text(encoding="utf-8-sig"))
 
 
 def for_paper(scene: SceneLike) -> Scene:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
 from functools import cached_property
 from importlib.util import find_spec
 from numbers import Integral
@@ -13,16 +13,18 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from graphkin.api.arguments import SceneLike, as_scene
+from graphkin.api.arguments import SceneLike, as_scene, mapping_of
 from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.scene.model import AngleDriver, Scene
 from graphkin.scene.symbol import Symbol
 
 if TYPE_CHECKING:
     from graphkin import solver
+    from graphkin.api.design_keys import DesignKeys
+    from graphkin.solver.designs import Designs
     from graphkin.table import Table
 
-__all__ = ["Prepared", "Samples", "prepare"]
+__all__ = ["Prepared", "PreparedDesigns", "Samples", "prepare"]
 
 Reals = NDArray[np.float64]
 
@@ -38,6 +40,8 @@ class Samples:
     ``samples["v_C"]`` is a complex array, ``samples["v_C.x"]`` and ``samples["omega_3"]`` are real ones, shape (n,),
     in the units of ``Prepared.units``; NaN where ``ok`` is False.
 
+    Of many designs every array has the shape (designs, n), at one position (designs,).
+
     values : real, shape (columns, n), in the order of ``Prepared.names``
     ok : bool, shape (n,): False at positions that the motion does not reach, and at dead points
     """
@@ -47,6 +51,7 @@ class Samples:
     ok: NDArray[np.bool_]
     _driver: Reals | None
     _bounds: Reals | None
+    designs: Mapping[str, Reals] = field(default_factory=dict)
 
     def __len__(self) -> int:
         return len(self.ok)
@@ -69,24 +74,28 @@ class Samples:
 
     @property
     def driver(self) -> Reals:
-        """Values of the first driver, shape (n,) (degrees, or the scene's length unit)."""
-        return self.prepared.driver_values(len(self)) if self._driver is None else self._driver
+        """Values of the first driver (degrees, or the scene's length unit), shape (n,) or as ``ok``."""
+        return self.prepared.driver_values(self.ok.shape[-1]) if self._driver is None else self._driver
 
     @property
     def table(self) -> Table:
-        """A row for each position: the driver, the columns, and whether there is such a position."""
+        """A row for each position: what the design changes, the driver, the columns, and whether it can be."""
         from graphkin.table import Column, Table
 
-        first, units = self.prepared.scene.drivers[0], self.prepared.units
+        shape, units = self.ok.shape, self.prepared.units
+        columns: list[Column] = []
+        for key, values in self.designs.items():
+            columns.append(Column(key, np.ravel(np.broadcast_to(values.reshape(-1, *[1] * (len(shape) - 1)), shape))))
+        first = self.prepared.scene.drivers[0]
         unit = "deg" if isinstance(first, AngleDriver) else self.prepared.scene.units.length
-        columns = [Column(f"driver_{first.key}", np.round(self.driver, 11), unit)]
+        columns.append(Column(f"driver_{first.key}", np.ravel(np.broadcast_to(np.round(self.driver, 11), shape)), unit))
         for name, values in zip(self.prepared.names, self.values, strict=True):
             symbol = name.removesuffix(".x").removesuffix(".y")
-            columns.append(Column(name, values, units[symbol], symbol))
-        return Table((*columns, Column("ok", self.ok)))
+            columns.append(Column(name, np.ravel(values), units[symbol], symbol))
+        return Table((*columns, Column("ok", np.ravel(self.ok))))
 
     def __repr__(self) -> str:
-        return f"<Samples of {', '.join(self.prepared.asked)}: {int(self.ok.sum())} of {len(self)} positions>"
+        return f"<Samples of {', '.join(self.prepared.asked)}: {int(self.ok.sum())} of {self.ok.size} positions>"
 
     def _repr_html_(self) -> str:
         return self.table._repr_html_()
@@ -101,8 +110,8 @@ class Prepared:
     fast : whether formulas are compiled (numba, the extra ``fast``): True always, False never, None for many positions
     """
 
+    source: SceneLike
     asked: tuple[str, ...]
-    bounded: bool
     fast: bool | None
     ready: solver.Prepared
 
@@ -130,10 +139,10 @@ class Prepared:
 
     def driver_values(self, n: int) -> Reals:
         """The values of the first driver at which ``sweep(n)`` computes, shape (n,)."""
-        return self.ready.values(n) / self._own_unit
+        return self.ready.values(n) / self.own_unit
 
     @cached_property
-    def _own_unit(self) -> float:
+    def own_unit(self) -> float:
         return math.radians(1.0) if self.ready.turns else self.scene.units.metres
 
     def at(self, value: float) -> tuple[float, ...] | None:
@@ -147,14 +156,14 @@ class Prepared:
         -------
         In the order of ``names``; None where the motion does not come, and at a dead point
         """
-        found = self.ready.at(math.radians(value) if self.ready.turns else value * self._own_unit)
-        return found if found is None or not self.bounded else found[: len(self.names)]
+        found = self.ready.at(math.radians(value) if self.ready.turns else value * self.own_unit)
+        return found if found is None or not self.ready.bounded else found[: len(self.names)]
 
     def columns(self, values: ArrayLike) -> Samples:
         """The quantities at given values of the first driver, shape (n,), in its own unit."""
         own = np.atleast_1d(np.asarray(values, dtype=float))
-        given = np.radians(own) if self.ready.turns else own * self._own_unit
-        return self._samples(*self.ready.columns(given, fast=self._compiled(len(own))), own)
+        given = np.radians(own) if self.ready.turns else own * self.own_unit
+        return self.samples(*self.ready.columns(given, fast=self.compiled(len(own))), own)
 
     def sweep(self, n: int) -> Samples:
         """The quantities at n positions of the whole range: a turn from the scene's own position on, in the sense of
@@ -165,19 +174,59 @@ class Prepared:
         ------
         CallError : n is no number of positions; numba is to compile (``fast=True``) and is not installed
         """
-        if not isinstance(n, Integral) or not 1 <= n <= MOST:
+        self.allowed(n)
+        return self.samples(*self.ready.sweep(n, None, self.compiled(n)), None)
+
+    @staticmethod
+    def allowed(n: int) -> None:
+        """Raises CallError where n is no number of positions."""
+        if (type(n) is not int and not isinstance(n, Integral)) or not 1 <= n <= MOST:
             raise CallError(Problem("sweep", f"{n} positions", f"give a whole number from 1 to {MOST}"))
-        return self._samples(*self.ready.sweep(int(n), None, self._compiled(int(n))), None)
 
-    def _compiled(self, n: int) -> bool:
-        if self.fast is None:
-            return n >= MANY and find_spec("numba") is not None
-        return self.fast
+    def over(self, designs: Mapping[str, ArrayLike]) -> PreparedDesigns:
+        """The same mechanism with other dimensions, nothing read or analysed again: for an optimiser's inner loop.
 
-    def _samples(self, columns: Reals, ok: NDArray[np.bool_], driver: Reals | None) -> Samples:
+        Parameters
+        ----------
+        designs : values by keys of the scene file with dots, in their units, shape (designs,) or one number each:
+            {"links.1.length": [50, 60], "frame.points.D.x": 400}; also of the drivers ("driver.omega").  Each design
+            keeps the assembly that the scene has at its own position
+
+        Raises
+        ------
+        CallError : a key that the scene does not have or that changes no dimension; values that are no finite numbers,
+            lengths that are not positive, or values of different shapes
+        """
+        from graphkin.api.design_keys import design_keys
+        from graphkin.solver.designs import Designs
+
+        try:
+            values = np.broadcast_arrays(*(np.asarray(v, dtype=float) for v in designs.values()))
+        except ValueError:
+            values = ()
+        if not values or values[0].ndim > 1 or not values[0].size:
+            wanted = 'give one number or a list for each key: {"links.1.length": [50, 60]}'
+            raise CallError(Problem("designs", "are no numbers for each key", wanted))
+        keys = tuple(designs)
+        if keys not in self._keys:
+            self._keys[keys] = design_keys(mapping_of(self.source), self.scene, keys)
+        given = {key: np.atleast_1d(own) for key, own in zip(keys, values, strict=True)}
+        numbers = self._keys[keys].numbers(given)
+        return PreparedDesigns(self, given, not values[0].ndim, Designs(self.ready, numbers))
+
+    @cached_property
+    def _keys(self) -> dict[tuple[str, ...], DesignKeys]:
+        """What keys do, found once."""
+        return {}
+
+    def compiled(self, n: int) -> bool:
+        """Whether n positions are computed by compiled code."""
+        return n >= MANY and find_spec("numba") is not None if self.fast is None else self.fast
+
+    def samples(self, columns: Reals, ok: NDArray[np.bool_], driver: Reals | None) -> Samples:
         if not self.ready.clear and not ok.all():
             columns[:, ~ok] = np.nan
-        if not self.bounded:
+        if not self.ready.bounded:
             return Samples(self, columns, ok, driver, None)
         count = len(self.names)
         bounds = np.where(ok, np.nan_to_num(columns[count:], nan=np.inf, posinf=np.inf), np.nan)
@@ -185,6 +234,47 @@ class Prepared:
 
     def __repr__(self) -> str:
         return f"<Prepared {self.scene.name}: {', '.join(self.asked)}>"
+
+
+@dataclass(frozen=True, repr=False)
+class PreparedDesigns:
+    """Many designs of a prepared mechanism.
+
+    values : of the keys that are changed, shape (designs,)
+    """
+
+    prepared: Prepared
+    values: Mapping[str, Reals]
+    _single: bool
+    _designs: Designs
+
+    def __len__(self) -> int:
+        return self._designs.count
+
+    def at(self, value: float) -> Samples:
+        """All designs at one value of the first driver, in its own unit: arrays of shape (designs,)."""
+        given = math.radians(value) if self.prepared.ready.turns else value * self.prepared.scene.units.metres
+        return self._samples(*self._designs.at(given), np.asarray(float(value)))
+
+    def sweep(self, n: int) -> Samples:
+        """All designs over the whole range of the first driver, as ``Prepared.sweep``: arrays of shape (designs, n).
+
+        Designs whose groups stay away from dead points over the whole turn are computed together, in some microseconds
+        each; others (a rocker that is driven, a larger group) are followed one by one, in some milliseconds.
+        """
+        self.prepared.allowed(n)
+        columns, ok = self._designs.sweep(n, self.prepared.compiled(n * len(self)))
+        return self._samples(columns, ok, self._designs.values(n) / self.prepared.own_unit)
+
+    def _samples(self, columns: Reals, ok: NDArray[np.bool_], driver: Reals) -> Samples:
+        if self._single:
+            columns, ok, driver = columns[:, 0], ok[0], driver if driver.ndim < 2 else driver[0]
+        found = self.prepared.samples(columns, ok, driver)
+        found.designs = self.values
+        return found
+
+    def __repr__(self) -> str:
+        return f"<PreparedDesigns {self.prepared.scene.name}: {len(self)} of {', '.join(self.values)}>"
 
 
 def prepare(
@@ -227,6 +317,14 @@ def prepare(
     >>> fastest = abs(turn["v_C"]).argmax()
     >>> f"{abs(turn['v_C'][fastest]):.1f} {shaper.units['v_C']} at {turn.driver[fastest]:.1f} deg"
     '1345.6 mm/s at -90.1 deg'
+
+    The same for other lengths, the strokes of the ram:
+
+    >>> cranks = shaper.over({"links.2.length": [80, 90, 100]}).sweep(360)
+    >>> cranks["v_C"].shape
+    (3, 360)
+    >>> [f"{fastest:.0f}" for fastest in abs(cranks["v_C"]).max(axis=1)]
+    ['1152', '1346', '1555']
     """
     from graphkin import solver
 
@@ -235,4 +333,4 @@ def prepare(
     if not asked:
         raise CallError(Problem("find", "asks for nothing", 'name quantities, for example ["v_C", "omega_3"]'))
     units = 1.0 / given.units.metres, math.degrees(1.0)
-    return Prepared(asked, bounds, fast, solver.prepare(given, asked, units, bounds))
+    return Prepared(scene, asked, fast, solver.prepare(given, asked, units, bounds))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import html
 import os
-import tomllib
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import Executor
@@ -16,10 +15,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.api.arguments import At, SceneLike, as_scene, asked_symbols, driver_values, known_words, write_files
+from graphkin.api.arguments import (
+    At,
+    SceneLike,
+    as_scene,
+    asked_symbols,
+    driver_values,
+    known_words,
+    mapping_of,
+    write_files,
+)
 from graphkin.errors import CallError, Problem
 from graphkin.jobs import Progress, Workers, cluster
-from graphkin.scene import library, library_text
 from graphkin.scene.model import Scene
 from graphkin.scene.symbol import Symbol
 from graphkin.table import Table, have
@@ -290,10 +297,6 @@ def _checked_call(
 
 def _mapping(scene: SceneLike) -> Mapping[str, Any]:
     """The tables and keys of a scene's file."""
-    if isinstance(scene, Mapping):
-        return scene
     if isinstance(scene, Scene):
         raise CallError(Problem("designs", "of a scene that is read already", "give its file, its name or a mapping"))
-    as_scene(scene)  # every problem of the file
-    text = library_text(str(scene)) if str(scene) in library() and not Path(scene).is_file() else None
-    return tomllib.loads(text if text is not None else Path(scene).read_text(encoding="utf-8-sig"))
+    return mapping_of(scene)

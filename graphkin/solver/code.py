@@ -67,18 +67,22 @@ class Code:
     ----------
     asked : what to compute
     fixed : inputs that are the same at all positions too, and are given among the params
+    open_ : params that change too, as dimensions do from design to design, and are given among the inputs
 
     ``params`` and ``inputs`` name the numbers that it needs: those that are the same at all positions, and those that
     change, in the order in which they are to be given.
     """
 
-    def __init__(self, graph: ExpressionGraph, asked: Sequence[Real], fixed: Container[Any] = ()) -> None:
+    def __init__(
+        self, graph: ExpressionGraph, asked: Sequence[Real], fixed: Container[Any] = (), open_: Container[Any] = ()
+    ) -> None:
         self.graph = graph
         self.asked = [real.at for real in asked]
         self.order = graph.needed(asked)
         leaves = [graph.lines[at] for at in self.order]
         given = [line[1] for line in leaves if line[0] in ("param", "input")]
         changing = {line[1] for line in leaves if line[0] == "input" and line[1] not in fixed}
+        changing |= {name for name in given if name in open_}
         self.fixed = fixed
         self.params = tuple(name for name in given if name not in changing)
         self.inputs = tuple(name for name in given if name in changing)

@@ -41,17 +41,22 @@ class Prepared:
     """A mechanism with its assembly followed over the range of its first driver, and the code for what is asked.
 
     names : of the columns, two for a vector ("v_B.x", "v_B.y")
+    asked : their formulas, with those of bounds after them
+    wanted : what was asked for by name
     units : what one metre and one radian are in the units of the columns
+    bounded : whether bounds were asked for
     """
 
     names: tuple[str, ...]
     range: DriverRange
     asked: tuple[Real, ...]
     dimensioned: DimensionedProgram
+    wanted: tuple[str, ...]
     units: Units = (1.0, 1.0)
+    bounded: bool = False
 
     @cached_property
-    def _together(self) -> bool:
+    def together(self) -> bool:
         """Whether there is a larger group, whose poses are found by Newton's method before the formulas are used."""
         return any(isinstance(e, Cluster) for e in self.structure.elements)
 
@@ -70,16 +75,16 @@ class Prepared:
     def _even(self) -> bool:
         """Whether every position of a turn is far from a singular one, so that none needs to be looked at."""
         ahead = self.range.ahead
-        if ahead.limit is not None or len(ahead.flips) or self._together:
+        if ahead.limit is not None or len(ahead.flips) or self.together:
             return False
         t = ahead.nodes
         state = positions(self.structure, ahead.drive(t), ahead.form(t), rates=False)
         return all(float(np.min(np.abs(g.sine))) > CLEAR for g in state.groups.values() if isinstance(g, Solved))
 
     @cached_property
-    def _signs(self) -> dict[Any, float] | None:
+    def signs(self) -> dict[Any, float] | None:
         """The assembly of each group where it is the same everywhere."""
-        if len(self.range.ahead.flips) or len(self.range.behind.flips) or self._together:
+        if len(self.range.ahead.flips) or len(self.range.behind.flips) or self.together:
             return None
         return {("sign", i): float(form[0]) for i, form in self.range.forms(np.zeros(1)).items() if form.ndim == 1}
 
@@ -112,19 +117,29 @@ class Prepared:
     @cached_property
     def _code(self) -> Code:
         asked = self.asked if self._even else (*self.asked, *self._sines)
-        return Code(self.dimensioned.program.graph, asked, self._fixed)
+        return Code(self.dimensioned.program.graph, asked, self.fixed)
 
     @cached_property
-    def _fixed(self) -> set[Any]:
+    def fixed(self) -> set[Any]:
         """Inputs that do not change."""
-        return {*self._held, *(self._signs or ())}
+        return {*self._held, *(self.signs or ())}
 
-    def _given(self, code: Code) -> list[float]:
-        return self.dimensioned.params(code.params, {**self._held, **(self._signs or {})})
+    @cached_property
+    def given_names(self) -> dict[Any, float]:
+        """Numbers of the formulas that are no dimensions, as far as they are the same everywhere."""
+        return {**self._held, **(self.signs or {})}
+
+    @cached_property
+    def opened(self) -> dict[Any, Any]:
+        """Code with some dimensions open, by what is open, made once."""
+        return {}
+
+    def given(self, code: Code) -> list[float]:
+        return self.dimensioned.params(code.params, self.given_names)
 
     @cached_property
     def _params(self) -> list[float]:
-        return self._given(self._code)
+        return self.given(self._code)
 
     @cached_property
     def _same(self) -> list[Array] | None:
@@ -139,11 +154,11 @@ class Prepared:
 
     @cached_property
     def _one(self) -> Callable[[float], tuple[float, ...] | None]:
-        if self._together:
-            return self._one_together
-        code = Code(self.dimensioned.program.graph, (*self.asked, *self._sines), self._fixed)
-        function, params, names, count = code.floats, self._given(code), code.inputs, len(self.asked)
-        everywhere, steady = self._whole, self._signs is not None
+        if self.together:
+            return self._one_by_newton
+        code = Code(self.dimensioned.program.graph, (*self.asked, *self._sines), self.fixed)
+        function, params, names, count = code.floats, self.given(code), code.inputs, len(self.asked)
+        everywhere, steady = self.whole, self.signs is not None
         place = {"cos": 0, "sin": 1, "travel": 2}
         order = [place.get(name[0], 3) for name in names]
 
@@ -167,12 +182,12 @@ class Prepared:
 
         return one
 
-    def _one_together(self, value: float) -> tuple[float, ...] | None:
+    def _one_by_newton(self, value: float) -> tuple[float, ...] | None:
         columns, ok = self.columns(np.array([value]))
         return tuple(columns[:, 0].tolist()) if ok[0] else None
 
     @property
-    def _whole(self) -> bool:
+    def whole(self) -> bool:
         return self.range.full
 
     def _forms_at(self, value: Array) -> dict[int, Array]:
@@ -206,7 +221,7 @@ class Prepared:
     @cached_property
     def _numbers(self) -> Array:
         """What compiled code takes: the params, then start and way of the driver over its range."""
-        grid = self._grid(1)
+        grid = self.grid(1)
         return np.array([*self._params, grid.start, grid.way])
 
     @cached_property
@@ -220,7 +235,7 @@ class Prepared:
     @cached_property
     def clear(self) -> bool:
         """Whether there is nothing to be looked at: a whole turn of one assembly, far from every dead point."""
-        return self._whole and self._even and self._signs is not None
+        return self.whole and self._even and self.signs is not None
 
     def columns(self, values: Array, out: Array | None = None, fast: bool = False) -> tuple[Array, Array]:
         """The asked quantities at many values of the first driver.
@@ -247,7 +262,7 @@ class Prepared:
 
     def _all(self, way: GivenValues | UniformGrid, out: Array, fast: bool) -> Array:
         n = len(way)
-        if fast and not self._together:
+        if fast and not self.together:
             return self._compiled(way, out)
         if n <= CHUNK:
             return self._arrays(way, out)
@@ -260,8 +275,8 @@ class Prepared:
         if self.clear:
             kernel(n, self._numbers, *way.given, out)
             return _every(n)
-        ok = np.ones(n, dtype=bool) if self._whole else self._reached(way.values)
-        signs = {} if self._signs is not None else self._signs_at(way.values)
+        ok = np.ones(n, dtype=bool) if self.whole else self._reached(way.values)
+        signs = {} if self.signs is not None else self._signs_at(way.values)
         rows = [np.array([signs[name] for name in kernel.signs])] if kernel.signs else []
         kernel(n, self._numbers, *way.given, *rows, out, *([ok] if kernel.checked else []))
         if not kernel.checked and not ok.all():
@@ -270,12 +285,12 @@ class Prepared:
 
     def _arrays(self, way: GivenValues | UniformGrid, out: Array) -> Array:
         n, count = len(way), len(self.asked)
-        ok = np.ones(n, dtype=bool) if self._whole else self._reached(way.values)
+        ok = np.ones(n, dtype=bool) if self.whole else self._reached(way.values)
         if not ok.any():
             out[...] = 0.0
             return ok
-        given: dict[Any, Array] = {} if self._signs is not None else self._signs_at(way.values)
-        given |= self._by_newton(way.values, ok) if self._together else {}
+        given: dict[Any, Array] = {} if self.signs is not None else self._signs_at(way.values)
+        given |= self._by_newton(way.values, ok) if self.together else {}
         sines = np.empty((len(self._code.asked) - count, n))
         if self.turns:
             given["cos", 0], given["sin", 0] = way.turn
@@ -288,7 +303,7 @@ class Prepared:
             out[:, ~ok] = 0.0
         return ok
 
-    def _grid(self, n: int, first: int = 0, last: int | None = None) -> UniformGrid:
+    def grid(self, n: int, first: int = 0, last: int | None = None) -> UniformGrid:
         last = n if last is None else last
         start, sense = float(self.range.start[0]), self.range.sense
         if self.turns:
@@ -299,7 +314,7 @@ class Prepared:
     def values(self, n: int, first: int = 0, last: int | None = None) -> Array:
         """Values of the first driver at positions ``first`` to ``last`` (not included) of n over the whole range: a
         turn from the start on in the sense of the driver, or evenly inside the range of travel."""
-        return self._grid(n, first, last).values
+        return self.grid(n, first, last).values
 
     def sweep(self, n: int, out: Array | None = None, fast: bool = False) -> tuple[Array, Array]:
         """``columns`` at n positions of the whole range."""
@@ -308,14 +323,14 @@ class Prepared:
             # nothing but the call: at some hundred positions each line here would be felt
             self._on_grid.run(0, n, self._numbers, n, 0, out)
             return out, _every(n)
-        return out, self._all(self._grid(n), out, fast)
+        return out, self._all(self.grid(n), out, fast)
 
     def chunks(self, n: int, size: int = 16 * CHUNK, fast: bool = False) -> Iterator[tuple[int, Array, Array]]:
         """A sweep of any length in bounded memory: number of the first position, columns and ok of one piece after the
         other.  The arrays are the same ones each time, filled anew."""
         room = np.empty((len(self.asked), min(n, size)))
         for first in range(0, n, size):
-            way = self._grid(n, first, min(first + size, n))
+            way = self.grid(n, first, min(first + size, n))
             out = room[:, : len(way)]
             yield first, out, self._all(way, out, fast)
 
@@ -327,7 +342,11 @@ def _every(n: int) -> Array:
 
 
 def prepare(
-    scene: Scene | Structure, asked: Sequence[str], units: Units = (1.0, 1.0), bounded: bool = False
+    scene: Scene | Structure,
+    asked: Sequence[str],
+    units: Units = (1.0, 1.0),
+    bounded: bool = False,
+    along: DriverRange | None = None,
 ) -> Prepared:
     """Make a mechanism ready for many positions.
 
@@ -337,6 +356,7 @@ def prepare(
     asked : columns by name, as in ``graphkin.solver.quantities.formulas``: "B", "v_B", "a_B@3", "omega_3", ...
     units : what one metre and one radian are in the units of the columns
     bounded : after all others a column for each name, of how far rounding may have moved its values
+    along : the range of its first driver, where that is known already
 
     Raises
     ------
@@ -348,4 +368,5 @@ def prepare(
     found = formulas(dimensioned.program, structure, asked, units)
     names = tuple(found)
     formed = [*found.values(), *(bounds(dimensioned.program, structure, asked, units).values() if bounded else ())]
-    return Prepared(names, driver_range(structure), tuple(formed), dimensioned, units)
+    along = along or driver_range(structure)
+    return Prepared(names, along, tuple(formed), dimensioned, tuple(asked), units, bounded)

@@ -5,7 +5,7 @@ Lengths and places are left open in them, so that one program serves every mecha
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from decimal import Decimal
 from typing import Any
@@ -24,6 +24,8 @@ from graphkin.structure import Cluster, Driven, Dyad, Pair, Slide, Structure, Tu
 
 __all__ = ["FIELDS", "GIVEN", "DimensionedProgram", "Program", "program_of"]
 
+SPECIAL = (0.0, 1.0, -1.0)
+"""Numbers with which formulas are shorter."""
 GIVEN = 3 * UNIT
 """Relative error of a number of the file after its conversion from decimals and units."""
 
@@ -36,10 +38,11 @@ class Program:
     bounds : how far each may be off
     """
 
-    def __init__(self, structure: Structure, moving: Sequence[bool]) -> None:
+    def __init__(self, structure: Structure, moving: Sequence[bool], open_: Container[Any] = ()) -> None:
         self.graph = ExpressionGraph()
         self.structure = structure
         self._moving = moving
+        self._open = open_
         self._numbers = _numbers(structure)
         self.joints: dict[int, Joints] = {}
         self.poses: dict[str, Pose] = {structure.scene.frame.name: self.at_rest(0j, 1 + 0j)}
@@ -63,7 +66,8 @@ class Program:
         return Vec(*(self._part(name, axis, x) for axis, x in (("x", z.real), ("y", z.imag))))
 
     def _part(self, name: tuple[Any, ...], axis: str, value: float) -> Real:
-        return self.graph.const(value) if value in (0.0, 1.0, -1.0) else self.graph.param((*name, axis))
+        plain = value in SPECIAL and (*name, axis) not in self._open
+        return self.graph.const(value) if plain else self.graph.param((*name, axis))
 
     def rest(self, pair: Pair, link: str) -> Pose:
         """The joint's frame in the axes of one of its links."""
@@ -143,12 +147,13 @@ def _numbers(structure: Structure) -> dict[tuple[Any, ...], complex]:
     return found
 
 
-def _form(structure: Structure) -> Any:
+def _form(structure: Structure, open_: Container[Any]) -> Any:
     """What a program depends on: elements, joints and drivers by name, and which numbers are 0, 1 or -1."""
     drivers = tuple((type(d).__name__, d.key, getattr(d, "relative_to", "")) for d in structure.scene.drivers)
     special = tuple(
-        (name, *(x if x in (0.0, 1.0, -1.0) else None for x in (z.real, z.imag)))
+        (*name, axis, x if x in SPECIAL and (*name, axis) not in open_ else None)
         for name, z in _numbers(structure).items()
+        for axis, x in (("x", z.real), ("y", z.imag))
     )
     return structure.scene.frame.name, drivers, special, tuple(_element_form(e) for e in structure.elements)
 
@@ -234,22 +239,25 @@ class DimensionedProgram:
 
 
 _PROGRAMS: dict[Any, Program] = {}
-_DIMENSIONED: dict[tuple[int, tuple[bool, ...]], DimensionedProgram] = {}
+_DIMENSIONED: dict[tuple[int, tuple[bool, ...], frozenset[Any]], DimensionedProgram] = {}
 MOST = 200
 
 
-def program_of(structure: Structure, moving: tuple[bool, ...]) -> DimensionedProgram:
+def program_of(
+    structure: Structure, moving: tuple[bool, ...], open_: frozenset[Any] = frozenset()
+) -> DimensionedProgram:
     """The program of a structure, made once for all of its form.
 
     Parameters
     ----------
     moving : for each driver whether it has a second rate
+    open_ : numbers by name that stay open even where they are 0, 1 or -1
     """
-    key = (id(structure), moving)
+    key = (id(structure), moving, open_)
     if key in _DIMENSIONED:
         return _DIMENSIONED[key]
-    form = _form(structure), moving
-    program = _PROGRAMS.pop(form, None) or Program(structure, moving)
+    form = _form(structure, open_), moving
+    program = _PROGRAMS.pop(form, None) or Program(structure, moving, open_)
     _PROGRAMS[form] = program
     while len(_PROGRAMS) > MOST:
         del _PROGRAMS[next(iter(_PROGRAMS))]

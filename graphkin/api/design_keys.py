@@ -1,0 +1,178 @@
+"""What the keys of a scene file do to the numbers of its mechanism: found by reading the scene a few times, once.
+
+Nearly every number of a file acts in one of two ways: lengths, places and rates change as a straight line with it,
+directions turn with an angle.  Three readings tell the line or the turn, one more with all keys changed proves that
+they act side by side.  So also points that are placed from others, in any unit, follow as the reader places them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from numbers import Real
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphkin.errors import CallError, Problem, SceneError
+from graphkin.scene import read
+from graphkin.scene.model import Scene
+from graphkin.solver.designs import Dimension, dimensions
+from graphkin.solver.joints import turned
+from graphkin.study.designs import applied
+
+__all__ = ["DesignKeys", "design_keys"]
+
+Reals = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+
+SAME = 1e-12
+"""Numbers of two readings that differ by less, beside the largest of them, are the same."""
+
+
+@dataclass(frozen=True)
+class _Law:
+    """A number of the mechanism by the value of a key: fixed + slope value, or fixed + slope direction(value)."""
+
+    fixed: complex
+    slope: complex
+    turning: bool
+
+    def __call__(self, values: Reals) -> Complexes:
+        return np.asarray(self.fixed + self.slope * (turned(np.radians(values)) if self.turning else values))
+
+
+@dataclass(frozen=True)
+class DesignKeys:
+    """Keys of a scene file, and what each does to the numbers of the mechanism (SI)."""
+
+    scene: Scene
+    laws: Mapping[str, Mapping[Dimension, _Law]]
+
+    def numbers(self, values: Mapping[str, Reals]) -> dict[Dimension, Complexes]:
+        """The numbers that change, from values of the keys in their units, shape (designs,) each.
+
+        Raises
+        ------
+        CallError : a value that is no finite number, a length that is not positive
+        """
+        own = dimensions(self.scene)
+        found: dict[Dimension, Complexes] = {}
+        for key, of_key in values.items():
+            low = 0.0 if key.endswith(".length") else -math.inf
+            bad = ~(np.isfinite(of_key) & (of_key > low))
+            if bad.any():
+                found_one = float(of_key[int(np.argmax(bad))])
+                wanted = "give lengths above 0" if low == 0 else "give finite numbers"
+                raise CallError(Problem(f"designs {key}", f"found {found_one:g}", wanted))
+            for name, law in self.laws[key].items():
+                new = law(of_key)
+                found[name] = found[name] + (new - own[name]) if name in found else new
+        return found
+
+
+def design_keys(source: Mapping[str, Any], scene: Scene, keys: Sequence[str]) -> DesignKeys:
+    """Find what keys do.
+
+    Parameters
+    ----------
+    source : the tables and keys of the scene's file
+    keys : with dots: "links.1.length", "frame.points.D.x", "driver.omega"
+
+    Raises
+    ------
+    CallError : a key that the scene does not have, that holds no number, that changes nothing in the mechanism or not
+        by itself, or keys that do not act side by side
+    """
+    if any(d.dead_point for d in scene.drivers):
+        wanted = "give its value instead"
+        raise CallError(Problem("designs", "the driver is given from a dead point, which moves with each", wanted))
+    laws: dict[str, dict[Dimension, _Law]] = {}
+    changed: dict[str, float] = {}
+    for key in keys:
+        begin, step = _begin(source, key)
+        changed[key] = begin + step
+        laws[key] = _laws(key, begin, step, [_numbers(source, {key: begin + k * step}) for k in range(3)], scene)
+    made = DesignKeys(scene, laws)
+    if len(keys) > 1:
+        _side_by_side(made, changed, _numbers(source, changed))
+    return made
+
+
+def _begin(source: Mapping[str, Any], key: str) -> tuple[float, float]:
+    """A value of a key and a step from it: its own where it has one."""
+    place: Any = source
+    for part in key.split("."):
+        if isinstance(place, list | tuple):
+            index = {"x": 0, "y": 1}.get(part, int(part) - 1 if part.isdecimal() else -1)
+            place = place[index] if 0 <= index < len(place) else None
+        else:
+            place = place.get(part) if isinstance(place, Mapping) else None
+    if place is None or place == 0:
+        return 0.0, 1.0
+    if not isinstance(place, Real):
+        return 0.0, 1.0  # the reader says what is wrong
+    return float(place), abs(float(place)) / 8
+
+
+def _numbers(source: Mapping[str, Any], values: Mapping[str, float]) -> dict[Dimension, complex]:
+    try:
+        return dimensions(read(applied(source, tuple(values), tuple(values.values()))))
+    except SceneError as error:
+        what = f"designs {', '.join(values)}"
+        raise CallError(Problem(what, f"changed by itself the scene no longer fits: {error}")) from None
+
+
+def _laws(
+    key: str, begin: float, step: float, found: Sequence[Mapping[Dimension, complex]], scene: Scene
+) -> dict[Dimension, _Law]:
+    """The laws of all numbers that a key changes, from three readings a step apart."""
+    laws: dict[Dimension, _Law] = {}
+    w = complex(turned(np.radians(np.array([step])))[0])
+    for name in found[0]:
+        a, b, c = (numbers[name] for numbers in found)
+        size = SAME * max(abs(a), abs(b), abs(c))
+        if abs(b - a) <= size and abs(c - b) <= size:
+            continue
+        if abs((c - b) - (b - a)) <= size:
+            slope = _plain((c - a) / (2 * step), scene)
+            law = _Law(_none(a - slope * begin, a), slope, False)
+        elif abs((c - b) - w * (b - a)) <= size:
+            first = complex(turned(np.radians(np.array([begin])))[0])
+            slope = (b - a) / (first * (w - 1))
+            slope = slope / abs(slope) if abs(abs(slope) - 1) < SAME else slope
+            law = _Law(_none(a - slope * first, a), slope, True)
+        else:
+            hint = "sweep over it: graphkin.sweep(..., designs=...)"
+            raise CallError(Problem(f"designs {key}", f"changes {name[1]} neither as a line nor as a turn", hint))
+        laws[name] = law
+    if not laws:
+        raise CallError(Problem(f"designs {key}", "changes no dimension of the mechanism and no driver"))
+    return laws
+
+
+def _plain(slope: complex, scene: Scene) -> complex:
+    """A slope without the rounding of its finding, where it is one of the units."""
+    for unit in (scene.units.metres, 1.0, math.radians(1.0), math.pi / 30):
+        for turn in (1, -1, 1j, -1j):
+            if abs(slope - turn * unit) <= 1e-11 * unit:
+                return turn * unit
+    return slope
+
+
+def _none(value: complex, beside: complex) -> complex:
+    return 0j if abs(value) <= 4 * SAME * abs(beside) else value
+
+
+def _side_by_side(keys: DesignKeys, values: Mapping[str, float], read_so: Mapping[Dimension, complex]) -> None:
+    """Hold the laws of several keys against a reading with all of them changed.  Raises CallError."""
+    own = dimensions(keys.scene)
+    told = keys.numbers({key: np.array([value]) for key, value in values.items()})
+    for name, read_one in read_so.items():
+        mine = complex(told[name][0]) if name in told else own[name]
+        if abs(mine - read_one) > 10 * SAME * max(abs(own[name]), abs(read_one), keys.scene.size):
+            what = f"designs {', '.join(values)}"
+            hint = "sweep over them: graphkin.sweep(..., designs=...)"
+            raise CallError(Problem(what, f"act on {name[1]} together, not side by side", hint))

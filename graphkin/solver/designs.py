@@ -1,0 +1,296 @@
+"""A prepared mechanism in many designs: its dimensions changed in the formulas, nothing read or analysed again.
+
+Where every group of a design stays far from its dead points over the whole turn, its assembly is that of the mechanism
+it was made from, and all such designs are computed together.  The others are followed one by one, as any mechanism is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cache, cached_property
+from typing import Any
+
+import numpy as np
+
+from graphkin.errors import SceneError, Unsolvable
+from graphkin.scene.model import AngleDriver, Driver, Link, Scene
+from graphkin.solver.assemblies import choose_forms, own_values
+from graphkin.solver.code import Code
+from graphkin.solver.compiled import Kernel
+from graphkin.solver.driver_range import range_from
+from graphkin.solver.driver_values import GivenValues, UniformGrid
+from graphkin.solver.engine import SINGULAR
+from graphkin.solver.joints import turned
+from graphkin.solver.pose import Array
+from graphkin.solver.prepared import CLEAR, Prepared, prepare
+from graphkin.solver.program import GIVEN, program_of
+from graphkin.solver.quantities import bounds, formulas
+from graphkin.structure import Dyad, analyse
+
+__all__ = ["Designs", "Dimension", "dimensions", "with_dimensions"]
+
+Dimension = tuple[Any, ...]
+"""("point", link, point), ("through", link, guide), ("direction", link, guide), ("turn", sliding pair), and of the
+driver k ("value", k), ("rate", k), ("second", k)."""
+
+NODES = 360
+"""Positions of a turn at which the groups of a design are looked at."""
+TOGETHER = 1 << 16
+"""Positions that are computed together."""
+TWO_FORMS = ("RRR", "RRP", "RPR")
+"""Dyads with two assemblies."""
+LOOP = 64
+"""From so many positions of each design on its own loop of compiled code pays."""
+
+
+def dimensions(scene: Scene) -> dict[Dimension, complex]:
+    """The numbers of a scene in which its designs may differ (SI)."""
+    found: dict[Dimension, complex] = {}
+    for link in (scene.frame, *scene.links):
+        found |= {("point", link.name, point): z for point, z in link.points.items()}
+        for name, guide in link.guides.items():
+            found["through", link.name, name], found["direction", link.name, name] = guide.through, guide.direction
+    found |= {("turn", pair.key): pair.turn for pair in scene.slidings}
+    for k, driver in enumerate(scene.drivers):
+        found |= {(what, k): complex(x) for what, x in zip(("value", "rate", "second"), driver.values, strict=True)}
+    return found
+
+
+def with_dimensions(scene: Scene, changed: Mapping[Dimension, complex]) -> Scene:
+    """The scene with some of its numbers changed; what was drawn is then a sketch."""
+
+    def link(old: Link) -> Link:
+        points = {p: changed.get(("point", old.name, p), z) for p, z in old.points.items()}
+        guides = {
+            n: replace(
+                g,
+                through=changed.get(("through", old.name, n), g.through),
+                direction=changed.get(("direction", old.name, n), g.direction),
+            )
+            for n, g in old.guides.items()
+        }
+        return replace(old, points=points, guides=guides)
+
+    def driver(k: int, old: Driver) -> Driver:
+        value, rate, second = (
+            changed.get((what, k), complex(x)).real
+            for what, x in zip(("value", "rate", "second"), old.values, strict=True)
+        )
+        if isinstance(old, AngleDriver):
+            return replace(old, angle=value, omega=rate, alpha=second)
+        return replace(old, travel=value, velocity=rate, acceleration=second)
+
+    return replace(
+        scene,
+        frame=link(scene.frame),
+        links=tuple(map(link, scene.links)),
+        slidings=tuple(replace(s, turn=changed.get(("turn", s.key), s.turn)) for s in scene.slidings),
+        drivers=tuple(driver(k, d) for k, d in enumerate(scene.drivers)),
+        sketch={**scene.drawn, **scene.sketch},
+        drawn={},
+    )
+
+
+class _OpenCode:
+    """The formulas of a prepared mechanism with some of its numbers open, and their code."""
+
+    def __init__(self, ready: Prepared, names: frozenset[Any], moving: tuple[bool, ...]) -> None:
+        self.ready = ready
+        self.dimensioned = program_of(ready.structure, moving, names)
+        program, structure = self.dimensioned.program, ready.structure
+        asked = list(formulas(program, structure, ready.wanted, ready.units).values())
+        if ready.bounded:
+            asked += bounds(program, structure, ready.wanted, ready.units).values()
+        self.fixed = {*ready.fixed, *names}
+        fixed = {name for name in ready.fixed if name not in names}
+        self.columns = Code(program.graph, asked, fixed, names)
+        checked = [solved.discriminant for _, solved in sorted(program.groups.items())]
+        self.checks = Code(program.graph, checked, fixed, names)
+        self.alone = Code(program.graph, asked, self.fixed)
+        self._same: dict[Code, list[Array] | None] = {}
+
+    @cached_property
+    def kernel(self) -> Kernel:
+        return Kernel(self.alone, True, True, len(self.alone.asked), SINGULAR)
+
+    def same(self, code: Code) -> list[Array] | None:
+        """What no design changes."""
+        if code not in self._same:
+            self._same[code] = code.same(self.dimensioned.params(code.params, self.ready.given_names))
+        return self._same[code]
+
+
+@cache
+def _nodes() -> tuple[Array, Array]:
+    return UniformGrid(0.0, 2 * np.pi, NODES, 0, NODES).turn
+
+
+@dataclass(frozen=True)
+class Designs:
+    """Designs of a prepared mechanism.
+
+    given : what each of them changes, shape (designs,) each, SI
+    """
+
+    ready: Prepared
+    given: Mapping[Dimension, Array]
+
+    @cached_property
+    def count(self) -> int:
+        return len(next(iter(self.given.values())))
+
+    @cached_property
+    def _open(self) -> dict[Any, Array]:
+        """Numbers of the formulas by name, for each design, where it changes them."""
+        found: dict[Any, Array] = {}
+        ready, scene = self.ready, self.ready.structure.scene
+        own, slides = dimensions(scene), ready.structure.slides
+        for name, values in self.given.items():
+            kind, *rest = name
+            if kind in ("rate", "second"):
+                found[name] = values.real
+                found["error", *name] = GIVEN * np.abs(values.real)
+            elif kind == "value" and rest[0]:
+                k, u = rest[0], turned(values.real)
+                found["travel", k], found["cos", k], found["sin", k] = values.real, u.real, u.imag
+            elif kind != "value":
+                keys = [(kind, s.key) for s in slides if [s.b, s.guide.name] == rest]
+                for number in keys if kind in ("through", "direction") else [name]:
+                    for axis, part, old in (("x", values.real, own[name].real), ("y", values.imag, own[name].imag)):
+                        if (part != old).any():
+                            found[*number, axis] = part
+                    found["error", *number] = GIVEN * np.abs(values)
+        for link in {name[1] for name in self.given if name[0] == "point"}:
+            points = [np.abs(self.given.get(("point", link, p), z)) for p, z in scene.by_name[link].points.items()]
+            found["reach", link] = np.broadcast_to(np.max(np.broadcast_arrays(*points), axis=0), (self.count,))
+        return found
+
+    @cached_property
+    def _code(self) -> _OpenCode:
+        drivers = self.ready.structure.scene.drivers
+        moving = tuple(d.values[2] != 0 or ("second", k) in self.given for k, d in enumerate(drivers))
+        key = frozenset(self._open), moving
+        known = self.ready.opened
+        if key not in known:
+            known[key] = _OpenCode(self.ready, *key)
+        made: _OpenCode = known[key]
+        return made
+
+    @cached_property
+    def _start(self) -> Array:
+        """Where each begins its turn, shape (designs,) or (1,)."""
+        return self.given.get(("value", 0), self.ready.range.start[:1]).real
+
+    @cached_property
+    def _way(self) -> Array:
+        """A turn in the sense of each, shape (designs,) or (1,)."""
+        rate = self.given.get(("rate", 0), np.array([self.ready.range.wide])).real
+        return np.copysign(2 * np.pi, np.where(rate == 0, 1.0, rate))
+
+    def _compute(self, code: Code, which: Array, cosine: Array, sine: Array) -> Array:
+        """Formulas of some designs at positions given for each, shapes (designs, n): shape (formulas, designs, n)."""
+        which = np.arange(self.count)[which]
+        n = cosine.shape[1]
+        out = np.empty((len(code.asked), len(which), n))
+        each = max(1, TOGETHER // n)
+        same = self._code.same(code)
+        for low in range(0, len(which), each):
+            some = slice(low, low + each)
+            changed = [name for name in code.inputs if name in self._open]
+            given = {name: np.repeat(self._open[name][which[some]], n) for name in changed}
+            given["cos", 0], given["sin", 0] = np.ravel(cosine[some]), np.ravel(sine[some])
+            rows = np.empty((len(code.asked), len(which[some]) * n))
+            code.arrays(same, [given[name] for name in code.inputs], list(rows))
+            out[:, some] = rows.reshape(len(rows), -1, n)
+        return out
+
+    @cached_property
+    def together(self) -> Array:
+        """Designs that are computed together, shape (designs,)."""
+        ready = self.ready
+        if not ready.whole or ready.signs is None:
+            return np.zeros(self.count, dtype=bool)
+        turn = (np.broadcast_to(x, (self.count, NODES)) for x in _nodes())
+        seen = self._compute(self._code.checks, np.arange(self.count), *turn)
+        # so near to each other that nothing happens between two nodes
+        steps = np.abs(seen - np.roll(seen, 1, axis=2))
+        return np.asarray(((seen > CLEAR * CLEAR) & (steps < seen / 2)).all(axis=(0, 2)))
+
+    def _alone(self, k: int) -> Prepared | None:
+        """A design followed by itself; None where it cannot be assembled."""
+        scene = with_dimensions(self.ready.structure.scene, {name: complex(x[k]) for name, x in self.given.items()})
+        ready, own = self.ready, self.ready.range.forms(np.zeros(1))
+        try:
+            structure = analyse(scene)
+            forms = choose_forms(structure)
+        except (Unsolvable, SceneError):
+            return None
+        for i, element in enumerate(structure.elements):
+            if isinstance(element, Dyad) and element.kind in TWO_FORMS:
+                forms[i] = own[i][0]
+        along = range_from(structure, forms, own_values(scene))
+        return prepare(structure, ready.wanted, ready.units, ready.bounded, along)
+
+    def sweep(self, n: int, fast: bool = False) -> tuple[Array, Array]:
+        """As for one mechanism.
+
+        Returns
+        -------
+        columns : shape (columns, designs, n), in the units of the mechanism; 0 where not ok
+        ok : bool, shape (designs, n)
+        """
+        out = np.zeros((len(self.ready.asked), self.count, n))
+        ok = np.repeat(self.together[:, None], n, axis=1)
+        which = np.flatnonzero(self.together)
+        if fast and n >= LOOP:
+            self._loops(which, n, out.reshape(len(out), -1))
+        elif len(which):
+            out[:, which] = self._compute(self._code.columns, which, *self._turns(which, n))
+        for k in np.flatnonzero(~self.together).tolist():
+            one = self._alone(k)
+            if one is not None:
+                out[:, k], ok[k] = one.sweep(n)
+        return out, ok
+
+    def values(self, n: int) -> Array:
+        """Values of the first driver in ``sweep(n)``, shape (n,), or (designs, n) where they differ (rad, m)."""
+        if not self.ready.turns or len(self._start) == len(self._way) == 1:
+            return self.ready.values(n)
+        start, way = (np.broadcast_to(x, (self.count,)) for x in (self._start, self._way))
+        return np.asarray(start[:, None] + way[:, None] / n * np.arange(n))
+
+    def _turns(self, which: Array, n: int) -> tuple[Array, Array]:
+        """Cosines and sines of the driver at n positions of each design, shape (designs, n)."""
+        shape = len(which), n
+        values = self.values(n)
+        if values.ndim == 1:
+            c, s = self.ready.grid(n).turn
+            return np.broadcast_to(c, shape), np.broadcast_to(s, shape)
+        c, s = GivenValues(np.ravel(values[which])).turn
+        return c.reshape(shape), s.reshape(shape)
+
+    def _loops(self, which: Array, n: int, out: Array) -> None:
+        code = self._code
+        own = code.dimensioned.params(code.alone.params, {**self.ready.given_names, **dict.fromkeys(self._open, 0.0)})
+        numbers = np.tile([*own, 0.0, 0.0], (self.count, 1))
+        for j, name in enumerate(code.alone.params):
+            if name in self._open:
+                numbers[:, j] = self._open[name]
+        numbers[:, -2], numbers[:, -1] = self._start, self._way
+        for k in which.tolist():
+            code.kernel.run(k * n, (k + 1) * n, numbers[k], n, -k * n, out)
+
+    def at(self, value: float) -> tuple[Array, Array]:
+        """All designs at one value of the first driver: columns, shape (columns, designs), and ok, shape (designs,)."""
+        out, ok = np.zeros((len(self.ready.asked), self.count)), self.together.copy()
+        which = np.flatnonzero(ok)
+        if len(which):
+            c, s = (np.broadcast_to(x, (len(which), 1)) for x in GivenValues(np.array([value])).turn)
+            out[:, which] = self._compute(self._code.columns, which, c, s)[:, :, 0]
+        for k in np.flatnonzero(~self.together).tolist():
+            one = self._alone(k)
+            found = one.at(value) if one is not None else None
+            if found is not None:
+                out[:, k], ok[k] = found, True
+        return out, ok

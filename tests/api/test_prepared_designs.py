@@ -1,0 +1,154 @@
+"""Designs of a prepared mechanism: the values are those of the changed scene, read and prepared anew."""
+
+from __future__ import annotations
+
+import tomllib
+from importlib.util import find_spec
+
+import numpy as np
+import pytest
+
+import graphkin
+from graphkin.scene import library_text
+from graphkin.study.designs import applied
+
+SHAPER = tomllib.loads(library_text("shaper-scheme-2"))
+FOUR_BAR = {
+    "frame": {"points": {"A": [0, 0], "D": [400, 0]}},
+    "links": {
+        "1": {"points": ["A", "B"], "length": 150},
+        "2": {
+            "points": ["B", "C"],
+            "length": 500,
+            "at": {"E": [200, 100], "F": {"from": "C", "r": 60, "angle": 20, "toward": "E"}},
+        },
+        "3": {"points": ["C", "D"], "length": 300},
+    },
+    "driver": {"link": "1", "angle": 60, "omega": 10, "alpha": 0},
+}
+ASKED = ["v_C", "a_C", "theta_4"]
+KEYS = {
+    "links.2.length": np.linspace(70, 110, 7),
+    "frame.points.O2.y": np.linspace(300, 400, 7),
+    "frame.points.O4.x": np.linspace(0, 30, 7),
+    "driver.rpm": np.linspace(-70, 80, 7),
+    "driver.angle": np.linspace(0, 90, 7),
+    "frame.guides.h.angle": np.linspace(0, 6, 7),
+    "links.5.length": np.linspace(170, 180, 7),
+}
+
+
+def off(source, designs, find, n=24):
+    """How far the designs are from the scenes that say so, relative to the largest value of each column."""
+    found = graphkin.prepare(source, find).over(designs).sweep(n)
+    worst = 0.0
+    for k in range(found.ok.shape[0]):
+        anew = graphkin.prepare(applied(source, tuple(designs), tuple(float(v[k]) for v in designs.values())), find)
+        expected = anew.sweep(n)
+        assert expected.ok.tolist() == found.ok[k].tolist()
+        apart = np.abs(found.values[:, k] - expected.values)[:, expected.ok]
+        worst = max(worst, float(np.max(apart / np.abs(expected.values[:, expected.ok]).max(initial=1.0), initial=0)))
+    return worst
+
+
+@pytest.mark.parametrize("key", KEYS)
+def test_a_key_of_the_file_acts_as_in_the_file(key):
+    assert off(SHAPER, {key: KEYS[key]}, ASKED) < 1e-12
+
+
+def test_keys_act_together_as_in_the_file():
+    assert off(SHAPER, KEYS, ASKED) < 1e-12
+
+
+@pytest.mark.parametrize(
+    ("key", "values"),
+    [
+        ("links.2.at.F.r", [50, 80]),
+        ("links.2.at.F.angle", [-40, 50]),
+        ("driver.alpha", [3, -30]),
+        ("driver.omega", [0, -5]),
+    ],
+)
+def test_points_placed_from_others_follow_as_the_reader_places_them(key, values):
+    assert off(FOUR_BAR, {key: np.array(values, dtype=float)}, ["F", "a_F", "omega_3", "alpha_3"]) < 1e-12
+
+
+@pytest.mark.parametrize("key", ["links.2.at.E.x", "links.2.length"])
+def test_a_key_that_bends_the_way_of_a_point_is_refused(key):
+    with pytest.raises(graphkin.CallError, match="neither as a line nor as a turn"):  # F lies from C toward E
+        graphkin.prepare(FOUR_BAR, "v_C").over({key: [480]})
+
+
+def test_designs_that_do_not_turn_fully_are_followed_as_scenes_are():
+    assert off(FOUR_BAR, {"links.1.length": np.linspace(180, 300, 4)}, ["v_C", "omega_3"]) < 1e-12
+
+
+def test_a_driven_slide_has_designs_too():
+    source = tomllib.loads(library_text("hydraulic-cylinder"))
+    key = next(f"links.{name}.length" for name, table in source["links"].items() if "length" in table)
+    own = source["links"][key.split(".")[1]]["length"]
+    assert off(source, {key: own * np.array([0.98, 1.02])}, ["omega_1"], 6) < 1e-9
+
+
+def test_at_gives_all_designs_at_one_position():
+    ready = graphkin.prepare(SHAPER, ASKED)
+    lengths = [80.0, 95.0]
+    found = ready.over({"links.2.length": lengths}).at(70)
+    for k, length in enumerate(lengths):
+        anew = graphkin.prepare(applied(SHAPER, ("links.2.length",), (length,)), ASKED)
+        assert anew.at(70) == pytest.approx(found.values[:, k].tolist(), rel=1e-12, abs=1e-9)
+
+
+def test_one_number_gives_one_design():
+    assert (24,) == graphkin.prepare(SHAPER, "v_C").over({"links.2.length": 80}).sweep(24)["v_C"].shape
+
+
+def test_its_own_numbers_give_the_scene_itself():
+    ready = graphkin.prepare(SHAPER, ASKED)
+    itself = ready.over({"links.2.length": 90, "frame.points.O4.x": 0}).sweep(50)
+    assert ready.sweep(50).values == pytest.approx(itself.values, rel=1e-13, abs=1e-9)
+
+
+def test_bounds_hold_for_designs():
+    ready, lengths = graphkin.prepare(SHAPER, ["v_C"], bounds=True), [80.0, 100.0]
+    found = ready.over({"links.2.length": lengths}).sweep(30)
+    for k, length in enumerate(lengths):
+        motion = graphkin.solve(applied(SHAPER, ("links.2.length",), (length,)), sweep=30).motion
+        known = 1000 * motion.velocity_bound
+        assert (np.abs(found["v_C"][k] - 1000 * motion.velocity("C")) <= 1.5 * found.bound("v_C")[k] + known).all()
+
+
+@pytest.mark.skipif(find_spec("numba") is None, reason="the extra fast is not installed")
+def test_compiled_designs_are_those_of_numpy():
+    designs = {"links.2.length": [80, 90], "driver.rpm": [-60, 70]}
+    slow, fast = (graphkin.prepare(SHAPER, "a_C", fast=f).over(designs).sweep(100).values for f in (False, True))
+    assert np.abs(fast - slow).max() < 1e-13 * np.abs(slow).max()
+
+
+def test_the_table_begins_with_what_the_designs_change():
+    table = graphkin.prepare(SHAPER, "omega_4").over({"links.2.length": [80, 90]}).sweep(3).table
+    assert ("links.2.length", "driver_2 (deg)", "omega_4 (rad/s)", "ok") == table.heads
+    assert [80, 80, 80, 90, 90, 90] == table["links.2.length"].tolist()
+
+
+@pytest.mark.parametrize(
+    ("designs", "what"),
+    [
+        ({"links.2.size": [1]}, "size"),
+        ({"links.2.length": [-4]}, "above 0"),
+        ({"links.2.length": [float("nan")]}, "above 0"),
+        ({"links.2.length": [1, 2], "driver.angle": [1, 2, 3]}, "each key"),
+        ({}, "each key"),
+        ({"sketch.C.x": [3]}, "changes no dimension"),
+    ],
+)
+def test_designs_that_mean_nothing_are_refused(designs, what):
+    with pytest.raises(graphkin.CallError, match=what):
+        graphkin.prepare(SHAPER, "v_C").over(designs)
+
+
+def test_a_scene_that_is_read_already_has_designs():
+    scene = graphkin.read("shaper-scheme-2")
+    found = graphkin.prepare(scene, "v_C").over({"links.2.length": [80.0]}).sweep(10)
+    anew = graphkin.prepare(applied(SHAPER, ("links.2.length",), (80.0,)), "v_C").sweep(10)
+    assert anew["v_C"] == pytest.approx(found["v_C"][0], rel=1e-12)
