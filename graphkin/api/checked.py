@@ -157,7 +157,7 @@ def _predicted(scene: Scene, row: Compared, uncertainty: Uncertainty) -> dict[st
     """Standard deviation of a reading in scene units, and the step that adds most to it."""
     return {
         "uncertainty": in_scene_units(scene, row.symbol, uncertainty.deviation),
-        "cause": say(uncertainty.cause),
+        "cause": say(uncertainty.cause.phrase),
         "cause_share": uncertainty.share,
     }
 

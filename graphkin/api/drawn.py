@@ -6,7 +6,7 @@ import csv
 import io
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -159,9 +159,11 @@ def draw(
     values = driver_values(given, at)
     hand = hand_of(given, instrument, seed)
     motion = solved_here(given, values, asked)
-    whole = checked(plan(given, values, asked), motion, hand)
-    # the sheet is drawn anew at the scales that fit it, and bears its own readings
-    small = checked(plan(given, values, asked, sheet_room(given)), motion, hand_of(given, instrument, seed))
+    what = plan(given, values, asked)
+    whole = checked(what, motion, hand)
+    # the sheet shows the same construction at the scales that fit it, and bears its own readings
+    fitting = replace(what, scales=what.scales_for(sheet_room(given)))
+    small = checked(fitting, motion, hand_of(given, instrument, seed))
     drawn = Drawn(whole, small, language, convention)
     if out is not None:
         drawn.write(out, formats)

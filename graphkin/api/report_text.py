@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 
 from graphkin.api.arguments import own_unit
 from graphkin.api.checked import Checked, reading_row
-from graphkin.construction.sheet import Direction, Equation, Term
+from graphkin.construction.sheet import Equation, Term
+from graphkin.construction.steps import Direction
 from graphkin.scene.model import Scene
 from graphkin.words import Phrase, say, word
 
@@ -105,7 +106,7 @@ def _rows(equation: Equation, language: str) -> list[str]:
 
 
 def _size(term: Term) -> str:
-    return (show(term.size) or "√") if term.size_known else "?"
+    return (show(term.size) if term.size else "√") if term.size_known else "?"
 
 
 def _direction(term: Term) -> str:

@@ -20,6 +20,7 @@ from dataclasses import dataclass, replace
 from graphkin.construction import Plan, Scales, execute, nudged
 from graphkin.construction.board import EXACT, Instrument
 from graphkin.construction.sheet import DiagramName, Sheet, Vector
+from graphkin.construction.steps import Cause, ReadOff
 from graphkin.errors import Unsolvable
 from graphkin.scene.model import Tools
 from graphkin.scene.symbol import Symbol
@@ -87,7 +88,7 @@ class Uncertainty:
     """
 
     deviation: float
-    cause: Phrase
+    cause: Cause
     share: float
 
     @property
@@ -120,12 +121,12 @@ def predict(what: Plan, name: str, tools: Tools) -> Mapping[Symbol, Uncertainty]
     return {symbol: _summed(symbol, shares, sheet.causes) for symbol, shares in parts.items()}
 
 
-def _summed(symbol: Symbol, shares: Mapping[int, float], causes: tuple[tuple[int, Phrase], ...]) -> Uncertainty:
+def _summed(symbol: Symbol, shares: Mapping[int, float], causes: tuple[tuple[int, Cause], ...]) -> Uncertainty:
     whole = sum(shares.values())
     if not whole:
-        return Uncertainty(0.0, Phrase("reading", (symbol,)), 0.0)
+        return Uncertainty(0.0, ReadOff(symbol), 0.0)
     worst = max(shares, key=shares.__getitem__)
-    cause = causes[worst][1] if worst < len(causes) else Phrase("reading", (symbol,))
+    cause = causes[worst][1] if worst < len(causes) else ReadOff(symbol)
     return Uncertainty(math.sqrt(whole), cause, shares[worst] / whole if math.isfinite(whole) else 1.0)
 
 
@@ -142,7 +143,7 @@ class Advice:
 
     symbol: Symbol
     relative: float
-    cause: Phrase
+    cause: Cause
     share: float
     figure: str
     gain: float
@@ -153,7 +154,7 @@ class Advice:
             (
                 self.symbol,
                 f"{100 * self.relative:.2g}",
-                self.cause,
+                self.cause.phrase,
                 f"{100 * self.share:.0f}",
                 Phrase(f"figure {self.figure}"),
                 f"{100 * self.relative * self.gain:.2g}",

@@ -114,21 +114,25 @@ class Case:
     def altered(self) -> tuple[tuple[Phrase, float, Mapping[Symbol, Value]], ...]:
         """The drawing with each slip in a term, and in each other assembly: phrase, share, values."""
         found = []
-        for phrase, share, plan, slip in (*_assemblies(self.plan), *_terms(self.plan, self.sheet)):
+        for phrase, share, drawn in (*_assemblies(self.plan), *_terms(self.plan, self.sheet)):
             try:
-                values = {r.symbol: r.value for r in read_off(execute(plan, slip=slip))}
+                values = {r.symbol: r.value for r in read_off(drawn())}
             except (GraphkinError, ArithmeticError):
                 continue  # with this slip nothing can be drawn, so nobody's value comes from it
             found.append((phrase, share, values))
         return tuple(found)
 
 
-def _assemblies(plan: Plan) -> Iterator[tuple[Phrase, float, Plan, Slip]]:
+Altered = tuple[Phrase, float, Callable[[], Sheet]]
+
+
+def _assemblies(plan: Plan) -> Iterator[Altered]:
     for i, branch in plan.branches.items():
-        yield Phrase("slip assembly"), 0.05, replace(plan, branches={**plan.branches, i: 1 - branch}, chains={}), Slip()
+        other = {**plan.branches, i: 1 - branch}
+        yield Phrase("slip assembly"), 0.05, lambda other=other: execute(plan.with_branches(other))  # type: ignore[misc]
 
 
-def _terms(plan: Plan, sheet: Sheet) -> Iterator[tuple[Phrase, float, Plan, Slip]]:
+def _terms(plan: Plan, sheet: Sheet) -> Iterator[Altered]:
     roles = {"coriolis": [("left out", 0.0, 0.1), ("reversed", -1.0, 0.08), ("factor", 0.5, 0.04)],
              "normal": [("left out", 0.0, 0.05), ("reversed", -1.0, 0.04)]}  # fmt: skip
     for role, ways in roles.items():
@@ -138,7 +142,8 @@ def _terms(plan: Plan, sheet: Sheet) -> Iterator[tuple[Phrase, float, Plan, Slip
             for way, factor, share in ways:
                 shown = ", ".join(str(n) for n in group)
                 phrase = Phrase(f"slip {role} {way}", (shown,))
-                yield phrase, share / len(groups), plan, Slip(term=_times(group, factor))
+                slip = Slip(term=_times(group, factor))
+                yield phrase, share / len(groups), lambda slip=slip: execute(plan, slip=slip)  # type: ignore[misc]
 
 
 def _times(symbols: tuple[Symbol, ...], factor: float) -> Callable[[Part], Part]:

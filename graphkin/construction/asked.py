@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from graphkin.construction.equations import node
 from graphkin.construction.plot import Order, Plot
 from graphkin.construction.sheet import Vector
+from graphkin.construction.steps import Asked
 from graphkin.errors import CallError, Problem
 from graphkin.plane import dot, unit
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import Phrase
 
 __all__ = ["show"]
 
@@ -54,7 +54,7 @@ def _reachable(plot: Plot, ref: PointRef) -> bool:
 
 def _draw(plot: Plot, order: Order, vector: Vector) -> None:
     plot.drawn[order][vector.symbol] = vector
-    plot.board.do(order, Phrase("asked", (vector.symbol,)), vector)
+    plot.board.do(order, Asked(vector.symbol), vector)
 
 
 def _split(plot: Plot, symbol: Symbol, of: PointRef, to: PointRef | None) -> None:

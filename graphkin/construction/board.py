@@ -15,15 +15,13 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Protocol
 
-from shapely import LineString, Point
-
-from graphkin.construction.sheet import DiagramName, Equation, Step, Stroke
+from graphkin.construction.sheet import EXACT_NAME, DiagramName, Equation, Step, Stroke
+from graphkin.construction.steps import Act, Cause, OffTheSheet, Remark, SharpCrossing
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, cross_lines
 from graphkin.scene.model import Tools
-from graphkin.words import Phrase
 
-__all__ = ["EXACT", "REACH", "Board", "Cad", "Exact", "Hand", "Instrument", "nudged", "pencil"]
+__all__ = ["EXACT", "Board", "Cad", "Exact", "Hand", "Instrument", "nudged", "pencil"]
 
 
 class Instrument(Protocol):
@@ -75,7 +73,7 @@ class Instrument(Protocol):
 class Exact:
     """Draws and reads in double precision: nothing is lost but rounding."""
 
-    name: str = "exact"
+    name: str = EXACT_NAME
     faultless: bool = True
     acts: int = 0
 
@@ -185,8 +183,6 @@ def _turned(along: complex, deg: float) -> complex:
     return along * cmath.rect(1.0, math.radians(deg))
 
 
-REACH = 2000.0  # mm to either side: how far a construction line is drawn
-SHARP = math.sin(math.radians(15.0))
 PARALLEL = 1e-12  # sine below which two lines have no crossing at all
 
 
@@ -197,24 +193,19 @@ class Board:
     instrument: Instrument
     steps: list[Step] = field(default_factory=list)
     equations: list[Equation] = field(default_factory=list)
-    notes: list[Phrase] = field(default_factory=list)
-    causes: list[tuple[int, Phrase]] = field(default_factory=list)  # acts of the hand up to which each step reaches
+    noticed: list[tuple[DiagramName, Remark]] = field(default_factory=list)
+    causes: list[tuple[int, Cause]] = field(default_factory=list)  # acts of the hand up to which each step reaches
 
-    def do(self, diagram: DiagramName, phrase: Phrase, *strokes: Stroke, equation: int | None = None) -> None:
+    def do(self, diagram: DiagramName, act: Act, *strokes: Stroke, equation: int | None = None) -> None:
         """Record one step."""
-        self.steps.append(Step(len(self.steps) + 1, diagram, phrase, tuple(strokes), equation))
-        self.causes.append((self.instrument.acts, phrase))
+        self.steps.append(Step(len(self.steps) + 1, diagram, act, tuple(strokes), equation))
+        self.causes.append((self.instrument.acts, act))
 
-    def note(self, phrase: Phrase) -> None:
-        if phrase not in self.notes:
-            self.notes.append(phrase)
+    def notice(self, diagram: DiagramName, remark: Remark) -> None:
+        """Take note of what may have to be said, at this scale or at another."""
+        self.noticed.append((diagram, remark))
 
-    def warn(self, sine: float, what: str) -> None:
-        """Say where two lines cross at so small an angle that the place of the crossing is uncertain."""
-        if sine < SHARP:
-            self.note(Phrase("sharp crossing", (what, f"{math.degrees(math.asin(sine)):.2g}")))
-
-    def cross(self, p: complex, d: complex, q: complex, e: complex, what: str) -> complex:
+    def cross(self, diagram: DiagramName, p: complex, d: complex, q: complex, e: complex, what: str) -> complex:
         """Where the line through p along d meets the line through q along e, drawn as ruler lines.
 
         Raises
@@ -229,18 +220,8 @@ class Board:
                 "dead point",
                 Problem(what, "the two lines that should find it are parallel", "move the driver off this position"),
             )
-        self.warn(sine, what)
-        one = LineString([_xy(p - REACH * d), _xy(p + REACH * d)])
-        two = LineString([_xy(q - REACH * e), _xy(q + REACH * e)])
-        found = one.intersection(two)
-        if not isinstance(found, Point):
-            # the ruler lines end before they meet: the place is computed, and said
-            self.note(Phrase("off the sheet", (what,)))
-            far = cross_lines(p, d, q, e)
-            assert far is not None
-            return self.instrument.point(far)
-        return self.instrument.point(complex(found.x, found.y))
-
-
-def _xy(z: complex) -> tuple[float, float]:
-    return z.real, z.imag
+        self.notice(diagram, SharpCrossing(what, sine))
+        at = cross_lines(p, d, q, e)
+        assert at is not None
+        self.notice(diagram, OffTheSheet(what, max(abs(at - p), abs(at - q))))
+        return self.instrument.point(at)

@@ -20,14 +20,25 @@ from dataclasses import dataclass
 
 from graphkin.construction.rigid import Frame, RigidBody, across, hinge, inner_hinge, rail
 from graphkin.construction.sheet import Arc, Bar, Pose, Stroke
+from graphkin.construction.steps import (
+    Act,
+    ArcOnPath,
+    CompassArcs,
+    GuideThrough,
+    GuideTouching,
+    LaidOffAngle,
+    LaidOffTravel,
+    Path,
+    PathsCross,
+    SlidToMeet,
+)
 from graphkin.plane import cross, cross_arcs, cross_line_arc, cross_lines, direction, dot, unit
 from graphkin.scene.model import AngleDriver
 from graphkin.structure import Driven, Dyad, Slide, Turn
-from graphkin.words import Phrase
 
 __all__ = ["Frame", "Meeting", "Story", "drive", "meet", "prp", "rpp", "rpr", "rrp", "rrr"]
 
-Story = tuple[tuple[Phrase, tuple[Stroke, ...]], ...]
+Story = tuple[tuple[Act, tuple[Stroke, ...]], ...]
 
 
 @dataclass(frozen=True)
@@ -57,14 +68,13 @@ def drive(frame: Frame, element: Driven) -> tuple[Pose, Story]:
         assert isinstance(pair, Turn)
         hinge = frame.point(pair.b, pair.point)
         pose = Pose(hinge - axis * (frame.links[name].points[pair.point] * frame.mm), axis)
-        angle = f"{math.degrees(value):.6g}"
-        return pose, ((Phrase("lay off angle", (name, angle, pair.point)), ()),)
+        return pose, ((LaidOffAngle(name, value, pair.point), ()),)
     assert isinstance(pair, Slide)
     known = pair.b if name == pair.a else pair.a
     pose = across(pair, name, frame.poses[known], frame.instrument.length(value * frame.mm), frame.mm)
     start = frame.place(pair.b, pair.guide.through) if name == pair.a else pose.origin
     end = pose.origin if name == pair.a else frame.poses[known].origin
-    return pose, ((Phrase("lay off travel", (pair.key, f"{abs(value) * frame.mm:.2f}")), (Bar(start, end, name),)),)
+    return pose, ((LaidOffTravel(pair.key, abs(value) * frame.mm), (Bar(start, end, name),)),)
 
 
 def rrr(frame: Frame, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
@@ -79,8 +89,8 @@ def rrr(frame: Frame, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
     gap = product / (2 * r1 * r2) ** 2
     places = cross_arcs(p1, r1, p2, r2) or ()
     poses = [{**one.through((local1, inner1), (p1, q)), **two.through((local2, inner2), (p2, q))} for q in places]
-    names = (outer1.point, outer2.point, letter, f"{r1:.2f}", f"{r2:.2f}")
-    stories: list[Story] = [((Phrase("arcs", names), (Arc(p1, r1, q), Arc(p2, r2, q))),) for q in places]
+    act = CompassArcs((outer1.point, outer2.point), letter, (r1, r2))
+    stories: list[Story] = [((act, (Arc(p1, r1, q), Arc(p2, r2, q))),) for q in places]
     return Meeting(gap, math.sqrt(max(gap, 0.0)), tuple(poses), tuple(stories))
 
 
@@ -104,8 +114,8 @@ def rrp(frame: Frame, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
         poses.append({**one.through((local, inner1), (p, q)), **two.placed(moved)})
         stories.append(
             (
-                (Phrase("path", (letter, slide.key)), (Bar(q0, q, ""),)),
-                (Phrase("arc on path", (outer.point, letter, f"{radius:.2f}")), (Arc(p, radius, q),)),
+                (Path(letter, slide.key), (Bar(q0, q, ""),)),
+                (ArcOnPath(outer.point, letter, radius), (Arc(p, radius, q),)),
             )
         )
     return Meeting(gap, math.sqrt(max(gap, 0.0)), tuple(poses), tuple(stories))
@@ -139,16 +149,16 @@ def rpr(frame: Frame, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
             axis1 = unit(axis2 * turn)
             pose1 = Pose(p1 - axis1 * local1, axis1)
             poses.append({**one.placed(pose1), **two.placed(pose2)})
-            letters = (outer2.point, outer1.point)
             strokes: tuple[Stroke, ...]
             if abs(offset) < 1e-9 * size:
                 strokes = (Bar(p2, p1, ""),)
-                stories.append(((Phrase("line of guide", (*letters, slide.key)), strokes),))
+                stories.append(((GuideThrough(outer2.point, outer1.point, slide.key), strokes),))
             else:
                 foot = p1 - axis2 * g * root  # foot of the square from the pivot to the guide's parallel through P1
                 middle = (p1 + p2) / 2
                 strokes = (Arc(middle, span / 2, foot), Arc(p2, abs(offset), foot), Bar(foot, p1, ""))
-                stories.append(((Phrase("tangent", (*letters, f"{abs(offset):.2f}", slide.key)), strokes),))
+                act = GuideTouching(outer2.point, outer1.point, abs(offset), slide.key)
+                stories.append(((act, strokes),))
     return Meeting(gap, math.sqrt(max(gap, 0.0)), tuple(poses), tuple(stories))
 
 
@@ -165,7 +175,7 @@ def prp(frame: Frame, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
         moved2 = Pose(start2.origin + (q - q2), start2.axis)
         return {**one.placed(moved1), **two.placed(moved2)}
 
-    return _two_lines((q1, step1), (q2, step2), placed, Phrase("paths", (letter, slide1.key, slide2.key)))
+    return _two_lines((q1, step1), (q2, step2), placed, PathsCross(letter, (slide1.key, slide2.key)))
 
 
 def rpp(frame: Frame, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
@@ -196,7 +206,7 @@ def rpp(frame: Frame, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
     shift = step * (cross(want, along) / sine)
     base = p - want
     strokes = (Bar(base, base + shift, ""), Bar(base + shift, p, ""))
-    story: Story = ((Phrase("slide to meet", (outer.point, slide.key, inner.key)), strokes),)
+    story: Story = ((SlidToMeet(outer.point, slide.key, inner.key), strokes),)
     return Meeting(sine, abs(sine), (placed(shift),), (story,), True)
 
 
@@ -204,13 +214,13 @@ def _two_lines(
     one: tuple[complex, complex],
     two: tuple[complex, complex],
     placed: Callable[[complex], Mapping[str, Pose]],
-    phrase: Phrase,
+    act: Act,
 ) -> Meeting:
     sine = cross(one[1], two[1])
     q = cross_lines(*one, *two)
     if q is None:
         return Meeting(0.0, 0.0, (), (), True)
-    story: Story = ((phrase, (Bar(one[0], q, ""), Bar(two[0], q, ""))),)
+    story: Story = ((act, (Bar(one[0], q, ""), Bar(two[0], q, ""))),)
     return Meeting(sine, abs(sine), (placed(q),), (story,), True)
 
 

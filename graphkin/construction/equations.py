@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from graphkin.construction.sheet import Direction
+from graphkin.construction.steps import Direction
 from graphkin.scene.model import Link
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import Dyad, Pair, Slide, Turn, Weld

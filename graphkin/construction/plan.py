@@ -1,15 +1,14 @@
-"""The scales of a sheet: the scene's own, or those of the 1-2-2.5-5 series that fill the paper.
+"""From a scene to everything drawn: position, velocity polygon, acceleration polygon, and the scales that show them.
 
-What is to be drawn for what is asked, and at which scales.
-
-From a scene to everything drawn: position, velocity polygon, acceleration polygon.
+A scene is analysed once, and once carried out by exact hands, at scales of its own; every figure is that construction
+at the scales that suit it: the scene's own, or those of the 1-2-2.5-5 series that fill the paper.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 
 from graphkin.construction.asked import show
@@ -18,16 +17,17 @@ from graphkin.construction.equations import Chain
 from graphkin.construction.plot import Order
 from graphkin.construction.polygons import Polygons
 from graphkin.construction.position import branches_at, draw_position, place
-from graphkin.construction.sheet import Scales, Sheet
+from graphkin.construction.sheet import DiagramName, Scales, Sheet
 from graphkin.construction.slip import NO_SLIP, Slip
 from graphkin.scene.model import AngleDriver, Scene
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Cluster, Driven, Dyad, Element, Structure, analyse, links_of, needed
 from graphkin.words import Phrase
 
-__all__ = ["ORDERS", "Plan", "Room", "chosen_scales", "draft", "execute", "plan"]
+__all__ = ["Plan", "Room", "draft", "execute", "plan"]
 
 SERIES = (1.0, 2.0, 2.5, 5.0)
+ORDERS: tuple[Order, ...] = ("velocity", "acceleration")
 
 
 @dataclass(frozen=True)
@@ -40,35 +40,41 @@ class Room:
     larger: tuple[tuple[float, float], ...] = ()
 
 
-def chosen_scales(polygons: Polygons, room: Room | None) -> Scales:
+@dataclass(frozen=True)
+class Extent:
+    """Width and height of what a figure shows (m, m/s, m/s2)."""
+
+    width: float
+    height: float
+
+    @staticmethod
+    def around(points: Iterable[complex], per_mm: float) -> Extent:
+        """Of points on paper (mm) at a scale; nothing where there are none."""
+        spots = list(points)
+        if not spots:
+            return Extent(0.0, 0.0)
+        x, y = [z.real for z in spots], [z.imag for z in spots]
+        return Extent((max(x) - min(x)) * per_mm, (max(y) - min(y)) * per_mm)
+
+
+def _chosen_scales(scene: Scene, extents: Mapping[DiagramName, Extent], room: Room | None) -> Scales:
     """The scene's own scales, and for those it does not give the finest of the series that fit the room."""
-    scene, trial = polygons.structure.scene, polygons.scales
-    wishes, unit = scene.sheet, scene.units.metres
+    wanted, unit = scene.sheet, scene.units.metres
     space = room or Room()
-    tips = {
-        order: [0j, *(z for v in polygons.drawn[order].values() for z in (v.tail, v.tip))]
-        for order in ("velocity", "acceleration")
-    }
-    spots = list(polygons.places.values())
-    rooms = (space.mechanism, *space.larger)
-    lengths = [_fit(spots, room_of_it, trial.length * 1e3) * 1e-3 for room_of_it in rooms]
+    lengths = [_fit(extents["mechanism"], room_of_it, 1e3) * 1e-3 for room_of_it in (space.mechanism, *space.larger)]
     length = next((finer for finer in lengths if 2.0 * finer <= lengths[0] * (1 + 1e-9)), lengths[0])
-    velocity = _fit(tips["velocity"], space.polygon, 1.0 / unit) * unit
-    acceleration = _fit(tips["acceleration"], space.polygon, 1.0 / unit) * unit
+    velocity = _fit(extents["velocity"], space.polygon, 1.0 / unit) * unit
+    acceleration = _fit(extents["acceleration"], space.polygon, 1.0 / unit) * unit
     if room is None:
-        length = wishes.length_scale * 1e-3 if wishes.length_scale else length
-        velocity = wishes.velocity_scale * unit if wishes.velocity_scale else velocity
-        acceleration = wishes.acceleration_scale * unit if wishes.acceleration_scale else acceleration
+        length = wanted.length_scale * 1e-3 if wanted.length_scale else length
+        velocity = wanted.velocity_scale * unit if wanted.velocity_scale else velocity
+        acceleration = wanted.acceleration_scale * unit if wanted.acceleration_scale else acceleration
     return Scales(length, velocity, acceleration)
 
 
-def _fit(points: Sequence[complex], room: tuple[float, float], per_mm: float) -> float:
-    """The finest scale of the series at which points given at ``per_mm`` fit the room; 1 if they span nothing."""
-    if not points:
-        return 1.0
-    width = max(z.real for z in points) - min(z.real for z in points)
-    height = max(z.imag for z in points) - min(z.imag for z in points)
-    least = max(width / room[0], height / room[1]) * per_mm
+def _fit(extent: Extent, room: tuple[float, float], units: float) -> float:
+    """The finest scale of the series (units for one mm) at which something fits the room; 1 if it spans nothing."""
+    least = max(extent.width / room[0], extent.height / room[1]) * units
     if not math.isfinite(least) or least <= 0.0:
         return 1.0
     decade = 10.0 ** math.floor(math.log10(least))
@@ -78,26 +84,30 @@ def _fit(points: Sequence[complex], room: tuple[float, float], per_mm: float) ->
     return 10.0 * decade
 
 
-ORDERS: tuple[Order, ...] = ("velocity", "acceleration")
+
+
+NATURAL = Scales(1e-3, 1e-3, 1e-3)  # 1 mm of paper for 1 mm, 1 mm/s, 1 mm/s2
 
 
 @dataclass(frozen=True)
-class Plan:
-    """What is to be drawn, at which position and scales, in which assembly, and by which equation for each dyad."""
+class Task:
+    """What is to be drawn, at which position, in which assembly, and by which equation for each dyad."""
 
     structure: Structure
     asked: tuple[Symbol, ...]
     elements: tuple[Driven | Dyad, ...]
     values: Mapping[str, float]
     branches: Mapping[int, int]
-    scales: Scales
     stopped: Phrase | None
-    chains: Mapping[Dyad, Chain] = field(default_factory=dict)
+    chains: Mapping[Dyad, Chain]
 
     @cached_property
     def drawn(self) -> Mapping[Order, tuple[Driven | Dyad, ...]]:
         """What each polygon needs for what is asked: accelerations only of what leads to accelerations."""
-        return {order: _drawn(self.structure, self.elements, self.asked, order) for order in ORDERS}
+        pushes = [s for s in self.asked if s.kind not in ("v", "omega")]
+        wanted = needed(self.structure, pushes) if pushes else []
+        pushed = tuple(e for e in self.elements if e in wanted) if self.asked else self.elements
+        return {"velocity": self.elements, "acceleration": pushed}
 
     @cached_property
     def left_out(self) -> tuple[Phrase, ...]:
@@ -112,14 +122,25 @@ class Plan:
         return tuple(Phrase(key, (", ".join(links),)) for key, links in zip(keys, without, strict=True) if links)
 
 
-def _drawn(
-    structure: Structure, elements: Sequence[Driven | Dyad], asked: Sequence[Symbol], order: Order
-) -> tuple[Driven | Dyad, ...]:
-    if order == "velocity" or not asked:
-        return tuple(elements)
-    pushes = [s for s in asked if s.kind not in ("v", "omega")]
-    wanted = needed(structure, pushes) if pushes else []
-    return tuple(e for e in elements if e in wanted)
+@dataclass(frozen=True)
+class Plan(Task):
+    """A task as exact hands carry it out, and the scales of its figures.
+
+    ``exact`` is that construction, once for all figures, at scales of its own; ``extents`` are those of its figures,
+    vectors that only a question asks for left out.
+    """
+
+    scales: Scales
+    exact: Sheet
+    extents: Mapping[DiagramName, Extent]
+
+    def scales_for(self, room: Room | None) -> Scales:
+        """The scales that fill a room; without one the scene's own where it gives them."""
+        return _chosen_scales(self.structure.scene, self.extents, room)
+
+    def with_branches(self, branches: Mapping[int, int]) -> Plan:
+        """The same task in another assembly, at the same scales.  Raises Unsolvable where it cannot be drawn."""
+        return replace(_planned(replace(self, branches=branches, chains={}), None), scales=self.scales)
 
 
 def plan(
@@ -128,17 +149,27 @@ def plan(
     find: Iterable[Symbol] | None = None,
     room: Room | None = None,
 ) -> Plan:
-    """Decide what to draw; parameters and errors as for `draft`."""
+    """Decide what to draw, and carry it out exactly; parameters and errors as for `draft`."""
     structure = analyse(scene)
     asked = tuple(scene.find if find is None else find)
     wanted = needed(structure, asked)
-    elements = _drawable(wanted)
+    elements = tuple(_drawable(wanted))
     values = {d.key: d.values[0] for d in scene.drivers} | dict(at or {})
     branches = branches_at(structure, elements, values)
-    orders = {order: _drawn(structure, elements, asked, order) for order in ORDERS}
-    trial = _trial(structure, orders, values, branches)
-    scales = chosen_scales(trial, room)
-    return Plan(structure, asked, tuple(elements), values, branches, scales, _stopped(wanted), trial.chains)
+    return _planned(Task(structure, asked, elements, values, branches, _stopped(wanted), {}), room)
+
+
+def _planned(task: Task, room: Room | None) -> Plan:
+    polygons, assembly = _carried_out(task, NATURAL, EXACT, NO_SLIP)
+    tips = {order: [0j, *(z for v in polygons.drawn[order].values() for z in (v.tail, v.tip))] for order in ORDERS}
+    extents: dict[DiagramName, Extent] = {
+        "mechanism": Extent.around(polygons.places.values(), NATURAL.length),
+        "velocity": Extent.around(tips["velocity"], NATURAL.velocity),
+        "acceleration": Extent.around(tips["acceleration"], NATURAL.acceleration),
+    }
+    own = {f.name: getattr(task, f.name) for f in fields(Task)} | {"chains": polygons.chains}
+    scales = _chosen_scales(task.structure.scene, extents, room)
+    return Plan(**own, scales=scales, exact=_finished(task, polygons, assembly), extents=extents)
 
 
 def _stopped(elements: Sequence[Element]) -> Phrase | None:
@@ -172,42 +203,43 @@ def _leans_on(element: Driven | Dyad) -> set[str]:
     return {n for pair in (element.outer_first, element.outer_second) for n in (pair.a, pair.b)}
 
 
-def _trial(
-    structure: Structure,
-    drawn: Mapping[Order, Sequence[Driven | Dyad]],
-    values: Mapping[str, float],
-    branches: Mapping[int, int],
-) -> Polygons:
-    """Both polygons drawn once at any scale, to see how large they come out."""
-    trial = Scales(structure.scene.size / 100.0, 1.0, 1.0)
-    frame = place(structure, drawn["velocity"], 1.0 / trial.length, values, branches).frame
-    polygons = Polygons(Board(EXACT), structure, frame, trial)
-    for order in ORDERS:
-        for element in drawn[order]:
-            polygons.draw(order, element)
-    return polygons
-
-
 def execute(what: Plan, instrument: Instrument = EXACT, slip: Slip = NO_SLIP) -> Sheet:
-    """Draw a plan with an instrument; with a ``slip``, what follows from it."""
-    structure, elements, scales = what.structure, what.elements, what.scales
+    """A plan drawn with an instrument; with a ``slip``, what follows from it.
+
+    What exact hands draw stands in the plan already; finite ones, whose errors depend on the scale, draw it anew.
+    """
+    if instrument is EXACT and slip is NO_SLIP:
+        return what.exact.at(what.scales)
+    return _finished(what, *_carried_out(what, what.scales, instrument, slip))
+
+
+def _carried_out(
+    task: Task, scales: Scales, instrument: Instrument, slip: Slip
+) -> tuple[Polygons, Mapping[str, Phrase]]:
+    """Position and both polygons on a board, and the words for each assembly."""
     board = Board(instrument)
-    position = place(structure, elements, 1.0 / scales.length, what.values, what.branches, instrument)
-    assembly = draw_position(board, structure, elements, position, what.branches)
+    position = place(task.structure, task.elements, 1.0 / scales.length, task.values, task.branches, instrument)
+    assembly = draw_position(board, task.structure, task.elements, position, task.branches)
     board.causes[:] = position.causes
-    polygons = Polygons(board, structure, position.frame, scales, slip)
-    polygons.chains.update(what.chains)
+    polygons = Polygons(board, task.structure, position.frame, scales, slip)
+    polygons.chains.update(task.chains)
     for order in ORDERS:
-        for element in what.drawn[order]:
+        for element in task.drawn[order]:
             polygons.draw(order, element)
-    show(polygons, what.asked)
+    return polygons, assembly
+
+
+def _finished(task: Task, polygons: Polygons, assembly: Mapping[str, Phrase]) -> Sheet:
+    """What stands on the board as a sheet, with the vectors that only a question asks for."""
+    show(polygons, task.asked)
+    board = polygons.board
     return Sheet(
-        scene=structure.scene,
-        structure=structure,
-        instrument=instrument.name,
-        drivers=what.values,
-        scales=scales,
-        poses=dict(position.frame.poses),
+        scene=task.structure.scene,
+        structure=task.structure,
+        instrument=board.instrument.name,
+        drivers=task.values,
+        scales=polygons.scales,
+        poses=dict(polygons.frame.poses),
         points={PointRef(p): z for p, z in polygons.places.items()},
         ends={order: dict(ends) for order, ends in polygons.ends.items()},
         omega=dict(polygons.rates["velocity"]),
@@ -215,10 +247,10 @@ def execute(what: Plan, instrument: Instrument = EXACT, slip: Slip = NO_SLIP) ->
         steps=tuple(board.steps),
         equations=tuple(board.equations),
         assembly=assembly,
-        notes=tuple(board.notes),
-        stopped=what.stopped,
-        left_out=what.left_out,
-        causes=tuple(board.causes),
+        noticed=tuple(board.noticed),
+        stopped=task.stopped,
+        left_out=task.left_out,
+        causes=tuple(board.causes) if board.instrument.acts else (),
     )
 
 

@@ -12,14 +12,21 @@ from graphkin.construction.equations import node
 from graphkin.construction.rigid import Frame
 from graphkin.construction.sheet import Bar, Image, Mark, Rate, Scales, Stroke, Vector
 from graphkin.construction.slip import NO_SLIP, Slip
+from graphkin.construction.steps import (
+    Act,
+    ByImage,
+    ByRate,
+    Named,
+    Resultant,
+    SamePlace,
+    Translated,
+)
 from graphkin.plane import cross, dot
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Slide, Structure
-from graphkin.words import Phrase
 
-__all__ = ["ZERO_MM", "Order", "Plot", "letter"]
+__all__ = ["Order", "Plot", "letter"]
 
-ZERO_MM = 1e-7  # a vector shorter than this is no vector on paper
 Order = Literal["velocity", "acceleration"]
 
 
@@ -96,10 +103,10 @@ class Plot:
             self.place(order, ref)
         return self.ends[order][ref]
 
-    def record(self, order: Order, vector: Vector, phrase: Phrase, equation: int | None, *more: Stroke) -> None:
+    def record(self, order: Order, vector: Vector, act: Act, equation: int | None, *more: Stroke) -> None:
         """Put a vector into a polygon, with the step that drew it."""
         self.drawn[order][vector.symbol] = vector
-        self.board.do(order, phrase, vector, *more, equation=equation)
+        self.board.do(order, act, vector, *more, equation=equation)
 
     def reach(self, order: Order, ref: PointRef, at: complex, equation: int | None) -> None:
         """Name an end point, and draw the vector to it from the pole."""
@@ -109,9 +116,9 @@ class Plot:
         mark = Mark(self.label(ref), at)
         symbol = Symbol(letter(order), self.label(ref))
         if symbol in self.drawn[order]:
-            self.board.do(order, Phrase("name", (mark.ref,)), mark, equation=equation)
+            self.board.do(order, Named(mark.ref), mark, equation=equation)
             return
-        self.record(order, Vector(symbol, 0j, at, "resultant"), Phrase("resultant", (symbol,)), equation, mark)
+        self.record(order, Vector(symbol, 0j, at, "resultant"), Resultant(symbol), equation, mark)
 
     def complete(self, order: Order, name: str) -> None:
         """All points of a link, and the points of it under sliding pins."""
@@ -131,11 +138,11 @@ class Plot:
         here = self.places[ref.point]
         refs = [r for r in ends if self._on(r, name)]
         if name in self.still:
-            self._reach_by(order, ref, ends[refs[0]], Phrase("translates", (name,)))
+            self._reach_by(order, ref, ends[refs[0]], Translated(name))
             return
         same = [r for r in refs if abs(self.places[r.point] - here) <= self.tiny]
         if same:
-            self._reach_by(order, ref, ends[same[0]], Phrase("same place", (self.label(ref), self.label(same[0]))))
+            self._reach_by(order, ref, ends[same[0]], SamePlace(self.label(ref), self.label(same[0])))
             return
         a, b = max(
             ((a, b) for a in refs for b in refs),
@@ -145,23 +152,21 @@ class Plot:
         if abs(bar) <= self.tiny or (order, name) in self.believed:
             start = refs[0]  # a fixed point, if the link has one
             at = self._by_rates(order, ends[start], here - self.places[start.point], name)
-            self._reach_by(order, ref, at, Phrase("by rate", (self.label(ref), self.label(start), name)))
+            self._reach_by(order, ref, at, ByRate(self.label(ref), self.label(start), name))
             return
         ratio = (here - self.places[a.point]) / bar
         at = self.board.instrument.point(ends[a] + (ends[b] - ends[a]) * ratio)
-        names = (self.label(ref), self.label(a), self.label(b), name)
-        if abs(ratio.imag) < 1e-9:
-            self._reach_by(order, ref, at, Phrase("division", names), Bar(ends[a], at, name))
-        else:
-            image = Image(name, (ends[a], ends[b], at))
-            self._reach_by(order, ref, at, Phrase("image", names), image)
+        on_line = abs(ratio.imag) < 1e-9
+        stroke = Bar(ends[a], at, name) if on_line else Image(name, (ends[a], ends[b], at))
+        act = ByImage(self.label(ref), (self.label(a), self.label(b)), name, on_line)
+        self._reach_by(order, ref, at, act, stroke)
 
-    def _reach_by(self, order: Order, ref: PointRef, at: complex, phrase: Phrase, *strokes: Stroke) -> None:
+    def _reach_by(self, order: Order, ref: PointRef, at: complex, act: Act, *strokes: Stroke) -> None:
         symbol = Symbol(letter(order), self.label(ref))
         at = self.slip.found(symbol, 0j, at)
         self.ends[order][ref] = at
         mark = Mark(self.label(ref), at)
-        self.record(order, Vector(symbol, 0j, at, "resultant"), phrase, None, mark, *strokes)
+        self.record(order, Vector(symbol, 0j, at, "resultant"), act, None, mark, *strokes)
 
     def _on(self, ref: PointRef, name: str) -> bool:
         return ref.link == name or (not ref.link and ref.point in self.links[name].points)

@@ -7,23 +7,37 @@ sliding velocity (Sun Huan, Mechanical Principles, ch. 3; Norton, Design of Mach
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Literal
+
 from graphkin.construction.board import Board
 from graphkin.construction.equations import Chain, Edge, equation_of, node
-from graphkin.construction.plot import ZERO_MM, Order, Plot, letter
+from graphkin.construction.plot import Order, Plot, letter
 from graphkin.construction.rigid import Frame
-from graphkin.construction.sheet import Bar, Direction, Equation, Mark, Rate, Ray, Scales, Term, Vector
+from graphkin.construction.sheet import Bar, Equation, Mark, Rate, Ray, Scales, Term, Vector
 from graphkin.construction.slip import NO_SLIP, Slip
+from graphkin.construction.steps import (
+    Carried,
+    Direction,
+    DirectionLine,
+    Found,
+    LaidOff,
+    MeasuredRate,
+    Meeting,
+    PutBack,
+    ZeroVector,
+)
 from graphkin.construction.terms import Part, bar, parts_of, symbol_of, turn_sign
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Driven, Dyad, Slide, Structure, Turn, links_of
-from graphkin.words import Phrase
 
 __all__ = ["Polygons"]
 
 _Side = list[tuple[Edge, list[Part]]]
+RATE: Mapping[Order, Literal["omega", "alpha"]] = {"velocity": "omega", "acceleration": "alpha"}
 
 
 class Polygons(Plot):
@@ -178,13 +192,8 @@ class Polygons(Plot):
             hand = self.board.instrument
             tip = hand.point(at + hand.direction(part.span / size) * hand.length(size))
         vector = Vector(part.symbol, at, tip, part.role)
-        if size < ZERO_MM:
-            phrase = Phrase("zero vector", (part.symbol,))
-            self.board.note(phrase)
-        else:
-            key = {"normal": "lay off normal", "coriolis": "lay off coriolis"}.get(part.role, "lay off")
-            phrase = Phrase(key, (part.symbol, part.size, f"{size:.2f}", part.written))
-        self.record(order, vector, phrase, equation)
+        self.board.notice(order, ZeroVector(part.symbol, size))
+        self.record(order, vector, LaidOff(part.symbol, part.size, size, part.written, part.role), equation)
         return tip
 
     def _cross(self, order: Order, chain: Chain, sides: list[_Side], equation: int) -> None:
@@ -200,7 +209,7 @@ class Polygons(Plot):
             for part in parts[open_at + 1 :]:
                 # known terms behind the unknown one are added first, and put in their place afterwards
                 assert part.span is not None
-                self.board.do(order, Phrase("carry", (part.symbol,)), Bar(at, at + part.span, ""), equation=equation)
+                self.board.do(order, Carried(part.symbol), Bar(at, at + part.span, ""), equation=equation)
                 at += part.span
                 carried += part.span
             starts.append((at, carried))
@@ -208,13 +217,13 @@ class Polygons(Plot):
         what = f"{letter(order)}_{self.label(chain.middle)}"
         (p, _), (q, _) = starts
         left, right = lines
-        meeting = self.board.cross(p, left.along, q, right.along, what)
+        meeting = self.board.cross(order, p, left.along, q, right.along, what)
         meeting = self.slip.found(Symbol(letter(order), self.label(chain.middle)), 0j, meeting)
         for start, part in ((p, left), (q, right)):
             ray = Ray(start, part.along, meeting, part.written, part.symbol)
-            self.board.do(order, Phrase("direction", (part.symbol, part.written)), ray, equation=equation)
+            self.board.do(order, DirectionLine(part.symbol, part.written), ray, equation=equation)
         mark = Mark(self.label(chain.middle), meeting)
-        self.board.do(order, Phrase("meet", (mark.ref,)), mark, equation=equation)
+        self.board.do(order, Meeting(mark.ref), mark, equation=equation)
         for side, (start, carried) in zip(sides, starts, strict=True):
             self._fill(order, side, meeting - carried, start - carried, equation)
         self.reach(order, chain.middle, meeting, equation)
@@ -226,14 +235,13 @@ class Polygons(Plot):
             for part in parts:
                 if part.span is None:
                     found = Vector(part.symbol, tail, self.slip.found(part.symbol, tail, tip), part.role)
-                    if abs(found.span) < ZERO_MM:
-                        self.board.note(Phrase("zero vector", (part.symbol,)))
-                    self.record(order, found, Phrase("found", (part.symbol, f"{abs(found.span):.2f}")), equation)
+                    self.board.notice(order, ZeroVector(part.symbol, abs(found.span)))
+                    self.record(order, found, Found(part.symbol, abs(found.span)), equation)
                     at = tip
                 else:
                     if part.symbol not in self.drawn[order]:
                         moved = Vector(part.symbol, at, at + part.span, part.role)
-                        self.record(order, moved, Phrase("put back", (part.symbol,)), equation)
+                        self.record(order, moved, PutBack(part.symbol), equation)
                     at = self.drawn[order][part.symbol].tip
             if edge is not side[-1][0]:
                 self.reach(order, edge.end, at, equation)
@@ -249,15 +257,14 @@ class Polygons(Plot):
         read = self.board.instrument.read(abs(vector.span))
         size = abs(read) * self.scales.of(order) / self.measured(arm)
         sense = 1.0 if cross(arm, vector.span) >= 0 else -1.0
-        key = "omega" if order == "velocity" else "alpha"
-        own = self.slip.rate(Symbol(key, link=edge.link), sense * size)
+        rate = RATE[order]
+        own = self.slip.rate(Symbol(rate, link=edge.link), sense * size)
         if own is not None:
             self.believed.add((order, edge.link))
         self.rates[order][edge.link] = Rate(
             edge.link, sense * size if own is None else own, symbol, abs(read), abs(arm)
         )
-        turning = "ccw" if sense > 0 else "cw"
-        self.board.do(order, Phrase(f"{key} {turning}", (edge.link, symbol, bar(edge), f"{size:.6g}")))
+        self.board.do(order, MeasuredRate(rate, edge.link, symbol, bar(edge), sense * size))
         self._spread(order, edge.link, dyad)
 
 

@@ -16,6 +16,7 @@ from graphkin.construction.board import EXACT, Board, Instrument
 from graphkin.construction.dyads import Meeting, drive, meet
 from graphkin.construction.rigid import Frame
 from graphkin.construction.sheet import Mark, Pose
+from graphkin.construction.steps import Cause, FixedPoints, LinkPoints, Placing, SharpCrossing, ShortArm
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, Scene
 from graphkin.scene.symbol import PointRef
@@ -37,7 +38,7 @@ class Position:
 
     frame: Frame
     meetings: Mapping[int, Meeting]
-    causes: Sequence[tuple[int, Phrase]] = ()  # acts of the hand up to which each link reaches
+    causes: Sequence[tuple[int, Cause]] = ()  # acts of the hand up to which each link reaches
 
 
 def place(
@@ -64,12 +65,12 @@ def place(
     """
     frame = _start(structure, mm, values, instrument)
     meetings: dict[int, Meeting] = {}
-    causes = [(instrument.acts, Phrase("placing", (structure.scene.frame.name,)))]
+    causes: list[tuple[int, Cause]] = [(instrument.acts, Placing((structure.scene.frame.name,)))]
     for i, element in enumerate(elements):
         if isinstance(element, Driven):
             frame.poses[element.link], _ = drive(frame, element)
             frame.settle([element.link])
-            causes.append((instrument.acts, Phrase("placing", (element.link,))))
+            causes.append((instrument.acts, Placing((element.link,))))
         elif isinstance(element, Dyad):
             meeting = meet(frame, element)
             _refuse(element, meeting)
@@ -77,7 +78,7 @@ def place(
             poses = meeting.poses[branches.get(i, 0) % len(meeting.poses)]
             frame.poses.update(poses)
             frame.settle(list(poses))
-            causes.append((instrument.acts, Phrase("placing", (", ".join(element.links),))))
+            causes.append((instrument.acts, Placing(element.links)))
     return Position(frame, meetings, causes)
 
 
@@ -245,8 +246,6 @@ def _out_of_reach(scene: Scene, values: Mapping[str, float], limits: Sequence[Ma
     return Problem(f"driver {asked}", "the motion does not reach it", f"driver {key} moves {word} {reach}")
 
 
-SHORT = 3.0  # mm on paper; a direction drawn through two points nearer than this errs by a pencil's width in ten
-
 
 def draw_position(
     board: Board,
@@ -259,7 +258,7 @@ def draw_position(
     frame = position.frame
     ground = structure.scene.frame
     fixed = tuple(Mark(PointRef(p), frame.point(ground.name, p)) for p in ground.points)
-    board.do("mechanism", Phrase("frame", (ground.name, ", ".join(ground.points))), *fixed)
+    board.do("mechanism", FixedPoints(ground.name, tuple(ground.points)), *fixed)
     named = set(ground.points)
     assembly: dict[str, Phrase] = {}
     so_far = Frame(frame.links, frame.mm, frame.values, {ground.name: frame.poses[ground.name]})
@@ -268,8 +267,8 @@ def draw_position(
             _, story = drive(so_far, element)
         else:
             meeting = position.meetings[i]
-            board.warn(min(meeting.sine, 1.0), _inner_name(element))
-            _warn_short(board, element, frame)
+            board.notice("mechanism", SharpCrossing(_inner_name(element), min(meeting.sine, 1.0)))
+            _remark_arm(board, element, frame)
             index = branches.get(i, 0) % len(meeting.poses)
             story = meeting.stories[index]
             key = ", ".join(element.links)
@@ -279,27 +278,25 @@ def draw_position(
                 else "one assembly",
                 _assembly_names(element),
             )
-        for phrase, strokes in story:
-            board.do("mechanism", phrase, *strokes)
+        for act, strokes in story:
+            board.do("mechanism", act, *strokes)
         for name in links_of(element):
             so_far.poses[name] = frame.poses[name]
             fresh = [p for p in structure.links[name].points if p not in named]
             marks = tuple(Mark(PointRef(p), frame.point(name, p)) for p in fresh)
             named.update(fresh)
-            if marks and len(structure.links[name].points) > 2:
-                board.do("mechanism", Phrase("transfer", (name, ", ".join(fresh))), *marks)
-            elif marks:
-                board.do("mechanism", Phrase("points", (name, ", ".join(fresh))), *marks)
+            if marks:
+                whole = len(structure.links[name].points) > 2
+                board.do("mechanism", LinkPoints(name, tuple(fresh), whole), *marks)
     return assembly
 
 
-def _warn_short(board: Board, dyad: Dyad, frame: Frame) -> None:
-    """Say where a guide is directed by two points that lie too near to each other."""
+def _remark_arm(board: Board, dyad: Dyad, frame: Frame) -> None:
+    """How far the two points are apart that direct a guide."""
     one, two = dyad.outer_first, dyad.outer_second
     if dyad.kind == "RPR" and isinstance(one, Turn) and isinstance(two, Turn):
         apart = abs(frame.point(one.b, one.point) - frame.point(two.b, two.point))
-        if apart < SHORT:
-            board.note(Phrase("short arm", (", ".join(dyad.links), one.point, f"{apart:.2g}", two.point)))
+        board.notice("mechanism", ShortArm(dyad.links, (one.point, two.point), apart))
 
 
 def _inner_name(dyad: Dyad) -> str:

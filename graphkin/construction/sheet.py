@@ -7,9 +7,10 @@ acceleration polygons from their poles; where a figure is placed on a page is no
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
+from graphkin.construction.steps import Act, Cause, Direction, Remark, Size
 from graphkin.scene.model import Scene
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure.model import Element, Structure
@@ -19,7 +20,6 @@ __all__ = [
     "Arc",
     "Bar",
     "DiagramName",
-    "Direction",
     "Equation",
     "Image",
     "Mark",
@@ -35,6 +35,8 @@ __all__ = [
 ]
 
 DiagramName = Literal["mechanism", "velocity", "acceleration"]
+DIAGRAMS: tuple[DiagramName, ...] = ("mechanism", "velocity", "acceleration")
+EXACT_NAME = "exact"  # of the instrument that errs nowhere
 Role = Literal["resultant", "relative", "normal", "tangential", "coriolis", "sliding"]
 
 
@@ -51,19 +53,6 @@ class Scales:
 
 
 @dataclass(frozen=True)
-class Direction:
-    """A direction as it is written in an equation row: square to or along what is named.
-
-    ``names`` are the letters of a bar (``("B", "C")``) or the name of a guide (``("h",)``); ``relation`` is "square",
-    "along", "towards" (from the first to the second) or "turned" (the relative velocity turned by 90 degrees in the
-    sense of the guide's rotation).
-    """
-
-    relation: Literal["square", "along", "towards", "turned"]
-    names: tuple[str, ...]
-
-
-@dataclass(frozen=True)
 class Vector:
     """A vector drawn: ``symbol`` from ``tail`` to ``tip``."""
 
@@ -76,6 +65,9 @@ class Vector:
     def span(self) -> complex:
         return self.tip - self.tail
 
+    def scaled(self, times: float) -> Vector:
+        return Vector(self.symbol, self.tail * times, self.tip * times, self.role)
+
 
 @dataclass(frozen=True)
 class Ray:
@@ -87,6 +79,10 @@ class Ray:
     direction: Direction
     symbol: Symbol
 
+    def scaled(self, times: float) -> Ray:
+        to = None if self.to is None else self.to * times
+        return Ray(self.through * times, self.along, to, self.direction, self.symbol)
+
 
 @dataclass(frozen=True)
 class Arc:
@@ -95,6 +91,9 @@ class Arc:
     centre: complex
     radius: float
     at: complex
+
+    def scaled(self, times: float) -> Arc:
+        return Arc(self.centre * times, self.radius * times, self.at * times)
 
 
 @dataclass(frozen=True)
@@ -105,6 +104,9 @@ class Bar:
     b: complex
     link: str
 
+    def scaled(self, times: float) -> Bar:
+        return Bar(self.a * times, self.b * times, self.link)
+
 
 @dataclass(frozen=True)
 class Mark:
@@ -112,6 +114,9 @@ class Mark:
 
     ref: PointRef
     at: complex
+
+    def scaled(self, times: float) -> Mark:
+        return Mark(self.ref, self.at * times)
 
 
 @dataclass(frozen=True)
@@ -121,32 +126,46 @@ class Image:
     link: str
     corners: tuple[complex, ...]
 
+    def scaled(self, times: float) -> Image:
+        return Image(self.link, tuple(z * times for z in self.corners))
+
 
 Stroke = Vector | Ray | Arc | Bar | Mark | Image
+"""Each is had so many times as large by ``scaled(times)``."""
 
 
 @dataclass(frozen=True)
 class Step:
-    """One action on the board, with its reason in words."""
+    """One action on the board: what is done, and the strokes that it leaves."""
 
     number: int
     diagram: DiagramName
-    phrase: Phrase
+    act: Act
     strokes: tuple[Stroke, ...] = ()
     equation: int | None = None
+
+    @property
+    def phrase(self) -> Phrase:
+        """The step as a sentence to be."""
+        return self.act.phrase
+
+    def scaled(self, times: float) -> Step:
+        """The same step so many times as large."""
+        strokes = tuple(stroke.scaled(times) for stroke in self.strokes)
+        return Step(self.number, self.diagram, self.act.scaled(times), strokes, self.equation)
 
 
 @dataclass(frozen=True)
 class Term:
     """A term of a vector equation: is its size known, is its direction known, and as what.
 
-    ``size`` is the rule that gives the size ("omega_1 * AB", "" where it was drawn before or is unknown).
+    ``size`` is the rule that gives the size (None where it was drawn before or is unknown).
     """
 
     symbol: Symbol
     size_known: bool
     direction_known: bool
-    size: str = ""
+    size: Size | None = None
     direction: Direction | None = None
 
 
@@ -181,6 +200,10 @@ class Rate:
     arm_mm: float = 0.0
     same_as: str = ""
 
+    def scaled(self, vector_times: float, arm_times: float) -> Rate:
+        """The same rate read off larger figures."""
+        return replace(self, mm=self.mm * vector_times, arm_mm=self.arm_mm * arm_times)
+
 
 @dataclass(frozen=True)
 class Pose:
@@ -189,6 +212,10 @@ class Pose:
     origin: complex
     axis: complex
 
+    def scaled(self, times: float) -> Pose:
+        """The same place on a larger figure."""
+        return Pose(self.origin * times, self.axis)
+
 
 @dataclass(frozen=True)
 class Sheet:
@@ -196,8 +223,8 @@ class Sheet:
 
     ``ends`` gives the end points in each polygon: ends["velocity"][PointRef("B", "3")] is b3.
     ``omega`` and ``alpha`` hold the measured rates by link.  ``stopped`` names the group that could not be drawn and
-    why; everything before it stands.  ``notes`` are remarks on the construction (lines that meet off the sheet,
-    zero vectors).  ``causes`` tells to which step the acts of the hand belong: (acts made when it was done, the step).
+    why; everything before it stands.  ``noticed`` are what may have to be said of the construction, by diagram.
+    ``causes`` tells to what the acts of the hand belong: (acts made when it was done, what).
     ``left_out`` says what nothing asked for needs.
     """
 
@@ -214,10 +241,48 @@ class Sheet:
     steps: tuple[Step, ...]
     equations: tuple[Equation, ...]
     assembly: Mapping[str, Phrase]
-    notes: tuple[Phrase, ...] = ()
+    noticed: tuple[tuple[DiagramName, Remark], ...] = ()
     stopped: Phrase | None = None
-    causes: tuple[tuple[int, Phrase], ...] = ()
+    causes: tuple[tuple[int, Cause], ...] = ()
     left_out: tuple[Phrase, ...] = ()
+
+    def at(self, scales: Scales) -> Sheet:
+        """The same construction at other scales: every length on paper so many times as large.
+
+        Raises
+        ------
+        ValueError : it was drawn by hands that err, whose errors depend on the scale
+        """
+        if self.instrument != EXACT_NAME:
+            raise ValueError(f"a sheet drawn by {self.instrument} is drawn anew at other scales")
+        if scales == self.scales:
+            return self
+        k: dict[DiagramName, float] = {name: self.scales.of(name) / scales.of(name) for name in DIAGRAMS}
+        length, velocity, acceleration = k.values()
+        return replace(
+            self,
+            scales=scales,
+            poses={name: pose.scaled(length) for name, pose in self.poses.items()},
+            points={ref: z * length for ref, z in self.points.items()},
+            ends={
+                "velocity": {ref: z * velocity for ref, z in self.ends["velocity"].items()},
+                "acceleration": {ref: z * acceleration for ref, z in self.ends["acceleration"].items()},
+            },
+            omega={name: rate.scaled(velocity, length) for name, rate in self.omega.items()},
+            alpha={name: rate.scaled(acceleration, length) for name, rate in self.alpha.items()},
+            steps=tuple(step.scaled(k[step.diagram]) for step in self.steps),
+            noticed=tuple((name, remark.scaled(k[name])) for name, remark in self.noticed),
+        )
+
+    @property
+    def remarks(self) -> tuple[Remark, ...]:
+        """What is to be said of the construction at these scales: lines that meet off the sheet, zero vectors."""
+        return tuple(remark for _, remark in self.noticed if remark.holds)
+
+    @property
+    def notes(self) -> tuple[Phrase, ...]:
+        """The remarks as sentences to be, each once."""
+        return tuple(dict.fromkeys(remark.phrase for remark in self.remarks))
 
     def vectors(self, diagram: DiagramName) -> dict[Symbol, Vector]:
         """All vectors of a diagram by symbol."""

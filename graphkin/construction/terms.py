@@ -7,7 +7,7 @@ from typing import Literal
 
 from graphkin.construction.equations import Edge
 from graphkin.construction.plot import Order, Plot
-from graphkin.construction.sheet import Direction
+from graphkin.construction.steps import Direction, Formula, Given, RateTimes, Size
 from graphkin.plane import dot, unit
 from graphkin.scene.model import AngleDriver, SlideDriver
 from graphkin.scene.symbol import Symbol
@@ -25,7 +25,7 @@ class Part:
     along: complex
     span: complex | None
     written: Direction
-    size: str = ""
+    size: Size | None = None
 
 
 def parts_of(plot: Plot, order: Order, edge: Edge) -> list[Part]:
@@ -54,7 +54,7 @@ def _rigid_parts(plot: Plot, order: Order, edge: Edge) -> list[Part]:
     role: Literal["resultant", "relative"] = "resultant" if plot.fixed(edge.start) else "relative"
     if order == "velocity":
         span = None if rate is None else square * (rate.value * plot.measured(arm) / plot.scales.velocity)
-        size = f"ω_{{{edge.link}}}·{name}" if span is not None else ""
+        size = RateTimes("omega", (edge.link,), name) if span is not None else None
         return [Part(symbol_of(plot, "v", edge), role, square, span, edge.direction, size)]
     slip = plot.end("velocity", edge.end) - plot.end("velocity", edge.start)
     speed = plot.board.instrument.read(abs(slip)) * plot.scales.velocity
@@ -66,12 +66,12 @@ def _rigid_parts(plot: Plot, order: Order, edge: Edge) -> list[Part]:
         inward,
         inward * (speed**2 / arm_m / plot.scales.acceleration),
         Direction("towards", (edge.end.point, edge.start.point)),
-        f"ω_{{{edge.link}}}²·{name}",
+        RateTimes("omega", (edge.link,), name, square=True),
     )
     if rate is not None and rate.value == 0.0:
         return [normal]
     span = None if rate is None else square * (rate.value * arm_m / plot.scales.acceleration)
-    size = f"α_{{{edge.link}}}·{name}" if span is not None else ""
+    size = RateTimes("alpha", (edge.link,), name) if span is not None else None
     return [normal, Part(symbol_of(plot, "at", edge), "tangential", square, span, edge.direction, size)]
 
 
@@ -82,13 +82,13 @@ def _slide_parts(plot: Plot, order: Order, edge: Edge, slide: Slide) -> list[Par
     role: Literal["resultant", "relative"] = "resultant" if fixed else "relative"
     if order == "velocity":
         span = None if given is None else sense * (given / plot.scales.velocity)
-        return [Part(symbol_of(plot, "v", edge), role, sense, span, edge.direction, _given_size(slide, span))]
+        return [Part(symbol_of(plot, "v", edge), role, sense, span, edge.direction, _given_size(span))]
     span = None if given is None else sense * (given / plot.scales.acceleration)
     if slide.b in plot.still or slide.a in plot.still:
         # no rotation, no Coriolis: the sliding part is all there is
         symbol = symbol_of(plot, "a", edge) if fixed else symbol_of(plot, "ar", edge)
         return [
-            Part(symbol, "resultant" if fixed else "sliding", sense, span, edge.direction, _given_size(slide, span))
+            Part(symbol, "resultant" if fixed else "sliding", sense, span, edge.direction, _given_size(span))
         ]
     omega = plot.rates["velocity"][slide.b].value
     slip = plot.end("velocity", edge.end) - plot.end("velocity", edge.start)
@@ -100,9 +100,9 @@ def _slide_parts(plot: Plot, order: Order, edge: Edge, slide: Slide) -> list[Par
         1j * sense,
         1j * sense * size,
         Direction("turned", edge.direction.names),
-        f"2ω_{{{slide.b}}}·{symbol_of(plot, 'v', edge)}",
+        RateTimes("omega", (slide.b,), symbol_of(plot, "v", edge), twice=True),
     )
-    sliding = Part(symbol_of(plot, "ar", edge), "sliding", sense, span, edge.direction, _given_size(slide, span))
+    sliding = Part(symbol_of(plot, "ar", edge), "sliding", sense, span, edge.direction, _given_size(span))
     return [coriolis, sliding]
 
 
@@ -125,7 +125,7 @@ def _weld_parts(plot: Plot, order: Order, edge: Edge, weld: Weld) -> list[Part]:
     square = 1j * unit(arm)
     if order == "velocity":
         span = square * (omega * arm_m / plot.scales.velocity)
-        size = f"ω_{{{weld.b}{weld.a}}}·{hinge}{edge.end.point}"
+        size = RateTimes("omega", (weld.b, weld.a), (hinge, edge.end.point))
         return [Part(symbol_of(plot, "v", edge), "relative", square, span, edge.direction, size)]
     base = weld.a if edge.forward else weld.b
     turn = plot.rates["velocity"][base].value
@@ -138,26 +138,26 @@ def _weld_parts(plot: Plot, order: Order, edge: Edge, weld: Weld) -> list[Part]:
             inward,
             inward * (omega**2 * per),
             Direction("towards", (edge.end.point, hinge)),
-            "ω²r",
+            Formula("ω²r"),
         ),
-        Part(symbol_of(plot, "at", edge), "tangential", square, square * (alpha * per), edge.direction, "αr"),
+        Part(symbol_of(plot, "at", edge), "tangential", square, square * (alpha * per), edge.direction, Formula("αr")),
         Part(
             symbol_of(plot, "ak", edge),
             "coriolis",
             inward,
             inward * (2 * turn * omega * per),
             Direction("turned", edge.direction.names),
-            "2ωv",
+            Formula("2ωv"),
         ),
     ]
 
 
-def bar(edge: Edge) -> str:
-    return edge.start.point + edge.end.point
+def bar(edge: Edge) -> tuple[str, str]:
+    return edge.start.point, edge.end.point
 
 
-def _given_size(slide: Slide, span: complex | None) -> str:
-    return "" if span is None else "given"
+def _given_size(span: complex | None) -> Given | None:
+    return None if span is None else Given()
 
 
 def turn_sign(weld: Weld) -> int:

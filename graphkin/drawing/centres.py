@@ -90,7 +90,8 @@ def _free(
         return min(sides, radius - abs(z - middle), min((abs(z - w) - HALF for w in taken), default=9.0))
 
     places = [a + (b - a) * (0.1 + 0.01 * k) for k in range(81)]
-    best = max(places, key=lambda z: (min(room(z), 3.0), -abs(z - (a + b) / 2)))
+    # of two places that are alike the first: rounding, so that the last bit does not choose
+    best = max(places, key=lambda z: (round(min(room(z), 3.0), 6), -round(abs(z - (a + b) / 2), 6)))
     return best if room(best) > CLEAR else None
 
 
@@ -293,13 +294,15 @@ def _description(
 ) -> str:
     """Every centre in words, for those who do not see the figure."""
     said = []
-    per_mm = centres.sheet.scales.length / centres.links.scene.units.metres
+    scene = centres.links.scene
+    per_mm, least = centres.sheet.scales.length / scene.units.metres, 1e-12 * scene.size / scene.units.metres
     for each in languages(language):
         for centre in centres.found:
             name = letters.name(centre.pair).replace("_{", "").replace("}", "")
             if centre.point is not None:
                 z = centre.point * per_mm
-                place = f"({z.real:.4g}, {z.imag:.4g})"
+                place = ", ".join(f"{x if abs(x) > least else 0.0:.4g}" for x in (z.real, z.imag))
+                place = f"({place})"
             else:
                 place = "∞" if centre.direction is not None else "?"
             how = how_found(centre, letters, each, centres) if centre.number else centre.joint

@@ -13,7 +13,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Literal
 
-from graphkin.construction.sheet import DiagramName, Direction, Sheet
+from graphkin.construction.sheet import DiagramName, Sheet
+from graphkin.construction.steps import Direction, RateTimes, Size
 from graphkin.scene.model import Convention
 from graphkin.scene.symbol import PointRef, Symbol
 
@@ -131,11 +132,14 @@ class Letters:
         letter, rest = _parted(name)
         return f"{letter}_{{{rest}}}" if letter and rest else name
 
-    def size(self, rule: str) -> str:
-        """The rule that gives a size: ``ω_{1}^{2}·l_{AB}``."""
-        words = rule.replace("²", "^{2}")
-        words = re.sub(r"[va][nktr]?_[A-Z][\w@]*(?:/[A-Z][\w@]*)?", lambda m: self.vector(Symbol.parse(m[0])), words)
-        return re.sub(r"·([A-Z]\w*)$", lambda m: f" l_{{{m[1]}}}", words).replace("·", " ")
+    def size(self, rule: Size) -> str:
+        """The rule that gives a size: ``ω_{1}^{2} l_{AB}``."""
+        if not isinstance(rule, RateTimes):
+            return str(rule).replace("²", "^{2}")
+        letter = "ω" if rule.rate == "omega" else "α"
+        name = f"{'2' * rule.twice}{letter}_{{{''.join(rule.links)}}}{'^{2}' * rule.square}"
+        factor = rule.factor
+        return f"{name} {self.vector(factor) if isinstance(factor, Symbol) else f'l_{{{factor[0]}{factor[1]}}}'}"
 
 
 @lru_cache(maxsize=64)

@@ -200,13 +200,18 @@ def _arrays(boxes: Sequence[Box]) -> tuple[Any, Any]:
     return np.array([box.centre for box in boxes], dtype=complex), np.array(sizes, dtype=complex)
 
 
+def _sign(area: Any) -> Any:
+    """On which side a point lies: 0 where it is on the line but for rounding."""
+    return np.where(np.abs(area) < 1e-9, 0.0, np.sign(area))
+
+
 def _crossings(own: Any, others: Any) -> tuple[Any, Any]:
     """Which of some segments cross others, and at which share of their length."""
     p, d = own[:, None, 0], own[:, None, 1] - own[:, None, 0]
     q, e = others[None, :, 0], others[None, :, 1] - others[None, :, 0]
-    crossing = (cross_product(d, q - p) * cross_product(d, q + e - p) <= 0) & (
-        cross_product(e, p - q) * cross_product(e, p + d - q) <= 0
-    )
+    one = _sign(cross_product(d, q - p)) * _sign(cross_product(d, q + e - p))
+    other = _sign(cross_product(e, p - q)) * _sign(cross_product(e, p + d - q))
+    crossing = (one <= 0) & (other <= 0)
     which, what = np.nonzero(crossing)
     turn = cross_product(d[which, 0], e[0, what])
     with np.errstate(divide="ignore", invalid="ignore"):

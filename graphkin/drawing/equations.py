@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from graphkin.construction.sheet import Equation, Sheet, Term
+from graphkin.construction.steps import Given
 from graphkin.drawing import strokes
 from graphkin.drawing.conventions import Letters, rows_of
 from graphkin.drawing.headings import number, term
@@ -118,7 +119,7 @@ def _short(sheet: Sheet, equation: Equation, letters: Letters, size: float) -> s
     if vector is None:
         return None
     parts = [f"${letters.vector(side[0].symbol)}$" for side in equation.sides]
-    if only.size and only.size != "given":
+    if only.size and not isinstance(only.size, Given):
         parts.append(f"${letters.size(only.size)}$")
     unit = sheet.scene.units.length + ("/s" if equation.diagram == "velocity" else "/s²")
     value = abs(vector.span) * sheet.scales.of(equation.diagram) / sheet.scene.units.metres
@@ -148,7 +149,7 @@ def _cell(sheet: Sheet, one: Term, letters: Letters, size: float, rules: bool) -
     if rows == "underlines":
         lines = one.direction_known + one.size_known
         return _Cell(whole, direction=symbol(way, small) if one.direction else (), underlines=lines)
-    known = letters.size(one.size) if rules and one.size and one.size != "given" else "√"
+    known = letters.size(one.size) if rules and one.size and not isinstance(one.size, Given) else "√"
     return _Cell(whole, size=symbol(known if one.size_known else "?", small), direction=symbol(way, small))
 
 

@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import math
 
-from graphkin.construction.sheet import DiagramName, Direction, Sheet
+from graphkin.construction.sheet import DiagramName, Sheet
+from graphkin.construction.steps import Direction, ZeroVector
 from graphkin.drawing.conventions import Letters
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import PointRef, Symbol
@@ -182,7 +183,8 @@ def _sentences(sheet: Sheet, diagrams: tuple[DiagramName, ...], language: str) -
 def remarks(sheet: Sheet, language: str, letters: Letters | None = None) -> list[str]:
     """What is to be said of the drawing as a whole: badly conditioned crossings, a group that stopped it; with
     ``letters``, symbols stand between dollar signs as a convention writes them."""
-    notes = [n for n in (*sheet.notes, *((sheet.stopped,) if sheet.stopped else ())) if n.key != "zero vector"]
+    notes = list(dict.fromkeys(r.phrase for r in sheet.remarks if not isinstance(r, ZeroVector)))
+    notes += [sheet.stopped] if sheet.stopped else []
     if letters is None:
         return [_sentence(say(n, language, plain_symbol), language) for n in notes]
 

@@ -10,6 +10,7 @@ from cmath import phase
 from collections.abc import Sequence
 
 from graphkin.construction.sheet import DiagramName, Sheet, Vector
+from graphkin.construction.steps import RateTimes, Size
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
@@ -35,7 +36,7 @@ __all__ = [
     "strip_height",
 ]
 
-CoriolisTerm = tuple[Vector, Vector, str]
+CoriolisTerm = tuple[Vector, Vector, Size | None]
 REACH = 8.0  # mm of the arrows
 ZERO = 0.02  # mm
 
@@ -51,7 +52,7 @@ def coriolis_terms(sheet: Sheet) -> list[CoriolisTerm]:
         of, to = vector.symbol.of, vector.symbol.to
         for velocity in (velocities.get(Symbol("v", of, to)), velocities.get(Symbol("v", of))):
             if velocity is not None and abs(velocity.span) > ZERO:
-                found.append((vector, velocity, rules.get(vector.symbol, "")))
+                found.append((vector, velocity, rules.get(vector.symbol)))
                 break
     return found
 
@@ -74,7 +75,7 @@ def coriolis_inset(sheet: Sheet, term: CoriolisTerm, letters: Letters, box: Box)
     )
     frame = Polygon(box.corners, "", strokes.DIMENSION)
     id = vector.symbol.id
-    links = rule.split("ω_{")[1].split("}")[0] if "ω_{" in rule else ""
+    links = "".join(rule.links) if isinstance(rule, RateTimes) and rule.rate == "omega" else ""
     names = [
         Name(_label(letters.vector(velocity.symbol), f"label-inset-v-{id}", tips[0], phase(slip))),
         Name(_label(letters.vector(vector.symbol), f"label-inset-{id}", tips[1], phase(turned))),

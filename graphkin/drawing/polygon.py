@@ -13,6 +13,7 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 
 from graphkin.construction.sheet import Bar, DiagramName, Image, Ray, Sheet, Step, Vector
+from graphkin.construction.steps import Carried
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
@@ -85,9 +86,9 @@ def _bars(here: OnPage) -> Iterator[Piece]:
                 continue
             parts: list[Primitive] = [Line(*clipped, strokes.CONSTRUCTION)]
             names: list[Name] = []
-            if step.phrase.key == "carry":
+            if isinstance(step.act, Carried):
                 parts += _head(clipped, here.at(bar.b))
-                names += _carried(here, step.phrase.args[0], clipped)
+                names += _carried(here, step.act.symbol, clipped)
             yield Piece({"construction": (Group(tuple(parts), classes=("construction", _class(step))),)}, tuple(names))
 
 
@@ -99,8 +100,8 @@ def _head(line: Segment, tip: complex) -> Iterator[Primitive]:
         yield arrowhead(tip, line[1] - line[0], head, POINTER.head_width, strokes.BLACK)
 
 
-def _carried(here: OnPage, moved: object, line: Segment) -> Iterator[Name]:
-    if isinstance(moved, Symbol) and abs(line[1] - line[0]) > 4.0:
+def _carried(here: OnPage, moved: Symbol, line: Segment) -> Iterator[Name]:
+    if abs(line[1] - line[0]) > 4.0:
         markup = symbol(here.letters.vector(moved), 3.0)
         yield Name(Label(Text(0j, markup, "start", strokes.GREY, f"label-carried-{moved.id}", ("label",)), line), 4)
 
@@ -176,7 +177,7 @@ def _shared(here: OnPage) -> Iterator[tuple[float, list[Vector]]]:
     for _, vector in here.in_order():
         groups.setdefault((same_place(vector.tail), same_place(vector.tip)), []).append(vector)
     elsewhere = {v.symbol for detail in here.enlarged for v in detail.vectors}
-    for shared in sorted(groups.values(), key=lambda group: -abs(group[0].span)):
+    for shared in sorted(groups.values(), key=lambda group: -round(abs(group[0].span), 6)):
         if shared[0].symbol not in elsewhere:
             yield abs(shared[0].span), sorted(shared, key=lambda v: here.vectors[v.symbol][0])
 

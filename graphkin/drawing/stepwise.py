@@ -11,11 +11,11 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from graphkin.construction.sheet import DiagramName, Mark, Sheet, Step, Vector
+from graphkin.construction.steps import Carried, MeasuredRate
 from graphkin.drawing import strokes
 from graphkin.drawing.detail import details
 from graphkin.drawing.dimensions import LENGTHS
 from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Stroke, Text
-from graphkin.scene.symbol import Symbol
 
 __all__ = ["births", "so_far", "step_of", "stepped"]
 
@@ -46,7 +46,7 @@ def _mechanism(sheet: Sheet, steps: list[Step]) -> dict[str, int]:
     for step in steps:
         for mark in (s for s in step.strokes if isinstance(s, Mark)):
             born.setdefault(f"point-{mark.ref.point}", step.number)
-        for name in (n for arg in step.phrase.args for n in str(arg).split("/")):
+        for name in step.act.links:
             mentioned.setdefault(name, step.number)
     last = steps[-1].number
     for link in (sheet.scene.frame, *sheet.scene.links):
@@ -57,9 +57,8 @@ def _mechanism(sheet: Sheet, steps: list[Step]) -> dict[str, int]:
         born[f"driver-{driver.key.replace('/', '-')}"] = born.get(f"link-{driver.key.split('/')[0]}", last)
     born[LENGTHS] = last
     for step in sheet.steps:
-        kind = step.phrase.key.partition(" ")[0]
-        if kind in ("omega", "alpha"):
-            born[f"{kind}-{step.phrase.args[0]}"] = step.number
+        if isinstance(step.act, MeasuredRate):
+            born[f"{step.act.rate}-{step.act.link}"] = step.number
     return born
 
 
@@ -67,8 +66,8 @@ def _polygon(diagram: DiagramName, steps: list[Step]) -> dict[str, int]:
     born: dict[str, int] = {}
     for step in steps:
         born[f"direction-{step.number:02d}"] = step.number
-        if step.phrase.key == "carry" and isinstance(step.phrase.args[0], Symbol):
-            born[f"carried-{step.phrase.args[0].id}"] = step.number
+        if isinstance(step.act, Carried):
+            born[f"carried-{step.act.symbol.id}"] = step.number
         for stroke in step.strokes:
             if isinstance(stroke, Mark):
                 born.setdefault(f"{diagram}-{stroke.ref}".replace("@", ""), step.number)

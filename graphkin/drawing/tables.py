@@ -173,13 +173,13 @@ def _texts(sheet: Sheet, row: _Row, letters: Letters, size: float) -> list[tuple
         exact = abs(compared.exact) if reading.symbol.is_vector else float(compared.exact.real)
         scale = max(abs(exact), abs(value))
         texts.append(rich(number(exact / per, 5), size))
-        texts.append(rich(_difference(compared.error / scale if scale else 0.0), size))
+        texts.append(rich(_difference(compared.error / scale) if scale else "0", size))
     return texts
 
 
 def _difference(share: float) -> str:
     if share < 1e-12:
-        return "< $10^{−12}$" if share else "0"
+        return "< $10^{−12}$"
     if share < 1e-4:
         return f"{share:.0e}".replace("e-0", "e-").replace("e-", " · $10^{−") + "}$"
     return f"{100 * share:.2g} %"

@@ -14,7 +14,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from graphkin.checking import Compared, Report, Uncertainty
-from graphkin.construction.sheet import DiagramName, Direction, Equation, Ray, Sheet, Step, Vector
+from graphkin.construction.sheet import DiagramName, Equation, Ray, Sheet, Step, Vector
+from graphkin.construction.steps import Direction, DirectionLine, Given, LaidOff, MeasuredRate, RateTimes, Size
 from graphkin.drawing.conventions import Letters, letters_of, pole
 from graphkin.drawing.headings import number
 from graphkin.drawing.text import Atom, parsed
@@ -165,18 +166,19 @@ class Speaker:
 
     def _from_its_start(self, step: Step) -> Phrase:
         ray = next((s for s in step.strokes if isinstance(s, Ray)), None)
-        if step.phrase.key != "direction" or ray is None:
+        act = step.act
+        if not isinstance(act, DirectionLine) or ray is None:
             return step.phrase
         if abs(ray.through) < SAME:
             mark = _Markup(pole(self.letters.convention, step.diagram))
-            return Phrase("direction from pole", (*step.phrase.args, mark))
+            return Phrase("direction from pole", (act.symbol, act.direction, mark))
         before = [
             stroke.symbol
             for one in self.sheet.steps[: self.sheet.steps.index(step)]
             for stroke in one.strokes
             if one.diagram == step.diagram and isinstance(stroke, Vector) and abs(stroke.tip - ray.through) < SAME
         ]
-        return Phrase("direction from end", (*step.phrase.args, before[-1])) if before else step.phrase
+        return Phrase("direction from end", (act.symbol, act.direction, before[-1])) if before else step.phrase
 
     def _show(self, thing: object, language: str) -> str:
         if isinstance(thing, _Markup):
@@ -187,11 +189,11 @@ class Speaker:
             return self._marked(self.point(thing))
         if isinstance(thing, Direction):
             return self._marked(self.letters.direction(thing, self.sheet.scene.frame.name))
-        text = str(thing)
-        if text == "given":
+        if isinstance(thing, Given):
             return word("given", language).lower()
-        if "·" in text and "_" in text:
-            return self._marked(self.letters.size(text))
+        if isinstance(thing, RateTimes):
+            return self._marked(self.letters.size(thing))
+        text = str(thing)
         names = text.split(", ")
         if all(map(_POINT_NAMES.fullmatch, names)):
             return ", ".join(self._marked(self.bar(name)) for name in names)
@@ -216,36 +218,33 @@ class Speaker:
 
     def work(self, step: Step) -> tuple[str, ...]:
         """What is computed in a step, as lines of symbols and numbers."""
-        key, args = step.phrase.key, step.phrase.args
-        if key.startswith(("omega ", "alpha ")):
-            return self._rate(step)
-        if key.startswith("lay off") and isinstance(args[0], Symbol):
-            return self._laid_off(step, args[0], str(args[1]))
+        if isinstance(step.act, MeasuredRate):
+            return self._rate(step, step.act)
+        if isinstance(step.act, LaidOff) and not step.act.is_zero:
+            return self._laid_off(step, step.act)
         return tuple(line for s in step.strokes if isinstance(s, Vector) for line in self._measured(step.diagram, s))
 
-    def _rate(self, step: Step) -> tuple[str, ...]:
-        link, symbol = str(step.phrase.args[0]), step.phrase.args[1]
-        omega = step.phrase.key.startswith("omega")
-        rate = (self.sheet.omega if omega else self.sheet.alpha)[link]
-        assert isinstance(symbol, Symbol)
+    def _rate(self, step: Step, act: MeasuredRate) -> tuple[str, ...]:
+        omega = act.rate == "omega"
+        rate = (self.sheet.omega if omega else self.sheet.alpha)[act.link]
         per = self._per(step.diagram)
         arm = rate.arm_mm * self.sheet.scales.length / self.sheet.scene.units.metres
         unit = "rad/s" if omega else "rad/s²"
-        name = f"{'ω' if omega else 'α'}_{{{link}}}"
+        name = f"{'ω' if omega else 'α'}_{{{act.link}}}"
         return (
             f"${name}$ = {number(rate.mm * per, 5)} {self._unit(step.diagram)} / "
             f"{number(arm, 5)} {self.unit} = {number(abs(rate.value), 4)} {unit}",
         )
 
-    def _laid_off(self, step: Step, symbol: Symbol, rule: str) -> tuple[str, ...]:
+    def _laid_off(self, step: Step, act: LaidOff) -> tuple[str, ...]:
         vector = next(s for s in step.strokes if isinstance(s, Vector))
         per = self._per(step.diagram)
         value = number(abs(vector.span) * per, 5)
-        numbers = self._substituted(rule)
+        numbers = self._substituted(act.size)
         middle = f" = {numbers}" if numbers else ""
         unit = self._unit(step.diagram)
         return (
-            f"${self.letters.vector(symbol)}${middle} = {value} {unit}",
+            f"${self.letters.vector(act.symbol)}${middle} = {value} {unit}",
             f"{value} {unit} ÷ {self._scale(step.diagram)} = {abs(vector.span):.2f} mm",
         )
 
@@ -259,27 +258,23 @@ class Speaker:
             f"{value} {self._unit(diagram)}"
         )
 
-    def _substituted(self, rule: str) -> str:
+    def _substituted(self, rule: Size | None) -> str:
         """A rule of a size with numbers in place of its symbols: ``2 × 2.819 × 575.4`` for 2ω v."""
-        head, _, tail = rule.partition("·")
-        match = re.fullmatch(r"(2?)([ωα])_\{(.*)\}(²?)", head)
-        factor = (self._speed(tail) if "_" in tail else self._length(tail)) if tail else None
-        if match is None or factor is None:
+        if not isinstance(rule, RateTimes) or len(rule.links) > 1:
             return ""
-        rates = self.sheet.omega if match[2] == "ω" else self.sheet.alpha
-        rate = number(abs(rates[match[3]].value), 5) + ("²" if match[4] else "")
-        return " × ".join(filter(None, (match[1], rate, factor)))
+        factor = self._speed(rule.factor) if isinstance(rule.factor, Symbol) else self._length(*rule.factor)
+        if factor is None:
+            return ""
+        rates = self.sheet.omega if rule.rate == "omega" else self.sheet.alpha
+        rate = number(abs(rates[rule.links[0]].value), 5) + "²" * rule.square
+        return " × ".join(("2",) * rule.twice + (rate, factor))
 
-    def _length(self, names: str) -> str | None:
-        places = {ref.point: z for ref, z in self.sheet.points.items() if not ref.link}
-        for i in range(1, len(names)):
-            if names[:i] in places and names[i:] in places:
-                arm = abs(places[names[:i]] - places[names[i:]])
-                return number(arm * self.sheet.scales.length / self.sheet.scene.units.metres, 5)
-        return None
+    def _length(self, one: str, other: str) -> str:
+        arm = abs(self.sheet.points[PointRef(one)] - self.sheet.points[PointRef(other)])
+        return number(arm * self.sheet.scales.length / self.sheet.scene.units.metres, 5)
 
-    def _speed(self, name: str) -> str | None:
-        vector = self.sheet.vectors("velocity").get(Symbol.parse(name))
+    def _speed(self, symbol: Symbol) -> str | None:
+        vector = self.sheet.vectors("velocity").get(symbol)
         return None if vector is None else number(abs(vector.span) * self._per("velocity"), 5)
 
     def _per(self, diagram: DiagramName) -> float:

@@ -93,7 +93,7 @@ def paper_plan(scene: Scene, values: Mapping[str, float] | None, asked: Sequence
     paper, wishes = paper_of(scene), scene.sheet
     own = plan(scene, values, asked)
     if paper != A4:
-        filled = plan(scene, values, asked, paper.filled).scales
+        filled = own.scales_for(paper.filled)
         own = replace(
             own,
             scales=Scales(
@@ -109,7 +109,7 @@ def paper_plan(scene: Scene, values: Mapping[str, float] | None, asked: Sequence
     fits = [box.width <= room[0] and box.height <= room[1] for box, room in zip(boxes, rooms, strict=True)]
     if all(fits):
         return own
-    roomed = plan(scene, values, asked, most).scales
+    roomed = own.scales_for(most)
     pairs = zip(
         fits,
         (own.scales.length, own.scales.velocity, own.scales.acceleration),

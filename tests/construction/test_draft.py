@@ -9,6 +9,7 @@ import pytest
 
 from graphkin.construction import draft
 from graphkin.construction.sheet import Arc, Ray
+from graphkin.construction.steps import Found, OffTheSheet, ZeroVector
 from graphkin.errors import Unsolvable
 from graphkin.plane import cross, dot
 from graphkin.scene import library, read
@@ -87,7 +88,7 @@ def test_a_position_is_found_with_compass_arcs_of_the_given_lengths():
 def test_a_direction_line_is_drawn_before_the_vector_on_it():
     steps = draft(read(SIXBAR)).steps
     ray = next(s.number for s in steps for x in s.strokes if isinstance(x, Ray) and str(x.symbol) == "v_B@3")
-    vector = next(s.number for s in steps if s.phrase.key == "found" and str(s.phrase.args[0]) == "v_B@3")
+    vector = next(s.number for s in steps if isinstance(s.act, Found) and str(s.act.symbol) == "v_B@3")
     assert ray < vector
 
 
@@ -114,7 +115,7 @@ def test_a_zero_velocity_is_said_not_drawn_askew():
     scene = read("slider-crank-offset")
     still = replace(scene, drivers=(replace(scene.drivers[0], omega=0.0, alpha=0.0),))
     sheet = draft(still)
-    assert any(note.key == "zero vector" for note in sheet.notes)
+    assert any(isinstance(r, ZeroVector) for r in sheet.remarks)
     assert all(abs(end) < 1e-9 for end in sheet.ends["velocity"].values())
 
 
@@ -122,7 +123,7 @@ def test_lines_that_meet_far_away_are_crossed_all_the_same_and_it_is_said():
     scene = read("slider-crank-s50-e16-K1.2")
     near = replace(scene, sheet=replace(scene.sheet, velocity_scale=0.05))
     sheet = draft(near)
-    assert any(note.key == "off the sheet" for note in sheet.notes)
+    assert any(isinstance(r, OffTheSheet) for r in sheet.remarks)
     v_c = sheet.ends["velocity"][PointRef("C")] * sheet.scales.velocity
     whole = draft(scene)
     assert whole.ends["velocity"][PointRef("C")] * whole.scales.velocity == pytest.approx(v_c, rel=1e-12)

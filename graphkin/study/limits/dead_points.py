@@ -17,6 +17,7 @@ import numpy as np
 from graphkin import solver
 from graphkin.checking import predict
 from graphkin.construction import EXACT, execute, plan
+from graphkin.construction.steps import SharpCrossing
 from graphkin.errors import Unsolvable
 from graphkin.scene.model import AngleDriver, FromDeadPoint
 from graphkin.scene.symbol import Symbol
@@ -186,7 +187,7 @@ def _drawn(case: Case, mp: Any, x: Sequence[float], truth: Sequence[_Exactly]) -
             told, stops = told or e, stops or e
             error.append(math.nan)
             continue
-        if any(note.key == "sharp crossing" for note in sheet.notes):
+        if any(isinstance(r, SharpCrossing) for r in sheet.remarks):
             told = told or e
         error.append(float(abs(sheet.omega[case.follower].value / right.omega - 1)))
     return Law("velocity exact drawing", tuple(x), tuple(error), -1.0, told, stops, window=(1e-12, 1e-2))
@@ -202,7 +203,7 @@ def _pencil(case: Case, mp: Any) -> Law:
     for e in x:
         what = plan(case.at(float(case.dead(mp) + case.side * mp.mpf(e))))
         size = abs(execute(what, EXACT).omega[case.follower].value)
-        if any(note.key == "sharp crossing" for note in execute(what, EXACT).notes):
+        if any(isinstance(r, SharpCrossing) for r in execute(what, EXACT).remarks):
             told = told or e
         part = predict(what, "pencil", case.scene.sheet.tools)[symbol].deviation / size
         if not math.isfinite(part):

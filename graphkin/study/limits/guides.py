@@ -10,6 +10,7 @@ from typing import Any
 from graphkin import solver
 from graphkin.checking import predict
 from graphkin.construction import EXACT, execute, plan
+from graphkin.construction.steps import ShortArm
 from graphkin.errors import Unsolvable
 from graphkin.scene import read_text
 from graphkin.scene.model import AngleDriver, Scene
@@ -173,7 +174,7 @@ def _drawn(scene: Scene) -> float:
 def _told(scene: Scene) -> bool:
     """Whether the drawing warns of the short arm."""
     try:
-        return any(note.key == "short arm" for note in execute(plan(scene), EXACT).notes)
+        return any(isinstance(r, ShortArm) for r in execute(plan(scene), EXACT).remarks)
     except Unsolvable:
         return True
 
