@@ -59,8 +59,21 @@ if TYPE_CHECKING:
     from graphkin.api.solved import Solved, solve
     from graphkin.api.studied import SpeedAccuracy, Stability, speed_accuracy, stability
     from graphkin.api.swept import Swept, sweep
-    from graphkin.scene import read
-    from graphkin.scene.model import Scene
+    from graphkin.scene.source import read
+    from graphkin.scene.tables import (
+        Compass,
+        DrivenSlide,
+        Driver,
+        Frame,
+        Guide,
+        Link,
+        Pin,
+        Polar,
+        SheetWishes,
+        Tools,
+        Units,
+    )
+    from graphkin.scene.written import Scene
 
 __all__ = [
     "Audited",
@@ -68,20 +81,31 @@ __all__ = [
     "Centred",
     "Centroded",
     "Checked",
+    "Compass",
     "Drawn",
+    "DrivenSlide",
+    "Driver",
+    "Frame",
     "GraphkinError",
+    "Guide",
     "Handout",
+    "Link",
     "Listed",
+    "Pin",
+    "Polar",
     "Prepared",
     "PreparedDesigns",
     "ProblemSet",
     "Samples",
     "Scene",
     "SceneError",
+    "SheetWishes",
     "Solved",
     "SpeedAccuracy",
     "Stability",
     "Swept",
+    "Tools",
+    "Units",
     "Unsolvable",
     "__version__",
     "audit",
@@ -113,8 +137,9 @@ _PLACES = {
     "api.solved": "Solved solve",
     "api.studied": "SpeedAccuracy Stability speed_accuracy stability",
     "api.swept": "Swept sweep",
-    "scene": "read",
-    "scene.model": "Scene",
+    "scene.source": "read",
+    "scene.tables": "Compass DrivenSlide Driver Frame Guide Link Pin Polar SheetWishes Tools Units",
+    "scene.written": "Scene",
 }
 
 

@@ -7,19 +7,17 @@ folder for the files of the result.
 from __future__ import annotations
 
 import math
-import os
-import tomllib
 from collections.abc import Iterable, Mapping, Sequence
 from numbers import Real
 from pathlib import Path
-from typing import Any, get_args
+from typing import get_args
 
 from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.jobs import whole_file
-from graphkin.scene import library, library_text, read
-from graphkin.scene.model import AngleDriver, Convention, Driver, Scene
+from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
+from graphkin.scene.source import SceneLike, mechanism_of
 from graphkin.scene.symbol import Symbol
-from graphkin.scene.writing import as_mapping
+from graphkin.scene.tables import Convention
 from graphkin.words import BOTH, LANGUAGES
 
 __all__ = [
@@ -33,7 +31,6 @@ __all__ = [
     "driver_values",
     "for_paper",
     "known_words",
-    "mapping_of",
     "own_unit",
     "write_files",
 ]
@@ -79,15 +76,14 @@ def known_words(
         raise CallError(*wrong)
 
 
-SceneLike = Scene | str | os.PathLike[str] | Mapping[str, Any]
 At = float | Mapping[str, float] | None
 MOST_DRAWN = 20
 
 
-def as_scene(scene: SceneLike) -> Scene:
+def as_scene(scene: SceneLike) -> Mechanism:
     """A scene from a file, a name of one that comes along, a mapping, or a scene itself; a value of its driver that is
     given from a dead point is found."""
-    given = scene if isinstance(scene, Scene) else read(scene)
+    given = mechanism_of(scene)
     if any(d.dead_point and not d.dead_point.exact for d in given.drivers):
         from graphkin.solver import structure_of
 
@@ -95,18 +91,7 @@ def as_scene(scene: SceneLike) -> Scene:
     return given
 
 
-def mapping_of(scene: SceneLike) -> Mapping[str, Any]:
-    """The tables and keys of a scene's file; of a scene that is read already those that would read as it."""
-    if isinstance(scene, Mapping):
-        return scene
-    if isinstance(scene, Scene):
-        return as_mapping(scene)
-    as_scene(scene)  # every problem of the file
-    text = library_text(str(scene)) if str(scene) in library() and not Path(scene).is_file() else None
-    return tomllib.loads(text if text is not None else Path(scene).read_text(encoding="utf-8-sig"))
-
-
-def for_paper(scene: SceneLike) -> Scene:
+def for_paper(scene: SceneLike) -> Mechanism:
     """The same, if it is small enough to be read on paper.  Raises CallError for more than 20 moving links."""
     given = as_scene(scene)
     if len(given.links) > MOST_DRAWN:
@@ -115,8 +100,8 @@ def for_paper(scene: SceneLike) -> Scene:
     return given
 
 
-def driver_values(scene: Scene, at: At) -> dict[str, float] | None:
-    """Driver values in SI from values in each driver's own unit (degrees, or travel in the scene's unit).
+def driver_values(scene: Mechanism, at: At) -> dict[str, float] | None:
+    """AnyDriver values in SI from values in each driver's own unit (degrees, or travel in the scene's unit).
 
     A bare number moves the first driver; a mapping names the drivers by link or by slide.
 
@@ -138,21 +123,21 @@ def driver_values(scene: Scene, at: At) -> dict[str, float] | None:
     return values
 
 
-def _driver(scene: Scene, name: str) -> Driver:
+def _driver(scene: Mechanism, name: str) -> AnyDriver:
     for driver in scene.drivers:
         if name == driver.key or name == driver.key.split("/")[0]:
             return driver
     raise CallError(Problem(f"at {name}", "no driver of that name", did_you_mean(name, [d.key for d in scene.drivers])))
 
 
-def own_unit(scene: Scene, driver: Driver, value: float) -> str:
+def own_unit(scene: Mechanism, driver: AnyDriver, value: float) -> str:
     """A driver value with its unit, as people write it."""
     if isinstance(driver, AngleDriver):
         return f"{math.degrees(value):.6g}°"
     return f"{value / scene.units.metres:.6g} {scene.units.length}"
 
 
-def asked_symbols(scene: Scene, find: Iterable[str | Symbol] | None) -> tuple[Symbol, ...]:
+def asked_symbols(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tuple[Symbol, ...]:
     """The symbols asked for: the given ones (or one alone), or the scene's own.
 
     Raises
@@ -175,7 +160,7 @@ def asked_symbols(scene: Scene, find: Iterable[str | Symbol] | None) -> tuple[Sy
     return tuple(found)
 
 
-def _unknown_names(scene: Scene, symbol: Symbol) -> list[Problem]:
+def _unknown_names(scene: Mechanism, symbol: Symbol) -> list[Problem]:
     links = [link.name for link in scene.links]
     problems = []
     for link in [symbol.link, *(r.link for r in (symbol.of, symbol.to) if r)]:

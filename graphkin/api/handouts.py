@@ -29,8 +29,8 @@ from graphkin.papers.pictures import paper_plan
 from graphkin.papers.prepare import FORMATS, Papers, handout_files, lesson_of, usual_count, views_of
 from graphkin.papers.solution import KeyRow, key_rows
 from graphkin.scene.model import Scene
-from graphkin.scene.source import safe_name
 from graphkin.scene.symbol import Symbol
+from graphkin.scene.written import safe_name
 from graphkin.words import Phrase
 
 __all__ = ["Handout", "handout", "papers_of"]

@@ -13,9 +13,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from graphkin.api.arguments import SceneLike, as_scene, mapping_of
+from graphkin.api.arguments import SceneLike, as_scene
 from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.scene.model import AngleDriver, Scene
+from graphkin.scene.source import written
 from graphkin.scene.symbol import Symbol
 
 if TYPE_CHECKING:
@@ -209,7 +210,7 @@ class Prepared:
             raise CallError(Problem("designs", "are no numbers for each key", wanted))
         keys = tuple(designs)
         if keys not in self._keys:
-            self._keys[keys] = design_keys(mapping_of(self.source), self.scene, keys)
+            self._keys[keys] = design_keys(written(self.source)[0], self.scene, keys)
         given = {key: np.atleast_1d(own) for key, own in zip(keys, values, strict=True)}
         numbers = self._keys[keys].numbers(given)
         return PreparedDesigns(self, given, not values[0].ndim, Designs(self.ready, numbers))

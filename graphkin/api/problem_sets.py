@@ -6,7 +6,6 @@ import csv
 import io
 import os
 import re
-import tomllib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
@@ -20,11 +19,10 @@ from graphkin.jobs import Progress, Workers
 from graphkin.papers.data_rows import Columns, columns_of, replaced
 from graphkin.papers.problem_set import Job, MadeSet, Render, jobs_of_rows, jobs_of_seed, make
 from graphkin.papers.variants import Range, Variant, asked_of, varied_keys
-from graphkin.scene import library, library_text
-from graphkin.scene.model import Scene
-from graphkin.scene.source import safe_name
+from graphkin.scene.model import Mechanism
+from graphkin.scene.source import written
 from graphkin.scene.symbol import Symbol
-from graphkin.scene.writing import as_mapping, toml_text
+from graphkin.scene.written import as_mapping, safe_name, toml_text
 from graphkin.study.designs import applied
 
 __all__ = ["ProblemSet", "problem_set"]
@@ -36,7 +34,7 @@ MOST = 100_000
 class ProblemSet:
     """A set of problems: what became of each variant, the table of all answers, and the files written."""
 
-    scene: Scene
+    scene: Mechanism
     made: MadeSet
     unused: tuple[str, ...] = ()
     folder: Path | None = None
@@ -161,15 +159,11 @@ def half_written(folder: Path, stem: str) -> list[Path]:
 def _source(scene: SceneLike) -> tuple[dict[str, Any], str]:
     """The mapping of a scene file, as it was written where that is possible, and the scene's name."""
     read = as_scene(scene)
-    if isinstance(scene, Scene) or read.drawn:
+    if isinstance(scene, Mechanism) or read.drawn:
         # drawn points tie every number to the position: lengths stand on their own
         return as_mapping(read), read.name
-    if isinstance(scene, Mapping):
-        return dict(scene), read.name
-    text = os.fspath(scene)
-    if text in library() and not os.path.isfile(text):
-        return tomllib.loads(library_text(text)), read.name
-    return tomllib.loads(Path(text).read_text(encoding="utf-8-sig")), read.name
+    source, name = written(scene)
+    return dict(source), safe_name(name)
 
 
 def _jobs(

@@ -22,12 +22,11 @@ from graphkin.api.arguments import (
     asked_symbols,
     driver_values,
     known_words,
-    mapping_of,
     write_files,
 )
 from graphkin.errors import CallError, Problem
 from graphkin.jobs import Progress, Workers, cluster
-from graphkin.scene.model import Scene
+from graphkin.scene.source import written
 from graphkin.scene.symbol import Symbol
 from graphkin.table import Table, have
 
@@ -211,7 +210,7 @@ def sweep(
 
     Parameters
     ----------
-    scene, at, find : as for `check`; over designs a file, a name or a mapping
+    scene, at, find : as for `check`
     out : folder for table.csv (and table.parquet where pyarrow is installed), designs.csv and the figures; an
         interrupted sweep into the same folder goes on where it stopped
     positions : rows of the table, over a turn from the scene's own value on, or over the range of a driven slide
@@ -244,18 +243,14 @@ def sweep(
     known_words(formats, language)
     _checked_call(positions, workers, executor, scheduler)
     made = designs_of(designs, designs_file)
-    source = _mapping(scene) if made.keys else as_scene(scene)
+    source, name = written(scene) if made.keys else (as_scene(scene), "")
     given = as_scene(source)
-    if made.keys and isinstance(scene, str | os.PathLike):
-        name = given.name if isinstance(scene, Mapping) else Path(scene).stem
-    else:
-        name = given.name
-    if made.keys and isinstance(source, Mapping) and len(made):
+    if isinstance(source, Mapping) and len(made):
         from graphkin.study.designs import applied
 
         applied(source, made.keys, made[0])  # keys that the scene does not have
     start = driver_values(given, at) or {}
-    over = Sweep(source, name, made, positions, asked_symbols(given, find), tuple(sorted(start.items())))
+    over = Sweep(source, name or given.name, made, positions, asked_symbols(given, find), tuple(sorted(start.items())))
     spoken = language or given.sheet.language
     if out is None:
         numbers = over.rows * len(over.head.columns)
@@ -293,10 +288,3 @@ def _checked_call(
         problems.append(Problem("executor", "is given beside a scheduler", "give one of them"))
     if problems:
         raise CallError(*problems)
-
-
-def _mapping(scene: SceneLike) -> Mapping[str, Any]:
-    """The tables and keys of a scene's file."""
-    if isinstance(scene, Scene):
-        raise CallError(Problem("designs", "of a scene that is read already", "give its file, its name or a mapping"))
-    return mapping_of(scene)

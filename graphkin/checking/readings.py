@@ -22,8 +22,8 @@ from graphkin.construction.board import EXACT, Instrument
 from graphkin.construction.sheet import DiagramName, Sheet, Vector
 from graphkin.construction.steps import Cause, ReadOff
 from graphkin.errors import Unsolvable
-from graphkin.scene.model import Tools
 from graphkin.scene.symbol import Symbol
+from graphkin.scene.tables import Tools
 from graphkin.words import Phrase
 
 __all__ = ["COVERAGE", "Advice", "Reading", "Uncertainty", "advise", "predict", "read_off"]

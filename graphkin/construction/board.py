@@ -19,7 +19,7 @@ from graphkin.construction.sheet import EXACT_NAME, DiagramName, Equation, Step,
 from graphkin.construction.steps import Act, Cause, OffTheSheet, Remark, SharpCrossing
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, cross_lines
-from graphkin.scene.model import Tools
+from graphkin.scene.tables import Tools
 
 __all__ = ["EXACT", "Board", "Cad", "Exact", "Hand", "Instrument", "nudged", "pencil"]
 

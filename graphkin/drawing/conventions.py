@@ -15,8 +15,8 @@ from typing import Literal
 
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.construction.steps import Direction, RateTimes, Size
-from graphkin.scene.model import Convention
 from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.scene.tables import Convention
 
 __all__ = ["Letters", "letters_of", "pole", "rows_of", "scale_statement"]
 

@@ -30,13 +30,15 @@ from __future__ import annotations
 
 from typing import Any
 
-from graphkin.scene.source import library, library_text, read, read_text
+from graphkin.scene.source import library, library_text
+from graphkin.scene.source import mechanism_of as read
+from graphkin.scene.source import mechanism_of_text as read_text
 
 __all__ = ["library", "library_text", "read", "read_text", "schema"]
 
 
 def schema() -> dict[str, Any]:
     """The JSON schema of a scene file, for editors that complete and check TOML."""
-    from graphkin.scene.file import schema as of_file
+    from graphkin.scene.form import schema as of_file
 
     return of_file()

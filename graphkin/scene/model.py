@@ -9,39 +9,25 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Literal
 
 from graphkin.scene.symbol import Symbol
+from graphkin.scene.tables import SheetWishes, Units
 
 __all__ = [
     "AngleDriver",
-    "Convention",
-    "Driver",
+    "AnyDriver",
     "FromDeadPoint",
-    "Guide",
-    "Link",
+    "Mechanism",
     "PinInSlot",
-    "Scene",
-    "SheetWishes",
+    "PlacedGuide",
+    "PlacedLink",
     "SlideDriver",
     "SlidingPair",
-    "Tools",
-    "Units",
 ]
 
-Convention = Literal["chinese", "us", "british", "russian"]
-
 
 @dataclass(frozen=True)
-class Units:
-    """The scene's length unit; ``metres`` is one of it in m."""
-
-    length: str = "mm"
-    metres: float = 1e-3
-
-
-@dataclass(frozen=True)
-class Guide:
+class PlacedGuide:
     """A straight guide of a link, in that link's own axes.
 
     ``name`` is "" for the link's own x axis.  ``through`` (m) is the guide's origin, from which travel
@@ -54,7 +40,7 @@ class Guide:
 
 
 @dataclass(frozen=True)
-class Link:
+class PlacedLink:
     """A rigid link with everything placed in its own axes (for the frame: world axes).
 
     ``points`` maps names to places (m), the own points first, in the order of the file.
@@ -65,7 +51,7 @@ class Link:
     name: str
     points: Mapping[str, complex]
     bar: tuple[str, ...]
-    guides: Mapping[str, Guide]
+    guides: Mapping[str, PlacedGuide]
     redundant: bool = False
 
     @property
@@ -159,84 +145,40 @@ class SlideDriver:
         return self.travel, self.velocity, self.acceleration
 
 
-Driver = AngleDriver | SlideDriver
+AnyDriver = AngleDriver | SlideDriver
 
 
 @dataclass(frozen=True)
-class Tools:
-    """What the tools of a pencil drawing can do.
-
-    ``line_width`` (mm): a point is pricked within half of it (one standard deviation, each way); ``ruler`` (mm):
-    the step to which a length is read or laid off (0.5, or 0.1 interpolated); ``compass`` (mm): standard deviation
-    of a radius; ``set_square`` (degrees): standard deviation of a direction set; ``protractor`` (degrees): the step to
-    which an angle is read or laid off.
-    """
-
-    line_width: float = 0.2
-    ruler: float = 0.1
-    compass: float = 0.1
-    set_square: float = 0.1
-    protractor: float = 0.5
-
-
-PAPERS = {
-    "A5": (148.0, 210.0), "A4": (210.0, 297.0), "A3": (297.0, 420.0), "A2": (420.0, 594.0), "A1": (594.0, 841.0),
-    "A0": (841.0, 1189.0),
-}  # fmt: skip
-
-
-@dataclass(frozen=True)
-class SheetWishes:
-    """What the scene asks of the sheet.  Scales as in the file: mm of mechanism per mm of paper,
-    (length unit/s)/mm, (length unit/s2)/mm; None where graphkin is to choose."""
-
-    paper: str = "A4"
-    orientation: Literal["portrait", "landscape"] = "portrait"
-    length_scale: float | None = None
-    velocity_scale: float | None = None
-    acceleration_scale: float | None = None
-    convention: Convention = "chinese"
-    language: str = "en"
-    tools: Tools = Tools()
-
-    @property
-    def size(self) -> tuple[float, float]:
-        """Width and height of the paper (mm, ISO 216)."""
-        short, long = PAPERS[self.paper]
-        return (long, short) if self.orientation == "landscape" else (short, long)
-
-
-@dataclass(frozen=True)
-class Scene:
+class Mechanism:
     """A mechanism at one position, with what is asked of it.
 
-    ``links`` are the moving links in the order of the file (redundant ones included, see ``Link.redundant``);
+    ``links`` are the moving links in the order of the file (redundant ones included, see ``PlacedLink.redundant``);
     ``sketch`` and ``drawn`` give places of points in world axes (m); ``printed`` maps symbols to values in SI
     (a float, or a complex number for a vector given by two components).
     """
 
     name: str
     title: str
-    frame: Link
-    links: tuple[Link, ...]
+    frame: PlacedLink
+    links: tuple[PlacedLink, ...]
     slidings: tuple[SlidingPair, ...]
     pins: tuple[PinInSlot, ...]
-    drivers: tuple[Driver, ...]
-    units: Units = Units()
+    drivers: tuple[AnyDriver, ...]
+    units: Units = field(default_factory=Units)
     title_zh: str = ""
     source: str = ""
     sketch: Mapping[str, complex] = field(default_factory=dict)
     drawn: Mapping[str, complex] = field(default_factory=dict)
     find: tuple[Symbol, ...] = ()
     printed: Mapping[Symbol, float | complex] = field(default_factory=dict)
-    sheet: SheetWishes = SheetWishes()
+    sheet: SheetWishes = field(default_factory=SheetWishes)
 
     def title_in(self, language: str) -> str:
         """The title in a language: the Chinese one where there is one, else the one there is."""
         return self.title_zh if language == "zh" and self.title_zh else self.title
 
     @cached_property
-    def by_name(self) -> Mapping[str, Link]:
+    def by_name(self) -> Mapping[str, PlacedLink]:
         """Every link by its name, the frame included."""
         return {link.name: link for link in (self.frame, *self.links)}
 
@@ -264,3 +206,10 @@ class Scene:
         spans += [abs(z - w) for z in self.drawn.values() for w in fixed]
         spans += [abs(d.travel) for d in self.drivers if isinstance(d, SlideDriver)]
         return max(spans, default=0.0) or self.units.metres
+
+
+# names of before, until the last reader has changed
+Scene = Mechanism
+Link = PlacedLink
+Guide = PlacedGuide
+Driver = AnyDriver

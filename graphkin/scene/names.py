@@ -6,10 +6,29 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from graphkin.errors import Problem, did_you_mean
-from graphkin.scene.file import SceneFile
-from graphkin.scene.reading import Flaws
+from graphkin.scene.tables import SceneTables
 
-__all__ = ["Names"]
+__all__ = ["Flaws", "Names", "Path"]
+
+Path = tuple[str | int, ...]
+"""A place in a file: keys, and numbers of items of lists."""
+
+
+@dataclass(frozen=True)
+class Flaws:
+    """The paths of the entries that were reported and taken out of the file."""
+
+    paths: frozenset[Path] = frozenset()
+
+    def under(self, *prefix: str) -> bool:
+        """True where something at or under this path, or a table that holds it, was taken out."""
+        n = len(prefix)
+        return any(p[:n] == prefix or p == prefix[: len(p)] for p in self.paths)
+
+    def names(self, *table: str) -> set[str]:
+        """The names of the entries of a table that were taken out as a whole."""
+        n = len(table)
+        return {str(p[n]) for p in self.paths if len(p) == n + 1 and p[:n] == table}
 
 
 @dataclass(frozen=True)
@@ -26,7 +45,7 @@ class Names:
     unsure: frozenset[str]
 
     @classmethod
-    def of(cls, file: SceneFile, flaws: Flaws) -> Names:
+    def of(cls, file: SceneTables, flaws: Flaws) -> Names:
         frame = file.frame.name
         lost = flaws.names("links")
         points = {name: tuple(dict.fromkeys((*link.points, *link.at, *sorted(flaws.names("links", name, "at")))))

@@ -1,4 +1,4 @@
-"""From what the TOML parser gives to a ``SceneFile``: every wrong key and value of the file at once.
+"""From what the TOML parser gives to `SceneTables`: every wrong key and value of the file at once.
 
 A wrong entry is reported and taken out, a misspelt key is reported and read as the key that was meant, and what
 remains is a valid file, so that the questions asked later (do the names exist, do the lengths meet) can still be
@@ -12,42 +12,28 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from difflib import get_close_matches
 from numbers import Integral, Real
 from typing import Any
 
-from pydantic import BaseModel, ValidationError
+from pydantic import ValidationError
 
 from graphkin.errors import Problem, SceneError, did_you_mean
-from graphkin.scene import file as tables
-from graphkin.scene.file import SceneFile
+from graphkin.scene import tables
+from graphkin.scene.form import SCENE
+from graphkin.scene.names import Flaws, Path
+from graphkin.scene.tables import FileTable, SceneTables, entries, key_of, keys_of
 
-__all__ = ["Flaws", "Path", "checked", "keys_at", "path_name", "plain", "sentence", "shown", "written_path"]
+__all__ = ["checked", "keys_at", "path_name", "plain"]
 
 MOST_VALUES = 20_000
 DEEPEST = 8
+UNKNOWN = "unexpected_keyword_argument"
 
 
-@dataclass(frozen=True)
-class Flaws:
-    """The paths of the entries that were reported and taken out of the file."""
-
-    paths: frozenset[Path] = frozenset()
-
-    def under(self, *prefix: str) -> bool:
-        """True where something at or under this path, or a table that holds it, was taken out."""
-        n = len(prefix)
-        return any(p[:n] == prefix or p == prefix[: len(p)] for p in self.paths)
-
-    def names(self, *table: str) -> set[str]:
-        """The names of the entries of a table that were taken out as a whole."""
-        n = len(table)
-        return {str(p[n]) for p in self.paths if len(p) == n + 1 and p[:n] == table}
-
-
-def plain(source: Mapping[Any, Any]) -> dict[str, Any]:
-    """Copy a mapping to plain dict, list, str, bool, int and float, so that the form can be checked strictly.
+def plain(source: Mapping[Any, Any] | FileTable) -> dict[str, Any]:
+    """Copy a mapping, or typed tables, to plain dict, list, str, bool, int and float, so that the form can be checked
+    strictly.
 
     Raises SceneError where a key is no text, or where the tables are nested too deeply or too many to be a scene.
     """
@@ -62,6 +48,10 @@ def plain(source: Mapping[Any, Any]) -> dict[str, Any]:
             )
         if left < 0:
             raise SceneError(Problem("the file", f"holds more than {MOST_VALUES} values", "a scene is one mechanism"))
+        if isinstance(value, FileTable):
+            value = entries(value)
+        elif hasattr(value, "tolist"):  # arrays and numbers of NumPy
+            value = value.tolist()
         if isinstance(value, Mapping):
             for key in value:
                 if not isinstance(key, str | int) or str(key).startswith(("<", "[")):  # signs that pydantic's paths use
@@ -84,7 +74,7 @@ def plain(source: Mapping[Any, Any]) -> dict[str, Any]:
     return made
 
 
-def checked(raw: dict[str, Any]) -> tuple[SceneFile, list[Problem], Flaws]:
+def checked(raw: dict[str, Any]) -> tuple[SceneTables, list[Problem], Flaws]:
     """Check the form of a file.  Returns what is valid in it, the problems, and what was taken out for them.
 
     ``raw`` comes from ``plain`` and is changed: wrong entries are taken out of it.
@@ -94,22 +84,22 @@ def checked(raw: dict[str, Any]) -> tuple[SceneFile, list[Problem], Flaws]:
     gone: set[Path] = set()
     for _ in range(50):
         try:
-            return SceneFile.model_validate(raw), list(problems.values()), Flaws(frozenset(gone))
+            return SCENE.validate_python(raw), list(problems.values()), Flaws(frozenset(gone))
         except ValidationError as error:
             found = error.errors(include_url=False)
-        for item in sorted(found, key=lambda e: e["type"] != "extra_forbidden"):
+        for item in sorted(found, key=lambda e: e["type"] != UNKNOWN):
             loc: Path = tuple(item["loc"])
             path = written_path(loc)
             if item["type"] == "missing" and _value_at(raw, path) is not None:
                 continue  # it was there under a misspelt name
             if path not in problems:
                 problems[path] = sentence(loc, path, dict(item))
-            meant = _meant(loc, raw) if item["type"] == "extra_forbidden" else None
+            meant = _meant(loc, raw) if item["type"] == UNKNOWN else None
             if meant is not None:
                 _read_as(raw, path, meant)
             else:
                 cut = _take_out(raw, _cut(path))
-                if item["type"] != "extra_forbidden" or isinstance(item["input"], list | dict):
+                if item["type"] != UNKNOWN or isinstance(item["input"], list | dict):
                     gone.add(cut)
         if "links" not in raw or raw["links"] == {}:
             break
@@ -170,23 +160,22 @@ def _take_out(raw: dict[str, Any], path: Path) -> Path:
     return _take_out(raw, path[:-1]) if len(path) > 1 else path
 
 
-Path = tuple[str | int, ...]
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
-_TABLES: tuple[tuple[tuple[str, ...], type[BaseModel]], ...] = (
-    ((), tables.SceneFile),
-    (("units",), tables.UnitsTable),
-    (("frame",), tables.FrameTable),
-    (("frame", "guides", "*"), tables.GuideTable),
-    (("links", "*"), tables.LinkTable),
-    (("links", "*", "guides", "*"), tables.GuideTable),
+_TABLES: tuple[tuple[tuple[str, ...], type[FileTable]], ...] = (
+    ((), tables.SceneTables),
+    (("units",), tables.Units),
+    (("frame",), tables.Frame),
+    (("frame", "guides", "*"), tables.Guide),
+    (("links", "*"), tables.Link),
+    (("links", "*", "guides", "*"), tables.Guide),
     (("links", "*", "at", "*", "<polar>"), tables.Polar),
     (("links", "*", "at", "*", "<compass>"), tables.Compass),
-    (("pins", "*"), tables.PinTable),
-    (("driver", "<one>", "<angle>"), tables.AngleDriverTable),
-    (("driver", "<one>", "<slide>"), tables.SlideDriverTable),
-    (("driver", "<list>", "*", "<angle>"), tables.AngleDriverTable),
-    (("driver", "<list>", "*", "<slide>"), tables.SlideDriverTable),
-    (("sheet",), tables.SheetTable),
+    (("pins", "*"), tables.Pin),
+    (("driver", "<one>", "<angle>"), tables.Driver),
+    (("driver", "<one>", "<slide>"), tables.DrivenSlide),
+    (("driver", "<list>", "*", "<angle>"), tables.Driver),
+    (("driver", "<list>", "*", "<slide>"), tables.DrivenSlide),
+    (("sheet",), tables.SheetWishes),
 )
 _KINDS = {
     "string_type": "a text is wanted",
@@ -194,8 +183,7 @@ _KINDS = {
     "bool_type": "true or false is wanted",
     "list_type": "a list is wanted",
     "dict_type": "a table is wanted",
-    "model_type": "a table is wanted",
-    "model_attributes_type": "a table is wanted",
+    "dataclass_type": "a table is wanted",
 }
 
 
@@ -241,7 +229,7 @@ def keys_at(loc: Path) -> dict[str, str]:
     """The keys that may stand in the table at ``loc``, with their descriptions."""
     for pattern, table in _TABLES:
         if len(pattern) == len(loc) and all(p in ("*", part) for p, part in zip(pattern, loc, strict=True)):
-            return {f.alias or name: f.description or "" for name, f in table.model_fields.items()}
+            return {key_of(f): f.metadata.get("description", "") for f in keys_of(table)}
     return {}
 
 
@@ -254,7 +242,7 @@ def sentence(loc: Path, path: Path, item: dict[str, Any]) -> Problem:
         elif loc[0] == "driver" and loc[-1] == "link":
             text = 'write link = "1" for a driven angle or slide = "2" for a driven sliding pair'
         return Problem(where, "is missing", text[:1].lower() + text[1:].rstrip(".") if text else "")
-    if kind == "extra_forbidden":
+    if kind == UNKNOWN:
         return Problem(where, "unknown table" if isinstance(value, dict) else "unknown key", _about_key(loc))
     if "[key]" in loc:
         return Problem(where, f"{shown(path[-1])} is no name here", _name_rule(ctx))

@@ -9,13 +9,12 @@ import cmath
 from collections.abc import Mapping
 
 from graphkin.errors import Problem, SceneError
-from graphkin.scene.drivers import Drive, drives
-from graphkin.scene.file import LinkTable, SceneFile
-from graphkin.scene.model import AngleDriver, Driver, Guide, Link, Scene, SheetWishes, SlideDriver, Tools, Units
-from graphkin.scene.names import Names
-from graphkin.scene.placing import Body, islands, pins_in_slots, sliding_pairs
-from graphkin.scene.pose import Position, find_position, travel_of
-from graphkin.scene.reading import Flaws, path_name
+from graphkin.scene.drawn_position import DrawnPosition, find_position, travel_of
+from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedGuide, PlacedLink, SlideDriver
+from graphkin.scene.names import Flaws, Names
+from graphkin.scene.pairs import DriverEntry, drives, islands, pins_in_slots, sliding_pairs
+from graphkin.scene.placing import Placement
+from graphkin.scene.reading import path_name
 from graphkin.scene.rules import (
     disagreements,
     not_held,
@@ -25,6 +24,7 @@ from graphkin.scene.rules import (
     wrong_own_points,
 )
 from graphkin.scene.symbol import Symbol
+from graphkin.scene.tables import Link, SceneTables
 
 __all__ = ["asked", "published", "resolve", "unknown_places"]
 
@@ -53,14 +53,14 @@ def _symbol(where: str, text: str, names: Names) -> Symbol | Problem:
     return symbol
 
 
-def asked(file: SceneFile, names: Names, problems: list[Problem]) -> tuple[Symbol, ...]:
+def asked(file: SceneTables, names: Names, problems: list[Problem]) -> tuple[Symbol, ...]:
     """The symbols of ``find``, each once, in its order."""
     found = [_symbol(path_name(("find", text)), text, names) for text in file.find or ()]
     problems += [s for s in found if isinstance(s, Problem)]
     return tuple(dict.fromkeys(s for s in found if isinstance(s, Symbol)))
 
 
-def published(file: SceneFile, names: Names, metres: float, problems: list[Problem]) -> dict[Symbol, float | complex]:
+def published(file: SceneTables, names: Names, metres: float, problems: list[Problem]) -> dict[Symbol, float | complex]:
     """The values of ``[printed]`` in SI: vectors times ``metres``, angular rates as they are."""
     values: dict[Symbol, float | complex] = {}
     for text, value in file.printed.items():
@@ -68,7 +68,7 @@ def published(file: SceneFile, names: Names, metres: float, problems: list[Probl
         symbol = _symbol(where, text, names)
         if isinstance(symbol, Problem):
             problems.append(symbol)
-        elif isinstance(value, list):
+        elif not isinstance(value, int | float):
             if symbol.is_vector:
                 values[symbol] = complex(*value) * metres
             else:
@@ -78,18 +78,17 @@ def published(file: SceneFile, names: Names, metres: float, problems: list[Probl
     return values
 
 
-def unknown_places(file: SceneFile, names: Names) -> list[Problem]:
+def unknown_places(file: SceneTables, names: Names) -> list[Problem]:
     """Sketched and drawn points that no link has."""
     wanted = [(f"{table}.{point}", point) for table in ("sketch", "drawn") for point in getattr(file, table)]
     return [p for where, point in wanted if (p := names.no_point(where, point))]
 
 
-METRES = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254, "ft": 0.3048}
 MOST_LINKS = 200
 MOST_POINTS = 100
 
 
-def resolve(file: SceneFile, name: str, problems: list[Problem], flaws: Flaws) -> Scene:
+def resolve(file: SceneTables, name: str, problems: list[Problem], flaws: Flaws) -> Mechanism:
     """Make the scene that a file describes.
 
     Parameters
@@ -111,7 +110,7 @@ def resolve(file: SceneFile, name: str, problems: list[Problem], flaws: Flaws) -
     if many or len(file.links) > MOST_LINKS:
         raise SceneError(*problems)
 
-    metres = METRES[file.units.length]
+    metres = file.units.metres
     names = Names.of(file, flaws)
     problems += unwritable_texts(file)
     problems += wrong_own_points(file, names, flaws)
@@ -130,9 +129,9 @@ def resolve(file: SceneFile, name: str, problems: list[Problem], flaws: Flaws) -
     bodies = _bodies(file, names, drawn, metres, flaws, problems)
     referred = {p.on for p in slidings} | {p.on for p in pins} | {n for d in driven if d.base for n in (d.key, d.base)}
     for other in sorted(referred):  # links that were taken out for something wrong are placed nowhere
-        bodies.setdefault(other, Body(other, f"links.{other}", (), {}, {}))
+        bodies.setdefault(other, Placement(other, f"links.{other}", (), {}, {}))
     fixed = bodies[names.frame].local
-    position = Position(
+    position = DrawnPosition(
         bodies,
         fixed,
         drawn,
@@ -155,9 +154,9 @@ def resolve(file: SceneFile, name: str, problems: list[Problem], flaws: Flaws) -
     if problems:
         raise SceneError(*dict.fromkeys(problems))
     links = tuple(_link(n, t, bodies[n]) for n, t in file.links.items())
-    frame = Link(names.frame, fixed, (), _guides(bodies[names.frame]))
+    frame = PlacedLink(names.frame, fixed, (), _guides(bodies[names.frame]))
     title = file.title or name
-    return Scene(
+    return Mechanism(
         name,
         title,
         frame,
@@ -165,28 +164,28 @@ def resolve(file: SceneFile, name: str, problems: list[Problem], flaws: Flaws) -
         slidings,
         pins,
         tuple(d for d in drivers if d),
-        Units(file.units.length, metres),
+        file.units,
         file.title_zh,
         file.source,
         {p: complex(*xy) * metres for p, xy in file.sketch.items()},
         drawn,
         find,
         printed,
-        SheetWishes(**file.sheet.model_dump(exclude={"instrument"}), tools=Tools(**file.sheet.instrument.model_dump())),
+        file.sheet,
     )
 
 
 def _bodies(
-    file: SceneFile, names: Names, drawn: Mapping[str, complex], metres: float, flaws: Flaws, problems: list[Problem]
-) -> dict[str, Body]:
+    file: SceneTables, names: Names, drawn: Mapping[str, complex], metres: float, flaws: Flaws, problems: list[Problem]
+) -> dict[str, Placement]:
     """Every link with its own points placed, where its length is known."""
     fixed = {p: complex(*xy) * metres for p, xy in file.frame.points.items()}
     given = {**drawn, **fixed}
-    bodies: dict[str, Body] = {}
+    bodies: dict[str, Placement] = {}
     for name, table in file.links.items():
         own = tuple(table.points) if len(set(table.points)) == len(table.points) <= 2 else tuple(table.points[:1])
-        body = Body(name, f"links.{name}", own, table.at, table.guides)
-        body.guides[""] = Guide("", 0j, 1 + 0j)
+        body = Placement(name, f"links.{name}", own, table.at, table.guides)
+        body.guides[""] = PlacedGuide("", 0j, 1 + 0j)
         body.local |= dict.fromkeys(own[:1], 0j)
         if len(own) == 2:
             body.length = table.length * metres if table.length is not None else None
@@ -205,9 +204,9 @@ def _bodies(
             elif not flaws.under("links", name, "length") and not flaws.under("drawn"):
                 problems.append(_no_length(name, own, given))
         bodies[name] = body
-    frame = Body(names.frame, "frame", (), {}, file.frame.guides)
+    frame = Placement(names.frame, "frame", (), {}, file.frame.guides)
     frame.local, frame.turn, frame.origin = dict(fixed), 1 + 0j, 0j
-    frame.guides[""] = Guide("", 0j, 1 + 0j)
+    frame.guides[""] = PlacedGuide("", 0j, 1 + 0j)
     return {**bodies, names.frame: frame}
 
 
@@ -216,7 +215,7 @@ def _no_length(name: str, own: tuple[str, ...], given: Mapping[str, complex]) ->
     return Problem(f"links.{name}.length", "is missing", f"write length = ..., or give {undrawn} in [drawn]")
 
 
-def _size(bodies: Mapping[str, Body], drawn: Mapping[str, complex], metres: float) -> float:
+def _size(bodies: Mapping[str, Placement], drawn: Mapping[str, complex], metres: float) -> float:
     """The largest distance that the file gives (m)."""
     fixed = [z for b in bodies.values() if b.where == "frame" for z in b.local.values()]
     spans = [b.length for b in bodies.values() if b.length]
@@ -225,7 +224,7 @@ def _size(bodies: Mapping[str, Body], drawn: Mapping[str, complex], metres: floa
     return max(spans, default=0.0) or metres
 
 
-def _not_found(position: Position) -> list[Problem]:
+def _not_found(position: DrawnPosition) -> list[Problem]:
     """Points, guides that need the position of their link, where it does not follow from what is drawn."""
     found = []
     for body in position.bodies.values():
@@ -251,7 +250,7 @@ def _not_found(position: Position) -> list[Problem]:
     return found
 
 
-def _driver(drive: Drive, position: Position, problems: list[Problem]) -> Driver | None:
+def _driver(drive: DriverEntry, position: DrawnPosition, problems: list[Problem]) -> AnyDriver | None:
     """The driver with its value, taken from the drawn points where the file leaves it out."""
     if not drive.base:
         travel = drive.value if drive.value is not None else travel_of(position, drive.key)
@@ -279,10 +278,10 @@ def _driver(drive: Drive, position: Position, problems: list[Problem]) -> Driver
     return None
 
 
-def _guides(body: Body) -> dict[str, Guide]:
+def _guides(body: Placement) -> dict[str, PlacedGuide]:
     return {"": body.guides[""], **{name: body.guides[name] for name in body.rails}}
 
 
-def _link(name: str, table: LinkTable, body: Body) -> Link:
+def _link(name: str, table: Link, body: Placement) -> PlacedLink:
     order = dict.fromkeys((*body.own, *table.at))
-    return Link(name, {p: body.local[p] for p in order}, body.own, _guides(body), table.redundant)
+    return PlacedLink(name, {p: body.local[p] for p in order}, body.own, _guides(body), table.redundant)

@@ -9,16 +9,15 @@ import unicodedata
 
 from graphkin.errors import Problem
 from graphkin.plane import cross, degrees
-from graphkin.scene.file import Compass, Polar, SceneFile
-from graphkin.scene.names import Names
-from graphkin.scene.placing import Body, circle_of_references, place_of
-from graphkin.scene.pose import Position, running_points, travel_of
-from graphkin.scene.reading import Flaws
+from graphkin.scene.drawn_position import DrawnPosition, running_points, travel_of
+from graphkin.scene.names import Flaws, Names
+from graphkin.scene.placing import Placement, circle_of_references, place_of
+from graphkin.scene.tables import Compass, Polar, SceneTables
 
 __all__ = ["disagreements", "not_held", "nowhere_placed", "placed_twice", "unwritable_texts", "wrong_own_points"]
 
 
-def unwritable_texts(file: SceneFile) -> list[Problem]:
+def unwritable_texts(file: SceneTables) -> list[Problem]:
     """Texts that cannot be written on one line of a sheet."""
     found = []
     for key in ("title", "title_zh", "source"):
@@ -28,7 +27,7 @@ def unwritable_texts(file: SceneFile) -> list[Problem]:
     return found
 
 
-def wrong_own_points(file: SceneFile, names: Names, flaws: Flaws) -> list[Problem]:
+def wrong_own_points(file: SceneTables, names: Names, flaws: Flaws) -> list[Problem]:
     """What is wrong with the own points of the links."""
     found = []
     if names.frame in file.links:
@@ -71,7 +70,7 @@ def wrong_own_points(file: SceneFile, names: Names, flaws: Flaws) -> list[Proble
     return found
 
 
-def nowhere_placed(file: SceneFile, names: Names, flaws: Flaws) -> list[Problem]:
+def nowhere_placed(file: SceneTables, names: Names, flaws: Flaws) -> list[Problem]:
     """Points that ``at`` and ``guides`` refer to and that are nowhere placed."""
     found: list[Problem | None] = []
     drawn_lost = flaws.under("drawn")
@@ -123,7 +122,7 @@ def not_held(group: tuple[str, ...], names: Names) -> Problem:
     return Problem("links " + ", ".join(group), "nothing joins these links to the frame", hint)
 
 
-def placed_twice(position: Position) -> list[Problem]:
+def placed_twice(position: DrawnPosition) -> list[Problem]:
     """Points that the file places twice in one link, or fixes and draws, at different places."""
     found = []
     for body in position.bodies.values():
@@ -154,7 +153,7 @@ def placed_twice(position: Position) -> list[Problem]:
     return found
 
 
-def disagreements(position: Position) -> list[Problem]:
+def disagreements(position: DrawnPosition) -> list[Problem]:
     """What is given twice and differs by more than 1e-6 of the size, both values named."""
     found = [p for body in position.bodies.values() for p in _points_apart(position, body)]
     for pair in position.slidings:
@@ -200,11 +199,11 @@ def disagreements(position: Position) -> list[Problem]:
     return found
 
 
-def _apart(position: Position, one: complex, other: complex, a: Body, b: Body) -> bool:
+def _apart(position: DrawnPosition, one: complex, other: complex, a: Placement, b: Placement) -> bool:
     return abs(one - other) * min(a.arm, b.arm, position.size) > position.tolerance
 
 
-def _reach(body: Body, local: complex) -> float:
+def _reach(body: Placement, local: complex) -> float:
     """How much an error of the places that gave a link's direction grows out at ``local``."""
     return max(1.0, abs(local) / body.arm)
 
@@ -217,7 +216,7 @@ def _angle_problem(where: str, given: complex, seen: complex) -> Problem:
     )
 
 
-def _points_apart(position: Position, body: Body) -> list[Problem]:
+def _points_apart(position: DrawnPosition, body: Placement) -> list[Problem]:
     """Points of one link whose places in the link and in the world differ."""
     own, m = body.own, position.metres
     if len(own) == 2 and body.length is not None and all(p in position.given for p in own):

@@ -12,9 +12,13 @@ from pathlib import Path
 from typing import Any
 
 from graphkin.errors import Problem, SceneError, did_you_mean
-from graphkin.scene.model import Scene
+from graphkin.scene.model import Mechanism
+from graphkin.scene.written import Scene, as_mapping, resolved
 
-__all__ = ["library", "library_text", "read", "read_text", "safe_name"]
+__all__ = ["SceneLike", "library", "library_text", "mechanism_of", "mechanism_of_text", "read", "written"]
+
+SceneLike = Scene | Mechanism | str | os.PathLike[str] | Mapping[str, Any]
+"""A scene in any of its forms: built, read, a file, the name of one that comes along, or a mapping."""
 
 LARGEST_FILE = 1_000_000
 _AT_LINE = re.compile(r"^(.*?)\s*\(at (?:line (\d+), column (\d+)|(end of document))\)$", re.DOTALL)
@@ -46,28 +50,62 @@ def read(source: str | os.PathLike[str] | Mapping[str, Any]) -> Scene:
     Raises
     ------
     SceneError : naming everything that is wrong with the scene, or that there is none
+
+    Examples
+    --------
+    >>> scene = read("slotter-75-150")
+    >>> faster = scene.replace("driver.rpm", 90)
+    >>> scene.driver.rpm, faster.driver.rpm
+    (60.0, 90.0)
     """
+    return Scene.of(*written(source))
+
+
+def mechanism_of(source: SceneLike) -> Mechanism:
+    """What a scene says, in any of its forms: everything placed, in SI units.  Raises SceneError."""
+    if isinstance(source, Mechanism):
+        return source
+    return source.mechanism if isinstance(source, Scene) else resolved(*written(source))[1]
+
+
+def mechanism_of_text(text: str, name: str) -> Mechanism:
+    """What the text of a scene file says; ``name`` is the scene's name.  Raises SceneError."""
+    return resolved(_parsed(text), name)[1]
+
+
+def written(source: SceneLike) -> tuple[dict[str, Any], str]:
+    """The mapping of a scene's file, as it was written where that is known, and the scene's name.
+
+    Raises
+    ------
+    SceneError : there is no such scene, or it is no TOML; what stands in it is not looked at
+    """
+    if isinstance(source, Mechanism):
+        return as_mapping(source), source.name
+    if isinstance(source, Scene):
+        return source.to_dict(), source.name
     if isinstance(source, Mapping):
-        return _scene(source, "scene")
+        from graphkin.scene.reading import plain
+
+        return plain(source), "scene"
     if isinstance(source, str | os.PathLike):
         text = os.fspath(source)
         if isinstance(text, str):
             if "\n" in text and "=" in text:
                 raise SceneError(Problem("the scene", "found the text of a scene file instead of its name",
-                                         "read it with read_text"))
+                                         "save it as a file, or give tomllib.loads(text)"))
             if isinstance(source, str) and text in library() and not _is_file(text):
-                return read_text(library_text(text), text)
-            return read_text(_file_text(text), Path(text).stem)
+                return _parsed(library_text(text)), text
+            return _parsed(_file_text(text)), Path(text).stem
     raise SceneError(Problem("the scene", f"found a {type(source).__name__}",
                              "give a file, the name of a scene that comes along, or a mapping"))
 
 
-def read_text(text: str, name: str) -> Scene:
-    """Read a scene from the text of a scene file; ``name`` is the scene's name.  Raises SceneError."""
+def _parsed(text: str) -> dict[str, Any]:
     if len(text) > LARGEST_FILE:
         raise SceneError(_too_large())
     try:
-        raw = tomllib.loads(text)
+        return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise SceneError(_syntax(str(error), text)) from None
     except RecursionError:
@@ -77,26 +115,6 @@ def read_text(text: str, name: str) -> Scene:
             raise SceneError(Problem("the file", "is not TOML: a number of thousands of digits",
                                      "no number of a scene may exceed 1e+15")) from None
         raise SceneError(Problem("the file", f"is not TOML: {error}", "see https://toml.io")) from None
-    return _scene(raw, name)
-
-
-def safe_name(name: str) -> str:
-    """A name that can be a folder's: letters of any language, digits, and - _ . inside.
-
-    >>> safe_name("../my scene: 2?"), safe_name("..")
-    ('my-scene-2', 'scene')
-    """
-    kept = "".join(c if c.isalnum() or c in "-_." else "-" for c in name[:200])
-    return re.sub(r"-{2,}", "-", kept)[:60].strip("-_.") or "scene"
-
-
-def _scene(raw: Mapping[str, Any], name: str) -> Scene:
-    # pydantic is loaded where a file is read, not where a scene is only used
-    from graphkin.scene.reading import checked, plain
-    from graphkin.scene.resolve import resolve
-
-    file, problems, flaws = checked(plain(raw))
-    return resolve(file, safe_name(name), problems, flaws)
 
 
 def _is_file(path: str) -> bool:

@@ -7,13 +7,13 @@ import csv
 import math
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import islice
 from typing import Any
 
-from graphkin.errors import CallError, Problem, did_you_mean
-from graphkin.scene.reading import keys_at
+from graphkin.errors import CallError, Problem
+from graphkin.scene.written import put
 
 __all__ = ["Designs", "Value", "applied", "designs_of", "read_designs"]
 
@@ -181,49 +181,9 @@ def applied(source: Mapping[str, Any], keys: Sequence[str], values: Sequence[Val
     made = copy.deepcopy(dict(source))
     problems = []
     for key, value in zip(keys, values, strict=True):
-        problem = _put(made, key, value)
+        problem = put(made, key, value)
         if problem is not None:
-            problems.append(problem)
+            problems.append(replace(problem, where=f"--set {key}"))
     if problems:
         raise CallError(*problems)
     return made
-
-
-def _known_keys(parts: Sequence[str]) -> set[str]:
-    """Keys that the reader knows in a table."""
-    if parts and parts[0] == "driver":
-        return {k for kind in ("<angle>", "<slide>") for k in keys_at(("driver", "<one>", kind))}
-    return set(keys_at(tuple(parts)))
-
-
-def _put(made: dict[str, Any], key: str, value: Value) -> Problem | None:
-    parts = key.split(".")
-    place: Any = made
-    for depth, part in enumerate(parts):
-        last = depth == len(parts) - 1
-        before = ".".join(parts[:depth]) or "the scene"
-        if isinstance(place, list):
-            index = {"x": 0, "y": 1}.get(part, int(part) - 1 if part.isdecimal() else -1)
-            if not 0 <= index < len(place):
-                return Problem(f"--set {key}", f"{before} has no item {part}", f"it has {len(place)}, counted from 1")
-            if last:
-                place[index] = value
-                return None
-            place = place[index]
-            continue
-        if not isinstance(place, dict):
-            return Problem(f"--set {key}", f"{before} is {place!r:.40} and has nothing inside")
-        if last and part not in place and part in _known_keys(parts[:-1]):
-            place[part] = value
-            return None
-        if part not in place:
-            return Problem(f"--set {key}", f'{before} has no "{part}"', did_you_mean(part, map(str, place)))
-        if last:
-            if isinstance(place[part], dict | list):
-                inside = place[part] if isinstance(place[part], dict) else ["x", "y"]
-                return Problem(f"--set {key}", "is a table or a list, not a number",
-                               f"add one of: {', '.join(map(str, inside))}")
-            place[part] = value
-            return None
-        place = place[part]
-    return None

@@ -58,7 +58,7 @@ def test_a_driven_slide_takes_travel_in_the_unit_of_the_scene():
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_no_value_is_further_from_that_of_solve_than_both_bounds_say(kind):
-    scene = graphkin.read(random_scene(3, (kind, "RRR")))
+    scene = graphkin.read(random_scene(3, (kind, "RRR"))).mechanism
     links = [link.name for link in scene.links]
     asked = [f"{what}_{link}" for link in links for what in ("omega", "alpha")] + [f"a_{p}" for p in scene.holders]
     samples, motion = graphkin.prepare(scene, asked, bounds=True).sweep(40), graphkin.solve(scene, sweep=40).motion

@@ -80,7 +80,7 @@ def test_what_the_motion_does_not_reach_is_nan_with_its_reason() -> None:
 
 def test_what_comes_from_the_prepared_engine_is_what_the_solver_gives() -> None:
     for name in ("sixbar-AE70", "shaper-scheme-2", "hydraulic-cylinder"):
-        point = next(p for link in reversed(graphkin.read(name).links) for p in link.points)
+        point = next(p for link in reversed(graphkin.read(name).mechanism.links) for p in link.points)
         quick = graphkin.sweep(name, positions=90, find=[f"v_{point}"])
         whole = graphkin.sweep(name, positions=90, find=[f"v_{point}", f"a_{point}"], at=_own(name))
         assert (True, None) == (quick.arrays is not None, whole.arrays)
@@ -90,7 +90,7 @@ def test_what_comes_from_the_prepared_engine_is_what_the_solver_gives() -> None:
 
 
 def _own(name: str) -> float:
-    scene = graphkin.read(name)
+    scene = graphkin.read(name).mechanism
     driver = scene.drivers[0]
     return math.degrees(driver.angle) if isinstance(driver, AngleDriver) else driver.travel / scene.units.metres
 
@@ -154,9 +154,10 @@ def test_a_scene_that_cannot_be_assembled_is_unsolvable() -> None:
         graphkin.sweep(scene)
 
 
-def test_designs_need_the_file_not_a_scene_that_is_read() -> None:
-    with pytest.raises(CallError, match="read already"):
-        graphkin.sweep(graphkin.read(NAME), designs={"links.1.length": "20:22:3"})
+def test_designs_of_a_scene_that_is_read_are_those_of_its_file() -> None:
+    designs = {"links.1.length": "20:22:3"}
+    read, named = (graphkin.sweep(s, designs=designs, positions=4) for s in (graphkin.read(NAME), NAME))
+    assert named.table.csv() == read.table.csv()
 
 
 def test_designs_are_counted_by_outcome() -> None:

@@ -11,8 +11,8 @@ import graphkin
 from graphkin.checking import COVERAGE, predict, read_off
 from graphkin.construction import execute, pencil, plan
 from graphkin.scene import library, library_text, read, read_text
-from graphkin.scene.model import Tools
 from graphkin.scene.symbol import Symbol
+from graphkin.scene.tables import Tools
 
 SIXBAR = "sixbar-guide-40deg"
 SEEDS = 40

@@ -8,8 +8,8 @@ from typing import Any
 from graphkin.checking import predict
 from graphkin.construction import EXACT, Scales, execute, plan
 from graphkin.scene import read
-from graphkin.scene.model import Tools
 from graphkin.scene.symbol import Symbol
+from graphkin.scene.tables import Tools
 from graphkin.study.limits.law import Law, Trial, grid
 from graphkin.words import Phrase
 

@@ -19,17 +19,17 @@ from dataclasses import dataclass
 
 from graphkin.errors import Problem
 from graphkin.plane import dot
-from graphkin.scene.file import Polar
 from graphkin.scene.model import PinInSlot, SlidingPair
-from graphkin.scene.placing import Body, guide_of, place_of
+from graphkin.scene.placing import Placement, guide_of, place_of
+from graphkin.scene.tables import Polar
 
-__all__ = ["Position", "find_position", "running_points", "travel_of"]
+__all__ = ["DrawnPosition", "find_position", "running_points", "travel_of"]
 
 GIVEN_TWICE = 1e-6
 
 
 @dataclass
-class Position:
+class DrawnPosition:
     """What is known of the scene's own position while it is being collected.
 
     ``fixed`` and ``drawn`` are the places of points that the file gives in the world (``given`` both of them),
@@ -38,7 +38,7 @@ class Position:
     pairs by key with the travel (m).
     """
 
-    bodies: Mapping[str, Body]
+    bodies: Mapping[str, Placement]
     fixed: Mapping[str, complex]
     drawn: Mapping[str, complex]
     slidings: tuple[SlidingPair, ...]
@@ -59,18 +59,18 @@ class Position:
         """How far apart two statements of one place may be (m)."""
         return GIVEN_TWICE * self.size
 
-    def set_turn(self, body: Body, turn: complex, arm: float) -> None:
+    def set_turn(self, body: Placement, turn: complex, arm: float) -> None:
         """Note the direction of a link, if it is news."""
         if body.turn is None:
             body.turn, body.arm, self.news = turn, arm, True
 
-    def set_origin(self, body: Body, origin: complex) -> None:
+    def set_origin(self, body: Placement, origin: complex) -> None:
         """Note the place of a link's origin, if it is news."""
         if body.origin is None:
             body.origin, self.news = origin, True
 
 
-def find_position(position: Position) -> None:
+def find_position(position: DrawnPosition) -> None:
     """Place everything that can be placed, in the links' own axes and in the world."""
     while True:
         position.news = False
@@ -86,7 +86,7 @@ def find_position(position: Position) -> None:
             return
 
 
-def _place_points(position: Position, body: Body) -> None:
+def _place_points(position: DrawnPosition, body: Placement) -> None:
     for point, entry in body.at.items():
         if point in body.local or point in body.failed:
             continue
@@ -101,7 +101,7 @@ def _place_points(position: Position, body: Body) -> None:
             position.news = True
 
 
-def _place_guides(position: Position, body: Body) -> None:
+def _place_guides(position: DrawnPosition, body: Placement) -> None:
     for name, entry in body.rails.items():
         if name in body.guides or f".{name}" in body.failed:
             continue
@@ -115,7 +115,7 @@ def _place_guides(position: Position, body: Body) -> None:
             position.news = True
 
 
-def _turn_by_points(position: Position, body: Body) -> None:
+def _turn_by_points(position: DrawnPosition, body: Placement) -> None:
     if body.turn is not None:
         return
     own = body.own
@@ -135,7 +135,7 @@ def _turn_by_points(position: Position, body: Body) -> None:
             position.set_turn(body, turn / abs(turn), abs(way))
 
 
-def _move_by_points(position: Position, body: Body) -> None:
+def _move_by_points(position: DrawnPosition, body: Placement) -> None:
     if body.turn is None:
         return
     for point, local in body.local.items():
@@ -149,7 +149,7 @@ def _move_by_points(position: Position, body: Body) -> None:
             position.news = True
 
 
-def _turn_by_slidings(position: Position) -> None:
+def _turn_by_slidings(position: DrawnPosition) -> None:
     for pair in position.slidings:
         slider, rail = position.bodies[pair.link], position.bodies[pair.on]
         guide = rail.guides.get(pair.guide)
@@ -161,7 +161,7 @@ def _turn_by_slidings(position: Position) -> None:
             position.set_turn(rail, slider.turn / (guide.direction * pair.turn), slider.arm)
 
 
-def _turn_by_drivers(position: Position) -> None:
+def _turn_by_drivers(position: DrawnPosition) -> None:
     for link, base, turn in position.angles:
         driven, from_body = position.bodies[link], position.bodies[base]
         if from_body.turn is not None:
@@ -170,7 +170,7 @@ def _turn_by_drivers(position: Position) -> None:
             position.set_turn(from_body, driven.turn / turn, driven.arm)
 
 
-def _move_by_travels(position: Position) -> None:
+def _move_by_travels(position: DrawnPosition) -> None:
     for pair in position.slidings:
         slider, rail = position.bodies[pair.link], position.bodies[pair.on]
         guide = rail.guides.get(pair.guide)
@@ -183,7 +183,7 @@ def _move_by_travels(position: Position) -> None:
             position.set_origin(rail, slider.origin - rail.turn * along)
 
 
-def running_points(position: Position) -> Iterable[tuple[str, str, str, complex | None]]:
+def running_points(position: DrawnPosition) -> Iterable[tuple[str, str, str, complex | None]]:
     """Each guiding link and guide with the point that runs in it: (link, guide, what runs, its place or None)."""
     for pair in position.slidings:
         place = position.places.get(pair.pin) if pair.pin else position.bodies[pair.link].origin
@@ -192,7 +192,7 @@ def running_points(position: Position) -> Iterable[tuple[str, str, str, complex 
         yield pin.on, pin.guide, pin.point, position.places.get(pin.point)
 
 
-def _turn_to_positive_side(position: Position) -> bool:
+def _turn_to_positive_side(position: DrawnPosition) -> bool:
     """Turn one guide about its link's origin until it passes through what runs in it; True if there was one.
 
     With k the guide's place seen along its own direction, the running point lies at (k + s) w from the origin,
@@ -216,7 +216,7 @@ def _turn_to_positive_side(position: Position) -> bool:
     return False
 
 
-def _turn_to_drawn_point(position: Position) -> bool:
+def _turn_to_drawn_point(position: DrawnPosition) -> bool:
     """Choose the x axis of a link that has one own point and nothing measured from its axis; True if there was one."""
     used = {p.on for p in position.slidings if not p.guide} | {p.on for p in position.pins if not p.guide}
     used |= {p.link for p in position.slidings} | {name for link, base, _ in position.angles for name in (link, base)}
@@ -235,7 +235,7 @@ def _turn_to_drawn_point(position: Position) -> bool:
     return False
 
 
-def travel_of(position: Position, key: str) -> float | None:
+def travel_of(position: DrawnPosition, key: str) -> float | None:
     """The travel of a sliding pair or pin in slot at the known position (m), None if it is not known."""
     for pair in position.slidings:
         if pair.key == key:
@@ -246,7 +246,7 @@ def travel_of(position: Position, key: str) -> float | None:
     return None
 
 
-def _along(rail: Body, guide_name: str, place: complex | None) -> float | None:
+def _along(rail: Placement, guide_name: str, place: complex | None) -> float | None:
     local = None if place is None else rail.in_own_axes(place)
     guide = rail.guides.get(guide_name)
     return None if local is None or guide is None else dot(guide.direction, local - guide.through)

@@ -1,0 +1,123 @@
+"""What may be written in a scene file: the rules of each type of value, and the JSON schema for editors.
+
+This says form only (which keys, which types, which numbers); what the names refer to and whether the lengths meet is
+asked by the modules that resolve a scene.  The tables are those of `graphkin.scene.tables`, whose annotations name the
+types of this module: so only reading a scene waits for pydantic.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+from pydantic import Discriminator, Field, Strict, StringConstraints, Tag, TypeAdapter
+
+from graphkin.scene.tables import SMALLEST, Compass, DrivenSlide, Driver, Link, Polar, SceneTables
+from graphkin.words import LANGUAGES
+
+__all__ = ["SCENE", "schema"]
+
+LARGEST = 1e15
+LONGEST_TEXT = 300
+
+if TYPE_CHECKING:
+    Language = str
+else:
+    Language = Literal[LANGUAGES]  # as many as there are tables of words
+
+Switch = Annotated[bool, Strict()]
+Number = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=-LARGEST, le=LARGEST)]
+Magnitude = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=SMALLEST, le=LARGEST)]
+Tool = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=0, le=10)]
+Place = Annotated[list[Number], Field(min_length=2, max_length=2, description="[x, y]")]
+PointName = Annotated[str, StringConstraints(strict=True, pattern=r"^[A-Z][A-Za-z0-9]*$", max_length=40)]
+LinkName = Annotated[str, StringConstraints(strict=True, pattern=r"^[A-Za-z0-9]+$", max_length=40)]
+GuideRef = Annotated[
+    str, StringConstraints(strict=True, pattern=r"^[A-Za-z0-9]+(\.[A-Za-z0-9]+)?$", max_length=81)
+]
+SlideRef = Annotated[str, StringConstraints(strict=True, pattern=r"^[A-Za-z0-9]+(/[A-Za-z0-9]+)?$", max_length=81)]
+Text = Annotated[str, Field(strict=True, max_length=LONGEST_TEXT)]
+Symbols = list[Annotated[str, Strict()]]
+PointNames = list[PointName]
+TwoPoints = Annotated[list[PointName], Field(min_length=2, max_length=2)]
+TwoLengths = Annotated[list[Magnitude], Field(min_length=2, max_length=2)]
+Links = Annotated[dict[LinkName, Link], Field(min_length=1)]
+
+
+def _form(value: Any) -> str | None:
+    """Which of the forms of a value that may be written in several ways this is."""
+    if isinstance(value, str):
+        return "<name>"
+    if isinstance(value, list):
+        return "<list>"
+    if isinstance(value, dict):
+        return "<compass>" if isinstance(value.get("from"), list) else "<polar>"
+    return "<number>" if isinstance(value, int | float) and not isinstance(value, bool) else None
+
+
+def _driver_form(value: Any) -> str:
+    return "<slide>" if isinstance(value, dict) and "slide" in value and "link" not in value else "<angle>"
+
+
+def _count(value: Any) -> str:
+    return "<list>" if isinstance(value, list) else "<one>"
+
+
+def _forms(wanted: str) -> Discriminator:
+    return Discriminator(_form, custom_error_type="form", custom_error_message=wanted)
+
+
+NameOrPlace = Annotated[
+    Annotated[PointName, Tag("<name>")] | Annotated[Place, Tag("<list>")],
+    _forms('write the name of a point ("B") or a place [x, y]'),
+]
+GuideRefs = Annotated[
+    Annotated[GuideRef, Tag("<name>")]
+    | Annotated[list[GuideRef], Field(min_length=1, max_length=2), Tag("<list>")],
+    _forms('write a guide as "LINK" or "LINK.GUIDE", or a list of them'),
+]
+Numbers = Annotated[
+    Annotated[Number, Tag("<number>")] | Annotated[list[Number], Field(min_length=1, max_length=2), Tag("<list>")],
+    _forms("write a number, or a list with one number for each guide"),
+]
+NumberOrPair = Annotated[
+    Annotated[Number, Tag("<number>")] | Annotated[Place, Tag("<list>")],
+    _forms("write a number, or [x, y] for a vector by its components"),
+]
+At = Annotated[
+    Annotated[Place, Tag("<list>")]
+    | Annotated[Polar, Tag("<polar>")]
+    | Annotated[Compass, Tag("<compass>")]
+    | Annotated[Literal["drawn"], Tag("<name>")],
+    _forms('write [x, y], { from = "C", r = 65, angle = -60 }, '
+           '{ from = ["B", "C"], r = [60, 80], side = "left" } or "drawn"'),
+]
+OneDriver = Annotated[
+    Annotated[Driver, Tag("<angle>")] | Annotated[DrivenSlide, Tag("<slide>")], Discriminator(_driver_form)
+]
+Drivers = Annotated[
+    Annotated[OneDriver, Tag("<one>")] | Annotated[list[OneDriver], Tag("<list>")], Discriminator(_count)
+]
+
+SCENE: TypeAdapter[SceneTables] = TypeAdapter(SceneTables)
+SCENE.rebuild(_types_namespace=dict(globals()))
+
+
+def _without_null(node: Any) -> Any:
+    """TOML has no null: a key that may be left out keeps the type it has when it is written."""
+    if isinstance(node, list):
+        return [_without_null(item) for item in node]
+    if not isinstance(node, dict):
+        return node
+    out = {k: _without_null(v) for k, v in node.items() if not (k == "default" and v is None)}
+    kinds = out.get("anyOf")
+    if isinstance(kinds, list) and {"type": "null"} in kinds:
+        rest = [kind for kind in kinds if kind != {"type": "null"}]
+        del out["anyOf"]
+        out = {**rest[0], **out} if len(rest) == 1 else {**out, "anyOf": rest}
+    return out
+
+
+def schema() -> dict[str, Any]:
+    """Return the JSON schema (draft 2020-12) of a scene file, for editors that complete and check TOML."""
+    made: dict[str, Any] = _without_null(SCENE.json_schema(by_alias=True))
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", **made, "title": "graphkin scene"}

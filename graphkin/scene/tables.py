@@ -1,0 +1,317 @@
+"""The keys of a scene file as typed tables: what a file says, in its own names and units (lengths in the scene's unit,
+angles in degrees).
+
+Each class is a table of the file, each field a key.  The classes only hold; what may stand in them is asked when a
+scene is made of them (`graphkin.scene.form` has the rules, from which the JSON schema for editors comes too).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import MISSING, Field, dataclass, field, fields
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, TypeAlias
+
+SMALLEST = 1e-15
+"""The smallest length, and the smallest rate that is not 0."""
+
+Convention = Literal["chinese", "us", "british", "russian"]
+
+if TYPE_CHECKING:
+    # what a caller may give; what the reader makes of it, and its rules, are the types of these names in scene.form
+    Number = float
+    Magnitude = float
+    Tool = float
+    Switch = bool
+    Text = str
+    Language = str
+    PointName = str
+    LinkName = str
+    SlideRef = str
+    Place = Sequence[float]
+    TwoLengths = Sequence[float]
+    PointNames = Sequence[str]
+    TwoPoints = Sequence[str]
+    Symbols = Sequence[str]
+    NameOrPlace = str | Sequence[float]
+    GuideRefs = str | Sequence[str]
+    Numbers = float | Sequence[float]
+    NumberOrPair = float | Sequence[float]
+    At: TypeAlias = "Sequence[float] | Polar | Compass | Literal['drawn']"
+    Links: TypeAlias = "Mapping[str, Link]"
+    Drivers: TypeAlias = "Driver | DrivenSlide | Sequence[Driver | DrivenSlide]"
+
+__all__ = [
+    "Compass",
+    "Convention",
+    "DrivenSlide",
+    "Driver",
+    "FileTable",
+    "Frame",
+    "Guide",
+    "Link",
+    "Pin",
+    "Polar",
+    "SceneTables",
+    "SheetWishes",
+    "Tools",
+    "Units",
+    "entries",
+    "key_of",
+    "keys_of",
+]
+
+
+def _about(description: str, **more: Any) -> dict[str, Any]:
+    """What the reader and the schema know of a key beside its type."""
+    return {"description": description, **more}
+
+
+def _closed(description: str) -> dict[str, Any]:
+    """The same of a table whose keys are names."""
+    return _about(description, json_schema_extra={"additionalProperties": False})
+
+
+class FileTable:
+    """A table of a scene file."""
+
+    __pydantic_config__: ClassVar = {"extra": "forbid"}
+
+
+@dataclass(frozen=True)
+class Units(FileTable):
+    """Units of the file."""
+
+    length: Literal["mm", "cm", "m", "in", "ft"] = field(
+        default="mm", metadata=_about("The unit of every length; speeds are in it per second.")
+    )
+
+    @property
+    def metres(self) -> float:
+        """One length unit in m."""
+        return {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254, "ft": 0.3048}[self.length]
+
+
+@dataclass(frozen=True)
+class Guide(FileTable):
+    """A straight guide: any point of it and its direction."""
+
+    through: NameOrPlace = field(metadata=_about("A point of the link by name, or [x, y] in the link's own axes."))
+    angle: Number | None = field(
+        default=None, metadata=_about("Direction in degrees from the link's own x axis.")
+    )
+    toward: PointName | None = field(
+        default=None,
+        metadata=_about("Instead of angle: the point that the guide points to (of the link, fixed or drawn)."),
+    )
+
+
+@dataclass(frozen=True)
+class Frame(FileTable):
+    """The fixed link."""
+
+    name: LinkName = field(default="0", metadata=_about('Name of the fixed link, "0" if not given.'))
+    points: dict[PointName, Place] = field(default_factory=dict, metadata=_closed("Fixed pivots, [x, y] each."))
+    guides: dict[LinkName, Guide] = field(default_factory=dict, metadata=_closed("Straight guides by name."))
+
+
+@dataclass(frozen=True)
+class Polar(FileTable):
+    """A point at a distance and an angle from another point of the link."""
+
+    origin: PointName = field(metadata=_about("The point of the link from which r is measured.", alias="from"))
+    r: Magnitude = field(metadata=_about("Distance."))
+    angle: Number = field(
+        default=0.0, metadata=_about("Degrees from the link's own x axis, or from the direction given by toward.")
+    )
+    toward: PointName | None = field(
+        default=None, metadata=_about("The point of the link at which angle is 0.")
+    )
+
+
+@dataclass(frozen=True)
+class Compass(FileTable):
+    """A point by its distances from two others of the link."""
+
+    origins: TwoPoints = field(metadata=_about("The two points of the link.", alias="from"))
+    r: TwoLengths = field(metadata=_about("The two distances."))
+    side: Literal["left", "right"] = field(
+        metadata=_about("Side of the directed line from the first to the second.")
+    )
+
+
+@dataclass(frozen=True)
+class Link(FileTable):
+    """A moving link."""
+
+    points: PointNames = field(
+        default=(), metadata=_about("Own points: two for a bar, one for a bar of no fixed length or a block, or none.")
+    )
+    length: Magnitude | None = field(default=None, metadata=_about("Distance of the two own points."))
+    on: GuideRefs | None = field(
+        default=None,
+        metadata=_about('What the link slides on: "3" (own axis of link 3), "6.h" (a guide), or two of them.'),
+    )
+    angle_on: Numbers | None = field(
+        default=None, metadata=_about("Degrees from the guide to the link's own x axis; one number for each guide.")
+    )
+    at: dict[PointName, At] = field(default_factory=dict, metadata=_closed("Further points."))
+    guides: dict[LinkName, Guide] = field(default_factory=dict, metadata=_closed("Straight guides by name."))
+    redundant: Switch = field(default=False, metadata=_about("The link only repeats what others already hold."))
+
+
+@dataclass(frozen=True)
+class Pin(FileTable):
+    """A pin that runs in slots."""
+
+    of: LinkName = field(metadata=_about("The link that has the pin."))
+    slots: GuideRefs = field(metadata=_about('The guide it runs in ("3.s"), or a list of guides.', alias="in"))
+
+
+@dataclass(frozen=True)
+class Driver(FileTable):
+    """A driven angle."""
+
+    link: LinkName = field(metadata=_about("The driven link."))
+    angle: Number | None = field(
+        default=None, metadata=_about("Degrees, counter-clockwise; may be left out with [drawn].")
+    )
+    omega: Number | None = field(default=None, metadata=_about("rad/s, counter-clockwise positive."))
+    rpm: Number | None = field(default=None, metadata=_about("Instead of omega: turns per minute."))
+    alpha: Number = field(default=0.0, metadata=_about("rad/s2."))
+    relative_to: LinkName | None = field(
+        default=None, metadata=_about("Angle from this link's own axis, not the frame's.")
+    )
+    origin: Literal["dead point"] | None = field(
+        default=None,
+        metadata=_about('"dead point": the angle counts from a dead point of the mechanism.', alias="from"),
+    )
+    near: Number | None = field(
+        default=None, metadata=_about("Degrees: which dead point, where there are several.")
+    )
+
+
+@dataclass(frozen=True)
+class DrivenSlide(FileTable):
+    """A driven sliding pair."""
+
+    slide: SlideRef = field(metadata=_about('The sliding link ("2"), the pair ("2/3") or a pin in a slot ("B/3").'))
+    travel: Number | None = field(
+        default=None,
+        metadata=_about("From the guide's origin to the sliding link's own; may be left out with [drawn]."),
+    )
+    velocity: Number | None = field(default=None, metadata=_about("Length unit/s along the guide's sense."))
+    acceleration: Number = field(default=0.0, metadata=_about("Length unit/s2 along the guide's sense."))
+    relative_to: LinkName | None = field(
+        default=None, metadata=_about("The guiding link, where there are two.")
+    )
+    origin: Literal["dead point"] | None = field(
+        default=None,
+        metadata=_about('"dead point": the travel counts from a dead point of the mechanism.', alias="from"),
+    )
+    near: Number | None = field(
+        default=None, metadata=_about("Travel: which dead point, where there are several.")
+    )
+
+
+@dataclass(frozen=True)
+class Tools(FileTable):
+    """What the tools of a pencil drawing can do; used with --instrument pencil.
+
+    A step is that to which a value is read or laid off; the others are standard deviations.
+    """
+
+    line_width: Tool = field(
+        default=0.2, metadata=_about("Width of a pencil line (mm); a point is pricked within half of it.")
+    )
+    ruler: Tool = field(default=0.1, metadata=_about("Step of the ruler (mm): 0.5, or 0.1 interpolated."))
+    compass: Tool = field(default=0.1, metadata=_about("Standard deviation of a compass radius (mm)."))
+    set_square: Tool = field(default=0.1, metadata=_about("Standard deviation of a direction set (degrees)."))
+    protractor: Tool = field(default=0.5, metadata=_about("Step of the protractor (degrees)."))
+
+
+PAPERS = {
+    "A5": (148.0, 210.0), "A4": (210.0, 297.0), "A3": (297.0, 420.0), "A2": (420.0, 594.0), "A1": (594.0, 841.0),
+    "A0": (841.0, 1189.0),
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class SheetWishes(FileTable):
+    """Wishes for the drawn sheet; scales are None where graphkin is to choose."""
+
+    paper: Literal["A5", "A4", "A3", "A2", "A1", "A0"] = "A4"
+    orientation: Literal["portrait", "landscape"] = "portrait"
+    length_scale: Magnitude | None = field(default=None, metadata=_about("mm of mechanism per mm of paper."))
+    velocity_scale: Magnitude | None = field(default=None, metadata=_about("(length unit/s) per mm of paper."))
+    acceleration_scale: Magnitude | None = field(default=None, metadata=_about("(length unit/s2) per mm of paper."))
+    convention: Convention = "chinese"
+    language: Language = "en"
+    tools: Tools = field(default=Tools(), metadata=_about("Tools of a pencil drawing.", alias="instrument"))
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Width and height of the paper (mm, ISO 216)."""
+        short, long = PAPERS[self.paper]
+        return (long, short) if self.orientation == "landscape" else (short, long)
+
+
+@dataclass(frozen=True, kw_only=True)
+class SceneTables(FileTable):
+    """A mechanism at one position, with what is asked of it: the whole file."""
+
+    title: Text = field(default="", metadata=_about("Title in English."))
+    title_zh: Text = field(default="", metadata=_about("Title in Chinese."))
+    source: Text = field(default="", metadata=_about("Where the problem comes from."))
+    find: Symbols | None = field(
+        default=None,
+        metadata=_about("Quantities asked for: v_D, a_B@3, v_B@3/B@2, omega_3, ... Everything if left out."),
+    )
+    units: Units = Units()
+    frame: Frame = field(default_factory=Frame)
+    links: Links = field(metadata=_closed("The moving links by name."))
+    pins: dict[PointName, Pin] = field(default_factory=dict, metadata=_closed("Pins in slots, by the point."))
+    driver: Drivers = field(default=(), metadata=_about("What drives: one table [driver], or several [[driver]]."))
+    sketch: dict[PointName, Place] = field(
+        default_factory=dict, metadata=_closed("Roughly where points lie: picks the assembly.")
+    )
+    drawn: dict[PointName, Place] = field(
+        default_factory=dict, metadata=_closed("Exact places of points of moving links in this position.")
+    )
+    printed: dict[str, NumberOrPair] = field(
+        default_factory=dict,
+        metadata=_about("Values that somebody published, by symbol, in scene units, rad/s and rad/s2."),
+    )
+    sheet: SheetWishes = SheetWishes()
+
+    @property
+    def drivers(self) -> tuple[Driver | DrivenSlide, ...]:
+        """The drivers, whether written as one table or several."""
+        return (self.driver,) if isinstance(self.driver, Driver | DrivenSlide) else tuple(self.driver)
+
+
+def keys_of(table: FileTable | type[FileTable]) -> Iterator[Field[Any]]:
+    """The fields of a table that stand in a file."""
+    for key in fields(table):  # type: ignore[arg-type]  # each table is a dataclass
+        if not key.metadata.get("beside"):
+            yield key
+
+
+def key_of(key: Field[Any]) -> str:
+    """A field's key in the file."""
+    return str(key.metadata.get("alias", key.name))
+
+
+def entries(table: FileTable) -> dict[str, Any]:
+    """The keys of a table as they stand in a file, without those that say what holds anyway.
+
+    >>> entries(Link(points=["A", "B"], length=120))
+    {'points': ['A', 'B'], 'length': 120}
+    """
+    found = {}
+    for key in keys_of(table):
+        value = getattr(table, key.name)
+        usual = key.default_factory() if key.default_factory is not MISSING else key.default
+        empty = usual in ({}, ()) and isinstance(value, Mapping | list | tuple) and not value
+        if not empty and not (type(value) is type(usual) and value == usual):
+            found[key_of(key)] = value
+    return found

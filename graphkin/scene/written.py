@@ -1,0 +1,307 @@
+"""A scene as it is written: built in Python or read, changed by key, saved as a file.
+
+`Scene` is what a user holds.  What it says, resolved and in SI units, is its ``mechanism``.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from html import escape
+from pathlib import Path
+from typing import Any
+
+from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.plane import degrees
+from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedLink
+from graphkin.scene.tables import SceneTables
+
+__all__ = ["Scene", "as_mapping", "put", "resolved", "safe_name", "toml_text"]
+
+
+def resolved(source: Mapping[Any, Any] | SceneTables, name: str) -> tuple[SceneTables, Mechanism]:
+    """What is written in a scene, checked, and what it says.  Raises SceneError with all that is wrong."""
+    # pydantic is loaded where a scene is read, not where a mechanism is only used
+    from graphkin.scene.reading import checked, plain
+    from graphkin.scene.resolve import resolve
+
+    tables, problems, flaws = checked(plain(source))
+    return tables, resolve(tables, safe_name(name), problems, flaws)
+
+
+def safe_name(name: str) -> str:
+    """A name that can be a folder's: letters of any language, digits, and - _ . inside.
+
+    >>> safe_name("../my scene: 2?"), safe_name("..")
+    ('my-scene-2', 'scene')
+    """
+    kept = "".join(c if c.isalnum() or c in "-_." else "-" for c in name[:200])
+    return re.sub(r"-{2,}", "-", kept)[:60].strip("-_.") or "scene"
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Scene(SceneTables):
+    """A mechanism at one position, with what is asked of it: the keys of a scene file, in its names and units.
+
+    Lengths are in the scene's unit, angles in degrees.  A scene is checked when it is made, as a file is when it is
+    read; every problem is told at once.  ``name`` names the folder of its files.
+
+    Raises
+    ------
+    SceneError : naming everything that is wrong with the scene
+
+    Examples
+    --------
+    >>> from graphkin import Driver, Frame, Guide, Link, Scene
+    >>> slider_crank = Scene(
+    ...     title="Offset slider-crank",
+    ...     frame=Frame(points={"A": (0, 0)}, guides={"h": Guide(through=(0, -16), angle=0)}),
+    ...     links={
+    ...         "1": Link(points=["A", "B"], length=23.8),
+    ...         "2": Link(points=["B", "C"], length=58.4),
+    ...         "3": Link(points=["C"], on="0.h"),
+    ...     },
+    ...     driver=Driver(link="1", angle=60, omega=10),
+    ... )
+    >>> longer = slider_crank.replace("links.2.length", 70)
+    >>> longer.links["2"].length, slider_crank.links["2"].length
+    (70.0, 58.4)
+    >>> longer.to_dict()["driver"]
+    {'link': '1', 'angle': 60.0, 'omega': 10.0}
+    """
+
+    name: str = field(default="scene", compare=False, metadata={"beside": True})
+
+    def __post_init__(self) -> None:
+        tables, mechanism = resolved(self, self.name)
+        vars(self).update(vars(tables), _mechanism=mechanism)
+
+    @classmethod
+    def of(cls, source: Mapping[Any, Any], name: str = "scene") -> Scene:
+        """The scene of a mapping of the same shape as a file.  Raises SceneError."""
+        tables, mechanism = resolved(source, name)
+        scene = object.__new__(cls)
+        vars(scene).update(vars(tables), name=name, _mechanism=mechanism)
+        return scene
+
+    @property
+    def mechanism(self) -> Mechanism:
+        """What the scene says: everything placed, in SI units."""
+        found: Mechanism = vars(self)["_mechanism"]
+        return found
+
+    def replace(self, key: str, value: object) -> Scene:
+        """The scene with one entry replaced, checked anew.
+
+        Parameters
+        ----------
+        key : of the file, with dots: ``links.1.length``, ``frame.points.D.x``, ``driver.2.angle`` of the second driver
+        value : a number, a text, or for a whole entry a table or a list; None leaves it out
+
+        Raises
+        ------
+        CallError : the scene has no such key; SceneError : with this value it is no scene
+        """
+        from graphkin.scene.reading import plain
+
+        made = self.to_dict()
+        problem = put(made, str(key), plain({"value": value})["value"])
+        if problem is not None:
+            raise CallError(problem)
+        return Scene.of(made, self.name)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The scene as a mapping, as a TOML parser gives it; what holds anyway is left out."""
+        from graphkin.scene.reading import plain
+
+        return plain(self)
+
+    def save(self, path: str | os.PathLike[str]) -> Path:
+        """Write the scene as a file, which appears whole or not at all; returns its path.
+
+        Raises
+        ------
+        CallError : a place that cannot be written
+        """
+        from graphkin.jobs import whole_file
+
+        target = Path(path)
+        try:
+            with whole_file(target) as out:
+                out.write(toml_text(self.to_dict()).encode())
+        except OSError as error:
+            raise CallError(Problem(str(path), f"cannot be written: {error.strerror or error}")) from None
+        return target
+
+    def __repr__(self) -> str:
+        return f"<Scene {self.name}: {len(self.links)} moving links>"
+
+    def _repr_html_(self) -> str:
+        return f"<pre>{escape(toml_text(self.to_dict()))}</pre>"
+
+
+def put(made: dict[str, Any], key: str, value: object) -> Problem | None:
+    """Put a value at a key (with dots) of a scene's mapping, which is changed; the problem if there is no such key."""
+    from graphkin.scene.reading import keys_at
+
+    parts = key.split(".")
+    whole = isinstance(value, dict | list)
+    place: Any = made
+    for depth, part in enumerate(parts):
+        last = depth == len(parts) - 1
+        before = ".".join(parts[:depth]) or "the scene"
+        if isinstance(place, list):
+            index = {"x": 0, "y": 1}.get(part, int(part) - 1 if part.isdecimal() else -1)
+            if not 0 <= index < len(place):
+                return Problem(key, f"{before} has no item {part}", f"it has {len(place)}, counted from 1")
+            if last:
+                place[index] = value
+                return None
+            place = place[index]
+            continue
+        if not isinstance(place, dict):
+            return Problem(key, f"{before} is {place!r:.40} and has nothing inside")
+        if part not in place:
+            drivers = {k for kind in ("<angle>", "<slide>") for k in keys_at(("driver", "<one>", kind))}
+            known = drivers if parts[:1] == ["driver"] and depth else set(keys_at(tuple(parts[:depth])))
+            if last and part in known:
+                place[part] = value
+                return None
+            return Problem(key, f'{before} has no "{part}"', did_you_mean(part, map(str, place)))
+        if last:
+            if isinstance(place[part], dict | list) and not whole:
+                inside = place[part] if isinstance(place[part], dict) else ["x", "y"]
+                return Problem(key, "is a table or a list, not a number",
+                               f"add one of: {', '.join(map(str, inside))}")
+            place[part] = value
+            return None
+        place = place[part]
+    return None
+
+
+def as_mapping(scene: Mechanism) -> dict[str, Any]:
+    """The mapping of a scene file that reads as this scene, everything placed in the links' own axes.
+
+    What was given by drawn points, arcs or polar entries stands there as lengths and places.
+    """
+
+    def length(value: float) -> float:
+        return _tidy(value / scene.units.metres)
+
+    def place(z: complex) -> list[float]:
+        return [length(z.real), length(z.imag)]
+
+    def guides(link: PlacedLink) -> dict[str, Any]:
+        own = {n: g for n, g in link.guides.items() if n}
+        return {n: {"through": place(g.through), "angle": _tidy(degrees(g.direction))} for n, g in own.items()}
+
+    frame: dict[str, Any] = {"name": scene.frame.name}
+    frame["points"] = {p: place(z) for p, z in scene.frame.points.items()}
+    frame["guides"] = guides(scene.frame)
+    links: dict[str, dict[str, Any]] = {}
+    for link in scene.links:
+        table: dict[str, Any] = {"points": list(link.bar)} if link.bar else {}
+        if link.length is not None:
+            table["length"] = length(link.length)
+        pairs = [s for s in scene.slidings if s.link == link.name]
+        if pairs:
+            table["on"] = [_guide_name(s.on, s.guide) for s in pairs]
+            table["angle_on"] = [_tidy(degrees(s.turn)) for s in pairs]
+        table["at"] = {p: place(z) for p, z in link.points.items() if p not in link.bar}
+        table["guides"] = guides(link)
+        if link.redundant:
+            table["redundant"] = True
+        links[link.name] = {k: v for k, v in table.items() if v != {}}
+    pins: dict[str, dict[str, Any]] = {}
+    for pin in scene.pins:
+        pins.setdefault(pin.point, {"of": pin.of, "in": []})["in"].append(_guide_name(pin.on, pin.guide))
+    made: dict[str, Any] = {"title": scene.title, "title_zh": scene.title_zh, "source": scene.source}
+    made["units"] = {"length": scene.units.length}
+    made["frame"] = {k: v for k, v in frame.items() if v != {}}
+    made["links"] = links
+    made["pins"] = pins
+    made["driver"] = [_driver(scene, d, length) for d in scene.drivers]
+    made["sketch"] = {p: place(z) for p, z in {**scene.drawn, **scene.sketch}.items() if _moves(scene, p)}
+    made["find"] = [str(s) for s in scene.find]
+    return {k: v for k, v in made.items() if v not in ("", {}, [])}
+
+
+def _moves(scene: Mechanism, point: str) -> bool:
+    return point not in scene.frame.points
+
+
+def _guide_name(link: str, guide: str) -> str:
+    return f"{link}.{guide}" if guide else link
+
+
+def _driver(scene: Mechanism, driver: AnyDriver, length: Any) -> dict[str, Any]:
+    if isinstance(driver, AngleDriver):
+        base = {} if driver.relative_to == scene.frame.name else {"relative_to": driver.relative_to}
+        angle = _tidy(math.degrees(driver.angle))
+        return {"link": driver.link, **base, "angle": angle, "omega": _tidy(driver.omega), "alpha": _tidy(driver.alpha)}
+    travel, velocity, second = (length(v) for v in driver.values)
+    return {"slide": driver.key, "travel": travel, "velocity": velocity, "acceleration": second}
+
+
+def _tidy(value: float) -> float:
+    """A number without the noise of unit conversion."""
+    return float(f"{value:.13g}") + 0.0
+
+
+def toml_text(mapping: Mapping[str, Any]) -> str:
+    """The text of a scene file from its mapping; reading it gives the mapping again.
+
+    >>> print(toml_text({"title": "A", "links": {"1": {"points": ["A", "B"], "length": 2.0}}}), end="")
+    title = "A"
+    <BLANKLINE>
+    [links.1]
+    points = ["A", "B"]
+    length = 2
+    """
+    import tomlkit
+    from tomlkit.items import Table
+
+    def value(given: Any) -> Any:
+        if isinstance(given, Mapping):
+            inline = tomlkit.inline_table()
+            for key, item in given.items():
+                inline.append(key, value(item))
+            return inline
+        if isinstance(given, list | tuple):
+            return [value(item) for item in given]
+        whole = isinstance(given, float) and given.is_integer() and abs(given) < 1e15
+        return int(given) if whole else given
+
+    def table(given: Mapping[str, Any]) -> Table:
+        made = tomlkit.table()
+        for key, item in given.items():
+            made.append(key, value(item))
+        return made
+
+    text = tomlkit.document()
+    for key in sorted(mapping, key=lambda key: _is_table(mapping[key])):  # tables come after what stands alone
+        given = mapping[key]
+        if key in ("links", "pins") and _is_table(given):
+            made = tomlkit.table(is_super_table=True)
+            for name, item in given.items():
+                made.append(name, table(item))
+            text.append(key, made)
+        elif isinstance(given, Mapping):
+            text.append(key, table(given))
+        elif _is_table(given):
+            several = tomlkit.aot()
+            for item in given:
+                several.append(table(item))
+            text.append(key, several)
+        else:
+            text.append(key, value(given))
+    return text.as_string()
+
+
+def _is_table(value: Any) -> bool:
+    return isinstance(value, Mapping) or (
+        isinstance(value, list) and bool(value) and all(isinstance(v, Mapping) for v in value)
+    )
