@@ -3,17 +3,26 @@
 from __future__ import annotations
 
 import math
+from typing import Any, overload
 
 __all__ = ["cross", "cross_arcs", "cross_line_arc", "cross_lines", "degrees", "direction", "dot", "unit"]
 
 
-def dot(a: complex, b: complex) -> float:
-    """Scalar product of two plane vectors."""
+@overload
+def dot(a: complex, b: complex) -> float: ...
+@overload
+def dot(a: Any, b: Any) -> Any: ...
+def dot(a: Any, b: Any) -> Any:
+    """Scalar product of two plane vectors: complex numbers, arrays of them, or formulas."""
     return a.real * b.real + a.imag * b.imag
 
 
-def cross(a: complex, b: complex) -> float:
-    """Vector product (its z part): positive where b lies counter-clockwise of a."""
+@overload
+def cross(a: complex, b: complex) -> float: ...
+@overload
+def cross(a: Any, b: Any) -> Any: ...
+def cross(a: Any, b: Any) -> Any:
+    """Vector product (its z part) of the same: positive where b lies counter-clockwise of a."""
     return a.real * b.imag - a.imag * b.real
 
 

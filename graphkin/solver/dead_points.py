@@ -15,19 +15,19 @@ from graphkin.scene.model import AngleDriver
 from graphkin.solver.assemblies import choose_forms
 from graphkin.solver.decimals import PI, meant_value, working
 from graphkin.solver.dyads import Solved
-from graphkin.solver.engine import finer_of, positions
+from graphkin.solver.engine import extended_precision_of, positions
 from graphkin.solver.joints import Drive, driver_text
 from graphkin.solver.pose import Array
 from graphkin.structure import Cluster, Dyad, Structure, analyse
 from graphkin.structure.assembly import last_true
 
-__all__ = ["DeadPoint", "dead_points", "nearest_dead_point", "settled"]
+__all__ = ["DeadPoint", "dead_points", "from_dead_point", "nearest_dead_point"]
 
 GRID = 1440
 FAR = 4.0
 MOST_GROUPS = 6
 SMALL = Decimal(10) ** -20
-SETTLED = Decimal(10) ** -48
+LAST_DIGITS = Decimal(10) ** -48
 TOUCH = 1e-9
 BESIDE = 0.01
 SAME = 1e-9
@@ -144,10 +144,12 @@ class _Gap:
 
     def __init__(self, structure: Structure, i: int, signs: Mapping[int, float]) -> None:
         forms = {**{j: np.asarray(s) for j, s in signs.items()}, i: _ONE}
-        self.finer = finer_of(structure, forms, ("discriminant", i), lambda program: [program.groups[i].discriminant])
+        self.extended = extended_precision_of(
+            structure, forms, ("discriminant", i), lambda program: [program.groups[i].discriminant]
+        )
 
     def __call__(self, value: Decimal) -> Decimal:
-        return self.finer.row(0, {0: value})[0]
+        return self.extended.row(0, {0: value})[0]
 
 
 def _root(structure: Structure, i: int, signs: Mapping[int, float], about: float) -> Decimal | None:
@@ -171,14 +173,14 @@ def _newton(function: Callable[[Decimal], Decimal], about: float) -> Decimal | N
                 slope = (function(x + SMALL) - function(x - SMALL)) / (2 * SMALL)
                 move = function(x) / slope
                 x = x - move
-                if abs(move) < SETTLED * (1 + abs(x)):
-                    return x if abs(x) > 100 * SETTLED else Decimal(0)
+                if abs(move) < LAST_DIGITS * (1 + abs(x)):
+                    return x if abs(x) > 100 * LAST_DIGITS else Decimal(0)
         except ArithmeticError:
             return None
     return None
 
 
-def settled(structure: Structure) -> Structure:
+def from_dead_point(structure: Structure) -> Structure:
     """The structure of the same scene with the value of its driver, which is given from a dead point.
 
     Raises

@@ -17,6 +17,7 @@ from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
 from graphkin.scene.model import AngleDriver, Driver, Scene
 from graphkin.solver.assemblies import choose_forms, own_values
 from graphkin.solver.engine import positions
+from graphkin.solver.error_bound import ErrorBound
 from graphkin.solver.findings import assembly_words, limit_why, structure_of, without_singular
 from graphkin.solver.joints import Drive
 from graphkin.solver.motion import Motion
@@ -338,26 +339,11 @@ def motion_of(
     reasons = ["" if g else why for g in good]
     status, reasons = without_singular(structure, state, drive.value, forms, status, reasons)
     ok = status == "ok"
-    bounds, rough = state.bounds, state.rough
-    assert bounds is not None
+    assert state.bounds is not None
+    bound = ErrorBound(*(np.where(ok, b, np.nan) for b in state.bounds))
+    rough = (np.where(ok, state.rough[0], np.nan), np.where(ok, state.rough[1], np.nan))
     poses = {name: pose.spread(n).where(ok) for name, pose in state.poses.items()}
     poses[structure.scene.frame.name] = rest().spread(n)
     place_redundant(structure, poses, ok)
-    return Motion(
-        structure,
-        drive.value,
-        status,
-        tuple(reasons),
-        poses,
-        all_slides(structure),
-        assembly,
-        np.where(ok, bounds.velocity, np.nan),
-        np.where(ok, bounds.acceleration, np.nan),
-        position_bound=np.where(ok, bounds.position, np.nan),
-        rough=(np.where(ok, rough[0], np.nan), np.where(ok, rough[1], np.nan)),
-        turning_bound=(
-            np.where(ok, bounds.angle, np.nan),
-            np.where(ok, bounds.omega, np.nan),
-            np.where(ok, bounds.alpha, np.nan),
-        ),
-    )
+    slides = all_slides(structure)
+    return Motion(structure, drive.value, status, tuple(reasons), poses, slides, assembly, bound, rough)

@@ -19,8 +19,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
+from graphkin.plane import cross, dot
 from graphkin.solver.expressions import fmax, fmin, root, two_sum
-from graphkin.solver.pose import Pose, cross, dot
+from graphkin.solver.pose import Pose
 
 __all__ = ["Joints", "Solved", "solve_dyad"]
 
@@ -121,8 +122,8 @@ def _rrr(j: Joints, sign: Any) -> Solved:
     al1, al2 = dot(bend, to2) * over, dot(bend, to1) * over
     whole = 1.0 / (2.0 * (long1 * long2))
     return Solved(
-        j.known1.hung(j.outer1, u1, w1, al1),
-        j.known2.hung(j.outer2, u2, w2, al2),
+        j.known1.pinned(j.outer1, u1, w1, al1),
+        j.known2.pinned(j.outer2, u2, w2, al2),
         product * (whole * whole),
         area * (sign * whole),
         1j * to1,
@@ -156,8 +157,8 @@ def _rrp(j: Joints, sign: Any) -> Solved:
     bend = bend - j.known1.a - _bent(arm1, u1, j.outer1, j.inner1, w1)
     al1, ddt = cross(guide.u, bend) * over, -dot(arm1, bend) * over
     return Solved(
-        j.known1.hung(j.outer1, u1, w1, al1),
-        guide.along(t, dt, ddt).hung(j.outer2, u2, w2, al2),
+        j.known1.pinned(j.outer1, u1, w1, al1),
+        guide.along(t, dt, ddt).pinned(j.outer2, u2, w2, al2),
         inside * (1.0 / (radius * radius)),
         half * (1.0 / radius),
         1j * arm1,
@@ -184,8 +185,8 @@ def _rpr(j: Joints, sign: Any) -> Solved:
     bend = ddline + (w * w) * line - d * (ddq + 2j * w * (ds + dq))
     al = cross(d, bend) * over
     return Solved(
-        j.known1.hung(j.outer1, d * j.inner1.u.conjugate(), w - j.inner1.omega, al - j.inner1.alpha),
-        j.known2.hung(j.outer2, d * j.inner2.u.conjugate(), w - j.inner2.omega, al - j.inner2.alpha),
+        j.known1.pinned(j.outer1, d * j.inner1.u.conjugate(), w - j.inner1.omega, al - j.inner1.alpha),
+        j.known2.pinned(j.outer2, d * j.inner2.u.conjugate(), w - j.inner2.omega, al - j.inner2.alpha),
         inside * (1.0 / (j.size * j.size)),
         leg / _greater(c, j.size),
         d,
@@ -224,8 +225,8 @@ def _prp(j: Joints, sign: Any) -> Solved:
     ends = ends - moved1.a - 1j * al1 * arm1 - _bent(arm1, u1, j.outer1, j.inner1, w1)
     ddt1, ddt2 = _two(e1, e2, over, ends)
     return Solved(
-        g1.along(t1, dt1, ddt1).hung(j.outer1, u1, w1, al1),
-        g2.along(t2, dt2, ddt2).hung(j.outer2, u2, w2, al2),
+        g1.along(t1, dt1, ddt1).pinned(j.outer1, u1, w1, al1),
+        g2.along(t2, dt2, ddt2).pinned(j.outer2, u2, w2, al2),
         sign * sine,
         sine,
         e1,
@@ -240,7 +241,7 @@ def _rpp(j: Joints, sign: Any) -> Solved:
     w2, al2 = guide.omega - j.outer2.omega, guide.alpha - j.outer2.alpha
     d, w, al = u2 * j.inner2.u, w2 + j.inner2.omega, al2 + j.inner2.alpha
     u1, w1, al1 = d * j.inner1.u.conjugate(), w - j.inner1.omega, al - j.inner1.alpha
-    first = j.known1.hung(j.outer1, u1, w1, al1)
+    first = j.known1.pinned(j.outer1, u1, w1, al1)
     end1 = first.of(j.inner1)
     # with no travel at the outer guide the inner joint of the second body would be here
     e1, e2 = guide.u, d
@@ -249,13 +250,13 @@ def _rpp(j: Joints, sign: Any) -> Solved:
     none = 0.0 * sine
 
     def inner_at(t: Any, dt: Any) -> Pose:
-        return guide.along(t, dt, none).hung(j.outer2, u2, w2, al2).of(j.inner2)
+        return guide.along(t, dt, none).pinned(j.outer2, u2, w2, al2).of(j.inner2)
 
     t, s = _two(e1, e2, over, end1.z - inner_at(none, none).z)
     load = end1.v - inner_at(t, none).v - 1j * w * s * d
     dt, ds = _two(e1, e2, over, load)
     ddt, _ = _two(e1, e2, over, end1.a - inner_at(t, dt).a - (2j * w * ds + (1j * al - w * w) * s) * d)
-    return Solved(first, guide.along(t, dt, ddt).hung(j.outer2, u2, w2, al2), sign * sine, sine, e1, e2, load)
+    return Solved(first, guide.along(t, dt, ddt).pinned(j.outer2, u2, w2, al2), sign * sine, sine, e1, e2, load)
 
 
 _SOLVERS: dict[str, Callable[[Joints, Any], Solved]] = {

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from graphkin.scene.model import AngleDriver
 from graphkin.solver.code import Code
 from graphkin.solver.dyads import Solved
+from graphkin.solver.error_bound import ErrorBound
 from graphkin.solver.expressions import Real, Vec
-from graphkin.solver.extended_precision import Finer
+from graphkin.solver.extended_precision import ExtendedPrecision
 from graphkin.solver.group_errors import bounds as bounds_together
 from graphkin.solver.joints import Drive, turned
 from graphkin.solver.larger_groups import ClusterSolved, solve_cluster
@@ -21,7 +22,7 @@ from graphkin.solver.program import FIELDS, GIVEN, Program, program_of
 from graphkin.solver.rounding import UNIT
 from graphkin.structure import Cluster, Dyad, Structure, links_of
 
-__all__ = ["SINGULAR", "Bounds", "State", "finer_of", "positions"]
+__all__ = ["SINGULAR", "State", "extended_precision_of", "positions"]
 
 SINGULAR = 1e-7
 """A group whose two loci cross at a smaller sine than this is at a dead point."""
@@ -33,18 +34,6 @@ FEW = 4
 """As many positions are computed one by one in plain floats."""
 
 
-class Bounds(NamedTuple):
-    """How far rounding may have moved any point of any link (m, m/s, m/s2) and the angles and their rates (rad, rad/s,
-    rad/s2), each of shape (n,)."""
-
-    position: Array
-    velocity: Array
-    acceleration: Array
-    angle: Array
-    omega: Array
-    alpha: Array
-
-
 _ZERO = np.zeros(1)
 
 
@@ -54,7 +43,7 @@ class State:
 
     poses : each link by its name, fields of shape (n,) or broadcasting to it
     groups : what each group gave, by its place among the elements
-    bounds : how far rounding may have put the links; None where rates were left out
+    bounds : how far rounding may have moved any point of any link, and their turning; None where rates were left out
     rough : bounds of velocity and acceleration, of points as far off as the mechanism is large, for a computation in 16
         digits throughout, such as a drawing; greater where more digits were used
     singular : the sine below which a group is at a dead point, smaller where the driver is given from a dead point
@@ -62,7 +51,7 @@ class State:
 
     poses: Mapping[str, Pose]
     groups: Mapping[int, Solved | ClusterSolved] = field(default_factory=dict)
-    bounds: Bounds | None = None
+    bounds: ErrorBound[Array] | None = None
     rough: tuple[Array, Array] = (_ZERO, _ZERO)
     singular: Array = field(default_factory=lambda: np.full(1, SINGULAR))
 
@@ -95,14 +84,14 @@ def positions(
         return run.state(len(structure.elements) if upto is None else upto)
 
 
-def finer_of(
+def extended_precision_of(
     structure: Structure, forms: Mapping[int, Array], key: Any, choose: Callable[[Program], list[Real]]
-) -> Finer:
+) -> ExtendedPrecision:
     """What computes some formulas of a mechanism of dyads in fifty digits, at any value of its drivers."""
     own = np.array([[d.values[0] for d in structure.scene.drivers]])
     run = _Run(structure, Drive.at(structure, own), forms, False, False)
     program = run.dimensioned.program
-    return run._finer(program.code(key, choose(program)))
+    return run._extended(program.code(key, choose(program)))
 
 
 class _Run:
@@ -153,18 +142,18 @@ class _Run:
         followed = self.sure and not self.clusters
         asked = [getattr(program.poses[n], f) for n in names for f in fields]
         asked += [getattr(program.groups[i], p) for i in dyads for p in parts]
-        asked += program.bounds(names) if followed else []
+        asked += [*program.bounds(names)] if followed else []
         columns = self._values((upto, self.rates, followed), asked)
         size = self.structure.scene.size
         rough = _rough(columns[-6:], size) if followed else (_ZERO, _ZERO)
         fine = np.zeros(self.n, dtype=bool)
         if names and not self.clusters:
-            finer = self._finer(program.code((upto, self.rates, followed), ()))
-            fine = finer.exact()
+            extended = self._extended(program.code((upto, self.rates, followed), ()))
+            fine = extended.exact()
             if followed:
-                finer.refine(asked, columns, len(names))
+                extended.refine(asked, columns, len(names))
             elif fine.any():
-                finer.place(asked, columns)
+                extended.place(asked, columns)
         values = iter(columns)
         poses = {self.structure.scene.frame.name: rest()}
         poses |= {n: _pose(dict(zip(fields, values, strict=False))) for n in names}
@@ -177,9 +166,9 @@ class _Run:
             )
         found = list(values)
         if self.sure and self.clusters:
-            found = bounds_together(self.structure, poses, self.drive, self._known)
+            found = [*bounds_together(self.structure, poses, self.drive, self._known)]
             rough = _rough(found, size)
-        bounds = Bounds(*(_sure(b) for b in found)) if self.sure else None
+        bounds = ErrorBound(*(_sure(b) for b in found)) if self.sure else None
         return State(poses, dict(sorted(groups.items())), bounds, rough, np.where(fine, TINY, SINGULAR))
 
     def _together(self, i: int, group: Cluster) -> None:
@@ -227,10 +216,10 @@ class _Run:
         code.arrays(code.same(params), inputs, out)
         return found
 
-    def _finer(self, code: Code) -> Finer:
+    def _extended(self, code: Code) -> ExtendedPrecision:
         signs = {name: column for name, column in self.given.items() if name[0] == "sign"}
         drivers = self.structure.scene.drivers
-        return Finer(self.dimensioned, code, drivers, self.drive.value, self.rate, self.second, signs)
+        return ExtendedPrecision(self.dimensioned, code, drivers, self.drive.value, self.rate, self.second, signs)
 
     def _one_by_one(self, code: Code, params: list[float], inputs: list[Array]) -> list[Array]:
         rows = np.empty((self.n, len(code.asked)))

@@ -17,7 +17,7 @@ from graphkin.solver.pose import Array
 from graphkin.solver.program import FIELDS, GIVEN, DimensionedProgram
 from graphkin.solver.rounding import UNIT
 
-__all__ = ["Finer"]
+__all__ = ["ExtendedPrecision"]
 
 ROUGH = 1e-10
 """Relative bound of a rate above which a position is computed in more digits."""
@@ -26,7 +26,7 @@ FEW = 8
 
 
 @dataclass(frozen=True)
-class Finer:
+class ExtendedPrecision:
     """What it takes to compute a position again.
 
     value, rate, second : of the drivers, shape (n, drivers), (drivers,), (drivers,)

@@ -13,7 +13,7 @@ import numpy as np
 from graphkin.errors import GraphkinError, Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, Scene
 from graphkin.solver.assemblies import choose_forms, own_values
-from graphkin.solver.dead_points import nearest_dead_point, settled
+from graphkin.solver.dead_points import from_dead_point, nearest_dead_point
 from graphkin.solver.decimals import meant_value
 from graphkin.solver.dyads import Solved
 from graphkin.solver.engine import SINGULAR, State, positions
@@ -273,8 +273,9 @@ def structure_of(scene: Scene | Structure) -> Structure:
         if found is None:
             raise
         raise Unsolvable("mobility", *stop.problems, found) from None
-    unsettled = any(d.dead_point and not d.dead_point.exact for d in scene.drivers)
-    return settled(structure) if unsettled else structure
+    if any(d.dead_point and not d.dead_point.exact for d in scene.drivers):
+        return from_dead_point(structure)
+    return structure
 
 
 def _diagnosis(scene: Scene) -> Problem | None:

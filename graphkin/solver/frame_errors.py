@@ -9,45 +9,23 @@ is condition times backward error).  Where the errors are not small beside the s
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
+from graphkin.plane import cross
 from graphkin.solver.dyads import Joints, Solved
-from graphkin.solver.expressions import Vec, fmax, root
-from graphkin.solver.pose import Pose, cross
+from graphkin.solver.error_bound import ErrorBound
+from graphkin.solver.expressions import Real, Vec, fmax, root
+from graphkin.solver.pose import Pose
 
-__all__ = ["Doubt", "carried", "of_dyad", "seen", "within"]
+__all__ = ["FrameError", "carried", "of_dyad", "seen", "within"]
 
 SAFE = 4.0
 """Errors of directions, beside the sine of a group, above a quarter of which first order does not hold."""
 
 
-@dataclass(frozen=True)
-class Doubt:
-    """How far a frame of axes may be off: its origin (m) and direction (rad), and the rates of both; formulas."""
-
-    z: Any
-    u: Any
-    v: Any
-    omega: Any
-    a: Any
-    alpha: Any
-
-    def __add__(self, other: Doubt) -> Doubt:
-        return Doubt(
-            self.z + other.z,
-            self.u + other.u,
-            self.v + other.v,
-            self.omega + other.omega,
-            self.a + other.a,
-            self.alpha + other.alpha,
-        )
-
-    def turning_as(self, other: Doubt) -> Doubt:
-        """The origin of these axes, with the direction of others."""
-        return replace(self, u=other.u, omega=other.omega, alpha=other.alpha)
-
-
+FrameError = ErrorBound[Real]
+"""How far a frame of axes may be off; formulas."""
 _Off = tuple[Any, Any, Any]
 """Errors of an unknown of a dyad, an angle or a travel, and of its rates."""
 
@@ -74,8 +52,8 @@ def seen(frame: Pose, point: Pose) -> _Way:
     return _lengths(arm, slip, push)
 
 
-def carried(doubt: Doubt, frame: Pose, way: _Way, off: _Off = (0.0, 0.0, 0.0)) -> Doubt:
-    """The doubt of a point at the end of an arm, with the direction of the frame that the arm is seen from.
+def carried(error: FrameError, frame: Pose, way: _Way, off: _Off = (0.0, 0.0, 0.0)) -> FrameError:
+    """The error of a point at the end of an arm, with the direction of the frame that the arm is seen from.
 
     Parameters
     ----------
@@ -84,23 +62,25 @@ def carried(doubt: Doubt, frame: Pose, way: _Way, off: _Off = (0.0, 0.0, 0.0)) -
     """
     spin, bend = abs(frame.omega), abs(frame.alpha) + frame.omega * frame.omega
     (r, s, b), (x, dx, ddx) = way, off
-    turned = doubt.omega + spin * doubt.u
+    turned = error.omega + spin * error.angle
     return replace(
-        doubt,
-        z=doubt.z + r * doubt.u + x,
-        v=doubt.v + r * turned + s * doubt.u + spin * x + dx,
-        a=doubt.a
-        + r * (doubt.alpha + bend * doubt.u + 2.0 * (spin * doubt.omega))
+        error,
+        position=error.position + r * error.angle + x,
+        velocity=error.velocity + r * turned + s * error.angle + spin * x + dx,
+        acceleration=error.acceleration
+        + r * (error.alpha + bend * error.angle + 2.0 * (spin * error.omega))
         + 2.0 * (s * turned)
-        + b * doubt.u
+        + b * error.angle
         + bend * x
         + 2.0 * (spin * dx)
         + ddx,
     )
 
 
-def of_dyad(kind: str, joints: Joints, solved: Solved, first: Doubt, second: Doubt) -> tuple[Doubt, Doubt]:
-    """The doubts of the two bodies of a dyad.
+def of_dyad(
+    kind: str, joints: Joints, solved: Solved, first: FrameError, second: FrameError
+) -> tuple[FrameError, FrameError]:
+    """The errors of the two bodies of a dyad.
 
     Parameters
     ----------
@@ -113,9 +93,9 @@ def of_dyad(kind: str, joints: Joints, solved: Solved, first: Doubt, second: Dou
     by1, by2 = long2 / across, long1 / across
     none: _Off = (0.0, 0.0, 0.0)
     one, two = none, none
-    for order, level in enumerate(("z", "v", "a")):
+    for order in range(3):
         a, b = ends(one, two)
-        open_ = getattr(a, level) + getattr(b, level)
+        open_ = a.of_point[order] + b.of_point[order]
         if order == 0:
             turned = rigid(by1 * open_, by2 * open_)
             # the sine itself is off by the errors of the two directions
@@ -126,15 +106,10 @@ def of_dyad(kind: str, joints: Joints, solved: Solved, first: Doubt, second: Dou
     return bodies(one, two)
 
 
-_Ends = Callable[[_Off, _Off], tuple[Doubt, Doubt]]
+_Ends = Callable[[_Off, _Off], tuple[FrameError, FrameError]]
 _Rigid = Callable[[Any, Any], Any]
 _Parts = tuple[_Ends, _Ends, _Rigid]
-"""Doubts of the inner joint by both ways to it, doubts of both bodies, errors of the two directions together."""
-
-
-def _turning(doubt: Doubt, off: _Off) -> Doubt:
-    """A joint about which a body turns whose angle is off."""
-    return replace(doubt, u=off[0], omega=off[1], alpha=off[2])
+"""FrameErrors of the inner joint by both ways to it, doubts of both bodies, errors of the two directions together."""
 
 
 def _still(joint: Pose) -> Pose:
@@ -148,85 +123,85 @@ def _origin(joint: Pose) -> _Way:
     return within(_still(joint), joint)
 
 
-def _rrr(j: Joints, s: Solved, first: Doubt, second: Doubt) -> _Parts:
+def _rrr(j: Joints, s: Solved, first: FrameError, second: FrameError) -> _Parts:
     arm1, arm2 = within(j.outer1, j.inner1), within(j.outer2, j.inner2)
     back1, back2 = _origin(j.outer1), _origin(j.outer2)
 
-    def ends(one: _Off, two: _Off) -> tuple[Doubt, Doubt]:
-        return carried(_turning(first, one), s.first, arm1), carried(_turning(second, two), s.second, arm2)
+    def ends(one: _Off, two: _Off) -> tuple[FrameError, FrameError]:
+        return carried(first.turning_as(*one), s.first, arm1), carried(second.turning_as(*two), s.second, arm2)
 
-    def bodies(one: _Off, two: _Off) -> tuple[Doubt, Doubt]:
-        return carried(_turning(first, one), s.first, back1), carried(_turning(second, two), s.second, back2)
+    def bodies(one: _Off, two: _Off) -> tuple[FrameError, FrameError]:
+        return carried(first.turning_as(*one), s.first, back1), carried(second.turning_as(*two), s.second, back2)
 
     return ends, bodies, lambda x, y: x + y
 
 
-def _rrp(j: Joints, s: Solved, first: Doubt, second: Doubt) -> _Parts:
+def _rrp(j: Joints, s: Solved, first: FrameError, second: FrameError) -> _Parts:
     slid, arm1, arm2 = seen(j.known2, s.second.of(j.outer2)), within(j.outer1, j.inner1), within(j.outer2, j.inner2)
     back1, back2 = _origin(j.outer1), _origin(j.outer2)
 
-    def ends(one: _Off, two: _Off) -> tuple[Doubt, Doubt]:
+    def ends(one: _Off, two: _Off) -> tuple[FrameError, FrameError]:
         there = carried(second, j.known2, slid, two)
-        return carried(_turning(first, one), s.first, arm1), carried(there, s.second, arm2)
+        return carried(first.turning_as(*one), s.first, arm1), carried(there, s.second, arm2)
 
-    def bodies(one: _Off, two: _Off) -> tuple[Doubt, Doubt]:
+    def bodies(one: _Off, two: _Off) -> tuple[FrameError, FrameError]:
         there = carried(second, j.known2, slid, two)
-        return carried(_turning(first, one), s.first, back1), carried(there, s.second, back2)
+        return carried(first.turning_as(*one), s.first, back1), carried(there, s.second, back2)
 
-    return ends, bodies, lambda x, y: x + second.u
+    return ends, bodies, lambda x, y: x + second.angle
 
 
-def _rpr(j: Joints, s: Solved, first: Doubt, second: Doubt) -> _Parts:
+def _rpr(j: Joints, s: Solved, first: FrameError, second: FrameError) -> _Parts:
     bar = s.second.of(j.inner2)
     # from one known point to the other, seen from the common direction
     axes = Pose(j.known2.z, bar.u, j.known2.v, bar.omega, j.known2.a, bar.alpha)
     line, back1, back2 = seen(axes, j.known1), _origin(j.outer1), _origin(j.outer2)
 
-    def ends(one: _Off, two: _Off) -> tuple[Doubt, Doubt]:
-        return first, carried(_turning(second, two), axes, line, one)
+    def ends(one: _Off, two: _Off) -> tuple[FrameError, FrameError]:
+        return first, carried(second.turning_as(*two), axes, line, one)
 
-    def bodies(one: _Off, two: _Off) -> tuple[Doubt, Doubt]:
-        return carried(_turning(first, two), s.first, back1), carried(_turning(second, two), s.second, back2)
+    def bodies(one: _Off, two: _Off) -> tuple[FrameError, FrameError]:
+        return carried(first.turning_as(*two), s.first, back1), carried(second.turning_as(*two), s.second, back2)
 
     return ends, bodies, lambda x, y: y + y
 
 
-def _prp(j: Joints, s: Solved, first: Doubt, second: Doubt) -> _Parts:
+def _prp(j: Joints, s: Solved, first: FrameError, second: FrameError) -> _Parts:
     slid1, slid2 = seen(j.known1, s.first.of(j.outer1)), seen(j.known2, s.second.of(j.outer2))
     arm1, arm2 = within(j.outer1, j.inner1), within(j.outer2, j.inner2)
     back1, back2 = _origin(j.outer1), _origin(j.outer2)
 
-    def joints(one: _Off, two: _Off) -> tuple[Doubt, Doubt]:
+    def joints(one: _Off, two: _Off) -> tuple[FrameError, FrameError]:
         return carried(first, j.known1, slid1, one), carried(second, j.known2, slid2, two)
 
-    def ends(one: _Off, two: _Off) -> tuple[Doubt, Doubt]:
+    def ends(one: _Off, two: _Off) -> tuple[FrameError, FrameError]:
         a, b = joints(one, two)
         return carried(a, s.first, arm1), carried(b, s.second, arm2)
 
-    def bodies(one: _Off, two: _Off) -> tuple[Doubt, Doubt]:
+    def bodies(one: _Off, two: _Off) -> tuple[FrameError, FrameError]:
         a, b = joints(one, two)
         return carried(a, s.first, back1), carried(b, s.second, back2)
 
-    return ends, bodies, lambda x, y: first.u + second.u
+    return ends, bodies, lambda x, y: first.angle + second.angle
 
 
-def _rpp(j: Joints, s: Solved, first: Doubt, second: Doubt) -> _Parts:
+def _rpp(j: Joints, s: Solved, first: FrameError, second: FrameError) -> _Parts:
     bar = s.second.of(j.inner2)
-    hinge, along = first.turning_as(second), seen(bar, s.first.of(j.inner1))
+    hinge, along = first.turning_as(*second.of_turning), seen(bar, s.first.of(j.inner1))
     slid, arm1, arm2 = seen(j.known2, s.second.of(j.outer2)), within(j.outer1, j.inner1), within(j.outer2, j.inner2)
     back1, back2 = _origin(j.outer1), _origin(j.outer2)
 
-    def ends(one: _Off, two: _Off) -> tuple[Doubt, Doubt]:
+    def ends(one: _Off, two: _Off) -> tuple[FrameError, FrameError]:
         there = carried(carried(second, j.known2, slid, one), s.second, arm2)
         return carried(hinge, s.first, arm1), carried(there, bar, along, two)
 
-    def bodies(one: _Off, two: _Off) -> tuple[Doubt, Doubt]:
+    def bodies(one: _Off, two: _Off) -> tuple[FrameError, FrameError]:
         return carried(hinge, s.first, back1), carried(carried(second, j.known2, slid, one), s.second, back2)
 
-    return ends, bodies, lambda x, y: second.u + second.u
+    return ends, bodies, lambda x, y: second.angle + second.angle
 
 
-_KINDS: Mapping[str, Callable[[Joints, Solved, Doubt, Doubt], _Parts]] = {
+_KINDS: Mapping[str, Callable[[Joints, Solved, FrameError, FrameError], _Parts]] = {
     "RRR": _rrr,
     "RRP": _rrp,
     "RPR": _rpr,

@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from graphkin.scene.model import AngleDriver
+from graphkin.solver.error_bound import ErrorBound
 from graphkin.solver.group_equations import System
 from graphkin.solver.joints import Drive, joint_place
 from graphkin.solver.pose import Array, Pose
@@ -25,19 +26,8 @@ __all__ = ["bounds", "certificate"]
 ROUNDINGS = 32 * UNIT
 FEW = 4 * UNIT
 """The roundings of a sum of products."""
-_NONE = np.zeros(1)
-
-
-class Errors(NamedTuple):
-    """Bounds of the fields of a pose: place (m), direction, velocity (m/s), omega (rad/s), acceleration (m/s2), alpha
-    (rad/s2), each of shape (n,)."""
-
-    z: Array = _NONE
-    u: Array = _NONE
-    v: Array = _NONE
-    omega: Array = _NONE
-    a: Array = _NONE
-    alpha: Array = _NONE
+Errors = ErrorBound[Array]
+_NONE = Errors(*(np.zeros(1),) * 6)
 
 
 def certificate(system: System, members: Mapping[str, Pose], condition: Array, missed: Array) -> Array:
@@ -55,10 +45,8 @@ def certificate(system: System, members: Mapping[str, Pose], condition: Array, m
 
 def bounds(
     structure: Structure, poses: Mapping[str, Pose], drive: Drive, given: Callable[[tuple[Any, ...]], float]
-) -> list[Array]:
-    """Bounds of the errors of a whole mechanism: the most of any point of any link in position (m), velocity (m/s) and
-    acceleration (m/s2), the most of any link in angle (rad), omega (rad/s) and alpha (rad/s2), each of shape (n,);
-    infinite where they are not known.
+) -> Errors:
+    """Bounds of the errors of a whole mechanism: the most of any point of any link and of the turning of any.
 
     Parameters
     ----------
@@ -79,8 +67,8 @@ def bounds(
 
         alone = [off(order, {}) for order in range(3)]
         change = np.zeros(n)
-        found = {name: Errors() for name in names}
-        chained = {name: Errors() for name in names}
+        found = dict.fromkeys(names, _NONE)
+        chained = dict.fromkeys(names, _NONE)
         for order in range(3):
             # what has happened to the constraints so far, by the rates at which the inverse passes it on
             tight = sum(w * _times(sizes[k], alone[order - k]) for k, w in enumerate(_BINOMIAL[order]))
@@ -93,7 +81,7 @@ def bounds(
             found = _with(found, order, tight + (grown - 1) * loose.max(axis=1, keepdims=True), system)
             chained = _with(chained, order, loose, system)
         points = [_points(structure, name, members, found[name]) for name in names]
-        return [np.max(np.broadcast_arrays(*column), axis=0) for column in zip(*points, strict=True)]
+        return Errors(*(np.max(np.broadcast_arrays(*column), axis=0) for column in zip(*points, strict=True)))
 
 
 _BINOMIAL = ((1,), (1, 1), (1, 2, 1))
@@ -109,8 +97,9 @@ def _with(found: Mapping[str, Errors], order: int, error: Array, system: System)
     error = np.where(np.isfinite(error), error, np.inf).reshape(len(error), -1, 3)
     for k, name in enumerate(system.group.members):
         place, turn = system.structure.scene.size * np.hypot(error[:, k, 0], error[:, k, 1]), error[:, k, 2]
-        fields = dict(zip((("z", "u"), ("v", "omega"), ("a", "alpha"))[order], (place, turn), strict=True))
-        made[name] = found[name]._replace(**fields)
+        fields = dict(zip((("position", "angle"), ("velocity", "omega"), ("acceleration", "alpha"))[order],
+                          (place, turn), strict=True))
+        made[name] = replace(found[name], **fields)
     return made
 
 
@@ -172,7 +161,7 @@ def _change(system: System, poses: Mapping[str, Pose], inverse: Array, error: Ar
     return np.asarray(most * np.sqrt(change))
 
 
-def _points(structure: Structure, name: str, poses: Mapping[str, Pose], e: Errors) -> tuple[Array, ...]:
+def _points(structure: Structure, name: str, poses: Mapping[str, Pose], error: Errors) -> Errors:
     """The most of any point of a link, coincident points under what slides on it too, and of its turning."""
     pose = poses[name]
     r = np.full(len(pose.z), max(map(abs, structure.links[name].points.values()), default=0.0))
@@ -180,14 +169,7 @@ def _points(structure: Structure, name: str, poses: Mapping[str, Pose], e: Error
         if slide.b == name and slide.a in poses:
             r = np.maximum(r, np.abs(poses[slide.a].z - pose.z))
     spin, bend = np.abs(pose.omega), np.abs(pose.alpha) + pose.omega**2
-    return (
-        e.z + r * e.u + FEW * (np.abs(pose.z) + r),
-        e.v + r * (e.omega + spin * e.u) + FEW * (np.abs(pose.v) + spin * r),
-        e.a + r * (e.alpha + bend * e.u + (2 * spin + e.omega) * e.omega) + FEW * (np.abs(pose.a) + bend * r),
-        e.u,
-        e.omega,
-        e.alpha,
-    )
+    return error.within(r, (np.abs(pose.z), np.abs(pose.v), np.abs(pose.a)), spin, bend, FEW)
 
 
 def _inverse(matrix: Array) -> Array:
@@ -230,7 +212,7 @@ class _Rows:
         for pair in self.system.group.pairs:
             one, two = self._joint(pair, pair.a), self._joint(pair, pair.b)
             if isinstance(pair, Turn):
-                gap = (one.error[2 * order] + two.error[2 * order]) / size
+                gap = (one.error.of_point[order] + two.error.of_point[order]) / size
                 rows += [gap, gap]
             else:
                 rows += [_turning(one, two, order), _sliding(one, two, order) / size]
@@ -248,8 +230,8 @@ class _Rows:
 
     def _errors(self, name: str) -> Errors:
         """Of a link; a computed direction may be a little longer or shorter than one."""
-        found = self.errors.get(name, Errors())
-        return found._replace(u=found.u + np.abs(np.abs(self.poses[name].u) - 1))
+        found = self.errors.get(name, _NONE)
+        return replace(found, angle=found.angle + np.abs(np.abs(self.poses[name].u) - 1))
 
     def _joint(self, pair: Pair, name: str) -> _Joint:
         place, direction = joint_place(self.system.structure, pair, name)
@@ -263,15 +245,15 @@ class _Rows:
         else:
             turned = self.given(("error", "turn", pair.key))
         spin, bend = np.abs(p.omega), np.abs(p.alpha) + p.omega**2
-        off = far * (e.u + FEW) + 1.5 * written
+        off = far * (e.angle + FEW) + 1.5 * written
         return _Joint(
             p.fixed(place, direction),
             Errors(
-                e.z + off + UNIT * np.abs(p.z),
-                e.u + (1.5 * turned + FEW if direction != 1 else 0.0),
-                e.v + far * e.omega + spin * off + UNIT * np.abs(p.v),
+                e.position + off + UNIT * np.abs(p.z),
+                e.velocity + far * e.omega + spin * off + UNIT * np.abs(p.v),
+                e.acceleration + far * (e.alpha + (2 * spin + e.omega) * e.omega) + bend * off + UNIT * np.abs(p.a),
+                e.angle + (1.5 * turned + FEW if direction != 1 else 0.0),
                 e.omega,
-                e.a + far * (e.alpha + (2 * spin + e.omega) * e.omega) + bend * off + UNIT * np.abs(p.a),
                 e.alpha,
             ),
         )
@@ -279,7 +261,7 @@ class _Rows:
 
 def _turning(one: _Joint, two: _Joint, order: int) -> Array:
     """Of the angle between two joints, or its rates."""
-    both = one.error[2 * order + 1] + two.error[2 * order + 1]
+    both = one.error.of_turning[order] + two.error.of_turning[order]
     if order == 0:
         return np.asarray(both + FEW)
     a, b = ((j.pose.omega, j.pose.alpha)[order - 1] for j in (one, two))
@@ -290,16 +272,16 @@ def _sliding(one: _Joint, two: _Joint, order: int) -> Array:
     """Of a joint's place in the axes of another, or its rates there."""
     (p, e), (q, f) = (one.pose, one.error), (two.pose, two.error)
     gap, slip = np.abs(p.z - q.z), np.abs(p.v - q.v)
-    near, quick = e.z + f.z, e.v + f.v
+    near, quick = e.position + f.position, e.velocity + f.velocity
     spin, bend = np.abs(q.omega), np.abs(q.alpha) + q.omega**2
     far = np.abs(p.z) + np.abs(q.z)
     if order == 0:
-        return np.asarray(gap * f.u + near + FEW * far)
+        return np.asarray(gap * f.angle + near + FEW * far)
     fast = np.abs(p.v) + np.abs(q.v)
     if order == 1:
-        turned = (slip + spin * gap) * f.u + (gap + near) * f.omega
+        turned = (slip + spin * gap) * f.angle + (gap + near) * f.omega
         return np.asarray(turned + quick + spin * near + FEW * (fast + spin * far))
     pushed = np.abs(p.a - q.a) + 2 * spin * slip + bend * gap
-    turned = pushed * f.u + 2 * (slip + quick) * f.omega + (gap + near) * (f.alpha + (2 * spin + f.omega) * f.omega)
+    turned = pushed * f.angle + 2 * (slip + quick) * f.omega + (gap + near) * (f.alpha + (2 * spin + f.omega) * f.omega)
     rounded = FEW * (np.abs(p.a) + np.abs(q.a) + 2 * spin * fast + bend * far)
-    return np.asarray(turned + e.a + f.a + 2 * spin * quick + bend * near + rounded)
+    return np.asarray(turned + e.acceleration + f.acceleration + 2 * spin * quick + bend * near + rounded)

@@ -90,7 +90,7 @@ def driven(frames: Frames, element: Driven, poses: Mapping[str, Pose]) -> Pose:
         forward = element.driver.link == link
         from_ = poses[element.driver.relative_to if forward else element.driver.link]
         seen = from_.of(given if forward else given.inverse())
-        return at.hung(mine, seen.u, seen.omega, seen.alpha)
+        return at.pinned(mine, seen.u, seen.omega, seen.alpha)
     travel, rate, second = frames.travel(element.driver)
     if pair.a == link:
         return at.along(travel, rate, second).of(mine.inverse())

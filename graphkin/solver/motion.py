@@ -14,6 +14,7 @@ import numpy as np
 from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
 from graphkin.scene.model import Link, Scene
 from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.solver.error_bound import ErrorBound
 from graphkin.solver.pose import Array, Pose
 from graphkin.structure import Slide, Structure
 
@@ -158,9 +159,7 @@ class Motion:
     poses : each moving link, the frame, and the blocks of pins, by name; NaN where the status is not ok
     slides : the sliding pairs and pins in slots, those of redundant links included
     assembly : for each group, in the order of ``structure.groups``, which assembly was taken
-    velocity_bound, acceleration_bound : real, shape (n,), how far rounding may have moved any point (m/s, m/s2)
-    position_bound : the same for places (m)
-    turning_bound : the same for the angles of links and their first and second rates (rad, rad/s, rad/s2)
+    bound : how far rounding may have moved any point, and the angles of links and their rates; NaN where not ok
     rough : what the bounds of velocity and acceleration would be if all were computed in 16 digits, as a drawing is
     turned : over a sweep how far each link has turned since its start, to a few degrees (rad): tells whole turns
     """
@@ -172,12 +171,9 @@ class Motion:
     poses: Mapping[str, Pose]
     slides: tuple[Slide, ...]
     assembly: tuple[str, ...]
-    velocity_bound: Array
-    acceleration_bound: Array
+    bound: ErrorBound[Array]
+    rough: tuple[Array, Array]
     turned: Mapping[str, Array] = field(default_factory=dict)
-    position_bound: Array = field(default_factory=lambda: np.zeros(0))
-    rough: tuple[Array, Array] = (np.zeros(0), np.zeros(0))
-    turning_bound: tuple[Array, Array, Array] = (np.zeros(0), np.zeros(0), np.zeros(0))
 
     @property
     def scene(self) -> Scene:

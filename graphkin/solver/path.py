@@ -166,7 +166,7 @@ TRAVEL_STEP = 1 / 200
 CLUSTER_STEP = np.radians(4.0)
 SWING = 0.09
 """Between two nodes no link turns by more than this (about 5 degrees)."""
-BESIDE = 1e-6
+OFF_FLIP = 1e-6
 """At a change point a group tells nothing; what follows it is watched this far beside it."""
 
 
@@ -211,7 +211,7 @@ class Path:
 
     @cached_property
     def _turned(self) -> dict[str, Array]:
-        nodes = _beside(self.flips, self.nodes)
+        nodes = _off_flips(self.flips, self.nodes)
         poses = positions(self.structure, self.drive(nodes), self.form(nodes), rates=False).poses
         found: dict[str, Array] = {}
         for name, pose in poses.items():
@@ -257,7 +257,7 @@ def _steps(structure: Structure, span: Array) -> int:
 
 def _follow_dyad(path: Path, i: int, dyad: Dyad, sign: float, grid: Array) -> Path:
     def discriminant(t: Array) -> Array:
-        t = _beside(path.flips, t)
+        t = _off_flips(path.flips, t)
         forms = {**path.form(t), i: np.asarray(sign)}
         solved = positions(path.structure, path.drive(t), forms, i + 1, rates=False).groups[i]
         assert isinstance(solved, Solved)
@@ -273,20 +273,20 @@ def _signed(sign: float, passage: Passage) -> Callable[[Array], Array]:
     return lambda t: sign * passage.sign(t)
 
 
-def _beside(flips: Array, t: Array) -> Array:
+def _off_flips(flips: Array, t: Array) -> Array:
     for flip in flips:
-        t = np.where(np.abs(t - flip) < BESIDE, flip + BESIDE, t)
+        t = np.where(np.abs(t - flip) < OFF_FLIP, flip + OFF_FLIP, t)
     return t
 
 
 def _refined(path: Path, i: int, grid: Array) -> Array:
     """More nodes where the links found so far turn fast."""
     for _ in range(20):
-        t = _beside(path.flips, grid)
+        t = _off_flips(path.flips, grid)
         poses = positions(path.structure, path.drive(t), path.form(t), i + 1, rates=False).poses
         turning = [np.broadcast_to(np.nan_to_num(p.u), grid.shape) for p in poses.values()]
         swing = np.max([np.abs(np.diff(u)) for u in turning], axis=0)
-        fast = np.flatnonzero((swing > SWING) & (np.diff(grid) > BESIDE))
+        fast = np.flatnonzero((swing > SWING) & (np.diff(grid) > OFF_FLIP))
         if not len(fast) or len(grid) > 20000:
             break
         grid = np.sort(np.append(grid, (grid[fast] + grid[fast + 1]) / 2))
@@ -295,7 +295,7 @@ def _refined(path: Path, i: int, grid: Array) -> Array:
 
 def _follow_cluster(path: Path, i: int, group: Cluster, place: Array) -> Path:
     def solved(t: float, start: Array) -> tuple[ClusterSolved, Array]:
-        t_ = _beside(path.flips, np.array([t]))
+        t_ = _off_flips(path.flips, np.array([t]))
         state = positions(path.structure, path.drive(t_), {**path.form(t_), i: start[None]}, i + 1, sure=False)
         found = state.groups[i]
         assert isinstance(found, ClusterSolved)

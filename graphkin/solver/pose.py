@@ -8,19 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Array", "Pose", "cross", "dot", "rest"]
+__all__ = ["Array", "Pose", "rest"]
 
 Array = NDArray[Any]
-
-
-def dot(a: Any, b: Any) -> Any:
-    """Scalar product of plane vectors."""
-    return a.real * b.real + a.imag * b.imag
-
-
-def cross(a: Any, b: Any) -> Any:
-    """Vector product (its z part) of plane vectors."""
-    return a.real * b.imag - a.imag * b.real
 
 
 @dataclass(frozen=True)
@@ -98,7 +88,7 @@ class Pose:
             self.alpha,
         )
 
-    def hung(self, joint: Pose, u: Any, omega: Any, alpha: Any) -> Pose:
+    def pinned(self, joint: Pose, u: Any, omega: Any, alpha: Any) -> Pose:
         """The link whose direction is known and whose ``joint`` (in its axes) lies at the origin of this frame."""
         spin = 1j * omega
         return Pose(

@@ -12,7 +12,7 @@ from typing import Any
 from weakref import finalize
 
 from graphkin.scene.model import AngleDriver, Driver
-from graphkin.solver.bounds import FIELDS, LinkBounds
+from graphkin.solver.bounds import FIELDS, ErrorFormulas
 from graphkin.solver.code import Code
 from graphkin.solver.decimals import DIGITS, meant, meant_direction
 from graphkin.solver.dyads import Joints, Solved, solve_dyad
@@ -49,7 +49,7 @@ class Program:
         self.groups: dict[int, Solved] = {}
         for i, element in enumerate(structure.elements):
             self._add(i, element)
-        self.bounds = LinkBounds(self)
+        self.bounds = ErrorFormulas(self)
         self._codes: dict[Any, Code] = {}
 
     # numbers

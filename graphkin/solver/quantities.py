@@ -9,6 +9,7 @@ from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver.engine import SLACK
 from graphkin.solver.expressions import Real, Vec, fmax
+from graphkin.solver.frame_errors import FrameError
 from graphkin.solver.pose import Pose
 from graphkin.solver.program import Program
 from graphkin.structure import Cluster, Structure
@@ -115,11 +116,11 @@ class _Quantity:
         unit = self.program.bounds.unit
         if self.kind == "s":
             slide = self.structure.slide(self.link)
-            moved, guide = self._link_bounds(slide.a)[0], self._link_bounds(slide.b)
-            return cast(Real, moved + guide[0] + abs(cast(Real, self.formula())) * (guide[3] + 4.0 * unit))
+            moved, guide = self._link_bounds(slide.a).position, self._link_bounds(slide.b)
+            return cast(Real, moved + guide.position + abs(cast(Real, self.formula())) * (guide.angle + 4.0 * unit))
         if self.kind in ("theta", "omega", "alpha"):
             self._pose(self.link)
-            bound = self._link_bounds(self.link)[{"theta": 3, "omega": 4, "alpha": 5}[self.kind]]
+            bound = self._link_bounds(self.link).of_turning[("theta", "omega", "alpha").index(self.kind)]
             return cast(Real, bound + 16.0 * unit if self.kind == "theta" else bound)
         order = {"point": 0, "v": 1, "a": 2}[self.kind]
         one, *other = [self._point_bounds(ref)[order] for ref in self.refs]
@@ -128,10 +129,10 @@ class _Quantity:
         both = cast(Vec, self.formula())
         return cast(Real, one + other[0] + unit * fmax(abs(both.real), abs(both.imag)))
 
-    def _link_bounds(self, link: str) -> tuple[Real, ...]:
-        """Position, velocity, acceleration of any point of a link, angle and its rates."""
+    def _link_bounds(self, link: str) -> FrameError:
+        """Of any point of a link and of its turning."""
         if any(isinstance(e, Cluster) for e in self.structure.elements):
-            return tuple(self.program.graph.input(("bound", k)) for k in range(6))
+            return FrameError(*(self.program.graph.input(("bound", k)) for k in range(6)))
         return self.program.bounds.of_link(link)
 
     def _pose(self, name: str) -> Pose:
@@ -164,7 +165,7 @@ class _Quantity:
     def _point_bounds(self, ref: PointRef) -> tuple[Real, ...]:
         holders = self._holders(ref)
         if not ref.link or ref.link in holders:
-            return self._link_bounds(ref.link or holders[0])
+            return self._link_bounds(ref.link or holders[0]).of_point
         pin, pose = self._point(PointRef(ref.point)), self._pose(ref.link)
-        place, moved = self._link_bounds(ref.link), self._link_bounds(holders[0])[0]
-        return moved, *self.program.bounds.under(ref.link, place, pin.z - pose.z, moved)
+        own, moved = self._link_bounds(ref.link), self._link_bounds(holders[0]).position
+        return moved, *self.program.bounds.under(ref.link, own, pin.z - pose.z, moved)

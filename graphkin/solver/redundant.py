@@ -9,8 +9,9 @@ from typing import NamedTuple
 import numpy as np
 
 from graphkin.errors import Problem, Unsolvable
+from graphkin.plane import cross, dot
 from graphkin.scene.model import Link, Scene, SlidingPair
-from graphkin.solver.pose import Array, Pose, cross, dot, rest
+from graphkin.solver.pose import Array, Pose, rest
 from graphkin.structure import Slide, Structure
 
 __all__ = ["Fit", "all_slides", "fit", "place_redundant"]
@@ -121,7 +122,7 @@ def _between_hinges(scene: Scene, link: Link, shared: Mapping[str, str], poses: 
     u = line / np.abs(line) * (abs(arm) / arm)
     omega = cross(line, slip) / square
     alpha = cross(line, bend) / square - 2 * omega * dot(line, slip) / square
-    return one.hung(rest(link.points[p]), u, omega, alpha)
+    return one.pinned(rest(link.points[p]), u, omega, alpha)
 
 
 def _on_guide(
@@ -134,7 +135,7 @@ def _on_guide(
     u = guide.u * pair.turn
     for point, holder in shared.items():
         at = poses[holder].fixed(scene.by_name[holder].points[point])
-        return at.hung(rest(link.points[point]), u, guide.omega, guide.alpha)
+        return at.pinned(rest(link.points[point]), u, guide.omega, guide.alpha)
     return None
 
 

@@ -10,6 +10,7 @@ from graphkin.errors import CallError, Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, Scene
 from graphkin.solver.assemblies import choose_forms, own_values
 from graphkin.solver.driver_range import goal_values, motion_of, range_from, way_to
+from graphkin.solver.error_bound import ErrorBound
 from graphkin.solver.findings import assembly_words, limit_why, structure_of
 from graphkin.solver.joints import Drive
 from graphkin.solver.motion import Motion
@@ -82,6 +83,5 @@ def _nowhere(structure: Structure, goal: Array, sweep: int | None, status: str, 
     nan = np.full(n, np.nan)
     unknown = tuple("" for _ in structure.groups)
     slides, said = all_slides(structure), (why,) * n
-    return Motion(
-        structure, values, np.full(n, status), said, poses, slides, unknown, nan, nan, {}, nan, (nan,) * 2, (nan,) * 3
-    )
+    bound = ErrorBound(*(nan,) * 6)
+    return Motion(structure, values, np.full(n, status), said, poses, slides, unknown, bound, (nan, nan))

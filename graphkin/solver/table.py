@@ -80,12 +80,12 @@ def to_json(motion: Motion) -> dict[str, Any]:
 
 def _bounds(motion: Motion, k: int) -> dict[str, Any]:
     metres = motion.scene.units.metres
-    moving = (motion.position_bound, motion.velocity_bound, motion.acceleration_bound)
+    moving, turning = motion.bound.of_point, motion.bound.of_turning
     found: dict[str, Any] = {
         name: float(b[k]) / metres if np.isfinite(b[k]) else None
         for name, b in zip(("position", "velocity", "acceleration"), moving, strict=True)
     }
-    for name, b in zip(("angle", "omega", "alpha"), motion.turning_bound, strict=True):
+    for name, b in zip(("angle", "omega", "alpha"), turning, strict=True):
         found[name] = float(b[k]) if np.isfinite(b[k]) else None
     if None in found.values():
         found["why"] = "the worst case of rounding, multiplied along so many groups, says nothing"

@@ -105,7 +105,7 @@ class Quantity:
         """
         value = self.values(course, motion)
         if not self.is_position:
-            bound = motion.velocity_bound if self.is_speed else motion.acceleration_bound
+            bound = motion.bound.velocity if self.is_speed else motion.bound.acceleration
             if self.measure.startswith("angular"):
                 lengths = [link.length for link in course.scene.links if link.length]
                 bound = bound / min(lengths, default=course.scene.size)

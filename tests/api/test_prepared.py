@@ -67,8 +67,8 @@ def test_no_value_is_further_from_that_of_solve_than_both_bounds_say(kind):
     for name in asked:
         metres = scene.units.metres if name.startswith("a_") else 1.0
         exact = motion.value(Symbol.parse(name)) / metres
-        size = {"o": motion.turning_bound[1], "a": motion.turning_bound[2]}[name[0]]
-        known = (motion.acceleration_bound if name.startswith("a_") else size) / metres
+        size = {"o": motion.bound.omega, "a": motion.bound.alpha}[name[0]]
+        known = (motion.bound.acceleration if name.startswith("a_") else size) / metres
         off = np.abs(samples[name] - exact)[both]
         assert (off <= (1.5 * samples.bound(name) + known)[both]).all(), name
 

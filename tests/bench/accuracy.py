@@ -20,8 +20,7 @@ import numpy as np
 from graphkin.errors import GraphkinError
 from graphkin.scene import read
 from graphkin.scene.model import Scene
-from graphkin.solver import engine
-from graphkin.solver import extended_precision as finer
+from graphkin.solver import engine, extended_precision
 from graphkin.solver.assemblies import choose_forms, own_values
 from graphkin.solver.decimals import PI, meant, working
 from graphkin.solver.expressions import Vec
@@ -103,7 +102,7 @@ def measure(positions: int, seed: int, refine: bool = False, each: int = EACH) -
     """
     rng = np.random.default_rng(seed)
     tally = Tally()
-    with patch.object(finer, "ROUGH", finer.ROUGH if refine else np.inf):
+    with patch.object(extended_precision, "ROUGH", extended_precision.ROUGH if refine else np.inf):
         while tally.looked_at < positions:
             try:
                 scene = random_scene(rng)
@@ -183,10 +182,11 @@ def _exact_rows(structure: Structure, drive: Drive, forms: dict[int, Any], degre
     names = [n for n in structure.links if n != structure.scene.frame.name]
     asked = [getattr(program.poses[n], f) for n in names for f in FIELDS]
     reals = [x for z in asked for x in ((z.real, z.imag) if isinstance(z, Vec) else (z,))]
-    again = run._finer(program.code(("accuracy",), reals))
+    again = run._extended(program.code(("accuracy",), reals))
 
     def row(k: int) -> dict[str, _Exact]:
-        with working(), patch.object(finer, "meant_angle", lambda _: (Decimal(float(degrees[k])) * PI / 180, True)):
+        exact = Decimal(float(degrees[k]))
+        with working(), patch.object(extended_precision, "meant_angle", lambda _: (exact * PI / 180, True)):
             numbers = list(again.row(k))
         found: dict[str, _Exact] = {}
         for name in names:

@@ -156,7 +156,7 @@ def _open(motion: Motion) -> list[str]:
     """Pairs that are open by more than the bounds allow."""
     ok = motion.ok
     wrong = []
-    bounds = (motion.position_bound, motion.velocity_bound, motion.acceleration_bound)
+    bounds = (motion.bound.position, motion.bound.velocity, motion.bound.acceleration)
     for point, names in motion.structure.hinges.items():
         first = motion.point(point, names[0])
         for name in names[1:]:

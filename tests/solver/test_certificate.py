@@ -36,7 +36,7 @@ def test_a_larger_group_stays_within_its_bound() -> None:
         at={"1": float(floating.angle("1")[0])},
     )
     ratio = crank.omega("3")[0] / crank.omega("2")[0]
-    bound = floating.turning_bound[1][0] / abs(floating.omega("2")[0])
+    bound = floating.bound.omega[0] / abs(floating.omega("2")[0])
     assert abs(floating.omega("3")[0] / floating.omega("2")[0] - ratio) < 4 * bound
 
 

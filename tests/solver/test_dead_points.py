@@ -66,7 +66,7 @@ def test_a_rate_is_right_to_rounding_at_any_distance(distance: str) -> None:
 
 def test_the_bound_stays_at_rounding() -> None:
     motion = at("angle = -1e-12\nnear = 90")
-    assert motion.turning_bound[1][0] < 1e-14 * abs(motion.omega("3")[0])
+    assert motion.bound.omega[0] < 1e-14 * abs(motion.omega("3")[0])
 
 
 def test_the_assembly_is_the_sketched_one() -> None:

@@ -25,7 +25,7 @@ def test_the_true_error_never_exceeds_the_bound(kind: str, monkeypatch: pytest.M
 
 
 def _bound(scene: dict[str, Any]) -> float:
-    return float(solve(read(scene)).velocity_bound[0])
+    return float(solve(read(scene)).bound.velocity[0])
 
 
 def test_each_dyad_of_a_chain_at_most_trebles_the_bound() -> None:

@@ -125,7 +125,7 @@ def _stated(case: Case, motion: Motion) -> float:
     """The bound that the solver states for the velocities of points, as one of the follower's rate (relative): both
     ends of its longest line may err."""
     reach = max(abs(z) for z in case.scene.by_name[case.follower].points.values())
-    return 2 * float(motion.velocity_bound[0]) / (abs(float(motion.omega(case.follower)[0])) * reach)
+    return 2 * float(motion.bound.velocity[0]) / (abs(float(motion.omega(case.follower)[0])) * reach)
 
 
 def _newton(case: Case, mp: Any, x: Sequence[float], truth: Sequence[_Exactly], samples: int) -> Law:

@@ -144,7 +144,7 @@ def flip(mp: Any, samples: int = 4) -> Trial:
         if solved is None:
             stops.setdefault("solved", e)
         refined.append(abs(solved[0].alpha) / rate**2 if solved else math.nan)
-        bounds.append(float(solved[1].turning_bound[2][0]) / rate**2 if solved else math.nan)
+        bounds.append(float(solved[1].bound.alpha[0]) / rate**2 if solved else math.nan)
         if k % samples == 0:
             drawn.append(_drawn(_at(scene, angle)) / rate**2)
             if math.isnan(drawn[-1]):
