@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from graphkin.drawing import Drawing
     from graphkin.solver import Motion
 
-__all__ = ["Centred", "ToldCentres", "Velocity", "centres", "found_centres", "told_centres", "velocities_by_centres"]
+__all__ = ["ROOM", "Centred", "centres", "found_centres", "told_centres"]
 
 
 @dataclass(frozen=True)
@@ -229,7 +229,7 @@ class Centred:
 
 def found_centres(scene: Scene, values: Mapping[str, float] | None) -> Centres:
     """All centres at driver values in SI, on a drawing of a scale of its own that leaves room around the mechanism."""
-    return find_centres(scene, values, room=ROOM)
+    return find_centres(scene, values).in_room(ROOM)
 
 
 def _name(pair: Pair) -> str:

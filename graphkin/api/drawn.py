@@ -23,7 +23,7 @@ from graphkin.api.arguments import (
 )
 from graphkin.api.checked import Checked, checked, hand_of, reading_row, solved_here
 from graphkin.api.report_text import told
-from graphkin.construction import plan
+from graphkin.construction import EXACT, plan
 from graphkin.scene.symbol import Symbol
 from graphkin.words import languages
 
@@ -52,7 +52,7 @@ class Drawn:
     @cached_property
     def figures(self) -> Mapping[str, Drawing]:
         """Figures by name: mechanism, velocity, acceleration, centres, sheet."""
-        from graphkin.api.centred import found_centres
+        from graphkin.api.centred import ROOM, found_centres
         from graphkin.construction.centres import speeds
         from graphkin.drawing import figures
         from graphkin.drawing.centres import centres_figure
@@ -64,7 +64,10 @@ class Drawn:
             )
         )
         part = self.checked.part
-        found = found_centres(part, {d.key: self.checked.sheet.drivers[d.key] for d in part.drivers})
+        values = {d.key: self.checked.sheet.drivers[d.key] for d in part.drivers}
+        # what exact hands have drawn serves this figure too; finite ones draw nothing of the centres
+        exact = self.checked.sheet.instrument == EXACT.name
+        found = self.checked.centres.in_room(ROOM) if exact else found_centres(part, values)
         made["centres"] = centres_figure(found, speeds(found), language=spoken, convention=letters)
         return made
 

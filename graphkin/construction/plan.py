@@ -7,7 +7,7 @@ at the scales that suit it: the scene's own, or those of the 1-2-2.5-5 series th
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
 
@@ -17,14 +17,15 @@ from graphkin.construction.equations import Chain
 from graphkin.construction.plot import Order
 from graphkin.construction.polygons import Polygons
 from graphkin.construction.position import branches_at, draw_position, place
-from graphkin.construction.sheet import DiagramName, Scales, Sheet
+from graphkin.construction.sheet import DiagramName, Scales, Sheet, Vector
 from graphkin.construction.slip import NO_SLIP, Slip
+from graphkin.construction.steps import Asked
 from graphkin.scene.model import AngleDriver, Scene
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Cluster, Driven, Dyad, Element, Structure, analyse, links_of, needed
 from graphkin.words import Phrase
 
-__all__ = ["Plan", "Room", "draft", "execute", "plan"]
+__all__ = ["Plan", "Room", "draft", "execute", "plan", "scales_for"]
 
 SERIES = (1.0, 2.0, 2.5, 5.0)
 ORDERS: tuple[Order, ...] = ("velocity", "acceleration")
@@ -84,6 +85,28 @@ def _fit(extent: Extent, room: tuple[float, float], units: float) -> float:
     return 10.0 * decade
 
 
+
+
+def _extents(
+    places: Iterable[complex], vectors: Callable[[Order], Iterable[Vector]], scales: Scales
+) -> dict[DiagramName, Extent]:
+    """Extents of the mechanism and of both polygons, pole included."""
+    extents: dict[DiagramName, Extent] = {"mechanism": Extent.around(places, scales.length)}
+    for order in ORDERS:
+        tips = [0j, *(z for v in vectors(order) for z in (v.tail, v.tip))]
+        extents[order] = Extent.around(tips, scales.of(order))
+    return extents
+
+
+def scales_for(sheet: Sheet, room: Room) -> Scales:
+    """The finest scales of the series at which a sheet fits a room; vectors that only a question asks for left out."""
+
+    def vectors(order: Order) -> Iterator[Vector]:
+        for step in sheet.steps:
+            if step.diagram == order and not isinstance(step.act, Asked):
+                yield from (s for s in step.strokes if isinstance(s, Vector))
+
+    return _chosen_scales(sheet.scene, _extents(sheet.points.values(), vectors, sheet.scales), room)
 
 
 NATURAL = Scales(1e-3, 1e-3, 1e-3)  # 1 mm of paper for 1 mm, 1 mm/s, 1 mm/s2
@@ -161,12 +184,7 @@ def plan(
 
 def _planned(task: Task, room: Room | None) -> Plan:
     polygons, assembly = _carried_out(task, NATURAL, EXACT, NO_SLIP)
-    tips = {order: [0j, *(z for v in polygons.drawn[order].values() for z in (v.tail, v.tip))] for order in ORDERS}
-    extents: dict[DiagramName, Extent] = {
-        "mechanism": Extent.around(polygons.places.values(), NATURAL.length),
-        "velocity": Extent.around(tips["velocity"], NATURAL.velocity),
-        "acceleration": Extent.around(tips["acceleration"], NATURAL.acceleration),
-    }
+    extents = _extents(polygons.places.values(), lambda order: polygons.drawn[order].values(), NATURAL)
     own = {f.name: getattr(task, f.name) for f in fields(Task)} | {"chains": polygons.chains}
     scales = _chosen_scales(task.structure.scene, extents, room)
     return Plan(**own, scales=scales, exact=_finished(task, polygons, assembly), extents=extents)

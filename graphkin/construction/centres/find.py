@@ -10,7 +10,7 @@ from graphkin.construction.board import EXACT, Instrument
 from graphkin.construction.centres.kennedy import Crossing, Known, Relation, Search, closure
 from graphkin.construction.centres.motion import Motion, Way, Worked, measured, relative_centre, work
 from graphkin.construction.centres.pairs import Chart, Links, Normal, Pair, Place, links_on_paper, normals, permanent
-from graphkin.construction.plan import Room
+from graphkin.construction.plan import Room, scales_for
 from graphkin.construction.sheet import Sheet
 from graphkin.scene.model import AngleDriver, Scene
 from graphkin.words import Phrase
@@ -60,6 +60,21 @@ class Centres:
         """The centre of two links, in any order.  Raises KeyError for a pair that is none."""
         return self.table[self.links.pair(a, b)]
 
+    def in_room(self, room: Room) -> Centres:
+        """The same centres on a figure that fills a room."""
+        scales = scales_for(self.sheet, room)
+        k = self.sheet.scales.length / scales.length
+        poses = {name: pose.scaled(k) for name, pose in self.links.poses.items()}
+        return Centres(
+            self.sheet.at(scales),
+            Links(self.links.scene, self.links.mm * k, poses),
+            Chart(self.chart.middle * k, self.chart.unit * k),
+            {pair: replace(c, point=None if c.point is None else c.point * k) for pair, c in self.table.items()},
+            tuple(replace(normal, foot=normal.foot * k) for normal in self.normals),
+            {name: Motion(m.at * k, m.velocity * k, m.omega) for name, m in self.motions.items()},
+            self.kept,
+        )
+
     @property
     def found(self) -> tuple[Centre, ...]:
         return tuple(sorted(self.table.values(), key=lambda c: c.number))
@@ -71,14 +86,14 @@ class Centres:
 
 
 def find_centres(
-    scene: Scene, at: Mapping[str, float] | None = None, instrument: Instrument = EXACT, room: Room | None = None,
+    scene: Scene, at: Mapping[str, float] | None = None, instrument: Instrument = EXACT,
     sheet: Sheet | None = None, near: Centres | None = None,
 ) -> Centres:  # fmt: skip
     """Find every centre of every two links on the drawing board.
 
     Parameters
     ----------
-    scene, at, instrument, room : as for `draft`
+    scene, at, instrument : as for `draft`
     sheet : the scene drawn at this position already; it is used if every link stands on it
     near : the centres at other driver values, from which a scene with larger groups is followed; without them the
         scene's own position is found first
@@ -91,7 +106,7 @@ def find_centres(
     if sheet is not None and moving is scene and set(sheet.structure.links) <= set(sheet.poses):
         worked = Worked(sheet, measured(sheet))
     else:
-        worked = work(moving, at, instrument, room, near.sheet if near is not None else None)
+        worked = work(moving, at, instrument, near.sheet if near is not None else None)
     links = links_on_paper(scene, 1.0 / worked.sheet.scales.length, worked.sheet.poses)
     chart = links.chart()
     table, slots = _search(links, chart, worked.motions, instrument, worked.way)

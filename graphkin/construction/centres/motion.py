@@ -11,7 +11,7 @@ from typing import Literal
 
 from graphkin.construction.board import EXACT, Instrument
 from graphkin.construction.centres.pairs import Chart, Pair, Place
-from graphkin.construction.plan import Room, draft
+from graphkin.construction.plan import draft
 from graphkin.construction.reduced_mechanism import Closing, Moved
 from graphkin.construction.sheet import Pose, Sheet
 from graphkin.construction.trial import Known, trial_position
@@ -87,7 +87,6 @@ def work(
     scene: Scene,
     at: Mapping[str, float] | None = None,
     instrument: Instrument = EXACT,
-    room: Room | None = None,
     near: Sheet | None = None,
 ) -> Worked:
     """Draw everything of a scene and measure how it moves.
@@ -95,7 +94,7 @@ def work(
     Parameters and exceptions are those of `draft`; a group larger than a dyad is drawn by trial, with ``near``, the
     whole scene on paper at other driver values, from there.
     """
-    sheet = draft(scene, at, (), instrument, room)
+    sheet = draft(scene, at, (), instrument)
     if sheet.stopped is None:
         return Worked(sheet, measured(sheet))
     structure = analyse(scene)
@@ -104,7 +103,7 @@ def work(
     dyads = trial.scene
     for closing, key in trial.closings:
         dyads = _at_speed(dyads, key, _true_speed(dyads, closing, key, structure))
-    drawn = draft(dyads, None, (), instrument, room)
+    drawn = draft(dyads, None, (), instrument)
     moved = _moved(drawn)
     mm = 1.0 / drawn.scales.length
     for closing, _ in reversed(trial.closings):
