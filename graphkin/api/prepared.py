@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from importlib.util import find_spec
 from numbers import Integral
@@ -34,6 +34,10 @@ MANY = 500_000
 MOST = 1_000_000_000
 
 
+def _have_numba() -> bool:
+    return find_spec("numba") is not None
+
+
 @dataclass(slots=True, eq=False, repr=False)  # not frozen: that would take longer than a hundred positions
 class Samples:
     """The quantities of a prepared mechanism at many positions.
@@ -52,7 +56,7 @@ class Samples:
     ok: NDArray[np.bool_]
     _driver: Reals | None
     _bounds: Reals | None
-    designs: Mapping[str, Reals] = field(default_factory=dict)
+    designs: PreparedDesigns | None = None
 
     def __len__(self) -> int:
         return len(self.ok)
@@ -85,7 +89,7 @@ class Samples:
 
         shape, units = self.ok.shape, self.prepared.units
         columns: list[Column] = []
-        for key, values in self.designs.items():
+        for key, values in (self.designs.values if self.designs else {}).items():
             columns.append(Column(key, np.ravel(np.broadcast_to(values.reshape(-1, *[1] * (len(shape) - 1)), shape))))
         first = self.prepared.scene.drivers[0]
         unit = "deg" if isinstance(first, AngleDriver) else self.prepared.scene.units.length
@@ -166,17 +170,39 @@ class Prepared:
         given = np.radians(own) if self.ready.turns else own * self.own_unit
         return self.samples(*self.ready.columns(given, fast=self.compiled(len(own))), own)
 
-    def sweep(self, n: int) -> Samples:
+    def sweep(self, n: int, out: Reals | None = None) -> Samples:
         """The quantities at n positions of the whole range: a turn from the scene's own position on, in the sense of
         the driver; of a driven slide evenly inside the range of travel.  As fast as the memory takes the columns: about
         5 ns a position compiled, 30 in NumPy.
 
+        Parameters
+        ----------
+        out : where to put the values, real, shape (columns, n), rows without gaps: new memory costs more than many
+            sweeps take
+
         Raises
         ------
-        CallError : n is no number of positions; numba is to compile (``fast=True``) and is not installed
+        CallError : n is no number of positions; ``out`` does not fit; numba is to compile and is not installed
         """
-        self.allowed(n)
-        return self.samples(*self.ready.sweep(n, None, self.compiled(n)), None)
+        if type(n) is not int or not 1 <= n <= MOST:
+            self.allowed(n)
+        if out is not None:
+            self._fitting(n, out)
+        columns, ok = self.ready.sweep(n, out, n >= MANY and _have_numba() if self.fast is None else self.fast)
+        if self._plain:
+            return Samples(self, columns, ok, None, None)
+        return self.samples(columns, ok, None)
+
+    def _fitting(self, n: int, out: Reals) -> None:
+        shape = len(self.ready.asked), n
+        if out.shape != shape or out.dtype != float or not out.flags.c_contiguous:
+            wanted = f"give an array of floats of the shape {shape}, in the order of C"
+            raise CallError(Problem("out", f"{out.dtype} of the shape {out.shape}", wanted))
+
+    @cached_property
+    def _plain(self) -> bool:
+        """Whether nothing is left to do with what the code gives."""
+        return self.ready.clear and not self.ready.bounded
 
     @staticmethod
     def allowed(n: int) -> None:
@@ -222,10 +248,10 @@ class Prepared:
 
     def compiled(self, n: int) -> bool:
         """Whether n positions are computed by compiled code."""
-        return n >= MANY and find_spec("numba") is not None if self.fast is None else self.fast
+        return n >= MANY and _have_numba() if self.fast is None else self.fast
 
     def samples(self, columns: Reals, ok: NDArray[np.bool_], driver: Reals | None) -> Samples:
-        if not self.ready.clear and not ok.all():
+        if not ok.all():
             columns[:, ~ok] = np.nan
         if not self.ready.bounded:
             return Samples(self, columns, ok, driver, None)
@@ -271,7 +297,7 @@ class PreparedDesigns:
         if self._single:
             columns, ok, driver = columns[:, 0], ok[0], driver if driver.ndim < 2 else driver[0]
         found = self.prepared.samples(columns, ok, driver)
-        found.designs = self.values
+        found.designs = self
         return found
 
     def __repr__(self) -> str:

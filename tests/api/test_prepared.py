@@ -118,6 +118,19 @@ def test_a_quantity_that_was_not_asked_for_is_refused_with_what_was():
         graphkin.prepare("shaper-scheme-2", "v_C").sweep(3)["v_B"]
 
 
+def test_values_are_put_where_they_are_wished():
+    ready = graphkin.prepare("shaper-scheme-2", "v_C")
+    out = np.empty((2, 50))
+    assert ready.sweep(50, out).values is out
+    assert ready.sweep(50).values.tolist() == out.tolist()
+
+
+@pytest.mark.parametrize("out", [np.empty((2, 49)), np.empty((2, 50), order="F"), np.empty((2, 50), dtype="f4")])
+def test_room_that_does_not_fit_is_refused(out):
+    with pytest.raises(graphkin.CallError, match=r"\(2, 50\)"):
+        graphkin.prepare("shaper-scheme-2", "v_C").sweep(50, out)
+
+
 @pytest.mark.parametrize("n", [0, 1.5, -3, 10**10])
 def test_no_number_of_positions_is_refused(n):
     with pytest.raises(graphkin.CallError, match="positions"):

@@ -1,8 +1,9 @@
-"""graphkin against its peers on the same mechanisms: run by hand, ``python -m tests.bench.compare``.
+"""graphkin against its peers on the same mechanisms: run by hand, ``python -m tests.bench.compare [MECHANISM ...]``.
 
 Position, velocity and acceleration of two points of a four-bar, a slider-crank and a shaper (twelve columns) over a
-turn.  Everyone's values are checked against each other first.  Times depend on the machine, ratios within one run much
-less.  A peer that is not installed is left out.
+turn, into arrays that are there already, on one thread; "all threads" and "a new array" say what they say.  Everyone's
+values are checked against each other first.  Times depend on the machine, ratios within one run much less.  A peer that
+is not installed is left out.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from importlib.metadata import PackageNotFoundError, version
 
 import numpy as np
 
+import graphkin
 from graphkin.scene import read_text
 from graphkin.solver import prepare
 
@@ -53,9 +55,19 @@ def best(calls: Mapping[str, Callable[[], object]]) -> dict[str, float]:
 
 
 def _once(call: Callable[[], object]) -> float:
+    if peers.have("numba"):
+        import numba
+
+        numba.set_num_threads(getattr(call, "threads", numba.config.NUMBA_NUM_THREADS))
     begin = time.perf_counter()
     call()
     return time.perf_counter() - begin
+
+
+def one_thread(call: Callable[[], object]) -> Callable[[], object]:
+    """A call with the threads of numba held to one before it is timed."""
+    call.threads = 1  # type: ignore[attr-defined]
+    return call
 
 
 def header() -> str:
@@ -79,7 +91,10 @@ def agree(name: str, mine: np.ndarray, theirs: np.ndarray) -> str:
 
 def rows(case: Case) -> list[tuple[str, int, float, str]]:
     """What, number of positions, seconds, and whether the values agree."""
-    ready = prepare(read_text(case.text, case.name), case.asked)
+    scene = read_text(case.text, case.name)
+    ready = prepare(scene, case.asked)
+    public, compiled = (graphkin.prepare(scene, case.asked, fast=fast) for fast in (False, True))
+    shaper = by_hand.compiled_shaper() if peers.have("numba") else None
     found: list[tuple[str, int, float, str]] = []
     for n in COUNTS:
         mine, ok = ready.sweep(n)
@@ -87,9 +102,18 @@ def rows(case: Case) -> list[tuple[str, int, float, str]]:
         out = np.empty_like(mine)
         calls: dict[str, Callable[[], object]] = {"graphkin, NumPy": lambda n=n, out=out: ready.sweep(n, out)}
         values = {"graphkin, NumPy": "ok"}
+        calls["graphkin, a new array"] = lambda n=n: public.sweep(n)
+        values["graphkin, a new array"] = agree("public", mine, public.sweep(n).values)
         if peers.have("numba"):
-            calls["graphkin, fast"] = lambda n=n, out=out: ready.sweep(n, out, fast=True)
+            calls["graphkin, fast"] = one_thread(lambda n=n, out=out: ready.sweep(n, out, fast=True))
+            calls["fast, a new array"] = one_thread(lambda n=n: compiled.sweep(n))
+            calls["fast, all threads"] = lambda n=n, out=out: ready.sweep(n, out, fast=True)
             values["graphkin, fast"] = agree("fast", mine, ready.sweep(n, fast=True)[0])
+            if case.name == "shaper":
+                start, step = float(ready.values(1)[0]), 2 * math.pi / n
+                shaper(start, step, out)
+                calls["by hand, numba"] = one_thread(lambda a=start, d=step, out=out: shaper(a, d, out))
+                values["by hand, numba"] = agree("hand", mine, out)
         for name, make in peers.PEERS.items():
             call = make(case, n) if peers.have(name) else None
             if call is not None:
@@ -111,13 +135,18 @@ def rows(case: Case) -> list[tuple[str, int, float, str]]:
 def main() -> None:
     warnings.simplefilter("ignore")
     print(header())
-    print(f"{'mechanism':14}{'positions':>10}  {'who':24}{'time us':>12}{'ns each':>10}{'to pylinkage':>14}  values")
+    head = f"{'mechanism':14}{'positions':>10}  {'who':24}{'time us':>12}{'ns each':>10}"
+    print(f"{head}{'to pylinkage':>14}{'to by hand':>12}  values")
     for case in MECHANISMS:
+        if sys.argv[1:] and case.name not in sys.argv[1:]:
+            continue
         table = rows(case)
         slow = {n: t for who, n, t, _ in table if who == "pylinkage"}
+        hand = {n: t for who, n, t, _ in table if who == "by hand, numba"}
         for who, n, t, same in sorted(table, key=lambda row: row[1]):
             ratio = f"{slow[n] / t:.1f} x" if n in slow else ""
-            print(f"{case.name:14}{n:10}  {who:24}{t * 1e6:12.1f}{t / n * 1e9:10.1f}{ratio:>14}  {same}")
+            times = f"{t / hand[n]:.2f} x" if n in hand else ""
+            print(f"{case.name:14}{n:10}  {who:24}{t * 1e6:12.1f}{t / n * 1e9:10.1f}{ratio:>14}{times:>12}  {same}")
 
 
 if __name__ == "__main__":
