@@ -26,6 +26,7 @@ from graphkin.api.arguments import (
 )
 from graphkin.errors import CallError, Problem
 from graphkin.jobs import Progress, Workers, cluster
+from graphkin.scene.model import Scene
 from graphkin.scene.source import written
 from graphkin.scene.symbol import Symbol
 from graphkin.table import Table, have
@@ -37,6 +38,7 @@ if TYPE_CHECKING:
     from graphkin.drawing import Chart, Drawing
     from graphkin.study import Sweep, Turn
     from graphkin.study.sweeps import Arrays, Found
+    from graphkin.study.watched import Watched
 
 __all__ = ["Swept", "sweep"]
 
@@ -49,9 +51,9 @@ IN_MEMORY = 200_000_000
 class Swept:
     """The motion over a turn of one scene, or of many designs of it.
 
-    ``swept["v_C"]`` is what is asked by its symbol, as arrays in SI: complex for vectors; over designs of shape
-    (designs, positions).  ``table`` has everything in the scene's units, with the drivers' values and the status of
-    each position.  Table, study and figures are made when they are first asked for.
+    ``swept["v_C"]`` is what is asked by its name, as an array: complex for vectors, in the scene's length unit, degrees
+    for angles; over designs of shape (designs, positions).  ``table`` has the drivers' values and the status of each
+    position besides.  Table, study and figures are made when they are first asked for.
     """
 
     over: Sweep
@@ -80,27 +82,25 @@ class Swept:
         return Counter(outcome.status for outcome in self.found.outcomes)
 
     def __getitem__(self, name: str) -> NDArray[Any]:
-        """A quantity (SI) by its symbol, as far as it was asked for, or any column of the table by its name: NaN where
-        there is none.  Raises CallError for an unknown one."""
-        from graphkin.study.watched import in_si
-
-        scene, watched = self.over.scene, self.over.base.watched
+        """A quantity by its name, as far as it was asked for, or any column of the table: NaN where there is none.
+        Raises CallError for an unknown one."""
+        watched = self.over.base.watched
         k = next((k for k, w in enumerate(watched) if w.name == name), None)
         if k is not None and self.arrays is not None:
             parts = self.arrays.parts[k]
-            return parts[0] if len(parts) == 1 else parts[0] + 1j * parts[1]
-        if k is None:
-            values = in_si(scene, self.table.column(name))
+        elif k is not None:
+            heads = [c.name for c in watched[k].columns(self.over.scene, [np.zeros(0)] * (1 + watched[k].is_vector))]
+            parts = tuple(self.table[head] for head in heads[-1 - watched[k].is_vector :])
         else:
-            shown = [in_si(scene, self.table.column(c.name)) for c in watched[k].columns(scene, [np.zeros(0)] * 2)]
-            values = shown[-2] + 1j * shown[-1] if watched[k].is_vector else shown[0]
+            parts = (self.table[name],)
+        values = parts[0] if len(parts) == 1 else parts[0] + 1j * parts[1]
         return values.reshape(-1, self.over.positions) if self.over.designs.keys else values
 
     @cached_property
     def table(self) -> Table:
         """A row for each position: what is asked in the scene's units, degrees for angles, and its status."""
         if self.arrays is not None:
-            return self.over.base.table_of(self.arrays, 0, self.over.positions)
+            return self.over.base.table_of(self.arrays, self.rows, 0, self.rows)
         if self.found.table is not None:
             return self.found.table
         return Table.read_csv(self.found.files[0], self.over.head)
@@ -117,7 +117,9 @@ class Swept:
         """The study of the scene itself (limit positions, K, transmission, classes, extremes); None over designs."""
         from graphkin.study import study_turn
 
-        return None if self.over.designs.keys else study_turn(self.over.base.course, self.over.asked)
+        if self.over.designs.keys:
+            return None
+        return study_turn(self.over.base.course, [w.symbol for w in self.over.asked if w.symbol is not None])
 
     @cached_property
     def data(self) -> dict[str, Any]:
@@ -210,7 +212,9 @@ def sweep(
 
     Parameters
     ----------
-    scene, at, find : as for `check`
+    scene, at : as for `check`
+    find : what the table shows, the symbols of `check` and "C" (place of a point), "theta_3" (angle of a link), "s_3/4"
+        (travel of a sliding pair); the scene's own if None, or else everything that moves
     out : folder for table.csv (and table.parquet where pyarrow is installed), designs.csv and the figures; an
         interrupted sweep into the same folder goes on where it stopped
     positions : rows of the table, over a turn from the scene's own value on, or over the range of a driven slide
@@ -234,8 +238,8 @@ def sweep(
     >>> f"stroke {slider['stroke']:.10f}, K {slider['K']:.10f}"
     'stroke 50.0000000000, K 1.2000000000'
     >>> swept = sweep("shaper-scheme-2", positions=100_000, find=["v_C"])
-    >>> f"{abs(swept['v_C']).max():.3f} m/s at most"
-    '1.346 m/s at most'
+    >>> f"{abs(swept['v_C']).max():.0f} mm/s at most"
+    '1346 mm/s at most'
     """
     from graphkin.study import Sweep, collect, designs_of, write_tables
     from graphkin.study.sweeps import Found
@@ -250,13 +254,12 @@ def sweep(
 
         applied(source, made.keys, made[0])  # keys that the scene does not have
     start = driver_values(given, at) or {}
-    over = Sweep(source, name or given.name, made, positions, asked_symbols(given, find), tuple(sorted(start.items())))
+    over = Sweep(source, name or given.name, made, positions, _asked(given, find), tuple(sorted(start.items())))
     spoken = language or given.sheet.language
     if out is None:
-        numbers = over.rows * len(over.head.columns)
-        if numbers > IN_MEMORY:
+        if over.numbers > IN_MEMORY:
             raise CallError(Problem("sweep", f"{over.rows} rows", "give a folder, out=... or -o"))
-        arrays = None if made.keys else over.base.arrays()
+        arrays = None if made.keys else over.base.arrays(positions)
         if arrays is not None:
             return Swept(over, Found(over.rows, int(np.count_nonzero(arrays.ok))), spoken, arrays)
     if not made.keys:
@@ -274,6 +277,25 @@ def sweep(
     if not made.keys:
         swept.write_figures(out, formats)
     return swept
+
+
+def _asked(scene: Scene, find: Iterable[str | Symbol] | None) -> tuple[Watched, ...]:
+    """What is asked, in its order.  Raises CallError, naming everything that names nothing."""
+    from graphkin.study.watched import watched_named, watched_symbol
+
+    if find is None:
+        return tuple(map(watched_symbol, scene.find))
+    found: list[Watched] = []
+    problems: list[Problem] = []
+    for name in [find] if isinstance(find, str | Symbol) else find:
+        named = watched_named(scene, name) if isinstance(name, str) else None
+        try:
+            found += [named] if named is not None else map(watched_symbol, asked_symbols(scene, [name]))
+        except CallError as error:
+            problems += error.problems
+    if problems:
+        raise CallError(*problems)
+    return tuple(found)
 
 
 def _checked_call(

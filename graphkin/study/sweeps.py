@@ -21,16 +21,15 @@ from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable
 from graphkin.jobs import Checkpoints, Progress, Workers, key_of
 from graphkin.scene import read
 from graphkin.scene.model import Scene
-from graphkin.scene.symbol import Symbol
 from graphkin.solver import prepare, structure_of
 from graphkin.solver.prepared import Prepared
-from graphkin.structure import Structure
+from graphkin.structure import Cluster, Structure
 from graphkin.study.course import Course, course_of
 from graphkin.study.designs import Designs, Value, applied
 from graphkin.study.summary import row
 from graphkin.study.turn import study_turn
-from graphkin.study.watched import Watched, driver_columns, watched_of
-from graphkin.table import Column, Table, parquet_of_csv
+from graphkin.study.watched import Watched, driver_columns, everything
+from graphkin.table import Column, Table, have, parquet_of_csv
 
 __all__ = ["Arrays", "Design", "Found", "Outcome", "Sweep", "collect", "designs_table", "write_tables"]
 
@@ -41,10 +40,10 @@ BLOCK = 16384
 """Positions in a piece, about."""
 MOST_DESIGNS = 64
 """Designs in a piece, so that all workers have some."""
+MANY = 500_000
+"""From so many positions on compiled code is worth the second or two that compiling takes."""
 LONG = 5.0
 """Seconds of work (estimated) from which processes pay."""
-PREPARED = ("v", "a", "omega", "alpha")
-"""Kinds of symbols that a prepared mechanism gives."""
 
 
 @dataclass(frozen=True)
@@ -82,7 +81,7 @@ class Found:
 class Arrays:
     """What a prepared mechanism gives at all positions of a sweep.
 
-    parts : for each quantity that is watched its values (SI), two for a vector; NaN where not ok
+    parts : for each quantity that is watched its values in the units of the table, two for a vector; NaN where not ok
     ok : bool, shape (positions,)
     """
 
@@ -92,15 +91,14 @@ class Arrays:
 
 @dataclass(frozen=True)
 class Design:
-    """One mechanism, followed over so many positions.
+    """One mechanism, whose motion is followed.
 
     asked : what the table shows; nothing: everything that moves
     at : driver values to start from (SI), by driver key
     """
 
     scene: Scene
-    positions: int
-    asked: tuple[Symbol, ...]
+    asked: tuple[Watched, ...]
     at: tuple[tuple[str, float], ...]
 
     @cached_property
@@ -110,7 +108,7 @@ class Design:
     @cached_property
     def watched(self) -> tuple[Watched, ...]:
         """What the table shows."""
-        return watched_of(self.structure, self.asked)
+        return self.asked or everything(self.structure)
 
     @cached_property
     def course(self) -> Course:
@@ -119,20 +117,23 @@ class Design:
 
     @cached_property
     def engine(self) -> Prepared | None:
-        """The mechanism prepared for what is asked; None where it has no closed form for that, where everything is
-        asked, or where it starts elsewhere than the scene."""
-        if not self.asked or self.at or any(s.kind not in PREPARED for s in self.asked):
+        """The mechanism prepared for what is asked; None where everything is asked, or something that the formulas do
+        not give, where a larger group has no closed form, or where it starts elsewhere than the scene."""
+        if not self.asked or self.at or not all(w.can_be_prepared for w in self.asked):
             return None
+        if any(isinstance(e, Cluster) for e in self.structure.elements):
+            return None
+        units = 1.0 / self.scene.units.metres, float(np.degrees(1.0))
         try:
-            return prepare(self.structure, [str(s) for s in self.asked])
-        except CallError:
+            return prepare(self.structure, [w.name for w in self.asked], units)
+        except CallError:  # a redundant link is none of its
             return None
 
-    def arrays(self) -> Arrays | None:
-        """All positions at once, where the mechanism can be prepared."""
+    def arrays(self, n: int) -> Arrays | None:
+        """All of n positions at once, where the mechanism can be prepared; very many by compiled code."""
         if self.engine is None:
             return None
-        return self._arrays(self.engine, *self.engine.sweep(self.positions))
+        return self._arrays(self.engine, *self.engine.sweep(n, fast=n >= MANY and have("numba")))
 
     def _arrays(self, engine: Prepared, columns: Array, ok: Array) -> Arrays:
         if not ok.all():
@@ -141,28 +142,28 @@ class Design:
         ends = {True: (".x", ".y"), False: ("",)}
         return Arrays(tuple(tuple(by_name[w.name + e] for e in ends[w.is_vector]) for w in self.watched), ok)
 
-    def table(self, first: int, last: int) -> Table:
-        """Positions ``first`` to ``last`` (not included): driver values, what is watched, status and reason."""
+    def table(self, n: int, first: int, last: int) -> Table:
+        """Positions ``first`` to ``last`` (not included) of n: driver values, what is watched, status and reason."""
         if self.engine is not None:
-            found = self.engine.columns(self.engine.values(self.positions, first, last))
-            return self.table_of(self._arrays(self.engine, *found), first, last)
-        motion = self.course.motion(self.course.table_offsets(self.positions, first, last))
+            found = self.engine.columns(self.engine.values(n, first, last))
+            return self.table_of(self._arrays(self.engine, *found), n, first, last)
+        motion = self.course.motion(self.course.table_offsets(n, first, last))
         parts = tuple(w.parts(self.course, motion) for w in self.watched)
         return self._table(first, motion.values, parts, motion.status.tolist(), motion.why)
 
-    def table_of(self, arrays: Arrays, first: int, last: int) -> Table:
-        """The table of what a prepared mechanism gave."""
+    def table_of(self, arrays: Arrays, n: int, first: int, last: int) -> Table:
+        """The table of what a prepared mechanism gave at positions ``first`` to ``last`` of n."""
         assert self.engine is not None
-        n = last - first
-        values = np.repeat(self.engine.range.start[None], n, axis=0)
-        values[:, 0] = self.engine.values(self.positions, first, last)
-        status, why, parts = ["ok"] * n, [""] * n, arrays.parts
+        rows = last - first
+        values = np.repeat(self.engine.range.start[None], rows, axis=0)
+        values[:, 0] = self.engine.values(n, first, last)
+        status, why, parts = ["ok"] * rows, [""] * rows, arrays.parts
         bad = np.flatnonzero(~arrays.ok)
         if len(bad):
             parts = tuple(tuple(part.copy() for part in own) for own in parts)
         for some in (bad[k : k + BLOCK] for k in range(0, len(bad), BLOCK)):
             # why there is nothing there the solver says, and it has the last word on whether there is
-            motion = self.course.motion(self.course.table_offsets(self.positions, first, last)[some])
+            motion = self.course.motion(self.course.table_offsets(n, first, last)[some])
             for own, watched in zip(parts, self.watched, strict=True):
                 for part, found in zip(own, watched.parts(self.course, motion), strict=True):
                     part[some] = found
@@ -203,13 +204,18 @@ class Sweep:
     name: str
     designs: Designs
     positions: int
-    asked: tuple[Symbol, ...] = ()
+    asked: tuple[Watched, ...] = ()
     at: tuple[tuple[str, float], ...] = ()
 
     @property
     def rows(self) -> int:
         """Rows of the table."""
         return len(self.designs) * self.positions
+
+    @property
+    def numbers(self) -> int:
+        """Numbers in the table, about."""
+        return self.rows * (2 * len(self.base.watched) + 1)
 
     @property
     def scene(self) -> Scene:
@@ -220,7 +226,7 @@ class Sweep:
     def base(self) -> Design:
         """The scene itself as a design."""
         scene = self.source if isinstance(self.source, Scene) else read(self.source)
-        return Design(scene, self.positions, self.asked, self.at)
+        return _same(Design(scene, self.asked, self.at))
 
     @cached_property
     def head(self) -> Table:
@@ -232,14 +238,13 @@ class Sweep:
     def key(self) -> str:
         """A key that two sweeps share only if they give the same results."""
         source = repr(self.source) if isinstance(self.source, Scene) else dict(self.source)
-        asked = [str(s) for s in self.asked]
-        return key_of(BLOCK, source, self.name, repr(self.designs), self.positions, asked, self.at)
+        return key_of(BLOCK, source, self.name, repr(self.designs), self.positions, repr(self.asked), self.at)
 
     @property
     def long(self) -> bool:
         """Whether it takes so long that processes pay."""
         each = 0.05 if self.designs.keys else 0.0
-        return len(self.designs) * each + self.rows * len(self.head.columns) * 2e-7 > LONG
+        return len(self.designs) * each + self.numbers * 2e-7 > LONG
 
     @property
     def pieces(self) -> int:
@@ -291,6 +296,17 @@ class Made:
     good: int
 
 
+_BASE: list[Design] = []
+"""The scene that was swept last: to sweep it again, it need not be prepared again."""
+
+
+def _same(design: Design) -> Design:
+    """The design, or that which was swept last where it is the same."""
+    if not _BASE or _BASE[0] != design:
+        _BASE[:] = [design]
+    return _BASE[0]
+
+
 _LATEST: dict[tuple[str, int], Design | tuple[str, str]] = {}
 """The design that was followed last, or why there is none: the pieces of a long one share it."""
 
@@ -321,7 +337,7 @@ def _rows(piece: Piece, number: int, values: tuple[Value, ...]) -> tuple[Table, 
         status, why = design
         good, table = 0, piece.sweep.base.blank(piece.first, piece.last, status, why)
     else:
-        table = design.table(piece.first, piece.last)
+        table = design.table(piece.sweep.positions, piece.first, piece.last)
         bad = np.flatnonzero(table["status"] != "ok")
         good = len(table) - len(bad)
         status, why = (table["status"][bad[0]], table["why"][bad[0]]) if len(bad) else ("ok", "")
@@ -338,7 +354,7 @@ def _followed(sweep: Sweep, values: tuple[Value, ...]) -> Design | tuple[str, st
             design = sweep.base
         else:
             scene = read(applied(sweep.source, sweep.designs.keys, values))
-            design = Design(scene, sweep.positions, sweep.asked, sweep.at)
+            design = Design(scene, sweep.asked, sweep.at)
         if design.engine is None or sweep.designs.keys:
             _ = design.course
         return design
@@ -397,8 +413,8 @@ def write_tables(
         folder.mkdir(parents=True, exist_ok=True)
         points = Checkpoints.of(folder, "sweep", sweep.key)
         points.open(scene=sweep.name, pieces=sweep.pieces, rows=sweep.rows)
-        have = points.done()
-        missing = [k for k in range(sweep.pieces) if k not in have]
+        finished = points.done()
+        missing = [k for k in range(sweep.pieces) if k not in finished]
         done = sweep.pieces - len(missing)
         _count(sweep, done, progress)
         results = workers.results(make, ((sweep.piece(k, True),) for k in missing))

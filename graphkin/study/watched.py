@@ -18,7 +18,7 @@ from graphkin.study.course import Course
 from graphkin.study.quantities import Quantity, link_quantities, slide_quantities, symbol_quantity
 from graphkin.table import Column
 
-__all__ = ["Watched", "driver_columns", "in_si", "watched_of"]
+__all__ = ["Watched", "driver_columns", "everything", "watched_named", "watched_symbol"]
 
 Array = NDArray[Any]
 
@@ -28,10 +28,12 @@ class Watched:
     """A quantity, or the place of a point, in one to three columns of the table.
 
     size : whether a vector's size stands before its components
+    symbol : as it is asked for; None for places, angles, and what slides do
     """
 
     what: Quantity | PointRef
     size: bool = False
+    symbol: Symbol | None = None
 
     @property
     def name(self) -> str:
@@ -41,42 +43,62 @@ class Watched:
     def is_vector(self) -> bool:
         return isinstance(self.what, PointRef) or self.what.symbol is not None
 
+    @property
+    def can_be_prepared(self) -> bool:
+        """Whether a prepared mechanism gives it, as it stands in the table."""
+        if isinstance(self.what, PointRef):
+            return True
+        if self.what.symbol is not None:
+            return self.what.symbol.kind in ("v", "a")
+        return self.what.kind in ("omega", "alpha", "s")
+
     def parts(self, course: Course, motion: Motion) -> tuple[Array, ...]:
-        """Its values in a motion of a course (SI): one array, or the components of a vector."""
+        """Its values in a motion of a course, in the units of the table: one array, or the components of a vector."""
+        metres = course.scene.units.metres
         if isinstance(self.what, PointRef):
             vector = motion.position(self.what.point, self.what.link)
         elif self.what.symbol is not None:
             vector = motion.value(self.what.symbol)
         else:
-            return (np.asarray(self.what.values(course, motion)),)
-        return vector.real, vector.imag
+            value = np.asarray(self.what.values(course, motion))
+            if self.what.measure == "angle":
+                return (np.degrees(value),)
+            return (value if self.what.measure.startswith("angular") else value / metres,)
+        return vector.real / metres, vector.imag / metres
 
     def columns(self, scene: Scene, parts: Sequence[Array]) -> list[Column]:
-        """Its columns, from its values in SI."""
-        metres, length = scene.units.metres, scene.units.length
+        """Its columns, from its values."""
         if isinstance(self.what, PointRef):
-            return [
-                Column(f"{axis}_{self.what}", part / metres, length, self.name)
-                for axis, part in zip("xy", parts, strict=True)
-            ]
-        unit = self.what.unit(scene, degrees=True)
-        if not self.is_vector:
-            value = parts[0]
-            if self.what.measure == "angle":
-                value = np.degrees(value)
-            elif not self.what.measure.startswith("angular"):
-                value = value / metres
-            return [Column(self.name, value, unit, self.name)]
-        x, y = parts
-        size = [Column(self.name, np.abs(x + 1j * y) / metres, unit, self.name)] if self.size else []
-        ends = zip((".x", ".y"), (x, y), strict=True)
-        return [*size, *(Column(self.name + end, part / metres, unit, self.name) for end, part in ends)]
+            heads, unit = [f"{axis}_{self.what}" for axis in "xy"], str(scene.units.length)
+        else:
+            heads = [f"{self.name}.x", f"{self.name}.y"] if self.is_vector else [self.name]
+            unit = self.what.unit(scene, degrees=True)
+        size = [Column(self.name, np.abs(parts[0] + 1j * parts[1]), unit, self.name)] if self.size else []
+        return [*size, *(Column(h, part, unit, self.name) for h, part in zip(heads, parts, strict=True))]
 
 
-def watched_of(structure: Structure, asked: Sequence[Symbol]) -> tuple[Watched, ...]:
-    """What a table shows: what is asked, or everything (each pin once, and each point under a sliding pin)."""
-    if asked:
-        return tuple(Watched(symbol_quantity(s), s.is_vector) for s in asked)
+def watched_symbol(symbol: Symbol) -> Watched:
+    """What a symbol of ``find`` shows."""
+    return Watched(symbol_quantity(symbol), symbol.is_vector, symbol)
+
+
+def watched_named(scene: Scene, name: str) -> Watched | None:
+    """What a name shows that is no symbol of ``find``: the place of a point ("C", "B@3"), the angle of a link
+    ("theta_3"), travel, velocity and acceleration of a sliding pair ("s_3/4", "v_3/4", "a_3/4"); None for others."""
+    kind, mark, rest = name.partition("_")
+    if not mark:
+        point, _, link = name.partition("@")
+        known = point in scene.holders and (not link or link in scene.by_name)
+        return Watched(PointRef(point, link)) if known else None
+    if kind == "theta" and any(link.name == rest for link in scene.links):
+        return Watched(link_quantities(rest)[0])
+    if kind in ("s", "v", "a") and any(s.key == rest for s in scene.slidings):
+        return Watched(slide_quantities(rest)["sva".index(kind)])
+    return None
+
+
+def everything(structure: Structure) -> tuple[Watched, ...]:
+    """Everything that moves: each pin once, and each point under a sliding pin."""
     scene, slides = structure.scene, all_slides(structure)
     found = [Watched(q) for link in scene.links for q in link_quantities(link.name)]
     seen: set[PointRef] = set()
@@ -101,9 +123,3 @@ def driver_columns(scene: Scene, values: Array) -> list[Column]:
         for d, v in zip(scene.drivers, values.T, strict=True)
     ]
 
-
-def in_si(scene: Scene, column: Column) -> Array:
-    """The values of a column in SI."""
-    if column.unit == "deg":
-        return np.radians(column.values)
-    return column.values * scene.units.metres if column.unit.startswith(scene.units.length) else column.values

@@ -23,6 +23,7 @@ from graphkin.jobs import Progress, Workers, cluster
 from graphkin.scene import library_text, read
 from graphkin.scene.symbol import Symbol
 from graphkin.study import Sweep, collect, designs_of, sweeps, write_tables
+from graphkin.study.watched import Watched, watched_symbol
 
 
 @pytest.fixture
@@ -43,11 +44,15 @@ def run(
         write_tables(sweep, folder, workers, parquet, progress)
 
 
+def watched(name: str) -> Watched:
+    return watched_symbol(Symbol.parse(name))
+
+
 def new_plan() -> Sweep:
     source = tomllib.loads(library_text("fourbar-150-500-300-400"))
     # some of them cannot turn fully, the last cannot be assembled at all
     designs = designs_of({"links.1.length": "100,150,250,1000", "driver.omega": "5,-5"})
-    return Sweep(source, "four-bar", designs, 20, (Symbol.parse("omega_3"), Symbol.parse("v_C")))
+    return Sweep(source, "four-bar", designs, 20, (watched("omega_3"), watched("v_C")))
 
 
 def prints(folder: Path) -> dict[str, str]:
@@ -227,5 +232,5 @@ def test_a_killed_or_interrupted_command_goes_on(tmp_path: Path, sent: str) -> N
     left = len(list(tmp_path.glob("b/.sweep-*/0*")))
     assert 2 <= left < 16
     subprocess.run([*call, str(tmp_path / "b")], check=True)
-    run(Sweep(read(name), name, designs_of(None), 250_000, (Symbol.parse("v_C"),)), tmp_path / "a", parquet=True)
+    run(Sweep(read(name), name, designs_of(None), 250_000, (watched("v_C"),)), tmp_path / "a", parquet=True)
     assert prints(tmp_path / "a").items() <= prints(tmp_path / "b").items()
