@@ -204,9 +204,7 @@ class Centred:
         ------
         CallError : an unknown format, a folder that cannot be written
         """
-        from graphkin.drawing.save import drawing_bytes
-
-        files = {f"centres.{kind}": drawing_bytes(self.figure, kind) for kind in formats}
+        files = {f"centres.{kind}": self.figure.content(kind) for kind in formats}
         files["centres.csv"] = centres_csv(self).encode()
         return write_files(Path(folder) if folder is not None else Path(self.scene.name), files)
 

@@ -89,9 +89,7 @@ class Centroded:
         ------
         CallError : an unknown format, a folder that cannot be written
         """
-        from graphkin.drawing.save import drawing_bytes
-
-        files = {f"centrode.{kind}": drawing_bytes(self.figure, kind) for kind in formats}
+        files = {f"centrode.{kind}": self.figure.content(kind) for kind in formats}
         files["centrode.csv"] = self._csv().encode()
         return write_files(Path(folder) if folder is not None else Path(self.scene.name), files)
 

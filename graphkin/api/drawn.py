@@ -78,14 +78,12 @@ class Drawn:
         ------
         CallError : an unknown format, a folder that cannot be written
         """
-        from graphkin.drawing.save import drawing_bytes
-
         known_words(formats)
         target = Path(folder) if folder is not None else Path(self.checked.scene.name)
         files: dict[str, bytes] = {}
         for name, figure in self.figures.items():
             for kind in formats:
-                files[f"{name}.{kind}"] = drawing_bytes(figure, kind)
+                files[f"{name}.{kind}"] = figure.content(kind)
         files["readings.csv"] = readings_csv(self.checked).encode()
         spoken = languages(self.language or self.checked.scene.sheet.language)[0]
         files["report.txt"] = told(self.checked, spoken).encode()

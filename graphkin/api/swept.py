@@ -171,10 +171,8 @@ class Swept:
     def write_figures(self, folder: str | os.PathLike[str], formats: Sequence[str] = ("svg",)) -> list[Path]:
         """Write the figures; returns the paths.  Raises CallError for an unknown format or a folder that cannot be
         written."""
-        from graphkin.drawing.save import drawing_bytes
-
         known_words(formats)
-        files = {f"{n}.{kind}": drawing_bytes(f, kind) for n, f in self.figures.items() for kind in formats}
+        files = {f"{n}.{kind}": f.content(kind) for n, f in self.figures.items() for kind in formats}
         return write_files(Path(folder), files)
 
     def __repr__(self) -> str:

@@ -6,20 +6,8 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from graphkin.drawing.box import Box
-from graphkin.drawing.primitives import (
-    Arc,
-    Circle,
-    Drawing,
-    Group,
-    Line,
-    Polygon,
-    Polyline,
-    Primitive,
-    Run,
-    Stroke,
-    Text,
-)
-from graphkin.drawing.save import save
+from graphkin.drawing.drawing import Drawing, save
+from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Run, Stroke, Text
 from graphkin.drawing.svg import svg_bytes
 
 if TYPE_CHECKING:

@@ -2,40 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-
 from graphkin.construction.centres import Centre, Centres
 from graphkin.construction.centres.pairs import Line as Straight
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
+from graphkin.drawing.conventions import Letters
 from graphkin.drawing.headings import number
-from graphkin.drawing.layout import Name, Piece
+from graphkin.drawing.labels import Label
 from graphkin.drawing.obstacles import obstacles_of
-from graphkin.drawing.placing import Label
+from graphkin.drawing.piece import Piece
 from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Primitive, Stroke, Text
 from graphkin.drawing.symbols import POINTER, arrow
 from graphkin.drawing.text import rich
 from graphkin.plane import cross, dot, unit
 
-__all__ = ["CentreLetters", "centre_marks", "mark_of", "near_box", "pale"]
+__all__ = ["centre_marks", "mark_of", "near_box", "pale"]
 
 TOGETHER = 1.3  # mm: centres so near to each other share one mark
 REACH = 7.0  # mm of a construction line to either side of what it finds
 ARROW = 11.0  # mm, to what lies off the figure
 THIN = strokes.CONSTRUCTION.coloured(strokes.GREY)
-
-
-@dataclass(frozen=True)
-class CentreLetters:
-    """Names of centres: P in the chinese and russian convention, I in the others; links in the order of counting."""
-
-    convention: str
-
-    def name(self, pair: Sequence[str]) -> str:
-        a, b = sorted(pair, key=lambda n: (not n.isdigit(), int(n) if n.isdigit() else 0, n))
-        comma = "," if max(len(a), len(b)) > 1 else ""
-        return f"{'P' if self.convention in ('chinese', 'russian') else 'I'}_{{{a}{comma}{b}}}"
 
 
 def mark_of(centre: Centre, frame: str, at: complex) -> tuple[Primitive, ...]:
@@ -65,7 +51,7 @@ def near_box(centres: Centres, mechanism: Box, most: tuple[float, float]) -> Box
 
 
 def centre_marks(
-    centres: Centres, letters: CentreLetters, panel: Box, drawn: tuple[Primitive, ...]
+    centres: Centres, letters: Letters, panel: Box, drawn: tuple[Primitive, ...]
 ) -> Piece:
     """All centres of a figure about the world's origin (y down); ``drawn`` is the mechanism, of which arrows to what
     lies outside the panel keep clear."""
@@ -74,7 +60,7 @@ def centre_marks(
 
 class _Marks:
     def __init__(
-        self, centres: Centres, letters: CentreLetters, panel: Box, drawn: tuple[Primitive, ...]
+        self, centres: Centres, letters: Letters, panel: Box, drawn: tuple[Primitive, ...]
     ) -> None:
         self.centres, self.letters, self.panel = centres, letters, panel
         self.frame = centres.links.scene.frame.name
@@ -99,7 +85,7 @@ class _Marks:
                 near.append([centre])
             else:
                 home.append(centre)
-        names: list[Name] = []
+        names: list[Label] = []
         lines = [line for group in near for c in group for line in self._lines(c)]
         marks: list[Primitive] = []
         for group in near:
@@ -135,10 +121,10 @@ class _Marks:
             for i, c in enumerate(group)
         ]
 
-    def _name(self, group: list[Centre], spot: complex) -> Name:
-        words = ", ".join(f"${self.letters.name(c.pair)}$" for c in group)
+    def _name(self, group: list[Centre], spot: complex) -> Label:
+        words = ", ".join(f"${self.letters.centre(c.pair)}$" for c in group)
         text = Text(0j, rich(words, 3.5), "start", strokes.BLACK, f"label-{self._id(group[0])}", ("label", "centre"))
-        return Name(Label(text, spot), 0)
+        return Label(text, spot)
 
     def _lines(self, centre: Centre) -> list[Line]:
         """The two lines that cross in a centre, only near it."""
@@ -210,17 +196,17 @@ class _Marks:
             cost += max(0.0, 7.0 - gap)
         return cost
 
-    def _far_name(self, group: list[Centre], tail: complex, tip: complex) -> Name:
+    def _far_name(self, group: list[Centre], tail: complex, tip: complex) -> Label:
         first = group[0]
-        names = ", ".join(f"${self.letters.name(c.pair)}$" for c in group)
+        names = ", ".join(f"${self.letters.centre(c.pair)}$" for c in group)
         words = f"{names} → ∞"
         if first.point is not None:
             point, start = self._reference()
             scene = self.centres.links.scene
             far = abs(first.point - start) / self.centres.links.mm / scene.units.metres
-            words = f"${point}{self.letters.name(first.pair)}$ = {number(far, 4)} {scene.units.length}"
+            words = f"${point}{self.letters.centre(first.pair)}$ = {number(far, 4)} {scene.units.length}"
         text = Text(0j, rich(words, 3.2), "start", strokes.BLACK, f"label-{self._id(first)}", ("label", "centre"))
-        return Name(Label(text, (tail, tip)), 0)
+        return Label(text, (tail, tip))
 
     def _reference(self) -> tuple[str, complex]:
         """The fixed pivot from which far centres are measured."""

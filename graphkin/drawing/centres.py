@@ -1,7 +1,6 @@
-"""The circle diagram: links as points on a circle, centres as the lines between them, numbered as they were found.
-
-The figure of the instant centres: the mechanism pale behind all its centres, the circle diagram beside it, how each
-centre was found, and the velocities taken through them.
+"""The figure of the instant centres: the mechanism pale behind all its centres; beside it the circle diagram (links as
+points on a circle, centres as the lines between them, numbered as they were found) and how each centre was found; below
+the velocities taken through them.
 """
 
 from __future__ import annotations
@@ -15,15 +14,17 @@ from graphkin.construction.centres import Centre, Centres, Turning, velocity_sen
 from graphkin.construction.centres.kennedy import Relation
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
-from graphkin.drawing.centre_marks import CentreLetters, centre_marks, mark_of, near_box, pale
-from graphkin.drawing.conventions import Letters, letters_of, scale_statement
+from graphkin.drawing.centre_marks import centre_marks, mark_of, near_box, pale
+from graphkin.drawing.conventions import Letters, in_counting_order, letters_of, scale_statement
 from graphkin.drawing.dimensions import check_bar
+from graphkin.drawing.drawing import Drawing
+from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.headings import describe, drivers, facts, figure_title, term, titles
-from graphkin.drawing.layout import Piece, ink_box, joined, layer_groups, moved_piece, settled, wrapped
 from graphkin.drawing.mechanism import mechanism_piece
-from graphkin.drawing.primitives import Arc, Circle, Drawing, Group, Line, Primitive, Run, Stroke, Text
+from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
+from graphkin.drawing.primitives import Arc, Circle, Group, Line, Primitive, Run, Stroke, Text
 from graphkin.drawing.strokes import colour_of_link
-from graphkin.drawing.text import plain, rich, text_box
+from graphkin.drawing.text import plain, rich, wrapped
 from graphkin.plane import cross
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, languages, say
@@ -48,7 +49,7 @@ def circle_diagram(centres: Centres, middle: complex, radius: float) -> tuple[Pr
     Links stand clockwise in the order of counting, the first at the top; a line found bears its number where along it
     there is most room, none where there is too little.
     """
-    names = sorted(centres.links.names, key=lambda n: (not n.isdigit(), int(n) if n.isdigit() else 0, n))
+    names = sorted(centres.links.names, key=in_counting_order)
     ways = {n: cmath.rect(1.0, 2 * math.pi * k / len(names)) * -1j for k, n in enumerate(names)}
     sides = [(c, middle + radius * ways[c.pair[0]], middle + radius * ways[c.pair[1]]) for c in centres.found]
     lines: list[Primitive] = []
@@ -137,27 +138,26 @@ def centres_figure(
     sheet = centres.sheet
     spoken = language or sheet.scene.sheet.language
     letters = letters_of(sheet, convention or sheet.scene.sheet.convention)  # type: ignore[arg-type]
-    named = CentreLetters(letters.convention)
     back = background(mechanism_piece(sheet, letters)[0])
     mechanism = ink_box(back.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
     content = near_box(centres, mechanism, MOST)
     width = max(content.width, SMALLEST[0]) + 2 * ROOM + SIDE + 2 * MARGIN
     head = _heading(centres, drivers(sheet, letters), spoken, width - 2 * MARGIN)
     top = MARGIN + LINE * len(head) + 2.0
-    side = _Side(centres, named, spoken, complex(width - MARGIN - SIDE, top))
+    side = _Side(centres, letters, spoken, complex(width - MARGIN - SIDE, top))
     tall = max(content.height, SMALLEST[1], side.height - 2 * ROOM)
     panel = Box(MARGIN, top, width - MARGIN - SIDE - 2.0, top + tall + 2 * ROOM)
     origin = panel.centre - content.centre
     around = panel.moved(-origin)  # about the world's origin, as the mechanism is drawn
-    piece = settled(joined((back, centre_marks(centres, named, around, back.drawn))), around)
+    piece = with_labels(joined((back, centre_marks(centres, letters, around, back.drawn))), around)
     piece = moved_piece(piece, origin)
-    told = _told(centres, turning, named, letters, spoken, width - 2 * MARGIN)
+    report = _report(centres, turning, letters, spoken, width - 2 * MARGIN)
     below = panel.bottom + 6.0
     words: list[Primitive] = [
         Text(complex(MARGIN, MARGIN + 3.5 + LINE * i), runs, classes=("heading",)) for i, runs in enumerate(head)
     ]
-    words += [Text(complex(MARGIN, below + ROW * i), runs, classes=("told",)) for i, runs in enumerate(told)]
-    height = below + ROW * len(told) + FOOT
+    words += [Text(complex(MARGIN, below + ROW * i), runs, classes=("told",)) for i, runs in enumerate(report)]
+    height = below + ROW * len(report) + FOOT
     statement = scale_statement(sheet, letters.convention, "mechanism")
     words.append(Text(complex(MARGIN, height - 6.0), rich(statement, 3.5)))
     words += check_bar(complex(width - MARGIN - 50.0, height - 6.0), rich(term("check bar", spoken), 2.5))
@@ -167,7 +167,7 @@ def centres_figure(
         height,
         layer_groups(page),
         figure_title(sheet, "centres", spoken),
-        describe(sheet, ("mechanism",), spoken) + "\n" + _description(centres, turning, named, letters, spoken),
+        describe(sheet, ("mechanism",), spoken) + "\n" + _description(centres, turning, letters, spoken),
         languages(spoken)[0],
         facts(sheet, "centres"),
     )
@@ -185,14 +185,14 @@ def background(piece: Piece) -> Piece:
         for thing in piece.layers["mechanism"]
         if isinstance(thing, Group) and {"frame", "link", "point"} & set(thing.classes)
     )
-    names = tuple(name for name in piece.names if name.label.text.id.startswith(("label-point-", "label-link-")))
+    names = tuple(name for name in piece.labels if name.text.id.startswith(("label-point-", "label-link-")))
     return Piece({"mechanism": kept}, names, piece.marks)
 
 
 class _Side:
     """The column beside the mechanism: circle diagram, legend, and the order in which centres were found."""
 
-    def __init__(self, centres: Centres, letters: CentreLetters, language: str, corner: complex) -> None:
+    def __init__(self, centres: Centres, letters: Letters, language: str, corner: complex) -> None:
         self.centres, self.letters, self.language = centres, letters, language
         radius = RADIUS.get(len(centres.links.names), 23.0)
         middle = corner + complex(SIDE / 2, 8.0 + radius + 7.0)
@@ -227,14 +227,14 @@ class _Side:
             if not centre.number:
                 continue
             self.words.append(Text(complex(x + 4.5, y), rich(str(centre.number), 2.5), "end", classes=("legend",)))
-            self.words.append(self._text(complex(x + 7.0, y), f"${self.letters.name(centre.pair)}$", 3.0))
+            self.words.append(self._text(complex(x + 7.0, y), f"${self.letters.centre(centre.pair)}$", 3.0))
             for line in wrapped(how_found(centre, self.letters, self.language, self.centres), 2.8, SIDE - 17.0):
                 self.words.append(Text(complex(x + 16.0, y), line, classes=("legend",)))
                 y += ROW
         return y
 
 
-def how_found(centre: Centre, letters: CentreLetters, language: str, centres: Centres) -> str:
+def how_found(centre: Centre, letters: Letters, language: str, centres: Centres) -> str:
     """The construction of a centre in short: the two lines that cross, or the name of another way."""
     if centre.lines:
         return " × ".join(_line(line, letters) for line in centre.lines)
@@ -243,62 +243,55 @@ def how_found(centre: Centre, letters: CentreLetters, language: str, centres: Ce
     return term("way none", language)
 
 
-def _line(relation: Relation, letters: CentreLetters) -> str:
+def _line(relation: Relation, letters: Letters) -> str:
     if len(relation.through) == 1:
         point = str(relation.through[0]).split("/")[0]
         return f"$n_{{{point}}}$"
-    return "$" + "".join(letters.name(pair) for pair in relation.through if not isinstance(pair, str)) + "$"
+    return "$" + "".join(letters.centre(pair) for pair in relation.through if not isinstance(pair, str)) + "$"
 
 
-def _told(
-    centres: Centres,
-    turning: Mapping[str, Turning],
-    letters: CentreLetters,
-    points: Letters,
-    language: str,
-    width: float,
+def _report(
+    centres: Centres, turning: Mapping[str, Turning], letters: Letters, language: str, width: float
 ) -> list[tuple[Run, ...]]:
     """What Kennedy's theorem does not give and why, and the velocities by centres, as lines of text."""
     lines: list[tuple[Run, ...]] = []
     for each in languages(language):
         for centre in centres.indeterminate:
-            sentences = [_say(centre.why, each, letters, points)] if centre.why else []
+            sentences = [_say(centre.why, each, letters)] if centre.why else []
             if centre.way:
                 kept = ", ".join(centres.kept)
-                sentences.append(_say(Phrase(f"centre {centre.way}", (centre.pair, kept)), each, letters, points))
+                sentences.append(_say(Phrase(f"centre {centre.way}", (centre.pair, kept)), each, letters))
             lines += wrapped(term("sentence joint", each).join(sentences), 3.0, width)
         spoken = velocity_sentences(centres, turning)
         if spoken:
             lines += wrapped(term("velocities by centres", each), 3.2, width, bold=True)
         for phrase in spoken:
-            lines += wrapped(_say(phrase, each, letters, points), 3.0, width)
+            lines += wrapped(_say(phrase, each, letters), 3.0, width)
     return lines
 
 
-def _say(phrase: Phrase, language: str, letters: CentreLetters, points: Letters) -> str:
+def _say(phrase: Phrase, language: str, letters: Letters) -> str:
     """A sentence with its symbols between dollar signs."""
 
     def show(argument: object) -> str:
         if isinstance(argument, Symbol):
-            return f"${points.vector(argument)}$"
+            return f"${letters.vector(argument)}$"
         if isinstance(argument, PointRef):
-            return f"${points.point(argument.point)}$"
-        return f"${letters.name(argument)}$" if isinstance(argument, tuple) else str(argument)
+            return f"${letters.point(argument.point)}$"
+        return f"${letters.centre(argument)}$" if isinstance(argument, tuple) else str(argument)
 
     said = re.sub(r"ω_{[^}]*}", r"$\g<0>$", say(phrase, language, show))
     return said.replace("$$", "")  # two symbols side by side are one
 
 
-def _description(
-    centres: Centres, turning: Mapping[str, Turning], letters: CentreLetters, points: Letters, language: str
-) -> str:
+def _description(centres: Centres, turning: Mapping[str, Turning], letters: Letters, language: str) -> str:
     """Every centre in words, for those who do not see the figure."""
     said = []
     scene = centres.links.scene
     per_mm, least = centres.sheet.scales.length / scene.units.metres, 1e-12 * scene.size / scene.units.metres
     for each in languages(language):
         for centre in centres.found:
-            name = letters.name(centre.pair).replace("_{", "").replace("}", "")
+            name = letters.centre(centre.pair).replace("_{", "").replace("}", "")
             if centre.point is not None:
                 z = centre.point * per_mm
                 place = ", ".join(f"{x if abs(x) > least else 0.0:.4g}" for x in (z.real, z.imag))
@@ -308,7 +301,7 @@ def _description(
             how = how_found(centre, letters, each, centres) if centre.number else centre.joint
             said.append(f"{name} {place}: {how.replace('$', '').replace('_{', '').replace('}', '')}")
         said += [
-            _say(phrase, each, letters, points).replace("$", "").replace("_{", "").replace("}", "")
+            _say(phrase, each, letters).replace("$", "").replace("_{", "").replace("}", "")
             for phrase in velocity_sentences(centres, turning)
         ]
     return "\n".join(said)

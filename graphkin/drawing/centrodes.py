@@ -7,17 +7,18 @@ from itertools import pairwise
 
 from graphkin.construction.centres import Centres
 from graphkin.drawing.box import Box
-from graphkin.drawing.centre_marks import CentreLetters, mark_of
+from graphkin.drawing.centre_marks import mark_of
 from graphkin.drawing.centres import background
 from graphkin.drawing.conventions import letters_of, scale_statement
 from graphkin.drawing.dimensions import check_bar
+from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.headings import drivers, facts, figure_title, term, titles
-from graphkin.drawing.layout import Name, Piece, ink_box, joined, layer_groups, moved_piece, settled, wrapped
+from graphkin.drawing.labels import Label
 from graphkin.drawing.mechanism import mechanism_piece
-from graphkin.drawing.placing import Label
-from graphkin.drawing.primitives import Drawing, Group, Line, Polyline, Primitive, Stroke, Text
+from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
+from graphkin.drawing.primitives import Group, Line, Polyline, Primitive, Stroke, Text
 from graphkin.drawing.strokes import colour_of_link
-from graphkin.drawing.text import rich
+from graphkin.drawing.text import rich, wrapped
 from graphkin.words import Phrase, languages, say
 
 __all__ = ["Branch", "centrodes_figure"]
@@ -78,14 +79,13 @@ def centrodes_figure(
     panel = Box(MARGIN, top, width - MARGIN, top + content.height + 2 * ROOM)
     origin = panel.centre - content.centre
     groups = tuple(Group(lines, id=id, classes=("centrode",)) for id, lines in drawn.items() if lines)
-    named = CentreLetters(letters.convention)
-    names: tuple[Name, ...] = ()
+    names: tuple[Label, ...] = ()
     if here is not None and content.distance(here) == 0.0:
-        text = Text(0j, rich(f"${named.name(centre.pair)}$"), classes=("label", "centre"))
-        names = (Name(Label(text, here), 0),)
+        text = Text(0j, rich(f"${letters.centre(centre.pair)}$"), classes=("label", "centre"))
+        names = (Label(text, here),)
         mark = Group(mark_of(centre, sheet.scene.frame.name, here), id="centre-" + "-".join(sorted(centre.pair)))
         groups = (*groups, mark)
-    piece = settled(joined((back, Piece({"centres": groups}, names))), panel.moved(-origin))
+    piece = with_labels(joined((back, Piece({"centres": groups}, names))), panel.moved(-origin))
     words: list[Primitive] = [
         Text(complex(MARGIN, MARGIN + 3.5 + LINE * i), runs, classes=("heading",)) for i, runs in enumerate(head)
     ]

@@ -20,6 +20,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from graphkin.drawing.box import Box
+from graphkin.drawing.drawing import FORMATS, save
+from graphkin.drawing.font_widths import has_cjk
+from graphkin.drawing.labels import Label, Mark, place
 from graphkin.drawing.obstacles import Obstacles
 from graphkin.drawing.page import (
     MM_PER_INCH,
@@ -32,11 +35,9 @@ from graphkin.drawing.page import (
     own_settings,
     whole_pixels,
 )
-from graphkin.drawing.placing import Label, Mark, place
 from graphkin.drawing.primitives import Primitive, Stroke, Text
-from graphkin.drawing.save import FORMATS, save
 from graphkin.drawing.svg import FONTS
-from graphkin.drawing.text import has_cjk, rich
+from graphkin.drawing.text import rich
 from graphkin.errors import CallError, Problem
 
 if TYPE_CHECKING:

@@ -1,4 +1,4 @@
-r"""How each school writes: poles, end points, component marks, directions, scale statements.
+r"""How each school writes: poles, end points, component marks, directions, instant centres, scale statements.
 
 Everything is returned in the notation of `graphkin.drawing.text` (without dollar signs unless said).
 Chinese: Sun Huan, Mechanical Principles; us: Norton, Design of Machinery; british: Hannah and Stephens, Mechanics of
@@ -8,7 +8,7 @@ Machines; russian: Artobolevsky, Theory of Mechanisms and Machines.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Literal
@@ -18,7 +18,7 @@ from graphkin.construction.steps import Direction, RateTimes, Size
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Convention
 
-__all__ = ["Letters", "letters_of", "pole", "rows_of", "scale_statement"]
+__all__ = ["Letters", "in_counting_order", "letters_of", "pole", "rows_of", "scale_statement"]
 
 Rows = Literal["rows", "over", "table", "underlines"]
 
@@ -125,6 +125,12 @@ class Letters:
             return "→".join(self.point(n) for n in direction.names)
         return ("∥" if direction.relation == "along" else "⊥") + names
 
+    def centre(self, pair: Sequence[str]) -> str:
+        """The instant centre of two links in the order of counting: P in the chinese and russian convention, else I."""
+        a, b = sorted(pair, key=in_counting_order)
+        comma = "," if max(len(a), len(b)) > 1 else ""
+        return f"{'P' if self.convention in ('chinese', 'russian') else 'I'}_{{{a}{comma}{b}}}"
+
     def guide(self, name: str, frame: str) -> str:
         """A guide by its name; the frame's own axis is x."""
         if name == f"x{frame}":
@@ -142,6 +148,11 @@ class Letters:
         return f"{name} {self.vector(factor) if isinstance(factor, Symbol) else f'l_{{{factor[0]}{factor[1]}}}'}"
 
 
+def in_counting_order(link: str) -> tuple[bool, int, str]:
+    """Sorts links as they are counted: numbers first, by value."""
+    return not link.isdigit(), int(link) if link.isdigit() else 0, link
+
+
 @lru_cache(maxsize=64)
 def _parted(name: str) -> tuple[str, str]:
     match = _NAME.fullmatch(name)
@@ -152,13 +163,12 @@ def letters_of(sheet: Sheet, convention: Convention) -> Letters:
     """The names on one sheet."""
     blocks: dict[str, set[str]] = {}
     holders = sheet.scene.holders
-    for diagram in ("velocity", "acceleration"):
-        for symbol in sheet.vectors("velocity" if diagram == "velocity" else "acceleration"):
-            if symbol.of is None or symbol.to is None or symbol.of.point != symbol.to.point:
-                continue
-            for ref in (symbol.of, symbol.to):
-                if ref.link in holders.get(ref.point, ()):
-                    blocks.setdefault(ref.point, set()).add(ref.link)
+    for symbol in (*sheet.vectors("velocity"), *sheet.vectors("acceleration")):
+        if symbol.of is None or symbol.to is None or symbol.of.point != symbol.to.point:
+            continue
+        for ref in (symbol.of, symbol.to):
+            if ref.link in holders.get(ref.point, ()):
+                blocks.setdefault(ref.point, set()).add(ref.link)
     return Letters(convention, {point: min(links) for point, links in blocks.items() if len(links) == 1}, holders)
 
 

@@ -1,9 +1,8 @@
-"""Given sizes drawn as dimensions, after ISO 129-1, and the bar that checks the scale of a print.
+"""Dimensions, after ISO 129-1: given lengths, the places of the frame's points and the angle of the driver, drawn where
+there is room for them; and the bar that checks the scale of a print.
 
-Whether there is room for a dimension: clear of the mechanism and of other dimensions, its extension lines beginning
-beyond the symbols of the points that they come from.
-
-Given lengths and the places of the frame's points, drawn as dimensions where there is room for them.
+A dimension keeps clear of the mechanism and of other dimensions; its extension lines begin beyond the symbols of the
+points that they come from.
 """
 
 from __future__ import annotations
@@ -19,24 +18,25 @@ import numpy as np
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
+from graphkin.drawing.font_widths import CAP_HEIGHT, text_box
 from graphkin.drawing.headings import number
-from graphkin.drawing.label_positions import cross_product, meets
-from graphkin.drawing.obstacles import Obstacles, obstacles_of
+from graphkin.drawing.mechanism_on_paper import GUIDE_LENGTH, sliders
+from graphkin.drawing.obstacles import Obstacles, cross_product, meets, obstacles_of
 from graphkin.drawing.primitives import Arc, Group, Line, Polygon, Primitive, Run, Text, page_direction
-from graphkin.drawing.shapes import GUIDE_LENGTH, bearings
 from graphkin.drawing.symbols import POINTER, arrowhead
-from graphkin.drawing.text import CAP_HEIGHT, plain, rich, text_box
+from graphkin.drawing.text import plain, rich
 from graphkin.scene.model import AngleDriver, Link
 from graphkin.scene.symbol import PointRef
 
-__all__ = ["GAP", "LENGTHS", "OVERRUN", "Parts", "Room", "angle_dimension", "check_bar", "dimension", "drawn_lengths"]
+__all__ = ["GAP", "LENGTHS", "OVERRUN", "angle_dimension", "check_bar", "dimension", "drawn_lengths"]
 
 OVERRUN, GAP = 1.5, 0.8  # extension lines reach past the dimension line and start off the object, mm
 CLEAR = 0.7  # between a number and the line broken for it, mm
-Part = Line | Polygon | Arc | Text
+Part: TypeAlias = Line | Polygon | Arc | Text
+Parts: TypeAlias = tuple[Part, ...]
 
 
-def dimension(start: complex, end: complex, offset: float, runs: tuple[Run, ...]) -> tuple[Part, ...]:
+def dimension(start: complex, end: complex, offset: float, runs: tuple[Run, ...]) -> Parts:
     """The distance of two points, its line ``offset`` mm to the right of the way from start to end (negative: left).
 
     The number stands upright in a gap of the line, or past its end where the line is too short for both.
@@ -68,7 +68,7 @@ def dimension(start: complex, end: complex, offset: float, runs: tuple[Run, ...]
 
 def angle_dimension(
     centre: complex, radius: float, start: float, end: float, runs: tuple[Run, ...]
-) -> tuple[Part, ...]:
+) -> Parts:
     """The angle from one direction to another (rad) about a point: an arc with an arrowhead at ``end``, its number
     outside the middle of the arc."""
     sense = math.copysign(1.0, end - start)
@@ -85,7 +85,7 @@ def angle_dimension(
     )
 
 
-def check_bar(at: complex, runs: tuple[Run, ...] = (), length: float = 50.0) -> tuple[Part, ...]:
+def check_bar(at: complex, runs: tuple[Run, ...] = (), length: float = 50.0) -> Parts:
     """A bar of 50 mm with a tick each 10 mm, from its left end: lay a ruler on it to see that a print is true to scale.
 
     The words stand above it; without any, its length.
@@ -114,10 +114,9 @@ def _head(tip: complex, along: complex) -> Polygon:
 
 AROUND_POINT = 11.0  # mm around a point in which lines belong to its own symbols
 TRIM, LEAST_EXTENSION = 0.8, 2.2  # mm between a symbol and an extension line; a shorter one is none
-Parts: TypeAlias = tuple[Line | Polygon | Arc | Text, ...]
 
 
-class Room:
+class DimensionClearance:
     """What is drawn already, as arrays: segments, and boxes by their middle and half size."""
 
     def __init__(self, obstacles: Obstacles, panel: Box | None) -> None:
@@ -236,21 +235,21 @@ def drawn_lengths(sheet: Sheet, drawn: Iterable[Primitive], panel: Box | None) -
     panel : no dimension leaves it
     """
     drawn = tuple(drawn)
-    room = Room(obstacles_of(drawn), panel)
+    room = DimensionClearance(obstacles_of(drawn), panel)
     parts: list[Primitive] = []
     for taken in (*_frame(sheet, room), *_bars(sheet, room), *_angles(sheet, room)):
         parts += taken
     return Group(tuple(parts), id=LENGTHS)
 
 
-def _drawn(room: Room, choices: Iterable[Parts], extensions: int = 2) -> Parts | None:
+def _drawn(room: DimensionClearance, choices: Iterable[Parts], extensions: int = 2) -> Parts | None:
     """The first of some dimensions for which there is room; extension lines run over others only where they must."""
     tried = tuple(choices)
     found = (room.take(parts, extensions, over) for over in (False, True) for parts in tried)
     return next((parts for parts in found if parts is not None), None)
 
 
-def _bars(sheet: Sheet, room: Room) -> Iterator[Parts]:
+def _bars(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts]:
     """Lengths of bars, and of further points from them where those are round numbers."""
     places = {ref.point: z for ref, z in sheet.points.items() if not ref.link}
     for link in sheet.scene.links:
@@ -280,19 +279,19 @@ def _round(link: Link, one: str, other: str, metres: float) -> bool:
     return value > 0.0 and abs(float(f"{value:.4g}") - value) < 1e-9 * value
 
 
-def _frame(sheet: Sheet, room: Room) -> Iterator[Parts]:
+def _frame(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts]:
     """Distances between fixed points and guides: across below the mechanism, upright beside it."""
     scene = sheet.scene
     per_mm = sheet.scales.length / scene.units.metres
     spots = [z.conjugate() for ref, z in sheet.points.items() if not ref.link and ref.point in scene.frame.points]
     level, plumb = [], []
-    for bearing in bearings(sheet):
-        if bearing.slide.b == scene.frame.name and bearing.slide.guide.name:
+    for slider in sliders(sheet):
+        if slider.slide.b == scene.frame.name and slider.slide.guide.name:
             # from the end of the guide as it is drawn, left or below
-            if abs(bearing.along.imag) < 1e-9:
-                level.append(bearing.at.conjugate() - GUIDE_LENGTH / 2 + 4.0)
-            elif abs(bearing.along.real) < 1e-9:
-                plumb.append(bearing.at.conjugate() + 1j * (GUIDE_LENGTH / 2 - 4.0))
+            if abs(slider.along.imag) < 1e-9:
+                level.append(slider.at.conjugate() - GUIDE_LENGTH / 2 + 4.0)
+            elif abs(slider.along.real) < 1e-9:
+                plumb.append(slider.at.conjugate() + 1j * (GUIDE_LENGTH / 2 - 4.0))
     xs = _levels([*spots, *plumb], lambda z: z.real)
     ys = _levels([*spots, *level], lambda z: z.imag)
     content = room.content
@@ -305,7 +304,7 @@ def _frame(sheet: Sheet, room: Room) -> Iterator[Parts]:
         for line, past in beside if upright else below_or_above:
             feet = [complex(line, level) if upright else complex(level, line) for level, _ in levels]
             beyond = past if upright else past * 1j
-            parts: list[Line | Polygon | Arc | Text] = [
+            parts: list[Part] = [
                 _extension(z, foot + beyond) for (_, z), foot in zip(levels, feet, strict=True)
             ]
             for (a, p), (b, q) in pairwise(zip((level for level, _ in levels), feet, strict=True)):
@@ -322,7 +321,7 @@ def _frame(sheet: Sheet, room: Room) -> Iterator[Parts]:
             yield from (parts for pair in wide for parts in (chain(pair, upright),) if parts is not None)
 
 
-def _angles(sheet: Sheet, room: Room) -> Iterator[Parts]:
+def _angles(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts]:
     """The angle of a driver from the x axis."""
     for driver in sheet.scene.drivers:
         if not isinstance(driver, AngleDriver) or driver.relative_to != sheet.scene.frame.name:

@@ -9,10 +9,11 @@ from graphkin.construction.sheet import Equation, Sheet, Term
 from graphkin.construction.steps import Given
 from graphkin.drawing import strokes
 from graphkin.drawing.conventions import Letters, rows_of
+from graphkin.drawing.font_widths import run_box, runs_width
 from graphkin.drawing.headings import number, term
-from graphkin.drawing.layout import moved
+from graphkin.drawing.piece import moved
 from graphkin.drawing.primitives import Line, Primitive, Run, Text
-from graphkin.drawing.text import rich, run_box, runs_width, symbol
+from graphkin.drawing.text import rich, symbol
 
 __all__ = ["Written", "write_equation", "write_equations"]
 

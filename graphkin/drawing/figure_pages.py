@@ -7,14 +7,15 @@ from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, letters_of, scale_statement
 from graphkin.drawing.dimensions import check_bar
-from graphkin.drawing.headings import describe, drivers, facts, figure_title, remarks, term, titles
+from graphkin.drawing.drawing import Drawing
+from graphkin.drawing.headings import FIGURE_WORDS, describe, drivers, facts, figure_title, remarks, term, titles
 from graphkin.drawing.insets import polygon_with_insets, strip_height
-from graphkin.drawing.layout import Piece, joined, layer_groups, moved_piece, settled, wrapped
 from graphkin.drawing.mechanism import mechanism_piece
-from graphkin.drawing.polygon import extent
-from graphkin.drawing.primitives import Drawing, Primitive, Run, Text
+from graphkin.drawing.piece import Piece, joined, layer_groups, moved_piece, with_labels
+from graphkin.drawing.polygon_on_page import extent
+from graphkin.drawing.primitives import Primitive, Run, Text
 from graphkin.drawing.sheet import sheet_page
-from graphkin.drawing.text import rich
+from graphkin.drawing.text import rich, wrapped
 from graphkin.words import languages
 
 __all__ = ["acceleration_figure", "figures", "mechanism_figure", "velocity_figure"]
@@ -63,7 +64,7 @@ def _figure(sheet: Sheet, diagram: DiagramName, language: str | None, convention
     origin = panel.centre - content.centre
     bottom = panel.bottom
     if diagram == "mechanism":
-        piece = settled(moved_piece(piece, origin), panel)
+        piece = with_labels(moved_piece(piece, origin), panel)
     else:
         bottom += strip_height(sheet, diagram, panel.width)
         strip = Box(panel.left, panel.bottom, panel.right, bottom)
@@ -86,9 +87,6 @@ def _figure(sheet: Sheet, diagram: DiagramName, language: str | None, convention
         languages(spoken)[0],
         facts(sheet, diagram),
     )
-
-
-FIGURE_WORDS = {"mechanism": "mechanism", "velocity": "velocity polygon", "acceleration": "acceleration polygon"}
 
 
 def _heading(

@@ -1,11 +1,11 @@
-"""Titles, driver values and other words at the head of a figure, in one language or both.
-
-Figures in words, so that someone who does not see them can follow: titles of parts and whole descriptions.
+"""The words of a figure: its titles, driver values and remarks, facts for programs, and the whole of it described for
+someone who does not see it; in one language or both.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.construction.steps import Direction, ZeroVector
@@ -16,19 +16,15 @@ from graphkin.version import __version__
 from graphkin.words import Phrase, languages, say, word
 
 __all__ = [
-    "describe",
-    "drivers",
-    "facts",
-    "figure_title",
-    "number",
-    "plain_symbol",
-    "rates",
-    "remarks",
-    "spoken_ref",
-    "spoken_vector",
-    "term",
-    "titles",
-]
+    "FIGURE_WORDS", "describe", "drivers", "facts", "figure_title", "number", "remarks", "spoken_ref", "spoken_vector",
+    "term", "titles",
+]  # fmt: skip
+
+FIGURE_WORDS: Mapping[DiagramName, str] = {
+    "mechanism": "mechanism", "velocity": "velocity polygon", "acceleration": "acceleration polygon",
+}  # fmt: skip
+"""What each figure is called, as a key of the table of words."""
+
 
 
 def term(key: str, language: str) -> str:
@@ -84,20 +80,6 @@ def _slide_index(sheet: Sheet, key: str) -> str:
     return sliding if guiding == sheet.scene.frame.name else sliding + guiding
 
 
-def rates(sheet: Sheet, diagram: DiagramName) -> list[tuple[str, str]]:
-    """Measured angular velocities or accelerations: symbol and value with its sense, one for each turning motion."""
-    own = sheet.omega if diagram == "velocity" else sheet.alpha
-    sign, unit = ("ω", "rad/s") if diagram == "velocity" else ("α", "rad/s²")
-    rows = []
-    for link, rate in own.items():
-        if rate.vector is None or rate.same_as or "/" in link:
-            continue
-        same = [n for n, r in own.items() if r.same_as == link and r.value == rate.value and "/" not in n]
-        symbol = " = ".join(f"{sign}_{{{name}}}" for name in (link, *same))
-        rows.append((symbol, f"{number(rate.value, 5)} {unit}"))
-    return rows
-
-
 def facts(sheet: Sheet, figure: str) -> dict[str, object]:
     """What a program may want to know of a figure, in scene units: for the metadata of the file."""
     scene = sheet.scene
@@ -144,7 +126,7 @@ def spoken_vector(symbol: Symbol, language: str) -> str:
     return " / ".join(said)
 
 
-def plain_symbol(thing: object) -> str:
+def _plain_symbol(thing: object) -> str:
     """A symbol, point or direction as plain text: ``v_B3/B2``, ``⊥BC``."""
     if isinstance(thing, Direction):
         if thing.relation == "towards":
@@ -173,7 +155,7 @@ def _sentences(sheet: Sheet, diagrams: tuple[DiagramName, ...], language: str) -
     for diagram in diagrams:
         for step in sheet.steps:
             if step.diagram == diagram:
-                said.append(f"{step.number}. {_sentence(say(step.phrase, language, plain_symbol), language)}")
+                said.append(f"{step.number}. {_sentence(say(step.phrase, language, _plain_symbol), language)}")
         if diagram != "mechanism":
             said += _vectors(sheet, diagram, language)
     said += remarks(sheet, language)
@@ -186,7 +168,7 @@ def remarks(sheet: Sheet, language: str, letters: Letters | None = None) -> list
     notes = list(dict.fromkeys(r.phrase for r in sheet.remarks if not isinstance(r, ZeroVector)))
     notes += [sheet.stopped] if sheet.stopped else []
     if letters is None:
-        return [_sentence(say(n, language, plain_symbol), language) for n in notes]
+        return [_sentence(say(n, language, _plain_symbol), language) for n in notes]
 
     def written(thing: object) -> str:
         try:

@@ -1,167 +1,50 @@
-"""The places around a mark where its label could stand, ring by ring, and what each costs in looks.
+"""Which places around marks the drawing leaves free for labels, and which of them other labels leave free.
 
-The places of all labels are made together, as arrays.
-
-Places for one label that the drawing leaves free, and which of them other labels leave free.
+All places of all labels are judged together as arrays: shapely's tree finds what is near, the separating axes of box
+and segment tell what touches.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
-from typing import Any, NamedTuple, TypeAlias
+from functools import cached_property
+from typing import Any, NamedTuple
 
 import numpy as np
+import shapely
 
 from graphkin.drawing.box import Box
-from graphkin.drawing.obstacles import Segment
-from graphkin.drawing.primitives import page_direction
+from graphkin.drawing.label_candidates import (
+    LEADER_FROM,
+    LEADER_LEAST,
+    RINGS,
+    Candidates,
+    LabelRequest,
+    Mark,
+    candidates,
+    ends,
+)
+from graphkin.drawing.obstacles import (
+    Flags,
+    Floats,
+    Indices,
+    Obstacles,
+    Points,
+    crosses,
+    meets,
+    separated,
+)
+from graphkin.drawing.primitives import Segment
+from graphkin.plane import cross
 
-__all__ = [
-    "LEADER_FROM",
-    "LEADER_GAP",
-    "LEADER_LEAST",
-    "LEADER_SPACE",
-    "RINGS",
-    "Around",
-    "Asker",
-    "Mark",
-    "Seat",
-    "Seats",
-    "around",
-    "cross_product",
-    "ends",
-    "meets",
-    "separated",
-]
-
-Mark: TypeAlias = complex | Segment
-
-# Distance of the box from its mark, mm, ring by ring.
-RINGS = (0.7, 1.5, 2.4, 3.6, 5.0, 6.8, 9.0, 11.5, 14.5, 18.0, 22.0, 27.0)
-LEADER_FROM = 5.0  # a label further off than this has a leader
-LEADER_LEAST = 2.0  # nearer to its mark a label has no room for a leader
-_ANGLES = 2 * np.pi * np.arange(24) / 24
-_WAYS = np.exp(-1j * _ANGLES)
-# The corner or the edge of the box that looks at the point slides with the direction.
-_HOLDS = np.clip(1.6 * _WAYS.real, -1, 1), np.clip(1.6 * _WAYS.imag, -1, 1)
-_SHARES = np.array((0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9))
-# Far from a mark every second angle, and places about the middle of a vector, will do.
-_SOME = np.arange(24) % 2 == 0, np.arange(9) < 5
-_SIDES = np.array((1.0, -1.0))
-# Without a wish, up and to the right reads best (Imhof, Positioning names on maps, 1975).
-_LIKED = math.radians(40)
-
-
-@dataclass(frozen=True)
-class Asker:
-    """A label that asks for places: the ends of its mark (equal for a point), half its width and height as a complex
-    number, its liked directions (rad)."""
-
-    start: complex
-    end: complex
-    half: complex
-    toward: tuple[float, ...]
-
-    @property
-    def is_point(self) -> bool:
-        return self.start == self.end
-
-
-@dataclass(frozen=True)
-class Around:
-    """Places of several labels, as arrays of one length: centres of boxes, costs (mm), feet on the marks, distances
-    from them (mm), and the index of the asker."""
-
-    centres: Any
-    costs: Any
-    feet: Any
-    gaps: Any
-    owners: Any
-
-    def at(self, kept: Any) -> Around:
-        """Some of the places."""
-        return Around(self.centres[kept], self.costs[kept], self.feet[kept], self.gaps[kept], self.owners[kept])
-
-
-def ends(mark: Mark) -> Segment:
-    """Ends of a mark, a point being both, to a thousandth of a millimetre, so that coincident marks are equal."""
-    start, end = mark if isinstance(mark, tuple) else (mark, mark)
-    return complex(round(start.real, 3), round(start.imag, 3)), complex(round(end.real, 3), round(end.imag, 3))
-
-
-def around(askers: Sequence[Asker], gaps: Sequence[float]) -> Around:
-    """All places of some labels at some distances (mm) from their marks."""
-    rings = np.array(gaps)
-    points = [i for i, asker in enumerate(askers) if asker.is_point]
-    segments = [i for i, asker in enumerate(askers) if not asker.is_point]
-    parts = []
-    if points:
-        likes = np.array([_dislike(askers[i].toward) for i in points])
-        parts.append(_off_points(askers, points, [askers[i].start for i in points], likes, rings))
-    if segments:
-        parts.append(_off_segments(askers, segments, rings))
-        far = rings[rings >= LEADER_LEAST]
-        if far.size:
-            # Far from a vector there is more room all round its middle than square to it.
-            middles = [(askers[i].start + askers[i].end) / 2 for i in segments]
-            parts.append(_off_points(askers, segments, middles, _dislike(())[None], far))
-    return Around(*map(np.concatenate, zip(*parts, strict=True)))
-
-
-def _off_points(askers: Sequence[Asker], who: list[int], points: list[complex], dislikes: Any, gaps: Any) -> Any:
-    """Columns of places all round some points, at an angle each."""
-    half = np.array([askers[i].half for i in who])[:, None, None]
-    at = np.array(points)[:, None, None]
-    centres = at + gaps[:, None] * _WAYS + _HOLDS[0] * half.real + 1j * (_HOLDS[1] * half.imag)
-    sparse = _SOME[0] ^ (np.arange(len(gaps)) % 2 == 1)[:, None]
-    return _columns(centres, gaps[:, None] + dislikes[:, None, :], at, gaps[:, None], who, sparse)
-
-
-def _off_segments(askers: Sequence[Asker], who: list[int], gaps: Any) -> Any:
-    """Columns of places on both sides of some segments, square to them."""
-    start, end, half = (np.array([getattr(askers[i], key) for i in who]) for key in ("start", "end", "half"))
-    way = end - start
-    normal = 1j * way / np.abs(way)
-    liked = np.array([page_direction(askers[i].toward[0] if askers[i].toward else _LIKED) for i in who])
-    sides = normal[:, None] * _SIDES
-    disliked = 0.4 * (1.0 - (sides * liked.conj()[:, None]).real)
-    reach = np.abs(normal.real) * half.real + np.abs(normal.imag) * half.imag
-    feet = (start[:, None] + _SHARES * way[:, None])[:, None, None, :]
-    off = gaps + reach[:, None]
-    centres = feet + (off[:, :, None] * sides[:, None, :])[..., None]
-    costs = gaps[:, None, None] + disliked[:, None, :, None] + 2.0 * np.abs(_SHARES - 0.5)
-    return _columns(centres, costs, feet, gaps[:, None, None], who, _SOME[1])
-
-
-def _columns(centres: Any, costs: Any, feet: Any, gaps: Any, who: list[int], sparse: Any) -> Any:
-    """Arrays of one length; far from the marks only the ``sparse`` places."""
-    shape = centres.shape
-    kept = np.broadcast_to((gaps < LEADER_FROM) | sparse, shape[1:]).ravel()
-    owners = np.repeat(np.array(who), kept.sum())
-    columns = (np.broadcast_to(column, shape).reshape(len(who), -1) for column in (centres, costs, feet, gaps))
-    return *(column[:, kept].ravel() for column in columns), owners
-
-
-@lru_cache(maxsize=512)
-def _dislike(toward: tuple[float, ...]) -> Any:
-    """What each angle costs for liked directions."""
-    if not toward:
-        return 0.5 * _apart(_LIKED) / np.pi
-    return np.min([3.0 * _apart(wish) / np.pi + 0.3 * rank for rank, wish in enumerate(toward)], axis=0)
-
-
-def _apart(wish: float) -> Any:
-    return np.abs((_ANGLES - wish + np.pi) % (2 * np.pi) - np.pi)
-
+__all__ = ["LabelPanel", "LabelPosition", "LabelPositions", "least_cost"]
 
 LEADER_GAP = 0.4  # mm between the end of a leader and the box of its label
 LEADER_SPACE = 0.25  # mm between a leader and the box of any other label
 
 
-class Seat(NamedTuple):
+class LabelPosition(NamedTuple):
     """A place for a label: its box (mm), what it costs in looks (mm), and its leader from mark to box."""
 
     left: float
@@ -175,7 +58,7 @@ class Seat(NamedTuple):
     def box(self) -> Box:
         return Box(self.left, self.top, self.right, self.bottom)
 
-    def meets(self, other: Seat, space: float) -> bool:
+    def meets(self, other: LabelPosition, space: float) -> bool:
         """Whether two labels come nearer than a space (mm), or one's leader crosses the other or its leader."""
         if (
             self.left - space < other.right
@@ -190,7 +73,9 @@ class Seat(NamedTuple):
             return True
         if other.leader is None:
             return False
-        return self.lies_under(other.leader) or (self.leader is not None and _cross(self.leader, other.leader))
+        return self.lies_under(other.leader) or (
+            self.leader is not None and _crosses(self.leader, other.leader)
+        )
 
     def lies_under(self, leader: Segment) -> bool:
         """Whether a leader runs over the box, or nearly."""
@@ -207,36 +92,36 @@ class Seat(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Seats:
+class LabelPositions:
     """Places of one label, cheapest first, as arrays: centres, costs, feet and tips of leaders, whether there is one,
     number of faults."""
 
     half: complex
-    centres: Any
-    costs: Any
-    feet: Any
-    tips: Any
-    led: Any
-    faults: Any
+    centres: Points
+    costs: Floats
+    feet: Points
+    tips: Points
+    led: Flags
+    faults: Indices
 
     def __len__(self) -> int:
         return len(self.costs)
 
-    def seat(self, index: int) -> Seat:
+    def position(self, index: int) -> LabelPosition:
         """The place of an index."""
         centre, half = complex(self.centres[index]), self.half
         leader = (complex(self.feet[index]), complex(self.tips[index])) if self.led[index] else None
-        return Seat(
+        return LabelPosition(
             centre.real - half.real, centre.imag - half.imag, centre.real + half.real, centre.imag + half.imag,
             float(self.costs[index]), leader,
         )  # fmt: skip
 
     @cached_property
-    def first(self) -> tuple[Seat, ...]:
+    def first(self) -> tuple[LabelPosition, ...]:
         """The few cheapest."""
-        return tuple(self.seat(i) for i in range(min(len(self), 6)))
+        return tuple(self.position(i) for i in range(min(len(self), 6)))
 
-    def joined(self, other: Seats) -> Seats:
+    def joined(self, other: LabelPositions) -> LabelPositions:
         """These and others, cheapest first."""
         if not len(other):
             return self
@@ -245,10 +130,10 @@ class Seats:
             for key in ("centres", "costs", "feet", "tips", "led", "faults")
         ]
         order = np.argsort(columns[1], kind="stable")
-        return Seats(self.half, *(column[order] for column in columns))
+        return LabelPositions(self.half, *(column[order] for column in columns))
 
-    def met(self, others: Sequence[Seat], space: float) -> Any:
-        """Which places (rows) meet which seats of other labels (columns), as `Seat.meets` says."""
+    def met(self, others: Sequence[LabelPosition], space: float) -> Flags:
+        """Which places (rows) meet which positions of other labels (columns), as `LabelPosition.meets` says."""
         corners = np.array([(s.left, s.top, s.right, s.bottom) for s in others]).reshape(-1, 4)
         low, high = corners[:, 0] + 1j * corners[:, 1], corners[:, 2] + 1j * corners[:, 3]
         middle, size = (low + high) / 2, (high - low) / 2
@@ -266,41 +151,169 @@ class Seats:
             half = np.full((1, 1), self.half) + leader_space
             over[:, theirs] |= meets(leaders[None], self.centres[:, None], half)
             if own.size:
-                (a, b), (c, d) = lines[:, None].transpose(2, 0, 1), leaders[None].transpose(2, 0, 1)
-                apart = cross_product(b - a, c - a) * cross_product(b - a, d - a)
-                across = cross_product(d - c, a - c) * cross_product(d - c, b - c)
-                over[np.ix_(own, theirs)] |= (apart < 0) & (across < 0)
+                over[np.ix_(own, theirs)] |= crosses(
+                    *lines[:, None].transpose(2, 0, 1), *leaders[None].transpose(2, 0, 1)
+                )
         return over
 
 
-def cross_product(a: Any, b: Any) -> Any:
-    """Of plane vectors as complex numbers or arrays."""
-    return a.real * b.imag - a.imag * b.real
+CLEARANCE = 0.35  # between a label and any line or area, mm
+NEARER = 1.2  # by so much a label is nearer to its own mark than to any other
+# What a place costs beside its distance (mm): a leader, whatever the leader crosses, a dashed line under the label, a
+# leader to a line that ends nearer than NEAR_END to a point at its end.
+LEADER_COST, CROSSED_COST, DASHED_COST, END_COST = 4.0, 3.0, 10.0, 3.0
+AREA_WEIGHT = 3.0
+FORBIDDEN = 1000.0
+OUTSIDE = 100  # faults that leaving the panel counts for
+# What lies nearer to the foot of a leader is the mark itself: a point with its symbol, or the line of a vector, mm.
+POINT_REACH, LINE_REACH = 1.5, 0.4
+NEAR_END = 2.0
 
 
-def separated(centres: Any, half: Any, segments: Any) -> Any:
-    """Whether the normal of a segment separates it from a box (of centre and half size); the axes of the box are the
-    caller's to check."""
-    start = segments[..., 0]
-    along = segments[..., 1] - start
-    distance = np.abs(cross_product(along, centres - start))
-    return distance > half.real * np.abs(along.imag) + half.imag * np.abs(along.real)
+def least_cost(ring: int) -> float:
+    """What the best place of a ring could cost."""
+    return RINGS[ring] + (LEADER_COST if RINGS[ring] > LEADER_FROM else 0.0)
 
 
-def meets(segments: Any, centres: Any, half: Any) -> Any:
-    """Whether segments and boxes meet."""
-    start, end = segments[..., 0], segments[..., 1]
-    middle, reach = (start + end) / 2 - centres, (end - start) / 2
-    near = (np.abs(middle.real) <= np.abs(reach.real) + half.real) & (
-        np.abs(middle.imag) <= np.abs(reach.imag) + half.imag
-    )
-    return near & ~separated(centres, half, segments)
-
-
-def _cross(one: Segment, other: Segment) -> bool:
-    """Whether two segments cross between their ends."""
+def _crosses(one: Segment, other: Segment) -> bool:
+    """As `crosses`, for two lines."""
     (a, b), (c, d) = one, other
-    return bool(
-        cross_product(b - a, c - a) * cross_product(b - a, d - a) < 0
-        and cross_product(d - c, a - c) * cross_product(d - c, b - c) < 0
+    apart = cross(b - a, c - a) * cross(b - a, d - a)
+    return apart < 0 and cross(d - c, a - c) * cross(d - c, b - c) < 0
+
+
+class LabelPanel:
+    """A panel with what is drawn on it and all marks, which is asked for positions of labels."""
+
+    def __init__(self, panel: Box, obstacles: Obstacles, marks: Sequence[Mark]) -> None:
+        self.panel = panel
+        writing = set(obstacles.writing)
+        areas = [area.grown(LEADER_SPACE) if area in writing else area for area in obstacles.areas]
+        diagonals = tuple((area.corners[0], area.corners[2]) for area in areas)
+        self.things = np.array(diagonals + obstacles.solid + obstacles.dashed, dtype=complex).reshape(-1, 2)
+        self.areas = len(diagonals)
+        self.solid = len(diagonals) + len(obstacles.solid)
+        self.writing = np.array([*(area in writing for area in obstacles.areas), False])
+        self.tree = shapely.STRtree(_lines(self.things[:, 0], self.things[:, 1]))
+        # Labels at the same place share one mark: coincident points are told apart by their letters.
+        distinct = list(dict.fromkeys(ends(mark) for mark in marks))
+        self.marks = np.array(distinct, dtype=complex).reshape(-1, 2)
+        self.index = {pair: i for i, pair in enumerate(distinct)}
+        self.is_point = self.marks[:, 0] == self.marks[:, 1]
+
+    def free(self, requests: Sequence[LabelRequest], first: int, last: int) -> list[LabelPositions]:
+        """Places without a fault in the rings from ``first`` up to ``last`` for each request."""
+        places = candidates(requests, RINGS[first:last])
+        half = np.array([request.half for request in requests])
+        inside = ~self._outside(places.centres, half[places.owners])
+        places = places.at(inside)
+        which, what = self._touched(places.centres, half[places.owners] + complex(CLEARANCE, CLEARANCE))
+        np.add.at(places.costs, which[what >= self.solid], DASHED_COST)
+        kept = np.ones(len(places.owners), dtype=bool)
+        kept[which[what < self.solid]] = False
+        places = places.at(kept)
+        led = self._led(requests, places, half)
+        kept = ~led | (places.gaps >= LEADER_LEAST)
+        return self._positions(requests, places.at(kept), half, led[kept], None)
+
+    def everywhere(self, request: LabelRequest) -> LabelPositions:
+        """All places of all rings for one request, with the number of their faults."""
+        places = candidates([request], RINGS)
+        half = np.array([request.half])
+        faults = OUTSIDE * self._outside(places.centres, half[places.owners]).astype(int)
+        which, what = self._touched(places.centres, half[places.owners] + complex(CLEARANCE, CLEARANCE))
+        np.add.at(faults, which[what < self.solid], 1)
+        return self._positions([request], places, half, self._led([request], places, half), faults)[0]
+
+    def _positions(
+        self, requests: Sequence[LabelRequest], places: Candidates, half: Points, led: Flags, faults: Indices | None
+    ) -> list[LabelPositions]:
+        """The places of each request, cheapest first."""
+        costs, owners = places.costs, places.owners
+        own = half[owners]
+        off = places.centres - places.feet
+        way = _held(off.real, own.real) + 1j * _held(off.imag, own.imag)
+        length = np.maximum(np.abs(way), 1e-9)
+        tips = places.feet + way * np.maximum(0.0, 1.0 - LEADER_GAP / length)
+        if led.any():
+            reach = np.array([POINT_REACH if request.is_point else LINE_REACH for request in requests])[owners[led]]
+            start = places.feet[led] + way[led] / length[led] * reach
+            costs[led] += LEADER_COST + CROSSED_COST * self._crossed(places.feet[led], start, tips[led])
+            ends_of = [(one.start, one.end) if not one.is_point else (np.inf, np.inf) for one in requests]
+            near = np.abs(np.array(ends_of)[owners[led]] - places.feet[led][:, None]).min(axis=1) < NEAR_END
+            costs[led] += END_COST * near
+        wrong = np.zeros(len(costs), dtype=np.intp) if faults is None else faults
+        if faults is None:
+            kept = costs < FORBIDDEN
+            places, tips, led, wrong = places.at(kept), tips[kept], led[kept], wrong[kept]
+        order = np.lexsort((places.costs, places.owners))
+        places, tips, led, wrong = places.at(order), tips[order], led[order], wrong[order]
+        bounds = np.searchsorted(places.owners, np.arange(len(requests) + 1))
+        return [
+            LabelPositions(
+                one.half, places.centres[a:z], places.costs[a:z], places.feet[a:z], tips[a:z], led[a:z], wrong[a:z]
+            )
+            for one, a, z in zip(requests, bounds[:-1], bounds[1:], strict=True)
+        ]
+
+    def _outside(self, centres: Points, half: Points) -> Flags:
+        low, high, panel = centres - half, centres + half, self.panel
+        return (low.real < panel.left) | (high.real > panel.right) | (low.imag < panel.top) | (high.imag > panel.bottom)
+
+    def _touched(self, centres: Points, half: Points) -> tuple[Indices, Indices]:
+        """Pairs of box and obstacle that meet; obstacles count areas, solid, dashed in turn."""
+        which, what = self.tree.query(_lines(centres - half, centres + half))
+        meets = (what < self.areas) | ~separated(centres[which], half[which], self.things[what])
+        return which[meets], what[meets]
+
+    def _led(self, requests: Sequence[LabelRequest], places: Candidates, half: Points) -> Flags:
+        """Which places need a leader: far ones, and those about as near to another mark of the same kind as to their
+        own."""
+        centres, gaps = places.centres, places.gaps
+        own = np.array([self.index[request.start, request.end] for request in requests], dtype=int)[places.owners]
+        reach = half[places.owners] + (gaps + NEARER) * (1 + 1j)
+        low, high = _reach(self.marks)
+        near = (low.real < (centres + reach).real[:, None]) & (high.real > (centres - reach).real[:, None])
+        near &= (low.imag < (centres + reach).imag[:, None]) & (high.imag > (centres - reach).imag[:, None])
+        near &= (self.is_point[own][:, None] == self.is_point) & (own[:, None] != np.arange(len(self.marks)))
+        which, what = np.nonzero(near)
+        touched = ~separated(centres[which], reach[which], self.marks[what])
+        led = gaps > LEADER_FROM
+        led[which[touched]] = True
+        return led
+
+    def _crossed(self, feet: Points, start: Points, to: Points) -> Floats | Indices:
+        """How many obstacles each leader runs over; an area counts for several: it is a joint or an arrowhead; writing
+        is not to be run over."""
+        count = len(start)
+        which, what = self.tree.query(_lines(start, to))
+        start, to = start[which], to[which]
+        a, b = self.things[what].T
+        over = crosses(start, to, a, b).astype(float)
+        areas = what < self.areas  # a leader over an area crosses one of its diagonals
+        a, b = a[areas], b[areas]
+        other = a.real + 1j * b.imag, b.real + 1j * a.imag
+        weight = np.where(self.writing[what[areas]], FORBIDDEN, AREA_WEIGHT)
+        foot = feet[which[areas]]
+        own = (a.real <= foot.real) & (foot.real <= b.real) & (a.imag <= foot.imag) & (foot.imag <= b.imag)
+        over[areas] = weight * ~own * (over[areas] + crosses(start[areas], to[areas], *other))
+        return np.bincount(which, over, minlength=count)
+
+
+def _lines(start: Points, end: Points) -> Any:
+    """Lines as shapely's tree takes them: for what lies around a box its diagonal will do."""
+    return shapely.linestrings(np.stack((start, end), axis=1).view(float).reshape(-1, 2, 2))
+
+
+def _held(off: Floats, half: Floats) -> Floats:
+    """From a foot to the nearest of a box along one axis."""
+    return np.where(np.abs(off) <= half, 0.0, off - np.sign(off) * half)
+
+
+def _reach(segments: Points) -> tuple[Points, Points]:
+    """Least and greatest corner of the box around each segment."""
+    a, b = segments[:, 0], segments[:, 1]
+    return (
+        np.minimum(a.real, b.real) + 1j * np.minimum(a.imag, b.imag),
+        np.maximum(a.real, b.real) + 1j * np.maximum(a.imag, b.imag),
     )

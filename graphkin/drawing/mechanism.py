@@ -1,10 +1,5 @@
-"""The frame and the moving links: feet and guides, bars, areas, slots, blocks, cylinders.
-
-The points: turning pairs, pins, fixed marks, each with its letter.
-
-What links and guides are called, beside them.
-
-The drawn mechanism as a whole, cut to its room where it has to be.
+"""The drawn mechanism: its frame and links, its points with their letters, the names of links and guides, dimensions
+and senses, the compass arcs that found it; cut to its room where it has to be.
 """
 
 from __future__ import annotations
@@ -19,62 +14,61 @@ from graphkin.drawing import strokes, symbols
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.dimensions import LENGTHS, drawn_lengths
-from graphkin.drawing.layout import Name, Piece, cut_to, ink_box, joined, middle_of
-from graphkin.drawing.mechanism_on_paper import OnPaper, page
-from graphkin.drawing.placing import Label
+from graphkin.drawing.labels import Label
+from graphkin.drawing.mechanism_on_paper import GUIDE_LENGTH, LinkShape, MechanismOnPaper, Slider, page
+from graphkin.drawing.piece import Piece, cut_to, ink_box, joined, middle_of
 from graphkin.drawing.primitives import Arc, Group, Line, Polygon, Primitive, Text
-from graphkin.drawing.rates import clearance, drivers, found_rates
-from graphkin.drawing.shapes import GUIDE_LENGTH, Bearing, Shape
+from graphkin.drawing.senses import clearance, drivers, found_rates
 from graphkin.drawing.text import plain, symbol
 from graphkin.plane import cross, dot
 
-__all__ = ["joints", "link_names", "links", "mechanism_piece"]
+__all__ = ["mechanism_piece"]
 
 
-def links(here: OnPaper) -> Piece:
+def links(here: MechanismOnPaper) -> Piece:
     """All links, areas first, so that feet of pivots stand on them and bars lie over them."""
     areas = [_link(here, shape) for shape in here.shapes if shape.corners]
     bars = sorted((shape for shape in here.shapes if not shape.corners), key=lambda shape: _depth(here, shape))
     return Piece({"mechanism": (*areas, _frame(here), *(_link(here, shape) for shape in bars))})
 
 
-def _depth(here: OnPaper, shape: Shape) -> int:
+def _depth(here: MechanismOnPaper, shape: LinkShape) -> int:
     """What carries a block lies under it, what ends in its pin over it."""
-    if any(b.slide.b == shape.link for b in here.bearings):
+    if any(b.slide.b == shape.link for b in here.sliders):
         return 0
-    if any(b.slide.a == shape.link for b in here.bearings):
+    if any(b.slide.a == shape.link for b in here.sliders):
         return 1 + here.nested(shape.link)
     return 9
 
 
-def _frame(here: OnPaper) -> Group:
+def _frame(here: MechanismOnPaper) -> Group:
     parts: list[Primitive] = []
     for point in here.scene.frame.points:
         if here.moving(point):
             parts += symbols.fixed_pivot(page(here.places[point]), here.foot(point))
-    for b in here.bearings:
+    for b in here.sliders:
         if here.ground in (b.slide.a, b.slide.b) and not b.slide.slot:
             parts += symbols.guide(page(b.at), phase(b.along), GUIDE_LENGTH)
     return Group(tuple(parts), id=f"link-{here.ground}", classes=("frame",))
 
 
-def _link(here: OnPaper, shape: Shape) -> Group:
+def _link(here: MechanismOnPaper, shape: LinkShape) -> Group:
     colour = here.colour(shape.link)
     parts: list[Primitive] = []
     stroke = (strokes.REDUNDANT if shape.redundant else strokes.LINK).coloured(colour)
     if shape.corners:
         corners = tuple(map(page, shape.corners))
         parts.append(Polygon(corners, "" if shape.redundant else strokes.tint(colour), stroke))
-    hidden = {b.slide.b for b in here.bearings if b.slide.key in here.cylinders}
+    hidden = {b.slide.b for b in here.sliders if b.slide.key in here.cylinders}
     if shape.link not in hidden:
         parts += [Line(page(start), page(end), stroke) for start, end in shape.bars]
         parts += _welds(here, shape, colour)
     for start, end in shape.slots:
         parts += symbols.slot(page(start), page(end), colour)
-    for b in here.bearings:
+    for b in here.sliders:
         if b.slide.b == shape.link and b.slide.key in here.cylinders:
             parts += symbols.cylinder(page(here.pivot(b)), page(b.at), colour)
-    for b in here.bearings:
+    for b in here.sliders:
         if b.slide.a == shape.link and not b.slide.slot and b.slide.key not in here.cylinders:
             parts += _block(here, b)
         if b.slide.a == shape.link and b.slide.key in here.cylinders:
@@ -83,14 +77,14 @@ def _link(here: OnPaper, shape: Shape) -> Group:
     return Group(tuple(parts), id=f"link-{shape.link}", classes=("link",))
 
 
-def _block(here: OnPaper, b: Bearing) -> tuple[Primitive, ...]:
+def _block(here: MechanismOnPaper, b: Slider) -> tuple[Primitive, ...]:
     shrink = 0.72 ** here.nested(b.slide.a)
     return symbols.block(
         page(b.at), phase(b.along), here.colour(b.slide.a), symbols.BLOCK_LENGTH * shrink, symbols.BLOCK_WIDTH * shrink
     )
 
 
-def _welds(here: OnPaper, shape: Shape, colour: str) -> list[Primitive]:
+def _welds(here: MechanismOnPaper, shape: LinkShape, colour: str) -> list[Primitive]:
     """Filled corners where two bars of one link meet at an angle with no joint between them."""
     parts: list[Primitive] = []
     for i, (a, b) in enumerate(shape.bars):
@@ -106,17 +100,17 @@ def _welds(here: OnPaper, shape: Shape, colour: str) -> list[Primitive]:
     return parts
 
 
-def joints(here: OnPaper) -> Piece:
+def joints(here: MechanismOnPaper) -> Piece:
     """Every point with its symbol, and the letters that want a place beside them."""
     drawn = tuple(Group(tuple(_joint(here, p)), id=f"point-{p}", classes=("point",)) for p in here.places)
     return Piece({"mechanism": drawn}, tuple(_letter(here, point) for point in here.places))
 
 
-def _joint(here: OnPaper, point: str) -> list[Primitive]:
+def _joint(here: MechanismOnPaper, point: str) -> list[Primitive]:
     z, moving = here.places[point], here.moving(point)
     held = [n for n in here.scene.holders.get(point, ()) if n in here.sheet.poses or n == here.ground]
     if len(held) > 1 and moving:
-        on_block = point in {b.slide.pin for b in here.bearings if not b.slide.slot}
+        on_block = point in {b.slide.pin for b in here.sliders if not b.slide.slot}
         radius = symbols.JOINT_RADIUS * (0.85 if on_block else 1.0)
         circle = symbols.turning_pair(page(z), radius=radius)
         return [*(_over_block(here, z) if on_block else ()), *circle, *_through(here, z, held)]
@@ -128,15 +122,15 @@ def _joint(here: OnPaper, point: str) -> list[Primitive]:
     return [Line(page(z - 1.2), page(z + 1.2), thin), Line(page(z - 1.2j), page(z + 1.2j), thin)]
 
 
-def _letter(here: OnPaper, point: str) -> Name:
+def _letter(here: MechanismOnPaper, point: str) -> Label:
     z = here.places[point]
     away = -sum((w / abs(w) for w in here.ways(z)), 0j)
     letter = symbol(here.letters.point(point))
     text = Text(0j, letter, "start", strokes.BLACK, f"label-point-{point}", ("label",))
-    return Name(Label(text, page(z), (phase(away),) if abs(away) > 0.1 else ()), 0)
+    return Label(text, page(z), (phase(away),) if abs(away) > 0.1 else ())
 
 
-def _over_block(here: OnPaper, z: complex) -> list[Primitive]:
+def _over_block(here: MechanismOnPaper, z: complex) -> list[Primitive]:
     """Edges of areas that end in the pin of a block, drawn on over it."""
     parts: list[Primitive] = []
     for shape in here.shapes:
@@ -149,7 +143,7 @@ def _over_block(here: OnPaper, z: complex) -> list[Primitive]:
     return parts
 
 
-def _through(here: OnPaper, z: complex, held: list[str]) -> list[Primitive]:
+def _through(here: MechanismOnPaper, z: complex, held: list[str]) -> list[Primitive]:
     """A bar that goes on beyond a joint is drawn through its circle."""
     parts: list[Primitive] = []
     for shape in here.shapes:
@@ -164,58 +158,58 @@ def _through(here: OnPaper, z: complex, held: list[str]) -> list[Primitive]:
     return parts
 
 
-def link_names(here: OnPaper) -> Piece:
+def link_names(here: MechanismOnPaper) -> Piece:
     """Numbers of the links, letters of the guides that the equations speak of, the number of the frame."""
-    return Piece(names=(*_numbers(here), *_guides(here), *_frame_name(here)))
+    return Piece(labels=(*_numbers(here), *_guides(here), *_frame_name(here)))
 
 
 def _number(link: str, colour: str) -> Text:
     return Text(0j, plain(link, bold=True), "start", colour, f"label-link-{link}", ("label", "link-number"))
 
 
-def _numbers(here: OnPaper) -> Iterator[Name]:
+def _numbers(here: MechanismOnPaper) -> Iterator[Label]:
     for shape in here.shapes:
         text = _number(shape.link, here.colour(shape.link))
         whole = _cylinder_part(here, shape.link) or shape.longest
-        block = next((b.at for b in here.bearings if b.slide.a == shape.link), None)
+        block = next((b.at for b in here.sliders if b.slide.a == shape.link), None)
         if whole is not None:
-            yield Name(Label(text, (page(whole[0]), page(whole[1]))), 1)
+            yield Label(text, (page(whole[0]), page(whole[1])), rank=1)
         elif block is not None:
-            yield Name(Label(text, page(block)), 1)
+            yield Label(text, page(block), rank=1)
 
 
-def _cylinder_part(here: OnPaper, link: str) -> tuple[complex, complex] | None:
+def _cylinder_part(here: MechanismOnPaper, link: str) -> tuple[complex, complex] | None:
     """The barrel or the rod of a cylinder."""
-    for b in here.bearings:
+    for b in here.sliders:
         if b.slide.key in here.cylinders and link in (b.slide.a, b.slide.b):
             rod = here.rod(b)
             return (here.pivot(b), rod[0]) if link == b.slide.b else rod
     return None
 
 
-def _guides(here: OnPaper) -> Iterator[Name]:
+def _guides(here: MechanismOnPaper) -> Iterator[Label]:
     written = {
         name for step in here.sheet.equations for side in step.sides for term in side
         if term.direction and len(term.direction.names) == 1 for name in term.direction.names
     }  # fmt: skip
-    for b in here.bearings:
+    for b in here.sliders:
         if b.slide.guide.name in written:
             written.discard(b.slide.guide.name)
             edge = GUIDE_LENGTH / 2 if b.slide.b == here.ground else 7.0
             letter = symbol(here.letters.guide(b.slide.guide.name, here.ground), 3.0)
             id = f"label-guide-{b.slide.b}-{b.slide.guide.name}"
             text = Text(0j, letter, "start", strokes.BLACK, id, ("label",))
-            yield Name(Label(text, page(b.at + edge * b.along), (phase(b.along),)), 1)
+            yield Label(text, page(b.at + edge * b.along), (phase(b.along),), 1)
 
 
-def _frame_name(here: OnPaper) -> Iterator[Name]:
+def _frame_name(here: MechanismOnPaper) -> Iterator[Label]:
     pivots = [p for p in here.scene.frame.points if here.moving(p)]
     spots = [here.places[p] for p in pivots]
-    spots += [b.at for b in here.bearings if here.ground in (b.slide.b, b.slide.a)]
+    spots += [b.at for b in here.sliders if here.ground in (b.slide.b, b.slide.a)]
     if spots:
         foot = here.foot(pivots[0]) if pivots else 0.0
         away = complex(math.cos(foot), math.sin(foot)) * 5 if pivots else 3.6j
-        yield Name(Label(_number(here.ground, strokes.BLACK), page(spots[0] + away), (phase(away),)), 1)
+        yield Label(_number(here.ground, strokes.BLACK), page(spots[0] + away), (phase(away),), 1)
 
 
 COMPASS = 4.0  # mm of arc to either side of what it finds
@@ -233,7 +227,7 @@ def mechanism_piece(sheet: Sheet, letters: Letters, room: tuple[float, float] | 
     the piece, and the box (mm, y down) that it takes up, names left out.  Where it does not fit the room, dimensions
     are left out first, then bars are cut at the edge of a room about its points.
     """
-    here = OnPaper(sheet, letters)
+    here = MechanismOnPaper(sheet, letters)
     piece = _piece(here, None)
     box = ink_box(piece.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
     if room is None or _fits(box, room):
@@ -246,7 +240,7 @@ def mechanism_piece(sheet: Sheet, letters: Letters, room: tuple[float, float] | 
     panel = Box.around((bare.centre - half, bare.centre + half))
     piece = _piece(here, panel)
     layers = {name: cut_to(things, panel) for name, things in piece.layers.items()}
-    names = tuple(n for n in piece.names if panel.distance(middle_of(n.label.mark)) == 0.0)
+    names = tuple(n for n in piece.labels if panel.distance(middle_of(n.mark)) == 0.0)
     return Piece(layers, names, piece.marks), panel
 
 
@@ -254,7 +248,7 @@ def _fits(box: Box, room: tuple[float, float]) -> bool:
     return box.width <= room[0] and box.height <= room[1]
 
 
-def _piece(here: OnPaper, panel: Box | None) -> Piece:
+def _piece(here: MechanismOnPaper, panel: Box | None) -> Piece:
     clear = clearance(here)
     whole = joined((_construction(here), links(here), joints(here), drivers(here, clear), found_rates(here, clear)))
     drawn = [thing for layer in ("construction", "mechanism", "answers") for thing in whole.layers[layer]]
@@ -263,7 +257,7 @@ def _piece(here: OnPaper, panel: Box | None) -> Piece:
     return joined((whole, lengths, link_names(here), marks))
 
 
-def _construction(here: OnPaper) -> Piece:
+def _construction(here: MechanismOnPaper) -> Piece:
     """Compass arcs near the points that they find."""
     drawn = []
     for step in here.sheet.steps:

@@ -1,4 +1,8 @@
-"""The mechanism as it stands on paper: where its parts are, and what they must know of each other to be drawn."""
+"""The mechanism as it stands on paper: where its points, links and sliding pairs are, what a link looks like, and what
+the parts must know of each other to be drawn.
+
+Places are in mm, y up, about the world's origin, until `page` turns them.
+"""
 
 from __future__ import annotations
 
@@ -11,13 +15,19 @@ from functools import cached_property
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing import symbols
 from graphkin.drawing.conventions import Letters
-from graphkin.drawing.shapes import Bearing, Shape, bearings, shapes
+from graphkin.drawing.primitives import Segment
 from graphkin.drawing.strokes import colour_of_link
+from graphkin.drawing.symbols import hull
 from graphkin.plane import cross, dot
-from graphkin.scene.model import Scene
+from graphkin.scene.model import Scene, SlideDriver
+from graphkin.structure import Slide
 
-__all__ = ["OnPaper", "page"]
+__all__ = ["GUIDE_LENGTH", "LinkShape", "MechanismOnPaper", "Slider", "page", "sliders"]
 
+# mm: how far a bar of no fixed length goes on beyond a block, and a slot beyond its pin
+PAST_BLOCK, PAST_PIN = 9.0, 8.0
+GUIDE_LENGTH = 24.0  # mm of the frame's guide about a block
+NEAR = 1e-4  # mm: points so near to a line lie on it
 FOOT = {-math.pi / 2: 0.0, 0.0: 0.5, math.pi: 0.5, math.pi / 2: 0.7}  # where feet may point, and how little liked
 
 
@@ -27,7 +37,39 @@ def page(z: complex) -> complex:
 
 
 @dataclass(frozen=True)
-class OnPaper:
+class Slider:
+    """A sliding pair on paper: where its block stands and along which direction, and whether a driver moves it."""
+
+    slide: Slide
+    at: complex
+    along: complex
+    driven: bool
+
+
+@dataclass(frozen=True)
+class LinkShape:
+    """The parts of one link on paper (mm): the corners of its area, bars, slots, and where its points are."""
+
+    link: str
+    points: dict[str, complex]
+    corners: tuple[complex, ...] = ()
+    bars: tuple[Segment, ...] = ()
+    slots: tuple[Segment, ...] = ()
+    redundant: bool = False
+
+    @property
+    def segments(self) -> tuple[Segment, ...]:
+        """Everything straight in it."""
+        edges = zip(self.corners, (*self.corners[1:], *self.corners[:1]), strict=True)
+        return (*self.bars, *self.slots, *edges)
+
+    @property
+    def longest(self) -> Segment | None:
+        return max(self.segments, key=lambda s: abs(s[1] - s[0]), default=None)
+
+
+@dataclass(frozen=True)
+class MechanismOnPaper:
     """A sheet's mechanism with the letters of a convention; places in mm, y up, about the world's origin."""
 
     sheet: Sheet
@@ -42,12 +84,12 @@ class OnPaper:
         return self.sheet.scene.frame.name
 
     @cached_property
-    def shapes(self) -> tuple[Shape, ...]:
+    def shapes(self) -> tuple[LinkShape, ...]:
         return shapes(self.sheet)
 
     @cached_property
-    def bearings(self) -> tuple[Bearing, ...]:
-        return bearings(self.sheet)
+    def sliders(self) -> tuple[Slider, ...]:
+        return sliders(self.sheet)
 
     @cached_property
     def places(self) -> Mapping[str, complex]:
@@ -57,7 +99,7 @@ class OnPaper:
     @cached_property
     def cylinders(self) -> frozenset[str]:
         """Driven slides that are drawn as cylinder and rod."""
-        return frozenset(b.slide.key for b in self.bearings if b.driven and self._is_cylinder(b))
+        return frozenset(b.slide.key for b in self.sliders if b.driven and self._is_cylinder(b))
 
     def colour(self, link: str) -> str:
         return colour_of_link(self.scene, link)
@@ -96,26 +138,142 @@ class OnPaper:
 
     def nested(self, link: str) -> int:
         """How many larger blocks stand around the block of a link: two that slide at one pin lie in each other."""
-        mine = next(b for b in self.bearings if b.slide.a == link)
-        around = [b for b in self.bearings if not b.slide.slot and b.slide.a != link and abs(b.at - mine.at) < 0.5]
+        mine = next(b for b in self.sliders if b.slide.a == link)
+        around = [b for b in self.sliders if not b.slide.slot and b.slide.a != link and abs(b.at - mine.at) < 0.5]
         rank = (mine.slide.b != self.ground, self.scene.order.get(link, 0))
         return sum((b.slide.b != self.ground, self.scene.order.get(b.slide.a, 0)) < rank for b in around)
 
-    def pivot(self, b: Bearing) -> complex:
+    def pivot(self, b: Slider) -> complex:
         """Where the guiding link of a slide is held."""
         link = self.scene.by_name[b.slide.b]
         return next((self.places[p] for p in link.points if p in self.places), self.sheet.poses[b.slide.b].origin)
 
-    def rod(self, b: Bearing) -> tuple[complex, complex]:
+    def rod(self, b: Slider) -> tuple[complex, complex]:
         """The part of a cylinder's rod that is seen."""
         pivot = self.pivot(b)
         return pivot + 0.6 * (b.at - pivot), b.at
 
-    def _is_cylinder(self, b: Bearing) -> bool:
+    def _is_cylinder(self, b: Slider) -> bool:
         if b.slide.b == self.ground or b.slide.slot:
             return False
         pivot = self.pivot(b)
         return abs(cross(b.at - pivot, b.along)) < 1e-3 and dot(b.at - pivot, b.along) > 12.0
+
+
+def sliders(sheet: Sheet) -> tuple[Slider, ...]:
+    """All sliding pairs whose two links stand on paper, pins in slots too."""
+    driven = {d.key for d in sheet.scene.drivers if isinstance(d, SlideDriver)}
+    return tuple(
+        Slider(
+            slide, sheet.poses[slide.a].origin, sheet.poses[slide.b].axis * slide.guide.direction, slide.key in driven
+        )
+        for slide in sheet.structure.slides
+        if slide.a in sheet.poses and slide.b in sheet.poses
+    )
+
+
+def shapes(sheet: Sheet) -> tuple[LinkShape, ...]:
+    """The moving links on paper, in the order of the file; links that were not reached are left out."""
+    places = {ref.point: z for ref, z in sheet.points.items() if not ref.link}
+    slides = sliders(sheet)
+    found = []
+    for link in sheet.scene.links:
+        points = {p: places[p] for p in link.points if p in places}
+        if link.redundant and len(points) == len(link.points):
+            corners, bars = _spanned(tuple(points.values()))
+            found.append(LinkShape(link.name, points, corners, bars, redundant=True))
+        elif link.name in sheet.poses:
+            found.append(_shape(link.name, points, slides))
+    return tuple(found)
+
+
+def _shape(name: str, points: dict[str, complex], slides: tuple[Slider, ...]) -> LinkShape:
+    anchors = _apart((*points.values(), *(b.at for b in slides if b.slide.a == name)))
+    carried: dict[str, list[Slider]] = {}
+    for b in slides:
+        if b.slide.b == name:
+            carried.setdefault(b.slide.guide.name, []).append(b)
+    bars: list[Segment] = []
+    slots: list[Segment] = []
+    tied: list[complex] = []
+    for sliding in carried.values():
+        line = sliding[0]
+        met = [z for z in anchors if abs(cross(z - line.at, line.along)) < NEAR]
+        span = [dot(z - line.at, line.along) for z in met]
+        if not met and anchors:
+            # a guide that passes by: the link reaches it square from the nearest of its points
+            anchor = min(anchors, key=lambda z: abs(cross(z - line.at, line.along)))
+            foot = dot(anchor - line.at, line.along)
+            bars.append((anchor, line.at + foot * line.along))
+            met, span = [anchor], [foot]
+        tied += met
+        low, high = _reach(sliding, span)
+        bars += [(line.at + a * line.along, line.at + z * line.along) for a, z in _solid(sliding, low, high)]
+        for b in sliding:
+            if b.slide.slot:
+                slots.append((b.at - PAST_PIN * line.along, b.at + PAST_PIN * line.along))
+    loose = [z for z in anchors if z not in tied]
+    corners: tuple[complex, ...] = ()
+    if not carried or (loose and len(anchors) > 2):
+        corners, more = _spanned(anchors)
+        bars += more
+    elif loose:
+        bars += [(z, min((w for w in anchors if w != z), key=lambda w: abs(w - z))) for z in loose if len(anchors) > 1]
+    return LinkShape(name, points, corners, tuple(bars), tuple(slots))
+
+
+def _reach(sliding: list[Slider], span: list[float]) -> tuple[float, float]:
+    """From where to where a guide is drawn: over the link's points on it and a little beyond all that runs on it."""
+    start, along = sliding[0].at, sliding[0].along
+    low, high = (min(span), max(span)) if span else (float("inf"), float("-inf"))
+    fixed = len(span) > 1
+    for b in sliding:
+        t = dot(b.at - start, along)
+        past = PAST_PIN if b.slide.slot else PAST_BLOCK
+        if fixed and low <= t <= high:
+            continue
+        if not span or t >= high:
+            high = max(high, t + past)
+        if not span or t <= low:
+            low = min(low, t - past)
+    return low, high
+
+
+def _solid(sliding: list[Slider], low: float, high: float) -> list[tuple[float, float]]:
+    """The stretches of a guide that are bar, the slots taken out."""
+    start, along = sliding[0].at, sliding[0].along
+    solid = [(low, high)]
+    for b in sliding:
+        if b.slide.slot:
+            t = dot(b.at - start, along)
+            cut = (t - PAST_PIN, t + PAST_PIN)
+            solid = [
+                (x, y)
+                for a, z in solid
+                for x, y in ((a, min(z, cut[0])), (max(a, cut[1]), z))
+                if y - x > NEAR
+            ]
+    return solid
+
+
+def _spanned(places: tuple[complex, ...]) -> tuple[tuple[complex, ...], tuple[Segment, ...]]:
+    """Corners of the area spanned by places, or one bar along them where they lie on a line."""
+    places = _apart(places)
+    if len(places) < 2:
+        return (), ()
+    a, b = max(((p, q) for p in places for q in places), key=lambda pq: abs(pq[0] - pq[1]))
+    if all(abs(cross(z - a, b - a)) < 1e-3 * abs(b - a) for z in places):
+        return (), ((a, b),)
+    return hull(places), ()
+
+
+def _apart(places: tuple[complex, ...]) -> tuple[complex, ...]:
+    """Places without those that repeat another."""
+    kept: list[complex] = []
+    for z in places:
+        if all(abs(z - w) > NEAR for w in kept):
+            kept.append(z)
+    return tuple(kept)
 
 
 def _inside(z: complex, corners: tuple[complex, ...]) -> bool:

@@ -1,18 +1,32 @@
-"""What stands in the way of a label on a figure: solid lines, dashed lines, and areas that no label may cover."""
+"""What stands in the way of a label on a figure: solid lines, dashed lines, and areas that no label may cover.
+
+Below, what tells whether lines and boxes meet, for many at once: arrays of complex numbers, boxes by their middle and
+half size, segments with their two ends in the last dimension.
+"""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
 
 from graphkin.drawing.box import Box
-from graphkin.drawing.primitives import Arc, Circle, Line, Polygon, Polyline, Primitive, Text, walk
-from graphkin.drawing.text import text_box
+from graphkin.drawing.font_widths import text_box
+from graphkin.drawing.primitives import Arc, Circle, Line, Polygon, Polyline, Primitive, Segment, Text, walk
 
-__all__ = ["Obstacles", "obstacles_of"]
+__all__ = [
+    "Flags", "Floats", "Indices", "Obstacles", "Points", "cross_product", "crosses", "meets", "obstacles_of",
+    "separated",
+]  # fmt: skip
 
-Segment = tuple[complex, complex]
+Points: TypeAlias = NDArray[np.complex128]
+Floats: TypeAlias = NDArray[np.float64]
+Flags: TypeAlias = NDArray[np.bool_]
+Indices: TypeAlias = NDArray[np.intp]
 
 # A filled polygon up to this size (mm) is a block or a corner, which no label may cover; a larger one is the tint of a
 # link, on which labels may stand, clear of its edges.  For one no larger than an arrowhead the upright box will do.
@@ -79,3 +93,34 @@ def _course(thing: Line | Polyline | Polygon | Arc) -> tuple[complex, ...]:
 def _size(polygon: Polygon) -> float:
     box = Box.around(polygon.points)
     return max(box.width, box.height)
+
+
+def cross_product(a: Points, b: Points) -> Floats:
+    """Of plane vectors as complex numbers or arrays."""
+    return a.real * b.imag - a.imag * b.real
+
+
+def separated(centres: Points, half: Points, segments: Points) -> Flags:
+    """Whether the normal of a segment separates it from a box (of centre and half size); the axes of the box are the
+    caller's to check."""
+    start = segments[..., 0]
+    along = segments[..., 1] - start
+    distance = np.abs(cross_product(along, centres - start))
+    return distance > half.real * np.abs(along.imag) + half.imag * np.abs(along.real)
+
+
+def meets(segments: Points, centres: Points, half: Points) -> Flags:
+    """Whether segments and boxes meet."""
+    start, end = segments[..., 0], segments[..., 1]
+    middle, reach = (start + end) / 2 - centres, (end - start) / 2
+    near = (np.abs(middle.real) <= np.abs(reach.real) + half.real) & (
+        np.abs(middle.imag) <= np.abs(reach.imag) + half.imag
+    )
+    return near & ~separated(centres, half, segments)
+
+
+def crosses(a: Points, b: Points, c: Points, d: Points) -> Flags:
+    """Whether lines from a to b cross lines from c to d between their ends."""
+    apart = cross_product(b - a, c - a) * cross_product(b - a, d - a)
+    across = cross_product(d - c, a - c) * cross_product(d - c, b - c)
+    return (apart < 0) & (across < 0)

@@ -16,19 +16,8 @@ from io import BytesIO
 from threading import RLock
 from typing import Any
 
-from graphkin.drawing.primitives import (
-    Arc,
-    Circle,
-    Drawing,
-    Group,
-    Line,
-    Polygon,
-    Polyline,
-    Primitive,
-    Text,
-    walk,
-)
-from graphkin.drawing.text import has_cjk, start_runs
+from graphkin.drawing.font_widths import has_cjk, start_runs
+from graphkin.drawing.primitives import Arc, Circle, Group, Line, Page, Polygon, Polyline, Primitive, Text, walk
 
 __all__ = [
     "MM_PER_INCH", "POINTS_PER_MM", "MissingFont", "empty_page", "faces", "figure_pdf", "figure_png", "ink",
@@ -79,7 +68,7 @@ def own_settings(**further: object) -> Iterator[None]:
         yield
 
 
-def pdf_bytes(drawing: Drawing) -> bytes:
+def pdf_bytes(drawing: Page) -> bytes:
     """The drawing as a PDF of one page at true size with its fonts embedded and no date.
 
     Warns
@@ -94,7 +83,7 @@ def pdf_bytes(drawing: Drawing) -> bytes:
         return figure_pdf(figure, drawing.title, chinese)
 
 
-def png_bytes(drawing: Drawing, dpi: float = 200.0) -> bytes:
+def png_bytes(drawing: Page, dpi: float = 200.0) -> bytes:
     """The drawing as a PNG on white, true to size at ``dpi`` pixels per inch, rounded up to whole pixels.
 
     Warns
@@ -227,7 +216,7 @@ def _add_text(figure: Any, text: Text, page: Any, order: int, family: list[str])
         )
 
 
-def _holds_cjk(drawing: Drawing) -> bool:
+def _holds_cjk(drawing: Page) -> bool:
     return any(isinstance(thing, Text) and has_cjk(thing.string) for thing in walk(drawing.children))
 
 

@@ -1,11 +1,5 @@
-"""How large a polygon is.
-
-What leads to the vectors of a polygon: direction lines, images of links, carried vectors, rings around details.
-
-The vectors of a polygon, and their names.
-
-The drawn polygon as a whole.
-"""
+"""The drawn polygon: its vectors and their names, its points, and what leads to them: direction lines, images of links,
+carried vectors, rings around details."""
 
 from __future__ import annotations
 
@@ -17,55 +11,51 @@ from graphkin.construction.steps import Carried
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
-from graphkin.drawing.detail import Detail
 from graphkin.drawing.headings import spoken_vector
-from graphkin.drawing.layout import Name, Piece, joined
-from graphkin.drawing.placing import Label
-from graphkin.drawing.polygon_points import SAME, ZERO, OnPage, points, same_place
-from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Primitive, Text
+from graphkin.drawing.labels import Label
+from graphkin.drawing.piece import Piece, joined
+from graphkin.drawing.polygon_on_page import SAME, ZERO, Detail, PolygonOnPage, same_place
+from graphkin.drawing.polygon_points import points
+from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Primitive, Segment, Text
 from graphkin.drawing.strokes import colour_of_link, colour_of_vector
 from graphkin.drawing.symbols import COMPONENT, POINTER, RESULTANT, arrowhead, vector_group
 from graphkin.drawing.text import symbol
 from graphkin.scene.symbol import Symbol
 
-__all__ = ["construction", "extent", "polygon_piece", "vector_names", "vectors"]
-
-FAR = 60.0  # mm: construction further outside than this is cut off
-
-
-def extent(sheet: Sheet, diagram: DiagramName, within: Box | None = None) -> Box:
-    """The box (mm, y down, about the pole) around all vectors of a polygon; lines that lead to them are counted in
-    where they do not reach far."""
-    ends = [0j, *(z for v in sheet.vectors(diagram).values() for z in (v.tail, v.tip))]
-    box = Box.around(z.conjugate() for z in ends)
-    for step in sheet.steps:
-        for stroke in step.strokes:
-            if step.diagram == diagram and isinstance(stroke, Bar):
-                wider = box.joined(Box.around((stroke.a.conjugate(), stroke.b.conjugate())))
-                if within is None:
-                    fits = max(wider.width - box.width, wider.height - box.height) < FAR
-                else:
-                    fits = wider.width <= within.width and wider.height <= within.height
-                box = wider if fits else box
-    return box
-
+__all__ = ["polygon_piece"]
 
 BEYOND = 9.0  # mm: how far a direction line runs past the crossing
-Segment = tuple[complex, complex]
+SHORT = 8.0  # mm: a shorter vector from the pole is named by its end points alone
 
 
-def construction(here: OnPage) -> Piece:
+def polygon_piece(
+    sheet: Sheet, diagram: DiagramName, letters: Letters, language: str, panel: Box, origin: complex,
+    enlarged: Sequence[Detail] = (),
+) -> Piece:  # fmt: skip
+    """Draw a polygon with its pole at a point of the page.
+
+    Parameters
+    ----------
+    panel : lines known by direction only are clipped to it
+    origin : page point of the pole (mm)
+    enlarged : places that are drawn again larger; they get a ring, and their vectors no names here
+    """
+    here = PolygonOnPage(sheet, diagram, letters, language, panel, origin, tuple(enlarged))
+    return joined((_construction(here), _vectors(here), points(here), _vector_names(here)))
+
+
+def _construction(here: PolygonOnPage) -> Piece:
     """Everything thin, with its names."""
     return joined((Piece({"construction": (*_rings(here), *_images(here))}), *_bars(here), *_rays(here)))
 
 
-def _rings(here: OnPage) -> Iterator[Primitive]:
+def _rings(here: PolygonOnPage) -> Iterator[Primitive]:
     for number, d in enumerate(here.enlarged, 1):
         ring = Circle(here.at(d.centre), d.radius + 0.8, stroke=strokes.CONSTRUCTION)
         yield Group((ring,), id=f"ring-{here.diagram}-{number}", classes=("ring",))
 
 
-def _images(here: OnPage) -> Iterator[Primitive]:
+def _images(here: PolygonOnPage) -> Iterator[Primitive]:
     count: Counter[str] = Counter()
     for step in here.steps:
         for image in (s for s in step.strokes if isinstance(s, Image)):
@@ -76,7 +66,7 @@ def _images(here: OnPage) -> Iterator[Primitive]:
             yield Group((shape,), id=f"image-{here.diagram}-{image.link}{tail}", classes=("image", _class(step)))
 
 
-def _bars(here: OnPage) -> Iterator[Piece]:
+def _bars(here: PolygonOnPage) -> Iterator[Piece]:
     for step in here.steps:
         for bar in (s for s in step.strokes if isinstance(s, Bar)):
             if abs(bar.b - bar.a) <= SAME or here.covered(bar.a, bar.b):
@@ -85,7 +75,7 @@ def _bars(here: OnPage) -> Iterator[Piece]:
             if clipped is None:
                 continue
             parts: list[Primitive] = [Line(*clipped, strokes.CONSTRUCTION)]
-            names: list[Name] = []
+            names: list[Label] = []
             if isinstance(step.act, Carried):
                 parts += _head(clipped, here.at(bar.b))
                 names += _carried(here, step.act.symbol, clipped)
@@ -100,20 +90,20 @@ def _head(line: Segment, tip: complex) -> Iterator[Primitive]:
         yield arrowhead(tip, line[1] - line[0], head, POINTER.head_width, strokes.BLACK)
 
 
-def _carried(here: OnPage, moved: Symbol, line: Segment) -> Iterator[Name]:
+def _carried(here: PolygonOnPage, moved: Symbol, line: Segment) -> Iterator[Label]:
     if abs(line[1] - line[0]) > 4.0:
         markup = symbol(here.letters.vector(moved), 3.0)
-        yield Name(Label(Text(0j, markup, "start", strokes.GREY, f"label-carried-{moved.id}", ("label",)), line), 4)
+        yield Label(Text(0j, markup, "start", strokes.GREY, f"label-carried-{moved.id}", ("label",)), line, rank=4)
 
 
-def _rays(here: OnPage) -> Iterator[Piece]:
+def _rays(here: PolygonOnPage) -> Iterator[Piece]:
     """Lines known by direction only, each named once where several lead to one point."""
     named: set[tuple[str, complex]] = set()
     for step in here.steps:
         for ray in (s for s in step.strokes if isinstance(s, Ray)):
             end = ray.to if ray.to is not None else ray.through
             leading, beyond = _lines(here, ray, end)
-            names: list[Name] = []
+            names: list[Label] = []
             if beyond is not None:
                 markup = here.letters.direction(ray.direction, here.sheet.scene.frame.name)
                 key = (markup, same_place(end))
@@ -121,12 +111,12 @@ def _rays(here: OnPage) -> Iterator[Piece]:
                     named.add(key)
                     id = f"label-direction-{step.number:02d}"
                     text = Text(0j, symbol(markup, 3.0), "start", strokes.GREY, id, ("label", "direction"))
-                    names.append(Name(Label(text, beyond), 4))
+                    names.append(Label(text, beyond, rank=4))
             lines = tuple(Line(*line, strokes.DIRECTION) for line in (leading, beyond) if line is not None)
             yield Piece({"construction": (Group(lines, classes=("direction", _class(step))),)}, tuple(names))
 
 
-def _lines(here: OnPage, ray: Ray, end: complex) -> tuple[Segment | None, Segment | None]:
+def _lines(here: PolygonOnPage, ray: Ray, end: complex) -> tuple[Segment | None, Segment | None]:
     """The part of a ray that leads to its end, if no vector lies there, and the part beyond it, as far as they show."""
     way = end - ray.through
     e = way / abs(way) if abs(way) > 1.0 else ray.along
@@ -144,15 +134,12 @@ def _class(step: Step) -> str:
     return f"step-{step.number:02d}"
 
 
-SHORT = 8.0  # mm: a shorter vector from the pole is named by its end points alone
-
-
-def vectors(here: OnPage) -> Piece:
+def _vectors(here: PolygonOnPage) -> Piece:
     """Every vector as an arrow."""
     return Piece({here.diagram: tuple(_arrow(here, step, vector) for step, vector in here.in_order())})
 
 
-def _arrow(here: OnPage, step: int, vector: Vector) -> Group:
+def _arrow(here: PolygonOnPage, step: int, vector: Vector) -> Group:
     return vector_group(
         vector.symbol.id,
         step,
@@ -165,13 +152,13 @@ def _arrow(here: OnPage, step: int, vector: Vector) -> Group:
     )
 
 
-def vector_names(here: OnPage) -> Piece:
+def _vector_names(here: PolygonOnPage) -> Piece:
     """One name for vectors that share tail and tip; those of zero length are named in words."""
     named = (_name(here, length, shared) for length, shared in _shared(here))
-    return Piece(names=tuple(name for name in named if name))
+    return Piece(labels=tuple(name for name in named if name))
 
 
-def _shared(here: OnPage) -> Iterator[tuple[float, list[Vector]]]:
+def _shared(here: PolygonOnPage) -> Iterator[tuple[float, list[Vector]]]:
     """Length, and vectors that share tail and tip, the longest first; not those that are drawn again larger."""
     groups: dict[tuple[complex, complex], list[Vector]] = {}
     for _, vector in here.in_order():
@@ -182,7 +169,7 @@ def _shared(here: OnPage) -> Iterator[tuple[float, list[Vector]]]:
             yield abs(shared[0].span), sorted(shared, key=lambda v: here.vectors[v.symbol][0])
 
 
-def _name(here: OnPage, length: float, vectors: Sequence[Vector]) -> Name | None:
+def _name(here: PolygonOnPage, length: float, vectors: Sequence[Vector]) -> Label | None:
     us = here.letters.convention == "us"
     if length < ZERO:
         vectors = [v for v in vectors if v.role != "resultant" or us or abs(v.tip) < SAME]
@@ -193,26 +180,10 @@ def _name(here: OnPage, length: float, vectors: Sequence[Vector]) -> Name | None
     id = f"label-{first.symbol.id}"
     if length < ZERO:
         text = Text(0j, symbol(markup + " = 0"), "start", strokes.BLACK, id, ("label",))
-        return Name(Label(text, here.at(first.tip)), 3)
+        return Label(text, here.at(first.tip), rank=3)
     resultants = all(v.role == "resultant" for v in vectors)
     asked = any(v.symbol in here.sheet.scene.find for v in vectors)
     if not us and length < SHORT and resultants and not asked:
         return None  # the letters at its ends say it
     text = Text(0j, symbol(markup), "start", colour_of_vector(here.sheet, first.symbol), id, ("label",))
-    return Name(Label(text, (here.at(first.tail), here.at(first.tip))), 2 if resultants and not us else 1)
-
-
-def polygon_piece(
-    sheet: Sheet, diagram: DiagramName, letters: Letters, language: str, panel: Box, origin: complex,
-    enlarged: Sequence[Detail] = (),
-) -> Piece:  # fmt: skip
-    """Draw a polygon with its pole at a point of the page.
-
-    Parameters
-    ----------
-    panel : lines known by direction only are clipped to it
-    origin : page point of the pole (mm)
-    enlarged : places that are drawn again larger; they get a ring, and their vectors no names here
-    """
-    here = OnPage(sheet, diagram, letters, language, panel, origin, tuple(enlarged))
-    return joined((construction(here), vectors(here), points(here), vector_names(here)))
+    return Label(text, (here.at(first.tail), here.at(first.tip)), rank=2 if resultants and not us else 1)

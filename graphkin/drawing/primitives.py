@@ -7,27 +7,30 @@ the SVG).  Angles are radians, counter-clockwise as seen on the page.  Every wri
 from __future__ import annotations
 
 import cmath
-import os
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import TypeAlias
 
 __all__ = [
     "Arc",
     "Circle",
-    "Drawing",
     "Group",
     "Line",
+    "Page",
     "Polygon",
     "Polyline",
     "Primitive",
     "Run",
+    "Segment",
     "Stroke",
     "Text",
     "page_direction",
     "walk",
 ]
+
+
+Segment: TypeAlias = tuple[complex, complex]
+"""A straight line from one point to another."""
 
 
 def page_direction(angle: float) -> complex:
@@ -160,8 +163,9 @@ Primitive: TypeAlias = Line | Polyline | Polygon | Circle | Arc | Text | Group
 
 
 @dataclass(frozen=True)
-class Drawing:
-    """A page: size in mm, title and description in words, language ("en", "zh"), facts for programs, what is on it."""
+class Page:
+    """A page as writers take it: size in mm, title and description in words, language ("en", "zh"), facts for programs,
+    what is on it."""
 
     width: float
     height: float
@@ -170,17 +174,6 @@ class Drawing:
     desc: str = ""
     lang: str = "en"
     metadata: Mapping[str, object] = field(default_factory=dict)
-
-    def save(self, path: str | os.PathLike[str], dpi: float = 200.0) -> Path:
-        """Write the page to a file, as SVG, PDF or PNG by the ending of its name; returns the path."""
-        from graphkin.drawing.save import save
-
-        return save(self, path, dpi)
-
-    def _repr_svg_(self) -> str:
-        from graphkin.drawing.svg import svg_bytes
-
-        return svg_bytes(self).decode()
 
 
 def walk(children: tuple[Primitive, ...]) -> Iterator[Primitive]:

@@ -13,16 +13,18 @@ from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, letters_of, scale_statement
+from graphkin.drawing.coriolis import CoriolisTerm
 from graphkin.drawing.dimensions import check_bar
+from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.equations import write_equations
-from graphkin.drawing.headings import describe, drivers, facts, figure_title, term, titles
-from graphkin.drawing.insets import INSET, CoriolisTerm, coriolis_row, polygon_with_insets
-from graphkin.drawing.layout import Piece, fitted, ink_box, joined, layer_groups, moved, moved_piece, settled, wrapped
+from graphkin.drawing.headings import FIGURE_WORDS, describe, drivers, facts, figure_title, term, titles
+from graphkin.drawing.insets import INSET, coriolis_row, polygon_with_insets
 from graphkin.drawing.mechanism import mechanism_piece
-from graphkin.drawing.polygon import extent
-from graphkin.drawing.primitives import Drawing, Group, Line, Polygon, Primitive, Run, Text
+from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved, moved_piece, with_labels
+from graphkin.drawing.polygon_on_page import extent
+from graphkin.drawing.primitives import Group, Line, Polygon, Primitive, Run, Text
 from graphkin.drawing.tables import given_data, readings_table
-from graphkin.drawing.text import rich
+from graphkin.drawing.text import fitted, rich, wrapped
 from graphkin.scene.model import Scene
 from graphkin.words import Phrase, languages, say
 
@@ -181,9 +183,6 @@ def _spare(box: Box, written: tuple[Primitive, ...]) -> Box | None:
     return Box(box.left, top, box.right, box.bottom) if ink is None or ink.bottom + GUTTER < top else None
 
 
-WORDS = {"mechanism": "mechanism", "velocity": "velocity polygon", "acceleration": "acceleration polygon"}
-
-
 def _heading(sheet: Sheet, letters: Letters, language: str, plan: SheetPlan) -> Piece:
     width = plan.width - 2 * MARGIN
     words = "   ".join(titles(sheet, language))
@@ -194,7 +193,7 @@ def _heading(sheet: Sheet, letters: Letters, language: str, plan: SheetPlan) -> 
 
 
 def _caption(sheet: Sheet, letters: Letters, language: str, diagram: DiagramName) -> str:
-    return f"{term(WORDS[diagram], language)},  {scale_statement(sheet, letters.convention, diagram)}"
+    return f"{term(FIGURE_WORDS[diagram], language)},  {scale_statement(sheet, letters.convention, diagram)}"
 
 
 def _panel(box: Box, caption: str) -> Piece:
@@ -211,7 +210,7 @@ def _captioned(box: Box, caption: str, layer: str, children: tuple[Primitive, ..
 def _mechanism(sheet: Sheet, letters: Letters, panel: Box) -> Piece:
     room = panel.grown(-0.8)
     piece, content = mechanism_piece(sheet, letters, (room.width, room.height))
-    return settled(moved_piece(piece, panel.centre - content.centre), room)
+    return with_labels(moved_piece(piece, panel.centre - content.centre), room)
 
 
 def _polygon(

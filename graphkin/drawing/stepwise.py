@@ -13,8 +13,8 @@ from dataclasses import replace
 from graphkin.construction.sheet import DiagramName, Mark, Sheet, Step, Vector
 from graphkin.construction.steps import Carried, MeasuredRate
 from graphkin.drawing import strokes
-from graphkin.drawing.detail import details
 from graphkin.drawing.dimensions import LENGTHS
+from graphkin.drawing.polygon_on_page import details
 from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Stroke, Text
 
 __all__ = ["births", "so_far", "step_of", "stepped"]

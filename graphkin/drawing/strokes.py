@@ -1,8 +1,7 @@
-"""The kinds of line of a figure, after ISO 128, and the colours of links.
+"""How lines are drawn: their kinds, after ISO 128, and the colours of links.
 
-A kind is told by width and dash, so that black on white is enough; colour comes on top of it.
-
-One colour per link, the same in the mechanism and in every diagram; and which link a vector belongs to.
+A kind is told by width and dash, so that black on white is enough; colour comes on top of it: one for each link, the
+same in the mechanism and in every diagram, where a vector has that of the link whose motion it shows.
 """
 
 from __future__ import annotations
@@ -10,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from graphkin.construction.sheet import Sheet
-from graphkin.drawing import strokes
 from graphkin.drawing.primitives import Stroke
 from graphkin.scene.model import Scene
 from graphkin.scene.symbol import PointRef, Symbol
@@ -70,7 +68,7 @@ def tint(colour: str, strength: float = 0.14) -> str:
 def colour_of_link(scene: Scene, link: str) -> str:
     """Colour of a link; the frame is black."""
     name = link.split("/")[-1]
-    return strokes.BLACK if name == scene.frame.name else strokes.link_colour(scene.order[name])
+    return BLACK if name == scene.frame.name else link_colour(scene.order[name])
 
 
 def link_of_vector(sheet: Sheet, symbol: Symbol) -> str:

@@ -12,8 +12,8 @@ from itertools import chain, count
 from typing import Any
 from zlib import crc32
 
-from graphkin.drawing.primitives import Arc, Circle, Drawing, Group, Line, Polygon, Polyline, Primitive, Stroke, Text
-from graphkin.drawing.text import has_cjk, runs_width, start_runs
+from graphkin.drawing.font_widths import has_cjk, runs_width, start_runs
+from graphkin.drawing.primitives import Arc, Circle, Group, Line, Page, Polygon, Polyline, Primitive, Stroke, Text
 
 __all__ = ["FONTS", "number", "svg_bytes"]
 
@@ -41,7 +41,7 @@ def number(value: float) -> str:
     return "0" if text == "-0" else text
 
 
-def svg_bytes(drawing: Drawing, debug: bool = False) -> bytes:
+def svg_bytes(drawing: Page, debug: bool = False) -> bytes:
     """The drawing as an SVG file, UTF-8.
 
     Parameters

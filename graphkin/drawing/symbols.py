@@ -1,6 +1,5 @@
-"""Vectors on paper: a line from tail to tip and a filled arrowhead.
-
-Kinematic symbols after ISO 3952 and GB/T 4460, in mm for a mechanism drawn 100 to 160 mm wide.
+"""Symbols: the arrow of a vector, and the kinematic symbols of ISO 3952 and GB/T 4460, in mm for a mechanism drawn
+100 to 160 mm wide.
 
 Each function returns primitives at a place, in the order of drawing.  Directions ``angle`` are radians,
 counter-clockwise as seen on the page; points are page points (y down).
@@ -34,6 +33,7 @@ __all__ = [
     "guide",
     "hatched_line",
     "head_size",
+    "hull",
     "pin",
     "rigid_link",
     "sense_arc",
@@ -220,14 +220,14 @@ def rigid_link(points: tuple[complex, ...], colour: str = strokes.BLACK) -> tupl
 
     Raises ValueError for fewer than two points.
     """
-    hull = _hull(points)
+    corners = hull(points)
     stroke = strokes.LINK.coloured(colour)
-    if len(hull) < 3:
+    if len(corners) < 3:
         ends = sorted(set(points), key=lambda z: (z.real, z.imag))
         if len(ends) < 2:
             raise ValueError("a link needs two places to be drawn between")
         return tuple(Line(a, b, stroke) for a, b in pairwise(ends))
-    return (Polygon(hull, strokes.tint(colour), stroke),)
+    return (Polygon(corners, strokes.tint(colour), stroke),)
 
 
 def weld(
@@ -289,8 +289,11 @@ def _rectangle(at: complex, angle: float, length: float, width: float) -> tuple[
     return at - along - side, at + along - side, at + along + side, at - along + side
 
 
-def _hull(points: tuple[complex, ...]) -> tuple[complex, ...]:
-    """Convex hull, without points on its edges.  Andrew, Another efficient algorithm for convex hulls (1979)."""
+def hull(points: tuple[complex, ...]) -> tuple[complex, ...]:
+    """Convex hull, counter-clockwise where y points up, without points on its edges.
+
+    Andrew, Another efficient algorithm for convex hulls (1979).
+    """
     ordered = sorted(set(points), key=lambda z: (z.real, z.imag))
     halves: list[complex] = []
     for chain in (ordered, ordered[::-1]):

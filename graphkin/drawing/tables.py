@@ -11,10 +11,10 @@ from graphkin.construction.sheet import Sheet
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
+from graphkin.drawing.font_widths import runs_width
 from graphkin.drawing.headings import drivers, number, remarks, term
-from graphkin.drawing.layout import wrapped
 from graphkin.drawing.primitives import Line, Primitive, Run, Text
-from graphkin.drawing.text import rich, runs_width
+from graphkin.drawing.text import rich, wrapped
 from graphkin.plane import degrees
 from graphkin.scene.model import Link, Scene
 from graphkin.words import Phrase, languages, say, word

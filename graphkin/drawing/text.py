@@ -1,9 +1,4 @@
-"""How wide a text is, without a font file: the advance widths of a Times-like face, and boxes of texts.
-
-The widths are the larger of STIX General's and Times', in hundredths of the size, so that a box holds its text in
-either; for the signs of arithmetic, whose width differs most, they are the mean, so that the gaps look even in both.
-
-Texts as runs: plain words, and symbols with sub- and superscripts at places of their own.
+"""Texts as runs: plain words, and symbols with sub- and superscripts at places of their own; fitted to a width.
 
 Between dollar signs stands a symbol, in the notation of TeX: ``"velocity $v_{B3}$ of the ram"``.
 Letters of symbols are italic, digits and signs upright, Chinese upright everywhere; ``_`` and ``^`` take one character
@@ -13,138 +8,13 @@ is ``′`` or ``'``.  ``$$`` is a dollar sign.
 
 from __future__ import annotations
 
-import unicodedata
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
-from graphkin.drawing.box import Box
-from graphkin.drawing.primitives import Run, Text
+from graphkin.drawing.font_widths import is_cjk, runs_width, width
+from graphkin.drawing.primitives import Run
 
-__all__ = [
-    "INDEX",
-    "LETTER",
-    "SMALLEST",
-    "Atom",
-    "beside",
-    "has_cjk",
-    "is_cjk",
-    "is_italic",
-    "parsed",
-    "plain",
-    "rich",
-    "run_box",
-    "runs_width",
-    "start_runs",
-    "symbol",
-    "text_box",
-    "width",
-]
-
-ASCENT, DESCENT = 0.70, 0.22  # of the size; accents and CJK reach further
-CJK_ASCENT = 0.86
-CAP_HEIGHT = 0.66
-_TALL = {"∥": 0.83, "√": 0.83}  # signs that reach higher
-_ROMAN = {
-    18: "'", 20: "|", 25: " ,.·", 28: "/:;\\ijltιîï", 29: "′", 33: "!()-I[]`fr‘’", 39: "Js", 40: "°", 41: '"', 43: "″",
-    44: "?acezεζàâäéèêëçå“”", 45: "ξ", 46: "ν", 47: "^γ", 48: "{}τ",
-    50: "#$*0123456789_bdghknopquvxyπθδλρκχ–ôöùûüßñø§", 51: "β", 52: "ηυ‖•", 54: "~αμ", 55: "σ", 56: "FPS÷", 58: "µ",
-    59: "Γ", 61: "ELTZ", 62: "φΣ", 60: "∥×", 63: "+<=>−", 66: "ω", 67: "BCRæ", 68: "≈≤≥±∠≠", 69: "ψ",
-    72: "ADGHKNOQUVXYwΔΠΘΛ", 74: "Ω", 75: "Ψ½", 76: "Φ", 78: "&m", 83: "%", 86: "⊥", 89: "M", 91: "∑", 92: "@",
-    93: "√∞", 94: "W", 100: "→←…—",
-}  # fmt: skip
-_ITALIC = {
-    21: "'", 25: " ,.·", 28: "/\\fijlt|ιîï", 33: "!()-:;I`‘’", 39: "[]rsz", 40: "{}°", 41: "τγ", 42: '"^″',
-    44: "Jcekvxyεéèêëç", 45: "ξζ", 46: "δλχ", 47: "ν", 48: "κυ", 49: "θ",
-    50: "#$*0123456789?S_abdghnopquπρση–àâäôöùûüßñåø§", 51: "β", 52: "•", 53: "μ", 54: "~", 55: "α",
-    56: "LTYZ“”", 58: "µ", 61: "ABEFPRVXΔΛΓ", 62: "φψΣ", 67: "CKNwæ", 68: "±÷", 70: "Ψ", 71: "ω∞∑",
-    72: "DGHOQUmΠΘ", 75: "½", 76: "ΩΦ", 78: "&", 83: "%MW", 89: "…—", 92: "@", 100: "→←",
-}  # fmt: skip
-_BOLD = {
-    22: "|", 25: " ,.·", 28: "'/\\ilîï", 31: "′", 33: "!()-:;[]`fjtι‘’", 39: "Is{}", 40: "°", 44: "cerzεéèêëç",
-    46: "ζ", 47: "ξ", 49: "τ", 50: "#$*0123456789?J_agovxy–àâäôöåø§“”", 52: "~θγδν", 55: "λρ″",
-    56: '"Sbdhknpquβùûüßñ•', 57: "σ÷", 58: "^ηκυµ", 61: "FPμχ", 63: "π", 64: "αΓ", 65: "φ", 67: "BELTZΣ",
-    72: "ACDNRUVXYwΔΛæ", 73: "ω", 75: "≈≤≥½≠", 76: "ψ", 77: "±", 78: "GHKOQΠΘ", 79: "∠", 80: "Ω", 81: "Ψ",
-    83: "&m", 84: "Φ", 91: "∑", 93: "@", 94: "M", 96: "√∞", 100: "%W→←…—",
-}  # fmt: skip
-# How far the ink of some letters reaches beyond their advance, to the left and to the right, in hundredths of the size.
-_OVER_LEFT = {15: "f", 12: "j", 8: "y", 7: "p/", 6: "A", 5: ")", 3: "xμX"}
-_OVER_RIGHT = {
-    15: "f", 11: "/", 10: "V", 9: "Y", 8: "TW", 6: "KN", 5: "HIJMUZ(", 4: "X7[", 3: "dEFτπ'",
-}  # fmt: skip
-
-
-def _by_character(table: dict[int, str]) -> dict[str, float]:
-    return {character: hundredths / 100 for hundredths, held in table.items() for character in held}
-
-
-_WIDTHS = (_by_character(_ROMAN), _by_character(_ITALIC), _by_character(_BOLD))
-_LEFT, _RIGHT = _by_character(_OVER_LEFT), _by_character(_OVER_RIGHT)
-
-
-def is_cjk(character: str) -> bool:
-    """Whether a character is of a Chinese font and one em wide (full-width marks count)."""
-    return ord(character) > 0x2E7F and unicodedata.east_asian_width(character) in "WF"
-
-
-def has_cjk(text: str) -> bool:
-    return any(map(is_cjk, text))
-
-
-@lru_cache(maxsize=4096)
-def width(text: str, size: float, italic: bool = False, bold: bool = False) -> float:
-    """Advance width (mm) of a text set at a size (mm)."""
-    widths = _WIDTHS[2 if bold else 1 if italic else 0]
-    roman = _WIDTHS[0]
-    total = 0.0
-    for character in text:
-        if character in widths:
-            total += widths[character]
-        elif character in roman:
-            total += roman[character]
-        elif is_cjk(character):
-            total += 1.0
-        elif not unicodedata.combining(character):
-            total += 0.72
-    return total * size
-
-
-def run_box(run: Run) -> Box:
-    """Box of one run about its text's own point: from ascender to descender, from start to advance, and further where
-    slanted letters reach further."""
-    cjk = has_cjk(run.text)
-    ascent, descent = (CJK_ASCENT, DESCENT) if cjk else (ASCENT, DESCENT)
-    ascent = max((ascent, *(_TALL[sign] for sign in _TALL if sign in run.text)))
-    before, after = (_LEFT.get(run.text[:1], 0.0), _RIGHT.get(run.text[-1:], 0.0)) if run.italic else (0.0, 0.0)
-    return Box(
-        run.x - before * run.size,
-        run.y - ascent * run.size,
-        run.x + width(run.text, run.size, run.italic, run.bold) + after * run.size,
-        run.y + descent * run.size,
-    )
-
-
-def runs_width(runs: tuple[Run, ...]) -> float:
-    """From the text's own point to the end of the run that reaches furthest (mm)."""
-    return max((run.x + width(run.text, run.size, run.italic, run.bold) for run in runs), default=0.0)
-
-
-def start_runs(text: Text) -> tuple[Run, ...]:
-    """The runs of a text on the page: x and y become page coordinates (mm) of the start of each baseline."""
-    share = {"start": 0.0, "middle": 0.5, "end": 1.0}[text.anchor]
-    shift = share * runs_width(text.runs)
-    return tuple(replace(run, x=text.at.real - shift + run.x, y=text.at.imag + run.y) for run in text.runs)
-
-
-def text_box(text: Text) -> Box:
-    """Box of a text on the page (mm).  Raises ValueError for a text without runs."""
-    boxes = [run_box(run) for run in start_runs(text)]
-    return Box(
-        min(b.left for b in boxes),
-        min(b.top for b in boxes),
-        max(b.right for b in boxes),
-        max(b.bottom for b in boxes),
-    )
-
+__all__ = ["Atom", "fitted", "is_italic", "parsed", "plain", "rich", "symbol", "wrapped"]
 
 LETTER, INDEX, SMALLEST = 3.5, 2.5, 2.0  # mm
 _DROP, _DROP_STACKED, _RISE = 0.24, 0.30, 0.40  # of the size of the letter, after the usual practice of typesetting
@@ -211,14 +81,46 @@ def rich(markup: str, size: float = LETTER, bold: bool = False) -> tuple[Run, ..
     return tuple(runs)
 
 
-def beside(*texts: tuple[Run, ...], gap: float = 0.0) -> tuple[Run, ...]:
-    """Texts set one after the other with a gap (mm) between."""
-    runs: list[Run] = []
-    x = 0.0
-    for text in texts:
-        runs += [replace(run, x=run.x + x) for run in text]
-        x += runs_width(text) + gap
-    return tuple(runs)
+def fitted(markup: str, size: float, width: float, bold: bool = False, least: float = SMALLEST) -> tuple[Run, ...]:
+    """Words with symbols set as large as they fit a width (mm), at most ``size`` and at least ``least``."""
+    runs = rich(markup, size, bold)
+    wide = runs_width(runs)
+    if wide <= width:
+        return runs
+    return rich(markup, max(least, size * width / wide * 0.995), bold)
+
+
+def wrapped(markup: str, size: float, width: float, bold: bool = False) -> list[tuple[Run, ...]]:
+    """Words with symbols set in lines of a width (mm), broken at spaces and between Chinese characters."""
+    lines: list[str] = []
+    line = ""
+    for piece in _pieces(markup):
+        if line and runs_width(rich((line + piece).strip(), size, bold)) > width:
+            lines.append(line.strip())
+            line = piece.lstrip()
+        else:
+            line += piece
+    if line.strip():
+        lines.append(line.strip())
+    return [rich(text, size, bold) for text in lines]
+
+
+def _pieces(markup: str) -> list[str]:
+    """Words with the space before them; symbols between dollar signs stay whole."""
+    pieces: list[str] = []
+    word, inside = "", False
+    for character in markup:
+        wide = ord(character) > 0x2E7F
+        if not inside and (character == " " or (wide and character not in "，。；：、）")):
+            if word:
+                pieces.append(word)
+            word = ""
+        if character == "$":
+            inside = not inside
+        word += character
+    if word:
+        pieces.append(word)
+    return pieces
 
 
 @lru_cache(maxsize=1024)

@@ -13,7 +13,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from graphkin.drawing.primitives import Drawing
+from graphkin.drawing.drawing import Drawing
 from graphkin.papers.pictures import A4, Paper
 from graphkin.words import Phrase, languages, say, word
 

@@ -7,7 +7,8 @@ from collections.abc import Iterable
 from dataclasses import replace
 from html import escape
 
-from graphkin.drawing.primitives import Drawing, Group, Line, Primitive, Stroke
+from graphkin.drawing.drawing import Drawing
+from graphkin.drawing.primitives import Group, Line, Primitive, Stroke
 from graphkin.drawing.svg import svg_bytes
 from graphkin.drawing.text import Atom, is_italic, parsed
 from graphkin.papers.blocks import (

@@ -14,26 +14,26 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from html import escape
 from importlib.resources import files
-from typing import Any
+from typing import Any, Literal, TypeAlias
 
 from graphkin.construction import Plan, execute
 from graphkin.construction.centres import Centres
 from graphkin.construction.sheet import DiagramName, Scales, Sheet
 from graphkin.drawing.box import Box
-from graphkin.drawing.centre_marks import CentreLetters, centre_marks, near_box
+from graphkin.drawing.centre_marks import centre_marks, near_box
 from graphkin.drawing.centres import background
 from graphkin.drawing.conventions import scale_statement
-from graphkin.drawing.headings import drivers, term
+from graphkin.drawing.drawing import Drawing
+from graphkin.drawing.headings import FIGURE_WORDS, drivers, term
 from graphkin.drawing.insets import polygon_with_insets, strip_height
-from graphkin.drawing.layout import Piece, ink_box, joined, layer_groups, moved_piece, settled
 from graphkin.drawing.mechanism import mechanism_piece
-from graphkin.drawing.polygon import extent
-from graphkin.drawing.primitives import Drawing
+from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
+from graphkin.drawing.polygon_on_page import extent
 from graphkin.drawing.stepwise import births, stepped
 from graphkin.papers.blocks import Document, Heading, Said, clean, said
 from graphkin.papers.html import blocks_html, figure_svg, said_html, words_html
 from graphkin.papers.lesson import Lesson, Stage, plain_words
-from graphkin.papers.pictures import ROOM, WORDS, equation_picture
+from graphkin.papers.pictures import ROOM, equation_picture
 from graphkin.papers.problem import given, scene_title
 from graphkin.papers.solution import equation_words, results_blocks, solution, solution_blocks, stage_title, step_items
 from graphkin.words import languages, word
@@ -44,6 +44,8 @@ Progress = Callable[[int, int], None]  # positions done, and all of them
 POSITIONS = 24
 MECHANISM, POLYGON = (160.0, 218.0), 190.0  # mm that the mechanism in all positions and a polygon may fill
 SERIES = (1.0, 2.0, 2.5, 5.0)
+POLYGONS: tuple[DiagramName, ...] = ("velocity", "acceleration")
+FigureName: TypeAlias = Literal["mechanism", "velocity", "acceleration", "centres"]
 
 
 @dataclass(frozen=True)
@@ -106,7 +108,7 @@ class _Frames:
             mechanism_piece(v.lesson.sheet, v.lesson.letters, (MECHANISM[0] + 20, MECHANISM[1] + 20)) for v in views
         ]
         self.mechanism = _joined(box for _, box in self.pieces).grown(ROOM)
-        self.polygons = {d: self._largest(views, d) for d in ("velocity", "acceleration")}
+        self.polygons = {d: self._largest(views, d) for d in POLYGONS}
         self.views = list(views)
         self.stages: list[dict[str, str]] = []
         backs = [ink_box(background(piece).drawn) or box for piece, box in self.pieces]
@@ -119,7 +121,7 @@ class _Frames:
         figures = []
         for name, drawing in self._figures(view):
             layers = replace(drawing, children=stepped(drawing.children, born)) if name != "centres" else drawing
-            caption = f"{words_html(term(WORDS.get(name, name), lesson.language))} "
+            caption = f"{words_html(_title(lesson, name))} "
             figures.append({
                 "name": name,
                 "svg": figure_svg(layers, named=name != "centres"),
@@ -150,33 +152,31 @@ class _Frames:
             self.stages.append(whole)
         return self.stages.index(whole)
 
-    def _scale(self, lesson: Lesson, name: str) -> str:
-        diagram: DiagramName = name if name in ("velocity", "acceleration") else "mechanism"  # type: ignore[assignment]
-        return scale_statement(lesson.sheet, lesson.letters.convention, diagram)
+    def _scale(self, lesson: Lesson, name: FigureName) -> str:
+        return scale_statement(lesson.sheet, lesson.letters.convention, "mechanism" if name == "centres" else name)
 
-    def _figures(self, view: View) -> Iterator[tuple[str, Drawing]]:
+    def _figures(self, view: View) -> Iterator[tuple[FigureName, Drawing]]:
         lesson = view.lesson
         sheet, letters = lesson.sheet, lesson.letters
         piece, _ = self.pieces[self.views.index(view)]
-        yield "mechanism", self._page(lesson, "mechanism", settled(piece, self.mechanism), self.mechanism)
-        for name in ("velocity", "acceleration"):
-            diagram: DiagramName = "velocity" if name == "velocity" else "acceleration"
+        yield "mechanism", self._page(lesson, "mechanism", with_labels(piece, self.mechanism), self.mechanism)
+        for diagram in POLYGONS:
             if not sheet.vectors(diagram):
                 continue
-            half = self.polygons[name] / 2
+            half = self.polygons[diagram] / 2
             middle = extent(sheet, diagram).centre
             panel = Box.around((middle - half, middle + half))
             strip = Box(panel.left, panel.bottom, panel.right, panel.bottom + self._strip(diagram))
             made, _ = polygon_with_insets(sheet, diagram, letters, lesson.language, panel, 0j, strip)
-            yield name, self._page(lesson, name, made, panel.joined(strip))
+            yield diagram, self._page(lesson, diagram, made, panel.joined(strip))
         if view.centres is not None and self.centres is not None:
             back = background(piece)
-            marks = centre_marks(view.centres, CentreLetters(letters.convention), self.centres, back.drawn)
-            yield "centres", self._page(lesson, "centres", settled(joined((back, marks)), self.centres), self.centres)
+            marks = centre_marks(view.centres, letters, self.centres, back.drawn)
+            piece = with_labels(joined((back, marks)), self.centres)
+            yield "centres", self._page(lesson, "centres", piece, self.centres)
 
-    def _largest(self, views: Sequence[View], name: str) -> complex:
+    def _largest(self, views: Sequence[View], diagram: DiagramName) -> complex:
         """Width and height (mm) in which the polygon of every position has room: all are shown equally large."""
-        diagram: DiagramName = "velocity" if name == "velocity" else "acceleration"
         boxes = [extent(v.lesson.sheet, diagram).grown(ROOM) for v in views]
         return complex(max(max(b.width for b in boxes), 70.0), max(b.height for b in boxes))
 
@@ -184,13 +184,17 @@ class _Frames:
         width = self.polygons[diagram].real
         return max(strip_height(v.lesson.sheet, diagram, width) for v in self.views)
 
-    def _page(self, lesson: Lesson, name: str, piece: Piece, panel: Box) -> Drawing:
+    def _page(self, lesson: Lesson, name: FigureName, piece: Piece, panel: Box) -> Drawing:
         moved = moved_piece(piece, -panel.corners[0])
-        title = term(WORDS.get(name, name), lesson.language)
+        title = _title(lesson, name)
         desc = drivers(lesson.sheet, lesson.letters)
         return Drawing(
             panel.width, panel.height, layer_groups(moved), title, plain_words(desc), languages(lesson.language)[0]
         )
+
+
+def _title(lesson: Lesson, figure: FigureName) -> str:
+    return term(figure if figure == "centres" else FIGURE_WORDS[figure], lesson.language)
 
 
 def _joined(boxes: Iterable[Box]) -> Box:

@@ -17,8 +17,10 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from graphkin.drawing.primitives import Arc, Circle, Drawing, Group, Line, Polygon, Primitive, Stroke, Text, walk
-from graphkin.drawing.text import Atom, is_italic, parsed, start_runs
+from graphkin.drawing.drawing import Drawing
+from graphkin.drawing.font_widths import start_runs
+from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Primitive, Stroke, Text, walk
+from graphkin.drawing.text import Atom, is_italic, parsed
 from graphkin.papers.blocks import (
     Beside,
     Block,

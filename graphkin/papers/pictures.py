@@ -14,15 +14,17 @@ from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, pole, rows_of, scale_statement
 from graphkin.drawing.dimensions import check_bar
+from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.equations import write_equation
-from graphkin.drawing.headings import describe, term
+from graphkin.drawing.font_widths import runs_width
+from graphkin.drawing.headings import FIGURE_WORDS, describe, term
 from graphkin.drawing.insets import polygon_with_insets, strip_height
-from graphkin.drawing.layout import ink_box, joined, layer_groups, moved, moved_piece, settled
 from graphkin.drawing.mechanism import mechanism_piece
-from graphkin.drawing.polygon import extent
-from graphkin.drawing.primitives import Circle, Drawing, Group, Polygon, Primitive, Text
+from graphkin.drawing.piece import ink_box, joined, layer_groups, moved, moved_piece, with_labels
+from graphkin.drawing.polygon_on_page import extent
+from graphkin.drawing.primitives import Circle, Group, Polygon, Primitive, Text
 from graphkin.drawing.stepwise import births, so_far, stepped
-from graphkin.drawing.text import rich, runs_width, symbol
+from graphkin.drawing.text import rich, symbol
 from graphkin.scene.model import Scene
 from graphkin.scene.symbol import Symbol
 from graphkin.words import languages
@@ -124,7 +126,6 @@ AROUND = 14.0  # mm around a polygon that is still to be drawn
 FOOT = 9.0  # mm for the scale and the check bar beside it
 LEAST_FRAME = 110.0
 BAR = 50.0  # mm, of the check bar
-WORDS = {"mechanism": "mechanism", "velocity": "velocity polygon", "acceleration": "acceleration polygon"}
 Layers = tuple[Group, ...]
 
 
@@ -134,7 +135,7 @@ def parts(sheet: Sheet, diagram: DiagramName, letters: Letters, language: str) -
     if diagram == "mechanism":
         piece, content = mechanism_piece(sheet, letters, (body.width, body.height - 20.0))
         panel = Box(0.0, 0.0, content.width + 2 * ROOM, content.height + 2 * ROOM)
-        piece = settled(moved_piece(piece, panel.centre - content.centre), panel)
+        piece = with_labels(moved_piece(piece, panel.centre - content.centre), panel)
     else:
         content = extent(sheet, diagram)
         width = max(content.width + 2 * ROOM, min(body.width, 110.0))
@@ -181,7 +182,8 @@ def stage_picture(
     if first <= steps[0]:
         seen = so_far(layers, steps[0], last)
         seen = tuple(_without(thing, "new") for thing in seen)
-    return cropped(seen, term(WORDS[diagram], language), "", language, scale_foot(sheet, diagram, letters, language))
+    foot = scale_foot(sheet, diagram, letters, language)
+    return cropped(seen, term(FIGURE_WORDS[diagram], language), "", language, foot)
 
 
 def scale_foot(
@@ -253,7 +255,7 @@ def draw_frame(
         *moved((words,), complex(3.0, tall - 3.0)),
         *moved(bar, complex(page.width - 3.0 - BAR, tall - 3.0)),
     ]
-    title = f"{term(WORDS[diagram], language)}: {mark}"
+    title = f"{term(FIGURE_WORDS[diagram], language)}: {mark}"
     return Drawing(page.width, tall + 0.2, tuple(children), title, "", languages(language)[0])
 
 

@@ -17,7 +17,6 @@ from graphkin.construction import Plan, execute, plan
 from graphkin.construction.centres import Centres, find_centres
 from graphkin.construction.sheet import Scales, Sheet
 from graphkin.drawing import figures
-from graphkin.drawing.save import drawing_bytes
 from graphkin.errors import Unsolvable
 from graphkin.papers.lesson import Lesson
 from graphkin.papers.page import POSITIONS, Progress, View, common_scales, document_page, handout_page
@@ -179,7 +178,7 @@ def _typeset(lesson: Lesson) -> dict[str, bytes]:
             "key.pdf": pdf(answer_key(lesson)),
         }
     drawn = figures(lesson.sheet, language=lesson.language, convention=lesson.convention)
-    return {f"{name}.pdf": drawing_bytes(figure, "pdf") for name, figure in drawn.items()}
+    return {f"{name}.pdf": figure.content("pdf") for name, figure in drawn.items()}
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 
 from graphkin.drawing.conventions import pole
-from graphkin.drawing.headings import drivers, number, titles
+from graphkin.drawing.headings import FIGURE_WORDS, drivers, number, titles
 from graphkin.drawing.tables import given_lengths
 from graphkin.papers.blocks import (
     Beside,
@@ -24,7 +24,7 @@ from graphkin.papers.blocks import (
     spoken,
 )
 from graphkin.papers.lesson import Lesson, plain_words
-from graphkin.papers.pictures import WORDS, blank_equations, draw_frame, mechanism_picture, paper_of, parts
+from graphkin.papers.pictures import blank_equations, draw_frame, mechanism_picture, paper_of, parts
 from graphkin.scene.model import AngleDriver, Guide, Scene
 from graphkin.words import Phrase, languages, say, word
 
@@ -52,7 +52,7 @@ def problem(lesson: Lesson) -> Document:
     for diagram in ("velocity", "acceleration"):
         equations = [e for e in lesson.sheet.equations if e.diagram == diagram]
         if equations and lesson.sheet.vectors(diagram):
-            blocks.append(Heading(said(WORDS[diagram], language), 2, fresh=True))
+            blocks.append(Heading(said(FIGURE_WORDS[diagram], language), 2, fresh=True))
             blocks.append(Paragraph(said("your equations", language), small=True))
             blocks.append(Picture(blank_equations(equations, lesson.letters, language, paper.body.width), joined=True))
             start = said("your polygon", language, f"${pole(lesson.letters.convention, diagram)}$")

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 from graphkin.checking import COVERAGE, Compared
 from graphkin.construction.sheet import Equation
-from graphkin.drawing.headings import drivers, number
+from graphkin.drawing.headings import FIGURE_WORDS, drivers, number
 from graphkin.papers.blocks import (
     Beside,
     Block,
@@ -32,7 +32,7 @@ from graphkin.papers.blocks import (
     spoken,
 )
 from graphkin.papers.lesson import Lesson, Stage, plain_words
-from graphkin.papers.pictures import WORDS, Layers, equation_picture, paper_of, parts, stage_picture
+from graphkin.papers.pictures import Layers, equation_picture, paper_of, parts, stage_picture
 from graphkin.papers.problem import given, paper_title, reach, scene_title
 from graphkin.words import Phrase, languages, say, word
 
@@ -228,7 +228,7 @@ def _stage(
         ("figure whole", (stage.last,)) if stage.first == start else ("figure so far", (stage.last, stage.first))
     )
     caption = tuple(
-        (each, say(Phrase(key, (word(WORDS[stage.diagram], each), *args)), each)) for each in languages(language)
+        (each, say(Phrase(key, (word(FIGURE_WORDS[stage.diagram], each), *args)), each)) for each in languages(language)
     )
     figure = Picture(drawn, caption)
     beside: tuple[Heading | Paragraph | Steps, ...] = (steps,)

@@ -8,11 +8,12 @@ from collections.abc import Callable
 import numpy as np
 
 from graphkin.drawing import Box, Circle, Drawing, Group, Line, Polyline, Primitive, Stroke, Text, strokes
+from graphkin.drawing.font_widths import runs_width
+from graphkin.drawing.labels import Label, place
 from graphkin.drawing.obstacles import obstacles_of
-from graphkin.drawing.placing import Label, place
 from graphkin.drawing.symbols import block_with_pin, fixed_pivot, rigid_link, turning_pair
 from graphkin.drawing.symbols import guide as guide_symbol
-from graphkin.drawing.text import rich, runs_width
+from graphkin.drawing.text import rich
 from graphkin.scene.model import AngleDriver, Scene
 from graphkin.study.paper import (
     HEIGHT,

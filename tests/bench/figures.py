@@ -1,7 +1,7 @@
 """How long the worked job of a scene takes after import: run by hand, ``python -m tests.bench.figures [SCENE ...]``.
 
 Drawing, readings and check; the four figures (mechanism, both polygons, instant centres) with their labels, written as
-SVG; the share of placing labels among them; and the A4 sheet, which draws everything once more.  Times depend on the
+SVG; the share of labels labels among them; and the A4 sheet, which draws everything once more.  Times depend on the
 machine; the last column is the job in units of the solver's own part of it.
 """
 
@@ -14,7 +14,7 @@ from unittest.mock import patch
 
 import graphkin
 from graphkin.construction.centres import speeds
-from graphkin.drawing import figures, placing, svg_bytes
+from graphkin.drawing import figures, labels, svg_bytes
 from graphkin.drawing.centres import centres_figure
 from graphkin.scene import library
 
@@ -50,7 +50,7 @@ def whole(name: str) -> None:
 def placed(name: str) -> tuple[float, int]:
     """Time for all labels of a scene's figures, ms, and how many times labels were placed."""
     spent, times = 0.0, 0
-    own = placing.place_those_that_fit
+    own = labels.place
 
     def timed(*args: object, **more: object) -> object:
         nonlocal spent, times
@@ -61,22 +61,22 @@ def placed(name: str) -> tuple[float, int]:
             spent += time.process_time() - start
             times += 1
 
-    with patch.object(placing, "place_those_that_fit", timed):
-        modules = [m for m in sys.modules.values() if getattr(m, "place_those_that_fit", None) is own]
+    with patch.object(labels, "place", timed):
+        modules = [m for m in sys.modules.values() if getattr(m, "place", None) is own]
         for module in modules:
-            module.place_those_that_fit = timed  # type: ignore[attr-defined]
+            module.place = timed  # type: ignore[attr-defined]
         try:
             job(name)
         finally:
             for module in modules:
-                module.place_those_that_fit = own  # type: ignore[attr-defined]
+                module.place = own  # type: ignore[attr-defined]
     return 1e3 * spent, times
 
 
 def main() -> None:
     names = sys.argv[1:] or sorted(library())
     whole(names[0])  # imports, fonts
-    print(f"{'scene':<32}{'job, ms':>10}{'labels, ms':>12}{'placings':>10}{'with sheet':>12}{'job / solve':>13}")
+    print(f"{'scene':<32}{'job, ms':>10}{'labels, ms':>12}{'labelss':>10}{'with sheet':>12}{'job / solve':>13}")
     for name in names:
         four, five = best(lambda name=name: job(name)), best(lambda name=name: whole(name))
         alone = best(lambda name=name: graphkin.solve(name))

@@ -10,9 +10,10 @@ from graphkin.api.centred import found_centres
 from graphkin.api.centroded import centrodes
 from graphkin.construction.centres import Centres, speeds
 from graphkin.drawing.centres import centres_figure
-from graphkin.drawing.primitives import Drawing, Group, Line, Polyline, Primitive, Text, walk
+from graphkin.drawing.drawing import Drawing
+from graphkin.drawing.font_widths import text_box
+from graphkin.drawing.primitives import Group, Line, Polyline, Primitive, Text, walk
 from graphkin.drawing.svg import svg_bytes
-from graphkin.drawing.text import text_box
 from graphkin.errors import CallError
 from graphkin.scene import read
 

@@ -14,8 +14,8 @@ import pytest
 
 from graphkin.construction import Sheet, draft
 from graphkin.drawing import Box, Drawing, Text, figures, sheet_room, svg_bytes
+from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.primitives import walk
-from graphkin.drawing.text import text_box
 from graphkin.scene import library, read
 from graphkin.scene.model import PAPERS
 

@@ -4,7 +4,7 @@ import string
 
 import pytest
 
-from graphkin.drawing.text import width
+from graphkin.drawing.font_widths import width
 
 SIGNS = string.ascii_letters + string.digits + " .,:;?!()[]/*'ωαμπτεφψθβγδλρ√′·°≈≤≥±→"
 STYLES = {"": {}, "Italic": {"italic": True}, "Bol": {"bold": True}}

@@ -11,8 +11,9 @@ import numpy as np
 import pytest
 
 from graphkin.drawing import page
+from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.page import MissingFont, pdf_bytes, png_bytes
-from graphkin.drawing.primitives import Arc, Drawing, Line, Text
+from graphkin.drawing.primitives import Arc, Line, Text
 from graphkin.drawing.strokes import CONSTRUCTION, LINK
 from graphkin.drawing.symbols import vector_group
 from graphkin.drawing.text import plain, rich

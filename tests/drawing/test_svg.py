@@ -12,7 +12,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from graphkin.drawing import symbols as arrows
-from graphkin.drawing.primitives import Arc, Circle, Drawing, Group, Line, Polygon, Polyline, Text
+from graphkin.drawing.drawing import Drawing
+from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Text
 from graphkin.drawing.strokes import CONSTRUCTION, DIRECTION, LINK
 from graphkin.drawing.svg import number, svg_bytes
 from graphkin.drawing.symbols import vector_group
@@ -62,7 +63,7 @@ def test_svgwrite_itself_finds_nothing_wrong_with_any_element():
 
 def test_another_process_writes_the_same_bytes():
     program = (
-        "import sys; from graphkin.drawing.svg import svg_bytes; from graphkin.drawing.primitives import *;"
+        "import sys; from graphkin.drawing.svg import svg_bytes; from graphkin.drawing import Drawing, Text;"
         "from graphkin.drawing.text import rich;"
         "sys.stdout.buffer.write(svg_bytes(Drawing(9.,9.,(Text(1+5j,rich('$v_B$')),),metadata={'b':1,'a':2})))"
     )

@@ -7,7 +7,8 @@ import pytest
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.dimensions import angle_dimension, check_bar, dimension
-from graphkin.drawing.primitives import Arc, Circle, Drawing, Line, Polygon, Text
+from graphkin.drawing.drawing import Drawing
+from graphkin.drawing.primitives import Arc, Circle, Line, Polygon, Text
 from graphkin.drawing.svg import svg_bytes
 from graphkin.drawing.symbols import block, fixed_pivot, guide, hatched_line, rigid_link, sense_arc, slot, turning_pair
 from graphkin.drawing.text import plain

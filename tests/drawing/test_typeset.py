@@ -2,8 +2,9 @@ from __future__ import annotations
 
 import pytest
 
+from graphkin.drawing.font_widths import run_box, runs_width, text_box, width
 from graphkin.drawing.primitives import Text
-from graphkin.drawing.text import plain, rich, run_box, runs_width, symbol, text_box, width
+from graphkin.drawing.text import plain, rich, symbol
 
 
 def by_text(runs):

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from graphkin.drawing import Box, Chart, Drawing, Group, Line, Polyline, Text
+from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.primitives import walk
-from graphkin.drawing.text import text_box
 from graphkin.scene import read, read_text
 from graphkin.study import course_of, diagrams, study_turn
 from graphkin.study.coupler import coupler_points

@@ -18,8 +18,7 @@ from graphkin.drawing.chart import (
     look,
     marker,
 )
-from graphkin.drawing.layout import wrapped
-from graphkin.drawing.text import rich
+from graphkin.drawing.text import rich, wrapped
 from graphkin.study.limits.law import Law, Trial
 from graphkin.words import say, word
 

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 
 from graphkin.drawing import Box, Chart, Stroke, Text
 from graphkin.drawing.chart import Shape, add_labels, add_panel, add_words, count_powers, look, marker
-from graphkin.drawing.layout import wrapped
-from graphkin.drawing.text import rich
+from graphkin.drawing.text import rich, wrapped
 from graphkin.scene.symbol import Symbol
 from graphkin.study.speed.entry import Entry
 from graphkin.study.speed.run import Race

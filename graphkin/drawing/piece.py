@@ -1,4 +1,5 @@
-"""Putting a figure together: pieces with what they draw by layer and what wants a name, then labels in their places."""
+"""Putting a figure together: pieces with what they draw by layer and the labels they ask for, then labels in their
+places; pieces moved, measured and cut."""
 
 from __future__ import annotations
 
@@ -6,25 +7,22 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from graphkin.drawing.box import Box
+from graphkin.drawing.font_widths import text_box
+from graphkin.drawing.labels import Label, Mark, place
 from graphkin.drawing.obstacles import Obstacles, obstacles_of
-from graphkin.drawing.placing import Label, Mark, place_those_that_fit
-from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Run, Text, walk
-from graphkin.drawing.text import SMALLEST, rich, runs_width, text_box
+from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Text, walk
 
 __all__ = [
     "LAYERS",
-    "Name",
     "Piece",
     "cut_to",
-    "fitted",
     "ink_box",
     "joined",
     "layer_groups",
     "middle_of",
     "moved",
     "moved_piece",
-    "settled",
-    "wrapped",
+    "with_labels",
 ]
 
 # In the order of drawing.
@@ -32,19 +30,11 @@ LAYERS = ("construction", "mechanism", "velocity", "acceleration", "centres", "a
 
 
 @dataclass(frozen=True)
-class Name:
-    """A label that a piece asks for; one with ``rank`` 0 must stand, others are given up first, the highest first."""
-
-    label: Label
-    rank: int = 0
-
-
-@dataclass(frozen=True)
 class Piece:
-    """Part of a page: primitives by layer, names that want a place, and further marks a name could be taken for."""
+    """Part of a page: primitives by layer, labels that want a place, and further marks a label could be taken for."""
 
     layers: Mapping[str, tuple[Primitive, ...]] = field(default_factory=dict)
-    names: tuple[Name, ...] = ()
+    labels: tuple[Label, ...] = ()
     marks: tuple[Mark, ...] = ()
 
     @property
@@ -55,33 +45,31 @@ class Piece:
 def joined(pieces: Iterable[Piece]) -> Piece:
     """Several pieces as one."""
     layers: dict[str, tuple[Primitive, ...]] = {}
-    names: tuple[Name, ...] = ()
+    labels: tuple[Label, ...] = ()
     marks: tuple[Mark, ...] = ()
     for piece in pieces:
         for layer, things in piece.layers.items():
             layers[layer] = layers.get(layer, ()) + things
-        names += piece.names
+        labels += piece.labels
         marks += piece.marks
-    return Piece(layers, names, marks)
+    return Piece(layers, labels, marks)
 
 
-def settled(piece: Piece, panel: Box, fences: Sequence[Box] = ()) -> Piece:
-    """The piece with its names in their places, in the layer "labels"; some that find none are given up.
+def with_labels(piece: Piece, panel: Box, fences: Sequence[Box] = ()) -> Piece:
+    """The piece with its labels in their places, in the layer "labels"; some that find none are given up.
 
-    No name leaves the panel or enters a fence.
+    No label leaves the panel or enters a fence.
     """
-    names = [name for name in piece.names if name.rank < _most(len(piece.names))]
+    labels = [label for label in piece.labels if label.rank < _most(len(piece.labels))]
     obstacles = obstacles_of(piece.drawn) + Obstacles(areas=tuple(fences), writing=tuple(fences))
-    labels, ranks = [name.label for name in names], [name.rank for name in names]
     written: list[Primitive] = []
-    for one in place_those_that_fit(labels, ranks, panel, obstacles, piece.marks):
-        if one is not None:
-            written += (one.text,) if one.leader is None else (one.leader, one.text)
+    for one in place(labels, panel, obstacles, piece.marks):
+        written += (one.text,) if one.leader is None else (one.leader, one.text)
     return Piece({**piece.layers, "labels": (*piece.layers.get("labels", ()), *written)}, (), piece.marks)
 
 
 def _most(count: int) -> int:
-    """The rank from which names are left out at once, because there are so many that none would be read."""
+    """The rank from which labels are left out at once, because there are so many that none would be read."""
     return 5 if count < 45 else 4 if count < 60 else 2
 
 
@@ -132,53 +120,11 @@ def _reach(thing: Primitive) -> Box | None:
     return None
 
 
-def fitted(markup: str, size: float, width: float, bold: bool = False, least: float = SMALLEST) -> tuple[Run, ...]:
-    """Words with symbols set as large as they fit a width (mm), at most ``size`` and at least ``least``."""
-    runs = rich(markup, size, bold)
-    wide = runs_width(runs)
-    if wide <= width:
-        return runs
-    return rich(markup, max(least, size * width / wide * 0.995), bold)
-
-
-def wrapped(markup: str, size: float, width: float, bold: bool = False) -> list[tuple[Run, ...]]:
-    """Words with symbols set in lines of a width (mm), broken at spaces and between Chinese characters."""
-    lines: list[str] = []
-    line = ""
-    for piece in _pieces(markup):
-        if line and runs_width(rich((line + piece).strip(), size, bold)) > width:
-            lines.append(line.strip())
-            line = piece.lstrip()
-        else:
-            line += piece
-    if line.strip():
-        lines.append(line.strip())
-    return [rich(text, size, bold) for text in lines]
-
-
-def _pieces(markup: str) -> list[str]:
-    """Words with the space before them; symbols between dollar signs stay whole."""
-    pieces: list[str] = []
-    word, inside = "", False
-    for character in markup:
-        wide = ord(character) > 0x2E7F
-        if not inside and (character == " " or (wide and character not in "，。；：、）")):
-            if word:
-                pieces.append(word)
-            word = ""
-        if character == "$":
-            inside = not inside
-        word += character
-    if word:
-        pieces.append(word)
-    return pieces
-
-
 def moved_piece(piece: Piece, by: complex) -> Piece:
     """The same piece elsewhere on the page."""
-    names = tuple(replace(n, label=replace(n.label, mark=_moved_mark(n.label.mark, by))) for n in piece.names)
+    labels = tuple(replace(label, mark=_moved_mark(label.mark, by)) for label in piece.labels)
     layers = {layer: moved(things, by) for layer, things in piece.layers.items()}
-    return Piece(layers, names, tuple(_moved_mark(mark, by) for mark in piece.marks))
+    return Piece(layers, labels, tuple(_moved_mark(mark, by) for mark in piece.marks))
 
 
 def middle_of(mark: Mark) -> complex:

@@ -1,6 +1,5 @@
-"""Where the arcs that show a sense of rotation stand: clear of bars, joints, feet and each other.
-
-Drivers and found rates: arcs with their sense, arrows along guides.
+"""Senses of rotation on the mechanism: the arcs of drivers and of found angular velocities and accelerations, where
+they are clear of bars, joints, feet and each other; and the arrows of driven slides.
 """
 
 from __future__ import annotations
@@ -14,16 +13,15 @@ from typing import Any
 import numpy as np
 
 from graphkin.drawing import strokes, symbols
-from graphkin.drawing.layout import Name, Piece, joined
-from graphkin.drawing.mechanism_on_paper import OnPaper, page
-from graphkin.drawing.placing import Label
+from graphkin.drawing.labels import Label
+from graphkin.drawing.mechanism_on_paper import GUIDE_LENGTH, MechanismOnPaper, page
+from graphkin.drawing.piece import Piece, joined
 from graphkin.drawing.primitives import Group, Line, Stroke, Text
-from graphkin.drawing.shapes import GUIDE_LENGTH
 from graphkin.drawing.symbols import POINTER, arrowhead
 from graphkin.drawing.text import symbol
 from graphkin.scene.model import AngleDriver, SlideDriver
 
-__all__ = ["Clearance", "clearance", "drivers", "found_rates"]
+__all__ = ["clearance", "drivers", "found_rates"]
 
 RADII = (5.5, 8.0, 11.0)  # mm, in the order of liking
 HALF_SPAN = math.radians(37)
@@ -33,7 +31,7 @@ _MIDDLES = np.arange(20) * (2 * math.pi / 20)
 _SPREAD = np.linspace(-HALF_SPAN, HALF_SPAN, 5)
 
 
-class Clearance:
+class SenseClearance:
     """Segments (mm) that arcs keep clear of; arcs that were given a place are added to them."""
 
     def __init__(self, segments: Sequence[tuple[complex, complex]]) -> None:
@@ -87,7 +85,7 @@ def _off(points: Any, start: Any, along: Any) -> Any:
 DRIVER_RADIUS, RADIUS = 6.5, 5.5
 
 
-def clearance(here: OnPaper) -> Clearance:
+def clearance(here: MechanismOnPaper) -> SenseClearance:
     """Everything that arcs keep clear of."""
     segments = [segment for shape in here.shapes for segment in shape.segments]
     segments += [(z, z + 0.01) for z in here.places.values()]
@@ -97,14 +95,14 @@ def clearance(here: OnPaper) -> Clearance:
             down = complex(math.cos(foot), math.sin(foot))
             end = z + symbols.FOOT_HEIGHT * down
             segments += [(z, end + 3.2j * down), (z, end - 3.2j * down), (end + 4.5j * down, end - 4.5j * down)]
-    for b in here.bearings:
+    for b in here.sliders:
         reach = GUIDE_LENGTH / 2 if here.ground in (b.slide.a, b.slide.b) else symbols.BLOCK_LENGTH / 2
         side = 1j * b.along * symbols.BLOCK_WIDTH / 2
         segments += [(b.at + s * side - reach * b.along, b.at + s * side + reach * b.along) for s in (-1, 1)]
-    return Clearance(segments)
+    return SenseClearance(segments)
 
 
-def drivers(here: OnPaper, clear: Clearance) -> Piece:
+def drivers(here: MechanismOnPaper, clear: SenseClearance) -> Piece:
     """What drives, and which way."""
     pieces = [Piece({"mechanism": ()})]
     for driver in here.scene.drivers:
@@ -115,7 +113,7 @@ def drivers(here: OnPaper, clear: Clearance) -> Piece:
     return joined(pieces)
 
 
-def _driver_arc(here: OnPaper, clear: Clearance, driver: AngleDriver) -> Piece:
+def _driver_arc(here: MechanismOnPaper, clear: SenseClearance, driver: AngleDriver) -> Piece:
     other = driver.relative_to
     markup = f"ω_{{{driver.link}{'' if other == here.ground else other}}}"
     centres = _centres_of_turn(here, driver.link, other)
@@ -124,8 +122,8 @@ def _driver_arc(here: OnPaper, clear: Clearance, driver: AngleDriver) -> Piece:
     return _arc("mechanism", place, sense, 1, here.colour(driver.link), markup, f"driver-{driver.link}")
 
 
-def _slide_arrow(here: OnPaper, driver: SlideDriver) -> Piece:
-    b = next((b for b in here.bearings if b.slide.key == driver.key), None)
+def _slide_arrow(here: MechanismOnPaper, driver: SlideDriver) -> Piece:
+    b = next((b for b in here.sliders if b.slide.key == driver.key), None)
     if b is None or not driver.velocity:
         return Piece()
     way = b.along * (1 if driver.velocity > 0 else -1)
@@ -138,10 +136,10 @@ def _slide_arrow(here: OnPaper, driver: SlideDriver) -> Piece:
     letter = "V" if here.letters.convention == "us" else "v"
     text = Text(0j, symbol(f"{letter}_{{{index}}}"), "start", strokes.BLACK, f"label-{id}", ("label",))
     arrow = Group((line, head), id=id, classes=("driver",))
-    return Piece({"mechanism": (arrow,)}, (Name(Label(text, (tail, tip), (phase(side),)), 0),))
+    return Piece({"mechanism": (arrow,)}, (Label(text, (tail, tip), (phase(side),)),))
 
 
-def found_rates(here: OnPaper, clear: Clearance) -> Piece:
+def found_rates(here: MechanismOnPaper, clear: SenseClearance) -> Piece:
     """Angular velocities and accelerations measured on the drawing."""
     pieces = [Piece({"answers": ()})]
     for sign, kind, own, heads in (("ω", "omega", here.sheet.omega, 1), ("α", "alpha", here.sheet.alpha, 2)):
@@ -155,7 +153,7 @@ def found_rates(here: OnPaper, clear: Clearance) -> Piece:
     return joined(pieces)
 
 
-def _centres_of_turn(here: OnPaper, link: str, other: str) -> list[complex]:
+def _centres_of_turn(here: MechanismOnPaper, link: str, other: str) -> list[complex]:
     """Where an arc of sense may stand: about the pivot of the link, else about places along it."""
     mine = here.scene.by_name[link].points
     theirs = here.scene.by_name[other].points
@@ -179,4 +177,4 @@ def _arc(
     parts = symbols.sense_arc(page(centre), radius, middle, sense, colour=colour, heads=heads)
     text = Text(0j, symbol(markup), "start", strokes.BLACK, f"label-{id}", ("label",))
     top = page(centre + radius * complex(math.cos(middle), math.sin(middle)))
-    return Piece({layer: (Group(parts, id=id, classes=("sense",)),)}, (Name(Label(text, top, (middle,)), 0),))
+    return Piece({layer: (Group(parts, id=id, classes=("sense",)),)}, (Label(text, top, (middle,)),))

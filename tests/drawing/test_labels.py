@@ -11,9 +11,10 @@ from hypothesis import strategies as st
 
 from graphkin.drawing import symbols as arrows
 from graphkin.drawing.box import Box
+from graphkin.drawing.drawing import Drawing
+from graphkin.drawing.labels import Label, place
 from graphkin.drawing.obstacles import Obstacles, obstacles_of
-from graphkin.drawing.placing import Label, place
-from graphkin.drawing.primitives import Circle, Drawing, Group, Line, Polygon, Text
+from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Text
 from graphkin.drawing.strokes import DIRECTION, LINK
 from graphkin.drawing.svg import svg_bytes
 from graphkin.drawing.symbols import turning_pair, vector_group

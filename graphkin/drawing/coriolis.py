@@ -1,0 +1,87 @@
+"""The sense of a Coriolis acceleration in a small inset: the sliding velocity turned by 90 degrees with the guide.
+
+2 ω v stands square to the sliding velocity v, on the side to which the guide's ω turns it.
+"""
+
+from __future__ import annotations
+
+import math
+from cmath import phase
+from typing import TypeAlias
+
+from graphkin.construction.sheet import Sheet, Vector
+from graphkin.construction.steps import RateTimes, Size
+from graphkin.drawing import strokes
+from graphkin.drawing.box import Box
+from graphkin.drawing.conventions import Letters
+from graphkin.drawing.font_widths import runs_width
+from graphkin.drawing.labels import Label
+from graphkin.drawing.piece import Piece
+from graphkin.drawing.polygon_on_page import ZERO
+from graphkin.drawing.primitives import Circle, Group, Polygon, Primitive, Text
+from graphkin.drawing.strokes import colour_of_vector
+from graphkin.drawing.symbols import COMPONENT, arrow, sense_arc
+from graphkin.drawing.text import fitted, symbol
+from graphkin.plane import cross, unit
+from graphkin.scene.symbol import Symbol
+
+__all__ = ["CoriolisTerm", "coriolis_inset", "coriolis_terms"]
+
+CoriolisTerm: TypeAlias = tuple[Vector, Vector, Size | None]
+"""A Coriolis vector, its sliding velocity, and the rule for its size."""
+REACH = 8.0  # mm of the arrows
+
+
+def coriolis_terms(sheet: Sheet) -> list[CoriolisTerm]:
+    """Each Coriolis vector that is not zero, with its sliding velocity and the rule for its size."""
+    velocities = sheet.vectors("velocity")
+    rules = {t.symbol: t.size for e in sheet.equations for side in e.sides for t in side}
+    found = []
+    for vector in sheet.vectors("acceleration").values():
+        if vector.role != "coriolis" or abs(vector.span) < ZERO:
+            continue
+        of, to = vector.symbol.of, vector.symbol.to
+        for velocity in (velocities.get(Symbol("v", of, to)), velocities.get(Symbol("v", of))):
+            if velocity is not None and abs(velocity.span) > ZERO:
+                found.append((vector, velocity, rules.get(vector.symbol)))
+                break
+    return found
+
+
+def coriolis_inset(sheet: Sheet, term: CoriolisTerm, letters: Letters, box: Box) -> tuple[Piece, Box]:
+    """The inset in a box of the page, and the part of it in which its names may stand."""
+    vector, velocity, rule = term
+    slip, turned = unit(velocity.span), unit(vector.span)
+    sense = 1 if cross(slip, turned) > 0 else -1
+    inner = Box(box.left + 0.6, box.top + 0.6, box.right - 0.6, box.bottom - 6.2)
+    centre = inner.centre - REACH / 2 * (slip + turned).conjugate()
+    colour = colour_of_vector(sheet, vector.symbol)
+    tips = [centre + REACH * way.conjugate() for way in (slip, turned)]
+    arc = sense_arc(centre, 3.6, phase(slip) + sense * math.pi / 4, sense, math.radians(72))
+    parts: tuple[Primitive, ...] = (
+        *arrow(centre, tips[0], COMPONENT, strokes.BLACK),
+        *arrow(centre, tips[1], COMPONENT, colour),
+        *arc,
+        Circle(centre, 0.4, fill=strokes.BLACK),
+    )
+    frame = Polygon(box.corners, "", strokes.DIMENSION)
+    id = vector.symbol.id
+    links = "".join(rule.links) if isinstance(rule, RateTimes) and rule.rate == "omega" else ""
+    names = [
+        _label(letters.vector(velocity.symbol), f"label-inset-v-{id}", tips[0], phase(slip)),
+        _label(letters.vector(vector.symbol), f"label-inset-{id}", tips[1], phase(turned)),
+    ]
+    if links:
+        middle = centre + 3.6 * (slip + turned).conjugate() / abs(slip + turned)
+        names.append(_label(f"ω_{{{links}}}", f"label-inset-omega-{id}", middle, phase(slip + turned), 1))
+    name = f"${letters.vector(vector.symbol)}$"
+    caption = fitted(f"{name} = ${letters.size(rule)}$" if rule else name, 2.8, box.width - 1.6)
+    if runs_width(caption) > box.width - 1.6:
+        caption = fitted(name, 2.8, box.width - 1.6)
+    words = Text(complex(box.centre.real, box.bottom - 2.3), caption, "middle", id=f"label-sense-{id}")
+    group = Group((frame, *parts), id=f"sense-{id}", classes=("inset",))
+    return Piece({"acceleration": (group,), "labels": (words,)}, tuple(names)), inner
+
+
+def _label(markup: str, id: str, at: complex, toward: float, rank: int = 0) -> Label:
+    return Label(Text(0j, symbol(markup, 2.8), "start", strokes.BLACK, id, ("label",)), at, (toward,), rank)

@@ -1,0 +1,115 @@
+"""A polygon as it stands on a page: its vectors and steps, where its pole is, how large it is, and which of its parts
+are too small for a ruler."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+from graphkin.construction.sheet import Bar, DiagramName, Sheet, Step, Vector
+from graphkin.drawing.box import Box
+from graphkin.drawing.conventions import Letters
+from graphkin.scene.symbol import Symbol
+
+__all__ = ["SAME", "ZERO", "Detail", "PolygonOnPage", "details", "extent", "same_place"]
+
+SAME = 0.02  # mm: nearer end points fall together on paper
+ZERO = 0.02  # mm: a shorter vector is drawn as a dot
+FAR = 60.0  # mm: construction further outside than this is cut off
+SMALL = 2.0  # mm: shorter vectors are drawn again larger
+TOGETHER = 3.0  # mm: small vectors nearer than this share an inset
+FACTORS = (2, 2.5, 5, 10, 20, 50, 100, 200, 500)
+LONGEST = 13.0  # mm of the largest part in the inset
+
+
+@dataclass(frozen=True)
+class PolygonOnPage:
+    """A sheet's polygon with the letters of a convention and the words of a language."""
+
+    sheet: Sheet
+    diagram: DiagramName
+    letters: Letters
+    language: str
+    panel: Box
+    origin: complex
+    enlarged: tuple[Detail, ...]
+
+    def at(self, z: complex) -> complex:
+        """The page point of a point of the polygon."""
+        return self.origin + z.conjugate()
+
+    @cached_property
+    def steps(self) -> tuple[Step, ...]:
+        return tuple(step for step in self.sheet.steps if step.diagram == self.diagram)
+
+    @cached_property
+    def vectors(self) -> Mapping[Symbol, tuple[int, Vector]]:
+        """Each vector, with the number of the step that drew it last."""
+        return {s.symbol: (step.number, s) for step in self.steps for s in step.strokes if isinstance(s, Vector)}
+
+    def in_order(self) -> list[tuple[int, Vector]]:
+        """Long vectors first, so that short ones lie on top."""
+        return sorted(self.vectors.values(), key=lambda sv: (-round(abs(sv[1].span), 6), sv[0]))
+
+    def covered(self, a: complex, b: complex) -> bool:
+        """Whether a drawn vector lies from a to b or back."""
+        return any(
+            (abs(v.tail - a) < SAME and abs(v.tip - b) < SAME) or (abs(v.tail - b) < SAME and abs(v.tip - a) < SAME)
+            for _, v in self.vectors.values()
+        )
+
+
+def same_place(z: complex) -> complex:
+    """A key that is the same for points that fall together."""
+    return complex(round(z.real / SAME), round(z.imag / SAME))
+
+
+def extent(sheet: Sheet, diagram: DiagramName, within: Box | None = None) -> Box:
+    """The box (mm, y down, about the pole) around all vectors of a polygon; lines that lead to them are counted in
+    where they do not reach far."""
+    ends = [0j, *(z for v in sheet.vectors(diagram).values() for z in (v.tail, v.tip))]
+    box = Box.around(z.conjugate() for z in ends)
+    for step in sheet.steps:
+        for stroke in step.strokes:
+            if step.diagram == diagram and isinstance(stroke, Bar):
+                wider = box.joined(Box.around((stroke.a.conjugate(), stroke.b.conjugate())))
+                if within is None:
+                    fits = max(wider.width - box.width, wider.height - box.height) < FAR
+                else:
+                    fits = wider.width <= within.width and wider.height <= within.height
+                box = wider if fits else box
+    return box
+
+
+@dataclass(frozen=True)
+class Detail:
+    """A place of a polygon (mm on paper, y up) with its small vectors, and how much larger they are drawn."""
+
+    centre: complex
+    radius: float
+    vectors: tuple[Vector, ...]
+    factor: float
+
+
+def details(sheet: Sheet, diagram: DiagramName) -> list[Detail]:
+    """The places of a polygon that need a larger drawing."""
+    small = [v for v in sheet.vectors(diagram).values() if ZERO < abs(v.span) < SMALL]
+    groups: list[list[Vector]] = []
+    for vector in small:
+        near = [g for g in groups if any(_apart(vector, other) < TOGETHER for other in g)]
+        merged = [vector, *(v for g in near for v in g)]
+        groups = [g for g in groups if g not in near] + [merged]
+    found = []
+    for group in groups:
+        ends = [z for v in group for z in (v.tail, v.tip)]
+        box = Box.around(ends)
+        size = max(box.width, box.height, 1e-9)
+        factor = max((f for f in FACTORS if f * size <= LONGEST), default=0)
+        if factor:
+            found.append(Detail(box.centre, max(1.2, 0.75 * size), tuple(group), factor))
+    return sorted(found, key=lambda d: (-len(d.vectors), d.centre.real, d.centre.imag))
+
+
+def _apart(a: Vector, b: Vector) -> float:
+    return min(abs(p - q) for p in (a.tail, a.tip) for q in (b.tail, b.tip))
