@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from graphkin.solver.decimals import decimal_function
-from graphkin.solver.expressions import LEAVES, ExpressionGraph, Real, operands
+from graphkin.solver.expressions import LEAVES, ExpressionGraph, Name, Real, operands
 from graphkin.solver.pose import Array
 
 __all__ = ["BLOCK", "Code"]
@@ -74,7 +74,7 @@ class Code:
     """
 
     def __init__(
-        self, graph: ExpressionGraph, asked: Sequence[Real], fixed: Container[Any] = (), open_: Container[Any] = ()
+        self, graph: ExpressionGraph, asked: Sequence[Real], fixed: Container[Name] = (), open_: Container[Name] = ()
     ) -> None:
         self.graph = graph
         self.asked = [real.at for real in asked]
@@ -117,7 +117,7 @@ class Code:
     def _straight(
         self,
         order: Sequence[int],
-        inputs: Mapping[Any, str],
+        inputs: Mapping[Name, str],
         constants: Mapping[float, str],
         kept: Container[int] = (),
         before: Mapping[int, str] | None = None,
@@ -155,7 +155,7 @@ class Code:
         return self._straight(order, {}, {}, set(self._same[1]))
 
     def straight_varying(
-        self, asked: Sequence[int], inputs: Mapping[Any, str], before: Mapping[int, str]
+        self, asked: Sequence[int], inputs: Mapping[Name, str], before: Mapping[int, str]
     ) -> tuple[list[str], dict[int, str]]:
         """The same for what changes, as far as some of the asked lines need it, after ``straight_same``."""
         order = [at for at in self.graph.needed([Real(self.graph, at) for at in asked]) if at in self.varying]

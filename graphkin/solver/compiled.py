@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from graphkin.errors import CallError, Problem
 from graphkin.solver.code import Code
-from graphkin.solver.expressions import ExpressionGraph, Real, operands
+from graphkin.solver.expressions import ExpressionGraph, Name, Real, operands
 
 __all__ = ["LONG", "Kernel", "kernel_text"]
 
@@ -84,7 +84,7 @@ def kernel_text(code: Code, turning: bool, even: bool, columns: int, singular: f
     code = _with_shared_divisions(code)
     signs = [name for name in code.inputs if name[0] == "sign"]
     checked = len(code.asked) > columns
-    names: dict[Any, str] = {("cos", 0): "cosine[k]", ("sin", 0): "sine[k]"}
+    names: dict[Name, str] = {("cos", 0): "cosine[k]", ("sin", 0): "sine[k]"}
     names["travel", 0] = "start + step * (ahead + k)" if even else "travel[k]"
     names |= {name: f"g{k}[k]" for k, name in enumerate(signs)}
     head, before = code.straight_same()

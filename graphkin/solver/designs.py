@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
-from typing import Any
 
 import numpy as np
 
@@ -21,6 +20,7 @@ from graphkin.solver.compiled import Kernel
 from graphkin.solver.driver_range import range_from
 from graphkin.solver.driver_values import GivenValues, UniformGrid
 from graphkin.solver.engine import SINGULAR
+from graphkin.solver.expressions import Name
 from graphkin.solver.joints import turned
 from graphkin.solver.pose import Array
 from graphkin.solver.prepared import CLEAR, Prepared, prepare
@@ -30,7 +30,7 @@ from graphkin.structure import Dyad, analyse
 
 __all__ = ["Designs", "Dimension", "dimensions", "with_dimensions"]
 
-Dimension = tuple[Any, ...]
+Dimension = Name
 """("point", link, point), ("through", link, guide), ("direction", link, guide), ("turn", sliding pair), and of the
 driver k ("value", k), ("rate", k), ("second", k)."""
 
@@ -95,7 +95,7 @@ def with_dimensions(scene: Scene, changed: Mapping[Dimension, complex]) -> Scene
 class _OpenCode:
     """The formulas of a prepared mechanism with some of its numbers open, and their code."""
 
-    def __init__(self, ready: Prepared, names: frozenset[Any], moving: tuple[bool, ...]) -> None:
+    def __init__(self, ready: Prepared, names: frozenset[Name], moving: tuple[bool, ...]) -> None:
         self.ready = ready
         self.dimensioned = program_of(ready.structure, moving, names)
         program, structure = self.dimensioned.program, ready.structure
@@ -141,9 +141,9 @@ class Designs:
         return len(next(iter(self.given.values())))
 
     @cached_property
-    def _open(self) -> dict[Any, Array]:
+    def _open(self) -> dict[Name, Array]:
         """Numbers of the formulas by name, for each design, where it changes them."""
-        found: dict[Any, Array] = {}
+        found: dict[Name, Array] = {}
         ready, scene = self.ready, self.ready.structure.scene
         own, slides = dimensions(scene), ready.structure.slides
         for name, values in self.given.items():
@@ -162,7 +162,7 @@ class Designs:
                             found[*number, axis] = part
                     found["error", *number] = GIVEN * np.abs(values)
         for link in {name[1] for name in self.given if name[0] == "point"}:
-            points = [np.abs(self.given.get(("point", link, p), z)) for p, z in scene.by_name[link].points.items()]
+            points = [np.abs(self.given.get(("point", link, p), z)) for p, z in scene.by_name[str(link)].points.items()]
             found["reach", link] = np.broadcast_to(np.max(np.broadcast_arrays(*points), axis=0), (self.count,))
         return found
 
@@ -174,7 +174,8 @@ class Designs:
         known = self.ready.opened
         if key not in known:
             known[key] = _OpenCode(self.ready, *key)
-        made: _OpenCode = known[key]
+        made = known[key]
+        assert isinstance(made, _OpenCode)
         return made
 
     @cached_property

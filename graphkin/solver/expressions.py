@@ -16,6 +16,9 @@ __all__ = ["LEAVES", "ExpressionGraph", "Line", "Real", "Vec", "fmax", "fmin", "
 Line = tuple[Any, ...]
 """One operation: ("add", i, j), ("root", i), ("const", 2.0), ("param", name), ("input", name)."""
 
+Name = tuple[str | int, ...]
+"""What tells apart the numbers that formulas are given: ("point", link, point, "x"), ("rate", driver), ..."""
+
 LEAVES = ("const", "param", "input")
 
 
@@ -42,11 +45,11 @@ class ExpressionGraph:
         """A number that is the same for all mechanisms."""
         return self.line("const", float(value) + 0.0)
 
-    def param(self, name: Any) -> Real:
+    def param(self, name: Name) -> Real:
         """A number that is the same at all positions."""
         return self.line("param", name)
 
-    def input(self, name: Any) -> Real:
+    def input(self, name: Name) -> Real:
         """A number that changes from position to position."""
         return self.line("input", name)
 

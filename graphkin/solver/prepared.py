@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import Any
 
 import numpy as np
 
@@ -17,7 +16,7 @@ from graphkin.solver.driver_range import DriverRange, driver_range
 from graphkin.solver.driver_values import GivenValues, UniformGrid, quarter
 from graphkin.solver.dyads import Solved
 from graphkin.solver.engine import SINGULAR, positions
-from graphkin.solver.expressions import Real
+from graphkin.solver.expressions import Name, Real
 from graphkin.solver.findings import singular, structure_of
 from graphkin.solver.joints import Drive, turned
 from graphkin.solver.pose import Array
@@ -56,7 +55,7 @@ class Prepared:
     bounded: bool = False
 
     @cached_property
-    def together(self) -> bool:
+    def by_newton(self) -> bool:
         """Whether there is a larger group, whose poses are found by Newton's method before the formulas are used."""
         return any(isinstance(e, Cluster) for e in self.structure.elements)
 
@@ -75,16 +74,16 @@ class Prepared:
     def _even(self) -> bool:
         """Whether every position of a turn is far from a singular one, so that none needs to be looked at."""
         ahead = self.range.ahead
-        if ahead.limit is not None or len(ahead.flips) or self.together:
+        if ahead.limit is not None or len(ahead.flips) or self.by_newton:
             return False
         t = ahead.nodes
         state = positions(self.structure, ahead.drive(t), ahead.form(t), rates=False)
         return all(float(np.min(np.abs(g.sine))) > CLEAR for g in state.groups.values() if isinstance(g, Solved))
 
     @cached_property
-    def signs(self) -> dict[Any, float] | None:
+    def signs(self) -> dict[Name, float] | None:
         """The assembly of each group where it is the same everywhere."""
-        if len(self.range.ahead.flips) or len(self.range.behind.flips) or self.together:
+        if len(self.range.ahead.flips) or len(self.range.behind.flips) or self.by_newton:
             return None
         return {("sign", i): float(form[0]) for i, form in self.range.forms(np.zeros(1)).items() if form.ndim == 1}
 
@@ -99,9 +98,9 @@ class Prepared:
         return tuple(groups[i].sine for i in sorted(groups))
 
     @cached_property
-    def _held(self) -> dict[Any, float]:
+    def _held(self) -> dict[Name, float]:
         """Units, rates of the drivers, values of those but the first; and how far each of these may be off."""
-        held: dict[Any, float] = {("per metre",): self.units[0], ("per radian",): self.units[1]}
+        held: dict[Name, float] = {("per metre",): self.units[0], ("per radian",): self.units[1]}
         for k, driver in enumerate(self.structure.scene.drivers):
             _, rate, second = driver.values
             held["rate", k], held["second", k] = rate, second
@@ -120,17 +119,17 @@ class Prepared:
         return Code(self.dimensioned.program.graph, asked, self.fixed)
 
     @cached_property
-    def fixed(self) -> set[Any]:
+    def fixed(self) -> set[Name]:
         """Inputs that do not change."""
         return {*self._held, *(self.signs or ())}
 
     @cached_property
-    def given_names(self) -> dict[Any, float]:
+    def given_names(self) -> dict[Name, float]:
         """Numbers of the formulas that are no dimensions, as far as they are the same everywhere."""
         return {**self._held, **(self.signs or {})}
 
     @cached_property
-    def opened(self) -> dict[Any, Any]:
+    def opened(self) -> dict[Hashable, object]:
         """Code with some dimensions open, by what is open, made once."""
         return {}
 
@@ -154,17 +153,24 @@ class Prepared:
 
     @cached_property
     def _one(self) -> Callable[[float], tuple[float, ...] | None]:
-        if self.together:
+        if self.by_newton:
             return self._one_by_newton
         code = Code(self.dimensioned.program.graph, (*self.asked, *self._sines), self.fixed)
         function, params, names, count = code.floats, self.given(code), code.inputs, len(self.asked)
-        everywhere, steady = self.whole, self.signs is not None
+        everywhere, steady, turns = self.whole, self.signs is not None, self.turns
+        start, sense, (low, high) = float(self.range.start[0]), self.range.sense, self.range.ends
         place = {"cos": 0, "sin": 1, "travel": 2}
         order = [place.get(name[0], 3) for name in names]
 
         def one(value: float) -> tuple[float, ...] | None:
-            if not everywhere and not self._reached(np.array([value]))[0]:
-                return None
+            if not everywhere:
+                # what the range says of arrays (``reaches``), in plain floats
+                offset = sense * (value - start)
+                if turns:
+                    offset %= 2 * math.pi
+                    offset -= 2 * math.pi if offset > high else 0.0
+                if not low <= offset <= high:
+                    return None
             given = (*quarter(value), value)
             if steady:
                 inputs = [given[k] for k in order]
@@ -194,10 +200,10 @@ class Prepared:
         """The form of each group at values of the first driver; beyond its reach that at its end."""
         return self.range.forms(self.range.offsets(value) / abs(self.range.wide))
 
-    def _signs_at(self, value: Array) -> dict[Any, Array]:
+    def _signs_at(self, value: Array) -> dict[Name, Array]:
         return {("sign", i): form for i, form in self._forms_at(value).items() if form.ndim == 1}
 
-    def _by_newton(self, value: Array, ok: Array) -> dict[Any, Array]:
+    def _poses_by_newton(self, value: Array, ok: Array) -> dict[Name, Array]:
         """Inputs of the formulas that come from larger groups, and the bounds of all; positions that are in none of
         their assemblies are no longer ok."""
         drivers = np.repeat(self.range.start[None], len(value), axis=0)
@@ -207,7 +213,7 @@ class Prepared:
         state = positions(self.structure, Drive.at(self.structure, drivers), forms)
         for _, dead in singular(self.structure, state, len(value)):
             ok &= ~dead
-        given: dict[Any, Array] = {}
+        given: dict[Name, Array] = {}
         for name in (n for e in self.structure.elements if isinstance(e, Cluster) for n in e.members):
             for field in FIELDS:
                 part = np.broadcast_to(getattr(state.poses[name], field), value.shape)
@@ -262,7 +268,7 @@ class Prepared:
 
     def _all(self, way: GivenValues | UniformGrid, out: Array, fast: bool) -> Array:
         n = len(way)
-        if fast and not self.together:
+        if fast and not self.by_newton:
             return self._compiled(way, out)
         if n <= CHUNK:
             return self._arrays(way, out)
@@ -289,8 +295,8 @@ class Prepared:
         if not ok.any():
             out[...] = 0.0
             return ok
-        given: dict[Any, Array] = {} if self.signs is not None else self._signs_at(way.values)
-        given |= self._by_newton(way.values, ok) if self.together else {}
+        given: dict[Name, Array] = {} if self.signs is not None else self._signs_at(way.values)
+        given |= self._poses_by_newton(way.values, ok) if self.by_newton else {}
         sines = np.empty((len(self._code.asked) - count, n))
         if self.turns:
             given["cos", 0], given["sin", 0] = way.turn
@@ -324,15 +330,6 @@ class Prepared:
             self._on_grid.run(0, n, self._numbers, n, 0, out)
             return out, _every(n)
         return out, self._all(self.grid(n), out, fast)
-
-    def chunks(self, n: int, size: int = 16 * CHUNK, fast: bool = False) -> Iterator[tuple[int, Array, Array]]:
-        """A sweep of any length in bounded memory: number of the first position, columns and ok of one piece after the
-        other.  The arrays are the same ones each time, filled anew."""
-        room = np.empty((len(self.asked), min(n, size)))
-        for first in range(0, n, size):
-            way = self.grid(n, first, min(first + size, n))
-            out = room[:, : len(way)]
-            yield first, out, self._all(way, out, fast)
 
 
 @lru_cache

@@ -5,7 +5,7 @@ Lengths and places are left open in them, so that one program serves every mecha
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable, Mapping, Sequence
+from collections.abc import Container, Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from decimal import Decimal
 from typing import Any
@@ -16,7 +16,7 @@ from graphkin.solver.bounds import FIELDS, ErrorFormulas
 from graphkin.solver.code import Code
 from graphkin.solver.decimals import DIGITS, meant, meant_direction
 from graphkin.solver.dyads import Joints, Solved, solve_dyad
-from graphkin.solver.expressions import ExpressionGraph, Real, Vec
+from graphkin.solver.expressions import ExpressionGraph, Name, Real, Vec
 from graphkin.solver.joints import body_shape, driven, dyad_joints, members
 from graphkin.solver.pose import Pose
 from graphkin.solver.rounding import UNIT
@@ -38,7 +38,7 @@ class Program:
     bounds : how far each may be off
     """
 
-    def __init__(self, structure: Structure, moving: Sequence[bool], open_: Container[Any] = ()) -> None:
+    def __init__(self, structure: Structure, moving: Sequence[bool], open_: Container[Name] = ()) -> None:
         self.graph = ExpressionGraph()
         self.structure = structure
         self._moving = moving
@@ -50,7 +50,7 @@ class Program:
         for i, element in enumerate(structure.elements):
             self._add(i, element)
         self.bounds = ErrorFormulas(self)
-        self._codes: dict[Any, Code] = {}
+        self._codes: dict[Hashable, Code] = {}
 
     # numbers
 
@@ -65,7 +65,7 @@ class Program:
         z = self._numbers[name]
         return Vec(*(self._part(name, axis, x) for axis, x in (("x", z.real), ("y", z.imag))))
 
-    def _part(self, name: tuple[Any, ...], axis: str, value: float) -> Real:
+    def _part(self, name: Name, axis: str, value: float) -> Real:
         plain = value in SPECIAL and (*name, axis) not in self._open
         return self.graph.const(value) if plain else self.graph.param((*name, axis))
 
@@ -127,16 +127,16 @@ class Program:
 
     # code
 
-    def code(self, key: Any, asked: Sequence[Real]) -> Code:
+    def code(self, key: Hashable, asked: Sequence[Real]) -> Code:
         """The code for some formulas, made once."""
         if key not in self._codes:
             self._codes[key] = Code(self.graph, asked)
         return self._codes[key]
 
 
-def _numbers(structure: Structure) -> dict[tuple[Any, ...], complex]:
+def _numbers(structure: Structure) -> dict[Name, complex]:
     """Every place and direction that a structure gives, by name."""
-    found: dict[tuple[Any, ...], complex] = {}
+    found: dict[Name, complex] = {}
     for name, link in structure.links.items():
         for point, z in link.points.items():
             found["point", name, point] = z
@@ -147,7 +147,7 @@ def _numbers(structure: Structure) -> dict[tuple[Any, ...], complex]:
     return found
 
 
-def _form(structure: Structure, open_: Container[Any]) -> Any:
+def _form(structure: Structure, open_: Container[Name]) -> Hashable:
     """What a program depends on: elements, joints and drivers by name, and which numbers are 0, 1 or -1."""
     drivers = tuple((type(d).__name__, d.key, getattr(d, "relative_to", "")) for d in structure.scene.drivers)
     special = tuple(
@@ -158,7 +158,7 @@ def _form(structure: Structure, open_: Container[Any]) -> Any:
     return structure.scene.frame.name, drivers, special, tuple(_element_form(e) for e in structure.elements)
 
 
-def _element_form(element: Driven | Dyad | Cluster) -> Any:
+def _element_form(element: Driven | Dyad | Cluster) -> Hashable:
     if isinstance(element, Driven):
         return element.link, _pair_form(element.pair), element.driver.key
     if isinstance(element, Cluster):
@@ -170,7 +170,7 @@ def _element_form(element: Driven | Dyad | Cluster) -> Any:
     return element.kind, *bodies, *(_pair_form(p) for p in pairs)
 
 
-def _pair_form(pair: Pair) -> Any:
+def _pair_form(pair: Pair) -> Hashable:
     return (pair.point if isinstance(pair, Turn) else pair.key), pair.a, pair.b
 
 
@@ -180,13 +180,13 @@ class DimensionedProgram:
 
     program: Program
     structure: Structure
-    _found: dict[Any, float] = field(default_factory=dict)
-    _written: dict[Any, tuple[tuple[Decimal, Decimal], bool]] = field(default_factory=dict)
+    _found: dict[Name, float] = field(default_factory=dict)
+    _written: dict[Name, tuple[tuple[Decimal, Decimal], bool]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self._numbers = _numbers(self.structure)
 
-    def params(self, names: Iterable[Any], drivers: Mapping[Any, float]) -> list[float]:
+    def params(self, names: Iterable[Name], drivers: Mapping[Name, float]) -> list[float]:
         """Numbers by their names, with the rates of the drivers and the greatest of their values."""
         found: list[float] = []
         for name in names:
@@ -196,17 +196,17 @@ class DimensionedProgram:
             found.append(self._found[name] if changing is None else changing)
         return found
 
-    def decimals(self, names: Iterable[Any], drivers: Mapping[Any, Decimal]) -> list[Decimal]:
+    def decimals(self, names: Iterable[Name], drivers: Mapping[Name, Decimal]) -> list[Decimal]:
         """The same as decimals; numbers that stand so in the file are without error."""
         return [drivers[name] if name in drivers else self._decimal(name) for name in names]
 
-    def _fixed(self, name: tuple[Any, ...]) -> float:
+    def _fixed(self, name: Name) -> float:
         if name[0] == "unit":
             return UNIT
         if name[0] == "size":
             return self.structure.scene.size
         if name[0] == "reach":
-            return max(map(abs, self.structure.links[name[1]].points.values()), default=0.0)
+            return max(map(abs, self.structure.links[str(name[1])].points.values()), default=0.0)
         if name[0] == "error":
             z = self._numbers[name[1:]]
             exact, known = self._meant(name[1:])
@@ -217,7 +217,7 @@ class DimensionedProgram:
         z = self._numbers[name[:-1]]
         return z.real if name[-1] == "x" else z.imag
 
-    def _decimal(self, name: tuple[Any, ...]) -> Decimal:
+    def _decimal(self, name: Name) -> Decimal:
         if name[0] == "unit":
             return Decimal(10) ** -DIGITS
         if name[0] == "error":
@@ -226,7 +226,7 @@ class DimensionedProgram:
             return Decimal(self._fixed(name))
         return self._meant(name[:-1])[0][0 if name[-1] == "x" else 1]
 
-    def _meant(self, name: tuple[Any, ...]) -> tuple[tuple[Decimal, Decimal], bool]:
+    def _meant(self, name: Name) -> tuple[tuple[Decimal, Decimal], bool]:
         """What was written in the file for a place or direction, and whether it can be told."""
         if name not in self._written:
             z = self._numbers[name]
@@ -238,13 +238,13 @@ class DimensionedProgram:
         return self._written[name]
 
 
-_PROGRAMS: dict[Any, Program] = {}
-_DIMENSIONED: dict[tuple[int, tuple[bool, ...], frozenset[Any]], DimensionedProgram] = {}
+_PROGRAMS: dict[Hashable, Program] = {}
+_DIMENSIONED: dict[tuple[int, tuple[bool, ...], frozenset[Name]], DimensionedProgram] = {}
 MOST = 200
 
 
 def program_of(
-    structure: Structure, moving: tuple[bool, ...], open_: frozenset[Any] = frozenset()
+    structure: Structure, moving: tuple[bool, ...], open_: frozenset[Name] = frozenset()
 ) -> DimensionedProgram:
     """The program of a structure, made once for all of its form.
 

@@ -43,11 +43,20 @@ def test_one_position_in_plain_floats_is_the_same_to_the_last_bit() -> None:
     assert [ready.at(float(v)) for v in values] == [tuple(row) for row in columns.T.tolist()]
 
 
-def test_chunks_are_the_sweep_in_pieces() -> None:
+def test_a_sweep_in_pieces_is_the_sweep() -> None:
     ready = four_bar()
     whole, _ = ready.sweep(1000)
-    pieces = np.hstack([columns.copy() for _, columns, _ in ready.chunks(1000, 300)])
+    pieces = np.hstack([ready.columns(ready.values(1000, k, k + 250))[0] for k in range(0, 1000, 250)])
     assert pieces == pytest.approx(whole, abs=1e-14 * np.abs(whole).max())
+
+
+def test_one_position_is_there_where_positions_of_an_array_are() -> None:
+    for scene in (read("sixbar-AE70"), read_text(scenes.CYLINDER, "c")):
+        ready = prepare(scene, ("v_B",))
+        values = np.linspace(-7, 7, 301)
+        _, ok = ready.columns(values)
+        assert ok.tolist() == [ready.at(float(v)) is not None for v in values]
+        assert 0 < ok.sum() < 301
 
 
 @pytest.mark.parametrize("n", [1999, 2000, 50000])
