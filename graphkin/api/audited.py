@@ -190,9 +190,10 @@ def audit(scene: SceneLike, answers: AnswersLike | None = None, at: At = None, l
 def _case(scene: Scene, asked: Sequence[Symbol], at: At) -> Case:
     values = driver_values(scene, at)
     motion = solved_here(scene, values)
-    what = plan(scene, values, asked)
+    structure = motion.structure
+    what = plan(structure, values, asked)
     # everything is drawn, so that slips in what leads to the asked and beside it are found
-    whole = plan(scene, values, ())
+    whole = plan(structure, values, ())
     drawn = what if set(what.elements) == set(whole.elements) else whole
 
     def exact(symbol: Symbol) -> complex | float:

@@ -15,7 +15,7 @@ from graphkin.construction.sheet import DiagramName
 from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
 from graphkin.scene.model import Scene
 from graphkin.scene.symbol import Symbol
-from graphkin.structure import analyse, part_of
+from graphkin.structure import Structure, analyse, part_of
 from graphkin.words import say
 
 if TYPE_CHECKING:
@@ -190,12 +190,15 @@ def check(
     >>> result.ok, round(result["v_B@3"].on_paper, 3)
     (True, 107.578)
     """
+    from graphkin import solver
+
     given = as_scene(scene)
     asked = asked_symbols(given, find)
     values = driver_values(given, at)
     hand = hand_of(given, instrument, seed)
-    motion = solved_here(given, values, asked)
-    return checked(plan(given, values, asked), motion, hand)
+    structure = solver.structure_of(given)
+    motion = solved_here(structure, values, asked)
+    return checked(plan(structure, values, asked), motion, hand)
 
 
 def checked(what: Plan, motion: Motion, hand: Instrument) -> Checked:
@@ -230,18 +233,22 @@ def hand_of(scene: Scene, name: str, seed: int) -> Instrument:
     raise CallError(Problem("instrument", f'"{name}"', did_you_mean(name, INSTRUMENTS)))
 
 
-def solved_here(scene: Scene, values: Mapping[str, float] | None, asked: Sequence[Symbol] = ()) -> Motion:
+def solved_here(
+    of: Scene | Structure, values: Mapping[str, float] | None, asked: Sequence[Symbol] = ()
+) -> Motion:
     """The exact motion at one position, of what leads to the asked.
 
     It comes before the drawing, because it tells best why a position cannot be had.
     """
     from graphkin import solver
 
-    if asked:
-        scene = part_of(solver.structure_of(scene), asked)
+    structure = solver.structure_of(of)
+    scene = part_of(structure, asked)
+    if scene is not structure.scene:
+        structure = solver.structure_of(scene)
         kept = [d.key for d in scene.drivers]
         values = {k: v for k, v in values.items() if k in kept} if values else values
-    motion = solver.solve(scene, at=values)
+    motion = solver.solve(structure, at=values)
     if motion.status[0] != "ok":
         driver = ", ".join(
             f"{d.key} at {own_unit(scene, d, (values or {}).get(d.key, d.values[0]))}" for d in scene.drivers

@@ -152,6 +152,7 @@ def draw(
     SceneError, CallError : the file or the call is wrong
     Unsolvable : wrong mobility, a position that cannot be assembled or reached, a dead point
     """
+    from graphkin import solver
     from graphkin.drawing import sheet_room
 
     known_words(formats, language, convention, instrument, known_languages=ON_SHEETS)
@@ -159,8 +160,9 @@ def draw(
     asked = asked_symbols(given, find)
     values = driver_values(given, at)
     hand = hand_of(given, instrument, seed)
-    motion = solved_here(given, values, asked)
-    what = plan(given, values, asked)
+    structure = solver.structure_of(given)
+    motion = solved_here(structure, values, asked)
+    what = plan(structure, values, asked)
     whole = checked(what, motion, hand)
     # the sheet shows the same construction at the scales that fit it, and bears its own readings
     fitting = replace(what, scales=what.scales_for(sheet_room(given)))

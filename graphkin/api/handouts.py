@@ -139,7 +139,7 @@ def handout(
     asked = asked_symbols(given, find)
     values = driver_values(given, at)
     motion = solved_here(given, values)
-    what = paper_plan(given, values, asked)
+    what = paper_plan(motion.structure, values, asked)
     lesson = lesson_of(what, motion, language or given.sheet.language, convention or given.sheet.convention)
     made = Handout(lesson, values, tuple(dict.fromkeys(formats)), positions or usual_count(given), progress)
     if out is not None:

@@ -167,13 +167,14 @@ class Plan(Task):
 
 
 def plan(
-    scene: Scene,
+    scene: Scene | Structure,
     at: Mapping[str, float] | None = None,
     find: Iterable[Symbol] | None = None,
     room: Room | None = None,
 ) -> Plan:
     """Decide what to draw, and carry it out exactly; parameters and errors as for `draft`."""
     structure = analyse(scene)
+    scene = structure.scene
     asked = tuple(scene.find if find is None else find)
     wanted = needed(structure, asked)
     elements = tuple(_drawable(wanted))
@@ -273,13 +274,13 @@ def _finished(task: Task, polygons: Polygons, assembly: Mapping[str, Phrase]) ->
 
 
 def draft(
-    scene: Scene,
+    scene: Scene | Structure,
     at: Mapping[str, float] | None = None,
     find: Iterable[Symbol] | None = None,
     instrument: Instrument = EXACT,
     room: Room | None = None,
 ) -> Sheet:
-    """Draw a scene: the position, both polygons, all angular rates measured.
+    """Draw a scene, or its structure: the position, both polygons, all angular rates measured.
 
     Parameters
     ----------

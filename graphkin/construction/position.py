@@ -183,7 +183,7 @@ def _follow(
             )
 
         start = gaps(np.zeros(1))[0]
-        lines = meet_is_lines(element)
+        lines = element.is_two_lines
         way = math.copysign(1.0, start) if lines else 1.0
         passage = follow(lambda t, way=way, gaps=gaps: way * gaps(t), grid, flips=not lines)  # type: ignore[misc]
         if passage.limit is not None:
@@ -191,11 +191,6 @@ def _follow(
         signs[i] = passage.flips
         branches[i] = chosen[i] if passage.sign(np.ones(1))[0] > 0 else 1 - chosen[i]
     return branches, None
-
-
-def meet_is_lines(element: Dyad) -> bool:
-    """Whether the group is found by two straight lines, and so in one way only."""
-    return element.kind in ("PRP", "RPP")
 
 
 def _gap(
@@ -274,7 +269,7 @@ def draw_position(
             key = ", ".join(element.links)
             assembly[key] = Phrase(
                 f"{element.kind} {index}"
-                if len(meeting.poses) > 1 or element.kind in ("RRR", "RRP", "RPR")
+                if len(meeting.poses) > 1 or not element.is_two_lines
                 else "one assembly",
                 _assembly_names(element),
             )

@@ -27,6 +27,7 @@ from graphkin.drawing.stepwise import births, so_far, stepped
 from graphkin.drawing.text import rich, symbol
 from graphkin.scene.model import Scene
 from graphkin.scene.symbol import Symbol
+from graphkin.structure import Structure
 from graphkin.words import languages
 
 __all__ = [
@@ -90,10 +91,11 @@ def paper_of(scene: Scene) -> Paper:
     return Paper(*scene.sheet.size)
 
 
-def paper_plan(scene: Scene, values: Mapping[str, float] | None, asked: Sequence[Symbol]) -> Plan:
+def paper_plan(of: Scene | Structure, values: Mapping[str, float] | None, asked: Sequence[Symbol]) -> Plan:
     """What to draw, at the scene's own scales where the figures fit the paper so, at coarser ones where they do not."""
+    own = plan(of, values, asked)
+    scene = own.structure.scene
     paper, wishes = paper_of(scene), scene.sheet
-    own = plan(scene, values, asked)
     if paper != A4:
         filled = own.scales_for(paper.filled)
         own = replace(

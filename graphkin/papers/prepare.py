@@ -28,6 +28,7 @@ from graphkin.papers.variants import Variant, asked_of
 from graphkin.scene.model import Scene
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion
+from graphkin.structure import Structure
 
 __all__ = ["FORMATS", "Papers", "handout_files", "lesson_of", "positions", "usual_count", "views_of"]
 
@@ -54,12 +55,13 @@ def usual_count(scene: Scene) -> int:
 
 
 def positions(
-    scene: Scene, values: Mapping[str, float] | None, count: int = POSITIONS
+    of: Scene | Structure, values: Mapping[str, float] | None, count: int = POSITIONS
 ) -> tuple[list[dict[str, float]], int]:
     """Driver values (rad, m) spread over a turn or over what the motion reaches, and which of them is the given one."""
-    keys = [d.key for d in scene.drivers]
-    own = {d.key: d.values[0] for d in scene.drivers} | dict(values or {})
-    motion = solver.solve(scene, at=values, sweep=count)
+    motion = solver.solve(of, at=values, sweep=count)
+    drivers = motion.scene.drivers
+    keys = [d.key for d in drivers]
+    own = {d.key: d.values[0] for d in drivers} | dict(values or {})
     rows = [dict(zip(keys, map(float, row), strict=True)) for row in motion.values]
     good = [bool(ok) for ok in motion.ok]
     if not all(good):
@@ -92,12 +94,13 @@ def views_of(
     solution on paper, kept wherever the figures fit.  Positions in which the construction fails (dead points) are left
     out.
     """
-    rows, start = positions(scene, values, count)
+    structure = solver.structure_of(scene)
+    rows, start = positions(structure, values, count)
     plans: list[Plan] = []
     given = 0
     for i, row in enumerate(rows):
         try:
-            found = plan(scene, row, asked)
+            found = plan(structure, row, asked)
         except Unsolvable:
             if i == start:
                 raise
@@ -195,7 +198,8 @@ class Papers:
     def __call__(self, variant: Variant) -> Mapping[str, bytes]:
         scene = variant.scene
         asked = asked_of(scene)
-        lesson = lesson_of(paper_plan(scene, None, asked), solver.solve(scene), self.language, self.convention)
+        motion = solver.solve(scene)
+        lesson = lesson_of(paper_plan(motion.structure, None, asked), motion, self.language, self.convention)
         made = {"key.csv": key_csv(lesson).encode()}
         if "html" in self.formats:
             made["problem.html"] = document_page(problem(lesson)).encode()

@@ -62,7 +62,7 @@ def _choose_sign(structure: Structure, i: int, dyad: Dyad, drive: Drive, forms: 
         states.append(positions(structure, drive, given, i + 1, rates=False))
     solved = states[0].groups[i]
     assert isinstance(solved, Solved)
-    if dyad.kind in ("PRP", "RPP"):
+    if dyad.is_two_lines:
         sign = float(np.sign(solved.sine[0])) or 1.0
         if abs(solved.sine[0]) >= states[0].singular[0]:
             pick(scene, dyad.links, [_places(structure, i, dyad.links, states[0])], 0)

@@ -106,7 +106,8 @@ def _of_group(structure: Structure, i: int, signs: Mapping[int, float], grid: Ar
         return np.where(held, np.broadcast_to(solved.discriminant, value.shape), np.nan)
 
     value = gap(grid)
-    two_sided = getattr(structure.elements[i], "kind", "") in ("PRP", "RPP")
+    group = structure.elements[i]
+    two_sided = isinstance(group, Dyad) and group.is_two_lines
     for k in range(len(grid) - 1):
         one, two = value[k], value[k + 1]
         if not (np.isfinite(one) and np.isfinite(two)):

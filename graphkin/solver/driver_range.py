@@ -344,6 +344,6 @@ def motion_of(
     rough = (np.where(ok, state.rough[0], np.nan), np.where(ok, state.rough[1], np.nan))
     poses = {name: pose.spread(n).where(ok) for name, pose in state.poses.items()}
     poses[structure.scene.frame.name] = rest().spread(n)
-    place_redundant(structure, poses, ok)
+    place_redundant(structure, poses, ok, bound)
     slides = all_slides(structure)
     return Motion(structure, drive.value, status, tuple(reasons), poses, slides, assembly, bound, rough)

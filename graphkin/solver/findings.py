@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -22,7 +23,7 @@ from graphkin.solver.larger_groups import ClusterSolved
 from graphkin.solver.path import Path, follow_path
 from graphkin.solver.pose import Array
 from graphkin.solver.redundant import Fit, fit
-from graphkin.structure import Cluster, Dyad, Pair, Slide, Structure, Turn, analyse, mobility_of
+from graphkin.structure import Cluster, Dyad, Slide, Structure, Turn, analyse, mobility_of
 
 __all__ = ["assembly_words", "limit_why", "singular", "structure_of", "without_singular"]
 
@@ -76,7 +77,7 @@ def _apart(structure: Structure, i: int, values: Array, forms: Mapping[int, Arra
     """What to say of a dyad whose guides are parallel and not one line, so that they meet nowhere; "" of any other:
     a hair further on it would lie far away."""
     group = structure.elements[i]
-    if not (isinstance(group, Dyad) and group.kind in ("PRP", "RPP")):
+    if not (isinstance(group, Dyad) and group.is_two_lines):
         return ""
     one = np.ones((1, len(values)))
     size = structure.scene.size
@@ -118,8 +119,8 @@ def limit_why(
 
 
 def _ending(group: Dyad | Cluster) -> str:
-    if isinstance(group, Dyad) and group.kind in ("PRP", "RPP"):
-        return "have parallel guides"
+    if isinstance(group, Dyad) and group.is_two_lines:
+        return _dyad_words(group).dead
     return "reach the end of their motion"
 
 
@@ -144,9 +145,10 @@ def _dead_why(structure: Structure, i: int, values: Array, forms: Mapping[int, A
         branch = not across > 1e-5 * abs(load)
         assert isinstance(group, Dyad)
         if group.kind == "RPR" and abs(e2) < 1e-6 * scene.size:
-            how, branch = f"have no direction of their own: {_outer(group)} fall together", True
+            outer = " and ".join(getattr(p, "point", "") for p in group.outer)
+            how, branch = f"have no direction of their own: {outer} fall together", True
         else:
-            how = _in_line(group)
+            how = _dyad_words(group).dead
     end = "the velocity is not unique here, the motion can branch" if branch else "a rate is infinite here"
     return f"links {names} {how}: dead point, {end}{_where(structure, i, values, forms)}"
 
@@ -169,29 +171,12 @@ def _where(structure: Structure, i: int, values: Array, forms: Mapping[int, Arra
     return f"; it lies at {driver.key} = {driver_text(scene, driver, float(point.value))}, {unit[1]:.3g} {unit[0]} away"
 
 
-def _outer(group: Dyad) -> str:
-    return " and ".join(getattr(p, "point", "") for p in (group.outer_first, group.outer_second))
-
-
-def _in_line(group: Dyad) -> str:
-    def between(one: Pair, two: Pair) -> str:
-        return f"{getattr(one, 'point', '')}{getattr(two, 'point', '')}"
-
-    if group.kind == "RRR":
-        return f"have {between(group.outer_first, group.inner)} and {between(group.inner, group.outer_second)} in line"
-    if group.kind == "RRP":
-        return f"have {between(group.outer_first, group.inner)} square to the guide"
-    if group.kind == "RPR":
-        return f"have {between(group.outer_second, group.outer_first)} square to the guide"
-    return "have parallel guides"
-
-
 def assembly_words(structure: Structure, forms: Mapping[int, Array]) -> tuple[str, ...]:
     """For each group which assembly was taken, in the order of ``structure.groups``."""
     words: list[str] = []
     for i, element in enumerate(structure.elements):
         if isinstance(element, Dyad):
-            words.append(_dyad_words(structure, element, float(forms[i]) > 0))
+            words.append(_dyad_words(element)[0 if float(forms[i]) > 0 else 1])
         elif isinstance(element, Cluster):
             words.append(_cluster_words(structure, element, np.asarray(forms[i])))
     return tuple(words)
@@ -233,19 +218,26 @@ def _cluster_words(structure: Structure, group: Cluster, place: Array) -> str:
     return ", ".join([*said, where] if where else said) or "as in the scene's own position"
 
 
-def _dyad_words(structure: Structure, dyad: Dyad, positive: bool) -> str:
+class _DyadWords(NamedTuple):
+    """What a dyad is said to be: in its positive and in its negative assembly, and at a dead point."""
+
+    positive: str
+    negative: str
+    dead: str
+
+
+def _dyad_words(dyad: Dyad) -> _DyadWords:
+    first, inner, second = (getattr(p, "point", "") for p in (dyad.outer_first, dyad.inner, dyad.outer_second))
     if dyad.kind == "RRR":
-        inner, first, second = (getattr(p, "point", "") for p in (dyad.inner, dyad.outer_first, dyad.outer_second))
-        return f"{inner} {'left' if positive else 'right'} of {first} to {second}"
-    if dyad.kind == "RRP":
-        pair = dyad.outer_second
-        assert isinstance(pair, Slide)
-        return f"{'further' if positive else 'less far'} along {_guide(pair)}"
-    if dyad.kind == "RPR":
-        pair = dyad.inner
-        assert isinstance(pair, Slide)
-        return f"on the {'positive' if positive else 'negative'} side of {_guide(pair)}"
-    return "the only one"
+        line, dead = f"{first} to {second}", f"have {first}{inner} and {inner}{second} in line"
+        return _DyadWords(f"{inner} left of {line}", f"{inner} right of {line}", dead)
+    if isinstance(dyad.outer_second, Slide) and dyad.kind == "RRP":
+        guide, dead = _guide(dyad.outer_second), f"have {first}{inner} square to the guide"
+        return _DyadWords(f"further along {guide}", f"less far along {guide}", dead)
+    if isinstance(dyad.inner, Slide) and dyad.kind == "RPR":
+        guide, dead = _guide(dyad.inner), f"have {second}{first} square to the guide"
+        return _DyadWords(f"on the positive side of {guide}", f"on the negative side of {guide}", dead)
+    return _DyadWords("the only one", "the only one", "have parallel guides")
 
 
 def _guide(pair: Slide) -> str:

@@ -263,7 +263,7 @@ def _follow_dyad(path: Path, i: int, dyad: Dyad, sign: float, grid: Array) -> Pa
         assert isinstance(solved, Solved)
         return np.broadcast_to(solved.discriminant, t.shape)
 
-    passage = follow(discriminant, grid, flips=dyad.kind not in ("PRP", "RPP"))
+    passage = follow(discriminant, grid, flips=not dyad.is_two_lines)
     limit, by = (path.limit, path.by) if passage.limit is None else (passage.limit, i)
     flips = np.sort(np.append(path.flips, passage.flips))
     return replace(path, forms={**path.forms, i: _signed(sign, passage)}, flips=flips, limit=limit, by=by)

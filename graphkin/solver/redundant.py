@@ -11,35 +11,47 @@ import numpy as np
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, dot
 from graphkin.scene.model import Link, Scene, SlidingPair
+from graphkin.solver.error_bound import ErrorBound
 from graphkin.solver.pose import Array, Pose, rest
 from graphkin.structure import Slide, Structure
 
 __all__ = ["Fit", "all_slides", "fit", "place_redundant"]
 
 FITS = 1e-9
+MOVED = 4.0
+"""As many bounds of points come together where a link is laid between two others."""
+_EXACTLY = ErrorBound(*(np.zeros(1),) * 6)
 
 
 class Fit(NamedTuple):
     """How a link fits between the others: its pose, and how far it misses, relative to the size and the largest speed
-    and acceleration there, each of shape (n,)."""
+    and acceleration there (``scale``), each of shape (n,)."""
 
     pose: Pose
     position: Array
     velocity: Array
     acceleration: Array
+    scale: tuple[Array, Array, Array]
 
     @property
     def fits(self) -> Array:
-        return (self.position < FITS) & (self.velocity < FITS) & (self.acceleration < FITS)
+        return self.fits_within(_EXACTLY)
+
+    def fits_within(self, bound: ErrorBound[Array]) -> Array:
+        """Whether it misses by no more than rounding may have moved the ends of both links."""
+        missed = (self.position, self.velocity, self.acceleration)
+        allowed = (FITS + MOVED * _part(b, whole) for b, whole in zip(bound.of_point, self.scale, strict=True))
+        return np.asarray(np.logical_and.reduce([m < a for m, a in zip(missed, allowed, strict=True)]))
 
 
-def place_redundant(structure: Structure, poses: dict[str, Pose], ok: Array) -> None:
+def place_redundant(structure: Structure, poses: dict[str, Pose], ok: Array, bound: ErrorBound[Array]) -> None:
     """Put the redundant links among the poses of the others.
 
     Parameters
     ----------
     poses : of all other links, each field of shape (n,)
-    ok : positions that are told, shape (n,)
+    ok : positions that stand, shape (n,)
+    bound : how far rounding may have moved the links
 
     Raises
     ------
@@ -56,7 +68,7 @@ def place_redundant(structure: Structure, poses: dict[str, Pose], ok: Array) -> 
             names = ", ".join(link.name for link in waiting)
             raise Unsolvable("mobility", Problem(f"links {names}", "redundant, but nothing holds both ends of them"))
         waiting.remove(link)
-        bad = ok & ~found.fits
+        bad = ok & ~found.fits_within(bound)
         if bad.any():
             k = int(np.argmax(bad))
             missed = float(found.position[k]) * scene.size / scene.units.metres
@@ -108,7 +120,8 @@ def _fit(scene: Scene, link: Link, poses: Mapping[str, Pose]) -> Fit | None:
         missed.append([np.abs(seen.z.imag) / size, np.abs(seen.v.imag), np.abs(seen.a.imag)])
         missed.append([np.abs(turn - 1), np.abs(seen.omega) * size, np.abs(seen.alpha) * size])
     place, velocity, acceleration = (_most([m[k] for m in missed]) for k in range(3))
-    return Fit(pose, place, _part(velocity, speed), _part(acceleration, push))
+    scale = np.full_like(speed, size), speed, push
+    return Fit(pose, place, _part(velocity, speed), _part(acceleration, push), scale)
 
 
 def _between_hinges(scene: Scene, link: Link, shared: Mapping[str, str], poses: Mapping[str, Pose]) -> Pose | None:

@@ -94,8 +94,8 @@ def wrong_part(system: Constraints, unknowns: list[list[Unknown]], given: dict[i
     return Problem("mobility", f"links held too much: {names(over)}; links left free: {names(free)}", wanted)
 
 
-def analyse(scene: Scene) -> Structure:
-    """Find the mobility and the order of solution.
+def analyse(scene: Scene | Structure) -> Structure:
+    """Find the mobility and the order of solution; a structure is handed back as it is.
 
     Each constraint is assigned one coordinate that it gives (a perfect matching exists just when every part of the
     mechanism has as many constraints as coordinates); the strongly connected components of what needs what are then
@@ -107,6 +107,8 @@ def analyse(scene: Scene) -> Structure:
         status "mobility": the number of drivers is not the mobility, or a part of the mechanism is held too much
         while another is free.
     """
+    if isinstance(scene, Structure):
+        return scene
     system = Constraints(scene)
     mobility = system.mobility()
     if mobility.value != len(scene.drivers):

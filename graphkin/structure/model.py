@@ -105,6 +105,16 @@ class Dyad:
     def bodies(self) -> tuple[Body, Body]:
         return self.first, self.second
 
+    @property
+    def outer(self) -> tuple[Pair, Pair]:
+        """The outer pairs of both bodies."""
+        return self.outer_first, self.outer_second
+
+    @property
+    def is_two_lines(self) -> bool:
+        """Whether it is found by two straight lines that cross (PRP, RPP), and so in one way only."""
+        return self.kind in ("PRP", "RPP")
+
 
 @dataclass(frozen=True)
 class Cluster:

@@ -38,7 +38,7 @@ def measured(course: Course, outputs: Sequence[Quantity], count: int = 12) -> di
         values = {d.key: float(v) for d, v in zip(scene.drivers, course.start, strict=True)}
         values[scene.drivers[0].key] = float(course.value(np.array(offset)))
         try:
-            sheet = draft(scene, values, asked)
+            sheet = draft(course.structure, values, asked)
         except GraphkinError:
             continue
         for quantity in outputs:

@@ -110,7 +110,7 @@ def _elsewhere(course: Course, dyads: list[int], own: Range) -> list[Range]:
 def _closed(course: Course, i: int, solved: object) -> NDArray[np.bool_]:
     discriminant = np.asarray(solved.discriminant)  # type: ignore[attr-defined]
     element = course.structure.elements[i]
-    if isinstance(element, Dyad) and element.kind in ("PRP", "RPP"):
+    if isinstance(element, Dyad) and element.is_two_lines:
         return np.asarray(np.abs(discriminant) > 1e-12)
     return np.asarray(discriminant >= 0)
 
