@@ -114,7 +114,7 @@ def test_bounds_hold_for_designs():
     found = ready.over({"links.2.length": lengths}).sweep(30)
     for k, length in enumerate(lengths):
         motion = graphkin.solve(applied(SHAPER, ("links.2.length",), (length,)), sweep=30).motion
-        known = 1000 * motion.velocity_bound
+        known = 1000 * motion.bound.velocity
         assert (np.abs(found["v_C"][k] - 1000 * motion.velocity("C")) <= 1.5 * found.bound("v_C")[k] + known).all()
 
 
