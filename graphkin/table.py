@@ -84,8 +84,10 @@ class Column:
         """Its cells as text."""
         values = self.values[rows]
         kind = values.dtype.kind
+        if self.form and kind in "fiu":
+            return _formatted(values, self.form)
         if kind == "f":
-            return _formatted(values, self.form) if self.form else _shortest(values)
+            return _shortest(values)
         if kind == "b":
             return ["yes" if value else "no" for value in values.tolist()]
         return list(map(str, values.tolist()))
@@ -195,7 +197,7 @@ class Table:
             values = column.values[some]
             if values.dtype.kind == "f" and not column.form:
                 cells.append(compute.cast(pa.array(values + 0.0, mask=np.isnan(values)), pa.string()))
-            elif values.dtype.kind in "iu":
+            elif values.dtype.kind in "iu" and not column.form:
                 cells.append(compute.cast(pa.array(values), pa.string()))
             else:
                 texts = column.texts(some)

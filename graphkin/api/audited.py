@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import csv
 import html
-import io
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -12,6 +10,7 @@ from functools import cache, cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from graphkin import table
 from graphkin.api.answers import Answers, AnswersLike, as_answers
 from graphkin.api.arguments import At, SceneLike, as_scene, driver_values, known_words, own_unit, write_files
 from graphkin.api.checked import in_scene_units, solved_here
@@ -86,17 +85,14 @@ class Audited:
                 )
         return rows
 
-    def csv(self) -> str:
-        """The table as CSV."""
-        out = io.StringIO()
-        writer = csv.writer(out, lineterminator="\n")
-        writer.writerow(self.heads)
-        writer.writerows(self.rows)
-        return out.getvalue()
+    @cached_property
+    def table(self) -> table.Table:
+        """The table as columns of words."""
+        return table.Table.of(self.heads, self.rows)
 
     def write(self, folder: str | os.PathLike[str]) -> list[Path]:
         """Write audit.csv into a folder.  Raises CallError where it cannot be written."""
-        return write_files(Path(folder), {"audit.csv": self.csv().encode("utf-8-sig")})
+        return write_files(Path(folder), {"audit.csv": self.table.csv().encode("utf-8-sig")})
 
     def __repr__(self) -> str:
         return (

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -25,6 +23,7 @@ from graphkin.api.checked import Checked, checked, hand_of, reading_row, solved_
 from graphkin.api.report_text import told
 from graphkin.construction import EXACT, plan
 from graphkin.scene.symbol import Symbol
+from graphkin.table import Table
 from graphkin.words import languages
 
 if TYPE_CHECKING:
@@ -84,7 +83,7 @@ class Drawn:
         for name, figure in self.figures.items():
             for kind in formats:
                 files[f"{name}.{kind}"] = figure.content(kind)
-        files["readings.csv"] = readings_csv(self.checked).encode()
+        files["readings.csv"] = readings_table(self.checked).csv().encode()
         spoken = languages(self.language or self.checked.scene.sheet.language)[0]
         files["report.txt"] = told(self.checked, spoken).encode()
         return write_files(target, files)
@@ -98,33 +97,18 @@ class Drawn:
         return svg_bytes(self.figures["sheet"]).decode()
 
 
-def readings_csv(checked: Checked) -> str:
-    """The readings as CSV, in scene units: one row each, 12 digits."""
-    out = io.StringIO()
-    unit = checked.scene.units.length
-    writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(
-        [
-            "symbol",
-            "unit",
-            "on_paper_mm",
-            "measured",
-            "exact",
-            "error",
-            "tolerance",
-            "direction_error_rad",
-            "ok",
-            "uncertainty",
-        ]
-    )
+def readings_table(checked: Checked) -> Table:
+    """The readings in scene units, one row each; 12 digits in text."""
+    length = checked.scene.units.length
+    units = {"v": f"{length}/s", "omega": "rad/s", "alpha": "rad/s2"}
+    numbers = ("on_paper_mm", "measured", "exact", "error", "tolerance", "direction_error_rad")
+    rows = []
     for row in checked.report.rows:
         cells = reading_row(checked.scene, row)
-        units = {"v": f"{unit}/s", "omega": "rad/s", "alpha": "rad/s2"}.get(row.symbol.kind, f"{unit}/s2")
-        numbers = [f"{cells[k]:.12g}" for k in ("on_paper_mm", "measured", "exact")]
-        small = [f"{cells[k]:.3g}" for k in ("error", "tolerance", "direction_error_rad")]
-        spread = f"{cells['uncertainty']:.3g}" if "uncertainty" in cells else ""
-        writer.writerow([cells["symbol"], units, *numbers, *small, "yes" if row.ok else "no", spread])
-    return out.getvalue()
+        unit = units.get(row.symbol.kind, f"{length}/s2")
+        rows.append((cells["symbol"], unit, *(cells[k] for k in numbers), row.ok, cells.get("uncertainty")))
+    forms = ("", "", *(".12g",) * 3, *(".3g",) * 3, "", ".3g")
+    return Table.of(("symbol", "unit", *numbers, "ok", "uncertainty"), rows, forms)
 
 
 def draw(

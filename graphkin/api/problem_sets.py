@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import os
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +23,7 @@ from graphkin.scene.source import written
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.written import as_mapping, safe_name, toml_text
 from graphkin.study.designs import applied
+from graphkin.table import Table
 
 __all__ = ["ProblemSet", "problem_set"]
 
@@ -58,28 +58,23 @@ class ProblemSet:
         failures = [{"name": f.name, "why": f.why} for f in self.made.failures]
         return {"ok": self.ok, "variants": variants, "failures": failures, "unused": list(self.unused)}
 
-    def csv(self) -> str:
+    @cached_property
+    def table(self) -> Table:
         """One row for each variant: its name, and each answer with its tolerance; failures at the end."""
-        out = io.StringIO()
-        writer = csv.writer(out, lineterminator="\n")
         symbols = [str(s) for s in asked_of(self.scene)]
-        writer.writerow(["name", *(c for s in symbols for c in (s, f"{s} +-")), "remarks"])
-        for name, answers in self.made.answers.items():
-            cells = [f"{x:.6g}" for a in answers for x in (a.value, a.tolerance)]
-            writer.writerow([name, *cells, "; ".join(self.made.remarks.get(name, ()))])
-        for failure in self.made.failures:
-            writer.writerow([failure.name, *[""] * (2 * len(symbols)), f"failed: {failure.why}"])
-        return out.getvalue()
+        heads = ("name", *(c for s in symbols for c in (s, f"{s} +-")), "remarks")
+        rows: list[tuple[object, ...]] = [
+            (name, *(x for a in answers for x in (a.value, a.tolerance)), "; ".join(self.made.remarks.get(name, ())))
+            for name, answers in self.made.answers.items()
+        ]
+        rows += [(f.name, *[None] * (2 * len(symbols)), f"failed: {f.why}") for f in self.made.failures]
+        return Table.of(heads, rows, ("", *[".6g"] * (2 * len(symbols)), ""))
 
     def __repr__(self) -> str:
         return f"<ProblemSet {self.scene.name}>"
 
     def _repr_html_(self) -> str:
-        from html import escape
-
-        lines = csv.reader(io.StringIO(self.csv()))
-        cells = ("".join(f"<td>{escape(cell)}</td>" for cell in line) for line in lines)
-        return "<table>" + "".join(f"<tr>{line}</tr>" for line in cells) + "</table>"
+        return self.table._repr_html_()
 
 
 def problem_set(
@@ -141,7 +136,7 @@ def problem_set(
 
     def finish(made: MadeSet) -> None:
         if folder is not None:
-            write_files(folder, {"answers.csv": ProblemSet(given, made, unused).csv().encode("utf-8-sig")})
+            write_files(folder, {"answers.csv": ProblemSet(given, made, unused).table.csv().encode("utf-8-sig")})
             for path in left:
                 path.unlink(missing_ok=True)
 

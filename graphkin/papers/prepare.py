@@ -23,7 +23,7 @@ from graphkin.papers.page import POSITIONS, Progress, View, common_scales, docum
 from graphkin.papers.pdf import can_typeset, pdf
 from graphkin.papers.pictures import paper_plan
 from graphkin.papers.problem import problem
-from graphkin.papers.solution import answer_key, key_csv, solution
+from graphkin.papers.solution import answer_key, key_table, solution
 from graphkin.papers.variants import Variant, asked_of
 from graphkin.scene.model import Scene
 from graphkin.scene.symbol import Symbol
@@ -168,7 +168,7 @@ def handout_files(
         made["key.html"] = document_page(answer_key(lesson)).encode()
     if "pdf" in formats:
         made |= _typeset(lesson)
-    made["key.csv"] = key_csv(lesson).encode()
+    made["key.csv"] = key_table(lesson).csv().encode()
     return made
 
 
@@ -200,7 +200,7 @@ class Papers:
         asked = asked_of(scene)
         motion = solver.solve(scene)
         lesson = lesson_of(paper_plan(motion.structure, None, asked), motion, self.language, self.convention)
-        made = {"key.csv": key_csv(lesson).encode()}
+        made = {"key.csv": key_table(lesson).csv().encode()}
         if "html" in self.formats:
             made["problem.html"] = document_page(problem(lesson)).encode()
             made["key.html"] = document_page(answer_key(lesson)).encode()

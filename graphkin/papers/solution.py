@@ -6,12 +6,11 @@ The worked solution: step by step with reasons, equations and figures as far as 
 from __future__ import annotations
 
 import cmath
-import csv
-import io
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from graphkin import table
 from graphkin.checking import COVERAGE, Compared
 from graphkin.construction.sheet import Equation
 from graphkin.drawing.headings import FIGURE_WORDS, drivers, number
@@ -40,8 +39,8 @@ __all__ = [
     "KeyRow",
     "answer_key",
     "equation_words",
-    "key_csv",
     "key_rows",
+    "key_table",
     "results_blocks",
     "solution",
     "solution_blocks",
@@ -132,18 +131,11 @@ def _fixed(value: float, places: int) -> str:
     return f"{round(value, places):.{max(0, places)}f}"
 
 
-def key_csv(lesson: Lesson) -> str:
-    """The key as CSV, in scene units, 9 digits."""
-    out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(["symbol", "unit", "asked", "on_paper_mm", "exact", "tolerance", "direction_deg"])
-    for row in key_rows(lesson):
-        writer.writerow([
-            row.symbol, row.unit, "yes" if row.asked else "no", f"{row.on_paper:.3f}", f"{row.exact:.9g}",
-            "" if row.tolerance is None else f"{row.tolerance:.3g}",
-            "" if row.direction is None else f"{row.direction:.3f}",
-        ])  # fmt: skip
-    return out.getvalue()
+def key_table(lesson: Lesson) -> table.Table:
+    """The key as a table, in scene units."""
+    heads = ("symbol", "unit", "asked", "on_paper_mm", "exact", "tolerance", "direction_deg")
+    rows = ((r.symbol, r.unit, r.asked, r.on_paper, r.exact, r.tolerance, r.direction) for r in key_rows(lesson))
+    return table.Table.of(heads, rows, ("", "", "", ".3f", ".9g", ".3g", ".3f"))
 
 
 def solution(lesson: Lesson) -> Document:

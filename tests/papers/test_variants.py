@@ -92,7 +92,7 @@ def test_the_numbers_are_round(made):
 def test_threads_and_seeds_give_the_same_set_as_one_after_another(made, tmp_path):
     with ThreadPoolExecutor(3) as pool:
         again = problem_set(SHAPER, 5, 7, out=tmp_path, executor=pool, workers=3)
-    assert made.csv() == again.csv()
+    assert made.table.csv() == again.table.csv()
 
 
 def test_a_broken_executor_loses_nothing(made):
@@ -100,7 +100,7 @@ def test_a_broken_executor_loses_nothing(made):
         def submit(self, *_, **__):
             raise BrokenExecutor
 
-    assert made.csv() == problem_set(SHAPER, 5, 7, executor=Broken(1), workers=2).csv()
+    assert made.table.csv() == problem_set(SHAPER, 5, 7, executor=Broken(1), workers=2).table.csv()
 
 
 def test_a_variant_whose_papers_fail_is_listed(tmp_path):
@@ -112,7 +112,7 @@ def test_a_variant_whose_papers_fail_is_listed(tmp_path):
 
 
 def test_another_seed_gives_another_set(made):
-    assert made.csv() != problem_set(SHAPER, 5, 8).csv()
+    assert made.table.csv() != problem_set(SHAPER, 5, 8).table.csv()
 
 
 def test_an_interrupted_set_goes_on_where_it_was(tmp_path, monkeypatch):
@@ -130,7 +130,7 @@ def test_an_interrupted_set_goes_on_where_it_was(tmp_path, monkeypatch):
     work = room.work
     monkeypatch.setattr(room, "work", lambda job, attempt: worked.append(job.number) or work(job, attempt))
     again = problem_set(FOUR_BAR, 4, 1, out=tmp_path)
-    assert (whole.csv(), [3, 4]) == (again.csv(), worked)
+    assert (whole.table.csv(), [3, 4]) == (again.table.csv(), worked)
 
 
 def test_a_variant_that_cannot_be_made_is_listed_with_the_reason(monkeypatch):
@@ -282,7 +282,7 @@ def test_an_executor_that_loses_its_workers_loses_no_variant(tmp_path):
             return lost
 
     made = problem_set(FOUR_BAR, 3, 1, executor=Lossy(1), workers=2)
-    assert problem_set(FOUR_BAR, 3, 1).csv() == made.csv()
+    assert problem_set(FOUR_BAR, 3, 1).table.csv() == made.table.csv()
 
 
 def test_what_a_killed_process_left_half_written_is_removed(tmp_path):
