@@ -8,57 +8,105 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from graphkin.api.arguments import SceneLike, as_scene, known_words, write_files
 from graphkin.errors import CallError, Problem, did_you_mean
 
 if TYPE_CHECKING:
-    from graphkin.drawing import Chart
-    from graphkin.study.limits import Trial
-    from graphkin.study.speed import Race
+    import pandas
+    import xarray
+
+    from graphkin.drawing import ChartPage
+    from graphkin.races import Entry, Race
+    from graphkin.study.stability import Singularity
+    from graphkin.table import Table
 
 __all__ = ["SpeedAccuracy", "Stability", "speed_accuracy", "stability"]
 
+T = TypeVar("T")
+
+
+class _Charted:
+    """What both studies can be asked for: charts and one table, written to files or shown in a notebook."""
+
+    name: ClassVar[str]
+
+    @property
+    def figures(self) -> Mapping[str, ChartPage]:
+        raise NotImplementedError
+
+    @property
+    def table(self) -> Table:
+        raise NotImplementedError
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """The table as a frame of pandas.  Raises CallError where that is not installed."""
+        return self.table.to_pandas()
+
+    def to_xarray(self) -> xarray.Dataset:
+        """The table as a data set of xarray, over its rows.  Raises CallError where it is not installed."""
+        return self.table.to_xarray()
+
+    def write(self, folder: str | os.PathLike[str] | None = None, formats: Sequence[str] = ("svg",)) -> list[Path]:
+        """Write the charts and the table (CSV) into a folder, the one of the study's name if None; returns the paths.
+
+        Raises
+        ------
+        CallError : an unknown format, a folder that cannot be written
+        """
+        known_words(formats)
+        files = {f"{n}.{kind}": f.content(kind) for n, f in self.figures.items() for kind in formats}
+        return write_files(Path(folder or self.name), {**files, f"{self.name}.csv": self.table.csv().encode()})
+
+    def _repr_html_(self) -> str:
+        return "".join(f"<figure>{f._repr_svg_()}<figcaption>{html.escape(f.title)}</figcaption></figure>"
+                       for f in self.figures.values())
+
+
+def _named(what: str, name: str, found: Mapping[str, T]) -> T:
+    """What bears a name.  Raises CallError where nothing does."""
+    if name not in found:
+        raise CallError(Problem(what, f'"{name}"', did_you_mean(name, found)))
+    return found[name]
+
 
 @dataclass(frozen=True, repr=False)
-class SpeedAccuracy:
+class SpeedAccuracy(_Charted):
     """What each method costs for one position, and how far it is off: measured in one run on this machine."""
 
+    name = "speed-accuracy"
     race: Race
     language: str
 
+    def __getitem__(self, method: str) -> tuple[Entry, ...]:
+        """What a method gives, by its name in the table: several entries where it has steps, scales or sizes."""
+        entries = self.race.entries
+        return _named("method", method, {e.key: tuple(o for o in entries if o.key == e.key) for e in entries})
+
     @cached_property
-    def figures(self) -> Mapping[str, Chart]:
+    def figures(self) -> Mapping[str, ChartPage]:
         """The chart: velocity and acceleration side by side."""
-        from graphkin.study.speed import page
+        from graphkin.races import race_page
 
-        return {"speed-accuracy": page(self.race, self.language)}
+        return {"speed-accuracy": race_page(self.race, self.language)}
 
-    @property
-    def table(self) -> str:
-        """A row for each method, as the text of a CSV file."""
-        from graphkin.study.speed import race_csv
+    @cached_property
+    def table(self) -> Table:
+        """A row for each method."""
+        from graphkin.races import race_table
 
-        return race_csv(self.race)
+        return race_table(self.race)
 
     @cached_property
     def data(self) -> dict[str, Any]:
         """The object that ``graphkin study speed-accuracy --json`` prints."""
-        from graphkin.study.speed import to_json
+        from graphkin.races import to_json
 
         return to_json(self.race, self.language)
 
-    def write(self, folder: str | os.PathLike[str] = "speed-accuracy", formats: Sequence[str] = ("svg",)) -> list[Path]:
-        """Write the chart and speed-accuracy.csv; returns the paths.  Raises CallError as for `Stability.write`."""
-        return _written(Path(folder), self.figures, "speed-accuracy.csv", self.table, formats)
-
     def __repr__(self) -> str:
         return f"<SpeedAccuracy {self.race.scene.name}: {len(self.race.entries)} methods>"
-
-    def _repr_html_(self) -> str:
-        return _shown(self.figures)
-
 
 def speed_accuracy(
     scene: SceneLike, repeats: int = 5, language: str | None = None, out: str | os.PathLike[str] | None = None
@@ -80,7 +128,7 @@ def speed_accuracy(
     SceneError, CallError : the scene or the call is wrong, or mpmath is not installed (extra ``study``)
     Unsolvable : wrong mobility, no position can be assembled
     """
-    from graphkin.study.speed import race
+    from graphkin.races import race
 
     given = as_scene(scene)
     if not 1 <= repeats <= 1000:
@@ -94,47 +142,40 @@ def speed_accuracy(
 
 
 @dataclass(frozen=True, repr=False)
-class Stability:
+class Stability(_Charted):
     """The error of each method against the distance from each kind of singular position, with fitted slopes."""
 
-    trials: tuple[Trial, ...]
+    name = "stability"
+    singularities: tuple[Singularity, ...]
     language: str
 
-    def __getitem__(self, kind: str) -> Trial:
-        return next(trial for trial in self.trials if trial.key == kind)
+    def __getitem__(self, kind: str) -> Singularity:
+        """One kind of singular position, by its name."""
+        return _named("kind", kind, {one.key: one for one in self.singularities})
 
     @cached_property
-    def figures(self) -> Mapping[str, Chart]:
+    def figures(self) -> Mapping[str, ChartPage]:
         """The charts by name, six singularities on each."""
-        from graphkin.study.limits import pages
+        from graphkin.study.stability import stability_pages
 
-        return pages(self.trials, self.language)
+        return stability_pages(self.singularities, self.language)
 
-    @property
-    def table(self) -> str:
-        """All points of all curves, as the text of a CSV file."""
-        from graphkin.study.limits import laws_csv
+    @cached_property
+    def table(self) -> Table:
+        """All points of all curves."""
+        from graphkin.study.stability import laws_table
 
-        return laws_csv(self.trials)
+        return laws_table(self.singularities)
 
     @cached_property
     def data(self) -> dict[str, Any]:
         """The object that ``graphkin study stability --json`` prints."""
-        from graphkin.study.limits import to_json
+        from graphkin.study.stability import to_json
 
-        return to_json(self.trials, self.language)
-
-    def write(self, folder: str | os.PathLike[str] = "stability", formats: Sequence[str] = ("svg",)) -> list[Path]:
-        """Write the charts and stability.csv; returns the paths.  Raises CallError for an unknown format or a folder
-        that cannot be written."""
-        return _written(Path(folder), self.figures, "stability.csv", self.table, formats)
+        return to_json(self.singularities, self.language)
 
     def __repr__(self) -> str:
-        return f"<Stability: {', '.join(trial.key for trial in self.trials)}>"
-
-    def _repr_html_(self) -> str:
-        return _shown(self.figures)
-
+        return f"<Stability: {', '.join(one.key for one in self.singularities)}>"
 
 def stability(
     kinds: Iterable[str] = (), samples: int = 4, language: str = "en", out: str | os.PathLike[str] | None = None
@@ -158,7 +199,7 @@ def stability(
     >>> round(found["crossing height"]["height by squares"].slope, 1)
     -1.0
     """
-    from graphkin.study.limits import KINDS, run_trials
+    from graphkin.study.stability import KINDS, run_singularities
 
     wanted = tuple(kinds)
     wrong = [Problem("kind", f'"{kind}"', did_you_mean(kind, KINDS)) for kind in wanted if kind not in KINDS]
@@ -167,20 +208,7 @@ def stability(
     if wrong:
         raise CallError(*wrong)
     known_words(language=language)
-    found = Stability(run_trials(wanted, samples), language)
+    found = Stability(run_singularities(wanted, samples), language)
     if out is not None:
         found.write(out)
     return found
-
-
-def _written(
-    folder: Path, figures: Mapping[str, Chart], name: str, table: str, formats: Sequence[str]
-) -> list[Path]:
-    known_words(formats)
-    files = {f"{n}.{kind}": f.content(kind) for n, f in figures.items() for kind in formats}
-    return write_files(folder, {**files, name: table.encode()})
-
-
-def _shown(figures: Mapping[str, Chart]) -> str:
-    return "".join(f"<figure>{f._repr_svg_()}<figcaption>{html.escape(f.title)}</figcaption></figure>"
-                   for f in figures.values())

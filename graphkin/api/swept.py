@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     import pandas
     import xarray
 
-    from graphkin.drawing import Chart, Drawing
+    from graphkin.drawing import ChartPage, Drawing
     from graphkin.study import Sweep, Turn
     from graphkin.study.sweeps import Arrays, Found
     from graphkin.study.watched import Watched
@@ -136,7 +136,7 @@ class Swept:
         return data
 
     @cached_property
-    def figures(self) -> Mapping[str, Chart | Drawing]:
+    def figures(self) -> Mapping[str, ChartPage | Drawing]:
         """Motion diagrams of the outputs and coupler curves by name; none over designs."""
         from graphkin.study import diagrams
 

@@ -11,14 +11,14 @@ from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Polyl
 from graphkin.drawing.svg import svg_bytes
 
 if TYPE_CHECKING:
-    from graphkin.drawing.chart import Chart
+    from graphkin.drawing.chart import ChartPage
     from graphkin.drawing.figure_pages import acceleration_figure, figures, mechanism_figure, velocity_figure
     from graphkin.drawing.sheet import sheet_page, sheet_room
 
 __all__ = [
     "Arc",
     "Box",
-    "Chart",
+    "ChartPage",
     "Circle",
     "Drawing",
     "Group",
@@ -41,7 +41,7 @@ __all__ = [
 
 # Composing needs numpy and shapely, which whoever only writes a drawing does not wait for.
 _COMPOSED = {
-    "Chart": "chart",
+    "ChartPage": "chart",
     "acceleration_figure": "figure_pages",
     "figures": "figure_pages",
     "mechanism_figure": "figure_pages",

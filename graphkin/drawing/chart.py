@@ -49,7 +49,7 @@ if TYPE_CHECKING:
 __all__ = [
     "BEHIND",
     "SOLID_AND_DASHED",
-    "Chart",
+    "ChartPage",
     "Shape",
     "add_labels",
     "add_legend",
@@ -116,7 +116,7 @@ _FAMILY = re.compile("; font-family: 'STIXGeneral'(?:, '[^']*')*")
 
 
 @dataclass(frozen=True)
-class Chart:
+class ChartPage:
     """A page drawn by matplotlib: size in mm, title and description in words, language, facts for programs.
 
     ``paint`` puts panels, curves and words on an empty figure of that size; it is called anew for every file, so that

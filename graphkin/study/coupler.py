@@ -15,7 +15,7 @@ from graphkin.drawing.symbols import block_with_pin, fixed_pivot, rigid_link, tu
 from graphkin.drawing.symbols import guide as guide_symbol
 from graphkin.drawing.text import rich
 from graphkin.scene.model import AngleDriver, Scene
-from graphkin.study.paper import (
+from graphkin.study.driver_axis import (
     HEIGHT,
     LEFT,
     POINTS,

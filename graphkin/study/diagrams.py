@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.drawing import Box, Chart, Drawing
+from graphkin.drawing import Box, ChartPage, Drawing
 from graphkin.drawing.chart import (
     BEHIND,
     SOLID_AND_DASHED,
@@ -27,8 +27,7 @@ from graphkin.drawing.primitives import Stroke
 from graphkin.scene.model import AngleDriver
 from graphkin.study.coupler import coupler_points, curve_page
 from graphkin.study.course import Course
-from graphkin.study.measured import measured
-from graphkin.study.paper import (
+from graphkin.study.driver_axis import (
     HEIGHT,
     LEFT,
     RIGHT,
@@ -40,6 +39,7 @@ from graphkin.study.paper import (
     number,
     title_of,
 )
+from graphkin.study.measured import measured
 from graphkin.study.quantities import Quantity, link_quantities, slide_quantities
 from graphkin.study.trace import Extreme, Traced
 from graphkin.study.turn import Output, Turn
@@ -61,7 +61,7 @@ ZERO = Stroke(0.18)
 LIMIT = Stroke(0.18, (4.0, 0.9, 0.9, 0.9))
 
 
-def diagrams(turn: Turn, language: str = "en", positions: int = 12) -> dict[str, Chart | Drawing]:
+def diagrams(turn: Turn, language: str = "en", positions: int = 12) -> dict[str, ChartPage | Drawing]:
     """The motion diagrams of each output and the curve of each coupler point, by name of file.
 
     Parameters
@@ -70,7 +70,7 @@ def diagrams(turn: Turn, language: str = "en", positions: int = 12) -> dict[str,
     """
     quantities = [o.quantity for o in turn.outputs]
     dots = measured(turn.course, quantities, positions) if positions else {q: [] for q in quantities}
-    pages: dict[str, Chart | Drawing] = {}
+    pages: dict[str, ChartPage | Drawing] = {}
     for output in turn.outputs:
         quantity = output.quantity
         kind = "link" if quantity.kind == "theta" else "slide"
@@ -99,7 +99,7 @@ class _Panel:
         return self.quantity.kind == "theta" and self.span[1] - self.span[0] > 60 * (1 + 2 * MARGIN)
 
 
-def _motion_page(turn: Turn, output: Output, dots: Sequence[tuple[float, ...]], language: str) -> Chart:
+def _motion_page(turn: Turn, output: Output, dots: Sequence[tuple[float, ...]], language: str) -> ChartPage:
     scene, quantity = turn.scene, output.quantity
     turns = quantity.kind == "theta"
     curves = link_quantities(quantity.of) if turns else slide_quantities(quantity.of)
@@ -134,7 +134,7 @@ def _motion_page(turn: Turn, output: Output, dots: Sequence[tuple[float, ...]], 
             _draw(axes, panel, axis, limits)
             axes.tick_params(labelbottom=last)
 
-    return Chart(
+    return ChartPage(
         WIDTH, HEIGHT, paint, title=f"{title}: {title_of(scene, language)}", desc=" ".join(facts), lang=language,
         metadata={"scene": scene.name, "units": scene.units.length, "output": quantity.of},
     )  # fmt: skip

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from graphkin.scene.model import AngleDriver
 from graphkin.solver import Motion
-from graphkin.structure import Cluster, Driven, Dyad, Pair, Structure, Turn
+from graphkin.structure import Cluster, Driven, Dyad, Pair, Slide, Structure, Turn
 
 __all__ = ["DOUBLES", "Equations", "Numbers", "Solution", "solve_many"]
 
@@ -201,7 +201,7 @@ class Equations:
         p = self.structure.links[name].points[point]
         return place_x, place_y, c * p.real - s * p.imag, s * p.real + c * p.imag
 
-    def _guide(self, x: Array, pair: Any) -> tuple[Any, ...]:
+    def _guide(self, x: Array, pair: Slide) -> tuple[Any, ...]:
         """Direction g of a guide, and g x e and g . e for the way e from its link's origin to the sliding link's."""
         ax, ay, _, _ = self._link(x, pair.a)
         bx, by, c, s = self._link(x, pair.b)
@@ -224,7 +224,7 @@ class Equations:
         def speed(name: str) -> tuple[Any, Any]:
             return (rate[self.column[name]], rate[self.column[name] + 1]) if name in self.column else (0.0, 0.0)
 
-        def guided(pair: Any) -> tuple[Any, ...]:
+        def guided(pair: Slide) -> tuple[Any, ...]:
             gx, gy, over, along = self._guide(x, pair)
             (ax, ay), (bx, by), w = speed(pair.a), speed(pair.b), spin(pair.b)
             return gx, gy, over, along, ax - bx, ay - by, w

@@ -6,7 +6,7 @@ The numbers of the scene are taken as they are in memory, doubles in SI, and as 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +14,9 @@ from numpy.typing import NDArray
 from graphkin.errors import CallError, Problem
 from graphkin.structure import Structure
 from graphkin.study.equations import Equations, Numbers, Solution
+
+if TYPE_CHECKING:
+    from mpmath import MPContext
 
 __all__ = ["DIGITS", "Split", "context", "reference", "refined", "split"]
 
@@ -24,7 +27,7 @@ CLOSED = 1e-38
 Array = NDArray[Any]
 
 
-def context() -> Any:
+def context() -> MPContext:
     """An mpmath context of 50 digits.
 
     Raises
@@ -42,7 +45,7 @@ def context() -> Any:
     return mp
 
 
-def reference(structure: Structure, mp: Any) -> Equations:
+def reference(structure: Structure, mp: MPContext) -> Equations:
     """The closure equations of a structure in numbers of an mpmath context."""
     turn = 2 * mp.pi
     return Equations(
@@ -58,8 +61,9 @@ def reference(structure: Structure, mp: Any) -> Equations:
 
 
 def refined(
-    equations: Equations, mp: Any, x: Sequence[Any], values: Sequence[Any], first: Sequence[Any], second: Sequence[Any]
-) -> Solution:
+    equations: Equations, mp: MPContext, x: Sequence[Any], values: Sequence[Any], first: Sequence[Any],
+    second: Sequence[Any],
+) -> Solution:  # fmt: skip
     """Position and rates to 50 digits from a start near by.
 
     Raises
@@ -111,7 +115,7 @@ class Split:
         return Split(self.high[which], self.low[which])
 
 
-def split(numbers: Any, mp: Any) -> Split:
+def split(numbers: Any, mp: MPContext) -> Split:
     """Real or complex mpmath numbers, any shape, in two parts."""
     given = np.asarray(numbers, dtype=object)
     high = np.array([complex(z) for z in given.ravel()]).reshape(given.shape)

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from graphkin.drawing import Box, Chart
+from graphkin.drawing import Box, ChartPage
 from graphkin.drawing.page import own_settings
 
 SLACK = 0.2  # mm
 
 
-def word_boxes(chart: Chart) -> list[tuple[str, Box]]:
+def word_boxes(chart: ChartPage) -> list[tuple[str, Box]]:
     """Every visible word of a page with its box (mm of the page); a label of several runs is one."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
 
@@ -33,7 +33,7 @@ def word_boxes(chart: Chart) -> list[tuple[str, Box]]:
         return found + [(text.get_text(), box_of(text)) for text in others if text.get_text() and text.get_visible()]
 
 
-def overlapping(chart: Chart) -> list[tuple[str, str]]:
+def overlapping(chart: ChartPage) -> list[tuple[str, str]]:
     """Pairs of words that share more than a hair's breadth."""
     boxes = word_boxes(chart)
     return [
@@ -41,12 +41,12 @@ def overlapping(chart: Chart) -> list[tuple[str, str]]:
     ]  # fmt: skip
 
 
-def off_the_page(chart: Chart) -> list[str]:
+def off_the_page(chart: ChartPage) -> list[str]:
     paper = Box(0, 0, chart.width, chart.height)
     return [words for words, box in word_boxes(chart) if not paper.holds(box)]
 
 
-def curve_points(chart: Chart, panel: str) -> list[list[tuple[float, float]]]:
+def curve_points(chart: ChartPage, panel: str) -> list[list[tuple[float, float]]]:
     """What each line of a panel goes through, in values of its axes."""
     axes = next(a for a in chart.figure().axes if a.get_gid() == panel)
     return [[(float(x), float(y)) for x, y in line.get_xydata()] for line in axes.lines]

@@ -11,7 +11,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from graphkin.drawing import Box, Chart
+from graphkin.drawing import Box, ChartPage
 from graphkin.drawing.chart import (
     SOLID_AND_DASHED,
     add_labels,
@@ -36,9 +36,9 @@ X = np.linspace(0.0, 1.0, 51)
 WAVE = 0.5 + 0.4 * np.sin(12 * X)
 
 
-def chart(paint, **more) -> Chart:
+def chart(paint, **more) -> ChartPage:
     """A page with one panel, which is painted by a function of its axes."""
-    return Chart(140.0, 100.0, lambda figure: paint(add_panel(figure, PANEL, "p", "$y$ (mm)", "$x$ (°)")), **more)
+    return ChartPage(140.0, 100.0, lambda figure: paint(add_panel(figure, PANEL, "p", "$y$ (mm)", "$x$ (°)")), **more)
 
 
 def axes(paint):
@@ -71,7 +71,7 @@ def wave(panel) -> None:
 WAVES = chart(wave, title="A wave", desc="up & down", lang="zh")
 
 
-def pixels(page: Chart, dpi: float = 254.0) -> np.ndarray:
+def pixels(page: ChartPage, dpi: float = 254.0) -> np.ndarray:
     from PIL import Image
 
     return np.asarray(Image.open(io.BytesIO(page.content("png", dpi))).convert("L"))
@@ -121,7 +121,7 @@ def test_a_curve_is_cut_off_at_the_panel() -> None:
         panel.set(xlim=(0, 1), ylim=(0, 1))
         panel.plot([0, 0.5, 1], [0, 2, 0], **look(SOLID_AND_DASHED[0]))
 
-    above = pixels(Chart(140.0, 100.0, lambda figure: paint(add_panel(figure, PANEL, "p"))))[: 200 - 3, 250:]
+    above = pixels(ChartPage(140.0, 100.0, lambda figure: paint(add_panel(figure, PANEL, "p"))))[: 200 - 3, 250:]
     assert above.min() == 255
 
 
@@ -144,7 +144,7 @@ def test_labels_are_clear_of_the_curve_and_of_each_other() -> None:
 
 def test_a_legend_has_a_line_or_a_marker_for_each_of_its_words() -> None:
     entries = [(look(SOLID_AND_DASHED[1]), "计算值"), (marker("circle"), "measured")]
-    legend = Chart(140.0, 100.0, lambda figure: add_legend(figure, 20 + 10j, entries)).figure().legends[0]
+    legend = ChartPage(140.0, 100.0, lambda figure: add_legend(figure, 20 + 10j, entries)).figure().legends[0]
     assert ["计算值", "measured"] == [text.get_text() for text in legend.get_texts()]
     assert ["None", "o"] == [str(line.get_marker()) for line in legend.get_lines()]
 
@@ -214,5 +214,5 @@ def test_a_missing_chinese_font_is_a_warning_and_no_failure(monkeypatch) -> None
 
 
 def test_dollar_signs_of_words_are_words() -> None:
-    page = Chart(140.0, 100.0, lambda figure: add_words(figure, Text(20 + 20j, rich("5 $$ and $$"))))
+    page = ChartPage(140.0, 100.0, lambda figure: add_words(figure, Text(20 + 20j, rich("5 $$ and $$"))))
     assert "5 $ and $" in page.content("svg").decode()

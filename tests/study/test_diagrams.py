@@ -7,20 +7,20 @@ import json
 import numpy as np
 import pytest
 
-from graphkin.drawing import Box, Chart, Drawing, Group, Line, Polyline, Text
+from graphkin.drawing import Box, ChartPage, Drawing, Group, Line, Polyline, Text
 from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.primitives import walk
 from graphkin.scene import read, read_text
 from graphkin.study import course_of, diagrams, study_turn
 from graphkin.study.coupler import coupler_points
+from graphkin.study.driver_axis import next_step
 from graphkin.study.measured import measured
-from graphkin.study.paper import next_step
 from graphkin.study.quantities import link_quantities, slide_quantities
 from tests import scenes
 from tests.drawing.chart_words import off_the_page, overlapping
 
 
-def pages(name: str, language: str = "en", positions: int = 12) -> dict[str, Chart | Drawing]:
+def pages(name: str, language: str = "en", positions: int = 12) -> dict[str, ChartPage | Drawing]:
     return diagrams(study_turn(course_of(read(name))), language, positions)
 
 
@@ -50,7 +50,7 @@ MECHANISMS = ["sixbar-guide-40deg", "sixbar-AE70", "hydraulic-cylinder", "shaper
 @pytest.mark.parametrize("language", ["en", "zh"])
 def test_nothing_runs_off_the_page(name: str, language: str) -> None:
     for page in pages(name, language, positions=2).values():
-        if isinstance(page, Chart):
+        if isinstance(page, ChartPage):
             assert [] == off_the_page(page)
             continue
         paper = Box(0, 0, page.width, page.height)
@@ -66,12 +66,12 @@ def test_nothing_runs_off_the_page(name: str, language: str) -> None:
 @pytest.mark.parametrize("name", MECHANISMS)
 @pytest.mark.parametrize("language", ["en", "zh"])
 def test_no_two_words_of_a_motion_diagram_overlap(name: str, language: str) -> None:
-    charts = [page for page in pages(name, language, positions=2).values() if isinstance(page, Chart)]
+    charts = [page for page in pages(name, language, positions=2).values() if isinstance(page, ChartPage)]
     assert charts
     assert [] == [pair for page in charts for pair in overlapping(page)]
 
 
-def lines(page: Chart, panel: str) -> dict[str, np.ndarray]:
+def lines(page: ChartPage, panel: str) -> dict[str, np.ndarray]:
     """What a panel shows: the curve, the dots, in values of its axes."""
     axes = next(a for a in page.figure().axes if a.get_gid() == panel)
     curve = next(line for line in axes.lines if len(line.get_xdata()) > 100)

@@ -9,7 +9,17 @@ from pathlib import Path
 
 import pytest
 
-from graphkin.study.limits import KINDS, Law, Trial, laws_csv, pages, run_trials, to_json
+from graphkin.api.studied import Stability
+from graphkin.errors import CallError
+from graphkin.study.stability import (
+    KINDS,
+    ErrorLaw,
+    Singularity,
+    laws_table,
+    run_singularities,
+    stability_pages,
+    to_json,
+)
 from tests.drawing.chart_words import off_the_page, overlapping
 
 SLOPE = 0.15
@@ -17,8 +27,8 @@ MEANINGFUL = 0.05  # an error beyond this is no answer
 
 
 @cache
-def trial(kind: str) -> Trial:
-    return run_trials([kind], samples=2)[0]
+def singularity(kind: str) -> Singularity:
+    return run_singularities([kind], samples=2)[0]
 
 
 LAWS = [
@@ -42,25 +52,25 @@ LAWS = [
 
 @pytest.mark.parametrize(("kind", "law"), LAWS)
 def test_an_error_grows_as_theory_tells(kind: str, law: str) -> None:
-    found = trial(kind)[law]
+    found = singularity(kind)[law]
     assert found.theory == pytest.approx(found.slope, abs=SLOPE)
 
 
 @pytest.mark.parametrize(("which", "theory"), [(0, 2.0), (1, -1.0), (2, 2.0), (3, -2.0)])
 def test_differences_lose_to_truncation_on_one_side_and_to_rounding_on_the_other(which: int, theory: float) -> None:
-    assert theory == pytest.approx(trial("differences").laws[which].slope, abs=SLOPE)
+    assert theory == pytest.approx(singularity("differences").laws[which].slope, abs=SLOPE)
 
 
 def test_a_crank_near_the_ground_length_makes_coriolis_grow_as_the_first_power() -> None:
-    assert -1.0 == pytest.approx(trial("near ground").growth[0].slope, abs=SLOPE)
+    assert -1.0 == pytest.approx(singularity("near ground").growth[0].slope, abs=SLOPE)
 
 
 def test_a_crank_near_the_ground_length_makes_the_bar_accelerate_as_the_second_power() -> None:
-    assert -2.0 == pytest.approx(trial("near ground").growth[1].slope, abs=SLOPE)
+    assert -2.0 == pytest.approx(singularity("near ground").growth[1].slope, abs=SLOPE)
 
 
-def every_law() -> list[tuple[str, Law]]:
-    return [(kind, law) for kind in KINDS for law in trial(kind).laws]
+def every_law() -> list[tuple[str, ErrorLaw]]:
+    return [(kind, law) for kind in KINDS for law in singularity(kind).laws]
 
 
 def test_every_law_that_has_a_theory_is_asserted() -> None:
@@ -70,83 +80,89 @@ def test_every_law_that_has_a_theory_is_asserted() -> None:
 
 @pytest.mark.parametrize("kind", ["dead point RRR", "dead point RRP", "dead point RPR"])
 def test_the_solver_states_a_bound_that_its_velocity_keeps(kind: str) -> None:
-    law = trial(kind)["velocity closed form"]
+    law = singularity(kind)["velocity closed form"]
     kept = [e <= b for e, b in zip(law.error, law.bound, strict=True) if math.isfinite(e)]
     assert all(kept)
 
 
 def test_the_solver_states_a_bound_that_its_acceleration_keeps_before_a_flip() -> None:
-    law = trial("guide flip")["acceleration bar solved"]
+    law = singularity("guide flip")["acceleration bar solved"]
     assert all(e <= max(b, 1e-17) for e, b in zip(law.error, law.bound, strict=True) if math.isfinite(e))
 
 
 @pytest.mark.parametrize("kind", ["dead point RRR", "dead point RRP", "dead point RPR", "guide flip"])
 def test_the_solver_refuses_before_its_rates_mean_nothing(kind: str) -> None:
-    laws = [law for law in trial(kind).laws if "closed form" in law.key or "solved" in law.key]
+    laws = [law for law in singularity(kind).laws if "closed form" in law.key or "solved" in law.key]
     assert all(e < MEANINGFUL for law in laws for e in law.error if math.isfinite(e))
 
 
 @pytest.mark.parametrize("kind", ["dead point RRR", "dead point RRP", "dead point RPR", "guide flip"])
 def test_the_solver_refuses_in_the_end(kind: str) -> None:
-    assert all(law.stops for law in trial(kind).laws if "closed form" in law.key or "solved" in law.key)
+    assert all(law.stops for law in singularity(kind).laws if "closed form" in law.key or "solved" in law.key)
 
 
 @pytest.mark.parametrize("kind", ["dead point RRR", "dead point RRP", "dead point RPR", "guide flip"])
 def test_a_drawing_warns_before_its_reading_means_nothing(kind: str) -> None:
-    law = next(law for law in trial(kind).laws if "draw" in law.key)
+    law = next(law for law in singularity(kind).laws if "draw" in law.key)
     assert law.told is not None
     assert all(x <= law.told for x, e in zip(law.x, law.error, strict=True) if e > 1e-6)
 
 
 @pytest.mark.parametrize("kind", ["dead point RRR", "dead point RRP", "dead point RPR"])
 def test_a_pencil_refuses_before_its_arcs_could_miss_each_other(kind: str) -> None:
-    law = trial(kind)["velocity pencil"]
+    law = singularity(kind)["velocity pencil"]
     assert law.stops is not None
     assert all(math.isnan(e) for x, e in zip(law.x, law.error, strict=True) if x <= law.stops)
 
 
 def test_a_centre_is_given_as_a_direction_before_its_place_means_nothing() -> None:
-    law = trial("parallel lines")["centre place"]
+    law = singularity("parallel lines")["centre place"]
     assert max(e for e in law.error if math.isfinite(e)) < MEANINGFUL
 
 
 def test_a_velocity_through_a_centre_at_infinity_is_right() -> None:
-    assert max(trial("parallel lines")["centre velocity"].error) < 1e-14
+    assert max(singularity("parallel lines")["centre velocity"].error) < 1e-14
 
 
 def test_the_chart_says_the_slopes_on_its_curves() -> None:
-    text = pages([trial("crossing height")])["stability"]._repr_svg_()
+    text = stability_pages([singularity("crossing height")])["stability"]._repr_svg_()
     assert "(−1)" in text
 
 
 def test_the_table_has_a_row_for_each_point() -> None:
-    found = [trial("crossing height"), trial("near ground")]
+    found = [singularity("crossing height"), singularity("near ground")]
     points = sum(len(law.x) for t in found for law in (*t.laws, *t.growth))
-    assert 1 + points == len(laws_csv(found).splitlines())
+    assert 1 + points == len(laws_table(found).csv().splitlines())
+
+
+def test_an_unknown_kind_of_the_result_is_named() -> None:
+    found = Stability((singularity("crossing height"),), "en")
+    with pytest.raises(CallError, match="crossing height"):
+        found["crossing"]
 
 
 def test_a_refusal_is_null_in_the_data() -> None:
-    laws = to_json([trial("guide flip")])["singularities"][0]["laws"]
+    laws = to_json([singularity("guide flip")])["singularities"][0]["laws"]
     assert laws[3]["points"][-1][1] is None
 
 
 @pytest.mark.parametrize("language", ["en", "zh"])
 def test_no_two_labels_of_the_charts_overlap(language: str) -> None:
-    for chart in pages([trial(kind) for kind in KINDS], language).values():
+    for chart in stability_pages([singularity(kind) for kind in KINDS], language).values():
         assert [] == overlapping(chart)
         assert [] == off_the_page(chart)
 
 
 def test_the_curves_show_the_errors_of_the_table() -> None:
-    found = trial("crossing height")
-    panel = pages([found])["stability"].figure().axes[0]
+    found = singularity("crossing height")
+    panel = stability_pages([found])["stability"].figure().axes[0]
     shown = [[tuple(p) for p in line.get_xydata()] for line in panel.lines]
     assert shown == [list(zip(law.x, law.error, strict=True)) for law in found.laws]
 
 
 @pytest.mark.parametrize("kind", ["dead point RRR", "dead point RRP", "dead point RPR"])
 def test_a_distance_given_from_the_dead_point_loses_nothing(kind: str) -> None:
-    assert max(trial(kind)["all from the dead point"].error) < 1e-14
+    assert max(singularity(kind)["all from the dead point"].error) < 1e-14
 
 
 def test_the_committed_example_shows_the_slopes_of_theory() -> None:

@@ -1,13 +1,16 @@
-"""A method in the race: what it costs and how far it is off."""
+"""A measurement: what a method costs and how far it is off, and the machine it was made on."""
 
 from __future__ import annotations
 
+import os
+import platform
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from importlib import metadata
 from typing import Literal
 
-__all__ = ["Entry", "Family", "best_time"]
+__all__ = ["Entry", "Family", "Machine", "best_time", "this_machine"]
 
 ENOUGH, MOST = 0.08, 40  # s, runs
 
@@ -51,3 +54,37 @@ def best_time(run: Callable[[], object], repeats: int, least: float = 2e-3) -> f
             run()
         best = min(best, (time.perf_counter() - started) / loops)
     return best
+
+
+PACKAGES = ("numpy", "shapely", "numba", "scipy", "pylinkage", "mpmath")
+
+
+@dataclass(frozen=True)
+class Machine:
+    """Cores and processor, and the versions of what took part."""
+
+    cores: int
+    processor: str
+    versions: tuple[tuple[str, str], ...]
+
+
+def this_machine() -> Machine:
+    """The machine that this runs on."""
+    from graphkin.version import __version__
+
+    versions = [("graphkin", __version__), ("Python", platform.python_version())]
+    for name in PACKAGES:
+        try:
+            versions.append((name, metadata.version(name)))
+        except metadata.PackageNotFoundError:
+            continue
+    return Machine(os.cpu_count() or 1, _processor(), tuple(versions))
+
+
+def _processor() -> str:
+    try:
+        with open("/proc/cpuinfo", encoding="utf-8") as file:
+            names = [line.partition(":")[2].strip() for line in file if line.startswith("model name")]
+    except OSError:
+        names = []
+    return names[0] if names else platform.processor() or platform.machine()

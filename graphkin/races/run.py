@@ -1,27 +1,30 @@
-"""All methods on the same work, in one run."""
+"""All methods on the same work, in one run; as a table, and as data for programs."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from graphkin import solver
 from graphkin.construction import plan
+from graphkin.races.computed import closed_forms, complex_step, copy_time, differences, newton, one_by_one
+from graphkin.races.drawn import acts, drawn, instant_centres
+from graphkin.races.peers import PEERS, Skipped
+from graphkin.races.timing import Entry, Machine, best_time, this_machine
+from graphkin.races.work import Work, work_of
 from graphkin.scene.model import Scene
 from graphkin.scene.symbol import Symbol
 from graphkin.study.reference import context
-from graphkin.study.speed.computed import closed_forms, complex_step, copy_time, differences, newton, one_by_one
-from graphkin.study.speed.course import Work, work_of
-from graphkin.study.speed.drawings import acts, drawn, instant_centres
-from graphkin.study.speed.entry import Entry, best_time
-from graphkin.study.speed.machine import Machine, this_machine
-from graphkin.study.speed.peers import PEERS, Skipped
-from graphkin.words import Phrase
+from graphkin.table import Table
+from graphkin.words import Phrase, say, word
 
-__all__ = ["COUNT", "Race", "race"]
+if TYPE_CHECKING:
+    from mpmath import MPContext
+
+__all__ = ["COUNT", "Race", "race", "race_table", "to_json"]
 
 COUNT = 100_800
 
@@ -64,7 +67,7 @@ def race(scene: Scene, repeats: int, count: int = COUNT) -> Race:
     CallError : mpmath is not installed, a group larger than a dyad, nothing that moves
     Unsolvable : as for ``solver.solve``
     """
-    mp: Any = context()
+    mp: MPContext = context()
     work = work_of(scene, mp, count)
     entries: list[Entry] = [*closed_forms(work, repeats), *_solver(work, repeats)]
     for method in (newton, differences, complex_step, drawn, instant_centres):
@@ -98,3 +101,41 @@ def _solver(work: Work, repeats: int) -> Iterator[Entry]:
     v = np.array([motion.velocity(o.point, o.link)[at] for o in work.outputs])
     a = np.array([motion.acceleration(o.point, o.link)[at] for o in work.outputs])
     yield Entry("closed", "whole solve", "", whole, whole, *work.errors(v, a))
+
+
+def race_table(race: Race) -> Table:
+    """One row for each method; first the floor."""
+    numbers = ("velocity_cost_s", "velocity_error", "acceleration_cost_s", "acceleration_error")
+    rows: list[tuple[object, ...]] = [("copying", "", "floor", race.copying[0], None, race.copying[1], None)]
+    rows += [
+        (e.key, e.tag, e.family, e.velocity_cost, e.velocity_error, e.acceleration_cost, e.acceleration_error)
+        for e in race.entries
+    ]
+    return Table.of(("method", "tag", "family", *numbers), rows, ("", "", "", *(".3g" for _ in numbers)))
+
+
+def to_json(race: Race, language: str = "en") -> dict[str, Any]:
+    """Costs in s for a position, errors in parts of the largest value, and what it was measured on."""
+    return {
+        "scene": race.scene.name,
+        "machine": {
+            "cores": race.machine.cores, "processor": race.machine.processor, "versions": dict(race.machine.versions)
+        },
+        "repeats": race.repeats,
+        "positions": race.count,
+        "places": race.places,
+        "copying_s": list(race.copying),
+        "asked": [str(s) for s in race.asked],
+        "methods": [
+            {
+                "method": e.key,
+                "tag": e.tag,
+                "family": e.family,
+                "says": word("differences of" if e.key == "differences" else e.key, language),
+                "velocity": {"cost_s": e.velocity_cost, "error": e.velocity_error},
+                "acceleration": {"cost_s": e.acceleration_cost, "error": e.acceleration_error},
+            }
+            for e in race.entries
+        ],
+        "left_out": [{"peer": name, "why": say(why, language)} for name, why in race.skipped],
+    }  # fmt: skip

@@ -6,18 +6,18 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from graphkin.drawing import Box, Chart, Stroke, Text
+from graphkin.drawing import Box, ChartPage, Stroke, Text
 from graphkin.drawing.chart import Shape, add_labels, add_panel, add_words, count_powers, look, marker
 from graphkin.drawing.text import rich, wrapped
+from graphkin.races.run import Race
+from graphkin.races.timing import Entry
 from graphkin.scene.symbol import Symbol
-from graphkin.study.speed.entry import Entry
-from graphkin.study.speed.run import Race
 from graphkin.words import Phrase, say, word
 
 if TYPE_CHECKING:
     from graphkin.drawing.chart import Figure
 
-__all__ = ["page"]
+__all__ = ["race_page"]
 
 WIDTH, HEIGHT = 297.0, 210.0
 LEFT, RIGHT, GAP = 22.0, 8.0, 18.0
@@ -49,7 +49,7 @@ NUMBERED = {"newton": ("1", "2", "3", "4"), "differences": ("1e-1", "1e-4", "1e-
 """Which points of a curve bear their number."""
 
 
-def page(race: Race, language: str = "en") -> Chart:
+def race_page(race: Race, language: str = "en") -> ChartPage:
     """One page for both."""
     title = word("speed title", language)
     name = race.scene.title_in(language)
@@ -71,7 +71,7 @@ def page(race: Race, language: str = "en") -> Chart:
         for kind, left in (("velocity", LEFT), ("acceleration", LEFT + half + GAP)):
             _draw(figure, race, kind, Box(left, TOP, left + half, HEIGHT - BOTTOM), language)
 
-    return Chart(
+    return ChartPage(
         WIDTH, HEIGHT, paint, title=f"{title}: {name}", desc=facts, lang=language,
         metadata={"study": "speed-accuracy", "scene": race.scene.name},
     )  # fmt: skip
@@ -158,4 +158,3 @@ def _number(tag: str) -> str:
     if "e-" in tag:
         return f"$10^{{−{tag.partition('e-')[2]}}}$"
     return {"0.25": "1/4", "0.5": "1/2"}.get(tag, tag)
-

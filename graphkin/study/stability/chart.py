@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from graphkin.drawing import Box, Chart, Stroke, Text
+from graphkin.drawing import Box, ChartPage, Stroke, Text
 from graphkin.drawing.chart import (
     SOLID_AND_DASHED,
     Shape,
@@ -19,13 +19,13 @@ from graphkin.drawing.chart import (
     marker,
 )
 from graphkin.drawing.text import rich, wrapped
-from graphkin.study.limits.law import Law, Trial
+from graphkin.study.stability.laws import ErrorLaw, Singularity
 from graphkin.words import say, word
 
 if TYPE_CHECKING:
     from graphkin.drawing.chart import Figure
 
-__all__ = ["pages"]
+__all__ = ["stability_pages"]
 
 WIDTH, HEIGHT = 210.0, 297.0
 LEFT, TOP = 10.0, 38.0
@@ -39,16 +39,16 @@ DOTS: dict[str, Shape] = {"Newton": "circle", "drawing": "cross", "drawn": "cros
 LOW, HIGH = 1e-17, 1e2
 
 
-def pages(trials: Sequence[Trial], language: str = "en") -> dict[str, Chart]:
-    """The trials on pages of six, by name: "stability", and "stability-2" for the next."""
+def stability_pages(found: Sequence[Singularity], language: str = "en") -> dict[str, ChartPage]:
+    """The singularities on pages of six, by name: "stability", and "stability-2" for the next."""
     made = {}
-    for k in range(0, len(trials), PER_PAGE):
+    for k in range(0, len(found), PER_PAGE):
         name = "stability" if k == 0 else f"stability-{k // PER_PAGE + 1}"
-        made[name] = _page(trials[k : k + PER_PAGE], language)
+        made[name] = _page(found[k : k + PER_PAGE], language)
     return made
 
 
-def _page(trials: Sequence[Trial], language: str) -> Chart:
+def _page(found: Sequence[Singularity], language: str) -> ChartPage:
     title, facts = word("stability title", language), word("stability facts", language)
     corners = [complex(LEFT + (k % 2) * CELL.real, TOP + (k // 2) * CELL.imag) for k in range(PER_PAGE + 1)]
     marks: tuple[Shape, ...] = (DOTS["Newton"], DOTS["drawing"], DOTS["pencil"], "square")
@@ -59,32 +59,32 @@ def _page(trials: Sequence[Trial], language: str) -> Chart:
         keys = ("newton marks", "drawing marks", "pencil marks", "stop marks")
         told = [(marker(shape), word(key, language)) for shape, key in zip(marks, keys, strict=True)]
         add_legend(figure, complex(LEFT, 25.2), told)
-        for trial, corner in zip(trials, corners, strict=False):
-            _draw(figure, trial, corner, language)
-        if len(trials) % 2:
-            add_words(figure, *_lesson(corners[len(trials)], language))
+        for one, corner in zip(found, corners, strict=False):
+            _draw(figure, one, corner, language)
+        if len(found) % 2:
+            add_words(figure, *_lesson(corners[len(found)], language))
 
-    told = "; ".join(word(t.key, language) for t in trials)
-    return Chart(
+    told = "; ".join(word(t.key, language) for t in found)
+    return ChartPage(
         WIDTH, HEIGHT, paint, title=title, desc=f"{facts}: {told}", lang=language,
-        metadata={"study": "stability", "singularities": [t.key for t in trials]},
+        metadata={"study": "stability", "singularities": [t.key for t in found]},
     )  # fmt: skip
 
 
-def _draw(figure: Figure, trial: Trial, corner: complex, language: str) -> None:
-    """The curves of one trial, each with its name, and below them where methods stop."""
+def _draw(figure: Figure, one: Singularity, corner: complex, language: str) -> None:
+    """The curves of one singularity, each with its name, and below them where methods stop."""
     left, top = corner.real + INDENT, corner.imag + 6.0
     box = Box(left, top, left + PLOT.real, top + PLOT.imag)
-    axes = add_panel(figure, box, f"trial-{trial.key.replace(' ', '-')}", x_title=word(trial.distance, language))
-    shown = [e for law in trial.laws for e in law.error if math.isfinite(e) and e > 0]
-    xs = [x for law in trial.laws for x in law.x]
+    axes = add_panel(figure, box, f"singularity-{one.key.replace(' ', '-')}", x_title=word(one.distance, language))
+    shown = [e for law in one.laws for e in law.error if math.isfinite(e) and e > 0]
+    xs = [x for law in one.laws for x in law.x]
     count_powers(axes, "x", min(xs) * 1.001, max(xs) * 0.999, most=8)
     low, high = count_powers(axes, "y", max(min(shown) / 2, LOW), min(max(shown) * 2, HIGH))
     labels = []
-    for k, (law, stroke) in enumerate(zip(trial.laws, _strokes(trial.laws), strict=True)):
+    for k, (law, stroke) in enumerate(zip(one.laws, _strokes(one.laws), strict=True)):
         points = [(x, max(e, low)) for x, e in zip(law.x, law.error, strict=True) if math.isfinite(e)]
         points = [(x, e) for x, e in points if e <= high]
-        if stroke is not None and not _repeated(trial.laws, law):
+        if stroke is not None and not _repeated(one.laws, law):
             axes.plot([x for x, _ in points], [e for _, e in points], **look(stroke))
         shape = _dot(law)
         if shape is not None:
@@ -93,18 +93,18 @@ def _draw(figure: Figure, trial: Trial, corner: complex, language: str) -> None:
         if law.stops is not None and points:
             axes.plot(*([value] for value in min(points)), **marker("square"))
         if points:
-            labels.append((_words(law, language), _stretch(law, points, k, len(trial.laws))))
+            labels.append((_words(law, language), _stretch(law, points, k, len(one.laws))))
     add_labels(axes, labels)
-    fates = [runs for fate in trial.fates for runs in wrapped(say(fate, language), LETTERS, CELL.real - 4.0)]
+    fates = [runs for fate in one.fates for runs in wrapped(say(fate, language), LETTERS, CELL.real - 4.0)]
     add_words(
         figure,
-        Text(complex(corner.real, corner.imag + 2.5), rich(word(trial.key, language), 3.2, True)),
+        Text(complex(corner.real, corner.imag + 2.5), rich(word(one.key, language), 3.2, True)),
         *(Text(complex(corner.real, box.bottom + 14.0 + 3.3 * k), runs) for k, runs in enumerate(fates)),
     )
 
 
 def _stretch(
-    law: Law, points: Sequence[tuple[float, float]], k: int, laws: int
+    law: ErrorLaw, points: Sequence[tuple[float, float]], k: int, laws: int
 ) -> tuple[tuple[float, float], tuple[float, float]]:
     """The piece of a curve that bears its name: for the k-th of some curves each at another height, since they may lie
     together."""
@@ -127,7 +127,7 @@ def _lesson(corner: complex, language: str) -> list[Text]:
     return lines
 
 
-def _strokes(laws: Sequence[Law]) -> list[Stroke | None]:
+def _strokes(laws: Sequence[ErrorLaw]) -> list[Stroke | None]:
     """Lines for what is computed, each of its own kind; dots alone for what is only compared with these."""
     kinds = iter(SOLID_AND_DASHED)
     found: list[Stroke | None] = []
@@ -139,16 +139,16 @@ def _strokes(laws: Sequence[Law]) -> list[Stroke | None]:
     return found
 
 
-def _dot(law: Law) -> Shape | None:
+def _dot(law: ErrorLaw) -> Shape | None:
     return next((shape for part, shape in DOTS.items() if part in law.key), None)
 
 
-def _repeated(laws: Sequence[Law], law: Law) -> bool:
+def _repeated(laws: Sequence[ErrorLaw], law: ErrorLaw) -> bool:
     """Whether the same curve is drawn for an earlier law already (two branches of one curve)."""
     return next(i for i, other in enumerate(laws) if other.key == law.key) != laws.index(law)
 
 
-def _words(law: Law, language: str) -> str:
+def _words(law: ErrorLaw, language: str) -> str:
     name = word(law.key, language)
     if law.theory is None or math.isnan(law.slope):
         return name

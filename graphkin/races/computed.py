@@ -13,6 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphkin import solver
+from graphkin.races.timing import Entry, best_time
+from graphkin.races.work import Work
 from graphkin.scene.model import AngleDriver
 from graphkin.solver import Prepared
 from graphkin.solver.assemblies import choose_forms
@@ -20,8 +22,6 @@ from graphkin.solver.code import Code
 from graphkin.solver.program import program_of
 from graphkin.solver.quantities import formulas
 from graphkin.study.equations import Equations, Solution
-from graphkin.study.speed.course import Work
-from graphkin.study.speed.entry import Entry, best_time
 
 __all__ = ["Numeric", "closed_forms", "complex_step", "copy_time", "differences", "newton", "one_by_one"]
 

@@ -1,4 +1,4 @@
-"""What the pages of a turn share: headings, numbers with units, the axis of the driver."""
+"""The axis of the driver, and what else the pages of a turn share: headings, numbers."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from graphkin.construction.plan import SERIES
 from graphkin.drawing import Primitive, Text
 from graphkin.drawing.chart import degree_step
 from graphkin.drawing.text import rich
@@ -69,7 +70,7 @@ def next_step(least: float) -> float:
     (0.25, 100.0)
     """
     power = 10.0 ** math.floor(math.log10(least))
-    return next(m * power for m in (1.0, 2.0, 2.5, 5.0, 10.0) if m * power >= least * (1 - 1e-9))
+    return next(m * power for m in (*SERIES, 10.0) if m * power >= least * (1 - 1e-9))
 
 
 @dataclass(frozen=True)

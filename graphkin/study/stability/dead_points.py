@@ -10,7 +10,8 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
-from typing import Any
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -19,25 +20,138 @@ from graphkin.checking import predict
 from graphkin.construction import EXACT, execute, plan
 from graphkin.construction.steps import SharpCrossing
 from graphkin.errors import Unsolvable
-from graphkin.scene.model import AngleDriver, FromDeadPoint
+from graphkin.scene import read_text
+from graphkin.scene.model import AngleDriver, FromDeadPoint, Scene
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion
 from graphkin.solver.dead_points import dead_points
 from graphkin.solver.decimals import working
 from graphkin.study.equations import Equations, Solution
-from graphkin.study.limits.dead_cases import CASES, Case
-from graphkin.study.limits.law import Law, Trial, binned, grid
 from graphkin.study.reference import reference, refined
+from graphkin.study.stability.laws import ErrorLaw, Singularity, binned, grid
 from graphkin.words import Phrase
 
-__all__ = ["dead_point"]
+if TYPE_CHECKING:
+    from mpmath import MPContext, mpf
+
+__all__ = ["CASES", "DeadPointCase", "dead_point"]
+
+_RRR = """
+[frame]
+points = { A = [0, 0], D = [400, 0] }
+[links.1]
+points = ["A", "B"]
+length = 310
+[links.2]
+points = ["B", "C"]
+length = 210
+[links.3]
+points = ["D", "C"]
+length = 290
+[driver]
+link = "1"
+angle = 60
+omega = 10
+[sketch]
+C = [300, 280]
+"""
+_RRP = """
+[frame]
+points = { A = [0, 0] }
+guides = { h = { through = [0, 0], angle = 0 } }
+[links.1]
+points = ["A", "B"]
+length = 310
+[links.2]
+points = ["B", "C"]
+length = 210
+[links.3]
+points = ["C"]
+on = "0.h"
+[driver]
+link = "1"
+angle = 30
+omega = 10
+"""
+_RPR = """
+[frame]
+points = { A = [0, 0], C = [310, 0] }
+[links.1]
+points = ["A", "B"]
+length = 110
+[links.2]
+points = ["B"]
+on = "3.s"
+[links.3]
+points = ["C"]
+at = { E = [0, 250] }
+guides = { s = { through = "E", angle = 0 } }
+[driver]
+link = "1"
+angle = 120
+omega = 10
+"""
+
+
+@dataclass(frozen=True)
+class DeadPointCase:
+    """A mechanism with its dead point.
+
+    ``follower`` is the link whose motion is looked at; ``side`` is +1 where the crank comes to the dead point from
+    greater angles.
+    """
+
+    kind: str
+    text: str
+    follower: str
+    side: int
+
+    @cached_property
+    def scene(self) -> Scene:
+        return read_text(self.text, self.kind)
+
+    def at(self, angle: float) -> Scene:
+        """The scene with its crank at another angle."""
+        driver = self.scene.drivers[0]
+        assert isinstance(driver, AngleDriver)
+        return replace(self.scene, drivers=(replace(driver, angle=angle),))
+
+    @property
+    def _lengths(self) -> tuple[float, float, float]:
+        """Crank, ground (0 where it takes no part) and the reach of the dyad."""
+        links = self.scene.by_name
+        crank = links["1"].length
+        assert crank is not None
+        if self.kind == "RRR":
+            return crank, links["0"].points["D"].real, (links["2"].length or 0.0) + (links["3"].length or 0.0)
+        if self.kind == "RRP":
+            return crank, 0.0, links["2"].length or 0.0
+        return crank, links["0"].points["C"].real, links["3"].guides["s"].through.imag
+
+    def dead(self, mp: MPContext) -> mpf:
+        """The crank's angle at the dead point, by the law of cosines or the sine."""
+        a, d, reach = (mp.mpf(x) for x in self._lengths)
+        if self.kind == "RRP":
+            return mp.asin(reach / a)
+        if self.kind == "RRR":
+            links = self.scene.by_name
+            reach = mp.mpf(links["2"].length) + mp.mpf(links["3"].length)
+        return mp.acos((a * a + d * d - reach * reach) / (2 * a * d))
+
+
+CASES = {
+    "RRR": DeadPointCase("RRR", _RRR, "3", -1),
+    "RRP": DeadPointCase("RRP", _RRP, "2", -1),
+    "RPR": DeadPointCase("RPR", _RPR, "3", 1),
+}
+
 
 NEAR, FAR = 1e-15, 0.3
 STEP = 0.02  # rad; where Newton's method comes from
 PATIENCE = 60
 
 
-def dead_point(kind: str, mp: Any, samples: int = 4) -> Trial:
+def dead_point(kind: str, mp: MPContext, samples: int = 4) -> Singularity:
     """Errors of all methods beside the dead point of a dyad, "RRR", "RRP" or "RPR".
 
     Parameters
@@ -58,7 +172,7 @@ def dead_point(kind: str, mp: Any, samples: int = 4) -> Trial:
         ("fate dead drawn", found["velocity pencil"].stops),
     )
     fates = [Phrase(key, (_power(x),)) for key, x in ends if x is not None]
-    return Trial(f"dead point {kind}", "crank before", tuple(laws), tuple(fates))
+    return Singularity(f"dead point {kind}", "crank before", tuple(laws), tuple(fates))
 
 
 def _power(x: float) -> str:
@@ -69,10 +183,10 @@ def _power(x: float) -> str:
 class _Exactly:
     """The follower's motion to 50 digits: its direction as cosine and sine, its rates."""
 
-    cos: Any
-    sin: Any
-    omega: Any
-    alpha: Any
+    cos: mpf
+    sin: mpf
+    omega: mpf
+    alpha: mpf
 
     def off(self, u: complex, omega: float, alpha: float) -> tuple[float, float, float]:
         """Errors of a direction (rad), and of its rates (relative)."""
@@ -80,12 +194,12 @@ class _Exactly:
         return float(turned), float(abs(omega / self.omega - 1)), float(abs(alpha / self.alpha - 1))
 
 
-def _truth(case: Case, mp: Any, x: Sequence[float]) -> list[_Exactly]:
+def _truth(case: DeadPointCase, mp: MPContext, x: Sequence[float]) -> list[_Exactly]:
     """The reference at falling distances, each from the one before: on the same side Newton's method cannot miss."""
     motion = solver.solve(case.at(float(case.dead(mp) + case.side * mp.mpf(x[0]))))
     equations = reference(motion.structure, mp)
     rates = [d.values for d in case.scene.drivers]
-    at: Sequence[Any] = list(equations.start(motion)[:, 0])
+    at: Sequence[mpf] = list(equations.start(motion)[:, 0])
     found = []
     for e in x:
         value = case.dead(mp) + case.side * mp.mpf(e)
@@ -97,7 +211,9 @@ def _truth(case: Case, mp: Any, x: Sequence[float]) -> list[_Exactly]:
     return found
 
 
-def _closed(case: Case, mp: Any, x: Sequence[float], truth: Sequence[_Exactly], samples: int) -> list[Law]:
+def _closed(
+    case: DeadPointCase, mp: MPContext, x: Sequence[float], truth: Sequence[_Exactly], samples: int
+) -> list[ErrorLaw]:
     rows: list[tuple[float, float, float]] = []
     bounds: list[float] = []
     stops: float | None = None
@@ -117,18 +233,20 @@ def _closed(case: Case, mp: Any, x: Sequence[float], truth: Sequence[_Exactly], 
     laws = []
     for name, error, theory in zip(names, errors, (-0.5, -1.0, -1.0), strict=True):
         xs, es = binned(x, error, samples)
-        laws.append(Law(name, xs, es, theory, None, stops, stated if name[0] == "v" else (), (1e-12, 1e-2)))
+        laws.append(ErrorLaw(name, xs, es, theory, None, stops, stated if name[0] == "v" else (), (1e-12, 1e-2)))
     return laws
 
 
-def _stated(case: Case, motion: Motion) -> float:
+def _stated(case: DeadPointCase, motion: Motion) -> float:
     """The bound that the solver states for the velocities of points, as one of the follower's rate (relative): both
     ends of its longest line may err."""
     reach = max(abs(z) for z in case.scene.by_name[case.follower].points.values())
     return 2 * float(motion.bound.velocity[0]) / (abs(float(motion.omega(case.follower)[0])) * reach)
 
 
-def _newton(case: Case, mp: Any, x: Sequence[float], truth: Sequence[_Exactly], samples: int) -> Law:
+def _newton(
+    case: DeadPointCase, mp: MPContext, x: Sequence[float], truth: Sequence[_Exactly], samples: int
+) -> ErrorLaw:
     """Newton's method on the closure equations, from the position a degree away, until it moves no more."""
     dead = case.dead(mp)
     structure = solver.structure_of(case.scene)
@@ -150,10 +268,10 @@ def _newton(case: Case, mp: Any, x: Sequence[float], truth: Sequence[_Exactly], 
     ]
     lost = [e for e, w in zip(x, waiting, strict=True) if w]
     xs, es = binned(x, error, samples)
-    return Law("velocity Newton", xs, es, -1.0, max(lost, default=None), window=(1e-12, 1e-2))
+    return ErrorLaw("velocity Newton", xs, es, -1.0, max(lost, default=None), window=(1e-12, 1e-2))
 
 
-def _given(case: Case, x: Sequence[float], truth: Sequence[_Exactly], samples: int) -> Law:
+def _given(case: DeadPointCase, x: Sequence[float], truth: Sequence[_Exactly], samples: int) -> ErrorLaw:
     """The solver with the distance from the dead point given, in place of the crank's angle; the largest of the errors
     of direction, rate and second rate."""
     structure = solver.structure_of(case.scene)
@@ -172,10 +290,10 @@ def _given(case: Case, x: Sequence[float], truth: Sequence[_Exactly], samples: i
         pose = motion.poses[case.follower]
         error.append(max(right.off(complex(pose.u[0]), float(pose.omega[0]), float(pose.alpha[0]))))
     xs, es = binned(x, error, samples)
-    return Law("all from the dead point", xs, es, 0.0)
+    return ErrorLaw("all from the dead point", xs, es, 0.0)
 
 
-def _drawn(case: Case, mp: Any, x: Sequence[float], truth: Sequence[_Exactly]) -> Law:
+def _drawn(case: DeadPointCase, mp: MPContext, x: Sequence[float], truth: Sequence[_Exactly]) -> ErrorLaw:
     """The exact drawing board."""
     error: list[float] = []
     told: float | None = None
@@ -190,10 +308,10 @@ def _drawn(case: Case, mp: Any, x: Sequence[float], truth: Sequence[_Exactly]) -
         if any(isinstance(r, SharpCrossing) for r in sheet.remarks):
             told = told or e
         error.append(float(abs(sheet.omega[case.follower].value / right.omega - 1)))
-    return Law("velocity exact drawing", tuple(x), tuple(error), -1.0, told, stops, window=(1e-12, 1e-2))
+    return ErrorLaw("velocity exact drawing", tuple(x), tuple(error), -1.0, told, stops, window=(1e-12, 1e-2))
 
 
-def _pencil(case: Case, mp: Any) -> Law:
+def _pencil(case: DeadPointCase, mp: MPContext) -> ErrorLaw:
     """The uncertainty that is predicted for a pencil, relative."""
     x = grid(FAR, 1e-4, 1)
     symbol = Symbol("omega", link=case.follower)
@@ -209,4 +327,4 @@ def _pencil(case: Case, mp: Any) -> Law:
         if not math.isfinite(part):
             stops = stops or e
         error.append(part if math.isfinite(part) else math.nan)
-    return Law("velocity pencil", tuple(x), tuple(error), -1.0, told, stops, window=(2e-3, 0.4), lost=2.0)
+    return ErrorLaw("velocity pencil", tuple(x), tuple(error), -1.0, told, stops, window=(2e-3, 0.4), lost=2.0)

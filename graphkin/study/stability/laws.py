@@ -10,14 +10,14 @@ import numpy as np
 
 from graphkin.words import Phrase
 
-__all__ = ["LOST", "Law", "Trial", "binned", "grid"]
+__all__ = ["LOST", "ErrorLaw", "Singularity", "binned", "grid"]
 
 LOST = 0.03
 PER_DECADE = 2
 
 
 @dataclass(frozen=True)
-class Law:
+class ErrorLaw:
     """How the error of one method grows.
 
     Parameters
@@ -59,7 +59,7 @@ class Law:
 
 
 @dataclass(frozen=True)
-class Trial:
+class Singularity:
     """One kind of singularity with the laws of all methods there.
 
     ``key`` is the word for it, ``distance`` the word for what is on the axis, ``fates`` say where methods stop and how
@@ -68,11 +68,11 @@ class Trial:
 
     key: str
     distance: str
-    laws: tuple[Law, ...]
+    laws: tuple[ErrorLaw, ...]
     fates: tuple[Phrase, ...] = ()
-    growth: tuple[Law, ...] = ()
+    growth: tuple[ErrorLaw, ...] = ()
 
-    def __getitem__(self, key: str) -> Law:
+    def __getitem__(self, key: str) -> ErrorLaw:
         return next(law for law in self.laws if law.key == key)
 
 

@@ -12,11 +12,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from graphkin.races.computed import Numeric
+from graphkin.races.timing import Entry, best_time
+from graphkin.races.work import FINE, Work
 from graphkin.scene.model import AngleDriver
 from graphkin.structure import Driven, Dyad, Slide, Turn
-from graphkin.study.speed.computed import Numeric
-from graphkin.study.speed.course import FINE, Work
-from graphkin.study.speed.entry import Entry, best_time
 from graphkin.words import Phrase
 
 __all__ = ["PEERS", "Skipped", "pylinkage", "scipy_root"]

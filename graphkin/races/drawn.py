@@ -13,10 +13,9 @@ from numpy.typing import NDArray
 from graphkin.checking import read_off
 from graphkin.construction import EXACT, Cad, Instrument, Plan, Scales, execute, pencil, plan
 from graphkin.construction.centres import by_centres, find_centres, speeds
+from graphkin.races.timing import Entry, best_time
+from graphkin.races.work import ComparedPoint, Work
 from graphkin.scene.symbol import Symbol
-from graphkin.study.outputs import Output
-from graphkin.study.speed.course import Work
-from graphkin.study.speed.entry import Entry, best_time
 
 __all__ = ["SECONDS", "acts", "drawn", "instant_centres"]
 
@@ -82,7 +81,7 @@ def _readings(what: Plan, hand: Instrument) -> Mapping[Symbol, complex]:
 
 
 def _columns(
-    work: Work, outputs: Sequence[Output], tables: Sequence[Mapping[Symbol, complex]], kind: Any
+    work: Work, outputs: Sequence[ComparedPoint], tables: Sequence[Mapping[Symbol, complex]], kind: str
 ) -> Array | None:
     rows = [[table.get(Symbol(kind, o.ref), complex(math.nan)) for table in tables] for o in outputs]
     found = np.array(rows)

@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 import random
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from graphkin import solver
 from graphkin.plane import cross_arcs
@@ -16,14 +17,18 @@ from graphkin.solver.assemblies import choose_forms
 from graphkin.solver.engine import positions
 from graphkin.solver.joints import Drive
 from graphkin.study.equations import Equations
-from graphkin.study.limits.law import Law, Trial, binned, grid
 from graphkin.study.reference import reference, refined
+from graphkin.study.stability.laws import ErrorLaw, Singularity, binned, grid
 from graphkin.words import Phrase
+
+if TYPE_CHECKING:
+    from mpmath import MPContext, mpf
 
 __all__ = ["angle_formulas", "crossing_height", "differences"]
 
+Array = NDArray[Any]
 
-def crossing_height(mp: Any, samples: int = 4) -> Trial:
+def crossing_height(mp: MPContext, samples: int = 4) -> Singularity:
     """The height of the crossing of two arcs over the line of their centres, radii nearly reaching across.
 
     c2 - m2 against Heron's product with the small factor formed first (Kahan, Miscalculating area and angles of a
@@ -49,15 +54,15 @@ def crossing_height(mp: Any, samples: int = 4) -> Trial:
     laws = []
     for key, theory in zip(errors, (-1.0, 0.0), strict=True):
         xs, es = binned(x, errors[key], samples)
-        laws.append(Law(key, xs, es, theory, window=(1e-13, 1e-1)))
-    return Trial("crossing height", "gap of radii", tuple(laws), (Phrase("fate height"),))
+        laws.append(ErrorLaw(key, xs, es, theory, window=(1e-13, 1e-1)))
+    return Singularity("crossing height", "gap of radii", tuple(laws), (Phrase("fate height"),))
 
 
-def _height2(r: Any, s: Any, c: Any) -> Any:
+def _height2(r: mpf, s: mpf, c: mpf) -> mpf:
     return (r + s + c) * (r + s - c) * (c + r - s) * (c - r + s) / (4 * c * c)
 
 
-def angle_formulas(mp: Any, samples: int = 4) -> Trial:
+def angle_formulas(mp: MPContext, samples: int = 4) -> Singularity:
     """An angle near 0 or 180 degrees from the vectors of its sides: by arccos of their product, and by atan2."""
     dice = random.Random(2)
     x = grid(1.0, 1e-15, samples)
@@ -78,17 +83,17 @@ def angle_formulas(mp: Any, samples: int = 4) -> Trial:
     xs, one = binned(x, errors["angle by arccos"], samples)
     _, two = binned(x, errors["angle by atan2"], samples)
     laws = (
-        Law("angle by arccos", xs, one, -1.0, window=(1e-7, 0.5)),
-        Law("angle by atan2", xs, two, 0.0, window=(1e-7, 0.5)),
+        ErrorLaw("angle by arccos", xs, one, -1.0, window=(1e-7, 0.5)),
+        ErrorLaw("angle by atan2", xs, two, 0.0, window=(1e-7, 0.5)),
     )
-    return Trial("angle near zero", "angle of two lines", laws, (Phrase("fate arccos"),))
+    return Singularity("angle near zero", "angle of two lines", laws, (Phrase("fate arccos"),))
 
 
 def _ray(angle: float) -> complex:
     return complex(math.cos(angle), math.sin(angle))
 
 
-def differences(mp: Any, samples: int = 4, name: str = "slider-crank-offset") -> Trial:
+def differences(mp: MPContext, samples: int = 4, name: str = "slider-crank-offset") -> Singularity:
     """Velocity and acceleration of a slider by central differences of its places, over the step; and by complex step.
 
     The error of differences falls as step^2 and grows again as u/step and u/step^2 (Numerical Recipes, 5.7); a
@@ -102,7 +107,7 @@ def differences(mp: Any, samples: int = 4, name: str = "slider-crank-offset") ->
     q = 2 * math.pi * (np.arange(places) + 0.3) / places
     link = scene.links[-1].name
 
-    def at(value: Any) -> Any:
+    def at(value: Array) -> Array:
         state = positions(structure, Drive.at(structure, value[:, None]), forms, rates=False)
         return np.broadcast_to(state.poses[link].z, value.shape)
 
@@ -131,20 +136,22 @@ def differences(mp: Any, samples: int = 4, name: str = "slider-crank-offset") ->
         _part("acceleration differences", steps, pushes, -2.0, (1e-7, 2e-5)),
     ]
     by_step = [_complex_step(equations, x0, q, (rate, second), k, h, (v, a)) for h in steps[::4]]
-    laws.append(Law("velocity complex step", tuple(steps[::4]), tuple(e[0] for e in by_step), 2.0, window=(1e-6, 0.2)))
-    return Trial("differences", "step", tuple(laws), (Phrase("fate differences"),))
+    errors = tuple(e[0] for e in by_step)
+    laws.append(ErrorLaw("velocity complex step", tuple(steps[::4]), errors, 2.0, window=(1e-6, 0.2)))
+    return Singularity("differences", "step", tuple(laws), (Phrase("fate differences"),))
 
 
-def _part(key: str, x: Sequence[float], error: Sequence[float], theory: float, window: tuple[float, float]) -> Law:
-    return Law(key, tuple(x), tuple(error), theory, window=window)
+def _part(key: str, x: Sequence[float], error: Sequence[float], theory: float, window: tuple[float, float]) -> ErrorLaw:
+    return ErrorLaw(key, tuple(x), tuple(error), theory, window=window)
 
 
-def _worst(found: Any, right: Any) -> float:
+def _worst(found: Array, right: Array) -> float:
     return float(np.max(np.abs(found - right)) / np.max(np.abs(right)))
 
 
 def _complex_step(
-    equations: Equations, x0: Any, q: Any, rates: tuple[float, float], k: int, h: float, right: tuple[Any, Any]
+    equations: Equations, x0: Array, q: Array, rates: tuple[float, float], k: int, h: float,
+    right: tuple[Array, Array],
 ) -> tuple[float, float]:
     """Closure equations solved at a driver value with a small imaginary part; its share in the place is the rate."""
     rate, second = rates
@@ -156,5 +163,3 @@ def _complex_step(
     v = (x[k].imag + 1j * x[k + 1].imag) / t.imag
     a = (speed[k].imag + 1j * speed[k + 1].imag) / t.imag
     return _worst(v, right[0]), _worst(a, right[1])
-
-

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from dataclasses import replace
 from functools import cache
 
@@ -9,10 +11,10 @@ import numpy as np
 import pytest
 
 import graphkin
+from graphkin.api.studied import SpeedAccuracy
+from graphkin.races import Race, race, race_page, race_table, timing, to_json
+from graphkin.races.peers import Skipped, pylinkage
 from graphkin.scene import read
-from graphkin.study.speed import Race, page, race, race_csv, to_json
-from graphkin.study.speed import entry as timing
-from graphkin.study.speed.peers import Skipped, pylinkage
 from tests.drawing.chart_words import off_the_page, overlapping
 
 SIXBAR = "sixbar-guide-40deg"
@@ -106,8 +108,6 @@ def test_a_mechanism_without_closed_form_is_refused_by_name() -> None:
 
 
 def test_without_mpmath_the_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
-    import sys
-
     monkeypatch.setitem(sys.modules, "mpmath", None)
     with pytest.raises(graphkin.CallError, match=r"graphkin\[study\]"):
         graphkin.stability(["crossing height"])
@@ -115,7 +115,7 @@ def test_without_mpmath_the_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> N
 
 def test_the_caption_tells_cores_versions_and_repeats() -> None:
     found = raced()
-    told = page(found).desc
+    told = race_page(found).desc
     assert f"{found.machine.cores} cores" in told
     assert dict(found.machine.versions)["numpy"] in told
     assert "best of 1 runs" in told
@@ -145,7 +145,7 @@ def _elsewhere(found: Race, seed: int) -> Race:
 @pytest.mark.parametrize("language", ["en", "zh"])
 @pytest.mark.parametrize("seed", range(12))
 def test_no_two_labels_of_the_chart_overlap_on_any_machine(seed: int, language: str) -> None:
-    drawn = page(_elsewhere(_spread(raced()), seed), language)
+    drawn = race_page(_elsewhere(_spread(raced()), seed), language)
     assert [] == overlapping(drawn)
     assert [] == off_the_page(drawn)
 
@@ -155,7 +155,7 @@ def test_no_two_labels_of_the_chart_overlap_on_any_machine(seed: int, language: 
 ])  # fmt: skip
 def test_every_method_is_a_point_of_the_chart(kind: str, cost: str, error: str) -> None:
     race = _spread(raced())
-    panel = next(axes for axes in page(race).figure().axes if axes.get_gid() == f"speed-{kind}")
+    panel = next(axes for axes in race_page(race).figure().axes if axes.get_gid() == f"speed-{kind}")
     shown = {(x, y) for line in panel.lines if line.get_marker() != "None" for x, y in line.get_xydata()}
     assert shown == {
         (getattr(e, cost), max(getattr(e, error), 1.5e-19)) for e in race.entries
@@ -164,7 +164,26 @@ def test_every_method_is_a_point_of_the_chart(kind: str, cost: str, error: str) 
 
 
 def test_the_table_has_a_row_for_every_method_and_the_floor() -> None:
-    assert 2 + len(raced().entries) == len(race_csv(raced()).splitlines())
+    assert 2 + len(raced().entries) == len(race_table(raced()).csv().splitlines())
+
+
+def test_the_result_gives_a_method_by_its_name() -> None:
+    found = SpeedAccuracy(raced(), "en")
+    assert [str(k) for k in range(1, 7)] == [e.tag for e in found["Newton"]]
+    with pytest.raises(graphkin.CallError, match="Newton"):
+        found["Newto"]
+
+
+def test_the_table_is_written_beside_the_chart(tmp_path) -> None:
+    SpeedAccuracy(raced(), "en").write(tmp_path)
+    assert {"speed-accuracy.csv", "speed-accuracy.svg"} == {p.name for p in tmp_path.iterdir()}
+    assert race_table(raced()).csv() == (tmp_path / "speed-accuracy.csv").read_text()
+
+
+def test_nothing_but_its_own_function_loads_the_races() -> None:
+    used = "import graphkin, sys; graphkin.sweep('four-bar-coupler-point').figures; "
+    script = used + "print('graphkin.races' in sys.modules)"
+    assert "False" in subprocess.run([sys.executable, "-c", script], capture_output=True, text=True).stdout
 
 
 def test_the_data_name_every_method_once() -> None:

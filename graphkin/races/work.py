@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,17 +12,51 @@ from numpy.typing import NDArray
 from graphkin import solver
 from graphkin.errors import CallError, Problem
 from graphkin.scene.model import AngleDriver, Scene
-from graphkin.scene.symbol import Symbol
+from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver import Motion
 from graphkin.structure import Dyad, Structure
-from graphkin.study.outputs import Output, outputs_of
+from graphkin.study.equations import Equations, Solution
 from graphkin.study.reference import Split, reference, refined, split
 
-__all__ = ["Work", "work_of"]
+if TYPE_CHECKING:
+    from mpmath import MPContext, mpc
+
+__all__ = ["ComparedPoint", "Work", "compared_points", "work_of"]
 
 Array = NDArray[Any]
 PLACES = 24
 FINE = 720
+
+
+@dataclass(frozen=True)
+class ComparedPoint:
+    """A point of a link, or of ``link`` where it lies under that pin (not ``own``)."""
+
+    point: str
+    link: str
+    own: bool = True
+
+    @property
+    def ref(self) -> PointRef:
+        """How it is written in a symbol."""
+        return PointRef(self.point) if self.own else PointRef(self.point, self.link)
+
+
+def compared_points(structure: Structure) -> tuple[ComparedPoint, ...]:
+    """Every moving point by the first moving link that has it, and the points of guides under sliding pins."""
+    scene = structure.scene
+    fixed = scene.frame.points
+    found = [
+        ComparedPoint(p, link.name) for link in scene.links if not link.redundant for p in link.points if p not in fixed
+    ]
+    firsts = {o.point: o for o in reversed(found)}
+    unders = [
+        ComparedPoint(s.pin, s.b, False)
+        for s in structure.slides
+        if s.pin and s.b != scene.frame.name and s.b in scene.by_name and s.pin not in structure.links[s.b].points
+    ]
+    return (*dict.fromkeys(firsts[o.point] for o in found), *unders)
+
 
 
 @dataclass(frozen=True)
@@ -37,7 +71,7 @@ class Work:
     """
 
     structure: Structure
-    outputs: tuple[Output, ...]
+    outputs: tuple[ComparedPoint, ...]
     values: Array
     count: int
     full: bool
@@ -58,7 +92,7 @@ class Work:
         kept = list(range(0, len(self.values), every))
         return kept, self._only(kept, range(len(self.outputs)))
 
-    def only(self, outputs: Sequence[Output]) -> Work:
+    def only(self, outputs: Sequence[ComparedPoint]) -> Work:
         """Some of the outputs alone."""
         return self._only(range(len(self.values)), [self.outputs.index(o) for o in outputs])
 
@@ -83,7 +117,7 @@ class Work:
         first = next((o for o in self.outputs if o.link in links), self.outputs[0])
         return Symbol("v", first.ref), Symbol("a", first.ref)
 
-    def asked_outputs(self) -> tuple[Output, ...]:
+    def asked_outputs(self) -> tuple[ComparedPoint, ...]:
         """The outputs that are asked for: their points, or points of links whose turning is asked for."""
         refs = {ref for s in self.asked for ref in (s.of, s.to) if ref is not None}
         turning = {s.link for s in self.asked if s.link}
@@ -100,7 +134,7 @@ def _error(right: Split, found: Array | None) -> float | None:
     return float(np.max(right.off(found)) / np.max(np.abs(right.high)))
 
 
-def work_of(scene: Scene, mp: Any, count: int) -> Work:
+def work_of(scene: Scene, mp: MPContext, count: int) -> Work:
     """Positions over the turn of the driver (over its range, for one that does not turn fully), and the truth there.
 
     Parameters
@@ -113,7 +147,7 @@ def work_of(scene: Scene, mp: Any, count: int) -> Work:
     Unsolvable : as for ``solver.solve``
     """
     structure = solver.structure_of(scene)
-    outputs = outputs_of(structure)
+    outputs = compared_points(structure)
     if not outputs or not any(d.values[1] for d in scene.drivers):
         what = "nothing moves that could be looked at"
         raise CallError(Problem(scene.name or "scene", what, "give the driver a rate"))
@@ -129,7 +163,7 @@ def work_of(scene: Scene, mp: Any, count: int) -> Work:
 
 
 def _truth(
-    structure: Structure, outputs: Sequence[Output], motion: Motion, picked: Array, mp: Any
+    structure: Structure, outputs: Sequence[ComparedPoint], motion: Motion, picked: Array, mp: MPContext
 ) -> tuple[Split, Split]:
     equations = reference(structure, mp)
     start = equations.start(motion)
@@ -149,7 +183,7 @@ def _truth(
     return split(np.array(rows_v, dtype=object).T, mp), split(np.array(rows_a, dtype=object).T, mp)
 
 
-def _under(equations: Any, found: Any, structure: Structure, output: Output, mp: Any) -> Any:
+def _under(equations: Equations, found: Solution, structure: Structure, output: ComparedPoint, mp: MPContext) -> mpc:
     """The place of a link that lies under a pin, in its own axes."""
     holder = next(n for n in equations.names if output.point in structure.links[n].points)
     x, y = equations.point(found, holder, structure.links[holder].points[output.point])[:2]

@@ -1,24 +1,33 @@
-"""An instant centre where two nearly parallel lines cross: its place runs away, velocities through it do not."""
+"""Drawings that degenerate: an instant centre where two nearly parallel lines cross, and a drawing that is made small.
+
+The place of the centre runs away, velocities through it do not; errors of points count the less the larger everything
+is drawn.
+"""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 from graphkin import solver
-from graphkin.construction import EXACT, pencil
+from graphkin.checking import predict
+from graphkin.construction import EXACT, Plan, Scales, execute, pencil, plan
 from graphkin.construction.board import Instrument
 from graphkin.construction.centres import by_centres, find_centres, speeds
-from graphkin.scene import read_text
+from graphkin.scene import read, read_text
 from graphkin.scene.model import Scene
 from graphkin.scene.symbol import Symbol
+from graphkin.scene.tables import Tools
 from graphkin.study.equations import Equations
-from graphkin.study.limits.law import Law, Trial, binned, grid
 from graphkin.study.reference import reference, refined
+from graphkin.study.stability.laws import ErrorLaw, Singularity, binned, grid
 from graphkin.words import Phrase
 
-__all__ = ["parallel_lines"]
+if TYPE_CHECKING:
+    from mpmath import MPContext, mpc
+
+__all__ = ["drawing_scale", "parallel_lines"]
 
 SEEDS = 12
 
@@ -51,11 +60,11 @@ C = [{c.real!r}, {c.imag!r}]
 class _Right:
     """The centre of the coupler (m) and the velocity of C (m/s), 50 digits."""
 
-    place: Any
-    velocity: Any
+    place: mpc
+    velocity: mpc
 
 
-def _right(scene: Scene, mp: Any) -> _Right:
+def _right(scene: Scene, mp: MPContext) -> _Right:
     motion = solver.solve(scene)
     equations = reference(motion.structure, mp)
     value, rate, second = scene.drivers[0].values
@@ -82,7 +91,7 @@ def _found(scene: Scene, right: _Right, hand: Instrument) -> tuple[float, float,
     return float(abs(place - right.place) / abs(right.place)), off, False
 
 
-def parallel_lines(mp: Any, samples: int = 2) -> Trial:
+def parallel_lines(mp: MPContext, samples: int = 2) -> Singularity:
     """Errors against the angle of the two lines that cross in the centre."""
     x = grid(0.5, 1e-15, samples)
     places, velocities = [], []
@@ -96,14 +105,14 @@ def parallel_lines(mp: Any, samples: int = 2) -> Trial:
     xs, one = binned(x, places, samples)
     _, two = binned(x, velocities, samples)
     laws = [
-        Law("centre place", xs, one, -1.0, stops, stops, window=(1e-12, 0.1)),
-        Law("centre velocity", xs, two, 0.0),
+        ErrorLaw("centre place", xs, one, -1.0, stops, stops, window=(1e-12, 0.1)),
+        ErrorLaw("centre velocity", xs, two, 0.0),
         *_by_pencil(mp),
     ]
-    return Trial("parallel lines", "angle of two lines", tuple(laws), (Phrase("fate centre"),))
+    return Singularity("parallel lines", "angle of two lines", tuple(laws), (Phrase("fate centre"),))
 
 
-def _by_pencil(mp: Any) -> list[Law]:
+def _by_pencil(mp: MPContext) -> list[ErrorLaw]:
     """Root of the mean square over some drawings."""
     x = grid(0.5, 1e-5, 1)
     places, velocities = [], []
@@ -114,10 +123,47 @@ def _by_pencil(mp: Any) -> list[Law]:
         places.append(_rms([row[0] for row in rows]))
         velocities.append(_rms([row[1] for row in rows]))
     return [
-        Law("centre place pencil", tuple(x), tuple(places), -1.0, window=(1e-3, 0.2), lost=1.0),
-        Law("centre velocity pencil", tuple(x), tuple(velocities), 0.0),
+        ErrorLaw("centre place pencil", tuple(x), tuple(places), -1.0, window=(1e-3, 0.2), lost=1.0),
+        ErrorLaw("centre velocity pencil", tuple(x), tuple(velocities), 0.0),
     ]
 
 
 def _rms(values: list[float]) -> float:
     return math.sqrt(sum(v * v for v in values) / len(values))
+
+
+POINTS_ONLY = Tools(line_width=0.2, ruler=0.0, compass=0.0, set_square=0.0, protractor=0.0)
+
+
+def drawing_scale(mp: MPContext, samples: int = 1, name: str = "slider-crank-offset") -> Singularity:
+    """Predicted uncertainty of the slider's velocity against the length of the crank on paper, all three figures drawn
+    larger alike: errors of points and lengths fall as 1/size, those of set squares stay.
+
+    Parameters
+    ----------
+    mp, samples : as for the others; not used, since nothing is random here
+    """
+    scene = read(name)
+    slider = scene.links[-1]
+    symbol = Symbol.parse(f"v_{next(iter(slider.points))}")
+    what = plan(scene, find=(symbol,))
+    crank = scene.links[0].length or scene.size
+    own = crank / what.scales.length
+    right = abs(_value(what, symbol))
+    x = [1e3 / v for v in grid(0.3e3, 1.0, 1)]  # falling ratios turned into growing sizes, mm
+    x = sorted(size for size in x if 3.0 <= size <= 1000.0)
+    laws = []
+    for key, tools, theory in (("pencil points", POINTS_ONLY, -1.0), ("pencil all", scene.sheet.tools, None)):
+        errors = []
+        for size in x:
+            by = own / size
+            scales = Scales(*(s * by for s in (what.scales.length, what.scales.velocity, what.scales.acceleration)))
+            errors.append(predict(replace(what, scales=scales), "pencil", tools)[symbol].deviation / right)
+        laws.append(ErrorLaw(key, tuple(x), tuple(errors), theory, lost=1.0))
+    return Singularity("small scale", "crank on paper", tuple(laws), (Phrase("fate scale"),))
+
+
+def _value(what: Plan, symbol: Symbol) -> complex:
+    sheet = execute(what, EXACT)
+    vector = sheet.vectors("velocity")[symbol]
+    return vector.span * sheet.scales.velocity

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING
 
 from graphkin import solver
 from graphkin.checking import predict
@@ -16,8 +16,11 @@ from graphkin.scene import read_text
 from graphkin.scene.model import AngleDriver, Scene
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion
-from graphkin.study.limits.law import LOST, Law, Trial, binned, grid
+from graphkin.study.stability.laws import LOST, ErrorLaw, Singularity, binned, grid
 from graphkin.words import Phrase
+
+if TYPE_CHECKING:
+    from mpmath import MPContext, mpc, mpf
 
 __all__ = ["flip", "near_ground", "slow_sliding"]
 
@@ -51,10 +54,10 @@ def _at(scene: Scene, angle: float) -> Scene:
 class _Bar:
     """The motion of a bar that swings about C on the pin of the crank: direction, rate, second rate, Coriolis."""
 
-    u: Any
-    omega: Any
-    alpha: Any
-    coriolis: Any
+    u: mpc | complex
+    omega: mpf | float
+    alpha: mpf | float
+    coriolis: mpf | float
 
     def off(self, found: _Bar) -> tuple[float, float, float]:
         """Errors of another: of the direction (rad), of Coriolis and of the second rate (relative)."""
@@ -62,7 +65,7 @@ class _Bar:
         return float(turned), float(abs(found.coriolis / self.coriolis - 1)), float(abs(found.alpha / self.alpha - 1))
 
 
-def _right(mp: Any, a: Any, d: Any, rate: float, angle: Any) -> _Bar:
+def _right(mp: MPContext, a: mpf, d: mpf, rate: float, angle: mpf) -> _Bar:
     """By the way w from C to the pin B: omega = Im w'/w, sliding = Re w'/w |w|."""
     b = a * mp.expj(angle)
     w, dw, ddw = mp.mpc(0, d) + b, 1j * rate * b, -rate * rate * b
@@ -92,7 +95,7 @@ def _solved(scene: Scene) -> tuple[_Bar, Motion] | None:
     return _Bar(u, omega, float(motion.alpha("3")[0]), 2 * omega * float(slide.velocity[0])), motion
 
 
-def near_ground(mp: Any, samples: int = 4) -> Trial:
+def near_ground(mp: MPContext, samples: int = 4) -> Singularity:
     """Crank nearly as long as the ground, its pin beside the bar's pivot C, both at a distance of the same order.
 
     Coriolis grows as distance^-1, the second rate of the bar as distance^-2, their relative errors as distance^-1.
@@ -109,21 +112,22 @@ def near_ground(mp: Any, samples: int = 4) -> Trial:
     laws = _laws(("place bar", "acceleration Coriolis", "acceleration bar"), x, rows, (-1.0,) * 3, samples)
     growth = _laws(("size Coriolis", "size bar"), x, sizes, (-1.0, -2.0), samples, math.inf, (1e-12, 0.03))
     grown = Phrase("grows", tuple(f"{law.slope:.2f}".replace("-", "−") for law in growth))
-    return Trial("near ground", "crank from ground", tuple(laws), (grown, Phrase("fate near ground")), tuple(growth))
+    fates = grown, Phrase("fate near ground")
+    return Singularity("near ground", "crank from ground", tuple(laws), fates, tuple(growth))
 
 
 def _laws(
     names: Sequence[str], x: Sequence[float], rows: Sequence[Sequence[float]], theory: Sequence[float], samples: int,
     lost: float = LOST, window: tuple[float, float] = (1e-8, 0.03),
-) -> list[Law]:  # fmt: skip
+) -> list[ErrorLaw]:  # fmt: skip
     laws = []
     for name, error, slope in zip(names, zip(*rows, strict=True), theory, strict=True):
         xs, es = binned(x, error, samples)
-        laws.append(Law(name, xs, es, slope, window=window, lost=lost))
+        laws.append(ErrorLaw(name, xs, es, slope, window=window, lost=lost))
     return laws
 
 
-def flip(mp: Any, samples: int = 4) -> Trial:
+def flip(mp: MPContext, samples: int = 4) -> Singularity:
     """Crank as long as the ground: its pin B passes through the bar's pivot C, and the bar flips over.
 
     With the crank turned by e from there, CB = 2 a sin(e/2) and the bar turns at half the speed of the crank: nothing
@@ -156,11 +160,12 @@ def flip(mp: Any, samples: int = 4) -> Trial:
     stated = binned(x, bounds, samples)[1]
     told = next((e for e in x[::samples] if _told(_at(scene, -math.pi / 2 + e))), stops.get("drawn"))
     laws += [
-        Law("acceleration bar solved", xs, tuple(max(e, FLOOR) for e in es), None, None, stops.get("solved"), stated),
-        Law("acceleration bar drawn", tuple(x[::samples]), tuple(drawn), -3.0, told, stops.get("drawn"),
-            window=(1e-8, 0.1), lost=math.inf),
+        ErrorLaw("acceleration bar solved", xs, tuple(max(e, FLOOR) for e in es), stops=stops.get("solved"),
+                 bound=stated),
+        ErrorLaw("acceleration bar drawn", tuple(x[::samples]), tuple(drawn), -3.0, told, stops.get("drawn"),
+                 window=(1e-8, 0.1), lost=math.inf),
     ]  # fmt: skip
-    return Trial("guide flip", "crank from flip", tuple(laws), (Phrase("fate flip"),))
+    return Singularity("guide flip", "crank from flip", tuple(laws), (Phrase("fate flip"),))
 
 
 def _drawn(scene: Scene) -> float:
@@ -179,7 +184,7 @@ def _told(scene: Scene) -> bool:
         return True
 
 
-def slow_sliding(mp: Any, samples: int = 4) -> Trial:
+def slow_sliding(mp: MPContext, samples: int = 4) -> Singularity:
     """Crank and ground in line: the block stands still on its bar.  The sliding velocity goes to zero and loses its
     digits; what it is only a part of does not."""
     scene = read_text(_BAR.format(ground=350, crank=90, angle=90), "slow")
@@ -195,21 +200,21 @@ def slow_sliding(mp: Any, samples: int = 4) -> Trial:
     xs, one = binned(x, slips, samples)
     _, two = binned(x, turns, samples)
     laws = [
-        Law("velocity sliding", xs, one, -1.0, window=(1e-13, 0.1)),
-        Law("velocity bar", xs, two, 0.0),
+        ErrorLaw("velocity sliding", xs, one, -1.0, window=(1e-13, 0.1)),
+        ErrorLaw("velocity bar", xs, two, 0.0),
         *_pencil_sliding(scene, mp, rate),
     ]
-    return Trial("slow sliding", "crank from line", tuple(laws), (Phrase("fate sliding"),))
+    return Singularity("slow sliding", "crank from line", tuple(laws), (Phrase("fate sliding"),))
 
 
-def _in_line(mp: Any, a: Any, d: Any, rate: float, e: float) -> tuple[Any, Any]:
+def _in_line(mp: MPContext, a: mpf, d: mpf, rate: float, e: float) -> tuple[mpf, mpf]:
     """Sliding velocity and rate of the bar, the crank turned by e from the prolongation of the ground: c2 = a2 + d2 +
     2 a d cos e."""
     c = mp.sqrt(a * a + d * d + 2 * a * d * mp.cos(e))
     return -a * d * mp.sin(e) * rate / c, rate * a * (a + d * mp.cos(e)) / (c * c)
 
 
-def _pencil_sliding(scene: Scene, mp: Any, rate: float) -> list[Law]:
+def _pencil_sliding(scene: Scene, mp: MPContext, rate: float) -> list[ErrorLaw]:
     symbols = {"velocity sliding pencil": Symbol.parse("v_B@3/B@2"), "velocity bar pencil": Symbol("omega", link="3")}
     x = grid(0.3, 1e-4, 1)
     errors: dict[str, list[float]] = {key: [] for key in symbols}
@@ -220,6 +225,6 @@ def _pencil_sliding(scene: Scene, mp: Any, rate: float) -> list[Law]:
         for (key, symbol), size in zip(symbols.items(), (slip, omega), strict=True):
             errors[key].append(float(predicted[symbol].deviation / abs(size)))
     return [
-        Law(key, tuple(x), tuple(errors[key]), theory, lost=2.0)
+        ErrorLaw(key, tuple(x), tuple(errors[key]), theory, lost=2.0)
         for key, theory in zip(symbols, (-1.0, 0.0), strict=True)
     ]
