@@ -143,10 +143,14 @@ def work_of(scene: Scene, mp: MPContext, count: int) -> Work:
 
     Raises
     ------
-    CallError : nothing moves
+    CallError : nothing moves, or a group larger than a dyad, which has no closed form
     Unsolvable : as for ``solver.solve``
     """
     structure = solver.structure_of(scene)
+    larger = next((group for group in structure.groups if not isinstance(group, Dyad)), None)
+    if larger is not None:
+        what = f"links {', '.join(larger.links)}"
+        raise CallError(Problem(what, "have no closed form", "solve such a mechanism with solve"))
     outputs = compared_points(structure)
     if not outputs or not any(d.values[1] for d in scene.drivers):
         what = "nothing moves that could be looked at"
