@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+pytestmark = pytest.mark.quick
+
 FIGURES = Path(__file__).parent.parent / "figures"
 _spec = importlib.util.spec_from_file_location("make", FIGURES / "make.py")
 make = importlib.util.module_from_spec(_spec)

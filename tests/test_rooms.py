@@ -5,6 +5,8 @@ from __future__ import annotations
 import grimp
 import pytest
 
+pytestmark = pytest.mark.quick
+
 # circles still to be untied; none may be added, none may grow
 KNOWN = [
     {"graphkin.api.report_text", "graphkin.api.swept"},

@@ -15,7 +15,7 @@ import pytest
 
 import graphkin
 from graphkin.words import LANGUAGES
-from tests.command import run
+from tests.command import start
 
 MARK = "¤"
 TABLES = Path(graphkin.__file__).parent / "words"
@@ -70,13 +70,13 @@ def with_another_language(tmp_path_factory):
     [("check", "report.txt"), ("draw", "sheet.svg"), ("centres", "centres.svg"), ("handout", "problem.html")],
 )
 def test_a_further_language_is_one_more_table(with_another_language, command, said_in):
-    done = run(command, "slider-crank-s50-e16-K1.2", "--lang", "xx", "-o", command, cwd=with_another_language)
+    done = start(command, "slider-crank-s50-e16-K1.2", "--lang", "xx", "-o", command, cwd=with_another_language)
     assert 0 == done.returncode, done.stderr
     assert MARK in (with_another_language / command / said_in).read_text(encoding="utf-8")
 
 
 def test_the_help_names_every_language(with_another_language):
-    assert "en|xx|zh" in run("check", "--help", cwd=with_another_language).stdout
+    assert "en|xx|zh" in start("check", "--help", cwd=with_another_language).stdout
 
 
 def test_a_scene_may_ask_for_a_further_language(with_another_language):

@@ -6,6 +6,8 @@ import pytest
 
 import graphkin
 
+pytestmark = pytest.mark.quick
+
 SIXBAR = "sixbar-guide-40deg"
 
 

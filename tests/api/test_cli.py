@@ -10,7 +10,7 @@ import xml.etree.ElementTree as ET
 
 import pytest
 
-from tests.command import run
+from tests.command import run, start
 
 SIXBAR = "sixbar-guide-40deg"
 
@@ -35,6 +35,26 @@ def test_help_imports_no_numpy():
 def test_importing_graphkin_imports_no_numpy():
     done = subprocess.run([sys.executable, "-c", "import sys, graphkin; assert 'numpy' not in sys.modules"])
     assert 0 == done.returncode
+
+
+@pytest.mark.parametrize(
+    "args",
+    [
+        ("scenes", "--json"),
+        ("draw", SIXBAR, "-o", "out"),
+        ("check", SIXBAR, "--find", "a_D"),
+        ("solve", "sixbar-AE70", "--at", "80", "--json"),
+        ("centres", SIXBAR, "--json"),
+        ("audit", "shaper-scheme-2"),
+        ("sweep", "sine-mechanism", "--positions", "4", "--json", "-o", "out"),
+        ("handout", "no-such-scene"),
+        ("study", "stability", "no-such-scene"),
+    ],
+    ids=lambda args: args[0],
+)
+def test_a_command_says_in_a_process_of_its_own_what_it_says_here(args, tmp_path):
+    here, there = run(*args, cwd=tmp_path), start(*args, cwd=tmp_path)
+    assert (here.returncode, here.stdout, here.stderr) == (there.returncode, there.stdout, there.stderr)
 
 
 def test_the_version_is_printed():

@@ -6,6 +6,8 @@ import pytest
 
 import graphkin
 
+pytestmark = pytest.mark.quick
+
 COMMANDS = ["check", "solve", "draw", "centres", "audit", "handout", "sweep"]
 
 

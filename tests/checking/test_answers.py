@@ -9,6 +9,8 @@ import pytest
 import graphkin
 from graphkin.errors import CallError
 
+pytestmark = pytest.mark.quick
+
 SIXBAR = "sixbar-guide-40deg"
 MESSY = "姓名;v_D (mm/s);a_D [mm/s²];ω3;备注\n张三;482,7;554,7 mm/s²;-2,82;好\n李四;(-482,7 0);-;2,82;\n"
 

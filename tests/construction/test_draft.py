@@ -15,6 +15,8 @@ from graphkin.plane import cross, dot
 from graphkin.scene import library, read
 from graphkin.scene.symbol import PointRef, Symbol
 
+pytestmark = pytest.mark.quick
+
 SIXBAR = "sixbar-guide-40deg"
 
 

@@ -6,6 +6,8 @@ from graphkin.drawing import symbols as arrows
 from graphkin.drawing.primitives import Circle, Line
 from graphkin.drawing.symbols import arrow, head_size, vector_group
 
+pytestmark = pytest.mark.quick
+
 
 def test_the_line_runs_from_tail_to_tip_exactly():
     line, _ = arrow(1 + 2j, 51.123 + 7j)

@@ -4,6 +4,8 @@ import pytest
 
 from graphkin.drawing.box import Box
 
+pytestmark = pytest.mark.quick
+
 BOX = Box(0.0, 0.0, 10.0, 5.0)
 
 

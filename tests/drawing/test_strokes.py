@@ -6,6 +6,8 @@ import pytest
 
 from graphkin.drawing import strokes
 
+pytestmark = pytest.mark.quick
+
 
 def luminance(colour: str) -> float:
     """Relative luminance after WCAG 2."""

@@ -19,6 +19,8 @@ from graphkin.drawing.svg import number, svg_bytes
 from graphkin.drawing.symbols import vector_group
 from graphkin.drawing.text import plain, rich
 
+pytestmark = pytest.mark.quick
+
 SVG = "{http://www.w3.org/2000/svg}"
 INKSCAPE = "{http://www.inkscape.org/namespaces/inkscape}"
 

@@ -1,9 +1,13 @@
 from __future__ import annotations
 
+import pytest
+
 from graphkin.construction import draft
 from graphkin.drawing.conventions import letters_of
 from graphkin.papers.lesson import Speaker, plain_words, stages
 from graphkin.scene import library, read
+
+pytestmark = pytest.mark.quick
 
 
 def _six_bar():

@@ -6,6 +6,8 @@ from graphkin.construction.centres import find_centres
 from graphkin.papers.prepare import usual_count
 from graphkin.scene import read
 
+pytestmark = pytest.mark.quick
+
 
 def test_centres_followed_from_a_neighbour_are_those_found_afresh():
     scene = read("double-butterfly")

@@ -13,6 +13,8 @@ from graphkin.scene.model import AngleDriver, Scene, SlideDriver
 
 from .scenes import changed
 
+pytestmark = pytest.mark.quick
+
 # B at 3-4-5 from A, C above D, E on the coupler
 FOUR_BAR = """\
 [frame]

@@ -14,6 +14,8 @@ from graphkin.scene.symbol import Symbol
 
 from .scenes import FOUR_BAR, SIX_BAR, changed
 
+pytestmark = pytest.mark.quick
+
 
 def read(text: str, *changes: tuple[str, str]) -> Scene:
     return read_text(changed(text, *changes), "test")

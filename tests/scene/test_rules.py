@@ -12,6 +12,8 @@ from graphkin.scene.model import FromDeadPoint
 
 from .scenes import FOUR_BAR, SIX_BAR, changed
 
+pytestmark = pytest.mark.quick
+
 LINK1 = 'length = 150'
 LINK2 = 'length = 500'
 DRIVER = 'link = "1"\nangle = 60\nomega = 10'

@@ -12,6 +12,8 @@ from graphkin.scene import library, library_text, read, read_text
 
 from .scenes import FOUR_BAR
 
+pytestmark = pytest.mark.quick
+
 
 def sentence(source: object) -> str:
     with pytest.raises(SceneError) as error:

@@ -15,6 +15,8 @@ from graphkin.solver import Motion, solve, structure_of
 from graphkin.solver.dead_points import dead_points
 from tests import scenes
 
+pytestmark = pytest.mark.quick
+
 # 3-4-5: rod and rocker are in line at crank 90 and -90, and fold at 0
 REACHING = """
 [frame]

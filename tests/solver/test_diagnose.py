@@ -9,6 +9,8 @@ from graphkin.scene import read_text
 from graphkin.solver import solve
 from tests import scenes
 
+pytestmark = pytest.mark.quick
+
 
 def refused(text: str) -> str:
     with pytest.raises(Unsolvable) as stop:

@@ -11,7 +11,7 @@ from tests.bench.hazards import Found, look
 
 @pytest.fixture(scope="module")
 def found() -> Found:
-    return look(5000, 11, each=8)
+    return look(3000, 11, each=8)
 
 
 def test_nothing_jumps_nor_is_left_open_nor_is_not_a_number(found: Found) -> None:
@@ -24,4 +24,4 @@ def test_dead_points_are_among_them(found: Found) -> None:
 
 def test_a_jump_would_be_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(Passage, "sign", lambda self, t: np.ones_like(t))
-    assert any("jumps" in x for x in look(4000, 11, each=6).wrong)
+    assert any("jumps" in x for x in look(1000, 11, each=6).wrong)

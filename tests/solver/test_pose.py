@@ -8,6 +8,8 @@ import pytest
 
 from graphkin.solver.pose import Pose, rest
 
+pytestmark = pytest.mark.quick
+
 NUMBERS = {"z": 0.3 - 0.2j, "v": -1.1 + 0.4j, "a": 0.7 + 2.1j, "turn": 0.8, "omega": 1.7, "alpha": -2.3}
 OTHER = {"z": -0.5 + 0.1j, "v": 0.6 + 0.9j, "a": -1.2 + 0.3j, "turn": -2.1, "omega": -0.9, "alpha": 3.1}
 

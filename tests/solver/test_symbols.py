@@ -10,6 +10,8 @@ from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion, solve
 from tests import scenes
 
+pytestmark = pytest.mark.quick
+
 
 @pytest.fixture(scope="module")
 def sixbar() -> Motion:

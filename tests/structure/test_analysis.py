@@ -9,6 +9,8 @@ from graphkin.scene import read, read_text
 from graphkin.structure import Cluster, Driven, Dyad, Structure, analyse
 from tests import scenes
 
+pytestmark = pytest.mark.quick
+
 FRAME = "[frame]\npoints = { A = [0, 0], D = [400, 0] }\n"
 CRANK = '[links.1]\npoints = ["A", "B"]\nlength = 150\n'
 ROD = '[links.2]\npoints = ["B", "C"]\nlength = 500\n'

@@ -10,6 +10,8 @@ from graphkin.errors import SceneError
 from graphkin.scene.model import Guide, Link, Scene
 from graphkin.structure import Choice, pick
 
+pytestmark = pytest.mark.quick
+
 OWN = {"": Guide("", 0j, 1 + 0j)}
 FRAME = Link("0", {"A": 0j, "D": 0.4 + 0j}, (), OWN)
 SCENE = Scene("s", "s", FRAME, (Link("1", {"A": 0j, "B": 0.1 + 0j}, ("A", "B"), OWN),), (), (), ())

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from graphkin.structure.groups import components, match
+
+pytestmark = pytest.mark.quick
 
 rows = st.lists(st.lists(st.integers(0, 6), max_size=4, unique=True), max_size=7)
 

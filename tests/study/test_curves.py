@@ -8,6 +8,8 @@ from numpy.typing import NDArray
 
 from graphkin.study.curves import resolve
 
+pytestmark = pytest.mark.quick
+
 Array = NDArray[np.float64]
 
 

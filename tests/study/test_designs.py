@@ -12,6 +12,8 @@ from graphkin.errors import CallError
 from graphkin.scene import library_text
 from graphkin.study.designs import applied, designs_of
 
+pytestmark = pytest.mark.quick
+
 
 def four_bar() -> dict[str, Any]:
     return tomllib.loads(library_text("fourbar-150-500-300-400"))

@@ -12,6 +12,8 @@ from graphkin.scene import library
 
 from .pages import PAGES, PROBLEMS, UNITS, Page, Value, answer
 
+pytestmark = pytest.mark.quick
+
 VALUES = [value for page in PAGES for value in page.values]
 PRINTED = [value for value in VALUES if value.printed]
 READINGS = [value for value in VALUES if value.asked.startswith("check ")]

@@ -12,6 +12,8 @@ import pytest
 
 import graphkin
 
+pytestmark = pytest.mark.quick
+
 CASES = json.loads((Path(__file__).parent / "truth.json").read_text())["cases"]
 PLACES = [(name, k) for name, case in CASES.items() for k in range(len(case["positions"]))]
 CLOSE = 1e-10  # of the largest value of its kind

@@ -1,0 +1,25 @@
+"""How the tests run: the whole suite on all cores, a part of it in this process, ``-m quick`` without loading the rest.
+
+``pytestmark = pytest.mark.quick`` stands in the files that say, room by room, whether the core of it holds.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+TESTS = Path(__file__).parent
+
+
+def pytest_xdist_auto_num_workers(config: pytest.Config) -> int | None:
+    """None is as many as there are cores."""
+    whole = all(config.invocation_params.dir.joinpath(arg).resolve() in (TESTS, TESTS.parent) for arg in config.args)
+    return None if whole else 0
+
+
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    """Files without a quick test cost seconds to import."""
+    if config.option.markexpr != "quick" or collection_path.suffix != ".py":
+        return None
+    return "mark.quick" not in collection_path.read_text(encoding="utf-8") or None
