@@ -10,9 +10,8 @@ from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, Scene
 from graphkin.solver.dyads import Solved
 from graphkin.solver.engine import State, positions
-from graphkin.solver.group_equations import System
 from graphkin.solver.joints import Drive, driver_text
-from graphkin.solver.larger_groups import ClusterSolved, as_place, solve_all, solve_cluster
+from graphkin.solver.larger_groups import ClusterSolved, System, as_place, solve_all, solve_cluster
 from graphkin.solver.pose import Array, Pose
 from graphkin.structure import Cluster, Dyad, Slide, Structure, links_of, pick
 from graphkin.structure.assembly import TOUCH, last_true

@@ -1,6 +1,5 @@
-"""What the solver has to say in words: where the motion ends, why a position is dead, which assembly was taken.
-
-Why a mechanism has the wrong mobility: redundant but mobile, over-constrained, not to be closed, wrongly counted.
+"""What the solver has to say in words: where the motion ends, why a position is dead, which assembly was taken, why a
+mechanism has the wrong mobility (redundant but mobile, over-constrained, not to be closed, wrongly counted).
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""How sure a mechanism with larger groups is: whether Newton's method has converged, and bounds of the errors.
+"""Bounds of the errors of a mechanism with larger groups, of all its links together.
 
 An error is the inverse of the matrix of all constraints times what these may be off, term by term: what is still open
 of them, the rounding in telling that, and the roundings in the numbers of the scene.  An error of place puts the
@@ -15,32 +15,18 @@ import numpy as np
 
 from graphkin.scene.model import AngleDriver
 from graphkin.solver.error_bound import ErrorBound
-from graphkin.solver.group_equations import System
 from graphkin.solver.joints import Drive, joint_place
+from graphkin.solver.larger_groups import System
 from graphkin.solver.pose import Array, Pose
 from graphkin.solver.rounding import UNIT
 from graphkin.structure import Pair, Structure, Turn
 
-__all__ = ["bounds", "certificate"]
+__all__ = ["bounds"]
 
-ROUNDINGS = 32 * UNIT
 FEW = 4 * UNIT
 """The roundings of a sum of products."""
 Errors = ErrorBound[Array]
 _NONE = Errors(*(np.zeros(1),) * 6)
-
-
-def certificate(system: System, members: Mapping[str, Pose], condition: Array, missed: Array) -> Array:
-    """Kantorovich's number: |J^-1| |step| times how fast the matrix J changes, with step <= |J^-1| |open|.
-
-    Below 1/2 there is a position, the only one within twice the step, and Newton's method converges to it quadratically
-    (Ortega and Rheinboldt, Iterative Solution of Nonlinear Equations in Several Variables, 12.6).
-    """
-    size, rows = system.structure.scene.size, 3 * len(system.group.members)
-    poses = [*members.values(), *system.known.values()]
-    reach = 1 + np.max(np.broadcast_arrays(*(np.abs(p.z) / size for p in poses)), axis=0)
-    step = condition * np.maximum(missed, ROUNDINGS) * rows**0.5
-    return np.asarray(condition * step * 4 * reach * rows**0.5)
 
 
 def bounds(

@@ -1,6 +1,4 @@
-"""Quantities by their symbols, out of a motion.
-
-The motion found: position, velocity and acceleration of every link, point and sliding pair.
+"""The motion found: position, velocity and acceleration of every link, point and sliding pair, by name and by symbol.
 """
 
 from __future__ import annotations

@@ -1,6 +1,7 @@
-"""A larger group along a path: from position to position, through change points, to the end of its motion.
+"""The assembly of every group along a straight path of driver values, by continuity, without jumping.
 
-From the scene's own position to other driver values by continuity, without jumping.
+Dyads are followed by their discriminants; larger groups are walked from position to position.  Both go through change
+points, and to the end of the motion.
 """
 
 from __future__ import annotations

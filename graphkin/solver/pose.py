@@ -1,4 +1,7 @@
-"""Where a link is and how it moves: place, direction, and their first and second rates, as arrays over positions."""
+"""Where a link is and how it moves: place, direction, and their first and second rates, as arrays over positions.
+
+The drawing board has a pose of its own (``construction.sheet.Pose``, on paper, without rates): it never sees this one.
+"""
 
 from __future__ import annotations
 

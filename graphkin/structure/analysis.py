@@ -1,6 +1,6 @@
-"""Why a scene has no order of solution: too many or too few drivers, parts held too much beside parts left free.
+"""From a scene to its structure: mobility, and the elements in the order of solution; or why there is no such order.
 
-From a scene to the elements in the order of solution.
+A scene has none with too many or too few drivers, and where parts are held too much beside parts left free.
 """
 
 from __future__ import annotations
