@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from graphkin.api.arguments import asked_symbols
-from graphkin.checking import Printed, stated
+from graphkin.checking.printed import Printed, stated
 from graphkin.errors import CallError, Problem
 from graphkin.scene.model import Scene
 from graphkin.scene.symbol import Symbol

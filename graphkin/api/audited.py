@@ -14,8 +14,10 @@ from graphkin import table
 from graphkin.api.answers import Answers, AnswersLike, as_answers
 from graphkin.api.arguments import At, SceneLike, as_scene, driver_values, known_words, own_unit, write_files
 from graphkin.api.checked import in_scene_units, solved_here
-from graphkin.checking import Case, Judged, judge, predict, printed_values
-from graphkin.checking.slips import Table
+from graphkin.checking.audit import Judged, judge
+from graphkin.checking.printed import printed_values
+from graphkin.checking.readings import predict
+from graphkin.checking.slips import Evidence, Table
 from graphkin.construction import plan
 from graphkin.errors import CallError, Problem
 from graphkin.scene.model import AngleDriver, Scene
@@ -176,14 +178,14 @@ def audit(scene: SceneLike, answers: AnswersLike | None = None, at: At = None, l
     asked = list(dict.fromkeys(p.symbol for who in people for p in who.values))
 
     @cache
-    def case(place: float | None) -> Case:
+    def case(place: float | None) -> Evidence:
         return _case(given, asked, at if place is None else place)
 
     judged = tuple((who, judge(case(who.at), who.values)) for who in people)
     return Audited(given, judged, language or given.sheet.language, unused)
 
 
-def _case(scene: Scene, asked: Sequence[Symbol], at: At) -> Case:
+def _case(scene: Scene, asked: Sequence[Symbol], at: At) -> Evidence:
     values = driver_values(scene, at)
     motion = solved_here(scene, values)
     structure = motion.structure
@@ -197,7 +199,7 @@ def _case(scene: Scene, asked: Sequence[Symbol], at: At) -> Case:
         return complex(found) if symbol.is_vector else float(found.real)
 
     predicted = predict(what, "pencil", scene.sheet.tools)
-    return Case(drawn, exact, predicted, _elsewhere(scene, values))
+    return Evidence(drawn, exact, predicted, _elsewhere(scene, values))
 
 
 def _elsewhere(scene: Scene, values: dict[str, float] | None) -> Table:

@@ -1,7 +1,4 @@
-"""Instant centres in plain text: a table of them, why some need another way, and the velocities through them.
-
-``graphkin centres``: every instant centre, how it was found, the velocities taken through them, and the check.
-"""
+"""``graphkin centres``: every instant centre, how it was found, the velocities taken through them, and the check."""
 
 from __future__ import annotations
 
@@ -29,7 +26,7 @@ from graphkin.api.arguments import (
 from graphkin.api.checked import solved_here
 from graphkin.construction import Room
 from graphkin.construction.centres import Centre, Centres, Turning, by_centres, find_centres, speeds, velocity_sentences
-from graphkin.construction.centres.pairs import Pair, normal, wedge
+from graphkin.construction.centres.pairs import LinkPair, normal, wedge
 from graphkin.scene.model import Scene
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, languages, say, word
@@ -96,7 +93,7 @@ def _phrase(centre: Centre, name: Callable[[object], str], kept: str) -> Phrase:
     return Phrase("centre crossing" if centre.point is not None else "centre crossing far", (centre.pair, *lines))
 
 
-def _line(through: tuple[Pair, Pair] | tuple[str], name: Callable[[object], str]) -> str:
+def _line(through: tuple[LinkPair, LinkPair] | tuple[str], name: Callable[[object], str]) -> str:
     return "".join(name(p) if isinstance(p, tuple) else f"n({p})" for p in through)
 
 
@@ -136,11 +133,11 @@ class Centred:
         return self.centres.links.scene
 
     @cached_property
-    def errors(self) -> dict[Pair, float | None]:
+    def errors(self) -> dict[LinkPair, float | None]:
         return {pair: found and found[0] for pair, found in self._compared.items()}
 
     @cached_property
-    def _compared(self) -> dict[Pair, tuple[float, float] | None]:
+    def _compared(self) -> dict[LinkPair, tuple[float, float] | None]:
         """For each centre its error and what it may be."""
         return {pair: _error(self.centres, self.motion, centre) for pair, centre in self.centres.table.items()}
 
@@ -230,7 +227,7 @@ def found_centres(scene: Scene, values: Mapping[str, float] | None) -> Centres:
     return find_centres(scene, values).in_room(ROOM)
 
 
-def _name(pair: Pair) -> str:
+def _name(pair: LinkPair) -> str:
     return "-".join(pair)
 
 

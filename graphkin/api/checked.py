@@ -9,7 +9,8 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from graphkin.api.arguments import INSTRUMENTS, At, SceneLike, as_scene, asked_symbols, driver_values, own_unit
-from graphkin.checking import Advice, Compared, Report, Uncertainty, advise, compare, predict, read_off
+from graphkin.checking.readings import Advice, Uncertainty, advise, predict, read_off
+from graphkin.checking.report import Compared, Report, compare
 from graphkin.construction import EXACT, Cad, Instrument, Plan, Sheet, execute, pencil, plan
 from graphkin.construction.sheet import DiagramName
 from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
@@ -73,19 +74,23 @@ class Checked:
     @cached_property
     def data(self) -> dict[str, Any]:
         """The object that ``graphkin check --json`` prints: scene units, readings with sign."""
-        unit = self.scene.units.metres
-        scales = self.report.scales
         return {
             "instrument": self.report.instrument,
             "ok": self.ok,
-            "scales": {
-                "length": _plain(scales.length * 1e3),
-                "velocity": _plain(scales.velocity / unit),
-                "acceleration": _plain(scales.acceleration / unit),
-            },
+            "scales": self.scales,
             "readings": [{**reading_row(self.scene, row), **self._by_centres(row)} for row in self.report.rows],
             **({"advice": say(self.advice.phrase())} if self.advice else {}),
             **({"stopped": say(self.sheet.stopped)} if self.sheet.stopped else {}),
+        }
+
+    @property
+    def scales(self) -> dict[str, float]:
+        """What one mm on paper is: mm, and scene units per second and second squared."""
+        scales, unit = self.report.scales, self.scene.units.metres
+        return {
+            "length": _plain(scales.length * 1e3),
+            "velocity": _plain(scales.velocity / unit),
+            "acceleration": _plain(scales.acceleration / unit),
         }
 
     @cached_property

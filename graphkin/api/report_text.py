@@ -1,6 +1,5 @@
-"""The report in plain text: what was drawn, in what order and why, what was read off, and the check.
-
-The study of a turn in words, for the terminal and the notebook.
+"""Reports in plain text, for the terminal, the notebook and files: of a drawing with its steps, readings and check, and
+of the study of a turn.
 """
 
 from __future__ import annotations
@@ -48,9 +47,7 @@ def told(checked: Checked, language: str) -> str:
     lines.append(f"{word('driver', language)}: {', '.join(drivers)}")
     for links, phrase in sheet.assembly.items():
         lines.append(f"{word('group', language)} {links}: {say(phrase, language, show)}")
-    data = checked.data
-    unit = scene.units.length
-    scales = data["scales"]
+    unit, scales = scene.units.length, checked.scales
     lines += [
         "",
         f"1 mm = {scales['length']:g} mm, {scales['velocity']:g} {unit}/s, {scales['acceleration']:g} {unit}/s²",

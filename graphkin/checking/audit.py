@@ -12,9 +12,9 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from graphkin.checking.consequential_errors import followed
-from graphkin.checking.printed import Printed, slips_of_the_pen
-from graphkin.checking.slips import Case, Suspect, line_of, suspects
+from graphkin.checking.consequential_errors import consequential_values
+from graphkin.checking.printed import Printed, transcription_errors
+from graphkin.checking.slips import Evidence, Suspect, line_of, suspects
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase
 
@@ -49,7 +49,7 @@ class Judged:
     follows_from: tuple[Symbol, ...] = ()
 
 
-def judge(case: Case, stated: Sequence[Printed]) -> tuple[Judged, ...]:
+def judge(case: Evidence, stated: Sequence[Printed]) -> tuple[Judged, ...]:
     """Judge the values of one person."""
     first = [_judged(case, p) for p in stated]
     wrong = [j.printed.symbol for j in first if j.verdict == "wrong"]
@@ -57,7 +57,7 @@ def judge(case: Case, stated: Sequence[Printed]) -> tuple[Judged, ...]:
     return tuple(_explained(case, j, own, wrong) if j.verdict == "wrong" else j for j in first)
 
 
-def _judged(case: Case, printed: Printed) -> Judged:
+def _judged(case: Evidence, printed: Printed) -> Judged:
     symbol = printed.symbol
     right = case.exact(symbol)
     line = line_of(case.sheet, symbol)
@@ -101,44 +101,42 @@ def _comparable(printed: Printed, value: Value, line: complex | None) -> Value:
     return signed if isinstance(value, complex) else float(value)
 
 
-def _explained(case: Case, judged: Judged, own: Mapping[Symbol, Value], wrong: Iterable[Symbol]) -> Judged:
+def _explained(case: Evidence, judged: Judged, own: Mapping[Symbol, Value], wrong: Iterable[Symbol]) -> Judged:
     symbol = judged.printed.symbol
     others = [s for s in wrong if s != symbol]
     chance = CHANCE / max(abs(judged.printed.value), abs(judged.exact), judged.printed.step)
     found = list(_weighed(case, judged))
     line = line_of(case.sheet, symbol)
     if others:
-        for value in followed(case.plan, case.sheet, own, symbol):
+        for value in consequential_values(case.plan, case.sheet, own, symbol):
             exact = _comparable(judged.printed, value, line)
             if abs(exact - judged.exact) > judged.bound / 3:
                 names = tuple(s for s in others if _moves(case, own, s, symbol, judged))
                 phrase = Phrase("slip follows", (", ".join(str(s) for s in names),))
                 if names:
-                    found.append(_weight(judged, Suspect(phrase, value, 0.5), line))
+                    found.append(_weight(judged, Suspect(phrase, value, 0.5, follows_from=names), line))
     best = max(found, key=lambda w: w[1], default=None)
     if best is None or best[1] <= chance:
         return replace(judged, looks_like=None) if judged.looks_like is None else judged
-    follows = best[0].phrase.key == "slip follows"
-    names = tuple(s for s in others if _moves(case, own, s, symbol, judged)) if follows else ()
-    return replace(judged, looks_like=best[0].phrase, follows_from=names)
+    return replace(judged, looks_like=best[0].phrase, follows_from=best[0].follows_from)
 
 
-def _moves(case: Case, own: Mapping[Symbol, Value], one: Symbol, symbol: Symbol, judged: Judged) -> bool:
+def _moves(case: Evidence, own: Mapping[Symbol, Value], one: Symbol, symbol: Symbol, judged: Judged) -> bool:
     """Whether one wrong value, taken for granted, moves another by more than drafting errors do."""
     line = line_of(case.sheet, symbol)
-    moved = followed(case.plan, case.sheet, {one: own[one]}, symbol)
+    moved = consequential_values(case.plan, case.sheet, {one: own[one]}, symbol)
     return any(abs(_comparable(judged.printed, v, line) - judged.exact) > judged.bound / 3 for v in moved)
 
 
-def _weighed(case: Case, judged: Judged) -> Iterator[tuple[Suspect, float]]:
+def _weighed(case: Evidence, judged: Judged) -> Iterator[tuple[Suspect, float]]:
     """Every explanation with its weight: share times likelihood (per unit of the value)."""
     line = line_of(case.sheet, judged.printed.symbol)
     for suspect in suspects(case, judged.printed.symbol):
         yield _weight(judged, suspect, line)
-    for text, share, other in slips_of_the_pen(judged.printed):
+    for text, share, other in transcription_errors(judged.printed):
         off = abs(other - judged.exact)
         weight = share * _likelihood(judged.printed, off, judged.bound / 3, judged.exact)
-        yield Suspect(Phrase("slip pen", (text,)), judged.exact, share), weight
+        yield Suspect(Phrase("slip pen", (text,)), judged.exact, share, copied=True), weight
 
 
 def _weight(judged: Judged, suspect: Suspect, line: complex | None) -> tuple[Suspect, float]:
@@ -159,8 +157,8 @@ def _likelihood(printed: Printed, off: float, spread: float, value: Value) -> fl
     return computed + 0.5 * math.exp(-0.5 * (off / wide) ** 2) / (wide * math.sqrt(math.tau))
 
 
-def _fits_to_the_digit(judged: Judged, suspect: Suspect, case: Case) -> bool:
-    if suspect.phrase.key == "slip pen":
+def _fits_to_the_digit(judged: Judged, suspect: Suspect, case: Evidence) -> bool:
+    if suspect.copied:
         return True
     value = _comparable(judged.printed, suspect.value, line_of(case.sheet, judged.printed.symbol))
     return abs(judged.printed.value - value) <= judged.printed.rounding + COMPUTED * abs(value)

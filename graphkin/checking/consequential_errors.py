@@ -9,16 +9,16 @@ from dataclasses import dataclass, replace
 from graphkin.checking.readings import read_off
 from graphkin.construction import Plan, Sheet, Slip, execute
 from graphkin.construction.sheet import Vector
-from graphkin.construction.terms import Part
+from graphkin.construction.slip import Component
 from graphkin.errors import GraphkinError
 from graphkin.scene.symbol import PointRef, Symbol
 
-__all__ = ["followed"]
+__all__ = ["consequential_values"]
 
 Value = complex | float
 
 
-def followed(plan: Plan, base: Sheet, own: Mapping[Symbol, Value], of: Symbol) -> tuple[Value, ...]:
+def consequential_values(plan: Plan, base: Sheet, own: Mapping[Symbol, Value], of: Symbol) -> tuple[Value, ...]:
     """What a symbol comes to, drawn on from somebody's own values of other symbols (SI).
 
     Parameters
@@ -68,7 +68,7 @@ class _Inputs:
     base: Sheet
     own: Mapping[Symbol, Value]
 
-    def term(self, part: Part) -> Part:
+    def term(self, part: Component) -> Component:
         """A known term with the person's own size, or made from the person's own velocities."""
         if part.span is None:
             return part

@@ -1,7 +1,4 @@
-"""Values that somebody states, with the digits they are stated to.
-
-Slips of the pen: digits exchanged, misread, left out or written twice when a right value was copied.
-"""
+"""Values that somebody states, with the digits they are stated to, and how they may have been copied wrong."""
 
 from __future__ import annotations
 
@@ -14,9 +11,10 @@ from itertools import combinations, pairwise
 from graphkin.scene.model import Scene
 from graphkin.scene.symbol import Symbol
 
-__all__ = ["Printed", "printed_values", "slips_of_the_pen", "stated"]
+__all__ = ["Printed", "printed_values", "stated", "transcription_errors"]
 
 Value = complex | float
+SMALLEST = -300  # power of ten of a last digit that a double still holds
 
 
 @dataclass(frozen=True)
@@ -75,7 +73,8 @@ def _number(text: str) -> Decimal:
         number = Decimal(plain)
     except InvalidOperation:
         raise ValueError(f'"{plain[:40]}" is no number') from None
-    if not number.is_finite() or not abs(number) < Decimal("1e15") or len(plain) > 40:
+    fine = number.is_finite() and int(number.as_tuple().exponent) < SMALLEST
+    if not number.is_finite() or fine or not abs(number) < Decimal("1e15") or len(plain) > 40:
         raise ValueError(f'"{plain[:40]}" is no number of a size that can be meant')
     return number
 
@@ -99,11 +98,11 @@ def _shortest(number: float) -> str:
 SWAPPED, MISREAD, TWICE_MISREAD, MISSED = 0.05, 0.05, 0.02, 0.02
 
 
-def slips_of_the_pen(printed: Printed) -> Iterator[tuple[str, float, float]]:
+def transcription_errors(printed: Printed) -> Iterator[tuple[str, float, float]]:
     """What may have stood where a number was copied from: text, share among wrong values, value (SI).
 
-    The share of each kind of slip is divided among all the numbers it could come from, so that a short number, which is
-    a digit away from anything, explains nothing.
+    The share of each kind of error is divided among all the numbers it could come from, so that a short number, which
+    is a digit away from anything, explains nothing.
     """
     if len(printed.texts) != 1:
         return

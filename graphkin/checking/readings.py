@@ -1,13 +1,10 @@
-"""What is read off a drawing: lengths on paper times scale factors, angles from the drawn ends.
+"""What is read off a drawing, how far each reading may lie off before it is drawn, and what would make it better.
 
-How far a reading may lie off, before it is drawn: first order, from every act that leads to it.
-
-Each act of the hand (a point pricked, a direction set, a length laid off or read) is made wrong once by one standard
-deviation, the rest exactly; what that does to a reading is its sensitivity times the deviation, and the squares add up
-(Guide to the expression of uncertainty in measurement, 5.1).  Crossing angles, lengths and scales come in by the
-construction itself.
-
-Which reading is worst, which step makes it so, and which scale would give a better one.
+Readings are lengths on paper times scale factors, and angles from the drawn ends.  Uncertainty is of first order, from
+every act that leads to a reading: each (a point pricked, a direction set, a length laid off or read) is made wrong once
+by one standard deviation, the rest exactly; what that does to a reading is its sensitivity times the deviation, and the
+squares add up (Guide to the expression of uncertainty in measurement, 5.1).  Crossing angles, lengths and scales come
+in by the construction itself.
 """
 
 from __future__ import annotations
@@ -175,7 +172,7 @@ def advise(
     worst: tuple[float, Symbol] | None = None
     for r in readings:
         expected = predicted[r.symbol]
-        if abs(r.value) < SMALL * largest[r.symbol.kind[0]] or not expected.deviation:
+        if r.value == 0 or abs(r.value) < SMALL * largest[r.symbol.kind[0]] or not expected.deviation:
             continue
         part = expected.deviation / abs(r.value)
         if math.isfinite(part) and (worst is None or part > worst[0]):

@@ -1,6 +1,4 @@
-"""The line along which a vector has a sense, so that a signed number can stand for it.
-
-What a wrong value may be instead: the right value of a common slip, with how common it is.
+"""What a wrong value may be instead: the right value of a common slip, with how common it is.
 
 The slips are those that teachers of the graphical method name (Sun Huan, Mechanical Principles, ch. 3; Norton, Design
 of Machinery, ch. 6 and 7): a sign, a unit, the Coriolis term, one component in place of the whole, the scale of the
@@ -16,14 +14,14 @@ from functools import cached_property
 
 from graphkin.checking.readings import Uncertainty, read_off
 from graphkin.construction import Plan, Sheet, Slip, execute
-from graphkin.construction.terms import Part
+from graphkin.construction.slip import Component
 from graphkin.errors import GraphkinError
 from graphkin.plane import unit
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Slide
 from graphkin.words import Phrase
 
-__all__ = ["Case", "Suspect", "Table", "line_of", "suspects"]
+__all__ = ["Evidence", "Suspect", "Table", "line_of", "suspects"]
 
 
 def line_of(sheet: Sheet, symbol: Symbol) -> complex | None:
@@ -78,17 +76,20 @@ DEGREE = 180.0 / math.pi
 class Suspect:
     """One explanation: the value that it would give (SI), and its share among wrong values (rough, from experience).
 
-    ``drawn`` is whether it may carry the errors of a drawing.
+    ``drawn`` is whether it may carry the errors of a drawing, ``copied`` whether the value itself was right and copied
+    wrong; ``follows_from`` are earlier wrong values of the same person from which it follows.
     """
 
     phrase: Phrase
     value: Value
     share: float
     drawn: bool = True
+    copied: bool = False
+    follows_from: tuple[Symbol, ...] = ()
 
 
 @dataclass(frozen=True)
-class Case:
+class Evidence:
     """Everything known of a scene at one position, against which values are judged.
 
     ``exact`` gives the exact value of a symbol, ``elsewhere`` its exact values at other positions with their names,
@@ -146,8 +147,8 @@ def _terms(plan: Plan, sheet: Sheet) -> Iterator[Altered]:
                 yield phrase, share / len(groups), lambda slip=slip: execute(plan, slip=slip)  # type: ignore[misc]
 
 
-def _times(symbols: tuple[Symbol, ...], factor: float) -> Callable[[Part], Part]:
-    def changed(part: Part) -> Part:
+def _times(symbols: tuple[Symbol, ...], factor: float) -> Callable[[Component], Component]:
+    def changed(part: Component) -> Component:
         if part.span is None or part.symbol not in symbols:
             return part
         return replace(part, span=part.span * factor)
@@ -155,7 +156,7 @@ def _times(symbols: tuple[Symbol, ...], factor: float) -> Callable[[Part], Part]
     return changed
 
 
-def suspects(case: Case, symbol: Symbol) -> Iterator[Suspect]:
+def suspects(case: Evidence, symbol: Symbol) -> Iterator[Suspect]:
     """Every explanation for a wrong value of a symbol."""
     exact = case.exact(symbol)
     yield Suspect(Phrase("slip sign"), -exact, 0.15)
@@ -173,7 +174,7 @@ def suspects(case: Case, symbol: Symbol) -> Iterator[Suspect]:
         yield Suspect(Phrase("slip position", (name,)), value, 0.05 / len(places), drawn=False)
 
 
-def _factors(case: Case, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
+def _factors(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
     second = symbol.kind not in ("v", "omega")
     for power in (1, 2, 3):
         for factor in (10.0**power, 0.1**power):
@@ -185,18 +186,18 @@ def _factors(case: Case, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
                 yield Suspect(Phrase(f"slip {name}"), exact * way**2, 0.01)
     yield Suspect(Phrase("slip double"), exact * 2, 0.02)
     yield Suspect(Phrase("slip half"), exact / 2, 0.02)
-    scales, wishes = case.plan.scales, case.plan.structure.scene.sheet
-    if wishes.velocity_scale and wishes.acceleration_scale:
+    scales, wanted = case.plan.scales, case.plan.structure.scene.sheet
+    if wanted.velocity_scale and wanted.acceleration_scale:
         ratio = scales.velocity / scales.acceleration
         phrase = Phrase("slip velocity scale") if second else Phrase("slip acceleration scale")
         yield Suspect(phrase, exact * (ratio if second else 1 / ratio), 0.05)
-    given = wishes.acceleration_scale if second else wishes.velocity_scale
+    given = wanted.acceleration_scale if second else wanted.velocity_scale
     if given and symbol.is_vector:
         # the length on paper written down as if it were the value, in scene units
         yield Suspect(Phrase("slip millimetres"), exact / given, 0.05)
 
 
-def _own_parts(case: Case, symbol: Symbol) -> Iterator[Suspect]:
+def _own_parts(case: Evidence, symbol: Symbol) -> Iterator[Suspect]:
     """One component of an acceleration in place of the whole."""
     if symbol.kind != "a":
         return
@@ -209,7 +210,7 @@ def _own_parts(case: Case, symbol: Symbol) -> Iterator[Suspect]:
         yield Suspect(Phrase(f"slip {key} only", (str(other),)), case.exact(other), 0.05)
 
 
-def _about_pivots(case: Case, symbol: Symbol) -> Iterator[Symbol]:
+def _about_pivots(case: Evidence, symbol: Symbol) -> Iterator[Symbol]:
     """The components about a fixed pivot of a point found by the image, where no such vector is drawn."""
     if symbol.of is None or symbol.to is not None:
         return
@@ -221,7 +222,7 @@ def _about_pivots(case: Case, symbol: Symbol) -> Iterator[Symbol]:
                 yield from (other for other in about if other not in case.others)
 
 
-def _others(case: Case, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
+def _others(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
     alike = [(o, v) for o, v in case.others.items() if o != symbol and _dimension(o) == _dimension(symbol)]
     for other, value in alike:
         relative = symbol.to is None and other.to is not None and other.of is not None and symbol.of is not None

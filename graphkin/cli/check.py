@@ -88,6 +88,7 @@ def print_check(checked: Checked, language: str, as_json: bool, quiet: bool) -> 
 
 
 def _print_readings(checked: Checked, language: str) -> None:
+    from graphkin.api.checked import reading_row
     from graphkin.api.report_text import show, verdict
     from graphkin.words import say, word
 
@@ -99,7 +100,7 @@ def _print_readings(checked: Checked, language: str) -> None:
             f"{r['exact']:.6g}",
             "ok" if r["ok"] else "off",
         ]
-        for r in checked.data["readings"]
+        for r in (reading_row(checked.scene, row) for row in checked.report.rows)
     ]
     heads = [word(key, language) for key in ("quantity", "on paper", "measured", "exact")]
     print_table([*heads, ""], rows, right=(1, 2, 3))

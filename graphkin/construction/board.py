@@ -1,9 +1,7 @@
-"""What draws: exact hands, a drafting program, or a pencil with its errors.
+"""The drawing board, and what draws on it: exact hands, a drafting program, or a pencil with its errors.
 
-Everything laid off, set, pricked or read on the board goes through an instrument, so that what it does wrong is carried
-into all that is drawn after it.
-
-The drawing board: lines across the sheet, their crossings, and the list of steps as it grows.
+Everything laid off, set, pricked or read goes through an instrument, so that what it does wrong is carried into all
+that is drawn after it.
 """
 
 from __future__ import annotations

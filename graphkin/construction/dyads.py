@@ -1,15 +1,7 @@
-"""Two loci that meet, with what was drawn.
-
-A driven link: the angle or the travel is laid off.
-
-Dyads whose loci are arcs: arc and arc, arc and line, and the circle that a guide touches.
-
-Dyads whose loci are straight lines.
-
-Where the links of a group lie: compass arcs and ruler lines that meet, for each kind of dyad.
+"""Where the links of a group lie: compass arcs and ruler lines that meet, for each kind of dyad.
 
 All lengths in mm on paper.  For each kind a function returns a `Meeting`: how well the two loci cross, the possible
-places of the links, and for each what was drawn.
+places of the links, and for each what was drawn.  A driven link: the angle or the travel is laid off.
 """
 
 from __future__ import annotations
@@ -18,8 +10,8 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from graphkin.construction.rigid import Frame, RigidBody, across, hinge, inner_hinge, rail
-from graphkin.construction.sheet import Arc, Bar, Pose, Stroke
+from graphkin.construction.rigid import PlacedLinks, Poses, RigidBody, across, hinge, inner_hinge, rail
+from graphkin.construction.sheet import Bar, CompassArc, Pose, Stroke
 from graphkin.construction.steps import (
     Act,
     ArcOnPath,
@@ -28,7 +20,7 @@ from graphkin.construction.steps import (
     GuideTouching,
     LaidOffAngle,
     LaidOffTravel,
-    Path,
+    PathDrawn,
     PathsCross,
     SlidToMeet,
 )
@@ -36,7 +28,7 @@ from graphkin.plane import cross, cross_arcs, cross_line_arc, cross_lines, direc
 from graphkin.scene.model import AngleDriver
 from graphkin.structure import Driven, Dyad, Slide, Turn
 
-__all__ = ["Frame", "Meeting", "Story", "drive", "meet", "prp", "rpp", "rpr", "rrp", "rrr"]
+__all__ = ["Meeting", "drive", "meet"]
 
 Story = tuple[tuple[Act, tuple[Stroke, ...]], ...]
 
@@ -45,19 +37,24 @@ Story = tuple[tuple[Act, tuple[Stroke, ...]], ...]
 class Meeting:
     """Two loci that meet.
 
-    ``gap`` is positive where they cross, zero where they touch, negative where they miss each other; for two lines it
-    is the sine of their angle.  ``poses`` are the possible places of the group's links, the one of the default rule
-    first; ``stories`` what is drawn for each.  ``sine`` of the crossing angle is 0 where the crossing is lost.
+    ``gap`` is positive where they cross, zero where they touch, negative where they miss each other; for ``two_lines``
+    it is the sine of their angle, and they meet once.  ``poses`` are the possible places of the group's links, the one
+    of the default rule first; ``tell`` gives what is drawn for each.  ``sine`` of the crossing angle is 0 where the
+    crossing is lost.
     """
 
     gap: float
     sine: float
-    poses: tuple[Mapping[str, Pose], ...]
-    stories: tuple[Story, ...]
+    poses: tuple[Poses, ...]
+    tell: Callable[[int], Story]
     two_lines: bool = False
 
 
-def drive(frame: Frame, element: Driven) -> tuple[Pose, Story]:
+def _nothing(_: int) -> Story:
+    return ()
+
+
+def drive(frame: PlacedLinks, element: Driven) -> tuple[Pose, Story]:
     """Place a driven link: the angle or the travel is laid off."""
     name, driver, pair = element.link, element.driver, element.pair
     value = frame.values[driver.key]
@@ -77,24 +74,29 @@ def drive(frame: Frame, element: Driven) -> tuple[Pose, Story]:
     return pose, ((LaidOffTravel(pair.key, abs(value) * frame.mm), (Bar(start, end, name),)),)
 
 
-def rrr(frame: Frame, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
+def _rrr(frame: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
     outer1, outer2 = dyad.outer_first, dyad.outer_second
     assert isinstance(outer1, Turn)
     assert isinstance(outer2, Turn)
     (p1, local1), (p2, local2) = hinge(frame, one, outer1), hinge(frame, two, outer2)
     letter, inner1, inner2 = inner_hinge(frame, dyad, one, two)
     r1, r2 = frame.instrument.compass(abs(inner1 - local1)), frame.instrument.compass(abs(inner2 - local2))
+    if r1 == 0.0 or r2 == 0.0:
+        return Meeting(0.0, 0.0, (), _nothing)  # an arc of no radius finds nothing
     lo, mid, hi = sorted((r1, r2, abs(p2 - p1)))
     product = (hi + (mid + lo)) * (lo - (hi - mid)) * (lo + (hi - mid)) * (hi + (mid - lo))
     gap = product / (2 * r1 * r2) ** 2
     places = cross_arcs(p1, r1, p2, r2) or ()
     poses = [{**one.through((local1, inner1), (p1, q)), **two.through((local2, inner2), (p2, q))} for q in places]
-    act = CompassArcs((outer1.point, outer2.point), letter, (r1, r2))
-    stories: list[Story] = [((act, (Arc(p1, r1, q), Arc(p2, r2, q))),) for q in places]
-    return Meeting(gap, math.sqrt(max(gap, 0.0)), tuple(poses), tuple(stories))
+
+    def tell(k: int) -> Story:
+        act = CompassArcs((outer1.point, outer2.point), letter, (r1, r2))
+        return ((act, (CompassArc(p1, r1, places[k]), CompassArc(p2, r2, places[k]))),)
+
+    return Meeting(gap, math.sqrt(max(gap, 0.0)), tuple(poses), tell)
 
 
-def rrp(frame: Frame, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
+def _rrp(frame: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
     outer, slide = dyad.outer_first, dyad.outer_second
     assert isinstance(outer, Turn)
     assert isinstance(slide, Slide)
@@ -103,25 +105,25 @@ def rrp(frame: Frame, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
     start, step = rail(frame, two, slide)
     q0 = start.origin + start.axis * inner2
     radius = frame.instrument.compass(abs(inner1 - local))
+    if radius == 0.0:
+        return Meeting(0.0, 0.0, (), _nothing)
     off = abs(cross(p - q0, step))
     gap = (radius - off) * (radius + off) / radius**2
     places = cross_line_arc(q0, step, p, radius) or ()
     poses = []
-    stories: list[Story] = []
     for q in places:
-        travel = dot(q - q0, step)
-        moved = Pose(start.origin + travel * step, start.axis)
+        moved = Pose(start.origin + dot(q - q0, step) * step, start.axis)
         poses.append({**one.through((local, inner1), (p, q)), **two.placed(moved)})
-        stories.append(
-            (
-                (Path(letter, slide.key), (Bar(q0, q, ""),)),
-                (ArcOnPath(outer.point, letter, radius), (Arc(p, radius, q),)),
-            )
-        )
-    return Meeting(gap, math.sqrt(max(gap, 0.0)), tuple(poses), tuple(stories))
+
+    def tell(k: int) -> Story:
+        q = places[k]
+        arc = ArcOnPath(outer.point, letter, radius), (CompassArc(p, radius, q),)
+        return (PathDrawn(letter, slide.key), (Bar(q0, q, ""),)), arc
+
+    return Meeting(gap, math.sqrt(max(gap, 0.0)), tuple(poses), tell)
 
 
-def rpr(frame: Frame, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
+def _rpr(frame: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
     outer1, slide, outer2 = dyad.outer_first, dyad.inner, dyad.outer_second
     assert isinstance(outer1, Turn)
     assert isinstance(slide, Slide)
@@ -136,33 +138,32 @@ def rpr(frame: Frame, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
     if abs(offset) > 1e-9 * abs(c0):
         offset = frame.instrument.compass(offset)
     span = abs(p1 - p2)
-    size = max((abs(z) * frame.mm for link in frame.links.values() for z in link.points.values()), default=1.0)
+    size = max((abs(z) * frame.mm for link in frame.links.values() for z in link.points.values()), default=0.0) or 1.0
     gap = (span - abs(offset)) * (span + abs(offset)) / size**2
     poses = []
-    stories: list[Story] = []
+    roots: tuple[float, ...] = ()
     if gap >= 0.0 and span > 0.0:
         half = math.sqrt((span - abs(offset)) * (span + abs(offset)))
-        for root in (half, -half):
-            reach = g * complex(root, offset)
-            axis2 = unit((p1 - p2) / reach)
-            pose2 = Pose(p2 - axis2 * local2, axis2)
-            axis1 = unit(axis2 * turn)
-            pose1 = Pose(p1 - axis1 * local1, axis1)
-            poses.append({**one.placed(pose1), **two.placed(pose2)})
-            strokes: tuple[Stroke, ...]
-            if abs(offset) < 1e-9 * size:
-                strokes = (Bar(p2, p1, ""),)
-                stories.append(((GuideThrough(outer2.point, outer1.point, slide.key), strokes),))
-            else:
-                foot = p1 - axis2 * g * root  # foot of the square from the pivot to the guide's parallel through P1
-                middle = (p1 + p2) / 2
-                strokes = (Arc(middle, span / 2, foot), Arc(p2, abs(offset), foot), Bar(foot, p1, ""))
-                act = GuideTouching(outer2.point, outer1.point, abs(offset), slide.key)
-                stories.append(((act, strokes),))
-    return Meeting(gap, math.sqrt(max(gap, 0.0)), tuple(poses), tuple(stories))
+        roots = half, -half
+    for root in roots:
+        axis2 = unit((p1 - p2) / (g * complex(root, offset)))
+        axis1 = unit(axis2 * turn)
+        pose1, pose2 = Pose(p1 - axis1 * local1, axis1), Pose(p2 - axis2 * local2, axis2)
+        poses.append({**one.placed(pose1), **two.placed(pose2)})
+
+    def tell(k: int) -> Story:
+        if abs(offset) < 1e-9 * size:
+            return ((GuideThrough(outer2.point, outer1.point, slide.key), (Bar(p2, p1, ""),)),)
+        # foot of the square from the pivot to the guide's parallel through the other pivot
+        foot = p1 - unit((p1 - p2) / (g * complex(roots[k], offset))) * g * roots[k]
+        act = GuideTouching(outer2.point, outer1.point, abs(offset), slide.key)
+        arcs = CompassArc((p1 + p2) / 2, span / 2, foot), CompassArc(p2, abs(offset), foot)
+        return ((act, (*arcs, Bar(foot, p1, ""))),)
+
+    return Meeting(gap, math.sqrt(max(gap, 0.0)), tuple(poses), tell)
 
 
-def prp(frame: Frame, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
+def _prp(frame: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
     slide1, slide2 = dyad.outer_first, dyad.outer_second
     assert isinstance(slide1, Slide)
     assert isinstance(slide2, Slide)
@@ -178,7 +179,7 @@ def prp(frame: Frame, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
     return _two_lines((q1, step1), (q2, step2), placed, PathsCross(letter, (slide1.key, slide2.key)))
 
 
-def rpp(frame: Frame, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
+def _rpp(frame: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
     outer, inner, slide = dyad.outer_first, dyad.inner, dyad.outer_second
     assert isinstance(outer, Turn)
     assert isinstance(inner, Slide)
@@ -202,12 +203,12 @@ def rpp(frame: Frame, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
     # shift = s * step = want - t * along
     sine = cross(step, along)
     if sine == 0.0:
-        return Meeting(0.0, 0.0, (), (), True)
+        return Meeting(0.0, 0.0, (), _nothing, True)
     shift = step * (cross(want, along) / sine)
     base = p - want
     strokes = (Bar(base, base + shift, ""), Bar(base + shift, p, ""))
     story: Story = ((SlidToMeet(outer.point, slide.key, inner.key), strokes),)
-    return Meeting(sine, abs(sine), (placed(shift),), (story,), True)
+    return Meeting(sine, abs(sine), (placed(shift),), lambda _: story, True)
 
 
 def _two_lines(
@@ -219,20 +220,21 @@ def _two_lines(
     sine = cross(one[1], two[1])
     q = cross_lines(*one, *two)
     if q is None:
-        return Meeting(0.0, 0.0, (), (), True)
+        return Meeting(0.0, 0.0, (), _nothing, True)
     story: Story = ((act, (Bar(one[0], q, ""), Bar(two[0], q, ""))),)
-    return Meeting(sine, abs(sine), (placed(q),), (story,), True)
+    return Meeting(sine, abs(sine), (placed(q),), lambda _: story, True)
 
 
-_MEETINGS: Mapping[str, Callable[[Frame, Dyad, RigidBody, RigidBody], Meeting]] = {
-    "RRR": rrr,
-    "RRP": rrp,
-    "RPR": rpr,
-    "PRP": prp,
-    "RPP": rpp,
+# The one place in this room where the kinds of dyads are told apart.
+_MEETINGS: Mapping[str, Callable[[PlacedLinks, Dyad, RigidBody, RigidBody], Meeting]] = {
+    "RRR": _rrr,
+    "RRP": _rrp,
+    "RPR": _rpr,
+    "PRP": _prp,
+    "RPP": _rpp,
 }
 
 
-def meet(frame: Frame, dyad: Dyad) -> Meeting:
+def meet(frame: PlacedLinks, dyad: Dyad) -> Meeting:
     """Draw the loci of a dyad and find where they meet."""
     return _MEETINGS[dyad.kind](frame, dyad, RigidBody(frame, dyad.first), RigidBody(frame, dyad.second))

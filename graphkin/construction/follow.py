@@ -7,15 +7,15 @@ import math
 from collections.abc import Mapping, Sequence
 
 from graphkin.construction.dyads import drive, meet
-from graphkin.construction.reduced_mechanism import StandIn, clusters, stand_ins
-from graphkin.construction.rigid import Frame
+from graphkin.construction.reduced_mechanism import ReducedMechanism, clusters, reduced_mechanisms
+from graphkin.construction.rigid import PlacedLinks, Poses
 from graphkin.construction.sheet import Pose
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, Scene
 from graphkin.structure import Driven, Dyad, Structure, analyse
 from graphkin.structure.assembly import ways
 
-__all__ = ["best_stand", "followed", "trial_value"]
+__all__ = ["best_reduced", "moved_to", "trial_value"]
 
 STEP = math.radians(2.0)
 FIT = 1e-12  # what is left out fits, in the size of the mechanism
@@ -24,11 +24,16 @@ SURPRISE = 1e-3  # so far from where it was expected a link may be found, in the
 NUDGE = 1e-4  # of the trial driver, to see how the gap changes
 ROUNDS = 30
 
-Poses = Mapping[str, Pose]
-Table = Mapping[tuple[str, ...], Sequence[StandIn]]
+Table = Mapping[tuple[str, ...], Sequence[ReducedMechanism]]
 
 
-def followed(scene: Scene, own: Mapping[str, float], values: Mapping[str, float], poses: Poses) -> dict[str, Pose]:
+def moved_to(scene: Scene, own: Mapping[str, float], values: Mapping[str, float], poses: Poses) -> dict[str, Pose]:
+    """All links at driver values, from where they lie at others (``own``), on paper of the mechanism's size.
+
+    Raises
+    ------
+    Unsolvable : "not assembled": the motion does not reach the values
+    """
     last: Unsolvable | None = None
     for way in ways(scene.drivers, [own[d.key] for d in scene.drivers], [values[d.key] for d in scene.drivers]):
         try:
@@ -41,7 +46,7 @@ def followed(scene: Scene, own: Mapping[str, float], values: Mapping[str, float]
 
 def _walk(scene: Scene, own: Mapping[str, float], target: Mapping[str, float], start: Poses) -> dict[str, Pose]:
     structure = analyse(scene)
-    table = {cluster.members: stand_ins(scene, cluster) for cluster in clusters(structure)}
+    table = {cluster.members: reduced_mechanisms(scene, cluster) for cluster in clusters(structure)}
     length = max(
         abs(target[d.key] - own[d.key]) / (1.0 if isinstance(d, AngleDriver) else scene.size) for d in scene.drivers
     )
@@ -52,7 +57,7 @@ def _walk(scene: Scene, own: Mapping[str, float], target: Mapping[str, float], s
         step = min(step, longest, 1.0 - t)
         here = {k: own[k] + (t + step) * (target[k] - own[k]) for k in own}
         guess = _ahead(before, at, step / last) if t > 0.0 else at
-        found = _settled(scene, structure, table, here, guess)
+        found = _found_near(scene, structure, table, here, guess)
         if found is None or _moved(guess, found) > SURPRISE + _moved(at, found) * (0.3 if t > 0.0 else 0.0):
             step /= 2
             if step < longest / 1e5:
@@ -78,11 +83,11 @@ def _moved(one: Poses, other: Poses) -> float:
     return max(abs(p.origin - other[n].origin) + abs(p.axis - other[n].axis) for n, p in one.items())
 
 
-def _settled(
+def _found_near(
     scene: Scene, structure: Structure, table: Table, values: Mapping[str, float], guess: Poses
 ) -> dict[str, Pose] | None:
     """All links at driver values near which a position is guessed; None where nothing fits near by."""
-    frame = Frame(structure.links, 1.0 / scene.size, values, {scene.frame.name: Pose(0j, 1 + 0j)})
+    frame = PlacedLinks(structure.links, 1.0 / scene.size, values, {scene.frame.name: Pose(0j, 1 + 0j)})
     for element in structure.elements:
         if isinstance(element, Driven):
             frame.poses[element.link], _ = drive(frame, element)
@@ -95,7 +100,7 @@ def _settled(
     return dict(frame.poses)
 
 
-def _nearest(frame: Frame, dyad: Dyad, guess: Poses) -> Poses | None:
+def _nearest(frame: PlacedLinks, dyad: Dyad, guess: Poses) -> Poses | None:
     """The assembly of a dyad that lies nearest to a guess."""
     meeting = meet(frame, dyad)
     if not meeting.poses:
@@ -107,20 +112,20 @@ def _nearest(frame: Frame, dyad: Dyad, guess: Poses) -> Poses | None:
     )  # fmt: skip
 
 
-def _fitted(stands: Sequence[StandIn], known: Frame, guess: Poses) -> dict[str, Pose] | None:
+def _fitted(choices: Sequence[ReducedMechanism], known: PlacedLinks, guess: Poses) -> dict[str, Pose] | None:
     """A larger group near a guess: the trial value by proportional division of two gaps, again and again (secant)."""
-    stand = best_stand(stands, known, guess)
-    if stand is None:
+    reduced = best_reduced(choices, known, guess)
+    if reduced is None:
         return None
-    value = trial_value(stand, guess, known.mm)
+    value = trial_value(reduced, guess, known.mm)
     other = value + NUDGE
-    one, two = _drawn(stand, known, guess, value), _drawn(stand, known, guess, other)
+    one, two = _drawn(reduced, known, guess, value), _drawn(reduced, known, guess, other)
     for _ in range(ROUNDS):
         if one is None or two is None:
             return None
-        gap, new = stand.gap(one), stand.gap(two)
+        gap, new = reduced.gap(one), reduced.gap(two)
         if abs(new) >= abs(gap) and abs(gap) < FIT:
-            return stand.put_back(one)
+            return reduced.put_back(one)
         if new == 0.0 or gap == new:
             break
         step = new * (other - value) / (gap - new)
@@ -128,14 +133,14 @@ def _fitted(stands: Sequence[StandIn], known: Frame, guess: Poses) -> dict[str, 
             return None
         value, one = other, two
         other += step
-        two = _drawn(stand, known, guess, other)
-    return stand.put_back(two) if two is not None and abs(stand.gap(two)) < FIT else None
+        two = _drawn(reduced, known, guess, other)
+    return reduced.put_back(two) if two is not None and abs(reduced.gap(two)) < FIT else None
 
 
-def _drawn(stand: StandIn, known: Frame, guess: Poses, value: float) -> Frame | None:
+def _drawn(reduced: ReducedMechanism, known: PlacedLinks, guess: Poses, value: float) -> PlacedLinks | None:
     """A trial drawing of a group, each dyad in the assembly nearest to a guess."""
-    frame = stand.opened(known, value)
-    for element in stand.elements:
+    frame = reduced.opened(known, value)
+    for element in reduced.elements:
         if isinstance(element, Driven):
             frame.poses[element.link], _ = drive(frame, element)
             continue
@@ -146,24 +151,24 @@ def _drawn(stand: StandIn, known: Frame, guess: Poses, value: float) -> Frame | 
     return frame
 
 
-def best_stand(stands: Sequence[StandIn], known: Frame, guess: Poses) -> StandIn | None:
-    """The stand-in that finds the group best: a small gap means a small error of every link, and no link outruns the
-    trial driver by much.  None where all are at dead points."""
-    best: tuple[float, StandIn] | None = None
-    for stand in stands:
-        value = trial_value(stand, guess, known.mm)
-        one, two = _drawn(stand, known, guess, value - NUDGE), _drawn(stand, known, guess, value + NUDGE)
+def best_reduced(choices: Sequence[ReducedMechanism], known: PlacedLinks, guess: Poses) -> ReducedMechanism | None:
+    """The reduced mechanism that finds the group best: a small gap means a small error of every link, and no link
+    outruns the trial driver by much.  None where all are at dead points."""
+    best: tuple[float, ReducedMechanism] | None = None
+    for reduced in choices:
+        value = trial_value(reduced, guess, known.mm)
+        one, two = _drawn(reduced, known, guess, value - NUDGE), _drawn(reduced, known, guess, value + NUDGE)
         if one is None or two is None:
             continue
-        group = {n: pose for n, pose in one.poses.items() if n in stand.cluster.members}
+        group = {n: pose for n, pose in one.poses.items() if n in reduced.cluster.members}
         grown = max(_moved(group, two.poses), 1e-12)
-        quality = abs(stand.gap(two) - stand.gap(one)) / grown * min(1.0, 2 * NUDGE / grown)
+        quality = abs(reduced.gap(two) - reduced.gap(one)) / grown * min(1.0, 2 * NUDGE / grown)
         if best is None or quality > best[0]:
-            best = quality, stand
+            best = quality, reduced
     return best[1] if best else None
 
 
-def trial_value(stand: StandIn, poses: Poses, mm: float) -> float:
+def trial_value(reduced: ReducedMechanism, poses: Poses, mm: float) -> float:
     """The trial driver's value in a position (rad, m)."""
-    turned, travel = stand.value(poses, mm)
+    turned, travel = reduced.value(poses, mm)
     return travel if turned is None else cmath.phase(turned)

@@ -5,11 +5,12 @@ Images after Mehmke: the end points of a link's points form a figure similar to 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Literal
 
 from graphkin.construction.board import Board
 from graphkin.construction.equations import node
-from graphkin.construction.rigid import Frame
+from graphkin.construction.rigid import PlacedLinks
 from graphkin.construction.sheet import Bar, Image, Mark, Rate, Scales, Stroke, Vector
 from graphkin.construction.slip import NO_SLIP, Slip
 from graphkin.construction.steps import (
@@ -21,6 +22,7 @@ from graphkin.construction.steps import (
     SamePlace,
     Translated,
 )
+from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, dot
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Slide, Structure
@@ -34,7 +36,7 @@ class Plot:
     """What stands in the velocity and the acceleration polygon of one position."""
 
     def __init__(
-        self, board: Board, structure: Structure, frame: Frame, scales: Scales, slip: Slip = NO_SLIP
+        self, board: Board, structure: Structure, frame: PlacedLinks, scales: Scales, slip: Slip = NO_SLIP
     ) -> None:
         self.board, self.structure, self.frame, self.scales, self.slip = board, structure, frame, scales, slip
         self.believed: set[tuple[Order, str]] = set()  # rates of links that a slip has put in place of the measured
@@ -91,9 +93,18 @@ class Plot:
                     grown = True
         return still
 
-    def measured(self, arm: complex) -> float:
-        """A length of the mechanism (m), read off the drawing."""
-        return self.board.instrument.read(abs(arm)) * self.scales.length
+    def measured(self, arm: complex, between: Sequence[str]) -> float:
+        """A length of the mechanism (m) between two points, read off the drawing.
+
+        Raises
+        ------
+        Unsolvable : "not drawn": the two lie so near to each other that the instrument reads nothing
+        """
+        read = self.board.instrument.read(abs(arm))
+        if read == 0.0:
+            found = f"{abs(arm):.2g} mm on paper are too short to be read"
+            raise Unsolvable("not drawn", Problem("".join(between), found, "draw the mechanism larger"))
+        return read * self.scales.length
 
     def end(self, order: Order, ref: PointRef) -> complex:
         """The end point of a node, found by image if it does not stand there yet; the pole for a fixed point."""

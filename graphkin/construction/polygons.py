@@ -13,21 +13,21 @@ from typing import Literal
 from graphkin.construction.board import Board
 from graphkin.construction.equations import Chain, Edge, equation_of, node
 from graphkin.construction.plot import Order, Plot, letter
-from graphkin.construction.rigid import Frame
+from graphkin.construction.rigid import PlacedLinks
 from graphkin.construction.sheet import Bar, Equation, Mark, Rate, Ray, Scales, Term, Vector
-from graphkin.construction.slip import NO_SLIP, Slip
+from graphkin.construction.slip import NO_SLIP, Component, Slip
 from graphkin.construction.steps import (
     Carried,
     Direction,
     DirectionLine,
-    Found,
+    FoundVector,
     LaidOff,
+    LinesMeet,
     MeasuredRate,
-    Meeting,
     PutBack,
     ZeroVector,
 )
-from graphkin.construction.terms import Part, bar, parts_of, symbol_of, turn_sign
+from graphkin.construction.terms import bar, parts_of, symbol_of, turn_sign
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross
 from graphkin.scene.model import AngleDriver
@@ -36,7 +36,7 @@ from graphkin.structure import Driven, Dyad, Slide, Structure, Turn, links_of
 
 __all__ = ["Polygons"]
 
-_Side = list[tuple[Edge, list[Part]]]
+_Side = list[tuple[Edge, list[Component]]]
 RATE: Mapping[Order, Literal["omega", "alpha"]] = {"velocity": "omega", "acceleration": "alpha"}
 
 
@@ -44,7 +44,7 @@ class Polygons(Plot):
     """Both polygons of one position, drawn element by element in the order of solution."""
 
     def __init__(
-        self, board: Board, structure: Structure, frame: Frame, scales: Scales, slip: Slip = NO_SLIP
+        self, board: Board, structure: Structure, frame: PlacedLinks, scales: Scales, slip: Slip = NO_SLIP
     ) -> None:
         super().__init__(board, structure, frame, scales, slip)
         self.chains: dict[Dyad, Chain] = {}
@@ -183,7 +183,7 @@ class Polygons(Plot):
             at = self._vector(order, part, at, number)
         self.reach(order, middle, at, number)
 
-    def _vector(self, order: Order, part: Part, at: complex, equation: int) -> complex:
+    def _vector(self, order: Order, part: Component, at: complex, equation: int) -> complex:
         """Lay off a known vector."""
         assert part.span is not None
         size = abs(part.span)
@@ -223,7 +223,7 @@ class Polygons(Plot):
             ray = Ray(start, part.along, meeting, part.written, part.symbol)
             self.board.do(order, DirectionLine(part.symbol, part.written), ray, equation=equation)
         mark = Mark(self.label(chain.middle), meeting)
-        self.board.do(order, Meeting(mark.ref), mark, equation=equation)
+        self.board.do(order, LinesMeet(mark.ref), mark, equation=equation)
         for side, (start, carried) in zip(sides, starts, strict=True):
             self._fill(order, side, meeting - carried, start - carried, equation)
         self.reach(order, chain.middle, meeting, equation)
@@ -236,7 +236,7 @@ class Polygons(Plot):
                 if part.span is None:
                     found = Vector(part.symbol, tail, self.slip.found(part.symbol, tail, tip), part.role)
                     self.board.notice(order, ZeroVector(part.symbol, abs(found.span)))
-                    self.record(order, found, Found(part.symbol, abs(found.span)), equation)
+                    self.record(order, found, FoundVector(part.symbol, abs(found.span)), equation)
                     at = tip
                 else:
                     if part.symbol not in self.drawn[order]:
@@ -255,7 +255,7 @@ class Polygons(Plot):
         vector = self.drawn[order][symbol]
         arm = self.places[edge.end.point] - self.places[edge.start.point]
         read = self.board.instrument.read(abs(vector.span))
-        size = abs(read) * self.scales.of(order) / self.measured(arm)
+        size = abs(read) * self.scales.of(order) / self.measured(arm, bar(edge))
         sense = 1.0 if cross(arm, vector.span) >= 0 else -1.0
         rate = RATE[order]
         own = self.slip.rate(Symbol(rate, link=edge.link), sense * size)

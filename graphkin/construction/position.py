@@ -1,7 +1,4 @@
-"""The mechanism on paper: every link placed by compass and ruler, in the order of solution.
-
-The position as it is drawn, step by step: how each link was placed, and in which assembly.
-"""
+"""The mechanism on paper: every link placed by compass and ruler, in the order of solution, and in which assembly."""
 
 from __future__ import annotations
 
@@ -14,7 +11,7 @@ from numpy.typing import NDArray
 
 from graphkin.construction.board import EXACT, Board, Instrument
 from graphkin.construction.dyads import Meeting, drive, meet
-from graphkin.construction.rigid import Frame
+from graphkin.construction.rigid import PlacedLinks
 from graphkin.construction.sheet import Mark, Pose
 from graphkin.construction.steps import Cause, FixedPoints, LinkPoints, Placing, SharpCrossing, ShortArm
 from graphkin.errors import Problem, Unsolvable
@@ -36,7 +33,7 @@ Placed = dict[float, tuple[int, dict[str, Pose]]]
 class Position:
     """The links placed, and how each dyad was found."""
 
-    frame: Frame
+    frame: PlacedLinks
     meetings: Mapping[int, Meeting]
     causes: Sequence[tuple[int, Cause]] = ()  # acts of the hand up to which each link reaches
 
@@ -82,10 +79,10 @@ def place(
     return Position(frame, meetings, causes)
 
 
-def _start(structure: Structure, mm: float, values: Mapping[str, float], instrument: Instrument = EXACT) -> Frame:
+def _start(structure: Structure, mm: float, values: Mapping[str, float], instrument: Instrument = EXACT) -> PlacedLinks:
     """The empty sheet with the fixed points pricked."""
     ground = structure.scene.frame.name
-    frame = Frame(structure.links, mm, values, {ground: Pose(0j, 1 + 0j)}, instrument)
+    frame = PlacedLinks(structure.links, mm, values, {ground: Pose(0j, 1 + 0j)}, instrument)
     if not instrument.faultless:
         frame.pricked.update({p: instrument.point(z * mm) for p, z in structure.links[ground].points.items()})
     return frame
@@ -152,7 +149,7 @@ def _choose(structure: Structure, elements: Sequence[Element], own: Mapping[str,
             placed = {p for name in frame.poses for p in structure.links[name].points}
             candidates = []
             for poses in meeting.poses:
-                trial = Frame(frame.links, mm, own, {**frame.poses, **poses})
+                trial = PlacedLinks(frame.links, mm, own, {**frame.poses, **poses})
                 fresh = [(n, p) for n in poses for p in structure.links[n].points if p not in placed]
                 candidates.append({p: trial.point(n, p) / mm for n, p in fresh})
             chosen[i] = pick(scene, element.links, candidates, 0).index
@@ -256,7 +253,7 @@ def draw_position(
     board.do("mechanism", FixedPoints(ground.name, tuple(ground.points)), *fixed)
     named = set(ground.points)
     assembly: dict[str, Phrase] = {}
-    so_far = Frame(frame.links, frame.mm, frame.values, {ground.name: frame.poses[ground.name]})
+    so_far = PlacedLinks(frame.links, frame.mm, frame.values, {ground.name: frame.poses[ground.name]})
     for i, element in enumerate(elements):
         if isinstance(element, Driven):
             _, story = drive(so_far, element)
@@ -265,7 +262,7 @@ def draw_position(
             board.notice("mechanism", SharpCrossing(_inner_name(element), min(meeting.sine, 1.0)))
             _remark_arm(board, element, frame)
             index = branches.get(i, 0) % len(meeting.poses)
-            story = meeting.stories[index]
+            story = meeting.tell(index)
             key = ", ".join(element.links)
             assembly[key] = Phrase(
                 f"{element.kind} {index}"
@@ -286,7 +283,7 @@ def draw_position(
     return assembly
 
 
-def _remark_arm(board: Board, dyad: Dyad, frame: Frame) -> None:
+def _remark_arm(board: Board, dyad: Dyad, frame: PlacedLinks) -> None:
     """How far the two points are apart that direct a guide."""
     one, two = dyad.outer_first, dyad.outer_second
     if dyad.kind == "RPR" and isinstance(one, Turn) and isinstance(two, Turn):

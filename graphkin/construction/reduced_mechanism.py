@@ -1,10 +1,8 @@
-"""What closes a group that compass and ruler cannot draw: one bar, block or driver that is left out, and must fit.
+"""Mechanisms of dyads in place of one with a larger group, which compass and ruler cannot draw.
 
-Mechanisms of dyads that stand in for one with a larger group.
-
-With one bar, block or driver left out (see `closing`) and one link of the group driven in its stead, every group is a
-dyad and can be drawn; the right value of this trial driver is that at which what was left out fits (method of trial
-positions; Hain, Applied Kinematics; 试凑法).
+With one constraint of the group removed (a bar, a block or a driver) and one link of it driven in its stead, every
+group is a dyad and can be drawn; the right value of this trial driver is that at which what was removed fits (method of
+trial positions; Hain, Applied Kinematics; 试凑法).
 """
 
 from __future__ import annotations
@@ -13,34 +11,24 @@ import cmath
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
-from graphkin.construction.rigid import Frame
+from graphkin.construction.rigid import LinkMotion, PlacedLinks, Poses
 from graphkin.construction.sheet import Pose
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, dot
-from graphkin.scene.model import AngleDriver, Driver, Scene, SlideDriver
+from graphkin.scene.model import AngleDriver, Driver, Link, Scene, SlideDriver
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Cluster, Driven, Dyad, Slide, Structure, Turn, analyse, links_of, needed
 
-__all__ = ["Closing", "Moved", "StandIn", "clusters", "stand_ins"]
+__all__ = ["ReducedMechanism", "RemovedConstraint", "clusters", "reduced_mechanisms"]
 
 
 @dataclass(frozen=True)
-class Moved:
-    """A link on paper and how it moves: its pose, the velocity (mm/s) of its origin, its angular velocity."""
+class RemovedConstraint:
+    """A constraint removed from a group.
 
-    pose: Pose
-    velocity: complex
-    omega: float
-
-    def at(self, z: complex) -> complex:
-        """Velocity of the point of the link that lies at z."""
-        return self.velocity + 1j * self.omega * (z - self.pose.origin)
-
-
-@dataclass(frozen=True)
-class Closing:
-    """A constraint left out: ``left_out`` names the bar, block or driver; ``ends`` are (point, link) of a bar's two
-    hinges, or of a block's one; ``slide`` is the sliding pair of a block or a driven slide."""
+    ``left_out`` names the bar or block, "" for a driver; ``ends`` are (point, link) of a bar's two hinges, or of a
+    block's one; ``slide`` is the sliding pair of a block or a driven slide.
+    """
 
     left_out: str
     ends: tuple[tuple[str, str], ...] = ()
@@ -57,62 +45,69 @@ class Closing:
             names += [self.driver.link, self.driver.relative_to]
         return tuple(dict.fromkeys(names))
 
-    def gap(self, structure: Structure, poses: Mapping[str, Pose], mm: float, values: Mapping[str, float]) -> float:
+    def gap(self, links: Mapping[str, Link], poses: Poses, mm: float, values: Mapping[str, float]) -> float:
         """By how much it does not fit: mm of paper, or rad for a driven angle; ``values`` are those of the drivers."""
         if isinstance(self.driver, AngleDriver):
             turn = poses[self.driver.link].axis / poses[self.driver.relative_to].axis
             return cmath.phase(turn * cmath.rect(1.0, -values[self.driver.key]))
         if isinstance(self.driver, SlideDriver):
-            start, along, origin = self._rail(structure, poses, mm)
+            start, along, origin = self._rail(poses, mm)
             return dot(along, origin - start) - values[self.driver.key] * mm
-        at = [_place(structure, poses, mm, *end) for end in self.ends]
+        at = [_place(links, poses, mm, *end) for end in self.ends]
         if self.slide is None:
-            points = structure.links[self.left_out].points
+            points = links[self.left_out].points
             return abs(at[1] - at[0]) - abs(points[self.ends[1][0]] - points[self.ends[0][0]]) * mm
-        start, along, _ = self._rail(structure, poses, mm)
-        return cross(along, at[0] - start) - self._offset(structure) * mm
+        start, along, _ = self._rail(poses, mm)
+        return cross(along, at[0] - start) - self._offset(links) * mm
 
-    def rate(self, structure: Structure, moved: Mapping[str, Moved], mm: float) -> float:
+    def rate(self, links: Mapping[str, Link], poses: Poses, motions: Mapping[str, LinkMotion], mm: float) -> float:
         """How fast it comes not to fit: mm/s on paper, or rad/s."""
-        poses = {name: m.pose for name, m in moved.items()}
         if isinstance(self.driver, AngleDriver):
-            return moved[self.driver.link].omega - moved[self.driver.relative_to].omega - self.driver.omega
+            return motions[self.driver.link].omega - motions[self.driver.relative_to].omega - self.driver.omega
         if isinstance(self.driver, SlideDriver):
             assert self.slide is not None
-            _, along, origin = self._rail(structure, poses, mm)
-            slip = moved[self.slide.a].at(origin) - moved[self.slide.b].at(origin)
+            _, along, origin = self._rail(poses, mm)
+            slip = motions[self.slide.a].of(origin) - motions[self.slide.b].of(origin)
             return dot(along, slip) - self.driver.velocity * mm
-        at = [_place(structure, poses, mm, *end) for end in self.ends]
-        speed = [moved[link].at(z) for (_, link), z in zip(self.ends, at, strict=True)]
+        at = [_place(links, poses, mm, *end) for end in self.ends]
+        speed = [motions[link].of(z) for (_, link), z in zip(self.ends, at, strict=True)]
         if self.slide is None:
             return dot(at[1] - at[0], speed[1] - speed[0]) / abs(at[1] - at[0])
-        _, along, _ = self._rail(structure, poses, mm)
-        other = self.slide.b if self.slide.a == self.left_out else self.slide.a
-        return cross(along, speed[0] - moved[other].at(at[0]))
+        _, along, _ = self._rail(poses, mm)
+        return cross(along, speed[0] - motions[self._other_side].of(at[0]))
 
-    def put_back(self, structure: Structure, moved: Mapping[str, Moved], mm: float) -> Moved | None:
-        """The link left out, where it fits; None where a driver was left out."""
+    def placed(self, links: Mapping[str, Link], poses: Poses, mm: float) -> Pose | None:
+        """Where the link left out lies, where it fits; None where a driver was left out."""
         if not self.ends:
             return None
-        poses = {name: m.pose for name, m in moved.items()}
-        at = [_place(structure, poses, mm, *end) for end in self.ends]
-        own = [structure.links[self.left_out].points[point] * mm for point, _ in self.ends]
-        speed = moved[self.ends[0][1]].at(at[0])
+        at = [_place(links, poses, mm, *end) for end in self.ends]
+        own = [links[self.left_out].points[point] * mm for point, _ in self.ends]
         if self.slide is None:
             axis = (at[1] - at[0]) / (own[1] - own[0])
             axis /= abs(axis)
-            span = at[1] - at[0]
-            omega = cross(span, moved[self.ends[1][1]].at(at[1]) - speed) / abs(span) ** 2
         else:
-            s = self.slide
-            other = s.b if s.a == self.left_out else s.a
-            turn = s.guide.direction * s.turn
-            axis = poses[other].axis * (turn if s.a == self.left_out else turn.conjugate())
-            omega = moved[other].omega
-        pose = Pose(at[0] - axis * own[0], axis)
-        return Moved(pose, speed - 1j * omega * axis * own[0], omega)
+            turn = self.slide.guide.direction * self.slide.turn
+            axis = poses[self._other_side].axis * (turn if self.slide.a == self.left_out else turn.conjugate())
+        return Pose(at[0] - axis * own[0], axis)
 
-    def _rail(self, structure: Structure, poses: Mapping[str, Pose], mm: float) -> tuple[complex, complex, complex]:
+    def moving(
+        self, links: Mapping[str, Link], poses: Poses, motions: Mapping[str, LinkMotion], mm: float
+    ) -> LinkMotion:
+        """How the link left out moves, from the links that hold it."""
+        at = [_place(links, poses, mm, *end) for end in self.ends]
+        speed = motions[self.ends[0][1]].of(at[0])
+        if self.slide is not None:
+            return LinkMotion(at[0], speed, motions[self._other_side].omega)
+        span = at[1] - at[0]
+        return LinkMotion(at[0], speed, cross(span, motions[self.ends[1][1]].of(at[1]) - speed) / abs(span) ** 2)
+
+    @property
+    def _other_side(self) -> str:
+        """The link on which a block left out slides, or that slides on it."""
+        assert self.slide is not None
+        return self.slide.b if self.slide.a == self.left_out else self.slide.a
+
+    def _rail(self, poses: Poses, mm: float) -> tuple[complex, complex, complex]:
         """A point of the guide, its direction, and the sliding link's origin (or the hinge of a block left out)."""
         s = self.slide
         assert s is not None
@@ -124,50 +119,49 @@ class Closing:
         along = poses[s.a].axis * s.turn.conjugate()
         return poses[s.a].origin, along, poses[s.a].origin
 
-    def _offset(self, structure: Structure) -> float:
+    def _offset(self, links: Mapping[str, Link]) -> float:
         """Distance (m) of a block's hinge from the guide, to its left."""
         s = self.slide
         assert s is not None
-        hinge = structure.links[self.left_out].points[self.ends[0][0]]
+        hinge = links[self.left_out].points[self.ends[0][0]]
         if s.a == self.left_out:
             return (s.turn * hinge).imag
         return cross(s.guide.direction, hinge - s.guide.through)
 
 
-def _place(structure: Structure, poses: Mapping[str, Pose], mm: float, point: str, link: str) -> complex:
+def _place(links: Mapping[str, Link], poses: Poses, mm: float, point: str, link: str) -> complex:
     pose = poses[link]
-    return pose.origin + pose.axis * structure.links[link].points[point] * mm
+    return pose.origin + pose.axis * links[link].points[point] * mm
 
 
 @dataclass(frozen=True)
-class StandIn:
+class ReducedMechanism:
     """A mechanism of one larger group less.
 
-    ``closing`` is left out of it, ``driver`` is the key of the trial driver; ``elements`` are those that place the
+    ``removed`` is left out of it, ``driver`` is the key of the trial driver; ``elements`` are those that place the
     links of the group, in the order of drawing.
     """
 
     scene: Scene
     structure: Structure
-    closing: Closing
+    removed: RemovedConstraint
     driver: str
     cluster: Cluster
     elements: tuple[Driven | Dyad, ...]
 
-    def gap(self, frame: Frame) -> float:
+    def gap(self, frame: PlacedLinks) -> float:
         """By how much what was left out does not fit."""
-        return self.closing.gap(self._whole(frame), frame.poses, frame.mm, frame.values)
+        return self.removed.gap(frame.links, frame.poses, frame.mm, frame.values)
 
-    def put_back(self, frame: Frame) -> dict[str, Pose]:
+    def put_back(self, frame: PlacedLinks) -> dict[str, Pose]:
         """The group's links where they lie, the one left out among them."""
-        still = {name: Moved(pose, 0j, 0.0) for name, pose in frame.poses.items()}
-        back = self.closing.put_back(self._whole(frame), still, frame.mm)
         group = {name: pose for name, pose in frame.poses.items() if name in self.cluster.members}
-        return group if back is None else {**group, self.closing.left_out: back.pose}
+        back = self.removed.placed(frame.links, frame.poses, frame.mm)
+        return group if back is None else {**group, self.removed.left_out: back}
 
-    def opened(self, known: Frame, value: float) -> Frame:
+    def opened(self, known: PlacedLinks, value: float) -> PlacedLinks:
         """The board before the group is drawn, the trial driver at a value."""
-        return Frame(known.links, known.mm, {**known.values, self.driver: value}, dict(known.poses))
+        return PlacedLinks(known.links, known.mm, {**known.values, self.driver: value}, dict(known.poses))
 
     def value(self, poses: Mapping[str, Pose], mm: float) -> tuple[complex | None, float]:
         """The trial driver's value in a position: the direction of a turned link, or the travel (m)."""
@@ -179,57 +173,53 @@ class StandIn:
         start = rail.origin + rail.axis * slide.guide.through * mm
         return None, dot(rail.axis * slide.guide.direction, poses[slide.a].origin - start) / mm
 
-    def _whole(self, frame: Frame) -> Structure:
-        """The structure in which the link left out still has its points."""
-        return replace(self.structure, links=frame.links)
-
 
 def clusters(structure: Structure) -> list[Cluster]:
     """The larger groups, in the order of solution."""
     return [e for e in structure.elements if isinstance(e, Cluster)]
 
 
-def stand_ins(scene: Scene, cluster: Cluster) -> list[StandIn]:
-    """All ways to replace a larger group of a scene by dyads; the trial driver stands at value and rate 0.
+def reduced_mechanisms(scene: Scene, cluster: Cluster) -> list[ReducedMechanism]:
+    """All ways to replace a larger group of a scene by dyads; the trial driver choices at value and rate 0.
 
     Raises
     ------
     Unsolvable : "not drawn": nothing can be left out so that only dyads remain
     """
-    # earlier larger groups are known when this one is drawn: any stand-in does for them
+    # earlier larger groups are known when this one is drawn: any reduction does for them
     while (first := clusters(analyse(scene))[0]).members != cluster.members:
-        scene = stand_ins(scene, first)[0].scene
+        scene = reduced_mechanisms(scene, first)[0].scene
     structure = analyse(scene)
-    found = list(_stand_ins(scene, structure, cluster))
+    found = list(_reduced(scene, structure, cluster))
     if not found:
         names = ", ".join(cluster.links)
         raise Unsolvable("not drawn", Problem(f"links {names}", "nothing can be left out so that only dyads remain"))
     return found
 
 
-def _stand_ins(scene: Scene, structure: Structure, cluster: Cluster) -> Iterator[StandIn]:
-    for closing in _closings(structure, cluster):
-        opened = _opened(scene, closing)
-        for trial in _trials(structure, cluster, closing):
+def _reduced(scene: Scene, structure: Structure, cluster: Cluster) -> Iterator[ReducedMechanism]:
+    for removed in _removable(structure, cluster):
+        opened = _opened(scene, removed)
+        for trial in _trials(structure, cluster, removed):
             candidate = replace(opened, drivers=(*opened.drivers, trial))
             try:
                 dyads = analyse(candidate)
             except Unsolvable:
                 continue
-            wanted = [*closing.links, *(m for m in cluster.members if m != closing.left_out)]
+            wanted = [*removed.links, *(m for m in cluster.members if m != removed.left_out)]
             way = needed(dyads, [Symbol("omega", link=n) for n in dict.fromkeys(wanted)])
             inside = [e for e in way if set(links_of(e)) & set(cluster.members)]
             drawn = tuple(e for e in inside if isinstance(e, Driven | Dyad))
             if len(drawn) == len(inside):
-                yield StandIn(candidate, dyads, closing, trial.key, cluster, drawn)
+                yield ReducedMechanism(candidate, dyads, removed, trial.key, cluster, drawn)
 
 
-def _closings(structure: Structure, cluster: Cluster) -> Iterator[Closing]:
+def _removable(structure: Structure, cluster: Cluster) -> Iterator[RemovedConstraint]:
     for driver in cluster.drivers:
         if isinstance(driver, AngleDriver):
-            yield Closing("", driver=driver)
+            yield RemovedConstraint("", driver=driver)
         else:
-            yield Closing("", slide=structure.slide(driver.key), driver=driver)
+            yield RemovedConstraint("", slide=structure.slide(driver.key), driver=driver)
     driven = {n for d in structure.scene.drivers if isinstance(d, AngleDriver) for n in (d.link, d.relative_to)}
     for name in cluster.members:
         hinges = [p for p, names in structure.hinges.items() if name in names]
@@ -238,20 +228,20 @@ def _closings(structure: Structure, cluster: Cluster) -> Iterator[Closing]:
             continue
         ends = tuple((p, next(n for n in structure.hinges[p] if n != name)) for p in hinges)
         if len(hinges) == 2 and not slides:
-            yield Closing(name, ends)
+            yield RemovedConstraint(name, ends)
         elif len(hinges) == 1 and len(slides) == 1:
-            yield Closing(name, ends, slides[0])
+            yield RemovedConstraint(name, ends, slides[0])
 
 
-def _opened(scene: Scene, closing: Closing) -> Scene:
-    """The scene without what closes its group, everything known of its place kept as a sketch."""
-    gone = closing.left_out
+def _opened(scene: Scene, removed: RemovedConstraint) -> Scene:
+    """The scene without a constraint of its group, everything known of its place kept as a sketch."""
+    gone = removed.left_out
     return replace(
         scene,
         links=tuple(link for link in scene.links if link.name != gone),
         slidings=tuple(s for s in scene.slidings if gone not in (s.link, s.on)),
         pins=tuple(p for p in scene.pins if p.key != gone and gone not in (p.of, p.on)),
-        drivers=tuple(d for d in scene.drivers if d != closing.driver),
+        drivers=tuple(d for d in scene.drivers if d != removed.driver),
         sketch={**scene.sketch, **scene.drawn},
         drawn={},
         find=(),
@@ -259,12 +249,12 @@ def _opened(scene: Scene, closing: Closing) -> Scene:
     )
 
 
-def _trials(structure: Structure, cluster: Cluster, closing: Closing) -> Iterator[Driver]:
-    """Drivers that can stand in: at a turning or sliding pair of the group that is not driven and not left out."""
+def _trials(structure: Structure, cluster: Cluster, removed: RemovedConstraint) -> Iterator[Driver]:
+    """Drivers that can take its place: at a pair of the group that is not driven and not left out."""
     driven = {d.key for d in structure.scene.drivers}
     blocks = {s.key for s in structure.slides if s.slot}
     for pair in cluster.pairs:
-        if closing.left_out in (pair.a, pair.b):
+        if removed.left_out in (pair.a, pair.b):
             continue
         if isinstance(pair, Turn):
             if pair.a not in driven and not {pair.a, pair.b} & blocks:

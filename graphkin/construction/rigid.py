@@ -1,7 +1,4 @@
-"""Links on paper, and how hands prick and place them.
-
-A body of a group as one piece, and how its pairs hold it on paper.
-"""
+"""Links on paper: where they lie, how they move, how hands prick and place them, how pairs hold a body of them."""
 
 from __future__ import annotations
 
@@ -15,11 +12,27 @@ from graphkin.plane import direction, unit
 from graphkin.scene.model import AngleDriver, Link
 from graphkin.structure import Body, Dyad, Slide, Turn
 
-__all__ = ["Frame", "RigidBody", "across", "hinge", "inner_hinge", "rail"]
+__all__ = ["LinkMotion", "PlacedLinks", "Poses", "RigidBody", "across", "hinge", "inner_hinge", "rail"]
+
+
+Poses = Mapping[str, Pose]
+
+
+@dataclass(frozen=True)
+class LinkMotion:
+    """A link moves so that its point ``at`` (mm) has ``velocity`` (mm/s on paper), and turns at ``omega`` (rad/s)."""
+
+    at: complex
+    velocity: complex
+    omega: float
+
+    def of(self, z: complex) -> complex:
+        """Velocity (mm/s on paper) of the point of the link that lies at z (mm)."""
+        return self.velocity + 1j * self.omega * (z - self.at)
 
 
 @dataclass
-class Frame:
+class PlacedLinks:
     """Links on paper: their shapes at the length scale, the driver values, and where the known ones lie."""
 
     links: Mapping[str, Link]
@@ -67,7 +80,7 @@ class Frame:
 class RigidBody:
     """A body as one piece: its points in mm in the axes of its base link."""
 
-    def __init__(self, frame: Frame, body: Body) -> None:
+    def __init__(self, frame: PlacedLinks, body: Body) -> None:
         self.frame = frame
         self.body = body
         self.rel: dict[str, Pose] = {body.links[0]: Pose(0j, 1 + 0j)}
@@ -90,6 +103,9 @@ class RigidBody:
         return pose.origin + pose.axis * self._local(link, point)
 
     def placed(self, base: Pose) -> dict[str, Pose]:
+        """Its links, its base link lying so."""
+        if not self.body.welds:
+            return {self.body.links[0]: Pose(base.origin, unit(base.axis))}
         return {
             name: Pose(base.origin + base.axis * rel.origin, unit(base.axis * rel.axis))
             for name, rel in self.rel.items()
@@ -110,16 +126,16 @@ def across(slide: Slide, link: str, other: Pose, travel: float, mm: float) -> Po
     return Pose(other.origin - axis * (start + travel * g), axis)
 
 
-def hinge(frame: Frame, shape: RigidBody, pair: Turn) -> tuple[complex, complex]:
+def hinge(frame: PlacedLinks, shape: RigidBody, pair: Turn) -> tuple[complex, complex]:
     """An outer turning pair: its place on paper and in the body's axes."""
     return frame.point(pair.b, pair.point), shape.point(pair.a, pair.point)
 
 
-def _holder(body: Body, frame: Frame, point: str) -> str:
+def _holder(body: Body, frame: PlacedLinks, point: str) -> str:
     return next(name for name in body.links if point in frame.links[name].points)
 
 
-def inner_hinge(frame: Frame, dyad: Dyad, one: RigidBody, two: RigidBody) -> tuple[str, complex, complex]:
+def inner_hinge(frame: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> tuple[str, complex, complex]:
     """The inner turning pair: its letter and its place in each body's axes."""
     point = dyad.inner.point  # type: ignore[union-attr]
     return (
@@ -129,7 +145,7 @@ def inner_hinge(frame: Frame, dyad: Dyad, one: RigidBody, two: RigidBody) -> tup
     )
 
 
-def rail(frame: Frame, shape: RigidBody, slide: Slide) -> tuple[Pose, complex]:
+def rail(frame: PlacedLinks, shape: RigidBody, slide: Slide) -> tuple[Pose, complex]:
     """A body on a known guide, or with a guide on a known block: its pose at travel 0 and the way of it per mm."""
     mine = slide.a if slide.a in shape.rel else slide.b
     known = slide.b if mine == slide.a else slide.a

@@ -17,8 +17,8 @@ from graphkin.structure.model import Element, Structure
 from graphkin.words import Phrase
 
 __all__ = [
-    "Arc",
     "Bar",
+    "CompassArc",
     "DiagramName",
     "Equation",
     "Image",
@@ -26,6 +26,7 @@ __all__ = [
     "Pose",
     "Rate",
     "Ray",
+    "Role",
     "Scales",
     "Sheet",
     "Step",
@@ -85,15 +86,15 @@ class Ray:
 
 
 @dataclass(frozen=True)
-class Arc:
+class CompassArc:
     """A compass arc about ``centre`` through the point ``at`` that it finds."""
 
     centre: complex
     radius: float
     at: complex
 
-    def scaled(self, times: float) -> Arc:
-        return Arc(self.centre * times, self.radius * times, self.at * times)
+    def scaled(self, times: float) -> CompassArc:
+        return CompassArc(self.centre * times, self.radius * times, self.at * times)
 
 
 @dataclass(frozen=True)
@@ -130,7 +131,7 @@ class Image:
         return Image(self.link, tuple(z * times for z in self.corners))
 
 
-Stroke = Vector | Ray | Arc | Bar | Mark | Image
+Stroke = Vector | Ray | CompassArc | Bar | Mark | Image
 """Each is had so many times as large by ``scaled(times)``."""
 
 

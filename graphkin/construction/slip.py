@@ -1,4 +1,5 @@
-"""What somebody takes where the drawing has something else: a term left out, a value of their own for a drawn one.
+"""One component of a motion on paper, and what somebody may take where the drawing has something else: a component left
+out, a value of their own for a drawn one.
 
 A drawing with a slip shows what follows from it; nothing else of the construction changes.
 """
@@ -7,17 +8,27 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
+from graphkin.construction.sheet import Role
+from graphkin.construction.steps import Direction, Size
 from graphkin.scene.symbol import Symbol
 
-if TYPE_CHECKING:
-    from graphkin.construction.terms import Part
-
-__all__ = ["NO_SLIP", "Slip"]
+__all__ = ["NO_SLIP", "Component", "Slip"]
 
 
-def _same_term(part: Part) -> Part:
+@dataclass(frozen=True)
+class Component:
+    """One term of a relative motion in an equation: its vector on paper (mm) if known, else only its direction."""
+
+    symbol: Symbol
+    role: Role
+    along: complex
+    span: complex | None
+    written: Direction
+    size: Size | None = None
+
+
+def _same_term(part: Component) -> Component:
     return part
 
 
@@ -38,7 +49,7 @@ class Slip:
     and returns None where it stays.
     """
 
-    term: Callable[[Part], Part] = _same_term
+    term: Callable[[Component], Component] = _same_term
     found: Callable[[Symbol, complex, complex], complex] = _same_vector
     rate: Callable[[Symbol, float], float | None] = _same_rate
 

@@ -27,19 +27,19 @@ __all__ = [
     "DirectionLine",
     "FixedPoints",
     "Formula",
-    "Found",
+    "FoundVector",
     "Given",
     "GuideThrough",
     "GuideTouching",
     "LaidOff",
     "LaidOffAngle",
     "LaidOffTravel",
+    "LinesMeet",
     "LinkPoints",
     "MeasuredRate",
-    "Meeting",
     "Named",
     "OffTheSheet",
-    "Path",
+    "PathDrawn",
     "PathsCross",
     "Placing",
     "PutBack",
@@ -171,7 +171,6 @@ class LaidOffAngle(Act):
         return (self.link,)
 
 
-@dataclass(frozen=True)
 class _AtPairs(Act):
     """An act at sliding pairs, by their keys."""
 
@@ -218,7 +217,7 @@ class CompassArcs(Act):
 
 
 @dataclass(frozen=True)
-class Path(_AtPairs):
+class PathDrawn(_AtPairs):
     """The straight path of a point that slides."""
 
     point: str
@@ -367,7 +366,6 @@ class _OfVector(Act):
     symbol: Symbol
 
 
-@dataclass(frozen=True)
 class Carried(_OfVector):
     """A known vector added before its turn in the chain."""
 
@@ -376,7 +374,6 @@ class Carried(_OfVector):
         return Phrase("carry", (self.symbol,))
 
 
-@dataclass(frozen=True)
 class PutBack(_OfVector):
     """A vector that was added before its turn, put in its place."""
 
@@ -385,7 +382,6 @@ class PutBack(_OfVector):
         return Phrase("put back", (self.symbol,))
 
 
-@dataclass(frozen=True)
 class Resultant(_OfVector):
     """The vector from the pole to an end point that was found."""
 
@@ -394,7 +390,6 @@ class Resultant(_OfVector):
         return Phrase("resultant", (self.symbol,))
 
 
-@dataclass(frozen=True)
 class Asked(_OfVector):
     """A vector that stands in no equation, drawn because it is asked for."""
 
@@ -415,7 +410,7 @@ class DirectionLine(_OfVector):
 
 
 @dataclass(frozen=True)
-class Found(_OfVector):
+class FoundVector(_OfVector):
     """A vector found by its end point, and measured."""
 
     mm: float
@@ -433,8 +428,7 @@ class _AtPoint(Act):
     point: PointRef
 
 
-@dataclass(frozen=True)
-class Meeting(_AtPoint):
+class LinesMeet(_AtPoint):
     """Two direction lines meet in an end point."""
 
     @property
@@ -442,7 +436,6 @@ class Meeting(_AtPoint):
         return Phrase("meet", (self.point,))
 
 
-@dataclass(frozen=True)
 class Named(_AtPoint):
     """An end point that stands already gets its letter."""
 

@@ -2,33 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal
 
 from graphkin.construction.equations import Edge
 from graphkin.construction.plot import Order, Plot
-from graphkin.construction.steps import Direction, Formula, Given, RateTimes, Size
+from graphkin.construction.slip import Component
+from graphkin.construction.steps import Direction, Formula, Given, RateTimes
 from graphkin.plane import dot, unit
 from graphkin.scene.model import AngleDriver, SlideDriver
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Slide, Weld
 
-__all__ = ["Part", "bar", "parts_of", "symbol_of", "turn_sign"]
+__all__ = ["bar", "parts_of", "symbol_of", "turn_sign"]
 
 
-@dataclass(frozen=True)
-class Part:
-    """One term of a relative motion: its vector on paper (mm) if known, else only its direction."""
-
-    symbol: Symbol
-    role: Literal["resultant", "relative", "normal", "tangential", "coriolis", "sliding"]
-    along: complex
-    span: complex | None
-    written: Direction
-    size: Size | None = None
-
-
-def parts_of(plot: Plot, order: Order, edge: Edge) -> list[Part]:
+def parts_of(plot: Plot, order: Order, edge: Edge) -> list[Component]:
     """The terms of the motion of an edge's end relative to its start."""
     if edge.weld is not None:
         return _weld_parts(plot, order, edge, edge.weld)
@@ -44,7 +32,7 @@ def symbol_of(plot: Plot, kind: str, edge: Edge) -> Symbol:
     return Symbol(kind, end, start)
 
 
-def _rigid_parts(plot: Plot, order: Order, edge: Edge) -> list[Part]:
+def _rigid_parts(plot: Plot, order: Order, edge: Edge) -> list[Component]:
     arm = plot.places[edge.end.point] - plot.places[edge.start.point]
     if edge.link in plot.still:
         return []
@@ -53,14 +41,14 @@ def _rigid_parts(plot: Plot, order: Order, edge: Edge) -> list[Part]:
     rate = None if edge.unknown else plot.rates[order].get(edge.link)
     role: Literal["resultant", "relative"] = "resultant" if plot.fixed(edge.start) else "relative"
     if order == "velocity":
-        span = None if rate is None else square * (rate.value * plot.measured(arm) / plot.scales.velocity)
+        span = None if rate is None else square * (rate.value * plot.measured(arm, name) / plot.scales.velocity)
         size = RateTimes("omega", (edge.link,), name) if span is not None else None
-        return [Part(symbol_of(plot, "v", edge), role, square, span, edge.direction, size)]
+        return [Component(symbol_of(plot, "v", edge), role, square, span, edge.direction, size)]
     slip = plot.end("velocity", edge.end) - plot.end("velocity", edge.start)
     speed = plot.board.instrument.read(abs(slip)) * plot.scales.velocity
-    arm_m = plot.measured(arm)
+    arm_m = plot.measured(arm, name)
     inward = -unit(arm)
-    normal = Part(
+    normal = Component(
         symbol_of(plot, "an", edge),
         "normal",
         inward,
@@ -72,29 +60,29 @@ def _rigid_parts(plot: Plot, order: Order, edge: Edge) -> list[Part]:
         return [normal]
     span = None if rate is None else square * (rate.value * arm_m / plot.scales.acceleration)
     size = RateTimes("alpha", (edge.link,), name) if span is not None else None
-    return [normal, Part(symbol_of(plot, "at", edge), "tangential", square, span, edge.direction, size)]
+    return [normal, Component(symbol_of(plot, "at", edge), "tangential", square, span, edge.direction, size)]
 
 
-def _slide_parts(plot: Plot, order: Order, edge: Edge, slide: Slide) -> list[Part]:
+def _slide_parts(plot: Plot, order: Order, edge: Edge, slide: Slide) -> list[Component]:
     sense = plot.frame.poses[slide.b].axis * slide.guide.direction * (1 if edge.forward else -1)
     given = _given(plot, slide.key, order)
     fixed = plot.fixed(edge.start)
     role: Literal["resultant", "relative"] = "resultant" if fixed else "relative"
     if order == "velocity":
         span = None if given is None else sense * (given / plot.scales.velocity)
-        return [Part(symbol_of(plot, "v", edge), role, sense, span, edge.direction, _given_size(span))]
+        return [Component(symbol_of(plot, "v", edge), role, sense, span, edge.direction, _given_size(span))]
     span = None if given is None else sense * (given / plot.scales.acceleration)
     if slide.b in plot.still or slide.a in plot.still:
         # no rotation, no Coriolis: the sliding part is all there is
         symbol = symbol_of(plot, "a", edge) if fixed else symbol_of(plot, "ar", edge)
         return [
-            Part(symbol, "resultant" if fixed else "sliding", sense, span, edge.direction, _given_size(span))
+            Component(symbol, "resultant" if fixed else "sliding", sense, span, edge.direction, _given_size(span))
         ]
     omega = plot.rates["velocity"][slide.b].value
     slip = plot.end("velocity", edge.end) - plot.end("velocity", edge.start)
     read = plot.board.instrument.read(abs(slip)) * (1 if dot(slip, sense) >= 0 else -1)
     size = 2 * omega * read * plot.scales.velocity / plot.scales.acceleration
-    coriolis = Part(
+    coriolis = Component(
         symbol_of(plot, "ak", edge),
         "coriolis",
         1j * sense,
@@ -102,7 +90,7 @@ def _slide_parts(plot: Plot, order: Order, edge: Edge, slide: Slide) -> list[Par
         Direction("turned", edge.direction.names),
         RateTimes("omega", (slide.b,), symbol_of(plot, "v", edge), twice=True),
     )
-    sliding = Part(symbol_of(plot, "ar", edge), "sliding", sense, span, edge.direction, _given_size(span))
+    sliding = Component(symbol_of(plot, "ar", edge), "sliding", sense, span, edge.direction, _given_size(span))
     return [coriolis, sliding]
 
 
@@ -114,25 +102,25 @@ def _given(plot: Plot, key: str, order: Order) -> float | None:
     return None
 
 
-def _weld_parts(plot: Plot, order: Order, edge: Edge, weld: Weld) -> list[Part]:
+def _weld_parts(plot: Plot, order: Order, edge: Edge, weld: Weld) -> list[Component]:
     """A point of a link that a driver turns about a hinge of another link, relative to that link."""
     hinge = weld.pair.point  # type: ignore[union-attr]
     arm = plot.places[edge.end.point] - plot.places[hinge]
     way = 1 if edge.forward else -1
     _, speed, rate = weld.driver.values
     omega, alpha = way * turn_sign(weld) * speed, way * turn_sign(weld) * rate
-    arm_m = plot.measured(arm)
+    arm_m = plot.measured(arm, (hinge, edge.end.point))
     square = 1j * unit(arm)
     if order == "velocity":
         span = square * (omega * arm_m / plot.scales.velocity)
         size = RateTimes("omega", (weld.b, weld.a), (hinge, edge.end.point))
-        return [Part(symbol_of(plot, "v", edge), "relative", square, span, edge.direction, size)]
+        return [Component(symbol_of(plot, "v", edge), "relative", square, span, edge.direction, size)]
     base = weld.a if edge.forward else weld.b
     turn = plot.rates["velocity"][base].value
     per = arm_m / plot.scales.acceleration
     inward = -unit(arm)
     return [
-        Part(
+        Component(
             symbol_of(plot, "an", edge),
             "normal",
             inward,
@@ -140,8 +128,15 @@ def _weld_parts(plot: Plot, order: Order, edge: Edge, weld: Weld) -> list[Part]:
             Direction("towards", (edge.end.point, hinge)),
             Formula("ω²r"),
         ),
-        Part(symbol_of(plot, "at", edge), "tangential", square, square * (alpha * per), edge.direction, Formula("αr")),
-        Part(
+        Component(
+            symbol_of(plot, "at", edge),
+            "tangential",
+            square,
+            square * (alpha * per),
+            edge.direction,
+            Formula("αr"),
+        ),
+        Component(
             symbol_of(plot, "ak", edge),
             "coriolis",
             inward,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from graphkin.checking import Report
+from graphkin.checking.report import Report
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, letters_of, scale_statement

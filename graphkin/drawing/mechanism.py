@@ -8,8 +8,7 @@ import math
 from cmath import phase
 from collections.abc import Iterator
 
-from graphkin.construction.sheet import Arc as Compass
-from graphkin.construction.sheet import Sheet
+from graphkin.construction.sheet import CompassArc, Sheet
 from graphkin.drawing import strokes, symbols
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
@@ -263,7 +262,7 @@ def _construction(here: MechanismOnPaper) -> Piece:
     for step in here.sheet.steps:
         if step.diagram != "mechanism":
             continue
-        for arc in (s for s in step.strokes if isinstance(s, Compass)):
+        for arc in (s for s in step.strokes if isinstance(s, CompassArc)):
             if arc.radius < 1e-9:
                 continue
             middle, half = phase(arc.at - arc.centre), min(COMPASS / arc.radius, math.pi * 0.9)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from graphkin.checking import Report
+from graphkin.checking.report import Report
 from graphkin.construction import Room
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.drawing import strokes

@@ -6,7 +6,8 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from graphkin.checking import Compared, Reading, Report, read_off
+from graphkin.checking.readings import Reading, read_off
+from graphkin.checking.report import Compared, Report
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box

@@ -13,7 +13,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
-from graphkin.checking import Compared, Report, Uncertainty
+from graphkin.checking.readings import Uncertainty
+from graphkin.checking.report import Compared, Report
 from graphkin.construction.sheet import DiagramName, Equation, Ray, Sheet, Step, Vector
 from graphkin.construction.steps import Direction, DirectionLine, Given, LaidOff, MeasuredRate, RateTimes, Size
 from graphkin.drawing.conventions import Letters, letters_of, pole

@@ -12,7 +12,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from graphkin import solver
-from graphkin.checking import Report, compare, predict, read_off
+from graphkin.checking.readings import predict, read_off
+from graphkin.checking.report import Report, compare
 from graphkin.construction import Plan, execute, plan
 from graphkin.construction.centres import Centres, find_centres
 from graphkin.construction.sheet import Scales, Sheet

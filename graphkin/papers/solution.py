@@ -11,7 +11,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from graphkin import table
-from graphkin.checking import COVERAGE, Compared
+from graphkin.checking.readings import COVERAGE
+from graphkin.checking.report import Compared
 from graphkin.construction.sheet import Equation
 from graphkin.drawing.headings import FIGURE_WORDS, drivers, number
 from graphkin.papers.blocks import (

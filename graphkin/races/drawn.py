@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.checking import read_off
+from graphkin.checking.readings import read_off
 from graphkin.construction import EXACT, Cad, Instrument, Plan, Scales, execute, pencil, plan
 from graphkin.construction.centres import by_centres, find_centres, speeds
 from graphkin.races.timing import Entry, best_time

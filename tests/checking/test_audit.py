@@ -8,8 +8,7 @@ import pytest
 
 import graphkin
 from graphkin.api.audited import _case
-from graphkin.checking import stated
-from graphkin.checking.printed import slips_of_the_pen
+from graphkin.checking.printed import stated, transcription_errors
 from graphkin.errors import CallError
 from graphkin.scene import read
 from graphkin.scene.symbol import Symbol
@@ -133,8 +132,8 @@ def test_digits_are_those_written():
     assert (4, pytest.approx(1e-4)) == (printed.digits, printed.step)
 
 
-def test_two_digits_exchanged_are_among_the_slips_of_the_pen():
-    assert 482.7 in [v for _, _, v in slips_of_the_pen(stated(Symbol.parse("omega_3"), ["428.7"], 1e-3))]
+def test_two_digits_exchanged_are_among_the_transcription_errors():
+    assert 482.7 in [v for _, _, v in transcription_errors(stated(Symbol.parse("omega_3"), ["428.7"], 1e-3))]
 
 
 def test_people_and_positions_are_read_from_a_table(tmp_path):
@@ -172,3 +171,8 @@ def test_the_command_prints_the_json_of_the_contract_and_exits_1(tmp_path):
 def test_a_scene_without_printed_values_is_refused():
     with pytest.raises(CallError):
         graphkin.audit("toggle-press")
+
+
+def test_a_number_so_small_that_no_double_holds_its_last_digit_is_refused():
+    with pytest.raises(ValueError, match="no number of a size that can be meant"):
+        stated(Symbol.parse("v_D"), ["1e-400"], 1e-3)

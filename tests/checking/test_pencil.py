@@ -8,7 +8,7 @@ from dataclasses import replace
 import pytest
 
 import graphkin
-from graphkin.checking import COVERAGE, predict, read_off
+from graphkin.checking.readings import COVERAGE, predict, read_off
 from graphkin.construction import execute, pencil, plan
 from graphkin.scene import library, library_text, read, read_text
 from graphkin.scene.symbol import Symbol

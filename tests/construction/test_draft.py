@@ -7,9 +7,9 @@ from dataclasses import replace
 
 import pytest
 
-from graphkin.construction import draft
-from graphkin.construction.sheet import Arc, Ray
-from graphkin.construction.steps import Found, OffTheSheet, ZeroVector
+from graphkin.construction import Cad, Scales, draft, pencil
+from graphkin.construction.sheet import CompassArc, Ray
+from graphkin.construction.steps import FoundVector, OffTheSheet, ZeroVector
 from graphkin.errors import Unsolvable
 from graphkin.plane import cross, dot
 from graphkin.scene import library, read
@@ -83,14 +83,14 @@ def test_an_image_is_similar_to_its_link_and_turned_the_same_way():
 
 def test_a_position_is_found_with_compass_arcs_of_the_given_lengths():
     sheet = draft(read("fourbar-150-500-300-400"))
-    radii = sorted(s.radius * sheet.scales.length for step in sheet.steps for s in step.strokes if isinstance(s, Arc))
-    assert [0.3, 0.5] == pytest.approx(radii)
+    arcs = [s for step in sheet.steps for s in step.strokes if isinstance(s, CompassArc)]
+    assert [0.3, 0.5] == pytest.approx(sorted(arc.radius * sheet.scales.length for arc in arcs))
 
 
 def test_a_direction_line_is_drawn_before_the_vector_on_it():
     steps = draft(read(SIXBAR)).steps
     ray = next(s.number for s in steps for x in s.strokes if isinstance(x, Ray) and str(x.symbol) == "v_B@3")
-    vector = next(s.number for s in steps if isinstance(s.act, Found) and str(s.act.symbol) == "v_B@3")
+    vector = next(s.number for s in steps if isinstance(s.act, FoundVector) and str(s.act.symbol) == "v_B@3")
     assert ray < vector
 
 
@@ -199,3 +199,43 @@ def test_velocities_need_no_acceleration_polygon():
     sheet = draft(read(SIXBAR), find=[Symbol.parse("v_D")])
     assert {} == sheet.vectors("acceleration")
     assert _vector(sheet, "v_D") == _vector(draft(read(SIXBAR)), "v_D")
+
+
+def test_a_sheet_at_other_scales_is_the_same_construction_larger():
+    sheet = draft(read(SIXBAR))
+    s = sheet.scales
+    other = sheet.at(Scales(s.length / 2, s.velocity / 4, s.acceleration * 2))
+    for diagram, times in (("velocity", 4.0), ("acceleration", 0.5)):
+        for symbol, vector in sheet.vectors(diagram).items():
+            assert other.vectors(diagram)[symbol].span == pytest.approx(times * vector.span, rel=1e-15)
+    assert {r: 2 * z for r, z in sheet.points.items()} == other.points
+    assert {n: r.value for n, r in sheet.alpha.items()} == {n: r.value for n, r in other.alpha.items()}
+
+
+def test_a_remark_belongs_to_the_scale_of_its_figure():
+    sheet = draft(read("slider-crank-s50-e16-K1.2"))
+    s = sheet.scales
+    larger = sheet.at(Scales(s.length, s.velocity / 1000, s.acceleration))
+    assert [False, True] == [any(isinstance(r, OffTheSheet) for r in one.remarks) for one in (sheet, larger)]
+
+
+def test_a_sheet_drawn_by_hands_that_err_is_not_had_at_another_scale():
+    scene = read(SIXBAR)
+    sheet = draft(scene, instrument=pencil(scene.sheet.tools, 1))
+    with pytest.raises(ValueError, match="pencil"):
+        sheet.at(Scales(1.0, 1.0, 1.0))
+
+
+def test_a_bar_that_a_drafting_program_reads_as_nothing_is_refused_by_name():
+    mapping = {
+        "frame": {"points": {"A": [0, 0], "D": [400, 0]}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 0.001},
+            "2": {"points": ["B", "C"], "length": 400},
+            "3": {"points": ["D", "C"], "length": 150},
+        },
+        "driver": {"link": "1", "angle": 60, "omega": 3},
+        "sketch": {"C": [400, 150]},
+    }
+    with pytest.raises(Unsolvable, match="too short to be read"):
+        draft(read(mapping), instrument=Cad())

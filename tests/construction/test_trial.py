@@ -9,7 +9,7 @@ import pytest
 
 from graphkin import solver
 from graphkin.construction.centres.motion import Worked, work
-from graphkin.construction.reduced_mechanism import clusters, stand_ins
+from graphkin.construction.reduced_mechanism import clusters, reduced_mechanisms
 from graphkin.scene import read
 from graphkin.scene.model import Scene
 from graphkin.structure import analyse
@@ -75,7 +75,7 @@ def test_what_the_superposition_keeps_is_named() -> None:
 def test_no_trial_driver_bears_the_name_of_a_real_one() -> None:
     scene = read(COUPLER_DRIVEN)
     (group,) = clusters(analyse(scene))
-    assert "2" not in {stand.driver for stand in stand_ins(scene, group)}
+    assert "2" not in {stand.driver for stand in reduced_mechanisms(scene, group)}
 
 
 def test_a_sheet_found_by_trial_shows_the_link_that_was_left_out() -> None:

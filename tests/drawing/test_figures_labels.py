@@ -8,7 +8,8 @@ from collections.abc import Callable
 
 import pytest
 
-from graphkin.checking import compare, read_off
+from graphkin.checking.readings import read_off
+from graphkin.checking.report import compare
 from graphkin.construction import draft
 from graphkin.drawing import figures, sheet_room, svg_bytes
 from graphkin.errors import Unsolvable

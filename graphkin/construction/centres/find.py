@@ -7,10 +7,20 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from graphkin.construction.board import EXACT, Instrument
-from graphkin.construction.centres.kennedy import Crossing, Known, Relation, Search, closure
-from graphkin.construction.centres.motion import Motion, Way, Worked, measured, relative_centre, work
-from graphkin.construction.centres.pairs import Chart, Links, Normal, Pair, Place, links_on_paper, normals, permanent
+from graphkin.construction.centres.kennedy import CrossedCentre, Known, Relation, Search, closure
+from graphkin.construction.centres.motion import Way, Worked, measured, relative_centre, work
+from graphkin.construction.centres.pairs import (
+    LinkPair,
+    Links,
+    Normal,
+    Place,
+    ProjectiveChart,
+    links_on_paper,
+    normals,
+    permanent,
+)
 from graphkin.construction.plan import Room, scales_for
+from graphkin.construction.rigid import LinkMotion
 from graphkin.construction.sheet import Sheet
 from graphkin.scene.model import AngleDriver, Scene
 from graphkin.words import Phrase
@@ -28,7 +38,7 @@ class Centre:
     theorem does not give, ``why`` says why it does not, or why there is none.
     """
 
-    pair: Pair
+    pair: LinkPair
     kind: Literal["permanent", "found", "undetermined"]
     place: Place | None = None
     point: complex | None = None
@@ -50,10 +60,10 @@ class Centres:
 
     sheet: Sheet
     links: Links
-    chart: Chart
-    table: Mapping[Pair, Centre]
+    chart: ProjectiveChart
+    table: Mapping[LinkPair, Centre]
     normals: tuple[Normal, ...]
-    motions: Mapping[str, Motion]
+    motions: Mapping[str, LinkMotion]
     kept: tuple[str, ...] = ()
 
     def of(self, a: str, b: str) -> Centre:
@@ -68,10 +78,10 @@ class Centres:
         return Centres(
             self.sheet.at(scales),
             Links(self.links.scene, self.links.mm * k, poses),
-            Chart(self.chart.middle * k, self.chart.unit * k),
+            ProjectiveChart(self.chart.middle * k, self.chart.unit * k),
             {pair: replace(c, point=None if c.point is None else c.point * k) for pair, c in self.table.items()},
             tuple(replace(normal, foot=normal.foot * k) for normal in self.normals),
-            {name: Motion(m.at * k, m.velocity * k, m.omega) for name, m in self.motions.items()},
+            {name: LinkMotion(m.at * k, m.velocity * k, m.omega) for name, m in self.motions.items()},
             self.kept,
         )
 
@@ -124,11 +134,11 @@ def _moving(scene: Scene) -> Scene:
 
 
 def _search(
-    links: Links, chart: Chart, motions: Mapping[str, Motion], instrument: Instrument, way: Way
-) -> tuple[dict[Pair, Centre], tuple[Normal, ...]]:
+    links: Links, chart: ProjectiveChart, motions: Mapping[str, LinkMotion], instrument: Instrument, way: Way
+) -> tuple[dict[LinkPair, Centre], tuple[Normal, ...]]:
     slots = tuple(normals(links, chart))
     search = Search(links.pairs, links.names, slots)
-    table: dict[Pair, Centre] = {}
+    table: dict[LinkPair, Centre] = {}
     for p in permanent(links, chart).values():
         direction = chart.direction(p.place) if p.point is None else None
         table[p.pair] = Centre(p.pair, "permanent", p.place, p.point, direction, joint=p.joint)
@@ -152,26 +162,28 @@ def _search(
 class _Reach:
     """Which centres the known ones lead to by triangles, were no two lines to fall together."""
 
-    def __init__(self, links: Links, slots: list[Pair], motions: Mapping[str, Motion], known: set[Pair]) -> None:
+    def __init__(
+        self, links: Links, slots: list[LinkPair], motions: Mapping[str, LinkMotion], known: set[LinkPair]
+    ) -> None:
         self.links, self.slots, self.motions = links, slots, motions
         self.order = sorted(links.pairs, key=self._plain, reverse=True)
         self.done = 0  # of the order
-        self.reached: set[Pair] = set()
+        self.reached: set[LinkPair] = set()
         self._grow(known)
 
-    def _plain(self, pair: Pair) -> tuple[bool, bool]:
+    def _plain(self, pair: LinkPair) -> tuple[bool, bool]:
         return pair[0] in self.motions and pair[1] in self.motions, self.links.scene.frame.name in pair
 
-    def _grow(self, known: set[Pair]) -> None:
+    def _grow(self, known: set[LinkPair]) -> None:
         self.reached = closure(self.links.pairs, self.links.names, self.reached | known, self.slots)
         self.beyond = [pair for pair in self.links.pairs if pair not in self.reached]
 
-    def found(self, pair: Pair) -> None:
+    def found(self, pair: LinkPair) -> None:
         """Take in a centre whose place is known."""
         if pair not in self.reached:
             self._grow({pair})
 
-    def best(self, table: Mapping[Pair, Centre]) -> Pair:
+    def best(self, table: Mapping[LinkPair, Centre]) -> LinkPair:
         """The missing centre that gives most others; measured ones before those that are not, then the frame's."""
         while self.order[self.done] in table:
             self.done += 1
@@ -179,7 +191,7 @@ class _Reach:
         # one that the triangles reach, if not surely, gives no more than they do
         return max([*self.beyond, self.order[self.done]], key=self._gain)
 
-    def _gain(self, pair: Pair) -> tuple[bool, int, bool]:
+    def _gain(self, pair: LinkPair) -> tuple[bool, int, bool]:
         measurable, of_frame = self._plain(pair)
         if pair in self.reached:
             return measurable, 0, of_frame
@@ -187,7 +199,7 @@ class _Reach:
         return measurable, len(more) - len(self.reached), of_frame
 
 
-def _crossed(crossing: Crossing, chart: Chart, number: int, instrument: Instrument) -> Centre:
+def _crossed(crossing: CrossedCentre, chart: ProjectiveChart, number: int, instrument: Instrument) -> Centre:
     place = crossing.place
     point = chart.point(place)
     if point is not None:
@@ -199,7 +211,7 @@ def _crossed(crossing: Crossing, chart: Chart, number: int, instrument: Instrume
 
 
 def _otherwise(
-    chart: Chart, motions: Mapping[str, Motion], search: Search, pair: Pair, number: int, way: Way
+    chart: ProjectiveChart, motions: Mapping[str, LinkMotion], search: Search, pair: LinkPair, number: int, way: Way
 ) -> Centre:
     """A centre that Kennedy's theorem does not give now."""
     why = _why(search, pair)
@@ -215,7 +227,7 @@ def _otherwise(
     return Centre(pair, "found", place, point, direction, number, way=way, why=why, error=1e-15)
 
 
-def _why(search: Search, pair: Pair) -> Phrase:
+def _why(search: Search, pair: LinkPair) -> Phrase:
     """Why Kennedy's theorem fails: too few triangles, or lines that fall together."""
     count = len(search.lines[pair])
     if count < 2:

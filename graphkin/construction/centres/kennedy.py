@@ -13,9 +13,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from heapq import heappop, heappush
 
-from graphkin.construction.centres.pairs import Line, Normal, Pair, Place, wedge
+from graphkin.construction.centres.pairs import Line, LinkPair, Normal, Place, wedge
 
-__all__ = ["SURE", "Crossing", "Known", "Relation", "Search", "closure"]
+__all__ = ["SURE", "CrossedCentre", "Known", "Relation", "Search", "closure"]
 
 ROUNDING = 2e-16
 SURE = 1e-10
@@ -39,18 +39,18 @@ class Relation:
     ``via`` is the third link ("" for a normal); ``through`` names the two centres, or the pin in slot.
     """
 
-    pair: Pair
+    pair: LinkPair
     line: Line
     error: float
     via: str
-    through: tuple[Pair, Pair] | tuple[str]
+    through: tuple[LinkPair, LinkPair] | tuple[str]
 
 
 @dataclass(frozen=True)
-class Crossing:
+class CrossedCentre:
     """A centre found where two lines cross; ``sine`` of their angle on the sphere, ``error`` of the place."""
 
-    pair: Pair
+    pair: LinkPair
     place: Place
     lines: tuple[Relation, Relation]
     sine: float
@@ -60,17 +60,17 @@ class Crossing:
 class Search:
     """The circle diagram as it fills: centres known, lines known for each missing one, the best crossing of each."""
 
-    def __init__(self, pairs: Sequence[Pair], names: Sequence[str], normals: Sequence[Normal]) -> None:
-        self.pairs, self.names, self.known = pairs, names, dict[Pair, Known]()
-        self.lines: dict[Pair, list[Relation]] = {pair: [] for pair in pairs}
-        self.best: dict[Pair, Crossing] = {}
+    def __init__(self, pairs: Sequence[LinkPair], names: Sequence[str], normals: Sequence[Normal]) -> None:
+        self.pairs, self.names, self.known = pairs, names, dict[LinkPair, Known]()
+        self.lines: dict[LinkPair, list[Relation]] = {pair: [] for pair in pairs}
+        self.best: dict[LinkPair, CrossedCentre] = {}
         self._place = {pair: i for i, pair in enumerate(pairs)}
         self._ranked: list[tuple[int, int]] = []  # powers of ten of the errors, with the place of the pair: a heap
         self._as_written = {frozenset(pair): pair for pair in pairs}
         for normal in normals:
             self._add(Relation(normal.pair, normal.line, ROUNDING, "", (normal.key,)))
 
-    def learn(self, pair: Pair, known: Known) -> None:
+    def learn(self, pair: LinkPair, known: Known) -> None:
         """Take in a centre, and with it all lines that it completes."""
         self.known[pair] = known
         for a, b in (pair, pair[::-1]):
@@ -82,7 +82,7 @@ class Search:
                 if side in self.known and missing not in self.known:
                     self._relate(missing, b, pair, side)
 
-    def next(self) -> Crossing | None:
+    def next(self) -> CrossedCentre | None:
         """The missing centre that is found best: the least error to be expected, counted in powers of ten, and among
         those the first in the order of the links.  None where no two lines cross so well that the place errs by no
         more than ``SURE`` (on the unit sphere)."""
@@ -94,7 +94,7 @@ class Search:
                 return self.best[pair]
         return None
 
-    def _relate(self, missing: Pair, via: str, one: Pair, two: Pair) -> None:
+    def _relate(self, missing: LinkPair, via: str, one: LinkPair, two: LinkPair) -> None:
         a, b = self.known[one], self.known[two]
         line, sine = wedge(a.place, b.place)
         if sine > TOGETHER:
@@ -115,23 +115,25 @@ class Search:
         self.lines[pair].append(relation)
 
 
-def _cross(a: Relation, b: Relation) -> Crossing | None:
+def _cross(a: Relation, b: Relation) -> CrossedCentre | None:
     place, sine = wedge(a.line, b.line)
     if sine == 0.0:
         return None
     if place[2] < 0.0:
         place = -place[0], -place[1], -place[2]
-    return Crossing(a.pair, place, (a, b), sine, (a.error + b.error + ROUNDING) / sine)
+    return CrossedCentre(a.pair, place, (a, b), sine, (a.error + b.error + ROUNDING) / sine)
 
 
-def closure(pairs: Sequence[Pair], names: Sequence[str], known: set[Pair], slots: Sequence[Pair]) -> set[Pair]:
+def closure(
+    pairs: Sequence[LinkPair], names: Sequence[str], known: set[LinkPair], slots: Sequence[LinkPair]
+) -> set[LinkPair]:
     """The centres that two closed triangles of the circle diagram can give, one after the other, lines never falling
     together.  ``slots`` are pairs with a common normal: one line each."""
     place = {name: i for i, name in enumerate(names)}
     slotted = Counter(slots)
     joined = [0] * len(names)  # for each link, a bit for every other whose centre with it is known
 
-    def join(pair: Pair) -> None:
+    def join(pair: LinkPair) -> None:
         a, b = place[pair[0]], place[pair[1]]
         joined[a] |= 1 << b
         joined[b] |= 1 << a

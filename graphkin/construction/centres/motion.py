@@ -1,6 +1,6 @@
-"""The motion of each link as measured on the velocity polygon, and the centre of two links from it.
+"""Position and motion of every link on paper, by the polygons, or by trial and superposition where they stop.
 
-Position and motion of every link on paper, by the polygons, or by trial and superposition where they stop.
+The motion of a link is measured on the velocity polygon; where two links have one velocity is their centre.
 """
 
 from __future__ import annotations
@@ -10,50 +10,39 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from graphkin.construction.board import EXACT, Instrument
-from graphkin.construction.centres.pairs import Chart, Pair, Place
+from graphkin.construction.centres.pairs import LinkPair, Place, ProjectiveChart
 from graphkin.construction.plan import draft
-from graphkin.construction.reduced_mechanism import Closing, Moved
-from graphkin.construction.sheet import Pose, Sheet
+from graphkin.construction.reduced_mechanism import RemovedConstraint
+from graphkin.construction.rigid import LinkMotion, Poses
+from graphkin.construction.sheet import Sheet
 from graphkin.construction.trial import Known, trial_position
+from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, Driver, Scene
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import Structure, analyse
 
-__all__ = ["Motion", "Way", "Worked", "measured", "relative_centre", "work"]
+__all__ = ["Way", "Worked", "measured", "relative_centre", "work"]
 
 AT_REST = 1e-9
 """Two links whose relative motion is smaller than this part of the largest do not move relative to each other."""
 
 
-@dataclass(frozen=True)
-class Motion:
-    """A link moves so that its point ``at`` (mm) has ``velocity`` (mm/s on paper), and turns at ``omega`` (rad/s)."""
-
-    at: complex
-    velocity: complex
-    omega: float
-
-    def of(self, z: complex) -> complex:
-        """Velocity (mm/s on paper) of the point of the link that lies at z (mm)."""
-        return self.velocity + 1j * self.omega * (z - self.at)
-
-
-def measured(sheet: Sheet) -> dict[str, Motion]:
+def measured(sheet: Sheet) -> dict[str, LinkMotion]:
     """Every link in the velocity polygon: one end point of it, and its angular velocity."""
     per_mm = sheet.scales.velocity / sheet.scales.length
     ends = sheet.ends["velocity"]
     ground = sheet.scene.frame.name
-    found = {ground: Motion(0j, 0j, 0.0)}
+    found = {ground: LinkMotion(0j, 0j, 0.0)}
     for name, rate in sheet.omega.items():
         points = sheet.structure.links[name].points
         for ref, end in ends.items():
             if name != ground and (ref.link == name or (not ref.link and ref.point in points)):
-                found[name] = Motion(sheet.points[PointRef(ref.point)], end * per_mm, rate.value)
+                found[name] = LinkMotion(sheet.points[PointRef(ref.point)], end * per_mm, rate.value)
                 break
     return found
 
 
-def relative_centre(motions: Mapping[str, Motion], pair: Pair, chart: Chart) -> Place | None:
+def relative_centre(motions: Mapping[str, LinkMotion], pair: LinkPair, chart: ProjectiveChart) -> Place | None:
     """Where two links have the same velocity; None where they do not move relative to each other.
 
     Raises
@@ -78,7 +67,7 @@ class Worked:
     """
 
     sheet: Sheet
-    motions: Mapping[str, Motion]
+    motions: Mapping[str, LinkMotion]
     way: Way = "velocity polygon"
     kept: tuple[str, ...] = ()
 
@@ -101,36 +90,39 @@ def work(
     values = {d.key: d.values[0] for d in scene.drivers} | dict(at or {})
     trial = trial_position(scene, values, _known(near) if near is not None else None)
     dyads = trial.scene
-    for closing, key in trial.closings:
-        dyads = _at_speed(dyads, key, _true_speed(dyads, closing, key, structure))
+    for removed, key in trial.removed:
+        dyads = _at_speed(dyads, key, _true_speed(dyads, removed, key, structure))
     drawn = draft(dyads, None, (), instrument)
-    moved = _moved(drawn)
+    motions, poses = measured(drawn), dict(drawn.poses)
     mm = 1.0 / drawn.scales.length
-    for closing, _ in reversed(trial.closings):
-        back = closing.put_back(structure, moved, mm)
-        if back is not None:
-            moved[closing.left_out] = back
-    kept = tuple(c.left_out or (c.driver.key if c.driver else "") for c, _ in trial.closings)
-    motions = {name: Motion(m.pose.origin, m.velocity, m.omega) for name, m in moved.items()}
-    return Worked(_whole(drawn, scene, structure, values, moved), motions, "superposition", kept)
+    for removed, _ in reversed(trial.removed):
+        pose = removed.placed(structure.links, poses, mm)
+        if pose is not None:
+            motions[removed.left_out] = removed.moving(structure.links, poses, motions, mm)
+            poses[removed.left_out] = pose
+    kept = tuple(r.left_out or (r.driver.key if r.driver else "") for r, _ in trial.removed)
+    return Worked(_whole(drawn, scene, structure, values, poses), motions, "superposition", kept)
 
 
 def _known(sheet: Sheet) -> Known:
     """A sheet as a position to start from."""
     size = sheet.scales.length / sheet.scene.size
-    poses = {name: Pose(pose.origin * size, pose.axis) for name, pose in sheet.poses.items()}
+    poses = {name: pose.scaled(size) for name, pose in sheet.poses.items()}
     return sheet.drivers, poses
 
 
-def _true_speed(scene: Scene, closing: Closing, key: str, structure: Structure) -> float:
+def _true_speed(scene: Scene, removed: RemovedConstraint, key: str, structure: Structure) -> float:
     """The trial driver's speed by proportional division of what two trial drawings leave open."""
     driver = next(d for d in scene.drivers if d.key == key)
     base = max((abs(d.values[1]) for d in scene.drivers if isinstance(d, AngleDriver)), default=0.0) or 1.0
     once = base if isinstance(driver, AngleDriver) else base * scene.size
-    open_ = []
+    open_: list[float] = []
     for speed in (0.0, once):
         sheet = draft(_at_speed(scene, key, speed), None, ())
-        open_.append(closing.rate(structure, _moved(sheet), 1.0 / sheet.scales.length))
+        open_.append(removed.rate(structure.links, sheet.poses, measured(sheet), 1.0 / sheet.scales.length))
+    if open_[0] == open_[1]:
+        names = ", ".join(removed.links)
+        raise Unsolvable("dead point", Problem(f"links {names}", "the speed of every trial drawing fits alike here"))
     return once * open_[0] / (open_[0] - open_[1])
 
 
@@ -143,19 +135,10 @@ def _at_speed(scene: Scene, key: str, speed: float) -> Scene:
     return replace(scene, drivers=tuple(faster(d) for d in scene.drivers))
 
 
-def _moved(sheet: Sheet) -> dict[str, Moved]:
-    """Every link drawn, with its motion as measured."""
-    return {
-        name: Moved(sheet.poses[name], motion.of(sheet.poses[name].origin), motion.omega)
-        for name, motion in measured(sheet).items()
-    }
-
-
 def _whole(
-    drawn: Sheet, scene: Scene, structure: Structure, values: Mapping[str, float], moved: Mapping[str, Moved]
+    drawn: Sheet, scene: Scene, structure: Structure, values: Mapping[str, float], poses: Poses
 ) -> Sheet:
-    """The sheet of the stand-in as one of the scene itself: links left out put back."""
-    poses: dict[str, Pose] = {**drawn.poses, **{name: m.pose for name, m in moved.items()}}
+    """The sheet of the reduced mechanism as one of the scene itself: links left out put back."""
     mm = 1.0 / drawn.scales.length
     places = {
         p: poses[n].origin + poses[n].axis * z * mm

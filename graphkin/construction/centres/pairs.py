@@ -1,11 +1,10 @@
-"""Places of the plane with infinity among them: homogeneous coordinates of unit length.
+"""What the joints of a mechanism give on paper: permanent centres, and the common normals of pins in slots.
 
-A place is (x, y, w): the point (x + iy) / w of the chart, or for w = 0 the direction x + iy.  A line is (a, b, c) with
-a x + b y + c w = 0.  The line through two places and the place where two lines cross are both vector products; the
-length of the product is the sine of the angle between the two on the unit sphere, and says how well they tell apart
-(Coxeter, Projective Geometry; Kimbrell, Kinematics Analysis and Synthesis, on centres at infinity).
-
-What the joints give: permanent centres, and the common normals of pins in slots.
+Places of the plane with infinity among them have homogeneous coordinates of unit length.  A place is (x, y, w): the
+point (x + iy) / w of the chart, or for w = 0 the direction x + iy.  A line is (a, b, c) with a x + b y + c w = 0.  The
+line through two places and the place where two lines cross are both vector products; the length of the product is the
+sine of the angle between the two on the unit sphere, and says how well they tell apart (Coxeter, Projective Geometry;
+Kimbrell, Kinematics Analysis and Synthesis, on centres at infinity).
 """
 
 from __future__ import annotations
@@ -22,13 +21,13 @@ from graphkin.scene.model import Scene
 
 __all__ = [
     "INFINITE",
-    "Chart",
     "Line",
+    "LinkPair",
     "Links",
     "Normal",
-    "Pair",
     "Permanent",
     "Place",
+    "ProjectiveChart",
     "links_on_paper",
     "normal",
     "normals",
@@ -67,7 +66,7 @@ def normal(a: Place) -> Place:
 
 
 @dataclass(frozen=True)
-class Chart:
+class ProjectiveChart:
     """The sheet as seen from the middle of the mechanism: ``unit`` (mm) is half its size, so that it spans about 1."""
 
     middle: complex
@@ -118,7 +117,7 @@ class Chart:
         return 1j * strength * (w * (z - self.middle) - complex(x, y) * self.unit)
 
 
-Pair = tuple[str, str]
+LinkPair = tuple[str, str]
 
 
 @dataclass(frozen=True)
@@ -139,11 +138,11 @@ class Links:
         return tuple(name for name in named if name in self.poses)
 
     @cached_property
-    def pairs(self) -> tuple[Pair, ...]:
+    def pairs(self) -> tuple[LinkPair, ...]:
         """All pairs, each written in the order of the file, the frame last."""
         return tuple(self.pair(a, b) for a, b in combinations(self.names, 2))
 
-    def pair(self, a: str, b: str) -> Pair:
+    def pair(self, a: str, b: str) -> LinkPair:
         order = self.scene.order
         return (a, b) if order[a] < order[b] else (b, a)
 
@@ -157,21 +156,21 @@ class Links:
         holder = next(n for n in self.scene.holders[name] if n in self.poses)
         return self.place(holder, self.scene.by_name[holder].points[name])
 
-    def chart(self) -> Chart:
+    def chart(self) -> ProjectiveChart:
         """The chart about the middle of all points and of all named guides' origins."""
         spots = [self.point(p) for p, names in self.scene.holders.items() if any(n in self.poses for n in names)]
         spots += [self.place(n, 0j) for n in self.names]
         left, right = min(z.real for z in spots), max(z.real for z in spots)
         low, high = min(z.imag for z in spots), max(z.imag for z in spots)
         half = abs(complex(right - left, high - low)) / 2
-        return Chart(complex(left + right, low + high) / 2, half or self.scene.size * self.mm)
+        return ProjectiveChart(complex(left + right, low + high) / 2, half or self.scene.size * self.mm)
 
 
 @dataclass(frozen=True)
 class Permanent:
     """A centre that a joint gives: at a point (mm), or at infinity square to a guide."""
 
-    pair: Pair
+    pair: LinkPair
     place: Place
     point: complex | None
     joint: str
@@ -181,7 +180,7 @@ class Permanent:
 class Normal:
     """The common normal of a pin (at ``foot``, mm) and its slot: the centre of the two links lies on it."""
 
-    pair: Pair
+    pair: LinkPair
     line: Line
     foot: complex
     key: str
@@ -195,7 +194,7 @@ def links_on_paper(scene: Scene, mm: float, poses: Mapping[str, Pose]) -> Links:
             continue
         so_far = Links(scene, mm, placed)
         held = [p for p in link.points if any(n in placed for n in scene.holders[p])]
-        if len(held) >= 2:
+        if len(held) >= 2 and link.points[held[0]] != link.points[held[1]]:
             a, b = held[:2]
             here, there = so_far.point(a), so_far.point(b)
             axis = (there - here) / ((link.points[b] - link.points[a]) * mm)
@@ -203,9 +202,9 @@ def links_on_paper(scene: Scene, mm: float, poses: Mapping[str, Pose]) -> Links:
     return Links(scene, mm, placed)
 
 
-def permanent(links: Links, chart: Chart) -> dict[Pair, Permanent]:
+def permanent(links: Links, chart: ProjectiveChart) -> dict[LinkPair, Permanent]:
     """The centres that turning and sliding pairs give; k links at one hinge share k (k - 1) / 2 of them."""
-    found: dict[Pair, Permanent] = {}
+    found: dict[LinkPair, Permanent] = {}
     for point, holders in links.scene.holders.items():
         here = [name for name in holders if name in links.poses]
         for a, b in combinations(here, 2):
@@ -220,7 +219,7 @@ def permanent(links: Links, chart: Chart) -> dict[Pair, Permanent]:
     return found
 
 
-def normals(links: Links, chart: Chart) -> list[Normal]:
+def normals(links: Links, chart: ProjectiveChart) -> list[Normal]:
     """For each pin in a slot the line through the pin square to the slot."""
     found = []
     for pin in links.scene.pins:

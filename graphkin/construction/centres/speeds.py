@@ -1,11 +1,10 @@
-"""Velocities by centres: from the driver to every link by the shortest chain of centres, measured on the figure.
+"""Velocities by centres: from the driver to every link by the shortest chain of centres, measured on the figure, and
+how they are read off it, in sentences.
 
 The point P_ij belongs to both links and has one velocity: omega_i * P_ij P_i0 = omega_j * P_ij P_j0, the same sense of
 turning where P_i0 and P_j0 lie on one side of P_ij, the opposite where it lies between them; a point X of link j then
 moves with omega_j * P_j0 X square to P_j0 X (Norton, Design of Machinery, 6.5).  The distances are measured as products
 of homogeneous coordinates, so that a centre at infinity needs no rule of its own: links that turn alike, sliders.
-
-How velocities by centres are read off the figure, in sentences: first the links, then the points.
 """
 
 from __future__ import annotations
@@ -14,7 +13,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from graphkin.construction.centres.find import Centres
-from graphkin.construction.centres.pairs import Pair, Place, product, wedge
+from graphkin.construction.centres.pairs import LinkPair, Place, product, wedge
 from graphkin.plane import dot
 from graphkin.scene.model import AngleDriver, Driver
 from graphkin.scene.symbol import PointRef, Symbol
@@ -30,8 +29,8 @@ APART = 1e-6  # sine below which the distance of two centres cannot be measured 
 class Turning:
     """The motion of a link by centres.
 
-    ``strength`` (1/s) belongs to the centre's homogeneous coordinates (`Chart.velocity`), ``omega`` is the angular
-    velocity (rad/s).  ``chain`` names the links from the driver to this one, each measured from the one before.
+    ``strength`` (1/s) belongs to the centre's homogeneous coordinates (`ProjectiveChart.velocity`), ``omega`` is the
+    angular velocity (rad/s).  ``chain`` names the links from the driver to this one, each measured from the one before.
     """
 
     link: str
@@ -200,7 +199,7 @@ def _of_link(centres: Centres, moving: Mapping[str, Turning], turning: Turning) 
     name, known = turning.link, turning.chain[-2]
     frame = centres.links.scene.frame.name
     own, its, common = centres.of(name, frame), centres.of(known, frame), centres.of(name, known)
-    pairs: tuple[Pair, ...] = (common.pair, its.pair, own.pair)
+    pairs: tuple[LinkPair, ...] = (common.pair, its.pair, own.pair)
     if own.point is None:
         return Phrase("centre slides", (name, known, *pairs))
     if common.point is None:
@@ -231,7 +230,7 @@ def _of_point(centres: Centres, moving: Mapping[str, Turning], symbol: Symbol, s
     if own.point is not None:
         arm = abs(links.point(ref.point) - own.point)
         rate, centre = turning, own.pair
-        end: PointRef | Pair = ref
+        end: PointRef | LinkPair = ref
     else:
         if len(turning.chain) < 2:
             return None

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from graphkin import solver
-from graphkin.checking import predict
+from graphkin.checking.readings import predict
 from graphkin.construction import EXACT, execute, plan
 from graphkin.construction.steps import SharpCrossing
 from graphkin.errors import Unsolvable

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from graphkin import solver
-from graphkin.checking import predict
+from graphkin.checking.readings import predict
 from graphkin.construction import EXACT, Plan, Scales, execute, pencil, plan
 from graphkin.construction.board import Instrument
 from graphkin.construction.centres import by_centres, find_centres, speeds

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from graphkin import solver
-from graphkin.checking import predict
+from graphkin.checking.readings import predict
 from graphkin.construction import EXACT, execute, plan
 from graphkin.construction.steps import ShortArm
 from graphkin.errors import Unsolvable
