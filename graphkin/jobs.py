@@ -47,9 +47,10 @@ words, for one) does not add up."""
 
 
 @contextmanager
-def whole_file(path: Path) -> Iterator[IO[bytes]]:
-    """Open a file that takes its name only when it is whole; one of the same name is replaced.  Raises OSError."""
-    handle, temporary = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
+def whole_file(path: Path, beside: Path | None = None) -> Iterator[IO[bytes]]:
+    """Open a file that takes its name only when it is whole; one of the same name is replaced.  Until then it is in its
+    own folder, or in another one.  Raises OSError."""
+    handle, temporary = tempfile.mkstemp(prefix=f".{path.name}.", dir=beside or path.parent)
     try:
         with os.fdopen(handle, "wb") as stream:
             yield stream

@@ -195,16 +195,15 @@ class Table:
         cells = []
         for column in self.columns:
             values = column.values[some]
-            if values.dtype.kind == "f" and not column.form:
-                cells.append(compute.cast(pa.array(values + 0.0, mask=np.isnan(values)), pa.string()))
-            elif values.dtype.kind in "iu" and not column.form:
-                cells.append(compute.cast(pa.array(values), pa.string()))
+            if values.dtype.kind in "fiu" and not column.form:
+                cells.append(compute.cast(_to_arrow(values), pa.string()))
             else:
                 texts = column.texts(some)
-                cells.append(pa.array(_quoted_all(texts) if column.is_text else texts, pa.string()))
+                cells.append(_words_to_arrow(_quoted_all(texts) if column.is_text else texts))
         null = {"null_handling": "replace", "null_replacement": ""}
-        lines = compute.binary_join_element_wise(*cells, ",", **null)
-        lines = compute.binary_join_element_wise(lines, "", "\n")
+        comma, nothing, end_of_line = _words_to_arrow([",", "", "\n"])
+        lines = compute.binary_join_element_wise(*cells, comma, **null)
+        lines = compute.binary_join_element_wise(lines, nothing, end_of_line)
         start, end = np.frombuffer(lines.buffers()[1], np.int32)[[lines.offset, lines.offset + len(lines)]]
         return bytes(memoryview(lines.buffers()[2])[start:end])
 
@@ -366,6 +365,26 @@ def _arrow_types(like: Table) -> Any:
     return csv_file.ConvertOptions(
         column_types=types, null_values=[""], true_values=["yes"], false_values=["no"], strings_can_be_null=False
     )
+
+
+def _to_arrow(values: Array) -> pyarrow.Array:
+    """Numbers as an array of pyarrow, null for NaN; made of its parts, for ``pyarrow.array`` would load pandas."""
+    import pyarrow as pa
+
+    if values.dtype.kind != "f":
+        return pa.Array.from_buffers(pa.int64(), len(values), [None, pa.py_buffer(values.astype(np.int64))])
+    given = ~np.isnan(values)
+    mask = None if given.all() else pa.py_buffer(np.packbits(given, bitorder="little"))
+    return pa.Array.from_buffers(pa.float64(), len(values), [mask, pa.py_buffer(values + 0.0)])
+
+
+def _words_to_arrow(words: list[str]) -> pyarrow.Array:
+    import pyarrow as pa
+
+    parts = list(map(str.encode, words))
+    ends = np.zeros(len(parts) + 1, np.int32)
+    np.cumsum(list(map(len, parts)), out=ends[1:])
+    return pa.StringArray.from_buffers(len(parts), pa.py_buffer(ends), pa.py_buffer(b"".join(parts)))
 
 
 def _library(name: str) -> Any:

@@ -16,7 +16,8 @@ from graphkin.words import Phrase, say, word
 
 if TYPE_CHECKING:
     from graphkin.api.swept import Swept
-    from graphkin.study import Extreme, Output, Turn
+    from graphkin.study.trace import Extreme
+    from graphkin.study.turn import Output, Turn
 
 __all__ = ["show", "told", "told_turn"]
 

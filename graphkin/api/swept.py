@@ -36,8 +36,8 @@ if TYPE_CHECKING:
     import xarray
 
     from graphkin.drawing import ChartPage, Drawing
-    from graphkin.study import Sweep, Turn
-    from graphkin.study.sweeps import Arrays, Found
+    from graphkin.study.sweeps import Arrays, Found, Sweep
+    from graphkin.study.turn import Turn
     from graphkin.study.watched import Watched
 
 __all__ = ["Swept", "sweep"]
@@ -115,7 +115,7 @@ class Swept:
     @cached_property
     def turn(self) -> Turn | None:
         """The study of the scene itself (limit positions, K, transmission, classes, extremes); None over designs."""
-        from graphkin.study import study_turn
+        from graphkin.study.turn import study_turn
 
         if self.over.designs.keys:
             return None
@@ -124,7 +124,7 @@ class Swept:
     @cached_property
     def data(self) -> dict[str, Any]:
         """The object that ``graphkin sweep --json`` prints."""
-        from graphkin.study import to_json
+        from graphkin.study.summary import to_json
 
         data: dict[str, Any] = to_json(self.turn) if self.turn is not None else {"title": self.over.scene.title}
         data["positions"] = {"rows": self.rows, "ok": self.good}
@@ -138,7 +138,7 @@ class Swept:
     @cached_property
     def figures(self) -> Mapping[str, ChartPage | Drawing]:
         """Motion diagrams of the outputs and coupler curves by name; none over designs."""
-        from graphkin.study import diagrams
+        from graphkin.study.diagrams import diagrams
 
         return {} if self.turn is None else diagrams(self.turn, self.language)
 
@@ -239,8 +239,8 @@ def sweep(
     >>> f"{abs(swept['v_C']).max():.0f} mm/s at most"
     '1346 mm/s at most'
     """
-    from graphkin.study import Sweep, collect, designs_of, write_tables
-    from graphkin.study.sweeps import Found
+    from graphkin.study.designs import designs_of
+    from graphkin.study.sweeps import Found, Sweep, collect, write_tables
 
     known_words(formats, language)
     _checked_call(positions, workers, executor, scheduler)
@@ -260,7 +260,7 @@ def sweep(
         arrays = None if made.keys else over.base.arrays(positions)
         if arrays is not None:
             return Swept(over, Found(over.rows, int(np.count_nonzero(arrays.ok))), spoken, arrays)
-    if not made.keys:
+    if not made.keys and over.base.engine is None:
         _ = over.base.course  # a start that cannot be assembled
     through = cluster(scheduler) if scheduler else executor
     try:

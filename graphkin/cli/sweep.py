@@ -57,7 +57,6 @@ def sweep(
     quiet: QuietOption = False,
 ) -> None:
     """Tables and motion diagrams over a turn, limit positions, strokes and K; and the same over designs."""
-    from graphkin.api.report_text import told_turn
     from graphkin.api.swept import sweep as sweeping
     from graphkin.scene import read
 
@@ -73,6 +72,8 @@ def sweep(
     if as_json:
         print_json(swept.data)
     elif not quiet:
+        from graphkin.api.report_text import told_turn
+
         typer.echo(told_turn(swept))
         print_paths(sorted(p for p in target.iterdir() if not p.name.startswith(".")))
     if not swept.ok:

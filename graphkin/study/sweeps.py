@@ -7,7 +7,6 @@ whenever: an interrupted sweep goes on in its folder from the pieces that are do
 from __future__ import annotations
 
 import io
-import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from functools import cached_property
@@ -18,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable
-from graphkin.jobs import Checkpoints, Progress, Workers, key_of
+from graphkin.jobs import Checkpoints, Progress, Workers, key_of, whole_file
 from graphkin.scene import read
 from graphkin.scene.model import Scene
 from graphkin.solver import prepare, structure_of
@@ -434,7 +433,7 @@ def _merged(sweep: Sweep, points: Checkpoints, folder: Path, parquet: bool) -> F
     """All pieces in their order as tables in the folder of results; the pieces are removed."""
     facts = []
     files = [folder / "table.csv"]
-    with open(points.place / "table.csv", "wb") as out:
+    with whole_file(files[0], points.place) as out:
         sweep.head.write_csv(out)
         for piece in map(points.load, range(sweep.pieces)):
             piece.copy(out)
@@ -444,14 +443,12 @@ def _merged(sweep: Sweep, points: Checkpoints, folder: Path, parquet: bool) -> F
     )
     if sweep.designs.keys:
         files.append(folder / "designs.csv")
-        with open(points.place / "designs.csv", "wb") as out:
+        with whole_file(files[-1], points.place) as out:
             designs_table(sweep, found.outcomes).write_csv(out)
     if parquet:
         files.append(folder / "table.parquet")
-        with open(points.place / "table.parquet", "wb") as out:
-            parquet_of_csv(points.place / "table.csv", sweep.head, out)
-    for file in files:
-        os.replace(points.place / file.name, file)
+        with whole_file(files[-1], points.place) as out:
+            parquet_of_csv(files[0], sweep.head, out)
     points.close()
     return replace(found, files=tuple(files))
 

@@ -11,11 +11,13 @@ from graphkin.drawing import Box, ChartPage, Drawing, Group, Line, Polyline, Tex
 from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.primitives import walk
 from graphkin.scene import read, read_text
-from graphkin.study import course_of, diagrams, study_turn
 from graphkin.study.coupler import coupler_points
+from graphkin.study.course import course_of
+from graphkin.study.diagrams import diagrams
 from graphkin.study.driver_axis import next_step
 from graphkin.study.measured import measured
 from graphkin.study.quantities import link_quantities, slide_quantities
+from graphkin.study.turn import study_turn
 from tests import scenes
 from tests.drawing.chart_words import off_the_page, overlapping
 

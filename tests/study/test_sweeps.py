@@ -22,7 +22,9 @@ import pytest
 from graphkin.jobs import Progress, Workers, cluster
 from graphkin.scene import library_text, read
 from graphkin.scene.symbol import Symbol
-from graphkin.study import Sweep, collect, designs_of, sweeps, write_tables
+from graphkin.study import sweeps
+from graphkin.study.designs import designs_of
+from graphkin.study.sweeps import Sweep, collect, write_tables
 from graphkin.study.watched import Watched, watched_symbol
 
 

@@ -12,7 +12,9 @@ import pytest
 
 from graphkin.errors import Unsolvable
 from graphkin.scene import library, read, read_text
-from graphkin.study import Output, Turn, course_of, study_turn, to_json
+from graphkin.study.course import course_of
+from graphkin.study.summary import to_json
+from graphkin.study.turn import Output, Turn, study_turn
 from tests import scenes
 
 TRUTH = json.loads((Path(__file__).parents[1] / "validation" / "limits.json").read_text())
