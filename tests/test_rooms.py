@@ -11,11 +11,7 @@ pytestmark = pytest.mark.quick
 KNOWN = [
     {"graphkin.api.report_text", "graphkin.api.swept"},
     {"graphkin.construction.plot", "graphkin.construction.slip", "graphkin.construction.terms"},
-    {"graphkin.drawing.page", "graphkin.drawing.primitives", "graphkin.drawing.save", "graphkin.drawing.svg",
-     "graphkin.drawing.text"},
-    {"graphkin.drawing.strokes"},
-    {"graphkin.solver.bounds", "graphkin.solver.program"},
-]  # fmt: skip
+]
 
 
 @pytest.fixture(scope="module")

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 import graphkin
+from graphkin.scene import read
 
 __all__ = ["PAGES", "PROBLEMS", "Page", "Value", "answer"]
 
@@ -88,17 +89,27 @@ def _data(command: str, scene: str, at: float | None) -> dict[str, Any]:
     """What a command prints under --json."""
     if command == "sweep":
         return graphkin.sweep(scene, positions=1).data
+    if command == "check":
+        here = [v for page in PAGES for v in page.values if (v.scene, v.at) == (scene, at)]
+        symbols = [v.asked.removeprefix("check ") for v in here if v.asked.startswith("check ")]
+        return graphkin.check(scene, at=at, find=symbols).data
     return getattr(graphkin, command)(scene, at=at).data
 
 
+@cache
+def _metres(scene: str) -> float:
+    """The length unit of a scene."""
+    return read(scene).units.metres
+
+
 def _check(scene: str, at: float | None, symbol: str) -> float:
-    (row,) = [r for r in graphkin.check(scene, at=at, find=[symbol]).data["readings"] if r["symbol"] == symbol]
-    return row["measured"] * (1.0 if symbol.startswith(("omega", "alpha")) else graphkin.read(scene).units.metres)
+    (row,) = [r for r in _data("check", scene, at)["readings"] if r["symbol"] == symbol]
+    return row["measured"] * (1.0 if symbol.startswith(("omega", "alpha")) else _metres(scene))
 
 
 def _solve(scene: str, at: float | None, what: str, *names: str) -> float:
     position = _data("solve", scene, at)["positions"][0]
-    metres = graphkin.read(scene).units.metres
+    metres = _metres(scene)
 
     def point(name: str, kind: str = "position") -> complex:
         return next(complex(*p[kind]) * metres for key, p in position["points"].items() if key.split("@")[0] == name)
@@ -118,7 +129,7 @@ def _centres(scene: str, at: float | None, what: str, along: str = "") -> float:
     data = _data("centres", scene, at)
     if not along:
         return data["velocities"][what]["by_centres"]
-    return data["centres"][what]["point"]["xy".index(along)] * graphkin.read(scene).units.metres
+    return data["centres"][what]["point"]["xy".index(along)] * _metres(scene)
 
 
 def _sweep(scene: str, _: float | None, what: str, of: str = "", place: str = "") -> float:
@@ -132,7 +143,7 @@ def _sweep(scene: str, _: float | None, what: str, of: str = "", place: str = ""
         (row,) = [r for r in data["transmission"] if "-".join(r["links"]) == of]
         return row["greatest_pressure_angle" if what == "pressure" else "driver" if place else "least_angle"]
     (output,) = [o for o in data["outputs"] if of in (o.get("slide"), o.get("link"))]
-    metres = graphkin.read(scene).units.metres
+    metres = _metres(scene)
     if what in ("limit", "least", "greatest"):
         kind = place or {"least": "min", "greatest": "max"}[what]
         (limit,) = [x for x in output["limit_positions"] if x["kind"] == kind]
