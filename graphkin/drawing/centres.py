@@ -10,6 +10,8 @@ import math
 import re
 from collections.abc import Callable, Mapping, Sequence
 
+import numpy as np
+
 from graphkin.construction.centres import Centre, Centres, Turning, velocity_sentences
 from graphkin.construction.centres.kennedy import Relation
 from graphkin.drawing import strokes
@@ -20,12 +22,12 @@ from graphkin.drawing.dimensions import check_bar
 from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.headings import describe, drivers, facts, figure_title, term, titles
-from graphkin.drawing.mechanism import mechanism_piece
+from graphkin.drawing.mechanism import bare_mechanism
+from graphkin.drawing.obstacles import cross_product
 from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
 from graphkin.drawing.primitives import Arc, Circle, Group, Line, Primitive, Run, Stroke, Text
 from graphkin.drawing.strokes import colour_of_link
 from graphkin.drawing.text import plain, rich, wrapped
-from graphkin.plane import cross
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, languages, say
 
@@ -86,18 +88,14 @@ def _free(
     """The place on a side that lies furthest from all other sides, from the circle and from numbers that stand already;
     None where a number would touch one of them."""
 
-    def room(z: complex) -> float:
-        sides = min((_distance(z, p, q) for p, q in others), default=9.0)
-        return min(sides, radius - abs(z - middle), min((abs(z - w) - HALF for w in taken), default=9.0))
-
-    places = [a + (b - a) * (0.1 + 0.01 * k) for k in range(81)]
+    places = np.array([a + (b - a) * (0.1 + 0.01 * k) for k in range(81)])
+    near = [radius - np.abs(places - middle), *(np.abs(places - w) - HALF for w in taken)]
+    near += [np.abs(cross_product(places - p, np.array(q - p))) / abs(q - p) for p, q in others]
+    room = np.minimum.reduce([np.full(81, 9.0), *near]).tolist()
+    off = np.abs(places - (a + b) / 2).tolist()
     # of two places that are alike the first: rounding, so that the last bit does not choose
-    best = max(places, key=lambda z: (round(min(room(z), 3.0), 6), -round(abs(z - (a + b) / 2), 6)))
-    return best if room(best) > CLEAR else None
-
-
-def _distance(z: complex, a: complex, b: complex) -> float:
-    return abs(cross(z - a, b - a)) / abs(b - a)
+    best = max(range(81), key=lambda k: (round(min(room[k], 3.0), 6), -round(off[k], 6)))
+    return complex(places[best]) if room[best] > CLEAR else None
 
 
 def _knots(
@@ -138,7 +136,7 @@ def centres_figure(
     sheet = centres.sheet
     spoken = language or sheet.scene.sheet.language
     letters = letters_of(sheet, convention or sheet.scene.sheet.convention)  # type: ignore[arg-type]
-    back = background(mechanism_piece(sheet, letters)[0])
+    back = background(bare_mechanism(sheet, letters))
     mechanism = ink_box(back.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
     content = near_box(centres, mechanism, MOST)
     width = max(content.width, SMALLEST[0]) + 2 * ROOM + SIDE + 2 * MARGIN

@@ -14,7 +14,7 @@ from graphkin.drawing.dimensions import check_bar
 from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.headings import drivers, facts, figure_title, term, titles
 from graphkin.drawing.labels import Label
-from graphkin.drawing.mechanism import mechanism_piece
+from graphkin.drawing.mechanism import bare_mechanism
 from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
 from graphkin.drawing.primitives import Group, Line, Polyline, Primitive, Stroke, Text
 from graphkin.drawing.strokes import colour_of_link
@@ -52,7 +52,7 @@ def centrodes_figure(
     sheet = centres.sheet
     spoken = language or sheet.scene.sheet.language
     letters = letters_of(sheet, convention or sheet.scene.sheet.convention)  # type: ignore[arg-type]
-    back = background(mechanism_piece(sheet, letters)[0])
+    back = background(bare_mechanism(sheet, letters))
     mechanism = ink_box(back.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
     around = mechanism.grown(AROUND * max(mechanism.width, mechanism.height))
     centre = centres.of(link, sheet.scene.frame.name)

@@ -244,9 +244,14 @@ def drawn_lengths(sheet: Sheet, drawn: Iterable[Primitive], panel: Box | None) -
 
 def _drawn(room: DimensionClearance, choices: Iterable[Parts], extensions: int = 2) -> Parts | None:
     """The first of some dimensions for which there is room; extension lines run over others only where they must."""
-    tried = tuple(choices)
-    found = (room.take(parts, extensions, over) for over in (False, True) for parts in tried)
-    return next((parts for parts in found if parts is not None), None)
+    tried: list[Parts] = []
+    for parts in choices:
+        tried.append(parts)
+        taken = room.take(parts, extensions)
+        if taken is not None:
+            return taken
+    over = (room.take(parts, extensions, over=True) for parts in tried)
+    return next((parts for parts in over if parts is not None), None)
 
 
 def _bars(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts]:

@@ -7,7 +7,6 @@ either; for the signs of arithmetic, whose width differs most, they are the mean
 from __future__ import annotations
 
 import unicodedata
-from dataclasses import replace
 from functools import lru_cache
 
 from graphkin.drawing.box import Box
@@ -61,6 +60,7 @@ def is_cjk(character: str) -> bool:
     return ord(character) > 0x2E7F and unicodedata.east_asian_width(character) in "WF"
 
 
+@lru_cache(maxsize=4096)
 def has_cjk(text: str) -> bool:
     return any(map(is_cjk, text))
 
@@ -86,16 +86,20 @@ def width(text: str, size: float, italic: bool = False, bold: bool = False) -> f
 def run_box(run: Run) -> Box:
     """Box of one run about its text's own point: from ascender to descender, from start to advance, and further where
     slanted letters reach further."""
-    cjk = has_cjk(run.text)
-    ascent, descent = (CJK_ASCENT, DESCENT) if cjk else (ASCENT, DESCENT)
-    ascent = max((ascent, *(_TALL[sign] for sign in _TALL if sign in run.text)))
-    before, after = (_LEFT.get(run.text[:1], 0.0), _RIGHT.get(run.text[-1:], 0.0)) if run.italic else (0.0, 0.0)
+    before, ascent, after = _reach(run.text, run.italic)
     return Box(
         run.x - before * run.size,
         run.y - ascent * run.size,
         run.x + width(run.text, run.size, run.italic, run.bold) + after * run.size,
-        run.y + descent * run.size,
+        run.y + DESCENT * run.size,
     )
+
+
+@lru_cache(maxsize=4096)
+def _reach(text: str, italic: bool) -> tuple[float, float, float]:
+    """How far ink reaches beyond the start, above the baseline and beyond the advance, in sizes."""
+    ascent = max((CJK_ASCENT if has_cjk(text) else ASCENT, *(_TALL[sign] for sign in _TALL if sign in text)))
+    return (_LEFT.get(text[:1], 0.0), ascent, _RIGHT.get(text[-1:], 0.0)) if italic else (0.0, ascent, 0.0)
 
 
 def runs_width(runs: tuple[Run, ...]) -> float:
@@ -107,7 +111,8 @@ def start_runs(text: Text) -> tuple[Run, ...]:
     """The runs of a text on the page: x and y become page coordinates (mm) of the start of each baseline."""
     share = {"start": 0.0, "middle": 0.5, "end": 1.0}[text.anchor]
     shift = share * runs_width(text.runs)
-    return tuple(replace(run, x=text.at.real - shift + run.x, y=text.at.imag + run.y) for run in text.runs)
+    x, y = text.at.real - shift, text.at.imag
+    return tuple(Run(run.text, x + run.x, y + run.y, run.size, run.italic, run.bold) for run in text.runs)
 
 
 def text_box(text: Text) -> Box:

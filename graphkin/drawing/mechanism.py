@@ -21,7 +21,7 @@ from graphkin.drawing.senses import clearance, drivers, found_rates
 from graphkin.drawing.text import plain, symbol
 from graphkin.plane import cross, dot
 
-__all__ = ["mechanism_piece"]
+__all__ = ["bare_mechanism", "mechanism_piece"]
 
 
 def links(here: MechanismOnPaper) -> Piece:
@@ -247,13 +247,22 @@ def _fits(box: Box, room: tuple[float, float]) -> bool:
     return box.width <= room[0] and box.height <= room[1]
 
 
+def bare_mechanism(sheet: Sheet, letters: Letters) -> Piece:
+    """Frame, links and points of the mechanism with their names, about the world's origin: no lengths, no senses."""
+    here = MechanismOnPaper(sheet, letters)
+    return joined((links(here), joints(here), link_names(here), _marks(here)))
+
+
+def _marks(here: MechanismOnPaper) -> Piece:
+    return Piece(marks=tuple(page(z) for z in here.places.values()))
+
+
 def _piece(here: MechanismOnPaper, panel: Box | None) -> Piece:
     clear = clearance(here)
     whole = joined((_construction(here), links(here), joints(here), drivers(here, clear), found_rates(here, clear)))
     drawn = [thing for layer in ("construction", "mechanism", "answers") for thing in whole.layers[layer]]
     lengths = Piece({"mechanism": (drawn_lengths(here.sheet, drawn, panel),)})
-    marks = Piece(marks=tuple(page(z) for z in here.places.values()))
-    return joined((whole, lengths, link_names(here), marks))
+    return joined((whole, lengths, link_names(here), _marks(here)))
 
 
 def _construction(here: MechanismOnPaper) -> Piece:

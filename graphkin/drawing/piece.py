@@ -142,12 +142,17 @@ def moved(children: Iterable[Primitive], by: complex) -> tuple[Primitive, ...]:
 
 
 def _moved(thing: Primitive, by: complex) -> Primitive:
+    # written out, since a figure has thousands of them and `replace` is slow
     if isinstance(thing, Text):
-        return replace(thing, at=thing.at + by)
+        return Text(thing.at + by, thing.runs, thing.anchor, thing.colour, thing.id, thing.classes)
     if isinstance(thing, Line):
-        return replace(thing, start=thing.start + by, end=thing.end + by)
-    if isinstance(thing, Circle | Arc):
-        return replace(thing, centre=thing.centre + by)
-    if isinstance(thing, Polyline | Polygon):
-        return replace(thing, points=tuple(z + by for z in thing.points))
-    return replace(thing, children=moved(thing.children, by))
+        return Line(thing.start + by, thing.end + by, thing.stroke, thing.covered)
+    if isinstance(thing, Circle):
+        return Circle(thing.centre + by, thing.radius, thing.fill, thing.stroke)
+    if isinstance(thing, Arc):
+        return Arc(thing.centre + by, thing.radius, thing.start, thing.end, thing.stroke)
+    if isinstance(thing, Polyline):
+        return Polyline(tuple(z + by for z in thing.points), thing.stroke)
+    if isinstance(thing, Polygon):
+        return Polygon(tuple(z + by for z in thing.points), thing.fill, thing.stroke)
+    return Group(moved(thing.children, by), thing.id, thing.classes, thing.layer, thing.title)

@@ -10,6 +10,7 @@ import json
 import math
 import re
 from collections.abc import Iterator
+from functools import lru_cache
 from itertools import chain, count
 from zlib import crc32
 
@@ -36,6 +37,7 @@ _NAMES = {
 }
 
 
+@lru_cache(maxsize=8192)
 def number(value: float) -> str:
     """A number as it stands in the file: at most 3 decimals, no trailing zeros, no minus zero.
 
@@ -144,12 +146,12 @@ class _Ink:
             places = [(number(runs[0].x + share * (runs_width(text.runs) - text.runs[0].x)), places[0][1])]
         spans = []
         for run, (x, y) in zip(runs, places, strict=True):
-            face = {"font-size": number(run.size)}
+            face = f'font-size="{number(run.size)}"'
             if run.italic:
-                face["font-style"] = "italic"
+                face += ' font-style="italic"'
             if run.bold:
-                face["font-weight"] = "bold"
-            spans.append(_element("tspan", {**face, "x": x, "y": y}, _words(run.text)))
+                face += ' font-weight="bold"'
+            spans.append(f'<tspan {face} x="{x}" y="{y}">{_words(run.text)}</tspan>')
         look = {**self._named(text.id, text.classes), "fill": text.colour}
         look["font-size"] = number(max(run.size for run in runs))
         if anchor:

@@ -64,6 +64,7 @@ def _parts(markup: str) -> list[str]:
     return parts
 
 
+@lru_cache(maxsize=1024)
 def rich(markup: str, size: float = LETTER, bold: bool = False) -> tuple[Run, ...]:
     """Words with symbols between dollar signs, set as runs one after the other.  Raises ValueError as ``symbol``."""
     runs: list[Run] = []
@@ -72,7 +73,7 @@ def rich(markup: str, size: float = LETTER, bold: bool = False) -> tuple[Run, ..
         part = part.replace("\0", "$")
         if index % 2:
             set_part, advance = _symbol(part, size)
-            runs += [replace(run, x=run.x + x) for run in set_part]
+            runs += [Run(r.text, r.x + x, r.y, r.size, r.italic, r.bold) for r in set_part]
             x += advance
         elif part:
             folded = " ".join(("_" + part + "_").split())[1:-1]
