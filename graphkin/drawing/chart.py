@@ -5,22 +5,21 @@ Everything is told by dash and shape of marker, so that black on white is enough
 
 from __future__ import annotations
 
+import json
 import math
-import os
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from html import escape
 from io import BytesIO
 from itertools import pairwise
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from graphkin.drawing.box import Box
-from graphkin.drawing.drawing import FORMATS, save
+from graphkin.drawing.drawing import Kept
 from graphkin.drawing.font_widths import has_cjk
 from graphkin.drawing.labels import Label, Mark, place
 from graphkin.drawing.obstacles import Obstacles
@@ -38,7 +37,6 @@ from graphkin.drawing.page import (
 from graphkin.drawing.primitives import Primitive, Stroke, Text
 from graphkin.drawing.svg import FONTS
 from graphkin.drawing.text import rich
-from graphkin.errors import CallError, Problem
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes as Axes  # also for those who paint charts
@@ -74,16 +72,8 @@ BEHIND = 1.5
 """Lines of this order or less (zero lines, limit positions) are ground: labels keep off them only where they can."""
 
 # Kinds of curve in the order of use: told apart without colour.
-SOLID_AND_DASHED: tuple[Stroke, ...] = (
-    Stroke(0.45),
-    Stroke(0.45, (3.0, 1.2)),
-    Stroke(0.45, (0.9, 0.9)),
-    Stroke(0.45, (4.0, 1.0, 0.9, 1.0)),
-    Stroke(0.25),
-    Stroke(0.25, (3.0, 1.2)),
-    Stroke(0.25, (0.9, 0.9)),
-    Stroke(0.25, (4.0, 1.0, 0.9, 1.0)),
-)
+_DASHES: tuple[tuple[float, ...], ...] = (), (3.0, 1.2), (0.9, 0.9), (4.0, 1.0, 0.9, 1.0)
+SOLID_AND_DASHED = tuple(Stroke(width, dash) for width in (0.45, 0.25) for dash in _DASHES)
 _SIGNS: dict[Shape, str] = {
     "circle": "o", "disc": "o", "up": "^", "down": "v", "square": "s", "diamond": "D", "cross": "x",
 }  # fmt: skip
@@ -116,7 +106,7 @@ _FAMILY = re.compile("; font-family: 'STIXGeneral'(?:, '[^']*')*")
 
 
 @dataclass(frozen=True)
-class ChartPage:
+class ChartPage(Kept):
     """A page drawn by matplotlib: size in mm, title and description in words, language, facts for programs.
 
     ``paint`` puts panels, curves and words on an empty figure of that size; it is called anew for every file, so that
@@ -138,52 +128,40 @@ class ChartPage:
             figure.draw_without_rendering()  # ticks are made where they are first drawn, with the settings of then
             return figure
 
-    def content(self, format: str, dpi: float = 200.0) -> bytes:
-        """The page as a file of a format, "svg", "pdf" or "png" (``dpi`` for png only).
-
-        Raises
-        ------
-        CallError : another format
-
-        Warns
-        -----
-        MissingFont : of PDF and PNG, where it holds Chinese and the machine has no face for it
-        """
-        if format not in FORMATS:
-            raise CallError(Problem("format", f'"{format}"', f"known here: {', '.join(FORMATS)}"))
-        chinese = has_cjk(self.title) or self.lang.startswith("zh")
-        if format != "svg":
-            faces(chinese)  # warns
-        with own_settings(**_SETTINGS):
-            if format == "png":
-                return figure_png(self._painted(whole_pixels(self.width, dpi), whole_pixels(self.height, dpi), dpi))
-            figure = self._painted(self.width, self.height)
-            return figure_pdf(figure, self.title, chinese) if format == "pdf" else self._svg(figure)
-
-    def save(self, path: str | os.PathLike[str], dpi: float = 200.0) -> Path:
-        """Write the page to a file, as SVG, PDF or PNG by the ending of its name; returns the path."""
-        return save(self, path, dpi)
-
-    def _repr_svg_(self) -> str:
-        return self.content("svg").decode()
+    @property
+    def _chinese(self) -> bool:
+        return has_cjk(self.title) or self.lang.startswith("zh")
 
     def _painted(self, width: float, height: float, dpi: float = 72.0) -> Figure:
         figure: Figure = empty_page(width, height, dpi)
         self.paint(figure)
         return figure
 
-    def _svg(self, figure: Figure) -> bytes:
-        """With the faces, the language and the description that all figures have."""
+    def _png(self, dpi: float) -> bytes:
+        faces(self._chinese)  # warns
+        with own_settings(**_SETTINGS):
+            return figure_png(self._painted(whole_pixels(self.width, dpi), whole_pixels(self.height, dpi), dpi))
+
+    def _pdf(self) -> bytes:
+        faces(self._chinese)
+        with own_settings(**_SETTINGS):
+            return figure_pdf(self._painted(self.width, self.height), self.title, self._chinese)
+
+    def _svg(self) -> bytes:
+        """With the head and the faces that all figures have."""
         from matplotlib.backends.backend_svg import FigureCanvasSVG
 
         buffer = BytesIO()
-        facts = {"Title": self.title, "Description": self.desc, "Language": self.lang, "Creator": "graphkin"}
-        FigureCanvasSVG(figure).print_svg(buffer, metadata={**facts, "Date": None})
+        with own_settings(**_SETTINGS):
+            nothing = dict.fromkeys(("Date", "Creator", "Format", "Type"))
+            FigureCanvasSVG(self._painted(self.width, self.height)).print_svg(buffer, metadata=nothing)
         text = _FAMILY.sub("", buffer.getvalue().decode())
-        start = f'<svg role="img" lang="{self.lang}" xml:lang="{self.lang}" font-family="{FONTS}" '
-        text = text[text.index("<svg ") :].replace("<svg ", start, 1)
-        text = text.replace("</title>", f"</title>\n <desc>{escape(self.desc)}</desc>", 1)
-        return f'<?xml version="1.0" encoding="utf-8"?>\n{text}'.encode()
+        start, rest = text[text.index("<svg ") :].split(">", 1)
+        facing = f'role="img" lang="{self.lang}" xml:lang="{self.lang}" font-family="{FONTS}"'
+        facts = json.dumps(self.metadata, ensure_ascii=False, sort_keys=True, allow_nan=False, separators=(",", ":"))
+        words = {"title": self.title, "desc": self.desc, "metadata": facts}
+        head = "".join(f"<{tag}>{escape(text)}</{tag}>" for tag, text in words.items() if text)
+        return f'<?xml version="1.0" encoding="utf-8"?>\n{start} {facing}>{head}{rest}'.encode()
 
 
 def add_panel(figure: Figure, box: Box, id: str, title: str = "", x_title: str = "") -> Axes:
@@ -226,11 +204,11 @@ def look(stroke: Stroke) -> Look:
     return {"linewidth": stroke.width * POINTS_PER_MM, "linestyle": dash, "color": stroke.colour}
 
 
-def marker(shape: Shape, stroke: Stroke | None = None) -> Look:
-    """A marker as matplotlib's properties of a line, which itself is drawn with a stroke or not at all.  It is drawn
-    whole at the edge of a panel."""
+def marker(shape: Shape) -> Look:
+    """A marker as matplotlib's properties of a line that is not drawn itself; whole also at the edge of a panel."""
     return {
-        **({"linestyle": "", "color": "#000000"} if stroke is None else look(stroke)),
+        "linestyle": "",
+        "color": "#000000",
         "marker": _SIGNS[shape],
         "markersize": MARKER * _SMALLER.get(shape, 1.0) * POINTS_PER_MM,
         "markerfacecolor": "#ffffff" if shape == "circle" else "#000000",

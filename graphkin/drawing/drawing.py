@@ -5,24 +5,19 @@ from __future__ import annotations
 import os
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Protocol
 
 from graphkin.drawing.primitives import Page
 from graphkin.drawing.svg import svg_bytes
 from graphkin.errors import CallError, Problem
 from graphkin.jobs import whole_file
 
-__all__ = ["FORMATS", "Drawing", "save"]
+__all__ = ["FORMATS", "Drawing", "Kept", "save"]
 
 FORMATS = ("svg", "pdf", "png")
 
 
-@dataclass(frozen=True)
-class Drawing(Page):
-    """A page that can be kept: in a file, or shown in a notebook.
-
-    Two types, because the writers, which a drawing calls, know nothing but what is on a page.
-    """
+class Kept:
+    """What can be kept: in a file, or shown in a notebook.  A drawing or a chart, which say how it is written."""
 
     def content(self, format: str, dpi: float = 200.0) -> bytes:
         """The page as a file of a format, "svg", "pdf" or "png" (``dpi`` for png only).
@@ -30,27 +25,51 @@ class Drawing(Page):
         Raises
         ------
         CallError : another format
-        """
-        if format == "svg":
-            return svg_bytes(self)
-        if format in FORMATS:
-            from graphkin.drawing.page import pdf_bytes, png_bytes
 
-            return pdf_bytes(self) if format == "pdf" else png_bytes(self, dpi)
-        raise CallError(Problem("format", f'"{format}"', f"known here: {', '.join(FORMATS)}"))
+        Warns
+        -----
+        MissingFont : of PDF and PNG, where it holds Chinese and the machine has no face for it
+        """
+        if format not in FORMATS:
+            raise CallError(Problem("format", f'"{format}"', f"known here: {', '.join(FORMATS)}"))
+        return self._svg() if format == "svg" else self._pdf() if format == "pdf" else self._png(dpi)
 
     def save(self, path: str | os.PathLike[str], dpi: float = 200.0) -> Path:
         """Write the page to a file, as SVG, PDF or PNG by the ending of its name; returns the path."""
         return save(self, path, dpi)
 
     def _repr_svg_(self) -> str:
-        return svg_bytes(self).decode()
+        return self._svg().decode()
+
+    def _svg(self) -> bytes:
+        raise NotImplementedError
+
+    def _pdf(self) -> bytes:
+        raise NotImplementedError
+
+    def _png(self, dpi: float) -> bytes:
+        raise NotImplementedError
 
 
-class Kept(Protocol):
-    """What knows how it becomes a file: a drawing, or a chart."""
+@dataclass(frozen=True)
+class Drawing(Page, Kept):
+    """A page of primitives that can be kept.
 
-    def content(self, format: str, dpi: float = 200.0) -> bytes: ...
+    Two types, because the writers, which a drawing calls, know nothing but what is on a page.
+    """
+
+    def _svg(self) -> bytes:
+        return svg_bytes(self)
+
+    def _pdf(self) -> bytes:
+        from graphkin.drawing.page import pdf_bytes
+
+        return pdf_bytes(self)
+
+    def _png(self, dpi: float) -> bytes:
+        from graphkin.drawing.page import png_bytes
+
+        return png_bytes(self, dpi)
 
 
 def save(drawing: Kept, path: str | os.PathLike[str], dpi: float = 200.0) -> Path:
