@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 
 from graphkin.errors import CallError, Problem, SceneError
 from graphkin.scene import read
-from graphkin.scene.model import Scene
-from graphkin.solver.designs import Dimension, dimensions
+from graphkin.scene.dimensions import Dimension, dimensions
+from graphkin.scene.model import Mechanism
 from graphkin.solver.joints import turned
 from graphkin.study.designs import applied
 
@@ -48,7 +48,8 @@ class _Law:
 class DesignKeys:
     """Keys of a scene file, and what each does to the numbers of the mechanism (SI)."""
 
-    scene: Scene
+    scene: Mechanism
+    own: Mapping[Dimension, complex]
     laws: Mapping[str, Mapping[Dimension, _Law]]
 
     def numbers(self, values: Mapping[str, Reals]) -> dict[Dimension, Complexes]:
@@ -58,7 +59,6 @@ class DesignKeys:
         ------
         CallError : a value that is no finite number, a length that is not positive
         """
-        own = dimensions(self.scene)
         found: dict[Dimension, Complexes] = {}
         for key, of_key in values.items():
             low = 0.0 if key.endswith(".length") else -math.inf
@@ -69,11 +69,11 @@ class DesignKeys:
                 raise CallError(Problem(f"designs {key}", f"found {found_one:g}", wanted))
             for name, law in self.laws[key].items():
                 new = law(of_key)
-                found[name] = found[name] + (new - own[name]) if name in found else new
+                found[name] = found[name] + (new - self.own[name]) if name in found else new
         return found
 
 
-def design_keys(source: Mapping[str, Any], scene: Scene, keys: Sequence[str]) -> DesignKeys:
+def design_keys(source: Mapping[str, Any], scene: Mechanism, keys: Sequence[str]) -> DesignKeys:
     """Find what keys do.
 
     Parameters
@@ -95,7 +95,7 @@ def design_keys(source: Mapping[str, Any], scene: Scene, keys: Sequence[str]) ->
         begin, step = _begin(source, key)
         changed[key] = begin + step
         laws[key] = _laws(key, begin, step, [_numbers(source, {key: begin + k * step}) for k in range(3)], scene)
-    made = DesignKeys(scene, laws)
+    made = DesignKeys(scene, dimensions(scene), laws)
     if len(keys) > 1:
         _side_by_side(made, changed, _numbers(source, changed))
     return made
@@ -126,7 +126,7 @@ def _numbers(source: Mapping[str, Any], values: Mapping[str, float]) -> dict[Dim
 
 
 def _laws(
-    key: str, begin: float, step: float, found: Sequence[Mapping[Dimension, complex]], scene: Scene
+    key: str, begin: float, step: float, found: Sequence[Mapping[Dimension, complex]], scene: Mechanism
 ) -> dict[Dimension, _Law]:
     """The laws of all numbers that a key changes, from three readings a step apart."""
     laws: dict[Dimension, _Law] = {}
@@ -153,7 +153,7 @@ def _laws(
     return laws
 
 
-def _plain(slope: complex, scene: Scene) -> complex:
+def _plain(slope: complex, scene: Mechanism) -> complex:
     """A slope without the rounding of its finding, where it is one of the units."""
     for unit in (scene.units.metres, 1.0, math.radians(1.0), math.pi / 30):
         for turn in (1, -1, 1j, -1j):
@@ -168,7 +168,7 @@ def _none(value: complex, beside: complex) -> complex:
 
 def _side_by_side(keys: DesignKeys, values: Mapping[str, float], read_so: Mapping[Dimension, complex]) -> None:
     """Hold the laws of several keys against a reading with all of them changed.  Raises CallError."""
-    own = dimensions(keys.scene)
+    own = keys.own
     told = keys.numbers({key: np.array([value]) for key, value in values.items()})
     for name, read_one in read_so.items():
         mine = complex(told[name][0]) if name in told else own[name]

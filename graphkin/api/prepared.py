@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from graphkin.api.arguments import SceneLike, as_scene
 from graphkin.errors import CallError, Problem, did_you_mean
-from graphkin.scene.model import AngleDriver, Scene
+from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.source import written
 from graphkin.scene.symbol import Symbol
 
@@ -121,7 +121,7 @@ class Prepared:
     ready: solver.Prepared
 
     @property
-    def scene(self) -> Scene:
+    def scene(self) -> Mechanism:
         return self.ready.structure.scene
 
     @cached_property

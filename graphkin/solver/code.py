@@ -1,8 +1,7 @@
-"""Formulas written out as code: for one position in plain floats, for many as arrays in blocks that stay in cache, and
-compiled where numba is installed.
+"""Formulas written out as code: for one position in plain floats, for many as arrays in blocks that stay in cache.
 
-All three come from the same lines in the same order; with equal sines and cosines of the driver they give equal
-numbers to the last bit.  Names in the code are made from numbers only.
+Both come from the same lines in the same order; with equal sines and cosines of the driver they give equal numbers to
+the last bit.  Names in the code are made from numbers only.  Compiled code: ``graphkin.solver.compiled``.
 """
 
 from __future__ import annotations

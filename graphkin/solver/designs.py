@@ -7,13 +7,13 @@ it was made from, and all such designs are computed together.  The others are fo
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cache, cached_property
 
 import numpy as np
 
 from graphkin.errors import SceneError, Unsolvable
-from graphkin.scene.model import AngleDriver, Driver, Link, Scene
+from graphkin.scene.dimensions import Dimension, with_dimensions
 from graphkin.solver.assemblies import choose_forms, own_values
 from graphkin.solver.code import Code
 from graphkin.solver.compiled import Kernel
@@ -28,11 +28,7 @@ from graphkin.solver.program import GIVEN, program_of
 from graphkin.solver.quantities import bounds, formulas
 from graphkin.structure import Dyad, analyse
 
-__all__ = ["Designs", "Dimension", "dimensions", "with_dimensions"]
-
-Dimension = Name
-"""("point", link, point), ("through", link, guide), ("direction", link, guide), ("turn", sliding pair), and of the
-driver k ("value", k), ("rate", k), ("second", k)."""
+__all__ = ["Designs"]
 
 NODES = 360
 """Positions of a turn at which the groups of a design are looked at."""
@@ -42,54 +38,6 @@ TWO_FORMS = ("RRR", "RRP", "RPR")
 """Dyads with two assemblies."""
 LOOP = 64
 """From so many positions of each design on its own loop of compiled code pays."""
-
-
-def dimensions(scene: Scene) -> dict[Dimension, complex]:
-    """The numbers of a scene in which its designs may differ (SI)."""
-    found: dict[Dimension, complex] = {}
-    for link in (scene.frame, *scene.links):
-        found |= {("point", link.name, point): z for point, z in link.points.items()}
-        for name, guide in link.guides.items():
-            found["through", link.name, name], found["direction", link.name, name] = guide.through, guide.direction
-    found |= {("turn", pair.key): pair.turn for pair in scene.slidings}
-    for k, driver in enumerate(scene.drivers):
-        found |= {(what, k): complex(x) for what, x in zip(("value", "rate", "second"), driver.values, strict=True)}
-    return found
-
-
-def with_dimensions(scene: Scene, changed: Mapping[Dimension, complex]) -> Scene:
-    """The scene with some of its numbers changed; what was drawn is then a sketch."""
-
-    def link(old: Link) -> Link:
-        points = {p: changed.get(("point", old.name, p), z) for p, z in old.points.items()}
-        guides = {
-            n: replace(
-                g,
-                through=changed.get(("through", old.name, n), g.through),
-                direction=changed.get(("direction", old.name, n), g.direction),
-            )
-            for n, g in old.guides.items()
-        }
-        return replace(old, points=points, guides=guides)
-
-    def driver(k: int, old: Driver) -> Driver:
-        value, rate, second = (
-            changed.get((what, k), complex(x)).real
-            for what, x in zip(("value", "rate", "second"), old.values, strict=True)
-        )
-        if isinstance(old, AngleDriver):
-            return replace(old, angle=value, omega=rate, alpha=second)
-        return replace(old, travel=value, velocity=rate, acceleration=second)
-
-    return replace(
-        scene,
-        frame=link(scene.frame),
-        links=tuple(map(link, scene.links)),
-        slidings=tuple(replace(s, turn=changed.get(("turn", s.key), s.turn)) for s in scene.slidings),
-        drivers=tuple(driver(k, d) for k, d in enumerate(scene.drivers)),
-        sketch={**scene.drawn, **scene.sketch},
-        drawn={},
-    )
 
 
 class _OpenCode:
@@ -145,7 +93,7 @@ class Designs:
         """Numbers of the formulas by name, for each design, where it changes them."""
         found: dict[Name, Array] = {}
         ready, scene = self.ready, self.ready.structure.scene
-        own, slides = dimensions(scene), ready.structure.slides
+        own, slides = ready.dimensions, ready.structure.slides
         for name, values in self.given.items():
             kind, *rest = name
             if kind in ("rate", "second"):

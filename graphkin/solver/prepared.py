@@ -9,7 +9,8 @@ from functools import cached_property, lru_cache
 
 import numpy as np
 
-from graphkin.scene.model import AngleDriver, Scene
+from graphkin.scene.dimensions import Dimension, dimensions
+from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.solver.code import Code
 from graphkin.solver.compiled import LONG, Kernel
 from graphkin.solver.driver_range import DriverRange, driver_range
@@ -127,6 +128,11 @@ class Prepared:
     def given_names(self) -> dict[Name, float]:
         """Numbers of the formulas that are no dimensions, as far as they are the same everywhere."""
         return {**self._held, **(self.signs or {})}
+
+    @cached_property
+    def dimensions(self) -> dict[Dimension, complex]:
+        """The numbers in which its designs may differ (SI)."""
+        return dimensions(self.structure.scene)
 
     @cached_property
     def opened(self) -> dict[Hashable, object]:
@@ -339,7 +345,7 @@ def _every(n: int) -> Array:
 
 
 def prepare(
-    scene: Scene | Structure,
+    scene: Mechanism | Structure,
     asked: Sequence[str],
     units: Units = (1.0, 1.0),
     bounded: bool = False,

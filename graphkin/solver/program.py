@@ -11,7 +11,7 @@ from decimal import Decimal
 from typing import Any
 from weakref import finalize
 
-from graphkin.scene.model import AngleDriver, Driver
+from graphkin.scene.model import AngleDriver, AnyDriver
 from graphkin.solver.bounds import FIELDS, ErrorFormulas
 from graphkin.solver.code import Code
 from graphkin.solver.decimals import DIGITS, meant, meant_direction
@@ -81,7 +81,7 @@ class Program:
         """The guide of a sliding pair in the world."""
         return self.poses[slide.b].fixed(self.number("through", slide.key), self.number("direction", slide.key))
 
-    def _rates(self, driver: Driver) -> tuple[Real, Real]:
+    def _rates(self, driver: AnyDriver) -> tuple[Real, Real]:
         k = self.structure.scene.drivers.index(driver)
         second = self.graph.param(("second", k)) if self._moving[k] else self.graph.const(0)
         return self.graph.param(("rate", k)), second
@@ -93,7 +93,7 @@ class Program:
         none = Vec(self.graph.const(0), self.graph.const(0))
         return Pose(none, Vec(self.graph.input(("cos", k)), self.graph.input(("sin", k))), none, rate, none, second)
 
-    def travel(self, driver: Driver) -> tuple[Real, Real, Real]:
+    def travel(self, driver: AnyDriver) -> tuple[Real, Real, Real]:
         """Value, rate and second rate of a slide driver."""
         k = self.structure.scene.drivers.index(driver)
         return self.graph.input(("travel", k)), *self._rates(driver)
