@@ -138,8 +138,8 @@ def _turn(turn: Turn, language: str) -> list[str]:
     own = turn.ranges[0]
     if own.whole:
         said = word("full turn", language)
-        if turn.course.turns > 1:
-            said += "; " + say(Phrase("turns to close", (turn.course.turns,)), language)
+        if turn.reach.turns > 1:
+            said += "; " + say(Phrase("turns to close", (turn.reach.turns,)), language)
     else:
         said = _between(scene, own.low, own.high, own.open_low, own.open_high)
     lines.append(f"{word('range', language)} {driver.key}: {said}")

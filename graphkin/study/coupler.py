@@ -56,20 +56,20 @@ def coupler_points(scene: Scene) -> tuple[tuple[str, str], ...]:
 def curve_page(turn: Turn, point: str, link: str, language: str) -> Drawing:
     """The path of a coupler point in scale, with marks at equal steps of the driver, and the mechanism at its own
     position."""
-    course, scene = turn.course, turn.scene
-    low, high = course.ends
+    reach, scene = turn.reach, turn.scene
+    low, high = reach.ends
     offsets = np.linspace(low, high, POINTS)
-    path = course.motion(offsets).position(point, link)
-    axis = driver_axis(course, language)
-    steps = TICKS * max(course.turns, 1)
-    if course.full:
+    path = reach.motion(offsets).position(point, link)
+    axis = driver_axis(reach, language)
+    steps = TICKS * max(reach.turns, 1)
+    if reach.full:
         ticks = (axis.first + np.arange(steps) * (high - low) / steps) % high
     else:
-        angle = isinstance(course.driver, AngleDriver)
+        angle = isinstance(reach.driver, AngleDriver)
         values = np.radians(axis.ticks) if angle else axis.ticks * scene.units.metres
-        ticks = (values - course.start[0]) * course.sense
-    at = course.motion(ticks).position(point, link)
-    here = course.motion(np.zeros(1))
+        ticks = (values - reach.start[0]) * reach.sense
+    at = reach.motion(ticks).position(point, link)
+    here = reach.motion(np.zeros(1))
     places = {p: complex(here.position(p)[0]) for p in scene.holders}
     world = Box.around([*path[np.isfinite(path)].tolist(), *places.values()])
     width, height, need = min(((w, h, _need(world, w, h)) for w, h in ((WIDTH, HEIGHT), (HEIGHT, WIDTH))),
@@ -84,11 +84,11 @@ def curve_page(turn: Turn, point: str, link: str, language: str) -> Drawing:
 
     skeleton = _skeleton(turn, places, page)
     dots = [Circle(page(complex(z)), DOT, strokes.BLACK, Stroke(0.25)) for z in at if math.isfinite(abs(z))]
-    axis_unit = "°" if isinstance(course.driver, AngleDriver) else ""
-    numbers = [driver_number(scene, float(course.value(t))) for t in ticks]
+    axis_unit = "°" if isinstance(reach.driver, AngleDriver) else ""
+    numbers = [driver_number(scene, float(reach.value(t))) for t in ticks]
     numbers = [round(n, 9) + 0.0 for n in numbers]
-    if course.full:
-        numbers = [n % (360 * course.turns) for n in numbers]
+    if reach.full:
+        numbers = [n % (360 * reach.turns) for n in numbers]
     labels = [
         Label(Text(0j, rich(f"{number(n, 4)}{axis_unit}", 2.5)), page(complex(z)))
         for n, z in zip(numbers, at, strict=True) if math.isfinite(abs(z))
@@ -102,8 +102,8 @@ def curve_page(turn: Turn, point: str, link: str, language: str) -> Drawing:
     title = say(Phrase("curve of point", (f"${point}$",)), language)
     scale = 1e3 / mm / (scene.units.metres * 1e3)
     facts = [f"1 mm = {scale:g} {scene.units.length}"]
-    if isinstance(course.driver, AngleDriver) and course.full:
-        begin = 0 if course.sense > 0 else 360
+    if isinstance(reach.driver, AngleDriver) and reach.full:
+        begin = 0 if reach.sense > 0 else 360
         facts.append(say(Phrase("ticks at", (str(360 // TICKS), str(begin))), language))
     plain = title.replace("$", "")
     return Drawing(
@@ -136,7 +136,7 @@ def _need(world: Box, width: float, height: float) -> float:
 def _skeleton(turn: Turn, places: dict[str, complex], page: Callable[[complex], complex]) -> list[Primitive]:
     """The mechanism at its own position, thin: links, blocks, guides, pivots."""
     scene = turn.scene
-    motion = turn.course.motion(np.zeros(1))
+    motion = turn.reach.motion(np.zeros(1))
     made: list[Primitive] = []
     blocks: list[Primitive] = []
     for pair in motion.slides:

@@ -25,8 +25,8 @@ from graphkin.drawing.chart import (
 )
 from graphkin.drawing.primitives import Stroke
 from graphkin.scene.model import AngleDriver
+from graphkin.solver import DriverRange
 from graphkin.study.coupler import coupler_points, curve_page
-from graphkin.study.course import Course
 from graphkin.study.driver_axis import (
     HEIGHT,
     LEFT,
@@ -54,7 +54,7 @@ Array = NDArray[np.float64]
 
 TOP, GAP = 40.0, 10.0
 BESIDE = 1e-3
-"""Of the course: so far beside a place that may be a dead point."""
+"""Of the driver's range: so far beside a place that may be a dead point."""
 MARGIN = 0.14
 """Of the range of values, above and below the curve: room for the labels of its extremes."""
 ZERO = Stroke(0.18)
@@ -69,7 +69,7 @@ def diagrams(turn: Turn, language: str = "en", positions: int = 12) -> dict[str,
     positions : where the values measured off the drawn polygons are laid over the curves; 0 for none
     """
     quantities = [o.quantity for o in turn.outputs]
-    dots = measured(turn.course, quantities, positions) if positions else {q: [] for q in quantities}
+    dots = measured(turn.reach, quantities, positions) if positions else {q: [] for q in quantities}
     pages: dict[str, ChartPage | Drawing] = {}
     for output in turn.outputs:
         quantity = output.quantity
@@ -104,7 +104,7 @@ def _motion_page(turn: Turn, output: Output, dots: Sequence[tuple[float, ...]], 
     turns = quantity.kind == "theta"
     curves = link_quantities(quantity.of) if turns else slide_quantities(quantity.of)
     traced = {t.quantity: t for t in turn.curves}
-    axis = driver_axis(turn.course, language)
+    axis = driver_axis(turn.reach, language)
     panels = [_panel(turn, axis, q, traced.get(q), [(d[0], d[k + 1]) for d in dots]) for k, q in enumerate(curves)]
     limits = sorted(
         {float(axis.at(np.array(e.offset))) for e in (output.low, output.high) if e is not None and e.kind != "end"}
@@ -192,16 +192,16 @@ def _with_unit(value: float, unit: str) -> str:
 def _panel(
     turn: Turn, axis: DriverAxis, quantity: Quantity, traced: Traced | None, dots: Sequence[tuple[float, float]]
 ) -> _Panel:
-    course, scene = turn.course, turn.scene
+    reach, scene = turn.reach, turn.scene
     offsets = axis.offsets
     x = axis.at(offsets)
-    values = _shown(axis, quantity, offsets, quantity.values(course, course.motion(offsets)))
-    if course.full:
+    values = _shown(axis, quantity, offsets, quantity.values(reach, reach.motion(offsets)))
+    if reach.full:
         # the axis ends where it begins, a turn later
         x[0], x[-1] = axis.left, axis.right
-        gain = _gain(course, quantity) if quantity.kind == "theta" else 0.0
+        gain = _gain(reach, quantity) if quantity.kind == "theta" else 0.0
         values[-1] = values[0] + quantity.in_units(scene, gain, degrees=True)
-    low, high = _span(course, values)
+    low, high = _span(reach, values)
     span = low - MARGIN * (high - low), high + MARGIN * (high - low)
     letter, name = quantity.kind, quantity.of.split("/")[0]
     greek = {"theta": "θ", "omega": "ω", "alpha": "α"}.get(letter, letter)
@@ -210,7 +210,7 @@ def _panel(
     read = np.array([d[1] for d in dots])
     if len(dots) and quantity.kind == "theta":
         # an angle measured on paper tells no whole turns
-        near = quantity.values(course, course.motion(at))
+        near = quantity.values(reach, reach.motion(at))
         read = read + 2 * np.pi * np.rint((near - read) / (2 * np.pi))
     points = np.stack([axis.at(at), _shown(axis, quantity, at, read)], axis=1) if len(dots) else np.zeros((0, 2))
     points = points[(points[:, 1] >= span[0]) & (points[:, 1] <= span[1])]  # none is NaN then, none off the panel
@@ -226,29 +226,29 @@ def _panel(
 
 def _shown(axis: DriverAxis, quantity: Quantity, offset: Array, values: Array) -> Array:
     """Values in units of the figure; an angle of a link without a jump along the axis."""
-    course = axis.course
+    reach = axis.reach
     values = np.asarray(values, dtype=float)
-    if quantity.kind == "theta" and course.full:
-        values = np.where(offset < axis.first - 1e-12, values + _gain(course, quantity), values)
-        left = quantity.values(course, course.motion(np.array([axis.first + BESIDE * course.ends[1]])))[0]
+    if quantity.kind == "theta" and reach.full:
+        values = np.where(offset < axis.first - 1e-12, values + _gain(reach, quantity), values)
+        left = quantity.values(reach, reach.motion(np.array([axis.first + BESIDE * reach.ends[1]])))[0]
         values = values - 2 * np.pi * np.rint(left / (2 * np.pi))
-    return np.array([quantity.in_units(course.scene, v, degrees=True) for v in values])
+    return np.array([quantity.in_units(reach.scene, v, degrees=True) for v in values])
 
 
-def _gain(course: Course, quantity: Quantity) -> float:
-    """How far an angle gets over the whole course, in whole turns: beside the ends, which may be dead points."""
-    high = course.ends[1]
-    first, last = quantity.values(course, course.motion(np.array([BESIDE * high, high - BESIDE * high])))
+def _gain(reach: DriverRange, quantity: Quantity) -> float:
+    """How far an angle gets over the whole range, in whole turns: beside the ends, which may be dead points."""
+    high = reach.ends[1]
+    first, last = quantity.values(reach, reach.motion(np.array([BESIDE * high, high - BESIDE * high])))
     return float(2 * np.pi * np.rint((last - first) / (2 * np.pi)))
 
 
-def _span(course: Course, values: Array) -> tuple[float, float]:
+def _span(reach: DriverRange, values: Array) -> tuple[float, float]:
     """The range of values worth showing: near the ends of a limited motion rates grow without bound."""
     good = values[np.isfinite(values)]
     if not len(good):
         return 0.0, 1.0
     low, high = float(good.min()), float(good.max())
-    if not course.full:
+    if not reach.full:
         least, most = np.percentile(good, (10, 90))
         wide = 0.8 * (most - least)
         low, high = float(max(low, least - wide)), float(min(high, most + wide))

@@ -14,7 +14,7 @@ from graphkin.drawing import Primitive, Text
 from graphkin.drawing.chart import degree_step
 from graphkin.drawing.text import rich
 from graphkin.scene.model import AngleDriver, Scene
-from graphkin.study.course import Course
+from graphkin.solver import DriverRange
 from graphkin.words import Phrase, say
 
 __all__ = [
@@ -79,10 +79,10 @@ class DriverAxis:
 
     left, right : values at the ends; an axis of a whole turn begins at 0, going up or down
     step : of the ticks
-    first : the offset of the course at the left end
+    first : the offset of the driver's range at the left end
     """
 
-    course: Course
+    reach: DriverRange
     left: float
     right: float
     step: float
@@ -91,9 +91,9 @@ class DriverAxis:
 
     @property
     def offsets(self) -> Array:
-        """Offsets of the course in the order in which they are drawn; dense near the ends of a limited motion."""
-        low, high = self.course.ends
-        if not self.course.full:
+        """Offsets of the range in the order in which they are drawn; dense near the ends of a limited motion."""
+        low, high = self.reach.ends
+        if not self.reach.full:
             half = np.linspace(0, np.pi, POINTS)
             return np.asarray(low + (high - low) * np.sin(half / 2) ** 2)
         return np.asarray((np.linspace(0.0, high, POINTS) + self.first) % high)
@@ -106,28 +106,28 @@ class DriverAxis:
 
     def at(self, offset: Array) -> Array:
         """Where offsets lie on the axis."""
-        course, scene = self.course, self.course.scene
-        if not course.full:
-            values = course.value(offset)
-            angle = isinstance(course.driver, AngleDriver)
+        reach, scene = self.reach, self.reach.scene
+        if not reach.full:
+            values = reach.value(offset)
+            angle = isinstance(reach.driver, AngleDriver)
             return np.asarray(np.degrees(values) if angle else values / scene.units.metres)
-        high = course.ends[1]
+        high = reach.ends[1]
         along = (np.asarray(offset) - self.first) % high
         along = np.where(along > high * (1 - 1e-12), 0.0, along)
-        return np.asarray(np.degrees(along if course.sense > 0 else high - along))
+        return np.asarray(np.degrees(along if reach.sense > 0 else high - along))
 
 
-def driver_axis(course: Course, language: str) -> DriverAxis:
+def driver_axis(reach: DriverRange, language: str) -> DriverAxis:
     """The axis for the whole way of the driver."""
-    scene, driver = course.scene, course.driver
+    scene, driver = reach.scene, reach.driver
     name = driver.key.split("/")[0]
     angle = isinstance(driver, AngleDriver)
     symbol = f"$φ_{{{name}}}$ (°)" if angle else f"$s_{{{name}}}$ ({scene.units.length})"
-    if course.full:
-        low, high = 0.0, 360.0 * course.turns
+    if reach.full:
+        low, high = 0.0, 360.0 * reach.turns
     else:
-        low, high = sorted(driver_number(scene, float(course.value(np.array(e)))) for e in course.ends)
+        low, high = sorted(driver_number(scene, float(reach.value(np.array(e)))) for e in reach.ends)
     step = degree_step(high - low) if angle else next_step((high - low) / 12)
-    first = float((-course.start[0] * course.sense) % course.ends[1]) if course.full else course.ends[0]
-    left, right = (low, high) if course.sense > 0 else (high, low)
-    return DriverAxis(course, left, right, step, first, say(Phrase("of the driver", (symbol,)), language))
+    first = float((-reach.start[0] * reach.sense) % reach.ends[1]) if reach.full else reach.ends[0]
+    left, right = (low, high) if reach.sense > 0 else (high, low)
+    return DriverAxis(reach, left, right, step, first, say(Phrase("of the driver", (symbol,)), language))

@@ -12,13 +12,15 @@ from graphkin.construction import Sheet, draft
 from graphkin.errors import GraphkinError
 from graphkin.scene.model import Scene
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.study.course import Course
+from graphkin.solver import DriverRange
 from graphkin.study.quantities import Quantity
 
 __all__ = ["measured"]
 
 
-def measured(course: Course, outputs: Sequence[Quantity], count: int = 12) -> dict[Quantity, list[tuple[float, ...]]]:
+def measured(
+    reach: DriverRange, outputs: Sequence[Quantity], count: int = 12
+) -> dict[Quantity, list[tuple[float, ...]]]:
     """For each output (its angle or travel) what the drawing gives at evenly spread positions.
 
     Returns
@@ -26,19 +28,19 @@ def measured(course: Course, outputs: Sequence[Quantity], count: int = 12) -> di
     for each output a list of (offset of the driver, position, velocity, acceleration), SI, measured on paper; positions
     that cannot be drawn, or outputs that lie behind a group that compass and ruler cannot draw, are left out
     """
-    scene = course.scene
+    scene = reach.scene
     asked = [s for q in outputs for s in _symbols(scene, q)]
     found: dict[Quantity, list[tuple[float, ...]]] = {q: [] for q in outputs}
     if not asked:
         return found
-    low, high = course.ends
-    wide = min(high - low, 2 * math.pi) if course.full else high - low
+    low, high = reach.ends
+    wide = min(high - low, 2 * math.pi) if reach.full else high - low
     for k in range(count):
-        offset = low + wide * (k / count if course.full else (k + 0.5) / count)
-        values = {d.key: float(v) for d, v in zip(scene.drivers, course.start, strict=True)}
-        values[scene.drivers[0].key] = float(course.value(np.array(offset)))
+        offset = low + wide * (k / count if reach.full else (k + 0.5) / count)
+        values = {d.key: float(v) for d, v in zip(scene.drivers, reach.start, strict=True)}
+        values[scene.drivers[0].key] = float(reach.value(np.array(offset)))
         try:
-            sheet = draft(course.structure, values, asked)
+            sheet = draft(reach.structure, values, asked)
         except GraphkinError:
             continue
         for quantity in outputs:

@@ -11,9 +11,8 @@ from numpy.typing import NDArray
 
 from graphkin.scene.model import Scene
 from graphkin.scene.symbol import Symbol
-from graphkin.solver import Motion
+from graphkin.solver import DriverRange, Motion
 from graphkin.structure import Dyad, Slide, Structure, Turn
-from graphkin.study.course import Course
 
 __all__ = ["Crossing", "Quantity", "link_quantities", "slide_quantities", "symbol_quantity", "transmission"]
 
@@ -84,13 +83,13 @@ class Quantity:
             return math.degrees(value) if degrees else value
         return value if self.measure.startswith("angular") else value / scene.units.metres
 
-    def values(self, course: Course, motion: Motion) -> Array:
-        """Its values in a motion of a course (SI), shape (n,)."""
+    def values(self, reach: DriverRange, motion: Motion) -> Array:
+        """Its values in a motion of this range (SI), shape (n,)."""
         if self.symbol is not None:
             found = motion.value(self.symbol)
             return np.abs(found) if self.is_size else np.asarray(found.real)
         if self.kind == "theta":
-            return course.angle(motion, self.of)
+            return reach.angle(motion, self.of)
         if self.kind == "omega":
             return motion.omega(self.of)
         if self.kind == "alpha":
@@ -98,17 +97,17 @@ class Quantity:
         slide = motion.slide(self.of)
         return {"s": slide.travel, "v": slide.velocity, "a": slide.acceleration}[self.kind]
 
-    def smooth(self, course: Course, motion: Motion) -> Array:
+    def smooth(self, reach: DriverRange, motion: Motion) -> Array:
         """What is smooth where the quantity may not be: the square of a vector's size, else the quantity itself.
 
         A rate that is nothing but rounding (no larger than the solver's own bound of its error) is 0.
         """
-        value = self.values(course, motion)
+        value = self.values(reach, motion)
         if not self.is_position:
             bound = motion.bound.velocity if self.is_speed else motion.bound.acceleration
             if self.measure.startswith("angular"):
-                lengths = [link.length for link in course.scene.links if link.length]
-                bound = bound / min(lengths, default=course.scene.size)
+                lengths = [link.length for link in reach.scene.links if link.length]
+                bound = bound / min(lengths, default=reach.scene.size)
             value = np.where(np.abs(value) <= bound, 0.0, value)
         return value**2 if self.is_size else value
 

@@ -9,12 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.scene.model import AngleDriver
+from graphkin.solver import DriverRange
 from graphkin.solver.engine import positions
 from graphkin.solver.joints import Drive
 from graphkin.solver.path import FAR
 from graphkin.structure import Cluster, Dyad
 from graphkin.structure.assembly import last_true
-from graphkin.study.course import Course
 
 __all__ = ["Range", "not_searched", "ranges"]
 
@@ -40,51 +40,51 @@ class Range:
     open_high: bool = False
 
 
-def ranges(course: Course) -> tuple[Range, ...]:
+def ranges(reach: DriverRange) -> tuple[Range, ...]:
     """The range that the motion reaches, then all others in which some assembly closes, as far as ``not_searched`` does
     not say otherwise: within a turn of the driver; of a driven slide within four sizes of the mechanism and twice as
     far as its motion reaches."""
-    if course.full:
-        return (Range(0.0, 2 * np.pi * course.turns, True, whole=True),)
-    low, high = sorted(float(course.value(np.array(end))) for end in course.ends)
-    below, above = course.limited if course.sense > 0 else course.limited[::-1]
+    if reach.full:
+        return (Range(0.0, 2 * np.pi * reach.turns, True, whole=True),)
+    low, high = sorted(float(reach.value(np.array(end))) for end in reach.ends)
+    below, above = reach.limited if reach.sense > 0 else reach.limited[::-1]
     own = Range(low, high, True, open_low=not below, open_high=not above)
-    if not_searched(course):
+    if not_searched(reach):
         return (own,)
-    dyads = [i for i, e in enumerate(course.structure.elements) if isinstance(e, Dyad)]
-    return own, *_elsewhere(course, dyads, own)
+    dyads = [i for i, e in enumerate(reach.structure.elements) if isinstance(e, Dyad)]
+    return own, *_elsewhere(reach, dyads, own)
 
 
-def not_searched(course: Course) -> tuple[str, ...]:
+def not_searched(reach: DriverRange) -> tuple[str, ...]:
     """Links for whose sake ranges in which the mechanism assembles otherwise are not known: of larger groups, whose
     assemblies are known only along their motion, or of too many groups to try all their assemblies."""
-    if course.full:
+    if reach.full:
         return ()
-    larger = [e.links for e in course.structure.elements if isinstance(e, Cluster)]
-    dyads = [e.links for e in course.structure.elements if isinstance(e, Dyad)]
+    larger = [e.links for e in reach.structure.elements if isinstance(e, Cluster)]
+    dyads = [e.links for e in reach.structure.elements if isinstance(e, Dyad)]
     many = dyads[MOST_GROUPS:] if not larger else []
     return tuple(name for links in (*larger, *many) for name in links)
 
 
-def _elsewhere(course: Course, dyads: list[int], own: Range) -> list[Range]:
+def _elsewhere(reach: DriverRange, dyads: list[int], own: Range) -> list[Range]:
     def closes(value: Array) -> NDArray[np.bool_]:
-        values = np.repeat(course.start[None], len(value), axis=0)
+        values = np.repeat(reach.start[None], len(value), axis=0)
         values[:, 0] = value
-        drive = Drive.at(course.structure, values)
+        drive = Drive.at(reach.structure, values)
         some = np.zeros(len(value), dtype=bool)
         # the last group's own form decides nothing about whether it closes
         for signs in product((1.0, -1.0), repeat=max(len(dyads) - 1, 0)):
             forms = {i: np.asarray(sign) for i, sign in zip(dyads, (*signs, 1.0), strict=True)}
-            state = positions(course.structure, drive, forms, rates=False)
-            gaps = [np.broadcast_to(_closed(course, i, state.groups[i]), value.shape) for i in dyads]
+            state = positions(reach.structure, drive, forms, rates=False)
+            gaps = [np.broadcast_to(_closed(reach, i, state.groups[i]), value.shape) for i in dyads]
             some |= np.logical_and.reduce(gaps)
         return some
 
-    turning = isinstance(course.driver, AngleDriver)
+    turning = isinstance(reach.driver, AngleDriver)
     if turning:
         grid = own.low + 1e-9 + np.linspace(0.0, 2 * np.pi, GRID + 1)
     else:
-        wide = max(FAR * course.scene.size, 2 * abs(own.low), 2 * abs(own.high))
+        wide = max(FAR * reach.scene.size, 2 * abs(own.low), 2 * abs(own.high))
         grid = np.linspace(-wide, wide, GRID + 1)
     holds = closes(grid)
     found: list[Range] = []
@@ -107,9 +107,9 @@ def _elsewhere(course: Course, dyads: list[int], own: Range) -> list[Range]:
     return found
 
 
-def _closed(course: Course, i: int, solved: object) -> NDArray[np.bool_]:
+def _closed(reach: DriverRange, i: int, solved: object) -> NDArray[np.bool_]:
     discriminant = np.asarray(solved.discriminant)  # type: ignore[attr-defined]
-    element = course.structure.elements[i]
+    element = reach.structure.elements[i]
     if isinstance(element, Dyad) and element.is_two_lines:
         return np.asarray(np.abs(discriminant) > 1e-12)
     return np.asarray(discriminant >= 0)

@@ -16,13 +16,13 @@ def to_json(turn: Turn) -> dict[str, Any]:
 
     ``null`` stands where there is no value, with a ``why`` beside it.
     """
-    course, scene = turn.course, turn.scene
-    driver = course.driver
+    reach, scene = turn.reach, turn.scene
+    driver = reach.driver
     return {
         "title": scene.title,
         "units": {"length": scene.units.length, "time": "s", "angle": "rad"},
-        "mobility": course.structure.mobility.value,
-        "driver": {"key": driver.key, "full_turn": course.full, "turns_to_close": course.turns or None},
+        "mobility": reach.structure.mobility.value,
+        "driver": {"key": driver.key, "full_turn": reach.full, "turns_to_close": reach.turns or None},
         "ranges": [
             {
                 "low": None if r.open_low else _driver(scene, r.low),
@@ -33,7 +33,7 @@ def to_json(turn: Turn) -> dict[str, Any]:
             for r in turn.ranges
         ],
         "ranges_not_searched_for": list(turn.not_searched),
-        "why": course.limit_why,
+        "why": reach.limit_why,
         "mechanisms": [
             {
                 "kind": loop.kind,
@@ -109,7 +109,7 @@ def row(turn: Turn) -> dict[str, float | str | None]:
     scene = turn.scene
     length = scene.units.length
     cells: dict[str, float | str | None] = {}
-    degrees = isinstance(turn.course.driver, AngleDriver)
+    degrees = isinstance(turn.reach.driver, AngleDriver)
     low, high = turn.ranges[0].low, turn.ranges[0].high
     unit = "deg" if degrees else length
     cells[f"range_low ({unit})"] = _shown(scene, low)

@@ -1,4 +1,4 @@
-"""Extremes and zeros of quantities over a whole course."""
+"""Extremes and zeros of quantities over the whole range of the driver."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.scene.model import AngleDriver
+from graphkin.solver import DriverRange
 from graphkin.structure import Dyad
-from graphkin.study.course import Course
 from graphkin.study.curves import Pieces, resolve
 from graphkin.study.quantities import Quantity, link_quantities, slide_quantities, transmission
 
@@ -39,7 +39,7 @@ class Extreme:
 
 @dataclass(frozen=True)
 class Traced:
-    """A quantity over the course: its extremes in the order of the motion, where it is zero (values of the driver)."""
+    """A quantity over the driver's range: its extremes in the order of the motion, and where it is zero (driver)."""
 
     quantity: Quantity
     extremes: tuple[Extreme, ...]
@@ -69,56 +69,56 @@ class Least:
         return float(np.pi / 2) - self.angle
 
 
-def driver_value(course: Course, offset: float) -> float:
+def driver_value(reach: DriverRange, offset: float) -> float:
     """Value of the first driver at an offset; an angle of a driver that turns fully within a turn from 0 on."""
-    value = float(course.value(np.array(offset)))
-    if course.full and isinstance(course.driver, AngleDriver):
-        whole = 2 * np.pi * course.turns
+    value = float(reach.value(np.array(offset)))
+    if reach.full and isinstance(reach.driver, AngleDriver):
+        whole = 2 * np.pi * reach.turns
         value = value % whole
         value -= whole if whole - value < 1e-9 else 0.0
     return 0.0 if abs(value) < NOTHING else value
 
 
-def trace(course: Course, quantities: Sequence[Quantity]) -> tuple[tuple[Traced, ...], tuple[Least, ...]]:
+def trace(reach: DriverRange, quantities: Sequence[Quantity]) -> tuple[tuple[Traced, ...], tuple[Least, ...]]:
     """Find all extremes and zeros of quantities, and the least transmission angle of each group of two links."""
-    way = _Way(course)
-    dyads = [g for g in course.structure.groups if isinstance(g, Dyad)]
+    way = _Way(reach)
+    dyads = [g for g in reach.structure.groups if isinstance(g, Dyad)]
     places = [q for q in quantities if q.is_position]
     rates = [q for q in quantities if not q.is_position]
 
     def positions(parameter: Array) -> Array:
-        motion = course.motion(way.offset(parameter))
-        columns = [q.smooth(course, motion) for q in places]
-        columns += [transmission(course.structure, d, motion).cosine for d in dyads]
+        motion = reach.motion(way.offset(parameter))
+        columns = [q.smooth(reach, motion) for q in places]
+        columns += [transmission(reach.structure, d, motion).cosine for d in dyads]
         return np.stack(columns, axis=1)
 
     def speeds(parameter: Array) -> Array:
-        motion = course.motion(way.offset(parameter))
-        return np.stack([q.smooth(course, motion) for q in rates], axis=1)
+        motion = reach.motion(way.offset(parameter))
+        return np.stack([q.smooth(reach, motion) for q in rates], axis=1)
 
     # apart, because positions stay smooth where rates grow without bound
     found: dict[Quantity, Traced] = {}
     least: tuple[Least, ...] = ()
     if places or dyads:
-        size = course.scene.size
+        size = reach.scene.size
         floor = np.array([size if q.kind == "s" else 1.0 for q in places] + [1.0] * len(dyads))
-        pieces = resolve(positions, *way.range, periodic=course.full, floor=floor)
+        pieces = resolve(positions, *way.range, periodic=reach.full, floor=floor)
         found.update({q: _traced(way, pieces, k, q) for k, q in enumerate(places)})
         least = tuple(_least(way, pieces, len(places) + k, d) for k, d in enumerate(dyads))
     if rates:
         # near the end of a motion, a distance x away, velocities grow as x^-1/2 and accelerations as x^-3/2
         power = np.array([(1.0 if q.is_speed else 3.0) * (2 if q.is_size else 1) for q in rates])
-        weight = None if course.full else power
-        pieces = resolve(speeds, *way.range, periodic=course.full, floor=_floor(course, rates), weight=weight)
+        weight = None if reach.full else power
+        pieces = resolve(speeds, *way.range, periodic=reach.full, floor=_floor(reach, rates), weight=weight)
         found.update({q: _traced(way, pieces, k, q) for k, q in enumerate(rates)})
     return tuple(found[q] for q in quantities), least
 
 
-def _floor(course: Course, rates: Sequence[Quantity]) -> Array:
+def _floor(reach: DriverRange, rates: Sequence[Quantity]) -> Array:
     """For each rate the size that such rates have in this mechanism: what is nothing beside it is zero."""
-    size = course.scene.size
-    motion = course.motion(np.linspace(*course.ends, 62)[1:-1])
-    poses = [motion.poses[link.name] for link in course.scene.links]
+    size = reach.scene.size
+    motion = reach.motion(np.linspace(*reach.ends, 62)[1:-1])
+    poses = [motion.poses[link.name] for link in reach.scene.links]
     omega = max(float(np.nanmedian(np.abs(p.omega))) for p in poses)
     speed = max(omega * size, max(float(np.nanmedian(np.abs(p.v))) for p in poses))
     alpha = max(omega**2, max(float(np.nanmedian(np.abs(p.alpha))) for p in poses))
@@ -132,15 +132,15 @@ class _Way:
     """The parameter of the curves: the offset itself for a driver that turns fully; else an angle whose cosine runs
     over the range, in which positions stay smooth up to the ends, where their rates are infinite."""
 
-    course: Course
+    reach: DriverRange
 
     @property
     def range(self) -> tuple[float, float]:
-        return self.course.ends if self.course.full else (0.0, float(np.pi))
+        return self.reach.ends if self.reach.full else (0.0, float(np.pi))
 
     def offset(self, parameter: Array) -> Array:
-        low, high = self.course.ends
-        if self.course.full:
+        low, high = self.reach.ends
+        if self.reach.full:
             return np.asarray(parameter)
         # halves of a product of sines, so that nothing is lost near the ends
         return np.asarray(np.where(
@@ -151,7 +151,7 @@ class _Way:
 
     def inside(self, parameter: Array) -> Array:
         """Those that are not at an end of the motion."""
-        if self.course.full:
+        if self.reach.full:
             return parameter
         low, high = self.range
         margin = NEAR_END * (high - low)
@@ -159,17 +159,17 @@ class _Way:
 
 
 def _traced(way: _Way, pieces: Pieces, k: int, quantity: Quantity) -> Traced:
-    course = way.course
-    at_start = course.motion(np.zeros(1))
+    reach = way.reach
+    at_start = reach.motion(np.zeros(1))
     if pieces.is_constant(k) or _is_constant(way, quantity):
-        nothing = quantity.smooth(course, at_start)[0] == 0.0
-        return Traced(quantity, (), (), 0.0 if nothing else float(quantity.values(course, at_start)[0]))
+        nothing = quantity.smooth(reach, at_start)[0] == 0.0
+        return Traced(quantity, (), (), 0.0 if nothing else float(quantity.values(reach, at_start)[0]))
     offset = way.offset(way.inside(pieces.extremes(k)))
     zeros = way.offset(way.inside(pieces.zeros(k)))
     if quantity.is_position:
-        offset = _polished(course, quantity, offset)
-    elif quantity.kind in ("omega", "v") and len(course.scene.drivers) == 1 and course.driver.values[2] == 0:
-        offset = _at_zero(course, quantity, offset)
+        offset = _polished(reach, quantity, offset)
+    elif quantity.kind in ("omega", "v") and len(reach.scene.drivers) == 1 and reach.driver.values[2] == 0:
+        offset = _at_zero(reach, quantity, offset)
     extremes = _extremes(way, pieces, k, quantity, offset)
     if quantity.is_size:
         most = max((e.value for e in extremes), default=0.0)
@@ -177,7 +177,7 @@ def _traced(way: _Way, pieces: Pieces, k: int, quantity: Quantity) -> Traced:
         zeros = np.array([e.offset for e in extremes if e.value == 0.0])
     elif quantity.kind == "theta":
         zeros = np.zeros(0)
-    return Traced(quantity, extremes, tuple(driver_value(course, float(z)) for z in zeros))
+    return Traced(quantity, extremes, tuple(driver_value(reach, float(z)) for z in zeros))
 
 
 def _is_constant(way: _Way, quantity: Quantity) -> bool:
@@ -185,22 +185,22 @@ def _is_constant(way: _Way, quantity: Quantity) -> bool:
     if quantity.is_position:
         return False
     low, high = way.range
-    motion = way.course.motion(way.offset(np.linspace(low, high, 34)[1:-1]))
-    values = quantity.smooth(way.course, motion)
+    motion = way.reach.motion(way.offset(np.linspace(low, high, 34)[1:-1]))
+    values = quantity.smooth(way.reach, motion)
     values = values[np.isfinite(values)]
     return bool(len(values) == 0 or np.ptp(values) <= 1e-12 * np.max(np.abs(values)))
 
 
-def _at_zero(course: Course, quantity: Quantity, offset: Array) -> Array:
+def _at_zero(reach: DriverRange, quantity: Quantity, offset: Array) -> Array:
     """Where the driver runs evenly, a velocity is at rest where its acceleration is zero: the secant method on that."""
     bend = link_quantities(quantity.of)[2] if quantity.kind == "omega" else slide_quantities(quantity.of)[2]
-    low, high = course.ends
+    low, high = reach.ends
     if not len(offset):
         return offset
-    before = _wrapped(course, offset - 1e-6 * (high - low))
-    value = bend.values(course, course.motion(before))
+    before = _wrapped(reach, offset - 1e-6 * (high - low))
+    value = bend.values(reach, reach.motion(before))
     for _ in range(POLISH):
-        now = bend.values(course, course.motion(offset))
+        now = bend.values(reach, reach.motion(offset))
         with np.errstate(all="ignore"):
             step = now * (offset - before) / (now - value)
         step = np.where(np.abs(step) < 1e-6 * (high - low), step, 0.0)
@@ -208,32 +208,32 @@ def _at_zero(course: Course, quantity: Quantity, offset: Array) -> Array:
     return offset
 
 
-def _polished(course: Course, quantity: Quantity, offset: Array) -> Array:
+def _polished(reach: DriverRange, quantity: Quantity, offset: Array) -> Array:
     """Newton's method on the rate by the driver: the place of an extreme position to the last digits."""
     of_position = link_quantities if quantity.kind == "theta" else slide_quantities
     _, rate, bend = of_position(quantity.of)
-    low, high = course.ends
+    low, high = reach.ends
     for _ in range(POLISH if len(offset) else 0):
-        motion = course.motion(offset, unit=True)
+        motion = reach.motion(offset, unit=True)
         with np.errstate(all="ignore"):
-            step = rate.values(course, motion) / bend.values(course, motion)
+            step = rate.values(reach, motion) / bend.values(reach, motion)
         step = np.where(np.abs(step) < 1e-5 * (high - low), step, 0.0)
         offset = np.clip(offset - step, low, high)
     return offset
 
 
 def _extremes(way: _Way, pieces: Pieces, curve: int, quantity: Quantity, offset: Array) -> tuple[Extreme, ...]:
-    course = way.course
-    low, high = course.ends
-    ends = [] if course.full or not quantity.is_position else [low, high]
+    reach = way.reach
+    low, high = reach.ends
+    ends = [] if reach.full or not quantity.is_position else [low, high]
     places = np.sort(np.append(offset, ends))
     if not len(places):
         return ()
-    motion = course.motion(places)
+    motion = reach.motion(places)
     near = 1e-4 * (high - low)
-    values = quantity.values(course, motion)
-    before = quantity.values(course, course.motion(_wrapped(course, places - near)))
-    after = quantity.values(course, course.motion(_wrapped(course, places + near)))
+    values = quantity.values(reach, motion)
+    before = quantity.values(reach, reach.motion(_wrapped(reach, places - near)))
+    after = quantity.values(reach, reach.motion(_wrapped(reach, places + near)))
     found: list[Extreme] = []
     for k, place in enumerate(places):
         kind: Literal["max", "min", "end"]
@@ -247,20 +247,20 @@ def _extremes(way: _Way, pieces: Pieces, curve: int, quantity: Quantity, offset:
             kind = "min"
         else:
             continue  # a curve that only stands still for a moment
-        found.append(Extreme(kind, float(place), driver_value(course, float(place)), value))
+        found.append(Extreme(kind, float(place), driver_value(reach, float(place)), value))
     return tuple(found)
 
 
-def _wrapped(course: Course, offset: Array) -> Array:
-    low, high = course.ends
-    return np.asarray(offset % (high - low) if course.full else np.clip(offset, low, high))
+def _wrapped(reach: DriverRange, offset: Array) -> Array:
+    low, high = reach.ends
+    return np.asarray(offset % (high - low) if reach.full else np.clip(offset, low, high))
 
 
 def _least(way: _Way, pieces: Pieces, k: int, dyad: Dyad) -> Least:
-    course = way.course
+    reach = way.reach
 
     def angle(offset: Array) -> Array:
-        return transmission(course.structure, dyad, course.motion(offset)).angle
+        return transmission(reach.structure, dyad, reach.motion(offset)).angle
 
     if pieces.is_constant(k):
         return Least(dyad, float(angle(np.zeros(1))[0]), None)
@@ -272,10 +272,10 @@ def _least(way: _Way, pieces: Pieces, k: int, dyad: Dyad) -> Least:
     refused = ~np.isfinite(angles)
     angles[refused] = [_from_cosine(pieces.at(at, k)) for at in inner[refused]]
     places = list(zip(offsets.tolist(), angles.tolist(), strict=True))
-    if not course.full:
-        places += [(at, _from_cosine(pieces.at(end, k))) for at, end in zip(course.ends, way.range, strict=True)]
+    if not reach.full:
+        places += [(at, _from_cosine(pieces.at(end, k))) for at, end in zip(reach.ends, way.range, strict=True)]
     offset, best = min((p for p in places if p[1] == p[1]), key=lambda p: p[1])
-    return Least(dyad, best, driver_value(course, offset))
+    return Least(dyad, best, driver_value(reach, offset))
 
 
 def _from_cosine(cosine: float) -> float:

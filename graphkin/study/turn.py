@@ -9,8 +9,7 @@ import numpy as np
 
 from graphkin.scene.model import AngleDriver, Scene
 from graphkin.scene.symbol import Symbol
-from graphkin.solver import Motion
-from graphkin.study.course import Course
+from graphkin.solver import DriverRange, Motion
 from graphkin.study.grashof import Loop, loops
 from graphkin.study.quantities import Quantity, link_quantities, slide_quantities, symbol_quantity
 from graphkin.study.ranges import Range, not_searched, ranges
@@ -27,7 +26,7 @@ class Output:
         dead point when the output drives it
     swings : False for a link that turns on and on
     low, high : the limit positions between which it moves the whole stroke; None for a link that turns on and on
-    turned : how far it turns over the course (rad; 0 for a slide, and for a link that comes back)
+    turned : how far it turns over the range of the driver (rad; 0 for a slide, and for a link that comes back)
     """
 
     position: Traced
@@ -50,7 +49,7 @@ class Output:
 class Turn:
     """What is to be said about the motion over a whole turn (SI)."""
 
-    course: Course
+    reach: DriverRange
     ranges: tuple[Range, ...]
     outputs: tuple[Output, ...]
     curves: tuple[Traced, ...]
@@ -59,12 +58,12 @@ class Turn:
 
     @property
     def scene(self) -> Scene:
-        return self.course.scene
+        return self.reach.scene
 
     @property
     def not_searched(self) -> tuple[str, ...]:
         """Links for whose sake ranges in which the mechanism assembles otherwise are not known."""
-        return not_searched(self.course)
+        return not_searched(self.reach)
 
     def quick_return(self, output: Output) -> tuple[float, float] | None:
         """K of an output, and the crank angle theta (rad) between its limit positions; None where it has none.
@@ -74,15 +73,15 @@ class Turn:
         time ratio, Norton, Design of Machinery, ch. 3).
         """
         low, high = output.low, output.high
-        if low is None or high is None or self.course.turns != 1:
+        if low is None or high is None or self.reach.turns != 1:
             return None
         way = abs(high.offset - low.offset)
         longer = max(way, 2 * np.pi - way)
         return longer / (2 * np.pi - longer), float(longer - np.pi)
 
 
-def study_turn(course: Course, asked: Sequence[Symbol] = (), everything: bool = True) -> Turn:
-    """Study the whole course.
+def study_turn(reach: DriverRange, asked: Sequence[Symbol] = (), everything: bool = True) -> Turn:
+    """Study the whole range.
 
     Parameters
     ----------
@@ -90,9 +89,9 @@ def study_turn(course: Course, asked: Sequence[Symbol] = (), everything: bool = 
         none, those of every link and sliding pair
     everything : False leaves out all but the limit positions of the outputs, transmission and classes
     """
-    scene = course.scene
-    start = course.motion(np.zeros(1))
-    mains = [Quantity("theta", name) for name in output_links(course)]
+    scene = reach.scene
+    start = reach.motion(np.zeros(1))
+    mains = [Quantity("theta", name) for name in output_links(reach)]
     mains += [Quantity("s", key) for key in output_slides(start)]
     wanted = list(mains)
     if everything:
@@ -103,18 +102,18 @@ def study_turn(course: Course, asked: Sequence[Symbol] = (), everything: bool = 
             others = [q for link in scene.links for q in link_quantities(link.name)]
             others += [q for s in start.slides for q in slide_quantities(s.key)]
         wanted += [q for q in others if q not in wanted]
-    traced, least = trace(course, wanted)
-    outputs = tuple(_output(course, t) for t in traced[: len(mains)])
-    return Turn(course, ranges(course), outputs, traced, least, loops(course.structure))
+    traced, least = trace(reach, wanted)
+    outputs = tuple(_output(reach, t) for t in traced[: len(mains)])
+    return Turn(reach, ranges(reach), outputs, traced, least, loops(reach.structure))
 
 
 def _with_rates(quantity: Quantity) -> tuple[Quantity, ...]:
     return link_quantities(quantity.of) if quantity.kind == "theta" else slide_quantities(quantity.of)
 
 
-def output_links(course: Course) -> tuple[str, ...]:
+def output_links(reach: DriverRange) -> tuple[str, ...]:
     """Links pivoted to the frame that no driver turns about it."""
-    scene = course.scene
+    scene = reach.scene
     frame = scene.frame
     driven = {d.link for d in scene.drivers if isinstance(d, AngleDriver) and d.relative_to == frame.name}
     sliding = {s.link for s in scene.slidings}
@@ -136,12 +135,12 @@ def output_slides(motion: Motion) -> tuple[str, ...]:
     )
 
 
-def _output(course: Course, position: Traced) -> Output:
+def _output(reach: DriverRange, position: Traced) -> Output:
     if position.constant is not None:
         return Output(position, False, None, None)
-    if position.quantity.kind == "theta" and course.full:
-        both = course.motion(np.array(course.ends))
-        turned = float(np.diff(position.quantity.values(course, both))[0])
+    if position.quantity.kind == "theta" and reach.full:
+        both = reach.motion(np.array(reach.ends))
+        turned = float(np.diff(position.quantity.values(reach, both))[0])
         if abs(turned) > 1.0:
             return Output(position, False, None, None, turned)
     return Output(position, True, position.least, position.greatest)

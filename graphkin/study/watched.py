@@ -11,10 +11,9 @@ from numpy.typing import NDArray
 
 from graphkin.scene.model import AngleDriver, Scene
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.solver import Motion, listed_points
+from graphkin.solver import DriverRange, Motion, listed_points
 from graphkin.solver.redundant import all_slides
 from graphkin.structure import Structure
-from graphkin.study.course import Course
 from graphkin.study.quantities import Quantity, link_quantities, slide_quantities, symbol_quantity
 from graphkin.table import Column
 
@@ -52,15 +51,15 @@ class Watched:
             return self.what.symbol.kind in ("v", "a")
         return self.what.kind in ("omega", "alpha", "s")
 
-    def parts(self, course: Course, motion: Motion) -> tuple[Array, ...]:
-        """Its values in a motion of a course, in the units of the table: one array, or the components of a vector."""
-        metres = course.scene.units.metres
+    def parts(self, reach: DriverRange, motion: Motion) -> tuple[Array, ...]:
+        """Its values in a motion of this range, in the units of the table: one array, or the components of a vector."""
+        metres = reach.scene.units.metres
         if isinstance(self.what, PointRef):
             vector = motion.position(self.what.point, self.what.link)
         elif self.what.symbol is not None:
             vector = motion.value(self.what.symbol)
         else:
-            value = np.asarray(self.what.values(course, motion))
+            value = np.asarray(self.what.values(reach, motion))
             if self.what.measure == "angle":
                 return (np.degrees(value),)
             return (value if self.what.measure.startswith("angular") else value / metres,)

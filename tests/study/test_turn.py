@@ -186,12 +186,12 @@ def test_extremes_of_acceleration_are_found_off_the_grid() -> None:
 @pytest.mark.parametrize("name", library())
 def test_no_value_of_a_fine_grid_exceeds_the_extremes(name: str) -> None:
     turn = study_turn(course_of(read(name)), everything=False)
-    low, high = turn.course.ends
-    motion = turn.course.motion(np.linspace(low, high, 401)[1:-1])
+    low, high = turn.reach.ends
+    motion = turn.reach.motion(np.linspace(low, high, 401)[1:-1])
     for output in turn.outputs:
         if output.low is None or output.high is None:
             continue
-        values = output.quantity.values(turn.course, motion)
+        values = output.quantity.values(turn.reach, motion)
         room = 1e-11 * max(1.0, abs(output.high.value))
         assert output.low.value - room <= np.nanmin(values)
         assert np.nanmax(values) <= output.high.value + room
@@ -207,7 +207,7 @@ def test_parallelogram_repeats_after_one_turn_and_its_antiparallel_form_is_not_r
     scene["links"]["1"]["length"] = scene["links"]["3"]["length"] = 150
     scene["links"]["2"]["length"] = 400
     turn = study_turn(course_of(read(scene)), everything=False)
-    assert (turn.course.turns, turn.outputs[0].swings) == (1, False)
+    assert (turn.reach.turns, turn.outputs[0].swings) == (1, False)
 
 
 def test_wrong_mobility_is_refused_by_name() -> None:
