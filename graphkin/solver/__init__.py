@@ -5,7 +5,7 @@ from graphkin.solver.findings import structure_of
 from graphkin.solver.motion import Motion, Sliding
 from graphkin.solver.prepared import Prepared, prepare
 from graphkin.solver.solve import solve
-from graphkin.solver.table import listed_points, to_json
+from graphkin.solver.table import listed_points, to_json, write_json
 
 __all__ = [
     "DriverRange",
@@ -18,4 +18,5 @@ __all__ = [
     "solve",
     "structure_of",
     "to_json",
+    "write_json",
 ]

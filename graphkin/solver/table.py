@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
+import json
+from collections.abc import Iterator, Sequence
+from typing import IO, Any
 
 import numpy as np
 
@@ -12,7 +13,10 @@ from graphkin.solver.motion import Motion
 from graphkin.solver.pose import Array
 from graphkin.structure import Cluster, Dyad, Slide
 
-__all__ = ["listed_points", "to_json"]
+__all__ = ["listed_points", "to_json", "write_json"]
+
+BLOCK = 1024
+"""Positions that are made into objects at once."""
 
 
 def listed_points(scene: Scene, slides: Sequence[Slide]) -> tuple[tuple[str, str], ...]:
@@ -29,53 +33,76 @@ def listed_points(scene: Scene, slides: Sequence[Slide]) -> tuple[tuple[str, str
 
 def to_json(motion: Motion) -> dict[str, Any]:
     """The object that ``solve --json`` prints: numbers in the scene's length unit, seconds, radians."""
+    return {**_head(motion), "positions": [entry for block in _positions(motion) for entry in block]}
+
+
+def write_json(motion: Motion, out: IO[bytes]) -> None:
+    """Write ``to_json`` as JSON, with a line feed at its end, as it goes: of a long sweep only a block is in memory."""
+    out.write(_text(_head(motion))[:-1] + b', "positions": [')
+    for k, block in enumerate(_positions(motion)):
+        out.write((b", " if k else b"") + _text(block)[1:-1])
+    out.write(b"]}\n")
+
+
+def _text(data: object) -> bytes:
+    return json.dumps(data, ensure_ascii=False, allow_nan=False).encode()
+
+
+def _head(motion: Motion) -> dict[str, Any]:
     scene = motion.scene
-    n = len(motion)
-    metres = scene.units.metres
-    columns: dict[str, dict[str, dict[str, list[Any]]]] = {"links": {}, "points": {}, "slides": {}}
-    for link in scene.links:
-        columns["links"][link.name] = {
-            "angle": _numbers(motion.angle(link.name)),
-            "omega": _numbers(motion.omega(link.name)),
-            "alpha": _numbers(motion.alpha(link.name)),
-        }
-    for point, name in listed_points(scene, motion.slides):
-        at = motion.point(point, name)
-        columns["points"][f"{point}@{name}"] = {
-            "position": _pairs(at.z / metres),
-            "velocity": _pairs(at.v / metres),
-            "acceleration": _pairs(at.a / metres),
-        }
-    for pair in motion.slides:
-        travel, velocity, acceleration, coriolis = motion.slide(pair.key)
-        columns["slides"][pair.key] = {
-            "travel": _numbers(travel / metres),
-            "velocity": _numbers(velocity / metres),
-            "acceleration": _numbers(acceleration / metres),
-            "coriolis": _pairs(coriolis / metres),
-        }
-    positions: list[dict[str, Any]] = []
-    for k in range(n):
-        driver = {
-            d.key: float(motion.values[k, i]) / (metres if isinstance(d, SlideDriver) else 1.0)
-            for i, d in enumerate(scene.drivers)
-        }
-        entry: dict[str, Any] = {"driver": driver, "status": str(motion.status[k])}
-        if motion.status[k] != "ok":
-            positions.append({**entry, "why": motion.why[k]})
-            continue
-        for part, table in columns.items():
-            entry[part] = {key: {what: values[k] for what, values in row.items()} for key, row in table.items()}
-        entry["error_bound"] = _bounds(motion, k)
-        positions.append(entry)
-    groups = [_group(g, words) for g, words in zip(motion.structure.groups, motion.assembly, strict=True)]
     return {
         "title": scene.title,
         "units": {"length": scene.units.length, "time": "s", "angle": "rad"},
         "mobility": motion.structure.mobility.value,
-        "groups": groups,
-        "positions": positions,
+        "groups": [_group(g, words) for g, words in zip(motion.structure.groups, motion.assembly, strict=True)],
     }
+
+
+def _positions(motion: Motion) -> Iterator[list[dict[str, Any]]]:
+    """The entries of the positions, some thousand at a time."""
+    scene = motion.scene
+    metres = scene.units.metres
+    columns: dict[str, dict[str, dict[str, Array]]] = {"links": {}, "points": {}, "slides": {}}
+    for name in (link.name for link in scene.links):
+        found: tuple[Array, ...] = (motion.angle(name), motion.omega(name), motion.alpha(name))
+        columns["links"][name] = dict(zip(("angle", "omega", "alpha"), found, strict=True))
+    for point, name in listed_points(scene, motion.slides):
+        at = motion.point(point, name)
+        found = at.z / metres, at.v / metres, at.a / metres
+        columns["points"][f"{point}@{name}"] = dict(zip(("position", "velocity", "acceleration"), found, strict=True))
+    for pair in motion.slides:
+        found = tuple(value / metres for value in motion.slide(pair.key))
+        kinds = ("travel", "velocity", "acceleration", "coriolis")
+        columns["slides"][pair.key] = dict(zip(kinds, found, strict=True))
+    drivers = {
+        d.key: motion.values[:, i] / (metres if isinstance(d, SlideDriver) else 1.0)
+        for i, d in enumerate(scene.drivers)
+    }
+    for first in range(0, len(motion), BLOCK):
+        some = slice(first, first + BLOCK)
+        cells = {
+            part: {key: {what: _plain(v[some]) for what, v in row.items()} for key, row in table.items()}
+            for part, table in columns.items()
+        }
+        own = {key: v[some].tolist() for key, v in drivers.items()}
+        block: list[dict[str, Any]] = []
+        for k, status in enumerate(motion.status[some].tolist()):
+            entry: dict[str, Any] = {"driver": {key: v[k] for key, v in own.items()}, "status": status}
+            if status != "ok":
+                block.append({**entry, "why": motion.why[first + k]})
+                continue
+            for part, table in cells.items():
+                entry[part] = {key: {what: v[k] for what, v in row.items()} for key, row in table.items()}
+            entry["error_bound"] = _bounds(motion, first + k)
+            block.append(entry)
+        yield block
+
+
+def _plain(values: Array) -> list[Any]:
+    """Numbers, or pairs of numbers for complex ones."""
+    if np.iscomplexobj(values):
+        return np.stack([values.real, values.imag], axis=1).tolist()  # type: ignore[no-any-return]
+    return values.tolist()  # type: ignore[no-any-return]
 
 
 def _bounds(motion: Motion, k: int) -> dict[str, Any]:
@@ -96,10 +123,3 @@ def _group(group: Dyad | Cluster, words: str) -> dict[str, Any]:
     order = group.order if isinstance(group, Cluster) else 2
     return {"class": order, "kind": group.kind, "links": list(group.links), "assembly": words}
 
-
-def _numbers(values: Array) -> list[float]:
-    return [float(x) for x in values]
-
-
-def _pairs(values: Array) -> list[list[float]]:
-    return [[float(z.real), float(z.imag)] for z in values]
