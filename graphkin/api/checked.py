@@ -13,6 +13,7 @@ from graphkin.checking.readings import Advice, Uncertainty, advise, predict, rea
 from graphkin.checking.report import Compared, Report, compare
 from graphkin.construction import EXACT, Cad, Instrument, Plan, Sheet, execute, pencil, plan
 from graphkin.construction.sheet import DiagramName
+from graphkin.construction.steps import phrase_of
 from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
 from graphkin.scene.model import Scene
 from graphkin.scene.symbol import Symbol
@@ -162,7 +163,7 @@ def _predicted(scene: Scene, row: Compared, uncertainty: Uncertainty) -> dict[st
     """Standard deviation of a reading in scene units, and the step that adds most to it."""
     return {
         "uncertainty": in_scene_units(scene, row.symbol, uncertainty.deviation),
-        "cause": say(uncertainty.cause.phrase),
+        "cause": say(phrase_of(uncertainty.cause)),
         "cause_share": uncertainty.share,
     }
 

@@ -17,7 +17,7 @@ from dataclasses import dataclass, replace
 from graphkin.construction import Plan, Scales, execute, nudged
 from graphkin.construction.board import EXACT, Instrument
 from graphkin.construction.sheet import DiagramName, Sheet, Vector
-from graphkin.construction.steps import Cause, ReadOff
+from graphkin.construction.steps import Cause, ReadOff, phrase_of
 from graphkin.errors import Unsolvable
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Tools
@@ -151,7 +151,7 @@ class Advice:
             (
                 self.symbol,
                 f"{100 * self.relative:.2g}",
-                self.cause.phrase,
+                phrase_of(self.cause),
                 f"{100 * self.share:.0f}",
                 Phrase(f"figure {self.figure}"),
                 f"{100 * self.relative * self.gain:.2g}",

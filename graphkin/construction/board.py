@@ -13,8 +13,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Protocol
 
+from graphkin.construction.remarks import OffTheSheet, Remark, SharpCrossing
 from graphkin.construction.sheet import EXACT_NAME, DiagramName, Equation, Step, Stroke
-from graphkin.construction.steps import Act, Cause, OffTheSheet, Remark, SharpCrossing
+from graphkin.construction.steps import Act, Cause
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, cross_lines
 from graphkin.scene.tables import Tools

@@ -13,6 +13,7 @@ from typing import Literal
 from graphkin.construction.board import Board
 from graphkin.construction.equations import Chain, Edge, equation_of, node
 from graphkin.construction.plot import Order, Plot, letter
+from graphkin.construction.remarks import ZeroVector
 from graphkin.construction.rigid import PlacedLinks
 from graphkin.construction.sheet import Bar, Equation, Mark, Rate, Ray, Scales, Term, Vector
 from graphkin.construction.slip import NO_SLIP, Component, Slip
@@ -25,7 +26,6 @@ from graphkin.construction.steps import (
     LinesMeet,
     MeasuredRate,
     PutBack,
-    ZeroVector,
 )
 from graphkin.construction.terms import bar, parts_of, symbol_of, turn_sign
 from graphkin.errors import Problem, Unsolvable

@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 
 from graphkin.construction.board import EXACT, Board, Instrument
 from graphkin.construction.dyads import Meeting, drive, meet
+from graphkin.construction.remarks import SharpCrossing, ShortArm
 from graphkin.construction.rigid import PlacedLinks
 from graphkin.construction.sheet import Mark, Pose
-from graphkin.construction.steps import Cause, FixedPoints, LinkPoints, Placing, SharpCrossing, ShortArm
+from graphkin.construction.steps import Cause, FixedPoints, LinkPoints, Placing
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, Scene
 from graphkin.scene.symbol import PointRef

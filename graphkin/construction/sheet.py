@@ -10,7 +10,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from graphkin.construction.steps import Act, Cause, Direction, Remark, Size
+from graphkin.construction.remarks import Remark
+from graphkin.construction.steps import Act, Cause, Direction, Size, phrase_of, scaled
 from graphkin.scene.model import Scene
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure.model import Element, Structure
@@ -148,12 +149,12 @@ class Step:
     @property
     def phrase(self) -> Phrase:
         """The step as a sentence to be."""
-        return self.act.phrase
+        return phrase_of(self.act)
 
     def scaled(self, times: float) -> Step:
         """The same step so many times as large."""
         strokes = tuple(stroke.scaled(times) for stroke in self.strokes)
-        return Step(self.number, self.diagram, self.act.scaled(times), strokes, self.equation)
+        return Step(self.number, self.diagram, scaled(self.act, times), strokes, self.equation)
 
 
 @dataclass(frozen=True)

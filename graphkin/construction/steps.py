@@ -1,64 +1,27 @@
-"""The acts of a construction, and what is to be remarked on it: typed, with the sentence that each makes.
+"""The acts of a construction: typed, with the sentence that each makes.
 
-An act says what is done and to what; the strokes that it leaves on the paper stand in its `Step`.  Lengths are mm on
-paper, so an act is had at another scale by ``scaled``.  This is the one place where an act becomes a `Phrase`; who
-wants to know more than the sentence looks at the type and the fields.
+An act says what is done and to what; the strokes that it leaves on the paper stand in its `Step`.  ``mm`` are lengths
+on paper, the only thing of an act that a scale changes (`scaled`).  `phrase_of` is the one place where an act becomes a
+sentence to be; who wants to know more than the sentence looks at the type and the fields.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Literal, Self
+from typing import Literal, TypeVar
 
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase
 
 __all__ = [
-    "Act",
-    "ArcOnPath",
-    "Asked",
-    "ByImage",
-    "ByRate",
-    "Carried",
-    "Cause",
-    "CompassArcs",
-    "Direction",
-    "DirectionLine",
-    "FixedPoints",
-    "Formula",
-    "FoundVector",
-    "Given",
-    "GuideThrough",
-    "GuideTouching",
-    "LaidOff",
-    "LaidOffAngle",
-    "LaidOffTravel",
-    "LinesMeet",
-    "LinkPoints",
-    "MeasuredRate",
-    "Named",
-    "OffTheSheet",
-    "PathDrawn",
-    "PathsCross",
-    "Placing",
-    "PutBack",
-    "RateTimes",
-    "ReadOff",
-    "Remark",
-    "Resultant",
-    "SamePlace",
-    "SharpCrossing",
-    "ShortArm",
-    "Size",
-    "SlidToMeet",
-    "Translated",
-    "ZeroVector",
-]
+    "ZERO_MM", "Act", "ArcOnPath", "Asked", "ByImage", "ByRate", "Carried", "Cause", "CompassArcs", "Direction",
+    "DirectionLine", "FixedPoints", "Formula", "FoundVector", "Given", "GuideThrough", "GuideTouching", "LaidOff",
+    "LaidOffAngle", "LaidOffTravel", "LinesMeet", "LinkPoints", "MeasuredRate", "Named", "PathDrawn", "PathsCross",
+    "Placing", "PutBack", "RateTimes", "ReadOff", "Resultant", "SamePlace", "Size", "SlidToMeet", "Translated",
+    "links_drawn", "phrase_of", "scaled",
+]  # fmt: skip
 
-REACH = 2000.0  # mm to either side: how far a construction line is drawn
-SHARP = math.sin(math.radians(15.0))
-SHORT = 3.0  # mm on paper; a direction drawn through two points nearer than this errs by a pencil's width in ten
 ZERO_MM = 1e-7  # a vector shorter than this is no vector on paper
 
 
@@ -118,226 +81,110 @@ class Formula:
 
 Size = Given | RateTimes | Formula
 
-# -- acts -------------------------------------------------------------------------------------------------------------
+# -- acts in the mechanism ---------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
-class Act:
-    """What is done in a step."""
+class FixedPoints:
+    """The fixed points marked."""
 
-    @property
-    def phrase(self) -> Phrase:
-        """The act as a sentence to be."""
-        raise NotImplementedError
-
-    @property
-    def links(self) -> tuple[str, ...]:
-        """Links that the act places or draws."""
-        return ()
-
-    def scaled(self, times: float) -> Self:
-        """The same act with its lengths so many times as large."""
-        return self
-
-
-@dataclass(frozen=True)
-class FixedPoints(Act):
     frame: str
     points: tuple[str, ...]
 
-    @property
-    def phrase(self) -> Phrase:
-        return Phrase("frame", (self.frame, ", ".join(self.points)))
-
-    @property
-    def links(self) -> tuple[str, ...]:
-        return (self.frame,)
-
 
 @dataclass(frozen=True)
-class LaidOffAngle(Act):
+class LaidOffAngle:
     """The angle (rad) of a driven link, about a hinge."""
 
     link: str
     angle: float
     hinge: str
 
-    @property
-    def phrase(self) -> Phrase:
-        return Phrase("lay off angle", (self.link, f"{math.degrees(self.angle):.6g}", self.hinge))
-
-    @property
-    def links(self) -> tuple[str, ...]:
-        return (self.link,)
-
-
-class _AtPairs(Act):
-    """An act at sliding pairs, by their keys."""
-
-    @property
-    def pairs(self) -> tuple[str, ...]:
-        raise NotImplementedError
-
-    @property
-    def links(self) -> tuple[str, ...]:
-        return tuple(name for pair in self.pairs for name in pair.split("/"))
-
 
 @dataclass(frozen=True)
-class LaidOffTravel(_AtPairs):
+class LaidOffTravel:
+    """The travel of a driven sliding pair."""
+
     pair: str
     mm: float
 
-    @property
-    def phrase(self) -> Phrase:
-        return Phrase("lay off travel", (self.pair, f"{self.mm:.2f}"))
-
-    @property
-    def pairs(self) -> tuple[str, ...]:
-        return (self.pair,)
-
-    def scaled(self, times: float) -> Self:
-        return replace(self, mm=self.mm * times)
-
 
 @dataclass(frozen=True)
-class CompassArcs(Act):
-    """Two arcs about known points find a third."""
+class CompassArcs:
+    """Two arcs of these radii about known points find a third."""
 
     about: tuple[str, str]
     point: str
     radii: tuple[float, float]
 
-    @property
-    def phrase(self) -> Phrase:
-        return Phrase("arcs", (*self.about, self.point, *(f"{r:.2f}" for r in self.radii)))
-
-    def scaled(self, times: float) -> Self:
-        return replace(self, radii=(self.radii[0] * times, self.radii[1] * times))
-
 
 @dataclass(frozen=True)
-class PathDrawn(_AtPairs):
+class PathDrawn:
     """The straight path of a point that slides."""
 
     point: str
     pair: str
 
-    @property
-    def phrase(self) -> Phrase:
-        return Phrase("path", (self.point, self.pair))
-
-    @property
-    def pairs(self) -> tuple[str, ...]:
-        return (self.pair,)
-
 
 @dataclass(frozen=True)
-class ArcOnPath(Act):
-    """An arc about a known point finds another on its path."""
+class ArcOnPath:
+    """An arc of a radius about a known point finds another on its path."""
 
     about: str
     point: str
-    radius: float
-
-    @property
-    def phrase(self) -> Phrase:
-        return Phrase("arc on path", (self.about, self.point, f"{self.radius:.2f}"))
-
-    def scaled(self, times: float) -> Self:
-        return replace(self, radius=self.radius * times)
+    mm: float
 
 
 @dataclass(frozen=True)
-class GuideThrough(_AtPairs):
+class GuideThrough:
     """A guide drawn from its pivot through the pivot of what slides on it."""
 
     pivot: str
     through: str
     pair: str
 
-    @property
-    def phrase(self) -> Phrase:
-        return Phrase("line of guide", (self.pivot, self.through, self.pair))
-
-    @property
-    def pairs(self) -> tuple[str, ...]:
-        return (self.pair,)
-
 
 @dataclass(frozen=True)
-class GuideTouching(_AtPairs):
-    """A guide at a distance (mm) from its pivot, drawn as a tangent from the pivot of what slides on it."""
+class GuideTouching:
+    """A guide at a distance from its pivot, drawn as a tangent from the pivot of what slides on it."""
 
     pivot: str
     through: str
-    offset: float
+    mm: float
     pair: str
-
-    @property
-    def phrase(self) -> Phrase:
-        return Phrase("tangent", (self.pivot, self.through, f"{self.offset:.2f}", self.pair))
-
-    @property
-    def pairs(self) -> tuple[str, ...]:
-        return (self.pair,)
-
-    def scaled(self, times: float) -> Self:
-        return replace(self, offset=self.offset * times)
 
 
 @dataclass(frozen=True)
-class PathsCross(_AtPairs):
+class PathsCross:
     """A point lies where its two straight paths cross."""
 
     point: str
-    pairs_of_paths: tuple[str, str]
-
-    @property
-    def phrase(self) -> Phrase:
-        return Phrase("paths", (self.point, *self.pairs_of_paths))
-
-    @property
-    def pairs(self) -> tuple[str, ...]:
-        return self.pairs_of_paths
+    pairs: tuple[str, str]
 
 
 @dataclass(frozen=True)
-class SlidToMeet(_AtPairs):
+class SlidToMeet:
     """A link shifted along one pair until its other guide meets a point."""
 
     point: str
     along: str
     until: str
 
-    @property
-    def phrase(self) -> Phrase:
-        return Phrase("slide to meet", (self.point, self.along, self.until))
-
-    @property
-    def pairs(self) -> tuple[str, ...]:
-        return self.along, self.until
-
 
 @dataclass(frozen=True)
-class LinkPoints(Act):
+class LinkPoints:
     """The new points of a link marked; ``transferred`` where they come with the shape of a whole link."""
 
     link: str
     points: tuple[str, ...]
     transferred: bool
 
-    @property
-    def phrase(self) -> Phrase:
-        return Phrase("transfer" if self.transferred else "points", (self.link, ", ".join(self.points)))
 
-    @property
-    def links(self) -> tuple[str, ...]:
-        return (self.link,)
+# -- acts in a polygon -------------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
-class LaidOff(Act):
+class LaidOff:
     """A known vector, laid off by the rule of its size."""
 
     symbol: Symbol
@@ -350,149 +197,93 @@ class LaidOff(Act):
     def is_zero(self) -> bool:
         return self.mm < ZERO_MM
 
-    @property
-    def phrase(self) -> Phrase:
-        if self.is_zero:
-            return Phrase("zero vector", (self.symbol,))
-        key = {"normal": "lay off normal", "coriolis": "lay off coriolis"}.get(self.role, "lay off")
-        return Phrase(key, (self.symbol, self.size or "", f"{self.mm:.2f}", self.direction))
 
-    def scaled(self, times: float) -> Self:
-        return replace(self, mm=self.mm * times)
+@dataclass(frozen=True)
+class FoundVector:
+    """A vector found by its end point, and measured."""
+
+    symbol: Symbol
+    mm: float
 
 
 @dataclass(frozen=True)
-class _OfVector(Act):
+class DirectionLine:
+    """A line along which a vector of unknown size lies."""
+
+    symbol: Symbol
+    direction: Direction
+
+
+@dataclass(frozen=True)
+class _OfVector:
     symbol: Symbol
 
 
 class Carried(_OfVector):
     """A known vector added before its turn in the chain."""
 
-    @property
-    def phrase(self) -> Phrase:
-        return Phrase("carry", (self.symbol,))
-
 
 class PutBack(_OfVector):
     """A vector that was added before its turn, put in its place."""
-
-    @property
-    def phrase(self) -> Phrase:
-        return Phrase("put back", (self.symbol,))
 
 
 class Resultant(_OfVector):
     """The vector from the pole to an end point that was found."""
 
-    @property
-    def phrase(self) -> Phrase:
-        return Phrase("resultant", (self.symbol,))
-
 
 class Asked(_OfVector):
     """A vector that stands in no equation, drawn because it is asked for."""
 
-    @property
-    def phrase(self) -> Phrase:
-        return Phrase("asked", (self.symbol,))
-
 
 @dataclass(frozen=True)
-class DirectionLine(_OfVector):
-    """A line along which a vector of unknown size lies."""
-
-    direction: Direction
-
-    @property
-    def phrase(self) -> Phrase:
-        return Phrase("direction", (self.symbol, self.direction))
-
-
-@dataclass(frozen=True)
-class FoundVector(_OfVector):
-    """A vector found by its end point, and measured."""
-
-    mm: float
-
-    @property
-    def phrase(self) -> Phrase:
-        return Phrase("found", (self.symbol, f"{self.mm:.2f}"))
-
-    def scaled(self, times: float) -> Self:
-        return replace(self, mm=self.mm * times)
-
-
-@dataclass(frozen=True)
-class _AtPoint(Act):
+class _AtPoint:
     point: PointRef
 
 
 class LinesMeet(_AtPoint):
     """Two direction lines meet in an end point."""
 
-    @property
-    def phrase(self) -> Phrase:
-        return Phrase("meet", (self.point,))
-
 
 class Named(_AtPoint):
     """An end point that stands already gets its letter."""
 
-    @property
-    def phrase(self) -> Phrase:
-        return Phrase("name", (self.point,))
-
 
 @dataclass(frozen=True)
-class SamePlace(_AtPoint):
+class SamePlace:
     """Two points at one place of a link have one end point."""
 
+    point: PointRef
     other: PointRef
-
-    @property
-    def phrase(self) -> Phrase:
-        return Phrase("same place", (self.point, self.other))
 
 
 @dataclass(frozen=True)
-class ByRate(_AtPoint):
+class ByRate:
     """An end point from another of the same link, by its measured rates."""
 
+    point: PointRef
     start: PointRef
     link: str
 
-    @property
-    def phrase(self) -> Phrase:
-        return Phrase("by rate", (self.point, self.start, self.link))
-
 
 @dataclass(frozen=True)
-class ByImage(_AtPoint):
+class ByImage:
     """An end point by the image of its link: a figure similar to the link, or, ``on_line``, a division of a line."""
 
+    point: PointRef
     between: tuple[PointRef, PointRef]
     link: str
     on_line: bool
 
-    @property
-    def phrase(self) -> Phrase:
-        return Phrase("division" if self.on_line else "image", (self.point, *self.between, self.link))
-
 
 @dataclass(frozen=True)
-class Translated(Act):
+class Translated:
     """A link that only translates: all its points have one end point."""
 
     link: str
 
-    @property
-    def phrase(self) -> Phrase:
-        return Phrase("translates", (self.link,))
-
 
 @dataclass(frozen=True)
-class MeasuredRate(Act):
+class MeasuredRate:
     """An angular rate (rad/s, rad/s2; counter-clockwise positive) measured from a vector and the bar it belongs to."""
 
     rate: Literal["omega", "alpha"]
@@ -501,14 +292,18 @@ class MeasuredRate(Act):
     bar: tuple[str, str]
     value: float
 
-    @property
-    def phrase(self) -> Phrase:
-        turning = "cw" if math.copysign(1.0, self.value) < 0 else "ccw"
-        args = (self.link, self.vector, "".join(self.bar), f"{abs(self.value):.6g}")
-        return Phrase(f"{self.rate} {turning}", args)
 
+OnMechanism = (
+    FixedPoints | LaidOffAngle | LaidOffTravel | CompassArcs | PathDrawn | ArcOnPath | GuideThrough | GuideTouching
+    | PathsCross | SlidToMeet | LinkPoints
+)  # fmt: skip
+InPolygon = (
+    LaidOff | FoundVector | DirectionLine | Carried | PutBack | Resultant | Asked | LinesMeet | Named | SamePlace
+    | ByRate | ByImage | Translated | MeasuredRate
+)  # fmt: skip
+Act = OnMechanism | InPolygon
 
-# -- what a reading can be made uncertain by, besides the acts ---------------------------------------------------------
+# -- causes of uncertainty besides the acts ----------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -517,10 +312,6 @@ class Placing:
 
     links: tuple[str, ...]
 
-    @property
-    def phrase(self) -> Phrase:
-        return Phrase("placing", (", ".join(self.links),))
-
 
 @dataclass(frozen=True)
 class ReadOff:
@@ -528,91 +319,96 @@ class ReadOff:
 
     symbol: Symbol
 
-    @property
-    def phrase(self) -> Phrase:
-        return Phrase("reading", (self.symbol,))
-
 
 Cause = Act | Placing | ReadOff
 
-# -- remarks ----------------------------------------------------------------------------------------------------------
+
+_WITH_LENGTH = (LaidOffTravel, ArcOnPath, GuideTouching, LaidOff, FoundVector)
+_Scalable = TypeVar("_Scalable", bound=Act)
 
 
-@dataclass(frozen=True)
-class SharpCrossing:
-    """Two lines cross at so small an angle (its sine) that the place of the crossing is uncertain."""
-
-    of: str
-    sine: float
-
-    @property
-    def holds(self) -> bool:
-        return self.sine < SHARP
-
-    @property
-    def phrase(self) -> Phrase:
-        return Phrase("sharp crossing", (self.of, f"{math.degrees(math.asin(self.sine)):.2g}"))
-
-    def scaled(self, times: float) -> Self:
-        return self
+def scaled(thing: _Scalable, times: float) -> _Scalable:
+    """The same act with its lengths so many times as large."""
+    if isinstance(thing, CompassArcs):
+        return replace(thing, radii=(thing.radii[0] * times, thing.radii[1] * times))
+    return replace(thing, mm=thing.mm * times) if isinstance(thing, _WITH_LENGTH) else thing
 
 
-@dataclass(frozen=True)
-class OffTheSheet:
-    """Two lines cross so far (mm) from where they start that rulers do not reach: the place is computed."""
-
-    of: str
-    mm: float
-
-    @property
-    def holds(self) -> bool:
-        return self.mm > REACH
-
-    @property
-    def phrase(self) -> Phrase:
-        return Phrase("off the sheet", (self.of,))
-
-    def scaled(self, times: float) -> Self:
-        return replace(self, mm=self.mm * times)
-
-
-@dataclass(frozen=True)
-class ZeroVector:
-    """A vector so short (mm) that it is none on paper."""
-
-    symbol: Symbol
-    mm: float
-
-    @property
-    def holds(self) -> bool:
-        return self.mm < ZERO_MM
-
-    @property
-    def phrase(self) -> Phrase:
-        return Phrase("zero vector", (self.symbol,))
-
-    def scaled(self, times: float) -> Self:
-        return replace(self, mm=self.mm * times)
+def links_drawn(act: Act) -> tuple[str, ...]:
+    """The links that an act places or draws."""
+    match act:
+        case FixedPoints():
+            return (act.frame,)
+        case LaidOffAngle() | LinkPoints():
+            return (act.link,)
+        case LaidOffTravel() | PathDrawn() | GuideThrough() | GuideTouching():
+            pairs: tuple[str, ...] = (act.pair,)
+        case PathsCross():
+            pairs = act.pairs
+        case SlidToMeet():
+            pairs = act.along, act.until
+        case _:
+            pairs = ()
+    return tuple(name for pair in pairs for name in pair.split("/"))
 
 
-@dataclass(frozen=True)
-class ShortArm:
-    """A guide directed by two points that lie too near to each other (mm)."""
+def phrase_of(thing: Cause) -> Phrase:
+    """An act, or another cause of uncertainty, as a sentence to be."""
+    match thing:
+        case FixedPoints(frame, points):
+            return Phrase("frame", (frame, ", ".join(points)))
+        case LaidOffAngle(link, angle, hinge):
+            return Phrase("lay off angle", (link, f"{math.degrees(angle):.6g}", hinge))
+        case LaidOffTravel(pair, mm):
+            return Phrase("lay off travel", (pair, f"{mm:.2f}"))
+        case CompassArcs(about, point, radii):
+            return Phrase("arcs", (*about, point, *(f"{r:.2f}" for r in radii)))
+        case PathDrawn(point, pair):
+            return Phrase("path", (point, pair))
+        case ArcOnPath(about, point, mm):
+            return Phrase("arc on path", (about, point, f"{mm:.2f}"))
+        case GuideThrough(pivot, through, pair):
+            return Phrase("line of guide", (pivot, through, pair))
+        case GuideTouching(pivot, through, mm, pair):
+            return Phrase("tangent", (pivot, through, f"{mm:.2f}", pair))
+        case PathsCross(point, pairs):
+            return Phrase("paths", (point, *pairs))
+        case SlidToMeet(point, along, until):
+            return Phrase("slide to meet", (point, along, until))
+        case LinkPoints(link, points, transferred):
+            return Phrase("transfer" if transferred else "points", (link, ", ".join(points)))
+        case Placing(links):
+            return Phrase("placing", (", ".join(links),))
+        case ReadOff(symbol):
+            return Phrase("reading", (symbol,))
+        case _:
+            return _in_polygon(thing)
 
-    links: tuple[str, ...]
-    points: tuple[str, str]
-    mm: float
 
-    @property
-    def holds(self) -> bool:
-        return self.mm < SHORT
-
-    @property
-    def phrase(self) -> Phrase:
-        return Phrase("short arm", (", ".join(self.links), self.points[0], f"{self.mm:.2g}", self.points[1]))
-
-    def scaled(self, times: float) -> Self:
-        return replace(self, mm=self.mm * times)
-
-
-Remark = SharpCrossing | OffTheSheet | ZeroVector | ShortArm
+def _in_polygon(act: InPolygon) -> Phrase:
+    match act:
+        case LaidOff(symbol, size, mm, direction, role):
+            if act.is_zero:
+                return Phrase("zero vector", (symbol,))
+            key = {"normal": "lay off normal", "coriolis": "lay off coriolis"}.get(role, "lay off")
+            return Phrase(key, (symbol, size or "", f"{mm:.2f}", direction))
+        case FoundVector(symbol, mm):
+            return Phrase("found", (symbol, f"{mm:.2f}"))
+        case DirectionLine(symbol, direction):
+            return Phrase("direction", (symbol, direction))
+        case Carried() | PutBack() | Resultant() | Asked():
+            key = {Carried: "carry", PutBack: "put back", Resultant: "resultant", Asked: "asked"}[type(act)]
+            return Phrase(key, (act.symbol,))
+        case LinesMeet() | Named():
+            return Phrase("meet" if isinstance(act, LinesMeet) else "name", (act.point,))
+        case SamePlace(point, other):
+            return Phrase("same place", (point, other))
+        case ByRate(point, start, link):
+            return Phrase("by rate", (point, start, link))
+        case ByImage(point, between, link, on_line):
+            return Phrase("division" if on_line else "image", (point, *between, link))
+        case Translated(link):
+            return Phrase("translates", (link,))
+        case MeasuredRate(rate, link, vector, bar, value):
+            turning = "cw" if math.copysign(1.0, value) < 0 else "ccw"
+            return Phrase(f"{rate} {turning}", (link, vector, "".join(bar), f"{abs(value):.6g}"))

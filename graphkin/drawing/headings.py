@@ -7,8 +7,9 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
+from graphkin.construction.remarks import ZeroVector
 from graphkin.construction.sheet import DiagramName, Sheet
-from graphkin.construction.steps import Direction, ZeroVector
+from graphkin.construction.steps import Direction
 from graphkin.drawing.conventions import Letters
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import PointRef, Symbol

@@ -11,7 +11,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from graphkin.construction.sheet import DiagramName, Mark, Sheet, Step, Vector
-from graphkin.construction.steps import Carried, MeasuredRate
+from graphkin.construction.steps import Carried, MeasuredRate, links_drawn
 from graphkin.drawing import strokes
 from graphkin.drawing.dimensions import LENGTHS
 from graphkin.drawing.polygon_on_page import details
@@ -46,7 +46,7 @@ def _mechanism(sheet: Sheet, steps: list[Step]) -> dict[str, int]:
     for step in steps:
         for mark in (s for s in step.strokes if isinstance(s, Mark)):
             born.setdefault(f"point-{mark.ref.point}", step.number)
-        for name in step.act.links:
+        for name in links_drawn(step.act):
             mentioned.setdefault(name, step.number)
     last = steps[-1].number
     for link in (sheet.scene.frame, *sheet.scene.links):

@@ -18,7 +18,7 @@ import numpy as np
 from graphkin import solver
 from graphkin.checking.readings import predict
 from graphkin.construction import EXACT, execute, plan
-from graphkin.construction.steps import SharpCrossing
+from graphkin.construction.remarks import SharpCrossing
 from graphkin.errors import Unsolvable
 from graphkin.scene import read_text
 from graphkin.scene.model import AngleDriver, FromDeadPoint, Scene

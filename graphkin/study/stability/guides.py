@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from graphkin import solver
 from graphkin.checking.readings import predict
 from graphkin.construction import EXACT, execute, plan
-from graphkin.construction.steps import ShortArm
+from graphkin.construction.remarks import ShortArm
 from graphkin.errors import Unsolvable
 from graphkin.scene import read_text
 from graphkin.scene.model import AngleDriver, Scene

@@ -1,0 +1,101 @@
+"""What is to be remarked on a construction, typed; whether there is anything to say depends on the scale of the figure.
+
+Each remark knows whether it ``holds`` at the scale of its lengths (mm on paper), its sentence (``phrase``), and itself
+at another scale (``scaled``).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Self
+
+from graphkin.construction.steps import ZERO_MM
+from graphkin.scene.symbol import Symbol
+from graphkin.words import Phrase
+
+__all__ = ["OffTheSheet", "Remark", "SharpCrossing", "ShortArm", "ZeroVector"]
+
+REACH = 2000.0  # mm to either side: how far a construction line is drawn
+SHARP = math.sin(math.radians(15.0))
+SHORT = 3.0  # mm on paper; a direction drawn through two points nearer than this errs by a pencil's width in ten
+
+
+@dataclass(frozen=True)
+class SharpCrossing:
+    """Two lines cross at so small an angle (its sine) that the place of the crossing is uncertain."""
+
+    of: str
+    sine: float
+
+    @property
+    def holds(self) -> bool:
+        return self.sine < SHARP
+
+    @property
+    def phrase(self) -> Phrase:
+        return Phrase("sharp crossing", (self.of, f"{math.degrees(math.asin(self.sine)):.2g}"))
+
+    def scaled(self, times: float) -> Self:
+        return self
+
+
+@dataclass(frozen=True)
+class OffTheSheet:
+    """Two lines cross so far from where they start that rulers do not reach: the place is computed."""
+
+    of: str
+    mm: float
+
+    @property
+    def holds(self) -> bool:
+        return self.mm > REACH
+
+    @property
+    def phrase(self) -> Phrase:
+        return Phrase("off the sheet", (self.of,))
+
+    def scaled(self, times: float) -> Self:
+        return replace(self, mm=self.mm * times)
+
+
+@dataclass(frozen=True)
+class ZeroVector:
+    """A vector so short that it is none on paper."""
+
+    symbol: Symbol
+    mm: float
+
+    @property
+    def holds(self) -> bool:
+        return self.mm < ZERO_MM
+
+    @property
+    def phrase(self) -> Phrase:
+        return Phrase("zero vector", (self.symbol,))
+
+    def scaled(self, times: float) -> Self:
+        return replace(self, mm=self.mm * times)
+
+
+@dataclass(frozen=True)
+class ShortArm:
+    """A guide directed by two points that lie too near to each other."""
+
+    links: tuple[str, ...]
+    points: tuple[str, str]
+    mm: float
+
+    @property
+    def holds(self) -> bool:
+        return self.mm < SHORT
+
+    @property
+    def phrase(self) -> Phrase:
+        return Phrase("short arm", (", ".join(self.links), self.points[0], f"{self.mm:.2g}", self.points[1]))
+
+    def scaled(self, times: float) -> Self:
+        return replace(self, mm=self.mm * times)
+
+
+Remark = SharpCrossing | OffTheSheet | ZeroVector | ShortArm
