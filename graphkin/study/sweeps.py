@@ -34,6 +34,7 @@ __all__ = ["Arrays", "Design", "Found", "Outcome", "Sweep", "collect", "designs_
 
 Array = NDArray[Any]
 Parts = tuple[tuple[Array, ...], ...]
+Words = Sequence[str] | Array
 
 BLOCK = 16384
 """Positions in a piece, about."""
@@ -156,7 +157,7 @@ class Design:
         rows = last - first
         values = np.repeat(self.engine.range.start[None], rows, axis=0)
         values[:, 0] = self.engine.values(n, first, last)
-        status, why, parts = ["ok"] * rows, [""] * rows, arrays.parts
+        status, why, parts = np.full(rows, "ok", object), np.full(rows, "", object), arrays.parts
         bad = np.flatnonzero(~arrays.ok)
         if len(bad):
             parts = tuple(tuple(part.copy() for part in own) for own in parts)
@@ -166,8 +167,7 @@ class Design:
             for own, watched in zip(parts, self.watched, strict=True):
                 for part, found in zip(own, watched.parts(self.course, motion), strict=True):
                     part[some] = found
-            for k, said, reason in zip(some.tolist(), motion.status.tolist(), motion.why, strict=True):
-                status[k], why[k] = said, reason
+            status[some], why[some] = motion.status.tolist(), motion.why
         return self._table(first, values, parts, status, why)
 
     def blank(self, first: int, last: int, status: str = "", why: str = "") -> Table:
@@ -176,7 +176,7 @@ class Design:
         parts = tuple((nothing,) * (1 + w.is_vector) for w in self.watched)
         return self._table(first, np.stack([nothing] * len(self.scene.drivers), axis=1), parts, [status], [why])
 
-    def _table(self, first: int, values: Array, parts: Parts, status: Sequence[str], why: Sequence[str]) -> Table:
+    def _table(self, first: int, values: Array, parts: Parts, status: Words, why: Words) -> Table:
         n = len(values)
         shown = (c for w, own in zip(self.watched, parts, strict=True) for c in w.columns(self.scene, own))
         return Table(
@@ -375,7 +375,7 @@ def _with_design(table: Table, keys: Sequence[str], number: int, values: Sequenc
     return Table((Column("design", np.full(n, number + 1)), *replaced, *table.columns), ("design", "position"))
 
 
-def _words(name: str, words: Sequence[str], n: int) -> Column:
+def _words(name: str, words: Words, n: int) -> Column:
     """A column of words; a single one stands in every row."""
     values = np.empty(n, dtype=object)
     values[:] = words[0] if len(words) == 1 else words
