@@ -1,7 +1,6 @@
 """Drawings as SVG: one user unit is one millimetre, the same bytes every time.
 
-Elements are written as they are drawn, their attributes in the order of the alphabet; that each is one of SVG 1.1 with
-values that it may have is checked by the tests.
+svgwrite stays behind this module.
 """
 
 from __future__ import annotations
@@ -9,9 +8,9 @@ from __future__ import annotations
 import json
 import math
 import re
-from collections.abc import Iterator
 from functools import lru_cache
 from itertools import chain, count
+from typing import Any
 from zlib import crc32
 
 from graphkin.drawing.font_widths import has_cjk, runs_width, start_runs
@@ -26,15 +25,7 @@ FONTS = (
 )
 # What XML 1.0 cannot hold, and other control characters.
 _UNFIT = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\ud800-\udfff\ufffe\uffff]")
-_SIGNS = str.maketrans({
-    "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "\r": "&#13;", "\n": "&#10;", "\t": "&#09;",
-})  # fmt: skip
-_NAMES = {
-    "xmlns": "http://www.w3.org/2000/svg",
-    "xmlns:ev": "http://www.w3.org/2001/xml-events",
-    "xmlns:inkscape": "http://www.inkscape.org/namespaces/inkscape",
-    "xmlns:xlink": "http://www.w3.org/1999/xlink",
-}
+_INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"
 
 
 @lru_cache(maxsize=8192)
@@ -52,138 +43,133 @@ def number(value: float) -> str:
     return "0" if text == "-0" else text
 
 
-def svg_bytes(drawing: Page) -> bytes:
+def svg_bytes(drawing: Page, debug: bool = False) -> bytes:
     """The drawing as an SVG file, UTF-8.
+
+    Parameters
+    ----------
+    drawing : sizes and places in mm
+    debug : have svgwrite check every element and attribute against the SVG standard (slow; for tests)
 
     Raises
     ------
     ValueError : a coordinate is not finite
     """
-    width, height = number(drawing.width), number(drawing.height)
-    page = {
-        **_NAMES,
-        "baseProfile": "full",
-        "font-family": FONTS,
-        "height": f"{height}mm",
-        "lang": drawing.lang,
-        "role": "img",
-        "stroke-linejoin": "round",
-        "text-rendering": "geometricPrecision",
-        "version": "1.1",
-        "viewBox": f"0 0 {width} {height}",
-        "width": f"{width}mm",
-        "xml:lang": drawing.lang,
-    }
+    import svgwrite
+
+    page = svgwrite.Drawing(size=(f"{number(drawing.width)}mm", f"{number(drawing.height)}mm"), debug=debug)
+    if debug:
+        _allow_accessibility(page)
+    page["viewBox"] = f"0 0 {number(drawing.width)} {number(drawing.height)}"
+    page["xmlns:inkscape"] = _INKSCAPE
+    page["role"] = "img"
+    page["lang"] = page["xml:lang"] = drawing.lang
+    page["font-family"] = FONTS
+    page["stroke-linejoin"] = "round"
+    page["text-rendering"] = "geometricPrecision"
+    page.elements.remove(page.defs)  # empty; the title comes first
     facts = json.dumps(drawing.metadata, ensure_ascii=False, sort_keys=True, allow_nan=False, separators=(",", ":"))
-    words = (("title", drawing.title), ("desc", drawing.desc), ("metadata", facts))
-    ink = _Ink(drawing.lang)
-    parts = [
-        '<?xml version="1.0" encoding="utf-8"?>\n', _open("svg", page), ">",
-        *(_element(tag, {}, _words(text)) for tag, text in words if text),
-        # white paper, so that black lines show on a dark screen too
-        _element("rect", {"class": "paper", "fill": "#ffffff", "height": "100%", "width": "100%", "x": "0", "y": "0"}),
-        *(part for child in drawing.children for part in ink.drawn(child)),
-        "</svg>\n",
-    ]  # fmt: skip
-    return "".join(parts).encode()
+    for tag, words in (("title", drawing.title), ("desc", drawing.desc), ("metadata", facts)):
+        if words:
+            page.elements.append(_words(tag, words))
+    # white paper, so that black lines show on a dark screen too
+    page.add(page.rect((0, 0), ("100%", "100%"), fill="#ffffff", class_="paper"))
+    ink = _Ink(page, drawing.lang)
+    for child in drawing.children:
+        ink.draw(page, child)
+    text: str = page.tostring()
+    return f'<?xml version="1.0" encoding="utf-8"?>\n{text}\n'.encode()
 
 
 class _Ink:
-    """Writes primitives as elements of one page; knows the clips and names that it has already given."""
+    """Turns primitives into elements of one page; knows the clips and names that it has already given."""
 
-    def __init__(self, lang: str) -> None:
-        self.lang = lang
+    def __init__(self, page: Any, lang: str) -> None:
+        self.page, self.lang = page, lang
         self.clips: set[str] = set()
         self.ids: set[str] = set()
 
-    def drawn(self, thing: Primitive) -> Iterator[str]:
+    def draw(self, parent: Any, thing: Primitive) -> None:
+        element = parent.add(self._element(thing))
+        if isinstance(thing, Line) and thing.covered:
+            shaft = _shaft(thing)
+            # Named by its shape: where several figures stand in one HTML page, equal names mean equal clips.
+            id = f"clip-{crc32(shaft.encode()):08x}"
+            element["clip-path"] = f"url(#{id})"
+            if id not in self.clips:
+                self.clips.add(id)
+                clip = self.page.clipPath(id=id)
+                clip.add(self.page.path(d=shaft))
+                parent.add(clip)
+
+    def _element(self, thing: Primitive) -> Any:
+        page = self.page
         if isinstance(thing, Group):
-            yield from self._group(thing)
-        elif isinstance(thing, Text):
-            yield self._text(thing)
-        elif isinstance(thing, Line):
-            yield from self._line(thing)
+            return self._group(thing)
+        if isinstance(thing, Text):
+            return self._text(thing)
+        if isinstance(thing, Line):
+            element = page.line(_pair(thing.start), _pair(thing.end))
         elif isinstance(thing, Polyline):
-            yield _element("polyline", {"fill": "none", "points": _points(thing.points), **_stroke(thing.stroke)})
+            element = page.polyline(map(_pair, thing.points), fill="none")
         elif isinstance(thing, Polygon):
-            fill = thing.fill or "none"
-            yield _element("polygon", {"fill": fill, "points": _points(thing.points), **_stroke(thing.stroke)})
+            element = page.polygon(map(_pair, thing.points), fill=thing.fill or "none")
         elif isinstance(thing, Circle):
-            x, y = _pair(thing.centre)
-            look = {"cx": x, "cy": y, "fill": thing.fill or "none", "r": number(thing.radius)}
-            yield _element("circle", {**look, **_stroke(thing.stroke)})
+            element = page.circle(_pair(thing.centre), number(thing.radius), fill=thing.fill or "none")
         else:
-            yield _element("path", {"d": _arc(thing), "fill": "none", **_stroke(thing.stroke)})
+            element = page.path(d=_arc(thing), fill="none")
+        if thing.stroke is not None:
+            _stroke(element, thing.stroke)
+        return element
 
-    def _line(self, line: Line) -> Iterator[str]:
-        (x1, y1), (x2, y2) = _pair(line.start), _pair(line.end)
-        ends = {**_stroke(line.stroke), "x1": x1, "x2": x2, "y1": y1, "y2": y2}
-        if not line.covered:
-            yield _element("line", ends)
-            return
-        shaft = _shaft(line)
-        # Named by its shape: where several figures stand in one HTML page, equal names mean equal clips.
-        id = f"clip-{crc32(shaft.encode()):08x}"
-        yield _element("line", {"clip-path": f"url(#{id})", **ends})
-        if id not in self.clips:
-            self.clips.add(id)
-            yield _element("clipPath", {"id": id}, _element("path", {"d": shaft}))
-
-    def _group(self, group: Group) -> Iterator[str]:
-        layer = {"inkscape:groupmode": "layer", "inkscape:label": _clean(group.layer)} if group.layer else {}
-        inside = "".join(part for child in group.children for part in self.drawn(child))
+    def _group(self, group: Group) -> Any:
+        element = self.page.g()
+        self._name(element, group.id, group.classes)
+        if group.layer:
+            # Set past svgwrite's check, which knows no Inkscape.
+            element.attribs["inkscape:groupmode"] = "layer"
+            element.attribs["inkscape:label"] = _clean(group.layer)
+        for child in group.children:
+            self.draw(element, child)
         if group.title:  # last, because the first child of a vector's group is its line
-            inside += _element("title", {}, _words(group.title))
-        yield _element("g", {**self._named(group.id, group.classes), **layer}, inside)
+            element.elements.append(_words("title", group.title))
+        return element
 
-    def _text(self, text: Text) -> str:
+    def _text(self, text: Text) -> Any:
         runs, anchor = start_runs(text), ""
-        places = [(number(run.x), number(run.y)) for run in runs]
         if len(runs) == 1 and text.anchor != "start":
             # One run may stand by its own middle or end, exact in whatever face the reader has.
             anchor = text.anchor
             share = 0.5 if anchor == "middle" else 1.0
-            places = [(number(runs[0].x + share * (runs_width(text.runs) - text.runs[0].x)), places[0][1])]
-        spans = []
-        for run, (x, y) in zip(runs, places, strict=True):
-            face = f'font-size="{number(run.size)}"'
-            if run.italic:
-                face += ' font-style="italic"'
-            if run.bold:
-                face += ' font-weight="bold"'
-            spans.append(f'<tspan {face} x="{x}" y="{y}">{_words(run.text)}</tspan>')
-        look = {**self._named(text.id, text.classes), "fill": text.colour}
-        look["font-size"] = number(max(run.size for run in runs))
+            x = runs[0].x + share * (runs_width(text.runs) - text.runs[0].x)
+            places = [(x, runs[0].y)]
+        else:
+            places = [(run.x, run.y) for run in runs]
+        element = self.page.text("", insert=tuple(map(number, places[0])), fill=text.colour)
+        element["font-size"] = number(max(run.size for run in runs))
+        self._name(element, text.id, text.classes)
         if anchor:
-            look["text-anchor"] = anchor
-        look["x"], look["y"] = places[0]
+            element["text-anchor"] = anchor
         if not self.lang.startswith("zh") and has_cjk(text.string):
-            look["xml:lang"] = "zh"
-        return _element("text", look, "".join(spans))
+            element["xml:lang"] = "zh"
+        for run, place in zip(runs, places, strict=True):
+            span = self.page.tspan(_clean(run.text), insert=tuple(map(number, place)))
+            span["font-size"] = number(run.size)
+            if run.italic:
+                span["font-style"] = "italic"
+            if run.bold:
+                span["font-weight"] = "bold"
+            element.add(span)
+        return element
 
-    def _named(self, id: str, classes: tuple[str, ...]) -> dict[str, str]:
+    def _name(self, element: Any, id: str, classes: tuple[str, ...]) -> None:
         """Id and classes; an id that is taken (B1 of link 2 and B12 are written alike) is told apart by a number."""
-        free = ""
         if id:
             free = next(name for name in chain((id,), (f"{id}-{n}" for n in count(2))) if name not in self.ids)
             self.ids.add(free)
-        return {"class": " ".join(classes), "id": free}
-
-
-def _element(tag: str, attributes: dict[str, str], inside: str = "") -> str:
-    start = _open(tag, attributes)
-    return f"{start}>{inside}</{tag}>" if inside else f"{start} />"
-
-
-def _open(tag: str, attributes: dict[str, str]) -> str:
-    """The beginning of an element, without attributes that are empty."""
-    written = [f' {name}="{value.translate(_SIGNS)}"' for name, value in sorted(attributes.items()) if value]
-    return f"<{tag}{''.join(written)}"
-
-
-def _words(text: str) -> str:
-    """Words as the content of an element."""
-    return _clean(text).replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
+            element["id"] = free
+        if classes:
+            element["class"] = " ".join(classes)
 
 
 def _clean(text: str) -> str:
@@ -194,15 +180,11 @@ def _pair(point: complex) -> tuple[str, str]:
     return number(point.real), number(point.imag)
 
 
-def _points(points: tuple[complex, ...]) -> str:
-    return " ".join(f"{number(z.real)},{number(z.imag)}" for z in points)
-
-
-def _stroke(stroke: Stroke | None) -> dict[str, str]:
-    if stroke is None:
-        return {}
-    dashes = " ".join(map(number, stroke.dash))
-    return {"stroke": stroke.colour, "stroke-dasharray": dashes, "stroke-width": number(stroke.width)}
+def _stroke(element: Any, stroke: Stroke) -> None:
+    element["stroke"] = stroke.colour
+    element["stroke-width"] = number(stroke.width)
+    if stroke.dash:
+        element["stroke-dasharray"] = " ".join(map(number, stroke.dash))
 
 
 def _arc(arc: Arc) -> str:
@@ -220,3 +202,25 @@ def _shaft(line: Line) -> str:
     back, front = line.start - along * line.stroke.width, line.inked_end
     corners = (back + side, front + side, front - side, back - side)
     return "M" + "L".join(" ".join(_pair(corner)) for corner in corners) + "Z"
+
+
+def _words(tag: str, words: str) -> Any:
+    """An element that holds nothing but words."""
+    from svgwrite.base import Title
+
+    element = Title(_clean(words))
+    element.xml.tag = element.elementname = tag
+    return element
+
+
+def _allow_accessibility(page: Any) -> None:
+    """Teach svgwrite's check of SVG 1.1 the attributes for readers and editors that later standards have."""
+    from svgwrite.data.types import SVGAttribute
+    from svgwrite.extensions import Inkscape
+
+    Inkscape(page)
+    del page.attribs["xmlns:sodipodi"]
+    known = page.validator
+    for name in ("role", "lang"):
+        known.attributes[name] = SVGAttribute(name, anim=False, types=frozenset(["string"]), const=frozenset())
+        known.elements["svg"].valid_attributes = {name} | known.elements["svg"].valid_attributes

@@ -60,32 +60,10 @@ def test_one_user_unit_is_one_millimetre():
     assert tuple(page.get(key) for key in ("width", "height", "viewBox")) == ("210mm", "297mm", "0 0 210 297")
 
 
-def checked(element, known):
-    """Hold an element and all in it against SVG 1.1 as svgwrite knows it; ValueError or TypeError where it is wrong.
-
-    Names of Inkscape are its own, `role` and `lang` those of later standards.
-    """
-    tag = element.tag.removeprefix(SVG)
-    own = {key: value for key, value in element.attrib.items() if "}" not in key and key not in ("role", "lang")}
-    known.check_all_svg_attribute_values(tag, own)
-    for child in element:
-        known.check_valid_children(tag, child.tag.removeprefix(SVG))
-        checked(child, known)
-
-
 @pytest.mark.parametrize("name", [None, "shaper-scheme-2"])
-def test_every_element_and_attribute_is_one_of_svg_1_1(name):
-    validator = pytest.importorskip("svgwrite.validator2").get_validator("full", debug=True)
+def test_svgwrite_itself_finds_nothing_wrong_with_any_element(name):
     pages = [drawing(*EVERYTHING)] if name is None else graphkin.draw(name).figures.values()
-    for page in pages:
-        checked(ET.fromstring(svg_bytes(page)), validator)
-
-
-def test_the_check_of_svg_finds_what_is_wrong():
-    validator = pytest.importorskip("svgwrite.validator2").get_validator("full", debug=True)
-    for wrong in ('<g><line x1="a"/></g>', '<g><line radius="1"/></g>', '<line><g/></line>'):
-        with pytest.raises((ValueError, TypeError)):
-            checked(ET.fromstring(wrong), validator)
+    assert [svg_bytes(page) for page in pages] == [svg_bytes(page, debug=True) for page in pages]
 
 
 def test_another_process_writes_the_same_bytes():
