@@ -53,8 +53,9 @@ if TYPE_CHECKING:
     from graphkin.api.checked import Checked, check
     from graphkin.api.drawn import Drawn, draw
     from graphkin.api.handouts import Handout, handout
-    from graphkin.api.prepared import Prepared, PreparedDesigns, Samples, prepare
+    from graphkin.api.prepared import Prepared, PreparedDesigns, prepare
     from graphkin.api.problem_sets import ProblemSet, problem_set
+    from graphkin.api.samples import Samples
     from graphkin.api.scene_list import Listed, scenes
     from graphkin.api.solved import Solved, solve
     from graphkin.api.studied import SpeedAccuracy, Stability, speed_accuracy, stability
@@ -131,8 +132,9 @@ _PLACES = {
     "api.checked": "Checked check",
     "api.drawn": "Drawn draw",
     "api.handouts": "Handout handout",
-    "api.prepared": "Prepared PreparedDesigns Samples prepare",
+    "api.prepared": "Prepared PreparedDesigns prepare",
     "api.problem_sets": "ProblemSet problem_set",
+    "api.samples": "Samples",
     "api.scene_list": "Listed scenes",
     "api.solved": "Solved solve",
     "api.studied": "SpeedAccuracy Stability speed_accuracy stability",

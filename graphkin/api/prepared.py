@@ -14,8 +14,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from graphkin.api.arguments import SceneLike, as_scene
-from graphkin.errors import CallError, Problem, did_you_mean
-from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.api.samples import Quantities, Samples
+from graphkin.errors import CallError, Problem
+from graphkin.scene.model import Mechanism
 from graphkin.scene.source import written
 from graphkin.scene.symbol import Symbol
 
@@ -23,9 +24,8 @@ if TYPE_CHECKING:
     from graphkin import solver
     from graphkin.api.design_keys import DesignKeys
     from graphkin.solver.designs import Designs
-    from graphkin.table import Table
 
-__all__ = ["Prepared", "PreparedDesigns", "Samples", "prepare"]
+__all__ = ["Prepared", "PreparedDesigns", "prepare"]
 
 Reals = NDArray[np.float64]
 
@@ -36,74 +36,6 @@ MOST = 1_000_000_000
 
 def _have_numba() -> bool:
     return find_spec("numba") is not None
-
-
-@dataclass(slots=True, eq=False, repr=False)  # not frozen: that would take longer than a hundred positions
-class Samples:
-    """The quantities of a prepared mechanism at many positions.
-
-    ``samples["v_C"]`` is a complex array, ``samples["v_C.x"]`` and ``samples["omega_3"]`` are real ones, shape (n,),
-    in the units of ``Prepared.units``; NaN where ``ok`` is False.
-
-    Of many designs every array has the shape (designs, n), at one position (designs,).
-
-    values : real, shape (columns, n), in the order of ``Prepared.names``
-    ok : bool, shape (n,): False at positions that the motion does not reach, and at dead points
-    """
-
-    prepared: Prepared
-    values: Reals
-    ok: NDArray[np.bool_]
-    _driver: Reals | None
-    _bounds: Reals | None
-    designs: PreparedDesigns | None = None
-
-    def __len__(self) -> int:
-        return len(self.ok)
-
-    def __getitem__(self, name: str) -> NDArray[np.float64] | NDArray[np.complex128]:
-        """A quantity or a column by its name.  Raises CallError for one that was not asked for."""
-        names = self.prepared.names
-        if name in names:
-            return np.asarray(self.values[names.index(name)])
-        self.prepared.known(name)
-        first = names.index(f"{name}.x")
-        return np.asarray(self.values[first] + 1j * self.values[first + 1])
-
-    def bound(self, name: str) -> Reals:
-        """How far rounding may have moved a quantity, shape (n,), in its unit: both components of a vector; infinite
-        where nothing is known.  Raises CallError where bounds were not asked for."""
-        if self._bounds is None:
-            raise CallError(Problem("bound", "no bounds were asked for", "prepare with bounds=True"))
-        return np.asarray(self._bounds[self.prepared.known(name)])
-
-    @property
-    def driver(self) -> Reals:
-        """Values of the first driver (degrees, or the scene's length unit), shape (n,) or as ``ok``."""
-        return self.prepared.driver_values(self.ok.shape[-1]) if self._driver is None else self._driver
-
-    @property
-    def table(self) -> Table:
-        """A row for each position: what the design changes, the driver, the columns, and whether it can be."""
-        from graphkin.table import Column, Table
-
-        shape, units = self.ok.shape, self.prepared.units
-        columns: list[Column] = []
-        for key, values in (self.designs.values if self.designs else {}).items():
-            columns.append(Column(key, np.ravel(np.broadcast_to(values.reshape(-1, *[1] * (len(shape) - 1)), shape))))
-        first = self.prepared.scene.drivers[0]
-        unit = "deg" if isinstance(first, AngleDriver) else self.prepared.scene.units.length
-        columns.append(Column(f"driver_{first.key}", np.ravel(np.broadcast_to(np.round(self.driver, 11), shape)), unit))
-        for name, values in zip(self.prepared.names, self.values, strict=True):
-            symbol = name.removesuffix(".x").removesuffix(".y")
-            columns.append(Column(name, np.ravel(values), units[symbol], symbol))
-        return Table((*columns, Column("ok", np.ravel(self.ok))))
-
-    def __repr__(self) -> str:
-        return f"<Samples of {', '.join(self.prepared.asked)}: {int(self.ok.sum())} of {self.ok.size} positions>"
-
-    def _repr_html_(self) -> str:
-        return self.table._repr_html_()
 
 
 @dataclass(frozen=True, repr=False)
@@ -136,11 +68,12 @@ class Prepared:
         kinds = {"v": f"{length}/s", "a": f"{length}/s2", "theta": "deg", "omega": "rad/s", "alpha": "rad/s2"}
         return {name: kinds.get(name.partition("_")[0] if "_" in name else "", length) for name in self.asked}
 
-    def known(self, name: str) -> int:
-        """Place of a quantity among those asked for.  Raises CallError for another one."""
-        if name not in self.asked:
-            raise CallError(Problem(f'"{name}"', "was not asked for", did_you_mean(name, [*self.asked, *self.names])))
-        return self.asked.index(name)
+    @cached_property
+    def quantities(self) -> Quantities:
+        """What it was prepared for, as its samples know it."""
+        first = self.scene.drivers[0]
+        unit = "deg" if self.ready.turns else self.scene.units.length
+        return Quantities(self.units, self.names, (f"driver_{first.key}", unit), self.driver_values)
 
     def driver_values(self, n: int) -> Reals:
         """The values of the first driver at which ``sweep(n)`` computes, shape (n,)."""
@@ -190,7 +123,7 @@ class Prepared:
             self._fitting(n, out)
         columns, ok = self.ready.sweep(n, out, n >= MANY and _have_numba() if self.fast is None else self.fast)
         if self._plain:
-            return Samples(self, columns, ok, None, None)
+            return Samples(self.quantities, columns, ok, None, None)
         return self.samples(columns, ok, None)
 
     def _fitting(self, n: int, out: Reals) -> None:
@@ -254,10 +187,10 @@ class Prepared:
         if not ok.all():
             columns[:, ~ok] = np.nan
         if not self.ready.bounded:
-            return Samples(self, columns, ok, driver, None)
+            return Samples(self.quantities, columns, ok, driver, None)
         count = len(self.names)
         bounds = np.where(ok, np.nan_to_num(columns[count:], nan=np.inf, posinf=np.inf), np.nan)
-        return Samples(self, columns[:count], ok, driver, bounds)
+        return Samples(self.quantities, columns[:count], ok, driver, bounds)
 
     def __repr__(self) -> str:
         return f"<Prepared {self.scene.name}: {', '.join(self.asked)}>"
@@ -268,11 +201,12 @@ class PreparedDesigns:
     """Many designs of a prepared mechanism.
 
     values : of the keys that are changed, shape (designs,)
+    single : whether each is one number: then the arrays are those of one mechanism
     """
 
     prepared: Prepared
     values: Mapping[str, Reals]
-    _single: bool
+    single: bool
     _designs: Designs
 
     def __len__(self) -> int:
@@ -294,10 +228,10 @@ class PreparedDesigns:
         return self._samples(columns, ok, self._designs.values(n) / self.prepared.own_unit)
 
     def _samples(self, columns: Reals, ok: NDArray[np.bool_], driver: Reals) -> Samples:
-        if self._single:
+        if self.single:
             columns, ok, driver = columns[:, 0], ok[0], driver if driver.ndim < 2 else driver[0]
         found = self.prepared.samples(columns, ok, driver)
-        found.designs = self
+        found.designs = {key: x.reshape(()) if self.single else x for key, x in self.values.items()}
         return found
 
     def __repr__(self) -> str:

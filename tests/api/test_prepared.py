@@ -104,7 +104,7 @@ def test_a_larger_group_is_served_too():
 
 def test_the_table_has_the_driver_and_each_column_with_its_unit():
     heads = graphkin.prepare("shaper-scheme-2", ["v_C", "omega_4"]).sweep(4).table.heads
-    assert ("driver_2 (deg)", "v_C.x (mm/s)", "v_C.y (mm/s)", "omega_4 (rad/s)", "ok") == heads
+    assert ("position", "driver_2 (deg)", "v_C.x (mm/s)", "v_C.y (mm/s)", "omega_4 (rad/s)", "ok") == heads
 
 
 @pytest.mark.parametrize(("find", "what"), [("v_Q", "Q"), (["omega_9"], "9"), ([], "nothing")])

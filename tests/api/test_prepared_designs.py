@@ -125,10 +125,26 @@ def test_compiled_designs_are_those_of_numpy():
     assert np.abs(fast - slow).max() < 1e-13 * np.abs(slow).max()
 
 
-def test_the_table_begins_with_what_the_designs_change():
+def test_the_table_tells_designs_and_positions_and_what_changes():
     table = graphkin.prepare(SHAPER, "omega_4").over({"links.2.length": [80, 90]}).sweep(3).table
-    assert ("links.2.length", "driver_2 (deg)", "omega_4 (rad/s)", "ok") == table.heads
+    assert ("design", "position", "links.2.length", "driver_2 (deg)", "omega_4 (rad/s)", "ok") == table.heads
     assert [80, 80, 80, 90, 90, 90] == table["links.2.length"].tolist()
+    assert [1, 2, 3, 1, 2, 3] == table["position"].tolist()
+
+
+@pytest.mark.parametrize(
+    ("length", "value", "index"),
+    [(80, None, ("position",)), ([80, 90], 30, ("design",)), (80, 30, ()), ([80, 90], None, ("design", "position"))],
+)
+def test_the_table_is_over_what_there_is_more_than_one_of(length, value, index):
+    designs = graphkin.prepare(SHAPER, "omega_4").over({"links.2.length": length})
+    assert index == (designs.sweep(3) if value is None else designs.at(value)).table.index
+
+
+def test_designs_in_xarray_are_over_designs_and_positions():
+    pytest.importorskip("xarray")
+    found = graphkin.prepare(SHAPER, "omega_4").over({"links.2.length": [80, 90]}).sweep(3)
+    assert found["omega_4"].tolist() == found.to_xarray()["omega_4"].values.tolist()
 
 
 @pytest.mark.parametrize(
