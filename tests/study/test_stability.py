@@ -98,21 +98,21 @@ def test_the_solver_refuses_before_its_rates_mean_nothing(kind: str) -> None:
 
 @pytest.mark.parametrize("kind", ["dead point RRR", "dead point RRP", "dead point RPR", "guide flip"])
 def test_the_solver_refuses_in_the_end(kind: str) -> None:
-    assert all(law.stops for law in singularity(kind).laws if "closed form" in law.key or "solved" in law.key)
+    assert all(law.refuses_from for law in singularity(kind).laws if "closed form" in law.key or "solved" in law.key)
 
 
 @pytest.mark.parametrize("kind", ["dead point RRR", "dead point RRP", "dead point RPR", "guide flip"])
 def test_a_drawing_warns_before_its_reading_means_nothing(kind: str) -> None:
     law = next(law for law in singularity(kind).laws if "draw" in law.key)
-    assert law.told is not None
-    assert all(x <= law.told for x, e in zip(law.x, law.error, strict=True) if e > 1e-6)
+    assert law.warns_from is not None
+    assert all(x <= law.warns_from for x, e in zip(law.x, law.error, strict=True) if e > 1e-6)
 
 
 @pytest.mark.parametrize("kind", ["dead point RRR", "dead point RRP", "dead point RPR"])
 def test_a_pencil_refuses_before_its_arcs_could_miss_each_other(kind: str) -> None:
     law = singularity(kind)["velocity pencil"]
-    assert law.stops is not None
-    assert all(math.isnan(e) for x, e in zip(law.x, law.error, strict=True) if x <= law.stops)
+    assert law.refuses_from is not None
+    assert all(math.isnan(e) for x, e in zip(law.x, law.error, strict=True) if x <= law.refuses_from)
 
 
 def test_a_centre_is_given_as_a_direction_before_its_place_means_nothing() -> None:

@@ -90,7 +90,7 @@ def _draw(figure: Figure, one: Singularity, corner: complex, language: str) -> N
         if shape is not None:
             some = points[:: 1 if len(points) < 12 else 2]
             axes.plot([x for x, _ in some], [e for _, e in some], **marker(shape))
-        if law.stops is not None and points:
+        if law.refuses_from is not None and points:
             axes.plot(*([value] for value in min(points)), **marker("square"))
         if points:
             labels.append((_words(law, language), _stretch(law, points, k, len(one.laws))))

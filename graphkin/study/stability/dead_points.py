@@ -167,9 +167,9 @@ def dead_point(kind: str, mp: MPContext, samples: int = 4) -> Singularity:
     laws += [_given(case, x, truth, samples), _pencil(case, mp)]
     found = {law.key: law for law in laws}
     ends = (
-        ("fate dead closed", found["velocity closed form"].stops),
-        ("fate dead newton", found["velocity Newton"].told),
-        ("fate dead drawn", found["velocity pencil"].stops),
+        ("fate dead closed", found["velocity closed form"].refuses_from),
+        ("fate dead newton", found["velocity Newton"].warns_from),
+        ("fate dead drawn", found["velocity pencil"].refuses_from),
     )
     fates = [Phrase(key, (_power(x),)) for key, x in ends if x is not None]
     return Singularity(f"dead point {kind}", "crank before", tuple(laws), tuple(fates))

@@ -160,7 +160,7 @@ def flip(mp: MPContext, samples: int = 4) -> Singularity:
     stated = binned(x, bounds, samples)[1]
     told = next((e for e in x[::samples] if _told(_at(scene, -math.pi / 2 + e))), stops.get("drawn"))
     laws += [
-        ErrorLaw("acceleration bar solved", xs, tuple(max(e, FLOOR) for e in es), stops=stops.get("solved"),
+        ErrorLaw("acceleration bar solved", xs, tuple(max(e, FLOOR) for e in es), refuses_from=stops.get("solved"),
                  bound=stated),
         ErrorLaw("acceleration bar drawn", tuple(x[::samples]), tuple(drawn), -3.0, told, stops.get("drawn"),
                  window=(1e-8, 0.1), lost=math.inf),

@@ -26,8 +26,8 @@ class ErrorLaw:
     x : distances from the singular position, falling
     error : the largest error at each, nan where the method gives no answer
     theory : the slope that theory tells, None where there is no law
-    told : from this distance down the method says itself that its answer is uncertain, or refuses (None: it never does)
-    stops : from this distance down it gives no answer (None: it always does)
+    warns_from : from this distance down the method says itself that its answer is uncertain, or refuses (None: never)
+    refuses_from : from this distance down it gives no answer (None: it always does)
     bound : the error that the method states itself, at each distance
     window : least and largest distance over which the slope is fitted
     lost : an error beyond this is no longer one of first order and tells no slope
@@ -37,8 +37,8 @@ class ErrorLaw:
     x: tuple[float, ...]
     error: tuple[float, ...]
     theory: float | None = None
-    told: float | None = None
-    stops: float | None = None
+    warns_from: float | None = None
+    refuses_from: float | None = None
     bound: tuple[float, ...] = ()
     window: tuple[float, float] = (0.0, math.inf)
     lost: float = LOST

@@ -56,7 +56,7 @@ def laws_table(found: Sequence[Singularity]) -> Table:
     """One row for each point of each law; without an error where the method refuses."""
     heads = ("singularity", "distance", "law", "x", "error", "slope", "theory", "warns_from", "refuses_from")
     rows = [
-        (one.key, one.distance, law.key, x, error, law.slope, law.theory, law.told, law.stops)
+        (one.key, one.distance, law.key, x, error, law.slope, law.theory, law.warns_from, law.refuses_from)
         for one in found for law in (*one.laws, *one.growth) for x, error in zip(law.x, law.error, strict=True)
     ]  # fmt: skip
     return Table.of(heads, rows, ("", "", "", ".4g", ".3g", ".2f", ".3g", ".3g", ".3g"))
@@ -71,8 +71,8 @@ def to_json(found: Sequence[Singularity], language: str = "en") -> dict[str, Any
             "says": word(one.key, language),
             "slope": None if math.isnan(one.slope) else round(one.slope, 3),
             "theory": one.theory,
-            "warns_from": one.told,
-            "refuses_from": one.stops,
+            "warns_from": one.warns_from,
+            "refuses_from": one.refuses_from,
             "points": [[x, e if math.isfinite(e) else None] for x, e in zip(one.x, one.error, strict=True)],
         }
 
