@@ -201,8 +201,6 @@ def _panel(
         x[0], x[-1] = axis.left, axis.right
         gain = _gain(reach, quantity) if quantity.kind == "theta" else 0.0
         values[-1] = values[0] + quantity.in_units(scene, gain, degrees=True)
-    low, high = _span(reach, values)
-    span = low - MARGIN * (high - low), high + MARGIN * (high - low)
     letter, name = quantity.kind, quantity.of.split("/")[0]
     greek = {"theta": "θ", "omega": "ω", "alpha": "α"}.get(letter, letter)
     title = f"${greek}_{{{name}}}$ ({_unit_words(quantity.unit(scene, degrees=True))})"
@@ -213,7 +211,10 @@ def _panel(
         near = quantity.values(reach, reach.motion(at))
         read = read + 2 * np.pi * np.rint((near - read) / (2 * np.pi))
     points = np.stack([axis.at(at), _shown(axis, quantity, at, read)], axis=1) if len(dots) else np.zeros((0, 2))
-    points = points[(points[:, 1] >= span[0]) & (points[:, 1] <= span[1])]  # none is NaN then, none off the panel
+    points = points[np.isfinite(points).all(axis=1)]
+    curve = np.stack([x, values], axis=1)
+    low, high = _span(curve, points, bounded=reach.full or quantity.is_position)
+    span = low - MARGIN * (high - low), high + MARGIN * (high - low)
     extremes = [e for e in (traced.extremes if traced else ()) if e.kind != "end"]
     places = np.array([e.offset for e in extremes])
     shown = _shown(axis, quantity, places, np.array([e.value for e in extremes]))
@@ -221,7 +222,7 @@ def _panel(
         (e, float(place), float(value)) for e, place, value in zip(extremes, axis.at(places), shown, strict=True)
         if span[0] <= value <= span[1]
     ]  # fmt: skip
-    return _Panel(quantity, title, np.stack([x, values], axis=1), points, tuple(marked), span)
+    return _Panel(quantity, title, curve, points, tuple(marked), span)
 
 
 def _shown(axis: DriverAxis, quantity: Quantity, offset: Array, values: Array) -> Array:
@@ -242,16 +243,20 @@ def _gain(reach: DriverRange, quantity: Quantity) -> float:
     return float(2 * np.pi * np.rint((last - first) / (2 * np.pi)))
 
 
-def _span(reach: DriverRange, values: Array) -> tuple[float, float]:
-    """The range of values worth showing: near the ends of a limited motion rates grow without bound."""
-    good = values[np.isfinite(values)]
+def _span(curve: Array, dots: Array, bounded: bool) -> tuple[float, float]:
+    """The range of values worth showing: all of it, but of rates that grow without bound near the ends of a limited
+    motion what most of the way needs, and what is measured."""
+    x, good = curve[np.isfinite(curve[:, 1])].T
     if not len(good):
         return 0.0, 1.0
     low, high = float(good.min()), float(good.max())
-    if not reach.full:
-        least, most = np.percentile(good, (10, 90))
+    if not bounded:
+        order = np.argsort(x)
+        even = np.interp(np.linspace(x.min(), x.max(), len(x)), x[order], good[order])
+        least, most = np.percentile(even, (10, 90))
         wide = 0.8 * (most - least)
-        low, high = float(max(low, least - wide)), float(min(high, most + wide))
+        low = max(low, min([float(least - wide), *dots[:, 1].tolist()]))
+        high = min(high, max([float(most + wide), *dots[:, 1].tolist()]))
     if not high - low > 1e-12 * max(abs(low), abs(high)):  # a constant
         half = abs(high) / 2 or 0.5
         return low - half, high + half

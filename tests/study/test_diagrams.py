@@ -130,6 +130,18 @@ def test_the_axis_of_a_driver_that_turns_backwards_runs_downwards() -> None:
     assert {(360.0, 0.0)} == {axes.get_xlim() for axes in page.figure().axes}
 
 
+def test_of_a_limited_motion_the_whole_way_and_every_measured_rate_are_seen() -> None:
+    for name in ("hydraulic-cylinder", "elliptic-trammel"):
+        for page in (p for n, p in pages(name).items() if n.startswith("motion")):
+            place, *rates = page.figure().axes
+            assert place.get_ylim()[0] < lines(page, place.get_gid())["curve"][:, 1].min()
+            assert place.get_ylim()[1] > lines(page, place.get_gid())["curve"][:, 1].max()
+            for axes in rates:
+                dots = lines(page, axes.get_gid())["dots"][:, 1]
+                assert len(dots) == 12
+                assert all(axes.get_ylim()[0] < y < axes.get_ylim()[1] for y in dots)
+
+
 def test_the_zero_line_is_heavier_than_the_grid() -> None:
     axes = pages("shaper-scheme-2", positions=0)["motion-slide-6-1"].figure().axes[1]
     zero = next(line for line in axes.lines if set(line.get_ydata()) == {0.0})
