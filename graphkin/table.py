@@ -53,7 +53,7 @@ def have(library: str) -> bool:
     return find_spec(library) is not None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Column:
     """One column of a table.
 
@@ -69,6 +69,16 @@ class Column:
     unit: str = ""
     symbol: str = ""
     form: str = ""
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Column):
+            return NotImplemented
+        one, two = (c.values for c in (self, other))
+        floats = one.dtype.kind == two.dtype.kind == "f"
+        said = all(getattr(self, k) == getattr(other, k) for k in ("name", "unit", "symbol", "form"))
+        return said and np.array_equal(one, two, equal_nan=floats)
+
+    __hash__ = None  # type: ignore[assignment]
 
     @property
     def head(self) -> str:

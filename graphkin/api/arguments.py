@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from numbers import Real
+from numbers import Integral, Real
 from pathlib import Path
 from typing import get_args
 
@@ -23,6 +23,7 @@ from graphkin.words import BOTH, LANGUAGES
 __all__ = [
     "FORMATS",
     "INSTRUMENTS",
+    "MOST_SEED",
     "ON_SHEETS",
     "At",
     "SceneLike",
@@ -32,6 +33,7 @@ __all__ = [
     "for_paper",
     "known_words",
     "own_unit",
+    "whole_number",
     "write_files",
 ]
 
@@ -59,6 +61,8 @@ def known_words(
     """
     if isinstance(formats, str):
         raise CallError(Problem("format", f'"{formats}" is a text', f'give a list: ["{formats}"]'))
+    if formats is not None and not isinstance(formats, Iterable):
+        raise CallError(Problem("format", f"found {formats!r:.60}", f"give a list: {', '.join(known_formats)}"))
     wishes = [("format", word, known_formats) for word in formats or ()]
     wishes += [
         (where, word, known)
@@ -69,15 +73,25 @@ def known_words(
         )
         if word is not None
     ]
-    wrong = [Problem(where, f'"{w}"', did_you_mean(w, known)) for where, w, known in wishes if w not in known]
+    wrong = [Problem(where, f'"{w}"', did_you_mean(str(w), known)) for where, w, known in wishes if w not in known]
     if formats is not None and not formats:
         wrong.append(Problem("format", "none given", f"known here: {', '.join(known_formats)}"))
     if wrong:
         raise CallError(*wrong)
 
 
+def whole_number(where: str, value: object, least: int, most: int, what: str = "") -> int:
+    """A whole number, one of NumPy too.  Raises CallError for anything else, and outside of the limits."""
+    number = isinstance(value, Real) and not isinstance(value, bool)
+    if number and isinstance(value, Integral) and least <= int(value) <= most:
+        return int(value)
+    found = f"{value}{what}" if number else f"found {value!r:.60}"
+    raise CallError(Problem(where, found, f"give a whole number from {least} to {most}"))
+
+
 At = float | Mapping[str, float] | None
 MOST_DRAWN = 20
+MOST_SEED = 10**18
 
 
 def as_scene(scene: SceneLike) -> Mechanism:
@@ -101,7 +115,7 @@ def for_paper(scene: SceneLike) -> Mechanism:
 
 
 def driver_values(scene: Mechanism, at: At) -> dict[str, float] | None:
-    """AnyDriver values in SI from values in each driver's own unit (degrees, or travel in the scene's unit).
+    """Driver values in SI from values in each driver's own unit (degrees, or travel in the scene's unit).
 
     A bare number moves the first driver; a mapping names the drivers by link or by slide.
 
@@ -137,7 +151,7 @@ def own_unit(scene: Mechanism, driver: AnyDriver, value: float) -> str:
     return f"{value / scene.units.metres:.6g} {scene.units.length}"
 
 
-def asked_symbols(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tuple[Symbol, ...]:
+def asked_symbols(scene: Mechanism, find: str | Symbol | Iterable[str | Symbol] | None) -> tuple[Symbol, ...]:
     """The symbols asked for: the given ones (or one alone), or the scene's own.
 
     Raises
@@ -146,10 +160,12 @@ def asked_symbols(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tupl
     """
     if find is None:
         return scene.find
+    if not isinstance(find, Iterable):
+        raise CallError(Problem("find", f"found {find!r:.60}", 'give symbols: ["v_B", "omega_3"]'))
     found, problems = [], []
-    for text in [find] if isinstance(find, str) else find:
+    for text in [find] if isinstance(find, str | Symbol) else find:
         try:
-            symbol = text if isinstance(text, Symbol) else Symbol.parse(text)
+            symbol = text if isinstance(text, Symbol) else Symbol.parse(str(text))
         except ValueError as error:
             problems.append(Problem("find", str(error)))
             continue

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import html
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -10,36 +9,37 @@ from functools import cache, cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from graphkin import table
 from graphkin.api.answers import Answers, AnswersLike, as_answers
 from graphkin.api.arguments import At, SceneLike, as_scene, driver_values, known_words, own_unit, write_files
 from graphkin.api.checked import in_scene_units, solved_here
+from graphkin.api.results import Result
 from graphkin.checking.audit import Judged, judge
 from graphkin.checking.printed import printed_values
 from graphkin.checking.readings import predict
-from graphkin.checking.slips import Evidence, Table
+from graphkin.checking.slips import Evidence, ValuesElsewhere
 from graphkin.construction import plan
-from graphkin.errors import CallError, Problem
-from graphkin.scene.model import AngleDriver, Scene
+from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.words import say, word
 
 if TYPE_CHECKING:
     from graphkin.solver import Motion
+    from graphkin.table import Table
 
 __all__ = ["Audited", "audit"]
 
 POSITIONS = 72
 
 
-@dataclass(frozen=True, repr=False)
-class Audited:
+@dataclass(frozen=True, repr=False, eq=False)
+class Audited(Result):
     """The values of each person with their verdicts; of a scene's ``[printed]`` values the person is "".
 
     ``unused`` are heads of the table of answers that are no quantities.
     """
 
-    scene: Scene
+    scene: Mechanism
     people: tuple[tuple[Answers, tuple[Judged, ...]], ...]
     language: str = "en"
     unused: tuple[str, ...] = ()
@@ -87,10 +87,21 @@ class Audited:
                 )
         return rows
 
+    def __getitem__(self, name: str) -> tuple[Judged, ...]:
+        """What was judged of a symbol, one for each person who gave it.  Raises CallError for one that nobody gave."""
+        judged = [j for _, own in self.people for j in own]
+        found = tuple(j for j in judged if str(j.printed.symbol) == name)
+        if not found:
+            known = [str(j.printed.symbol) for j in judged]
+            raise CallError(Problem(f'"{name}"', "no value of this name", did_you_mean(str(name), known)))
+        return found
+
     @cached_property
-    def table(self) -> table.Table:
-        """The table as columns of words."""
-        return table.Table.of(self.heads, self.rows)
+    def table(self) -> Table:
+        """The values and their verdicts as texts, in the language of the call."""
+        from graphkin.table import Table
+
+        return Table.of(self.heads, self.rows)
 
     def write(self, folder: str | os.PathLike[str]) -> list[Path]:
         """Write audit.csv into a folder.  Raises CallError where it cannot be written."""
@@ -102,14 +113,8 @@ class Audited:
             f"{sum(j.verdict == 'wrong' for _, judged in self.people for j in judged)} wrong>"
         )
 
-    def _repr_html_(self) -> str:
-        def line(cells: Sequence[str], tag: str) -> str:
-            return "<tr>" + "".join(f"<{tag}>{html.escape(c)}</{tag}>" for c in cells) + "</tr>"
 
-        return f"<table>{line(self.heads, 'th')}{''.join(line(row, 'td') for row in self.rows)}</table>"
-
-
-def _value(scene: Scene, who: Answers, judged: Judged, language: str) -> dict[str, Any]:
+def _value(scene: Mechanism, who: Answers, judged: Judged, language: str) -> dict[str, Any]:
     symbol = judged.printed.symbol
 
     def unit(value: complex | float) -> float | list[float]:
@@ -185,7 +190,7 @@ def audit(scene: SceneLike, answers: AnswersLike | None = None, at: At = None, l
     return Audited(given, judged, language or given.sheet.language, unused)
 
 
-def _case(scene: Scene, asked: Sequence[Symbol], at: At) -> Evidence:
+def _case(scene: Mechanism, asked: Sequence[Symbol], at: At) -> Evidence:
     values = driver_values(scene, at)
     motion = solved_here(scene, values)
     structure = motion.structure
@@ -202,7 +207,7 @@ def _case(scene: Scene, asked: Sequence[Symbol], at: At) -> Evidence:
     return Evidence(drawn, exact, predicted, _elsewhere(scene, values))
 
 
-def _elsewhere(scene: Scene, values: dict[str, float] | None) -> Table:
+def _elsewhere(scene: Mechanism, values: dict[str, float] | None) -> ValuesElsewhere:
     """Exact values at the positions of a table: steps of 5 degrees, from here and from 0."""
 
     @cache

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import html
-import io
 import math
 import os
 from collections.abc import Callable, Mapping, Sequence
@@ -24,16 +21,19 @@ from graphkin.api.arguments import (
     write_files,
 )
 from graphkin.api.checked import solved_here
+from graphkin.api.results import Result
 from graphkin.construction import Room
 from graphkin.construction.centres import Centre, Centres, Turning, by_centres, find_centres, speeds, velocity_sentences
 from graphkin.construction.centres.pairs import LinkPair, normal, wedge
-from graphkin.scene.model import Scene
+from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, languages, say, word
 
 if TYPE_CHECKING:
     from graphkin.drawing import Drawing
     from graphkin.solver import Motion
+    from graphkin.table import Table
 
 __all__ = ["ROOM", "Centred", "centres", "found_centres", "told_centres"]
 
@@ -113,8 +113,8 @@ class Velocity:
     ok: bool
 
 
-@dataclass(frozen=True, repr=False)
-class Centred:
+@dataclass(frozen=True, repr=False, eq=False)
+class Centred(Result):
     """All instant centres of a scene at one position, with their check.
 
     ``errors`` holds for each centre how far it lies from the exact one, as an angle seen from the middle of the
@@ -129,7 +129,7 @@ class Centred:
     convention: str | None = None
 
     @property
-    def scene(self) -> Scene:
+    def scene(self) -> Mechanism:
         return self.centres.links.scene
 
     @cached_property
@@ -186,6 +186,30 @@ class Centred:
         values = (abs(x) / unit if v.symbol.is_vector else float(x.real) for x in (v.by_centres, v.exact))
         return dict(zip(("by_centres", "exact"), values, strict=True)) | {"chain": list(v.chain), "ok": v.ok}
 
+    def __getitem__(self, name: str) -> Centre | Velocity:
+        """A centre by its links ("1-3"), or a velocity by its symbol ("v_D", "omega_3").  Raises CallError."""
+        links = tuple(name.split("-"))
+        found = next((c for p, c in self.centres.table.items() if links in (p, p[::-1])), None)
+        taken = {str(v.symbol): v for v in self.velocities}
+        if found is None and name not in taken:
+            known = [_name(pair) for pair in self.centres.table] + list(taken)
+            raise CallError(Problem(f'"{name}"', "no centre or velocity of this name", did_you_mean(name, known)))
+        return found or taken[name]
+
+    @cached_property
+    def table(self) -> Table:
+        """A row for each centre, in scene units, with how it was found and how far it lies from the exact one."""
+        from graphkin.table import Table
+
+        rows = []
+        for (pair, centre), row in zip(self.centres.table.items(), self.data["centres"].values(), strict=True):
+            by = row.get("by", centre.joint)
+            told = by if isinstance(by, str) else " x ".join(" ".join(line) for line in by)
+            place, way = row.get("point", (None, None)), row.get("direction", (None, None))
+            rows.append((_name(pair), centre.kind, centre.number or None, *place, *way, told, self.errors[pair]))
+        heads = ("pair", "kind", "number", "x", "y", "direction_x", "direction_y", "by", "error")
+        return Table.of(heads, rows, ("", "", "g", *(".12g",) * 4, "", ".3g"))
+
     @cached_property
     def figure(self) -> Drawing:
         """The mechanism with all its centres, and the circle diagram."""
@@ -202,19 +226,11 @@ class Centred:
         CallError : an unknown format, a folder that cannot be written
         """
         files = {f"centres.{kind}": self.figure.content(kind) for kind in formats}
-        files["centres.csv"] = centres_csv(self).encode()
+        files["centres.csv"] = self.table.csv().encode()
         return write_files(Path(folder) if folder is not None else Path(self.scene.name), files)
 
     def __repr__(self) -> str:
         return f"<Centred {self.scene.name}: {len(self.centres.table)} centres>"
-
-    def _repr_html_(self) -> str:
-        rows = "".join(
-            f"<tr><td>{html.escape(name)}</td><td>{html.escape(str(row.get('point', row.get('direction', ''))))}</td>"
-            f"<td>{row['kind']}</td></tr>"
-            for name, row in self.data["centres"].items()
-        )
-        return f"<table><tr><th>centre</th><th>place</th><th></th></tr>{rows}</table>"
 
     def _repr_svg_(self) -> str:
         from graphkin.drawing import svg_bytes
@@ -222,7 +238,7 @@ class Centred:
         return svg_bytes(self.figure).decode()
 
 
-def found_centres(scene: Scene, values: Mapping[str, float] | None) -> Centres:
+def found_centres(scene: Mechanism, values: Mapping[str, float] | None) -> Centres:
     """All centres at driver values in SI, on a drawing of a scale of its own that leaves room around the mechanism."""
     return find_centres(scene, values).in_room(ROOM)
 
@@ -287,23 +303,6 @@ def _chain(centres: Centres, turning: Mapping[str, Turning], symbol: Symbol) -> 
     assert symbol.of is not None
     holders = [symbol.of.link] if symbol.of.link else centres.links.scene.holders[symbol.of.point]
     return next((turning[n].chain for n in holders if n in turning), ())
-
-
-def centres_csv(centred: Centred) -> str:
-    """The centres as CSV, in scene units: one row each, 12 digits."""
-    out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(["pair", "kind", "number", "x", "y", "direction_x", "direction_y", "by", "error"])
-    for (pair, centre), row in zip(centred.centres.table.items(), centred.data["centres"].values(), strict=True):
-        place = [f"{v:.12g}" for v in row.get("point", [])] or ["", ""]
-        way = [f"{v:.12g}" for v in row.get("direction", [])] or ["", ""]
-        by = row.get("by", centre.joint)
-        told = by if isinstance(by, str) else " x ".join(" ".join(line) for line in by)
-        error = centred.errors[pair]
-        writer.writerow(
-            [_name(pair), centre.kind, centre.number or "", *place, *way, told, "" if error is None else f"{error:.3g}"]
-        )
-    return out.getvalue()
 
 
 def centres(

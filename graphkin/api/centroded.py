@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -17,14 +15,16 @@ from numpy.typing import NDArray
 from graphkin.api.arguments import ON_SHEETS, At, SceneLike, as_scene, driver_values, known_words, write_files
 from graphkin.api.centred import found_centres
 from graphkin.api.checked import solved_here
+from graphkin.api.results import Result
 from graphkin.construction.centres import Centres
 from graphkin.errors import CallError, Problem, did_you_mean
-from graphkin.scene.model import Scene
+from graphkin.scene.model import Mechanism
 
 if TYPE_CHECKING:
     from graphkin.drawing import Drawing
     from graphkin.solver import Motion
     from graphkin.solver.centres import Centrode
+    from graphkin.table import Table
 
 __all__ = ["Centroded", "centrodes"]
 
@@ -32,8 +32,8 @@ POSITIONS = 3600
 STILL = 1e-9
 
 
-@dataclass(frozen=True, repr=False)
-class Centroded:
+@dataclass(frozen=True, repr=False, eq=False)
+class Centroded(Result):
     """The fixed and the moving centrode of a link, and the path of a point of it (complex arrays over the turn, m)."""
 
     centres: Centres
@@ -45,7 +45,7 @@ class Centroded:
     convention: str | None = None
 
     @property
-    def scene(self) -> Scene:
+    def scene(self) -> Mechanism:
         return self.centres.links.scene
 
     @property
@@ -61,6 +61,22 @@ class Centroded:
     def path(self) -> NDArray[np.complex128]:
         """Places of the point over the turn (m), empty without one."""
         return self.motion.position(self.point, self.link) if self.point else np.zeros(0, dtype=np.complex128)
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """The object that ``graphkin centres --centrode --json`` prints, but for the files."""
+        return {"link": self.link, "ok": self.ok}
+
+    @cached_property
+    def table(self) -> Table:
+        """Both curves over the turn in scene units, the moving one in the link's own axes; the driver's value in SI."""
+        from graphkin.table import Column, Table
+
+        unit, columns = self.scene.units.metres, [Column("driver", self.motion.values[:, 0], form=".12g")]
+        for name, curve in (("fixed", self.curves.fixed), ("moving", self.curves.moving)):
+            places = np.where(np.isfinite(curve), curve / unit, complex(np.nan, np.nan))
+            columns += [Column(f"{name}_x", places.real, form=".12g"), Column(f"{name}_y", places.imag, form=".12g")]
+        return Table(tuple(columns))
 
     @cached_property
     def figure(self) -> Drawing:
@@ -90,19 +106,8 @@ class Centroded:
         CallError : an unknown format, a folder that cannot be written
         """
         files = {f"centrode.{kind}": self.figure.content(kind) for kind in formats}
-        files["centrode.csv"] = self._csv().encode()
+        files["centrode.csv"] = self.table.csv().encode()
         return write_files(Path(folder) if folder is not None else Path(self.scene.name), files)
-
-    def _csv(self) -> str:
-        """Both curves in scene units: the moving one in the link's own axes; empty cells where there is no centre."""
-        out = io.StringIO()
-        writer = csv.writer(out, lineterminator="\n")
-        writer.writerow(["driver", "fixed_x", "fixed_y", "moving_x", "moving_y"])
-        unit = self.scene.units.metres
-        for value, one, two in zip(self.motion.values[:, 0], self.curves.fixed, self.curves.moving, strict=True):
-            cells = [f"{x / unit:.12g}" if np.isfinite(x) else "" for z in (one, two) for x in (z.real, z.imag)]
-            writer.writerow([f"{value:.12g}", *cells])
-        return out.getvalue()
 
     def __repr__(self) -> str:
         return f"<Centroded {self.scene.name}: link {self.link}>"
@@ -178,7 +183,7 @@ def centrodes(
     return centroded
 
 
-def _check_names(scene: Scene, link: str, point: str) -> None:
+def _check_names(scene: Mechanism, link: str, point: str) -> None:
     names = [n.name for n in scene.links if not n.redundant]
     if link not in names:
         raise CallError(Problem(f"centrode {link}", f'there is no moving link "{link}"', did_you_mean(link, names)))

@@ -2,20 +2,33 @@
 
 from __future__ import annotations
 
-import html
+import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from graphkin.api.arguments import INSTRUMENTS, At, SceneLike, as_scene, asked_symbols, driver_values, own_unit
+from graphkin.api.arguments import (
+    INSTRUMENTS,
+    MOST_SEED,
+    At,
+    SceneLike,
+    as_scene,
+    asked_symbols,
+    driver_values,
+    own_unit,
+    whole_number,
+    write_files,
+)
+from graphkin.api.results import Result
 from graphkin.checking.readings import Advice, Uncertainty, advise, predict, read_off
 from graphkin.checking.report import Compared, Report, compare
 from graphkin.construction import EXACT, Cad, Instrument, Plan, Sheet, execute, pencil, plan
 from graphkin.construction.sheet import DiagramName
 from graphkin.construction.steps import phrase_of
 from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
-from graphkin.scene.model import Scene
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Structure, analyse, part_of
 from graphkin.words import say
@@ -23,12 +36,18 @@ from graphkin.words import say
 if TYPE_CHECKING:
     from graphkin.construction.centres import Centres, Turning
     from graphkin.solver import Motion
+    from graphkin.table import Table
 
 __all__ = ["Checked", "check", "checked", "hand_of", "reading_row", "solved_here"]
 
+_FORMS = {
+    "symbol": "", "unit": "", "on_paper_mm": ".12g", "measured": ".12g", "exact": ".12g", "error": ".3g",
+    "tolerance": ".3g", "direction_error_rad": ".3g", "ok": "", "uncertainty": ".3g",
+}  # fmt: skip
 
-@dataclass(frozen=True, repr=False)
-class Checked:
+
+@dataclass(frozen=True, repr=False, eq=False)
+class Checked(Result):
     """A drawing, its readings, and how they compare with the exact values.
 
     ``advice`` names the least certain reading of a drawing with finite tools, and what would help it; ``asked`` is
@@ -41,11 +60,11 @@ class Checked:
     asked: tuple[Symbol, ...] = ()
 
     @property
-    def scene(self) -> Scene:
+    def scene(self) -> Mechanism:
         return self.sheet.scene
 
     @cached_property
-    def part(self) -> Scene:
+    def part(self) -> Mechanism:
         """The scene as far as it leads to the asked."""
         return part_of(self.sheet.structure, self.asked)
 
@@ -65,12 +84,28 @@ class Checked:
             f"{sum(not row.ok for row in self.report.rows)} out of tolerance>"
         )
 
-    def __getitem__(self, symbol: str) -> Compared:
-        return self._table[symbol]
+    def __getitem__(self, name: str) -> Compared:
+        """A reading by its symbol, with the exact value.  Raises CallError for one that was not drawn."""
+        rows = {str(row.symbol): row for row in self.report.rows}
+        if name not in rows:
+            raise CallError(Problem(f'"{name}"', "no reading of this name", did_you_mean(str(name), rows)))
+        return rows[name]
 
     @cached_property
-    def _table(self) -> dict[str, Compared]:
-        return {str(row.symbol): row for row in self.report.rows}
+    def table(self) -> Table:
+        """The readings, in scene units."""
+        from graphkin.table import Table
+
+        length, rows = self.scene.units.length, []
+        for row in self.report.rows:
+            unit = {"v": f"{length}/s", "omega": "rad/s", "alpha": "rad/s2"}.get(row.symbol.kind, f"{length}/s2")
+            cells = {**reading_row(self.scene, row), "unit": unit}
+            rows.append([cells.get(key) for key in _FORMS])
+        return Table.of(list(_FORMS), rows, list(_FORMS.values()))
+
+    def write(self, folder: str | os.PathLike[str]) -> list[Path]:
+        """Write readings.csv; returns its path.  Raises CallError where it cannot be written."""
+        return write_files(Path(folder), {"readings.csv": self.table.csv().encode()})
 
     @cached_property
     def data(self) -> dict[str, Any]:
@@ -119,27 +154,18 @@ class Checked:
         plain = abs(value) if row.symbol.is_vector else float(value.real)
         return {"by_centres": in_scene_units(self.scene, row.symbol, plain)}
 
-    def _repr_html_(self) -> str:
-        rows = "".join(
-            f"<tr><td>{html.escape(r['symbol'])}</td><td>{r['on_paper_mm']:.2f}</td><td>{r['measured']:.6g}</td>"
-            f"<td>{r['exact']:.6g}</td><td>{'ok' if r['ok'] else 'off'}</td></tr>"
-            for r in self.data["readings"]
-        )
-        head = "<tr><th>quantity</th><th>mm on paper</th><th>measured</th><th>exact</th><th></th></tr>"
-        return f"<table>{head}{rows}</table>"
-
 
 def _plain(value: float) -> float:
     """A scale factor without the noise of unit conversion."""
     return float(f"{value:.12g}")
 
 
-def in_scene_units(scene: Scene, symbol: Symbol, value: float) -> float:
+def in_scene_units(scene: Mechanism, symbol: Symbol, value: float) -> float:
     """A value in the scene's length unit; rates stay as they are."""
     return value / scene.units.metres if symbol.is_vector else value
 
 
-def reading_row(scene: Scene, row: Compared) -> dict[str, Any]:
+def reading_row(scene: Mechanism, row: Compared) -> dict[str, Any]:
     """One reading as in the JSON: vectors by size, rates with sign."""
 
     def size(value: complex | float) -> float:
@@ -159,7 +185,7 @@ def reading_row(scene: Scene, row: Compared) -> dict[str, Any]:
     }
 
 
-def _predicted(scene: Scene, row: Compared, uncertainty: Uncertainty) -> dict[str, Any]:
+def _predicted(scene: Mechanism, row: Compared, uncertainty: Uncertainty) -> dict[str, Any]:
     """Standard deviation of a reading in scene units, and the step that adds most to it."""
     return {
         "uncertainty": in_scene_units(scene, row.symbol, uncertainty.deviation),
@@ -228,19 +254,19 @@ def checked(what: Plan, motion: Motion, hand: Instrument) -> Checked:
     return Checked(sheet, compare(sheet, readings, value, what.asked, predicted), advice, what.asked)
 
 
-def hand_of(scene: Scene, name: str, seed: int) -> Instrument:
+def hand_of(scene: Mechanism, name: str, seed: int) -> Instrument:
     """The instrument of a name.  Raises CallError for another name."""
     if name == "exact":
         return EXACT
     if name == "cad":
         return Cad()
     if name == "pencil":
-        return pencil(scene.sheet.tools, seed)
-    raise CallError(Problem("instrument", f'"{name}"', did_you_mean(name, INSTRUMENTS)))
+        return pencil(scene.sheet.tools, whole_number("seed", seed, -MOST_SEED, MOST_SEED))
+    raise CallError(Problem("instrument", f'"{name}"', did_you_mean(str(name), INSTRUMENTS)))
 
 
 def solved_here(
-    of: Scene | Structure, values: Mapping[str, float] | None, asked: Sequence[Symbol] = ()
+    of: Mechanism | Structure, values: Mapping[str, float] | None, asked: Sequence[Symbol] = ()
 ) -> Motion:
     """The exact motion at one position, of what leads to the asked.
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from graphkin.api.arguments import (
     ON_SHEETS,
@@ -19,21 +19,24 @@ from graphkin.api.arguments import (
     known_words,
     write_files,
 )
-from graphkin.api.checked import Checked, checked, hand_of, reading_row, solved_here
+from graphkin.api.checked import Checked, checked, hand_of, solved_here
 from graphkin.api.report_text import told
+from graphkin.api.results import Result
 from graphkin.construction import EXACT, plan
 from graphkin.scene.symbol import Symbol
 from graphkin.table import Table
 from graphkin.words import languages
 
 if TYPE_CHECKING:
+    from graphkin.checking.report import Compared
     from graphkin.drawing import Drawing
+    from graphkin.table import Table
 
 __all__ = ["Drawn", "draw"]
 
 
-@dataclass(frozen=True, repr=False)
-class Drawn:
+@dataclass(frozen=True, repr=False, eq=False)
+class Drawn(Result):
     """The figures of a scene by name, with the check of everything on them.
 
     In a notebook it shows the sheet.  ``figures["velocity"].save("v.pdf")`` picks the format by the name.
@@ -47,6 +50,20 @@ class Drawn:
     @property
     def ok(self) -> bool:
         return self.checked.ok
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """The object that ``graphkin draw --json`` prints: that of the check."""
+        return self.checked.data
+
+    @property
+    def table(self) -> Table:
+        """The readings, in scene units."""
+        return self.checked.table
+
+    def __getitem__(self, name: str) -> Compared:
+        """A reading by its symbol, with the exact value.  Raises CallError for one that was not drawn."""
+        return self.checked[name]
 
     @cached_property
     def figures(self) -> Mapping[str, Drawing]:
@@ -83,7 +100,7 @@ class Drawn:
         for name, figure in self.figures.items():
             for kind in formats:
                 files[f"{name}.{kind}"] = figure.content(kind)
-        files["readings.csv"] = readings_table(self.checked).csv().encode()
+        files["readings.csv"] = self.table.csv().encode()
         spoken = languages(self.language or self.checked.scene.sheet.language)[0]
         files["report.txt"] = told(self.checked, spoken).encode()
         return write_files(target, files)
@@ -95,20 +112,6 @@ class Drawn:
         from graphkin.drawing import svg_bytes
 
         return svg_bytes(self.figures["sheet"]).decode()
-
-
-def readings_table(checked: Checked) -> Table:
-    """The readings in scene units, one row each; 12 digits in text."""
-    length = checked.scene.units.length
-    units = {"v": f"{length}/s", "omega": "rad/s", "alpha": "rad/s2"}
-    numbers = ("on_paper_mm", "measured", "exact", "error", "tolerance", "direction_error_rad")
-    rows = []
-    for row in checked.report.rows:
-        cells = reading_row(checked.scene, row)
-        unit = units.get(row.symbol.kind, f"{length}/s2")
-        rows.append((cells["symbol"], unit, *(cells[k] for k in numbers), row.ok, cells.get("uncertainty")))
-    forms = ("", "", *(".12g",) * 3, *(".3g",) * 3, "", ".3g")
-    return Table.of(("symbol", "unit", *numbers, "ok", "uncertainty"), rows, forms)
 
 
 def draw(

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, fields
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from graphkin.api.arguments import (
     ON_SHEETS,
@@ -18,26 +18,31 @@ from graphkin.api.arguments import (
     driver_values,
     for_paper,
     known_words,
+    whole_number,
     write_files,
 )
 from graphkin.api.checked import solved_here
-from graphkin.errors import CallError, Problem
+from graphkin.api.results import Result
+from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.papers.lesson import Lesson
 from graphkin.papers.page import Progress
 from graphkin.papers.pdf import can_typeset
 from graphkin.papers.pictures import paper_plan
 from graphkin.papers.prepare import FORMATS, Papers, handout_files, lesson_of, usual_count, views_of
 from graphkin.papers.solution import KeyRow, key_rows
-from graphkin.scene.model import Scene
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.written import safe_name
 from graphkin.words import Phrase
 
+if TYPE_CHECKING:
+    from graphkin.table import Table
+
 __all__ = ["Handout", "handout", "papers_of"]
 
 
-@dataclass(frozen=True, repr=False)
-class Handout:
+@dataclass(frozen=True, repr=False, eq=False)
+class Handout(Result):
     """A handout: its lesson, and its files by name (`files`).  In a notebook it shows the answer key."""
 
     lesson: Lesson
@@ -47,7 +52,7 @@ class Handout:
     progress: Progress | None = field(default=None, compare=False)
 
     @property
-    def scene(self) -> Scene:
+    def scene(self) -> Mechanism:
         return self.lesson.sheet.scene
 
     @property
@@ -64,6 +69,20 @@ class Handout:
     def data(self) -> dict[str, Any]:
         """The key for programs, in scene units."""
         return {"ok": self.ok, "key": [asdict(row) for row in self.key]}
+
+    def __getitem__(self, name: str) -> KeyRow:
+        """A row of the key by its symbol.  Raises CallError for one that it does not have."""
+        rows = {row.symbol: row for row in self.key}
+        if name not in rows:
+            raise CallError(Problem(f'"{name}"', "no answer of this name", did_you_mean(str(name), rows)))
+        return rows[name]
+
+    @cached_property
+    def table(self) -> Table:
+        """The answer key, in scene units."""
+        from graphkin.table import Table
+
+        return Table.of([f.name for f in fields(KeyRow)], [tuple(asdict(row).values()) for row in self.key])
 
     @property
     def notes(self) -> tuple[Phrase, ...]:
@@ -133,15 +152,14 @@ def handout(
     Unsolvable : wrong mobility, a position that cannot be assembled or reached, a dead point
     """
     known_words(formats, language, convention, known_formats=FORMATS, known_languages=ON_SHEETS)
-    if positions is not None and not 1 <= positions <= 72:
-        raise CallError(Problem("positions", f"{positions}", "give a number from 1 to 72"))
     given = for_paper(scene)
+    count = usual_count(given) if positions is None else whole_number("positions", positions, 1, 72)
     asked = asked_symbols(given, find)
     values = driver_values(given, at)
     motion = solved_here(given, values)
     what = paper_plan(motion.structure, values, asked)
     lesson = lesson_of(what, motion, language or given.sheet.language, convention or given.sheet.convention)
-    made = Handout(lesson, values, tuple(dict.fromkeys(formats)), positions or usual_count(given), progress)
+    made = Handout(lesson, values, tuple(dict.fromkeys(formats)), count, progress)
     if out is not None:
         made.write(out)
     return made

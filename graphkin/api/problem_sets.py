@@ -12,12 +12,13 @@ from pathlib import Path
 from typing import Any
 
 from graphkin.api.answers import table_of, with_points
-from graphkin.api.arguments import SceneLike, as_scene, asked_symbols, write_files
-from graphkin.errors import CallError, GraphkinError, Problem
+from graphkin.api.arguments import MOST_SEED, SceneLike, as_scene, asked_symbols, whole_number, write_files
+from graphkin.api.results import Result
+from graphkin.errors import CallError, GraphkinError, Problem, did_you_mean
 from graphkin.jobs import Progress, Workers
 from graphkin.papers.data_rows import Columns, columns_of, replaced
 from graphkin.papers.problem_set import Job, MadeSet, Render, jobs_of_rows, jobs_of_seed, make
-from graphkin.papers.variants import Range, Variant, asked_of, varied_keys
+from graphkin.papers.variants import Answer, Range, Variant, asked_of, varied_keys
 from graphkin.scene.model import Mechanism
 from graphkin.scene.source import written
 from graphkin.scene.symbol import Symbol
@@ -30,8 +31,8 @@ __all__ = ["ProblemSet", "problem_set"]
 MOST = 100_000
 
 
-@dataclass(frozen=True, repr=False)
-class ProblemSet:
+@dataclass(frozen=True, repr=False, eq=False)
+class ProblemSet(Result):
     """A set of problems: what became of each variant, the table of all answers, and the files written."""
 
     scene: Mechanism
@@ -70,11 +71,19 @@ class ProblemSet:
         rows += [(f.name, *[None] * (2 * len(symbols)), f"failed: {f.why}") for f in self.made.failures]
         return Table.of(heads, rows, ("", *[".6g"] * (2 * len(symbols)), ""))
 
+    def __getitem__(self, name: str) -> tuple[Answer, ...]:
+        """The answers of a variant by its name.  Raises CallError for one that was not made."""
+        answers = self.made.answers
+        if name not in answers:
+            raise CallError(Problem(f'"{name}"', "no variant of this name", did_you_mean(str(name), answers)))
+        return tuple(answers[name])
+
+    def write(self, folder: str | os.PathLike[str]) -> list[Path]:
+        """Write answers.csv; returns its path.  Raises CallError where it cannot be written."""
+        return write_files(Path(folder), {"answers.csv": self.table.csv().encode("utf-8-sig")})
+
     def __repr__(self) -> str:
         return f"<ProblemSet {self.scene.name}>"
-
-    def _repr_html_(self) -> str:
-        return self.table._repr_html_()
 
 
 def problem_set(
@@ -136,7 +145,7 @@ def problem_set(
 
     def finish(made: MadeSet) -> None:
         if folder is not None:
-            write_files(folder, {"answers.csv": ProblemSet(given, made, unused).table.csv().encode("utf-8-sig")})
+            ProblemSet(given, made, unused).write(folder)
             for path in left:
                 path.unlink(missing_ok=True)
 
@@ -165,11 +174,10 @@ def _jobs(
     source: Mapping[str, Any], variants: int | None, seed: int, rows: str | os.PathLike[str] | None, spread: Range
 ) -> tuple[Sequence[Job], tuple[str, ...]]:
     if rows is None:
-        if not 1 <= (variants or 0) <= MOST:
-            raise CallError(Problem("variants", f"{variants}", f"give a number from 1 to {MOST}"))
+        count = whole_number("variants", variants, 1, MOST)
         if not varied_keys(source):
             raise CallError(Problem("variants", "nothing in the scene can vary", "give lengths and a driver"))
-        return list(jobs_of_seed(source, variants or 0, seed, spread)), ()
+        return list(jobs_of_seed(source, count, whole_number("seed", seed, -MOST_SEED, MOST_SEED), spread)), ()
     table = with_points(table_of(rows))
     columns = columns_of(source, table.heads)
     if not columns.data:

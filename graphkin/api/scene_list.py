@@ -2,41 +2,68 @@
 
 from __future__ import annotations
 
-import html
+import os
 from dataclasses import dataclass
-from typing import Any
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
-from graphkin.scene import library, read
+from graphkin.api.arguments import write_files
+from graphkin.api.results import Result
+from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.scene.source import library, library_text, mechanism_of, read
 from graphkin.structure import analyse
+
+if TYPE_CHECKING:
+    from graphkin.scene.written import Scene
+    from graphkin.table import Table
 
 __all__ = ["Listed", "scenes"]
 
 
-@dataclass(frozen=True)
-class Listed:
-    """The scenes that come along: name, title, Chinese title, mobility."""
+@dataclass(frozen=True, repr=False, eq=False)
+class Listed(Result):
+    """The scenes that come along: name, title, Chinese title, mobility; by its name ``listed[...]`` is one of them."""
 
     rows: tuple[tuple[str, str, str, int], ...]
 
     @property
+    def ok(self) -> bool:
+        return bool(self.rows)
+
+    @property
     def data(self) -> list[dict[str, Any]]:
+        """The list that ``graphkin scenes --json`` prints."""
         return [{"name": n, "title": t, "title_zh": z, "mobility": f} for n, t, z, f in self.rows]
 
-    def _repr_html_(self) -> str:
-        rows = "".join(
-            "<tr>" + "".join(f"<td>{html.escape(str(cell))}</td>" for cell in row) + "</tr>" for row in self.rows
-        )
-        return f"<table><tr><th>scene</th><th>title</th><th></th><th>mobility</th></tr>{rows}</table>"
+    def __getitem__(self, name: str) -> Scene:
+        names = [row[0] for row in self.rows]
+        if name not in names:
+            raise CallError(Problem(f'"{name}"', "no scene of this name comes along", did_you_mean(str(name), names)))
+        return read(name)
+
+    @property
+    def table(self) -> Table:
+        """A row for each scene."""
+        from graphkin.table import Table
+
+        return Table.of(("scene", "title", "title_zh", "mobility"), self.rows)
+
+    def write(self, folder: str | os.PathLike[str]) -> list[Path]:
+        """Write each scene as a file, as it comes along; returns the paths.  Raises CallError."""
+        return write_files(Path(folder), {f"{row[0]}.toml": library_text(row[0]).encode() for row in self.rows})
+
+    def __repr__(self) -> str:
+        return f"<Listed: {len(self.rows)} scenes>"
 
 
 def scenes() -> Listed:
     """List the scenes that come along, with title and mobility.
 
-    >>> "sixbar-guide-40deg" in [row["name"] for row in scenes().data]
-    True
+    >>> scenes()["sixbar-guide-40deg"].driver.omega
+    -10.0
     """
     rows = []
     for name in library():
-        scene = read(name)
+        scene = mechanism_of(name)
         rows.append((name, scene.title, scene.title_zh, analyse(scene).mobility.value))
     return Listed(tuple(rows))

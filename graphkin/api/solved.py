@@ -2,28 +2,35 @@
 
 from __future__ import annotations
 
-import html
+import json
+import os
 from dataclasses import dataclass
 from functools import cached_property
-from numbers import Integral
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from graphkin.api.arguments import At, SceneLike, as_scene, driver_values
-from graphkin.errors import CallError, Problem, Unsolvable
+import numpy as np
+from numpy.typing import NDArray
+
+from graphkin.api.arguments import At, SceneLike, as_scene, asked_symbols, driver_values, whole_number, write_files
+from graphkin.api.results import Result
+from graphkin.errors import Unsolvable
 from graphkin.scene.model import SlideDriver
 from graphkin.structure import mobility_of
 
 if TYPE_CHECKING:
     from graphkin.solver import Motion
+    from graphkin.table import Table
 
 __all__ = ["Solved", "refused", "solve"]
 
 
-@dataclass(frozen=True, repr=False)
-class Solved:
+@dataclass(frozen=True, repr=False, eq=False)
+class Solved(Result):
     """The motion of every link, point and sliding pair at one position or over a turn.
 
-    ``motion`` has the arrays (SI); ``data`` is the object that ``graphkin solve --json`` prints.
+    ``solved["v_C"]`` is a quantity by its name as an array, shape (positions,): complex for vectors, in the scene's
+    length unit, degrees for angles, NaN where there is none.  ``table`` has all of them, ``motion`` more, in SI.
     """
 
     motion: Motion
@@ -31,8 +38,35 @@ class Solved:
     def __repr__(self) -> str:
         return f"<Solved {self.motion.scene.name}: {int(self.motion.ok.sum())} of {len(self.motion)} positions>"
 
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        """A quantity by its name (a symbol, "C", "theta_3", "s_2/3", a column of the table).  Raises CallError."""
+        from graphkin.study.watched import watched_named, watched_symbol
+
+        scene = self.motion.scene
+        watched = watched_named(scene, str(name))
+        if watched is None and str(name).startswith(("driver_", "position", "status", "why")):
+            return self.table[name]
+        if watched is None:
+            watched = watched_symbol(*asked_symbols(scene, [name]))
+        parts = watched.parts(None, self.motion)
+        return parts[0] if len(parts) == 1 else parts[0] + 1j * parts[1]
+
+    @cached_property
+    def table(self) -> Table:
+        """A row for each position: the drivers' values, everything that moves, the status and the reason for it."""
+        from graphkin.study.watched import driver_columns, everything
+        from graphkin.table import Column, Table, text_column
+
+        motion, scene = self.motion, self.motion.scene
+        columns = [Column("position", np.arange(1, len(motion) + 1)), *driver_columns(scene, motion.values)]
+        for watched in everything(motion.structure):
+            columns += watched.columns(scene, watched.parts(None, motion))
+        said = [text_column("status", map(str, motion.status)), text_column("why", motion.why)]
+        return Table((*columns, *said), ("position",))
+
     @cached_property
     def data(self) -> dict[str, Any]:
+        """The object that ``graphkin solve --json`` prints."""
         from graphkin.solver import to_json
 
         return to_json(self.motion)
@@ -42,18 +76,10 @@ class Solved:
         """Whether one position at least is solved."""
         return any(p["status"] == "ok" for p in self.data["positions"])
 
-    def _repr_html_(self) -> str:
-        rows = []
-        for position in self.data["positions"]:
-            driver = ", ".join(f"{k}: {v:.6g}" for k, v in position["driver"].items())
-            if position["status"] != "ok":
-                rows.append(f"<tr><td>{html.escape(driver)}</td><td colspan=4>{html.escape(position['why'])}</td></tr>")
-                continue
-            for name, link in position["links"].items():
-                cells = "".join(f"<td>{link[k]:.6g}</td>" for k in ("angle", "omega", "alpha"))
-                rows.append(f"<tr><td>{html.escape(driver)}</td><td>{html.escape(name)}</td>{cells}</tr>")
-        head = "<tr><th>driver</th><th>link</th><th>angle</th><th>&omega;</th><th>&alpha;</th></tr>"
-        return f"<table>{head}{''.join(rows)}</table>"
+    def write(self, folder: str | os.PathLike[str]) -> list[Path]:
+        """Write solution.json and solution.csv; returns the paths.  Raises CallError where that cannot be done."""
+        text = json.dumps(self.data, ensure_ascii=False, allow_nan=False) + "\n"
+        return write_files(Path(folder), {"solution.json": text.encode(), "solution.csv": self.table.csv().encode()})
 
 
 def refused(scene: SceneLike, at: At, stop: Unsolvable) -> dict[str, Any]:
@@ -91,12 +117,13 @@ def solve(scene: SceneLike, at: At = None, sweep: int | None = None) -> Solved:
     Examples
     --------
     >>> solved = solve("sixbar-guide-40deg")
-    >>> round(solved.data["positions"][0]["links"]["3"]["omega"], 4)
+    >>> round(float(solved["omega_3"][0]), 4)
     -2.8191
+    >>> solved.table["v_D.x"].round(2).tolist()
+    [-482.72]
     """
     from graphkin import solver
 
     given = as_scene(scene)
-    if sweep is not None and not (isinstance(sweep, Integral) and 1 <= sweep <= 10_000_000):
-        raise CallError(Problem("sweep", f"{sweep} positions", "give a whole number from 1 to 10000000"))
-    return Solved(solver.solve(given, at=driver_values(given, at), sweep=sweep))
+    count = None if sweep is None else whole_number("sweep", sweep, 1, 10_000_000, " positions")
+    return Solved(solver.solve(given, at=driver_values(given, at), sweep=count))

@@ -10,13 +10,11 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
-from graphkin.api.arguments import SceneLike, as_scene, known_words, write_files
+from graphkin.api.arguments import SceneLike, as_scene, known_words, whole_number, write_files
+from graphkin.api.results import Result
 from graphkin.errors import CallError, Problem, did_you_mean
 
 if TYPE_CHECKING:
-    import pandas
-    import xarray
-
     from graphkin.drawing import ChartPage
     from graphkin.races import Entry, Race
     from graphkin.study.stability import Singularity
@@ -27,7 +25,7 @@ __all__ = ["SpeedAccuracy", "Stability", "speed_accuracy", "stability"]
 T = TypeVar("T")
 
 
-class _Charted:
+class _Charted(Result):
     """What both studies can be asked for: charts and one table, written to files or shown in a notebook."""
 
     name: ClassVar[str]
@@ -35,18 +33,6 @@ class _Charted:
     @property
     def figures(self) -> Mapping[str, ChartPage]:
         raise NotImplementedError
-
-    @property
-    def table(self) -> Table:
-        raise NotImplementedError
-
-    def to_pandas(self) -> pandas.DataFrame:
-        """The table as a frame of pandas.  Raises CallError where that is not installed."""
-        return self.table.to_pandas()
-
-    def to_xarray(self) -> xarray.Dataset:
-        """The table as a data set of xarray, over its rows.  Raises CallError where it is not installed."""
-        return self.table.to_xarray()
 
     def write(self, folder: str | os.PathLike[str] | None = None, formats: Sequence[str] = ("svg",)) -> list[Path]:
         """Write the charts and the table (CSV) into a folder, the one of the study's name if None; returns the paths.
@@ -67,11 +53,11 @@ class _Charted:
 def _named(what: str, name: str, found: Mapping[str, T]) -> T:
     """What bears a name.  Raises CallError where nothing does."""
     if name not in found:
-        raise CallError(Problem(what, f'"{name}"', did_you_mean(name, found)))
+        raise CallError(Problem(what, f'"{name}"', did_you_mean(str(name), found)))
     return found[name]
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, eq=False)
 class SpeedAccuracy(_Charted):
     """What each method costs for one position, and how far it is off: measured in one run on this machine."""
 
@@ -91,9 +77,14 @@ class SpeedAccuracy(_Charted):
 
         return {"speed-accuracy": race_page(self.race, self.language)}
 
+    @property
+    def ok(self) -> bool:
+        """Whether a method was measured."""
+        return bool(self.race.entries)
+
     @cached_property
     def table(self) -> Table:
-        """A row for each method."""
+        """A row for each method: what a position costs (s), and its largest errors; first the floor."""
         from graphkin.races import race_table
 
         return race_table(self.race)
@@ -131,8 +122,7 @@ def speed_accuracy(
     from graphkin.races import race
 
     given = as_scene(scene)
-    if not 1 <= repeats <= 1000:
-        raise CallError(Problem("repeats", f"{repeats}", "give a number from 1 to 1000"))
+    repeats = whole_number("repeats", repeats, 1, 1000)
     spoken = language or given.sheet.language
     known_words(language=spoken)
     found = SpeedAccuracy(race(given, repeats), spoken)
@@ -141,7 +131,7 @@ def speed_accuracy(
     return found
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, eq=False)
 class Stability(_Charted):
     """The error of each method against the distance from each kind of singular position, with fitted slopes."""
 
@@ -160,9 +150,14 @@ class Stability(_Charted):
 
         return stability_pages(self.singularities, self.language)
 
+    @property
+    def ok(self) -> bool:
+        """Whether something was measured."""
+        return bool(self.singularities)
+
     @cached_property
     def table(self) -> Table:
-        """All points of all curves."""
+        """All points of all curves; a point without an error is a refusal."""
         from graphkin.study.stability import laws_table
 
         return laws_table(self.singularities)
@@ -203,10 +198,9 @@ def stability(
 
     wanted = tuple(kinds)
     wrong = [Problem("kind", f'"{kind}"', did_you_mean(kind, KINDS)) for kind in wanted if kind not in KINDS]
-    if not 1 <= samples <= 100:
-        wrong.append(Problem("samples", f"{samples}", "give a number from 1 to 100"))
     if wrong:
         raise CallError(*wrong)
+    samples = whole_number("samples", samples, 1, 100)
     known_words(language=language)
     found = Stability(run_singularities(wanted, samples), language)
     if out is not None:

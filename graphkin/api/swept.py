@@ -22,8 +22,10 @@ from graphkin.api.arguments import (
     asked_symbols,
     driver_values,
     known_words,
+    whole_number,
     write_files,
 )
+from graphkin.api.results import Result
 from graphkin.errors import CallError, Problem
 from graphkin.jobs import Progress, Workers, cluster
 from graphkin.scene.model import Scene
@@ -32,7 +34,6 @@ from graphkin.scene.symbol import Symbol
 from graphkin.table import Table, have
 
 if TYPE_CHECKING:
-    import pandas
     import xarray
 
     from graphkin.drawing import ChartPage, Drawing
@@ -47,8 +48,8 @@ IN_MEMORY = 200_000_000
 """Numbers of a table that are kept in memory where no folder is given."""
 
 
-@dataclass(frozen=True, repr=False)
-class Swept:
+@dataclass(frozen=True, repr=False, eq=False)
+class Swept(Result):
     """The motion over a turn of one scene, or of many designs of it.
 
     ``swept["v_C"]`` is what is asked by its name, as an array: complex for vectors, in the scene's length unit, degrees
@@ -141,10 +142,6 @@ class Swept:
         from graphkin.study.diagrams import diagrams
 
         return {} if self.turn is None else diagrams(self.turn, self.language)
-
-    def to_pandas(self) -> pandas.DataFrame:
-        """The table as a frame of pandas.  Raises CallError where that is not installed."""
-        return self.table.to_pandas()
 
     def to_xarray(self) -> xarray.Dataset:
         """The table as a data set of xarray with units, over ``position`` or over ``design`` and ``position``, with
@@ -243,7 +240,10 @@ def sweep(
     from graphkin.study.sweeps import Found, Sweep, collect, write_tables
 
     known_words(formats, language)
-    _checked_call(positions, workers, executor, scheduler)
+    positions = whole_number("positions", positions, 1, MOST_POSITIONS)
+    workers = None if workers is None else whole_number("workers", workers, 1, 1024)
+    if executor is not None and scheduler is not None:
+        raise CallError(Problem("executor", "is given beside a scheduler", "give one of them"))
     made = designs_of(designs, designs_file)
     source, name = written(scene) if made.keys else (as_scene(scene), "")
     given = as_scene(source)
@@ -285,6 +285,8 @@ def _asked(scene: Scene, find: Iterable[str | Symbol] | None) -> tuple[Watched, 
         return tuple(map(watched_symbol, scene.find))
     found: list[Watched] = []
     problems: list[Problem] = []
+    if not isinstance(find, Iterable | Symbol):
+        raise CallError(Problem("find", f"found {find!r:.60}", 'give symbols: ["v_B", "omega_3"]'))
     for name in [find] if isinstance(find, str | Symbol) else find:
         named = watched_named(scene, name) if isinstance(name, str) else None
         try:
@@ -294,17 +296,3 @@ def _asked(scene: Scene, find: Iterable[str | Symbol] | None) -> tuple[Watched, 
     if problems:
         raise CallError(*problems)
     return tuple(found)
-
-
-def _checked_call(
-    positions: int, workers: int | None, executor: Executor | None, scheduler: str | None
-) -> None:
-    problems = []
-    if not 1 <= positions <= MOST_POSITIONS:
-        problems.append(Problem("positions", f"{positions}", f"give a number from 1 to {MOST_POSITIONS}"))
-    if workers is not None and not 1 <= workers <= 1024:
-        problems.append(Problem("workers", f"{workers}", "give a number from 1 to 1024"))
-    if sum(x is not None for x in (executor, scheduler)) > 1:
-        problems.append(Problem("executor", "is given beside a scheduler", "give one of them"))
-    if problems:
-        raise CallError(*problems)

@@ -21,7 +21,7 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Slide
 from graphkin.words import Phrase
 
-__all__ = ["Evidence", "Suspect", "Table", "line_of", "suspects"]
+__all__ = ["Evidence", "Suspect", "ValuesElsewhere", "line_of", "suspects"]
 
 
 def line_of(sheet: Sheet, symbol: Symbol) -> complex | None:
@@ -67,7 +67,7 @@ def _pivot(sheet: Sheet, of: PointRef) -> complex | None:
 
 
 Value = complex | float
-Table = Callable[[Symbol], Sequence[tuple[str, Value]]]
+ValuesElsewhere = Callable[[Symbol], Sequence[tuple[str, Value]]]
 RPM = 60.0 / math.tau
 DEGREE = 180.0 / math.pi
 
@@ -99,7 +99,7 @@ class Evidence:
     plan: Plan
     exact: Callable[[Symbol], Value]
     predicted: Mapping[Symbol, Uncertainty]
-    elsewhere: Table
+    elsewhere: ValuesElsewhere
 
     @cached_property
     def sheet(self) -> Sheet:

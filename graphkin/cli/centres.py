@@ -78,7 +78,7 @@ def _roll(
     rolled = centrodes(scene, link, point, values, None, formats, lang, convention)
     paths = rolled.write(out, formats)
     if as_json:
-        print_json({"link": link, "ok": rolled.ok, "files": [str(path) for path in paths]})
+        print_json(rolled.data | {"files": [str(path) for path in paths]})
     elif not quiet:
         print_paths(paths)
     if not rolled.ok:

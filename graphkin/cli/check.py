@@ -113,11 +113,11 @@ def _print_readings(checked: Checked, language: str) -> None:
 
 def _write(folder: Path, checked: Checked, language: str) -> None:
     from graphkin.api.arguments import write_files
-    from graphkin.api.drawn import readings_table
     from graphkin.api.report_text import told
 
     report = told(checked, language)
-    write_files(folder, {"readings.csv": readings_table(checked).csv().encode(), "report.txt": report.encode()})
+    checked.write(folder)
+    write_files(folder, {"report.txt": report.encode()})
 
 
 def draw(

@@ -83,13 +83,13 @@ class Quantity:
             return math.degrees(value) if degrees else value
         return value if self.measure.startswith("angular") else value / scene.units.metres
 
-    def values(self, reach: DriverRange, motion: Motion) -> Array:
-        """Its values in a motion of this range (SI), shape (n,)."""
+    def values(self, reach: DriverRange | None, motion: Motion) -> Array:
+        """Its values in a motion (SI), shape (n,); in one of a range angles go on from those before."""
         if self.symbol is not None:
             found = motion.value(self.symbol)
             return np.abs(found) if self.is_size else np.asarray(found.real)
         if self.kind == "theta":
-            return reach.angle(motion, self.of)
+            return motion.angle(self.of) if reach is None else reach.angle(motion, self.of)
         if self.kind == "omega":
             return motion.omega(self.of)
         if self.kind == "alpha":

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, fields, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -205,6 +205,10 @@ class Sweep:
     positions: int
     asked: tuple[Watched, ...] = ()
     at: tuple[tuple[str, float], ...] = ()
+
+    def __getstate__(self) -> dict[str, Any]:
+        # what is pickled is what was asked: compiled functions are made anew
+        return {field.name: getattr(self, field.name) for field in fields(self)}
 
     @property
     def rows(self) -> int:

@@ -51,9 +51,9 @@ class Watched:
             return self.what.symbol.kind in ("v", "a")
         return self.what.kind in ("omega", "alpha", "s")
 
-    def parts(self, reach: DriverRange, motion: Motion) -> tuple[Array, ...]:
-        """Its values in a motion of this range, in the units of the table: one array, or the components of a vector."""
-        metres = reach.scene.units.metres
+    def parts(self, reach: DriverRange | None, motion: Motion) -> tuple[Array, ...]:
+        """Its values in a motion (alone, or of a range), in the table's units: one array, or a vector's components."""
+        metres = motion.scene.units.metres
         if isinstance(self.what, PointRef):
             vector = motion.position(self.what.point, self.what.link)
         elif self.what.symbol is not None:

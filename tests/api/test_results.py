@@ -1,18 +1,86 @@
-"""Results in a terminal and in a notebook."""
+"""Results speak alike: in a terminal, in a notebook, as tables and for programs."""
 
 from __future__ import annotations
 
+import copy
+import json
+import pickle
+from functools import cache
+
+import numpy as np
 import pytest
 
 import graphkin
+from graphkin.api.results import Result
 
 pytestmark = pytest.mark.quick
 
+SIXBAR = "sixbar-guide-40deg"
 COMMANDS = ["check", "solve", "draw", "centres", "audit", "handout", "sweep"]
+MAKE = {
+    **{command: (lambda command=command: getattr(graphkin, command)(SIXBAR)) for command in COMMANDS},
+    "centrodes": lambda: graphkin.centrodes("four-bar-coupler-point", "2"),
+    "scenes": graphkin.scenes,
+    "problem_set": lambda: graphkin.problem_set("slider-crank-offset", 2),
+    "stability": lambda: graphkin.stability(["crossing height"], samples=2),
+}
+NAMES = {
+    **dict.fromkeys(["check", "draw", "audit", "handout"], "v_D"),
+    "solve": "v_D", "sweep": "v_D", "centres": "1-3", "centrodes": "fixed_x", "scenes": SIXBAR,
+    "problem_set": "01", "stability": "crossing height",
+}  # fmt: skip
+
+
+@cache
+def made(kind):
+    return MAKE[kind]()
 
 
 @pytest.mark.parametrize("command", COMMANDS)
 def test_a_result_prints_in_one_line_with_the_name_of_its_scene(command):
-    shown = repr(getattr(graphkin, command)("sixbar-guide-40deg"))
+    shown = repr(made(command))
     assert "sixbar-guide-40deg" in shown
     assert len(shown) < 120
+
+
+@pytest.mark.parametrize("kind", MAKE)
+def test_every_result_has_a_table_data_and_a_page(kind):
+    result = made(kind)
+    assert isinstance(result, Result)
+    assert [len(result.table)] * 2 == [len(result.to_pandas()), len(result.table.csv().splitlines()) - 1]
+    assert json.loads(json.dumps(result.data, allow_nan=False)) == result.data
+    assert "<" in result._repr_html_()
+
+
+@pytest.mark.parametrize("kind", MAKE)
+def test_every_result_is_asked_by_name_and_tells_an_unknown_one(kind):
+    assert made(kind)[NAMES[kind]] is not None
+    with pytest.raises(graphkin.CallError, match="nonsense"):
+        made(kind)["nonsense"]
+
+
+@pytest.mark.parametrize("kind", MAKE)
+def test_every_result_can_be_pickled_and_compared_after_it_was_shown(kind):
+    result = made(kind)
+    _ = result._repr_html_(), getattr(result, "_repr_svg_", str)()
+    assert result == pickle.loads(pickle.dumps(result)) == copy.copy(result)
+    assert result != made("solve" if kind == "check" else "check")
+
+
+@pytest.mark.parametrize("kind", [k for k in MAKE if k not in ("draw", "handout", "sweep")])
+def test_every_result_writes_the_table_that_it_shows(kind, tmp_path):
+    paths = made(kind).write(tmp_path)
+    assert set(paths) == set(tmp_path.iterdir())
+    if kind != "scenes":
+        (path,) = (p for p in paths if p.suffix == ".csv")
+        assert made(kind).table.csv() == path.read_text(encoding="utf-8-sig")
+
+
+@pytest.mark.parametrize("name", ["v_D", "omega_3", "a_B@3", "D", "theta_3", "s_2/3", "v_2/3", "driver_1"])
+def test_a_solution_gives_a_quantity_as_a_sweep_does(name):
+    solved, swept = graphkin.solve(SIXBAR, sweep=4), graphkin.sweep(SIXBAR, positions=4)
+    np.testing.assert_allclose(solved[name], swept[name], rtol=1e-9)
+
+
+def test_two_results_of_different_positions_differ():
+    assert graphkin.solve(SIXBAR) != graphkin.solve(SIXBAR, at=51)
