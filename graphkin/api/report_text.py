@@ -15,7 +15,6 @@ from graphkin.scene.model import Scene
 from graphkin.words import Phrase, say, word
 
 if TYPE_CHECKING:
-    from graphkin.api.swept import Swept
     from graphkin.study.trace import Extreme
     from graphkin.study.turn import Output, Turn
 
@@ -116,22 +115,8 @@ def _direction(term: Term) -> str:
 MOST_CURVES = 40
 
 
-def told_turn(swept: Swept) -> str:
-    """The whole summary as lines of text."""
-    language = swept.language
-    scene = swept.over.scene
-    title = scene.title_in(language)
-    lines = [title]
-    if swept.turn is not None:
-        lines += _turn(swept.turn, language)
-    if swept.over.designs.keys:
-        outcomes = ", ".join(f"{n} {status}" for status, n in swept.outcomes.items())
-        lines.append(say(Phrase("designs solved", (len(swept.over.designs), outcomes)), language))
-    lines.append(say(Phrase("positions solved", (swept.good, swept.rows)), language))
-    return "\n".join(lines)
-
-
-def _turn(turn: Turn, language: str) -> list[str]:
+def told_turn(turn: Turn, language: str) -> list[str]:
+    """The study of a turn, in lines."""
     scene = turn.scene
     driver = scene.drivers[0]
     lines: list[str] = []

@@ -32,6 +32,7 @@ from graphkin.scene.model import Scene
 from graphkin.scene.source import written
 from graphkin.scene.symbol import Symbol
 from graphkin.table import Table, have
+from graphkin.words import Phrase, say
 
 if TYPE_CHECKING:
     import xarray
@@ -172,14 +173,25 @@ class Swept(Result):
         files = {f"{n}.{kind}": f.content(kind) for n, f in self.figures.items() for kind in formats}
         return write_files(Path(folder), files)
 
+    @property
+    def text(self) -> str:
+        """The whole summary as lines of text."""
+        from graphkin.api.report_text import told_turn
+
+        lines = [self.over.scene.title_in(self.language)]
+        if self.turn is not None:
+            lines += told_turn(self.turn, self.language)
+        if self.over.designs.keys:
+            outcomes = ", ".join(f"{n} {status}" for status, n in self.outcomes.items())
+            lines.append(say(Phrase("designs solved", (len(self.over.designs), outcomes)), self.language))
+        lines.append(say(Phrase("positions solved", (self.good, self.rows)), self.language))
+        return "\n".join(lines)
+
     def __repr__(self) -> str:
         return f"<Swept {self.over.scene.name}: {self.good} of {self.rows} positions>"
 
     def _repr_html_(self) -> str:
-        from graphkin.api.report_text import told_turn
-
-        lines = told_turn(self)
-        shown = f"<pre>{html.escape(lines)}</pre>"
+        shown = f"<pre>{html.escape(self.text)}</pre>"
         if self.turn is None:
             return shown
         return shown + "".join(f._repr_svg_() for f in list(self.figures.values())[:2])

@@ -72,9 +72,7 @@ def sweep(
     if as_json:
         print_json(swept.data)
     elif not quiet:
-        from graphkin.api.report_text import told_turn
-
-        typer.echo(told_turn(swept))
+        typer.echo(swept.text)
         print_paths(sorted(p for p in target.iterdir() if not p.name.startswith(".")))
     if not swept.ok:
         typer.echo("graphkin: no position could be solved; designs.csv or table.csv says why", err=True)

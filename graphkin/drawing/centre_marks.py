@@ -230,7 +230,7 @@ def pale(child: Primitive, strength: float = 0.45) -> Primitive:
     """The same in thinned colours, as a background."""
     if isinstance(child, Group):
         inside = tuple(pale(c, strength) for c in child.children)
-        return Group(inside, child.id, child.classes, child.layer, child.title)
+        return Group(inside, child.id, child.classes, child.layer, child.title, child.step)
     if isinstance(child, Text):
         return child
     stroke = child.stroke and Stroke(child.stroke.width, child.stroke.dash, strokes.tint(child.stroke.colour, strength))

@@ -276,5 +276,5 @@ def _construction(here: MechanismOnPaper) -> Piece:
                 continue
             middle, half = phase(arc.at - arc.centre), min(COMPASS / arc.radius, math.pi * 0.9)
             shape = Arc(page(arc.centre), arc.radius, middle - half, middle + half, strokes.CONSTRUCTION)
-            drawn.append(Group((shape,), classes=("compass", f"step-{step.number:02d}")))
+            drawn.append(Group((shape,), classes=("compass",), step=step.number))
     return Piece({"construction": tuple(drawn)})

@@ -144,7 +144,7 @@ def moved(children: Iterable[Primitive], by: complex) -> tuple[Primitive, ...]:
 def _moved(thing: Primitive, by: complex) -> Primitive:
     # written out, since a figure has thousands of them and `replace` is slow
     if isinstance(thing, Text):
-        return Text(thing.at + by, thing.runs, thing.anchor, thing.colour, thing.id, thing.classes)
+        return Text(thing.at + by, thing.runs, thing.anchor, thing.colour, thing.id, thing.classes, thing.step)
     if isinstance(thing, Line):
         return Line(thing.start + by, thing.end + by, thing.stroke, thing.covered)
     if isinstance(thing, Circle):
@@ -155,4 +155,4 @@ def _moved(thing: Primitive, by: complex) -> Primitive:
         return Polyline(tuple(z + by for z in thing.points), thing.stroke)
     if isinstance(thing, Polygon):
         return Polygon(tuple(z + by for z in thing.points), thing.fill, thing.stroke)
-    return Group(moved(thing.children, by), thing.id, thing.classes, thing.layer, thing.title)
+    return Group(moved(thing.children, by), thing.id, thing.classes, thing.layer, thing.title, thing.step)

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Sequence
 
-from graphkin.construction.sheet import Bar, DiagramName, Image, Ray, Sheet, Step, Vector
+from graphkin.construction.sheet import Bar, DiagramName, Image, Ray, Sheet, Vector
 from graphkin.construction.steps import Carried
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
@@ -63,7 +63,7 @@ def _images(here: PolygonOnPage) -> Iterator[Primitive]:
             tail = f"-{count[image.link]}" if count[image.link] > 1 else ""
             outline = strokes.CONSTRUCTION.coloured(colour_of_link(here.sheet.scene, image.link))
             shape = Polygon(tuple(map(here.at, image.corners)), "", outline)
-            yield Group((shape,), id=f"image-{here.diagram}-{image.link}{tail}", classes=("image", _class(step)))
+            yield Group((shape,), id=f"image-{here.diagram}-{image.link}{tail}", classes=("image",), step=step.number)
 
 
 def _bars(here: PolygonOnPage) -> Iterator[Piece]:
@@ -79,7 +79,8 @@ def _bars(here: PolygonOnPage) -> Iterator[Piece]:
             if isinstance(step.act, Carried):
                 parts += _head(clipped, here.at(bar.b))
                 names += _carried(here, step.act.symbol, clipped)
-            yield Piece({"construction": (Group(tuple(parts), classes=("construction", _class(step))),)}, tuple(names))
+            drawn = Group(tuple(parts), classes=("construction",), step=step.number)
+            yield Piece({"construction": (drawn,)}, tuple(names))
 
 
 def _head(line: Segment, tip: complex) -> Iterator[Primitive]:
@@ -113,7 +114,7 @@ def _rays(here: PolygonOnPage) -> Iterator[Piece]:
                     text = Text(0j, symbol(markup, 3.0), "start", strokes.GREY, id, ("label", "direction"))
                     names.append(Label(text, beyond, rank=4))
             lines = tuple(Line(*line, strokes.DIRECTION) for line in (leading, beyond) if line is not None)
-            yield Piece({"construction": (Group(lines, classes=("direction", _class(step))),)}, tuple(names))
+            yield Piece({"construction": (Group(lines, classes=("direction",), step=step.number),)}, tuple(names))
 
 
 def _lines(here: PolygonOnPage, ray: Ray, end: complex) -> tuple[Segment | None, Segment | None]:
@@ -128,10 +129,6 @@ def _lines(here: PolygonOnPage, ray: Ray, end: complex) -> tuple[Segment | None,
         beyond = here.panel.clip(here.at(base), here.at(base - BEYOND * e)) or beyond
     leading = here.panel.clip(here.at(first), here.at(end)) if abs(first - end) > SAME else None
     return leading, beyond
-
-
-def _class(step: Step) -> str:
-    return f"step-{step.number:02d}"
 
 
 def _vectors(here: PolygonOnPage) -> Piece:

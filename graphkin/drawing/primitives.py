@@ -24,6 +24,7 @@ __all__ = [
     "Segment",
     "Stroke",
     "Text",
+    "class_names",
     "page_direction",
     "walk",
 ]
@@ -132,7 +133,7 @@ class Text:
     """Runs of text about a point of the baseline.
 
     ``anchor`` says which part of the whole text stands at the point: "start", "middle" or "end".  ``id`` and
-    ``classes`` are those of the element in the SVG.
+    ``classes`` are those of the element in the SVG, ``step`` the number of the step that puts it there.
     """
 
     at: complex
@@ -141,6 +142,7 @@ class Text:
     colour: str = "#000000"
     id: str = ""
     classes: tuple[str, ...] = ()
+    step: int | None = None
 
     @property
     def string(self) -> str:
@@ -150,16 +152,24 @@ class Text:
 
 @dataclass(frozen=True)
 class Group:
-    """Things that belong together: ``layer`` names it as a layer for Inkscape, ``title`` says in words what it is."""
+    """Things that belong together: ``layer`` names it as a layer for Inkscape, ``title`` says in words what it is,
+    ``step`` is the number of the step that puts it there."""
 
     children: tuple[Primitive, ...]
     id: str = ""
     classes: tuple[str, ...] = ()
     layer: str = ""
     title: str = ""
+    step: int | None = None
 
 
 Primitive: TypeAlias = Line | Polyline | Polygon | Circle | Arc | Text | Group
+
+
+def class_names(thing: Group | Text) -> tuple[str, ...]:
+    """Its classes in the SVG, that of its step behind the first."""
+    stage = () if thing.step is None else (f"step-{thing.step:02d}",)
+    return *thing.classes[:1], *stage, *thing.classes[1:]
 
 
 @dataclass(frozen=True)

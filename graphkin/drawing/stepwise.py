@@ -6,7 +6,6 @@ theirs, from what they belong to.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable
 from dataclasses import replace
 
@@ -21,7 +20,6 @@ __all__ = ["births", "so_far", "step_of", "stepped"]
 
 FADED = 0.42  # of its colour is left to what was drawn before
 HALO, HALO_WIDTH = "#ffe08a", 2.0  # mm around what is new: pale enough to print as a light grey
-_STEP = re.compile(r"step-(\d+)")
 
 
 def births(sheet: Sheet) -> dict[str, int]:
@@ -90,27 +88,22 @@ def _insets(sheet: Sheet, diagram: DiagramName, born: dict[str, int]) -> None:
 
 
 def step_of(thing: Primitive) -> int | None:
-    """Number of the step in the classes of a group or a text; None where it has none."""
-    if isinstance(thing, Group | Text):
-        for name in thing.classes:
-            match = _STEP.fullmatch(name)
-            if match:
-                return int(match[1])
-    return None
+    """Number of the step that puts a thing there; None where none does, and for what is part of a group."""
+    return thing.step if isinstance(thing, Group | Text) else None
 
 
 def stepped(children: Iterable[Primitive], born: dict[str, int]) -> tuple[Primitive, ...]:
-    """The same figure with the class of its step on everything that has one; a leader takes that of its name."""
+    """The same figure with its step on everything that has one; a leader takes that of its name."""
     found: list[Primitive] = []
     children = tuple(children)
     for thing, after in zip(children, (*children[1:], None), strict=False):  # the last has none after it
         if isinstance(thing, Line) and isinstance(after, Text) and "label" in after.classes:
             step = born.get(after.id.removeprefix("label-"))
-            thing = Group((thing,), classes=("leader", *(() if step is None else (f"step-{step:02d}",))))
+            thing = Group((thing,), classes=("leader",), step=step)
         elif isinstance(thing, Group | Text):
             step = born.get(thing.id.removeprefix("label-"))
             if step is not None and step_of(thing) is None:
-                thing = replace(thing, classes=(*thing.classes, f"step-{step:02d}"))
+                thing = replace(thing, step=step)
             if isinstance(thing, Group):
                 thing = replace(thing, children=stepped(thing.children, born))
         found.append(thing)

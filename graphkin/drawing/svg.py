@@ -14,7 +14,19 @@ from typing import Any
 from zlib import crc32
 
 from graphkin.drawing.font_widths import has_cjk, runs_width, start_runs
-from graphkin.drawing.primitives import Arc, Circle, Group, Line, Page, Polygon, Polyline, Primitive, Stroke, Text
+from graphkin.drawing.primitives import (
+    Arc,
+    Circle,
+    Group,
+    Line,
+    Page,
+    Polygon,
+    Polyline,
+    Primitive,
+    Stroke,
+    Text,
+    class_names,
+)
 
 __all__ = ["FONTS", "number", "svg_bytes"]
 
@@ -124,7 +136,7 @@ class _Ink:
 
     def _group(self, group: Group) -> Any:
         element = self.page.g()
-        self._name(element, group.id, group.classes)
+        self._name(element, group.id, class_names(group))
         if group.layer:
             # Set past svgwrite's check, which knows no Inkscape.
             element.attribs["inkscape:groupmode"] = "layer"
@@ -147,7 +159,7 @@ class _Ink:
             places = [(run.x, run.y) for run in runs]
         element = self.page.text("", insert=tuple(map(number, places[0])), fill=text.colour)
         element["font-size"] = number(max(run.size for run in runs))
-        self._name(element, text.id, text.classes)
+        self._name(element, text.id, class_names(text))
         if anchor:
             element["text-anchor"] = anchor
         if not self.lang.startswith("zh") and has_cjk(text.string):

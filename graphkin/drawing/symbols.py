@@ -109,8 +109,7 @@ def vector_group(
     title : the vector in words
     classes : further classes
     """
-    stage = () if step is None else (f"step-{step:02d}",)
-    return Group(arrow(tail, tip, kind, colour), id=id, classes=("vector", *stage, *classes), title=title)
+    return Group(arrow(tail, tip, kind, colour), id=id, classes=("vector", *classes), title=title, step=step)
 
 
 JOINT_RADIUS = 1.3

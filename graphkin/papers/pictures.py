@@ -217,7 +217,7 @@ def _without_results(layer: Group) -> Group:
         if not _names_result(thing)
         and not (isinstance(thing, Group) and "leader" in thing.classes and _names_result(after))
     )
-    return Group(kept, layer.id, layer.classes, layer.layer, layer.title)
+    return replace(layer, children=kept)
 
 
 def _names_result(thing: Primitive | None) -> bool:
@@ -228,7 +228,7 @@ def _without(thing: Primitive, name: str) -> Primitive:
     if not isinstance(thing, Group):
         return thing
     kept = tuple(_without(c, name) for c in thing.children if not (isinstance(c, Group) and name in c.classes))
-    return Group(kept, thing.id, thing.classes, thing.layer, thing.title)
+    return replace(thing, children=kept)
 
 
 def equation_picture(sheet: Sheet, equation: Equation, letters: Letters, language: str, words: str) -> Drawing:
