@@ -1,15 +1,18 @@
-"""Redraw the gallery: each folder holds a scene and the figures drawn from it.
+"""Redraw the gallery: each folder holds a scene and the figures drawn from it; ``examples`` Python and its pictures.
 
     python figures/make.py            all of them
-    python figures/make.py NAME ...   some of them
+    python figures/make.py NAME ...   some of them, folders or examples
 
 The tests redraw all of them too; any difference from what is committed fails.
 """
 
 from __future__ import annotations
 
+import io
+import runpy
 import sys
 from pathlib import Path
+from typing import Any
 
 HERE = Path(__file__).parent
 
@@ -45,6 +48,8 @@ GALLERY: dict[str, tuple[str, ...]] = {
 # charts of one machine on one day: kept as examples, not compared
 STUDIES = ("speed-accuracy", "stability")
 
+EXAMPLES = tuple(path.stem for path in sorted((HERE / "examples").glob("*.py")))
+
 
 def redraw(name: str) -> dict[str, bytes]:
     """The figures of a folder, as they should be: SVG by file name."""
@@ -55,10 +60,27 @@ def redraw(name: str) -> dict[str, bytes]:
     return {f"{figure}.svg": svg_bytes(figures[figure]) for figure in GALLERY[name]}
 
 
+def run(example: str) -> tuple[dict[str, Any], bytes]:
+    """What an example has found, by name, and its picture as SVG."""
+    found = runpy.run_path(str(HERE / "examples" / f"{example}.py"))
+    picture = found["picture"]
+    if hasattr(picture, "content"):
+        return found, picture.content("svg")
+    import matplotlib
+
+    stream = io.BytesIO()
+    with matplotlib.rc_context({"svg.hashsalt": "graphkin", "svg.fonttype": "none"}):
+        picture.savefig(stream, format="svg", metadata={"Date": None})
+    return found, stream.getvalue()
+
+
 def main(names: list[str]) -> None:
-    for name in names or GALLERY:
-        for file, content in redraw(name).items():
-            path = HERE / name / file
+    for name in names or [*GALLERY, *EXAMPLES]:
+        made = {f"examples/{name}.svg": run(name)[1]} if name in EXAMPLES else {
+            f"{name}/{file}": content for file, content in redraw(name).items()
+        }
+        for file, content in made.items():
+            path = HERE / file
             if not path.exists() or path.read_bytes() != content:
                 path.write_bytes(content)
                 print(path.relative_to(HERE))
