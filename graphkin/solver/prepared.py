@@ -66,7 +66,7 @@ class Prepared:
     def structure(self) -> Structure:
         return self.range.structure
 
-    @property
+    @cached_property
     def turns(self) -> bool:
         """Whether the first driver is an angle."""
         return isinstance(self.range.driver, AngleDriver)
@@ -164,7 +164,7 @@ class Prepared:
         code = Code(self.dimensioned.program.graph, (*self.asked, *self._sines), self.fixed)
         function, params, names, count = code.floats, self.given(code), code.inputs, len(self.asked)
         everywhere, steady, turns = self.whole, self.signs is not None, self.turns
-        start, sense, (low, high) = float(self.range.start[0]), self.range.sense, self.range.ends
+        (start, sense), (low, high) = self._start, self.range.ends
         place = {"cos": 0, "sin": 1, "travel": 2}
         order = [place.get(name[0], 3) for name in names]
 
@@ -297,6 +297,10 @@ class Prepared:
 
     def _arrays(self, way: GivenValues | UniformGrid, out: Array) -> Array:
         n, count = len(way), len(self.asked)
+        if self.clear:
+            turn = dict(zip((("cos", 0), ("sin", 0)), way.turn, strict=True))
+            self._code.arrays(self._same, [turn[name] for name in self._code.inputs], [*out])
+            return _every(n)
         ok = np.ones(n, dtype=bool) if self.whole else self._reached(way.values)
         if not ok.any():
             out[...] = 0.0
@@ -317,11 +321,16 @@ class Prepared:
 
     def grid(self, n: int, first: int = 0, last: int | None = None) -> UniformGrid:
         last = n if last is None else last
-        start, sense = float(self.range.start[0]), self.range.sense
+        start, sense = self._start
         if self.turns:
             return UniformGrid(start, sense * 2 * math.pi, n, first, last)
         low, high = self.range.ends
         return UniformGrid(start + sense * ((high - low) / n / 2 + low), sense * (high - low), n, first, last)
+
+    @cached_property
+    def _start(self) -> tuple[float, float]:
+        """Where the driver starts, and its sense."""
+        return float(self.range.start[0]), self.range.sense
 
     def values(self, n: int, first: int = 0, last: int | None = None) -> Array:
         """Values of the first driver at positions ``first`` to ``last`` (not included) of n over the whole range: a
