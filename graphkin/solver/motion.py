@@ -212,11 +212,7 @@ class Motion:
         pose = self.poses[of.name]
         if point in of.points:
             return pose.fixed(of.points[point])
-        pin = self.point(point)
-        arm, spin = pin.z - pose.z, 1j * pose.omega
-        return Pose(
-            pin.z, pose.u, pose.v + spin * arm, pose.omega, pose.a + (1j * pose.alpha + spin * spin) * arm, pose.alpha
-        )
+        return pose.carrying(self.point(point).z)
 
     def position(self, point: str, link: str = "") -> Array:
         """complex, shape (n,) (m)."""

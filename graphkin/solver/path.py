@@ -21,7 +21,7 @@ from graphkin.solver.pose import Array
 from graphkin.structure import Cluster, Dyad, Structure
 from graphkin.structure.assembly import Passage, follow
 
-__all__ = ["FAR", "Path", "Walk", "follow_path", "walk_cluster"]
+__all__ = ["FAR", "Path", "follow_path"]
 
 FAR = 4.0
 """A slide driver that nothing limits is followed this many sizes of the mechanism to either side."""
@@ -36,7 +36,7 @@ At = Callable[[float, Array], tuple[ClusterSolved, Array]]
 
 
 @dataclass(frozen=True)
-class Walk:
+class _Walk:
     """Where a group was found along the path parameter.
 
     nodes, places : parameters, shape (n,), and places there, shape (n, members, 3)
@@ -56,8 +56,8 @@ class Walk:
         return np.stack(columns, axis=1).reshape(len(t), -1, 3)
 
 
-def walk_cluster(at: At, place: Array, size: float, end: float, most: float) -> Walk:
-    """Walk with a tangent predictor; a step is taken only if Newton's method confirms what was predicted.
+def _walk_cluster(at: At, place: Array, size: float, end: float, most: float) -> _Walk:
+    """_Walk with a tangent predictor; a step is taken only if Newton's method confirms what was predicted.
 
     The sign of the determinant tells the assembly.  Where it changes and the motion goes on in the same direction the
     group has passed a change point; where nothing is found any more the motion ends.
@@ -100,7 +100,7 @@ def walk_cluster(at: At, place: Array, size: float, end: float, most: float) -> 
     if t < end and end - t < AT_END:
         # the end of the path is itself singular: what stands there says so
         t = end
-    return Walk(np.array(nodes), np.array(places), None if t >= end else t, tuple(flips))
+    return _Walk(np.array(nodes), np.array(places), None if t >= end else t, tuple(flips))
 
 
 def _bend(slope: Array, new_slope: Array, weight: Array) -> float:
@@ -305,7 +305,7 @@ def _follow_cluster(path: Path, i: int, group: Cluster, place: Array) -> Path:
 
     steps = _steps(path.structure, np.abs(path.end - path.start))
     most = min(0.125, CLUSTER_STEP / TURN_STEP / steps)
-    walk = walk_cluster(solved, place, path.structure.scene.size, path.reach, most)
+    walk = _walk_cluster(solved, place, path.structure.scene.size, path.reach, most)
     limit, by = (path.limit, path.by) if walk.end is None else (walk.end, i)
     flips = np.sort(np.append(path.flips, walk.flips))
     return replace(path, forms={**path.forms, i: walk.start}, flips=flips, limit=limit, by=by)

@@ -50,6 +50,13 @@ class Pose:
             self.alpha,
         )
 
+    def carrying(self, place: Any) -> Pose:
+        """The axes fixed to this frame whose origin lies at ``place`` of the outer axes now."""
+        arm, spin = place - self.z, 1j * self.omega
+        return Pose(
+            place, self.u, self.v + spin * arm, self.omega, self.a + (1j * self.alpha + spin * spin) * arm, self.alpha
+        )
+
     def of(self, inner: Pose) -> Pose:
         """The frame ``inner``, given in these axes, in the axes that these are given in.
 

@@ -157,10 +157,7 @@ class _Quantity:
         if not ref.link or ref.link in holders:
             return pose.fixed(program.number("point", ref.link or holders[0], ref.point))
         pin = self._pose(holders[0]).fixed(program.number("point", holders[0], ref.point))
-        arm, spin = pin.z - pose.z, 1j * pose.omega
-        return Pose(
-            pin.z, pose.u, pose.v + spin * arm, pose.omega, pose.a + (1j * pose.alpha + spin * spin) * arm, pose.alpha
-        )
+        return pose.carrying(pin.z)
 
     def _point_bounds(self, ref: PointRef) -> tuple[Real, ...]:
         holders = self._holders(ref)

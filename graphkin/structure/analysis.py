@@ -11,10 +11,10 @@ from graphkin.structure.constraints import Constraints, Node, Unknown
 from graphkin.structure.groups import components, element_of, match
 from graphkin.structure.model import Element, Mobility, Structure
 
-__all__ = ["analyse", "mobility_of", "wrong_count", "wrong_part"]
+__all__ = ["analyse", "mobility_of"]
 
 
-def wrong_count(system: Constraints, mobility: Mobility) -> Problem:
+def _wrong_count(system: Constraints, mobility: Mobility) -> Problem:
     scene = system.scene
     found = len(scene.drivers)
     count = (
@@ -55,7 +55,7 @@ def _sliding_loop(system: Constraints) -> list[str]:
     return []
 
 
-def wrong_part(system: Constraints, unknowns: list[list[Unknown]], given: dict[int, Unknown]) -> Problem:
+def _wrong_part(system: Constraints, unknowns: list[list[Unknown]], given: dict[int, Unknown]) -> Problem:
     """Name the links that are held too much and those that are free."""
     users: dict[Unknown, list[int]] = {}
     for i, row in enumerate(unknowns):
@@ -112,12 +112,12 @@ def analyse(scene: Scene | Structure) -> Structure:
     system = Constraints(scene)
     mobility = system.mobility()
     if mobility.value != len(scene.drivers):
-        raise Unsolvable("mobility", wrong_count(system, mobility))
+        raise Unsolvable("mobility", _wrong_count(system, mobility))
     equations = system.equations()
     unknowns = [sorted(e) for e in equations]
     given = match(unknowns)
     if len(given) < len(equations):
-        raise Unsolvable("mobility", wrong_part(system, unknowns, given))
+        raise Unsolvable("mobility", _wrong_part(system, unknowns, given))
     needs: dict[Node, list[Node]] = {node: [] for node in system.nodes()}
     for i, (node, _) in given.items():
         others = sorted({n for n, _ in unknowns[i]} - {node}, key=system.place)

@@ -1,0 +1,93 @@
+"""One way over the driver's range: how far it reaches, which assembly stands where, and when it closes."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from graphkin.errors import CallError, Unsolvable
+from graphkin.scene import read_text
+from graphkin.scene.model import AngleDriver, Scene
+from graphkin.solver import DriverRange, driver_range, prepare, solve, structure_of
+from graphkin.structure.assembly import ways
+from tests import scenes
+
+ROCKER = scenes.FOUR_BAR.replace("length = 150", "length = 350").replace("length = 500", "length = 200")
+LOOSE = scenes.DOUBLE_PARALLELOGRAM.replace("length = 100\nredundant", "length = 101\nredundant")
+
+
+def scene_of(text: str) -> Scene:
+    return read_text(text, "scene")
+
+
+def range_of(text: str) -> DriverRange:
+    return driver_range(scene_of(text))
+
+
+def test_a_driver_that_cannot_turn_fully_reaches_where_coupler_and_rocker_are_in_line() -> None:
+    rocker = range_of(ROCKER)
+    ends = [math.degrees(float(rocker.value(np.array(end)))) for end in rocker.ends]
+    # coupler 200 and rocker 300 in line span 100 or 500 between the ends of crank 350 and frame 400
+    right = [math.degrees(math.acos((350**2 + 400**2 - d**2) / (2 * 350 * 400))) for d in (100, 500)]
+    assert right == pytest.approx(ends, abs=1e-9)
+
+
+@pytest.mark.parametrize("text", [scenes.FOUR_BAR, ROCKER, scenes.OFFSET_SLIDER, scenes.PISTON])
+def test_solve_and_prepare_come_to_the_same_positions_over_the_range(text: str) -> None:
+    scene = scene_of(text)
+    name = f"omega_{next(link.name for link in scene.links if link.name not in [d.key for d in scene.drivers])}"
+    motion = solve(scene, sweep=40)
+    columns, ok = prepare(scene, [name]).columns(motion.values[:, 0])
+    assert columns[0, ok] == pytest.approx(motion.omega(name[6:])[ok], rel=1e-9, abs=1e-9)
+    assert motion.ok.tolist() == ok.tolist()
+
+
+def test_a_range_in_one_turn_closes_there() -> None:
+    assert 1 == range_of(scenes.FOUR_BAR).until_closed().turns
+
+
+def test_a_structure_serves_as_well_as_its_scene() -> None:
+    scene = scene_of(ROCKER)
+    assert driver_range(scene).ends == driver_range(structure_of(scene)).ends
+
+
+def test_a_start_that_the_motion_does_not_reach_is_refused() -> None:
+    with pytest.raises(Unsolvable, match="the motion reaches from"):
+        driver_range(scene_of(ROCKER), {"1": math.pi})
+
+
+def test_a_start_of_no_driver_is_refused() -> None:
+    with pytest.raises(CallError, match="there is no such driver"):
+        driver_range(scene_of(ROCKER), {"3": 1.0})
+
+
+def test_a_redundant_link_that_does_not_fit_is_refused_over_the_range_too() -> None:
+    with pytest.raises(Unsolvable, match="it misses its joints"):
+        range_of(LOOSE).motion(np.zeros(1))
+
+
+def test_a_redundant_link_is_not_refused_for_what_rounding_makes_of_it_beside_a_dead_point() -> None:
+    whole = range_of(scenes.DOUBLE_PARALLELOGRAM)
+    beside = np.geomspace(1e-12, 1e-2, 60)
+    motion = whole.motion(whole.offsets(beside))
+    assert set(motion.status) == {"dead point", "ok"}
+
+
+@pytest.mark.parametrize(
+    ("goal", "found"),
+    [
+        (1.0, [1.0, 1.0 - 2 * math.pi]),
+        (-1.0, [-1.0, 2 * math.pi - 1.0]),
+        (1.0 + 4 * math.pi, [1.0, 1.0 - 2 * math.pi]),
+        (0.0, [0.0]),
+    ],
+)
+def test_a_turning_driver_has_two_ways_to_a_goal(goal: float, found: list[float]) -> None:
+    turning = [d for d in scene_of(scenes.FOUR_BAR).drivers if isinstance(d, AngleDriver)]
+    assert [pytest.approx((x,), abs=1e-14) for x in found] == list(ways(turning, [0.0], [goal]))
+
+
+def test_a_sliding_driver_has_one_way_to_a_goal() -> None:
+    assert [(0.3,)] == list(ways(scene_of(scenes.PISTON).drivers, [0.1], [0.3]))
