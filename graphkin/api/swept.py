@@ -121,7 +121,7 @@ class Swept(Result):
 
         if self.over.designs.keys:
             return None
-        return study_turn(self.over.base.course, [w.symbol for w in self.over.asked if w.symbol is not None])
+        return study_turn(self.over.base.reach, [w.symbol for w in self.over.asked if w.symbol is not None])
 
     @cached_property
     def data(self) -> dict[str, Any]:
@@ -273,7 +273,7 @@ def sweep(
         if arrays is not None:
             return Swept(over, Found(over.rows, int(np.count_nonzero(arrays.ok))), spoken, arrays)
     if not made.keys and over.base.engine is None:
-        _ = over.base.course  # a start that cannot be assembled
+        _ = over.base.reach  # a start that cannot be assembled
     through = cluster(scheduler) if scheduler else executor
     try:
         with Workers(through, workers if over.long else None) as working:

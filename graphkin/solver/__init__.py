@@ -1,6 +1,6 @@
 """The analytic solver: dyads in closed form, higher groups by Newton, whole sweeps as arrays."""
 
-from graphkin.solver.driver_range import DriverRange, driver_range
+from graphkin.solver.driver_range import DriverRange, driver_range, whole_range
 from graphkin.solver.findings import structure_of
 from graphkin.solver.motion import Motion, Sliding
 from graphkin.solver.prepared import Prepared, prepare
@@ -18,5 +18,6 @@ __all__ = [
     "solve",
     "structure_of",
     "to_json",
+    "whole_range",
     "write_json",
 ]

@@ -27,7 +27,7 @@ from graphkin.solver.redundant import all_slides, place_redundant
 from graphkin.structure import Structure
 from graphkin.structure.assembly import ways
 
-__all__ = ["DriverRange", "driver_range", "goal_values", "motion_of", "range_from", "way_to"]
+__all__ = ["DriverRange", "driver_range", "goal_values", "motion_of", "range_from", "way_to", "whole_range"]
 
 MOST_TURNS = 4
 CLOSED = 1e-7
@@ -273,6 +273,11 @@ def driver_range(scene: Scene | Structure, at: Mapping[str, float] | None = None
             raise Unsolvable("not assembled", Problem(structure.scene.name or "scene", why))
         forms = path.last_forms
     return range_from(structure, forms, start)
+
+
+def whole_range(scene: Scene | Structure, at: Mapping[str, float] | None = None) -> DriverRange:
+    """``driver_range`` over as many turns as it takes until the motion closes."""
+    return driver_range(scene, at).until_closed()
 
 
 def range_from(structure: Structure, forms: Mapping[int, Array], start: Array) -> DriverRange:

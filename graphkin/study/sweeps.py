@@ -20,10 +20,9 @@ from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable
 from graphkin.jobs import Checkpoints, Progress, Workers, key_of, whole_file
 from graphkin.scene import read
 from graphkin.scene.model import Scene
-from graphkin.solver import prepare, structure_of
+from graphkin.solver import DriverRange, prepare, structure_of, whole_range
 from graphkin.solver.prepared import Prepared
 from graphkin.structure import Cluster, Structure
-from graphkin.study.course import Course, course_of
 from graphkin.study.designs import Designs, Value, applied
 from graphkin.study.summary import row
 from graphkin.study.turn import study_turn
@@ -111,9 +110,9 @@ class Design:
         return self.asked or everything(self.structure)
 
     @cached_property
-    def course(self) -> Course:
-        """Its way under the first driver.  Raises Unsolvable."""
-        return course_of(self.structure, dict(self.at))
+    def reach(self) -> DriverRange:
+        """The range of its first driver.  Raises Unsolvable."""
+        return whole_range(self.structure, dict(self.at))
 
     @cached_property
     def engine(self) -> Prepared | None:
@@ -147,8 +146,8 @@ class Design:
         if self.engine is not None:
             found = self.engine.columns(self.engine.values(n, first, last))
             return self.table_of(self._arrays(self.engine, *found), n, first, last)
-        motion = self.course.motion(self.course.table_offsets(n, first, last))
-        parts = tuple(w.parts(self.course, motion) for w in self.watched)
+        motion = self.reach.motion(self.reach.table_offsets(n, first, last))
+        parts = tuple(w.parts(self.reach, motion) for w in self.watched)
         return self._table(first, motion.values, parts, motion.status.tolist(), motion.why)
 
     def table_of(self, arrays: Arrays, n: int, first: int, last: int) -> Table:
@@ -163,9 +162,9 @@ class Design:
             parts = tuple(tuple(part.copy() for part in own) for own in parts)
         for some in (bad[k : k + BLOCK] for k in range(0, len(bad), BLOCK)):
             # why there is nothing there the solver says, and it has the last word on whether there is
-            motion = self.course.motion(self.course.table_offsets(n, first, last)[some])
+            motion = self.reach.motion(self.reach.table_offsets(n, first, last)[some])
             for own, watched in zip(parts, self.watched, strict=True):
-                for part, found in zip(own, watched.parts(self.course, motion), strict=True):
+                for part, found in zip(own, watched.parts(self.reach, motion), strict=True):
                     part[some] = found
             status[some], why[some] = motion.status.tolist(), motion.why
         return self._table(first, values, parts, status, why)
@@ -345,7 +344,7 @@ def _rows(piece: Piece, number: int, values: tuple[Value, ...]) -> tuple[Table, 
         good = len(table) - len(bad)
         status, why = (table["status"][bad[0]], table["why"][bad[0]]) if len(bad) else ("ok", "")
         if keys and piece.first == 0:
-            cells = row(study_turn(design.course, everything=False))
+            cells = row(study_turn(design.reach, everything=False))
     shown = [str(v) if word else v for v, word in zip(values, piece.worded, strict=True)]
     return _with_design(table, keys, number, shown), Outcome(number, status, why, cells, good)
 
@@ -359,7 +358,7 @@ def _followed(sweep: Sweep, values: tuple[Value, ...]) -> Design | tuple[str, st
             scene = read(applied(sweep.source, sweep.designs.keys, values))
             design = Design(scene, sweep.asked, sweep.at)
         if design.engine is None or sweep.designs.keys:
-            _ = design.course
+            _ = design.reach
         return design
     except Unsolvable as error:
         return error.status, error.why

@@ -11,8 +11,8 @@ from graphkin.drawing import Box, ChartPage, Drawing, Group, Line, Polyline, Tex
 from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.primitives import walk
 from graphkin.scene import read, read_text
+from graphkin.solver import whole_range
 from graphkin.study.coupler import coupler_points
-from graphkin.study.course import course_of
 from graphkin.study.diagrams import diagrams
 from graphkin.study.driver_axis import next_step
 from graphkin.study.measured import measured
@@ -23,18 +23,18 @@ from tests.drawing.chart_words import off_the_page, overlapping
 
 
 def pages(name: str, language: str = "en", positions: int = 12) -> dict[str, ChartPage | Drawing]:
-    return diagrams(study_turn(course_of(read(name))), language, positions)
+    return diagrams(study_turn(whole_range(read(name))), language, positions)
 
 
 @pytest.mark.parametrize("name", ["sixbar-420rpm", "shaper-scheme-2"])
 def test_values_measured_off_the_polygons_are_those_of_the_solver(name: str) -> None:
-    course = course_of(read(name))
-    quantities = [o.quantity for o in study_turn(course, everything=False).outputs]
-    for quantity, rows in measured(course, quantities, 4).items():
-        motion = course.motion(np.array([r[0] for r in rows]))
+    reach = whole_range(read(name))
+    quantities = [o.quantity for o in study_turn(reach, everything=False).outputs]
+    for quantity, rows in measured(reach, quantities, 4).items():
+        motion = reach.motion(np.array([r[0] for r in rows]))
         of = link_quantities if quantity.kind == "theta" else slide_quantities
         for k, q in enumerate(of(quantity.of)):
-            assert [r[k + 1] for r in rows] == pytest.approx(q.values(course, motion).tolist(), rel=1e-9, abs=1e-9)
+            assert [r[k + 1] for r in rows] == pytest.approx(q.values(reach, motion).tolist(), rel=1e-9, abs=1e-9)
 
 
 def test_every_output_has_a_diagram_and_every_coupler_point_a_curve() -> None:
@@ -92,18 +92,18 @@ def test_twelve_measured_points_lie_on_each_curve() -> None:
 
 
 def test_the_curve_shows_the_values_of_the_solver() -> None:
-    course = course_of(read("shaper-scheme-2"))
+    reach = whole_range(read("shaper-scheme-2"))
     page = pages("shaper-scheme-2", positions=0)["motion-slide-6-1"]
     for quantity in slide_quantities("6/1"):
         curve = lines(page, quantity.name.replace("/", "-"))["curve"]
-        sense = np.sign(course.driver.values[1])
-        offsets = ((np.radians(curve[1:-1, 0]) - course.start[0]) * sense) % (2 * np.pi)
-        right = quantity.values(course, course.motion(offsets)) * 1e3
+        sense = np.sign(reach.driver.values[1])
+        offsets = ((np.radians(curve[1:-1, 0]) - reach.start[0]) * sense) % (2 * np.pi)
+        right = quantity.values(reach, reach.motion(offsets)) * 1e3
         assert right == pytest.approx(curve[1:-1, 1], rel=1e-7, abs=1e-6 * np.ptp(right))
 
 
 def test_extremes_are_marked_where_they_are_and_say_how_much() -> None:
-    turn = study_turn(course_of(read("shaper-scheme-2")))
+    turn = study_turn(whole_range(read("shaper-scheme-2")))
     page = diagrams(turn, positions=0)["motion-slide-6-1"]
     axes = next(a for a in page.figure().axes if a.get_gid() == "v_6-1")
     found = next(t for t in turn.curves if t.quantity.name == "v_6/1").extremes
@@ -115,7 +115,7 @@ def test_extremes_are_marked_where_they_are_and_say_how_much() -> None:
 
 
 def test_limit_positions_are_lines_through_all_panels() -> None:
-    turn = study_turn(course_of(read("shaper-scheme-2")))
+    turn = study_turn(whole_range(read("shaper-scheme-2")))
     output = next(o for o in turn.outputs if o.quantity.of == "6/1")
     page = diagrams(turn, positions=0)["motion-slide-6-1"]
     right = sorted(np.degrees([output.low.driver, output.high.driver]))
@@ -150,8 +150,8 @@ def test_the_zero_line_is_heavier_than_the_grid() -> None:
 
 def test_the_coupler_curve_is_drawn_in_its_scale() -> None:
     page = pages("four-bar-coupler-point", positions=0)["curve-P"]
-    course = course_of(read("four-bar-coupler-point"))
-    path = course.motion(np.linspace(*course.ends, 721)).position("P")
+    reach = whole_range(read("four-bar-coupler-point"))
+    path = reach.motion(np.linspace(*reach.ends, 721)).position("P")
     scale = json.loads(json.dumps(page.metadata))["scales"]["length"]
     curve = next(g for g in page.children if isinstance(g, Group) and g.id == "curve-P")
     drawn = Box.around(next(t for t in curve.children if isinstance(t, Polyline)).points)
@@ -162,7 +162,7 @@ def test_the_coupler_curve_is_drawn_in_its_scale() -> None:
 @pytest.mark.parametrize("angle", ["33", "0"])
 def test_a_change_point_at_the_end_of_the_axis_is_a_gap_in_the_curve_only(angle: str) -> None:
     scene = read_text(scenes.PARALLELOGRAM.replace("angle = 60", f"angle = {angle}"), "p")
-    page = diagrams(study_turn(course_of(scene)), positions=12)["motion-link-3"]
+    page = diagrams(study_turn(whole_range(scene)), positions=12)["motion-link-3"]
     assert all(np.isfinite(lines(page, panel)["dots"]).all() for panel in ("theta_3", "omega_3", "alpha_3"))
 
 

@@ -12,7 +12,7 @@ import pytest
 
 from graphkin.errors import Unsolvable
 from graphkin.scene import library, read, read_text
-from graphkin.study.course import course_of
+from graphkin.solver import whole_range
 from graphkin.study.summary import to_json
 from graphkin.study.turn import Output, Turn, study_turn
 from tests import scenes
@@ -31,7 +31,7 @@ LIMITS = {
 
 @lru_cache
 def turn_of(name: str) -> Turn:
-    return study_turn(course_of(read(name)))
+    return study_turn(whole_range(read(name)))
 
 
 def slider(turn: Turn) -> Output:
@@ -66,7 +66,7 @@ def test_slider_crank_gives_back_the_stroke_it_was_made_for() -> None:
 
 def test_K_of_a_driver_that_turns_clockwise_is_that_of_one_that_turns_the_other_way() -> None:
     scene = dict(FOUR_BAR, driver={"link": "1", "angle": 60, "omega": -3})
-    both = [study_turn(course_of(read(s))) for s in (FOUR_BAR, scene)]
+    both = [study_turn(whole_range(read(s))) for s in (FOUR_BAR, scene)]
     one, other = (t.quick_return(t.outputs[0]) for t in both)
     assert one == pytest.approx(other, rel=1e-12)
 
@@ -79,7 +79,7 @@ def test_least_transmission_angle_of_the_four_bar() -> None:
 
 
 def test_in_a_change_point_the_transmission_angle_is_zero() -> None:
-    assert study_turn(course_of(read_text(scenes.PARALLELOGRAM, "p"))).transmission[0].angle == 0.0
+    assert study_turn(whole_range(read_text(scenes.PARALLELOGRAM, "p"))).transmission[0].angle == 0.0
 
 
 def test_least_transmission_angle_of_the_slider_crank() -> None:
@@ -149,7 +149,7 @@ def test_class_of_a_four_bar(lengths: tuple[float, ...], name: str, turning: tup
     scene["frame"]["points"]["D"] = [d, 0]
     for link, length in zip("123", (a, b, c), strict=True):
         scene["links"][link]["length"] = length
-    loop = study_turn(course_of(read(scene)), everything=False).loops[0]
+    loop = study_turn(whole_range(read(scene)), everything=False).loops[0]
     assert (loop.name, loop.turns) == (name, turning)
 
 
@@ -185,7 +185,7 @@ def test_extremes_of_acceleration_are_found_off_the_grid() -> None:
 
 @pytest.mark.parametrize("name", library())
 def test_no_value_of_a_fine_grid_exceeds_the_extremes(name: str) -> None:
-    turn = study_turn(course_of(read(name)), everything=False)
+    turn = study_turn(whole_range(read(name)), everything=False)
     low, high = turn.reach.ends
     motion = turn.reach.motion(np.linspace(low, high, 401)[1:-1])
     for output in turn.outputs:
@@ -206,7 +206,7 @@ def test_parallelogram_repeats_after_one_turn_and_its_antiparallel_form_is_not_r
     scene = json.loads(json.dumps(FOUR_BAR))
     scene["links"]["1"]["length"] = scene["links"]["3"]["length"] = 150
     scene["links"]["2"]["length"] = 400
-    turn = study_turn(course_of(read(scene)), everything=False)
+    turn = study_turn(whole_range(read(scene)), everything=False)
     assert (turn.reach.turns, turn.outputs[0].swings) == (1, False)
 
 
@@ -214,14 +214,14 @@ def test_wrong_mobility_is_refused_by_name() -> None:
     scene = json.loads(json.dumps(FOUR_BAR))
     scene["links"]["5"] = {"points": ["A", "C"], "length": 450}
     with pytest.raises(Unsolvable):
-        course_of(read(scene))
+        whole_range(read(scene))
 
 
 def test_a_driven_slide_has_its_other_range() -> None:
-    other = study_turn(course_of(read_text(scenes.CYLINDER, "c"))).ranges[1]
+    other = study_turn(whole_range(read_text(scenes.CYLINDER, "c"))).ranges[1]
     assert (other.low, other.high) == pytest.approx((-0.5, -0.1), abs=1e-9)
 
 
 def test_a_larger_group_whose_other_ranges_are_unknown_is_named() -> None:
-    turn = study_turn(course_of(read_text(scenes.MOVED_PARALLELOGRAM, "p")), everything=False)
+    turn = study_turn(whole_range(read_text(scenes.MOVED_PARALLELOGRAM, "p")), everything=False)
     assert turn.not_searched == ("1", "2", "3", "5")
