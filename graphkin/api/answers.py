@@ -13,7 +13,7 @@ from pathlib import Path
 from graphkin.api.arguments import asked_symbols
 from graphkin.checking.printed import Printed, stated
 from graphkin.errors import CallError, Problem
-from graphkin.scene.model import Scene
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 
 __all__ = ["Answers", "AnswersLike", "Rows", "as_answers", "table_of", "with_points"]
@@ -50,7 +50,7 @@ class Answers:
     values: tuple[Printed, ...]
 
 
-def as_answers(scene: Scene, given: AnswersLike) -> tuple[tuple[Answers, ...], tuple[str, ...]]:
+def as_answers(scene: Mechanism, given: AnswersLike) -> tuple[tuple[Answers, ...], tuple[str, ...]]:
     """The answers in a CSV file, or in a mapping from person to values by symbol.
 
     The file has a line of heads: symbols ("v_D", "omega_3", also "ω3", with or without their unit), ``at`` for the
@@ -114,7 +114,7 @@ def with_points(sheet: Rows) -> Rows:
     return Rows(sheet.heads, tuple(rows), sheet.sign)
 
 
-def _answers(scene: Scene, sheet: Rows, name: str) -> tuple[tuple[Answers, ...], tuple[str, ...]]:
+def _answers(scene: Mechanism, sheet: Rows, name: str) -> tuple[tuple[Answers, ...], tuple[str, ...]]:
     symbols: dict[int, Symbol] = {}
     problems: list[Problem] = []
     for i, head in enumerate(sheet.heads):

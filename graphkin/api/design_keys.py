@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.errors import CallError, Problem, SceneError
-from graphkin.scene import read
+from graphkin.scene import mechanism_of
 from graphkin.scene.dimensions import Dimension, dimensions
 from graphkin.scene.model import Mechanism
 from graphkin.solver.joints import turned
@@ -119,7 +119,7 @@ def _begin(source: Mapping[str, Any], key: str) -> tuple[float, float]:
 
 def _numbers(source: Mapping[str, Any], values: Mapping[str, float]) -> dict[Dimension, complex]:
     try:
-        return dimensions(read(applied(source, tuple(values), tuple(values.values()))))
+        return dimensions(mechanism_of(applied(source, tuple(values), tuple(values.values()))))
     except SceneError as error:
         what = f"designs {', '.join(values)}"
         raise CallError(Problem(what, f"changed by itself the scene no longer fits: {error}")) from None

@@ -11,7 +11,7 @@ from graphkin.api.arguments import own_unit
 from graphkin.api.checked import Checked, reading_row
 from graphkin.construction.sheet import Equation, Term
 from graphkin.construction.steps import Direction
-from graphkin.scene.model import Scene
+from graphkin.scene.model import Mechanism
 from graphkin.words import Phrase, say, word
 
 if TYPE_CHECKING:
@@ -152,7 +152,7 @@ def told_turn(turn: Turn, language: str) -> list[str]:
     return lines
 
 
-def _between(scene: Scene, low: float, high: float, open_low: bool = False, open_high: bool = False) -> str:
+def _between(scene: Mechanism, low: float, high: float, open_low: bool = False, open_high: bool = False) -> str:
     ends = [
         "..." if open_ else own_unit(scene, scene.drivers[0], value)
         for value, open_ in ((low, open_low), (high, open_high))
@@ -160,7 +160,7 @@ def _between(scene: Scene, low: float, high: float, open_low: bool = False, open
     return " – ".join(ends)
 
 
-def _at(scene: Scene, extreme: Extreme) -> str:
+def _at(scene: Mechanism, extreme: Extreme) -> str:
     return own_unit(scene, scene.drivers[0], extreme.driver)
 
 

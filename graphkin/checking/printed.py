@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from decimal import Decimal, InvalidOperation
 from itertools import combinations, pairwise
 
-from graphkin.scene.model import Scene
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 
 __all__ = ["Printed", "printed_values", "stated", "transcription_errors"]
@@ -79,7 +79,7 @@ def _number(text: str) -> Decimal:
     return number
 
 
-def printed_values(scene: Scene) -> tuple[Printed, ...]:
+def printed_values(scene: Mechanism) -> tuple[Printed, ...]:
     """The ``[printed]`` values of a scene, as they stand in the file but for zeros at the end of decimals."""
     found = []
     for symbol, value in scene.printed.items():

@@ -43,9 +43,9 @@ class Reading:
 def read_off(sheet: Sheet, asked: Sequence[Symbol] = (), instrument: Instrument = EXACT) -> tuple[Reading, ...]:
     """Measure every vector and every rate that was drawn, or only those asked for, with the instrument's eyes.
 
-    >>> from graphkin.scene import read
+    >>> from graphkin.scene import mechanism_of
     >>> from graphkin.construction import draft
-    >>> sheet = draft(read("sixbar-guide-40deg"))
+    >>> sheet = draft(mechanism_of("sixbar-guide-40deg"))
     >>> b3 = {str(r.symbol): r for r in read_off(sheet)}["v_B@3"]
     >>> round(b3.on_paper, 3)
     107.578
@@ -69,9 +69,9 @@ def _vector(sheet: Sheet, diagram: DiagramName, vector: Vector, instrument: Inst
     size = abs(vector.span)
     if instrument is EXACT or size == 0.0:
         return Reading(vector.symbol, size, vector.span * sheet.scales.of(diagram), diagram)
-    read = abs(instrument.read(size))
+    length = abs(instrument.read(size))
     along = instrument.read_direction(vector.span / size)
-    return Reading(vector.symbol, read, read * along * sheet.scales.of(diagram), diagram)
+    return Reading(vector.symbol, length, length * along * sheet.scales.of(diagram), diagram)
 
 
 COVERAGE = 3.0  # a stated bound is this many standard deviations

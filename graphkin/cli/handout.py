@@ -87,9 +87,9 @@ def _problem_set(
 ) -> None:  # fmt: skip
     from graphkin.api.handouts import papers_of
     from graphkin.api.problem_sets import problem_set
-    from graphkin.scene import read
+    from graphkin.scene import mechanism_of
 
-    target = out if out is not None else Path(read(scene).name)
+    target = out if out is not None else Path(mechanism_of(scene).name)
     papers = papers_of(scene, formats, lang, convention)
     with progress_bar(not as_json and not quiet, target) as progress:
         made = problem_set(

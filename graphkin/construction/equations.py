@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from graphkin.construction.steps import Direction
-from graphkin.scene.model import Link
+from graphkin.scene.model import PlacedLink
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import Dyad, Pair, Slide, Turn, Weld
 
@@ -51,13 +51,13 @@ class Chain:
     right: tuple[Edge, ...]
 
 
-def node(links: Mapping[str, Link], point: str, link: str) -> PointRef:
+def node(links: Mapping[str, PlacedLink], point: str, link: str) -> PointRef:
     """The node of a point on a link: the pin itself if it is one of the link's own points."""
     return PointRef(point) if point in links[link].points else PointRef(point, link)
 
 
 def equation_of(
-    links: Mapping[str, Link],
+    links: Mapping[str, PlacedLink],
     frame: str,
     dyad: Dyad,
     places: Mapping[str, complex],
@@ -96,7 +96,7 @@ def equation_of(
     return best[1] if best else None
 
 
-def _as_chain(path: Sequence[Edge], frame: str, links: Mapping[str, Link]) -> Chain | None:
+def _as_chain(path: Sequence[Edge], frame: str, links: Mapping[str, PlacedLink]) -> Chain | None:
     """Split a path with two unknowns at the node before the second."""
     places = [i for i, e in enumerate(path) if e.unknown]
     if len(places) != 2 or path[places[0]].unknown == path[places[1]].unknown:
@@ -112,7 +112,7 @@ class _Net:
 
     def __init__(
         self,
-        links: Mapping[str, Link],
+        links: Mapping[str, PlacedLink],
         frame: str,
         dyad: Dyad,
         places: Mapping[str, complex],

@@ -11,7 +11,7 @@ from graphkin.construction.reduced_mechanism import ReducedMechanism, clusters, 
 from graphkin.construction.rigid import PlacedLinks, Poses
 from graphkin.construction.sheet import Pose
 from graphkin.errors import Problem, Unsolvable
-from graphkin.scene.model import AngleDriver, Scene
+from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.structure import Driven, Dyad, Structure, analyse
 from graphkin.structure.assembly import ways
 
@@ -27,7 +27,7 @@ ROUNDS = 30
 Table = Mapping[tuple[str, ...], Sequence[ReducedMechanism]]
 
 
-def moved_to(scene: Scene, own: Mapping[str, float], values: Mapping[str, float], poses: Poses) -> dict[str, Pose]:
+def moved_to(scene: Mechanism, own: Mapping[str, float], values: Mapping[str, float], poses: Poses) -> dict[str, Pose]:
     """All links at driver values, from where they lie at others (``own``), on paper of the mechanism's size.
 
     Raises
@@ -44,7 +44,7 @@ def moved_to(scene: Scene, own: Mapping[str, float], values: Mapping[str, float]
     raise last
 
 
-def _walk(scene: Scene, own: Mapping[str, float], target: Mapping[str, float], start: Poses) -> dict[str, Pose]:
+def _walk(scene: Mechanism, own: Mapping[str, float], target: Mapping[str, float], start: Poses) -> dict[str, Pose]:
     structure = analyse(scene)
     table = {cluster.members: reduced_mechanisms(scene, cluster) for cluster in clusters(structure)}
     length = max(
@@ -84,7 +84,7 @@ def _moved(one: Poses, other: Poses) -> float:
 
 
 def _found_near(
-    scene: Scene, structure: Structure, table: Table, values: Mapping[str, float], guess: Poses
+    scene: Mechanism, structure: Structure, table: Table, values: Mapping[str, float], guess: Poses
 ) -> dict[str, Pose] | None:
     """All links at driver values near which a position is guessed; None where nothing fits near by."""
     frame = PlacedLinks(structure.links, 1.0 / scene.size, values, {scene.frame.name: Pose(0j, 1 + 0j)})

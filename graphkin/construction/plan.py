@@ -20,7 +20,7 @@ from graphkin.construction.position import branches_at, draw_position, place
 from graphkin.construction.sheet import DiagramName, Scales, Sheet, Vector
 from graphkin.construction.slip import NO_SLIP, Slip
 from graphkin.construction.steps import Asked
-from graphkin.scene.model import AngleDriver, Scene
+from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Cluster, Driven, Dyad, Element, Structure, analyse, links_of, needed
 from graphkin.words import Phrase
@@ -58,7 +58,7 @@ class Extent:
         return Extent((max(x) - min(x)) * per_mm, (max(y) - min(y)) * per_mm)
 
 
-def _chosen_scales(scene: Scene, extents: Mapping[DiagramName, Extent], room: Room | None) -> Scales:
+def _chosen_scales(scene: Mechanism, extents: Mapping[DiagramName, Extent], room: Room | None) -> Scales:
     """The scene's own scales, and for those it does not give the finest of the series that fit the room."""
     wanted, unit = scene.sheet, scene.units.metres
     space = room or Room()
@@ -167,7 +167,7 @@ class Plan(Task):
 
 
 def plan(
-    scene: Scene | Structure,
+    scene: Mechanism | Structure,
     at: Mapping[str, float] | None = None,
     find: Iterable[Symbol] | None = None,
     room: Room | None = None,
@@ -274,7 +274,7 @@ def _finished(task: Task, polygons: Polygons, assembly: Mapping[str, Phrase]) ->
 
 
 def draft(
-    scene: Scene | Structure,
+    scene: Mechanism | Structure,
     at: Mapping[str, float] | None = None,
     find: Iterable[Symbol] | None = None,
     instrument: Instrument = EXACT,

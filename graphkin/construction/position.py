@@ -16,7 +16,7 @@ from graphkin.construction.rigid import PlacedLinks
 from graphkin.construction.sheet import Mark, Pose
 from graphkin.construction.steps import Cause, FixedPoints, LinkPoints, Placing
 from graphkin.errors import Problem, Unsolvable
-from graphkin.scene.model import AngleDriver, Scene
+from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import Driven, Dyad, Element, Structure, Turn, links_of, pick
 from graphkin.structure.assembly import follow, ways
@@ -224,7 +224,7 @@ def _gap(
     return gap
 
 
-def _out_of_reach(scene: Scene, values: Mapping[str, float], limits: Sequence[Mapping[str, float]]) -> Problem:
+def _out_of_reach(scene: Mechanism, values: Mapping[str, float], limits: Sequence[Mapping[str, float]]) -> Problem:
     def shown(key: str, value: float) -> str:
         driver = next(d for d in scene.drivers if d.key == key)
         if isinstance(driver, AngleDriver):

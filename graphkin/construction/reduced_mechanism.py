@@ -15,7 +15,7 @@ from graphkin.construction.rigid import LinkMotion, PlacedLinks, Poses
 from graphkin.construction.sheet import Pose
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, dot
-from graphkin.scene.model import AngleDriver, Driver, Link, Scene, SlideDriver
+from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedLink, SlideDriver
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Cluster, Driven, Dyad, Slide, Structure, Turn, analyse, links_of, needed
 
@@ -33,7 +33,7 @@ class RemovedConstraint:
     left_out: str
     ends: tuple[tuple[str, str], ...] = ()
     slide: Slide | None = None
-    driver: Driver | None = None
+    driver: AnyDriver | None = None
 
     @property
     def links(self) -> tuple[str, ...]:
@@ -45,7 +45,7 @@ class RemovedConstraint:
             names += [self.driver.link, self.driver.relative_to]
         return tuple(dict.fromkeys(names))
 
-    def gap(self, links: Mapping[str, Link], poses: Poses, mm: float, values: Mapping[str, float]) -> float:
+    def gap(self, links: Mapping[str, PlacedLink], poses: Poses, mm: float, values: Mapping[str, float]) -> float:
         """By how much it does not fit: mm of paper, or rad for a driven angle; ``values`` are those of the drivers."""
         if isinstance(self.driver, AngleDriver):
             turn = poses[self.driver.link].axis / poses[self.driver.relative_to].axis
@@ -60,7 +60,9 @@ class RemovedConstraint:
         start, along, _ = self._rail(poses, mm)
         return cross(along, at[0] - start) - self._offset(links) * mm
 
-    def rate(self, links: Mapping[str, Link], poses: Poses, motions: Mapping[str, LinkMotion], mm: float) -> float:
+    def rate(
+        self, links: Mapping[str, PlacedLink], poses: Poses, motions: Mapping[str, LinkMotion], mm: float
+    ) -> float:
         """How fast it comes not to fit: mm/s on paper, or rad/s."""
         if isinstance(self.driver, AngleDriver):
             return motions[self.driver.link].omega - motions[self.driver.relative_to].omega - self.driver.omega
@@ -76,7 +78,7 @@ class RemovedConstraint:
         _, along, _ = self._rail(poses, mm)
         return cross(along, speed[0] - motions[self._other_side].of(at[0]))
 
-    def placed(self, links: Mapping[str, Link], poses: Poses, mm: float) -> Pose | None:
+    def placed(self, links: Mapping[str, PlacedLink], poses: Poses, mm: float) -> Pose | None:
         """Where the link left out lies, where it fits; None where a driver was left out."""
         if not self.ends:
             return None
@@ -91,7 +93,7 @@ class RemovedConstraint:
         return Pose(at[0] - axis * own[0], axis)
 
     def moving(
-        self, links: Mapping[str, Link], poses: Poses, motions: Mapping[str, LinkMotion], mm: float
+        self, links: Mapping[str, PlacedLink], poses: Poses, motions: Mapping[str, LinkMotion], mm: float
     ) -> LinkMotion:
         """How the link left out moves, from the links that hold it."""
         at = [_place(links, poses, mm, *end) for end in self.ends]
@@ -119,7 +121,7 @@ class RemovedConstraint:
         along = poses[s.a].axis * s.turn.conjugate()
         return poses[s.a].origin, along, poses[s.a].origin
 
-    def _offset(self, links: Mapping[str, Link]) -> float:
+    def _offset(self, links: Mapping[str, PlacedLink]) -> float:
         """Distance (m) of a block's hinge from the guide, to its left."""
         s = self.slide
         assert s is not None
@@ -129,7 +131,7 @@ class RemovedConstraint:
         return cross(s.guide.direction, hinge - s.guide.through)
 
 
-def _place(links: Mapping[str, Link], poses: Poses, mm: float, point: str, link: str) -> complex:
+def _place(links: Mapping[str, PlacedLink], poses: Poses, mm: float, point: str, link: str) -> complex:
     pose = poses[link]
     return pose.origin + pose.axis * links[link].points[point] * mm
 
@@ -142,7 +144,7 @@ class ReducedMechanism:
     links of the group, in the order of drawing.
     """
 
-    scene: Scene
+    scene: Mechanism
     structure: Structure
     removed: RemovedConstraint
     driver: str
@@ -179,7 +181,7 @@ def clusters(structure: Structure) -> list[Cluster]:
     return [e for e in structure.elements if isinstance(e, Cluster)]
 
 
-def reduced_mechanisms(scene: Scene, cluster: Cluster) -> list[ReducedMechanism]:
+def reduced_mechanisms(scene: Mechanism, cluster: Cluster) -> list[ReducedMechanism]:
     """All ways to replace a larger group of a scene by dyads; the trial driver choices at value and rate 0.
 
     Raises
@@ -197,7 +199,7 @@ def reduced_mechanisms(scene: Scene, cluster: Cluster) -> list[ReducedMechanism]
     return found
 
 
-def _reduced(scene: Scene, structure: Structure, cluster: Cluster) -> Iterator[ReducedMechanism]:
+def _reduced(scene: Mechanism, structure: Structure, cluster: Cluster) -> Iterator[ReducedMechanism]:
     for removed in _removable(structure, cluster):
         opened = _opened(scene, removed)
         for trial in _trials(structure, cluster, removed):
@@ -233,7 +235,7 @@ def _removable(structure: Structure, cluster: Cluster) -> Iterator[RemovedConstr
             yield RemovedConstraint(name, ends, slides[0])
 
 
-def _opened(scene: Scene, removed: RemovedConstraint) -> Scene:
+def _opened(scene: Mechanism, removed: RemovedConstraint) -> Mechanism:
     """The scene without a constraint of its group, everything known of its place kept as a sketch."""
     gone = removed.left_out
     return replace(
@@ -249,7 +251,7 @@ def _opened(scene: Scene, removed: RemovedConstraint) -> Scene:
     )
 
 
-def _trials(structure: Structure, cluster: Cluster, removed: RemovedConstraint) -> Iterator[Driver]:
+def _trials(structure: Structure, cluster: Cluster, removed: RemovedConstraint) -> Iterator[AnyDriver]:
     """Drivers that can take its place: at a pair of the group that is not driven and not left out."""
     driven = {d.key for d in structure.scene.drivers}
     blocks = {s.key for s in structure.slides if s.slot}

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from graphkin.construction.board import EXACT, Instrument
 from graphkin.construction.sheet import Pose
 from graphkin.plane import direction, unit
-from graphkin.scene.model import AngleDriver, Link
+from graphkin.scene.model import AngleDriver, PlacedLink
 from graphkin.structure import Body, Dyad, Slide, Turn
 
 __all__ = ["LinkMotion", "PlacedLinks", "Poses", "RigidBody", "across", "hinge", "inner_hinge", "rail"]
@@ -35,7 +35,7 @@ class LinkMotion:
 class PlacedLinks:
     """Links on paper: their shapes at the length scale, the driver values, and where the known ones lie."""
 
-    links: Mapping[str, Link]
+    links: Mapping[str, PlacedLink]
     mm: float  # of paper for one m
     values: Mapping[str, float]  # drivers, rad or m
     poses: dict[str, Pose] = field(default_factory=dict)

@@ -12,7 +12,7 @@ from typing import Literal
 
 from graphkin.construction.remarks import Remark
 from graphkin.construction.steps import Act, Cause, Direction, Size, phrase_of, scaled
-from graphkin.scene.model import Scene
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure.model import Element, Structure
 from graphkin.words import Phrase
@@ -230,7 +230,7 @@ class Sheet:
     ``left_out`` says what nothing asked for needs.
     """
 
-    scene: Scene
+    scene: Mechanism
     structure: Structure
     instrument: str
     drivers: Mapping[str, float]

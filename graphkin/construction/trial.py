@@ -20,7 +20,7 @@ from graphkin.construction.reduced_mechanism import ReducedMechanism, RemovedCon
 from graphkin.construction.rigid import PlacedLinks, Poses
 from graphkin.construction.sheet import Pose
 from graphkin.errors import Problem, Unsolvable
-from graphkin.scene.model import AngleDriver, Driver, Scene
+from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
 from graphkin.structure import Cluster, Driven, Dyad, Structure, analyse, links_of, pick
 
 __all__ = ["Known", "TrialPosition", "trial_position"]
@@ -39,11 +39,11 @@ class TrialPosition:
     ``removed`` are what was left out, in order, each with the key of its trial driver.
     """
 
-    scene: Scene
+    scene: Mechanism
     removed: tuple[tuple[RemovedConstraint, str], ...]
 
 
-def trial_position(scene: Scene, values: Mapping[str, float], near: Known | None = None) -> TrialPosition:
+def trial_position(scene: Mechanism, values: Mapping[str, float], near: Known | None = None) -> TrialPosition:
     """Find by trial the position of a scene with larger groups.
 
     Parameters
@@ -70,7 +70,7 @@ def trial_position(scene: Scene, values: Mapping[str, float], near: Known | None
 # -- the scene's own position: all the places at which the groups close -----------------------------------------------
 
 
-def _own_position(scene: Scene, own: Mapping[str, float]) -> dict[str, Pose]:
+def _own_position(scene: Mechanism, own: Mapping[str, float]) -> dict[str, Pose]:
     structure = analyse(scene)
     frame = PlacedLinks(structure.links, 1.0 / scene.size, own, {scene.frame.name: Pose(0j, 1 + 0j)})
     for element in structure.elements:
@@ -83,7 +83,7 @@ def _own_position(scene: Scene, own: Mapping[str, float]) -> dict[str, Pose]:
     return dict(frame.poses)
 
 
-def _dyad_by_sketch(scene: Scene, structure: Structure, frame: PlacedLinks, dyad: Dyad) -> None:
+def _dyad_by_sketch(scene: Mechanism, structure: Structure, frame: PlacedLinks, dyad: Dyad) -> None:
     meeting = meet(frame, dyad)
     if not meeting.poses:
         raise Unsolvable("not assembled", Problem(f"links {', '.join(dyad.links)}", "their loci do not meet here"))
@@ -98,7 +98,7 @@ def _fresh(structure: Structure, frame: PlacedLinks, poses: Poses) -> dict[str, 
     return {p: there.point(n, p) / frame.mm for n in poses for p in structure.links[n].points if p not in known}
 
 
-def _cluster_by_sketch(scene: Scene, structure: Structure, frame: PlacedLinks, cluster: Cluster) -> None:
+def _cluster_by_sketch(scene: Mechanism, structure: Structure, frame: PlacedLinks, cluster: Cluster) -> None:
     found: list[dict[str, Pose]] = []
     # by several trial drivers: what one passes over at its dead point another sees
     by_driver: dict[str, ReducedMechanism] = {}
@@ -224,10 +224,10 @@ def _root(gap: Callable[[float], float], a: float, b: float, fa: float, fb: floa
     return c
 
 
-def _reduced_here(scene: Scene, values: Mapping[str, float], poses: Poses) -> TrialPosition:
+def _reduced_here(scene: Mechanism, values: Mapping[str, float], poses: Poses) -> TrialPosition:
     """The reduced mechanism of each larger group at the position found, with a sketch by which each dyad takes its
     assembly."""
-    here: Scene = replace(scene, drivers=tuple(_at(d, values[d.key]) for d in scene.drivers), drawn={}, find=())
+    here: Mechanism = replace(scene, drivers=tuple(_at(d, values[d.key]) for d in scene.drivers), drawn={}, find=())
     mm = 1.0 / scene.size
     links = analyse(scene).links
     removed: list[tuple[RemovedConstraint, str]] = []
@@ -249,7 +249,7 @@ def _reduced_here(scene: Scene, values: Mapping[str, float], poses: Poses) -> Tr
     return TrialPosition(replace(here, sketch=places), tuple(removed))
 
 
-def _at(driver: Driver, value: float) -> Driver:
+def _at(driver: AnyDriver, value: float) -> AnyDriver:
     if isinstance(driver, AngleDriver):
         return replace(driver, angle=value)
     return replace(driver, travel=value)

@@ -175,9 +175,9 @@ def letters_of(sheet: Sheet, convention: Convention) -> Letters:
 def scale_statement(sheet: Sheet, convention: Convention, diagram: DiagramName) -> str:
     """The scale of a figure, as words with symbols between dollar signs.
 
-    >>> from graphkin.scene import read
+    >>> from graphkin.scene import mechanism_of
     >>> from graphkin.construction import draft
-    >>> scale_statement(draft(read("sixbar-guide-40deg")), "british", "velocity")
+    >>> scale_statement(draft(mechanism_of("sixbar-guide-40deg")), "british", "velocity")
     '1 cm = 100 mm/s'
     """
     unit = sheet.scene.units.length

@@ -19,7 +19,7 @@ from graphkin.drawing.primitives import Segment
 from graphkin.drawing.strokes import colour_of_link
 from graphkin.drawing.symbols import hull
 from graphkin.plane import cross, dot
-from graphkin.scene.model import Scene, SlideDriver
+from graphkin.scene.model import Mechanism, SlideDriver
 from graphkin.structure import Slide
 
 __all__ = ["GUIDE_LENGTH", "LinkShape", "MechanismOnPaper", "Slider", "page", "sliders"]
@@ -76,7 +76,7 @@ class MechanismOnPaper:
     letters: Letters
 
     @property
-    def scene(self) -> Scene:
+    def scene(self) -> Mechanism:
         return self.sheet.scene
 
     @property

@@ -25,7 +25,7 @@ from graphkin.drawing.polygon_on_page import extent
 from graphkin.drawing.primitives import Group, Line, Polygon, Primitive, Run, Text
 from graphkin.drawing.tables import given_data, readings_table
 from graphkin.drawing.text import fitted, rich, wrapped
-from graphkin.scene.model import Scene
+from graphkin.scene.model import Mechanism
 from graphkin.words import Phrase, languages, say
 
 __all__ = ["BLOCK", "GUTTER", "MARGIN", "SheetPlan", "sheet_page", "sheet_plan", "sheet_room"]
@@ -55,7 +55,7 @@ class SheetPlan:
     block: Box
 
 
-def sheet_room(scene: Scene) -> Room:
+def sheet_room(scene: Mechanism) -> Room:
     """The room in which a sheet for ``sheet_page`` is to be drafted: ``draft(scene, room=sheet_room(scene))``."""
     plans = _plans(scene)
     first, *others = (_mechanism_room(plan) for plan in plans)
@@ -67,7 +67,7 @@ def _mechanism_room(plan: SheetPlan) -> tuple[float, float]:
     return plan.mechanism.width - AROUND_MECHANISM[0], plan.mechanism.height - AROUND_MECHANISM[1]
 
 
-def _plans(scene: Scene) -> tuple[SheetPlan, ...]:
+def _plans(scene: Mechanism) -> tuple[SheetPlan, ...]:
     """The usual plan of a page, and those for taller mechanisms."""
     if scene.sheet.orientation == "landscape":
         return (_landscape(*scene.sheet.size),)

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.primitives import Stroke
-from graphkin.scene.model import Scene
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 
 __all__ = [
@@ -65,7 +65,7 @@ def tint(colour: str, strength: float = 0.14) -> str:
     return "#" + "".join(f"{round(255 - (255 - part) * strength):02x}" for part in parts)
 
 
-def colour_of_link(scene: Scene, link: str) -> str:
+def colour_of_link(scene: Mechanism, link: str) -> str:
     """Colour of a link; the frame is black."""
     name = link.split("/")[-1]
     return BLACK if name == scene.frame.name else link_colour(scene.order[name])

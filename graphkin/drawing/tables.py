@@ -17,7 +17,7 @@ from graphkin.drawing.headings import drivers, number, remarks, term
 from graphkin.drawing.primitives import Line, Primitive, Run, Text
 from graphkin.drawing.text import rich, wrapped
 from graphkin.plane import degrees
-from graphkin.scene.model import Link, Scene
+from graphkin.scene.model import Mechanism, PlacedLink
 from graphkin.words import Phrase, languages, say, word
 
 __all__ = ["given_data", "given_lengths", "readings_table"]
@@ -230,7 +230,7 @@ def _flowed(items: Sequence[str], size: float, width: float) -> list[tuple[Run, 
     return [runs for line in lines for runs in wrapped(line, size, width)]
 
 
-def given_lengths(scene: Scene, letters: Letters) -> list[tuple[str, float]]:
+def given_lengths(scene: Mechanism, letters: Letters) -> list[tuple[str, float]]:
     """The given lengths of all links: symbol (without dollar signs) and value in the scene's unit."""
     found: list[tuple[str, float]] = []
     for link in scene.links:
@@ -240,7 +240,7 @@ def given_lengths(scene: Scene, letters: Letters) -> list[tuple[str, float]]:
     return found
 
 
-def _further(link: Link, scene: Scene, letters: Letters) -> list[tuple[str, float]]:
+def _further(link: PlacedLink, scene: Mechanism, letters: Letters) -> list[tuple[str, float]]:
     """Distances of the further points of a link from its own."""
     more = [p for p in link.points if p not in link.bar]
     return [
@@ -254,5 +254,5 @@ def _bar(letters: Letters, names: tuple[str, ...]) -> str:
     return f"l_{{{''.join(names)}}}"
 
 
-def _pair(z: complex, scene: Scene) -> str:
+def _pair(z: complex, scene: Mechanism) -> str:
     return f"{number(z.real / scene.units.metres)}, {number(z.imag / scene.units.metres)}"

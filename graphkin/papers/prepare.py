@@ -26,7 +26,7 @@ from graphkin.papers.pictures import paper_plan
 from graphkin.papers.problem import problem
 from graphkin.papers.solution import answer_key, key_table, solution
 from graphkin.papers.variants import Variant, asked_of
-from graphkin.scene.model import Scene
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion
 from graphkin.structure import Structure
@@ -49,14 +49,14 @@ def lesson_of(what: Plan, motion: Motion, language: str, convention: str) -> Les
     return Lesson(sheet, report, tolerance, language, convention, what.asked)
 
 
-def usual_count(scene: Scene) -> int:
+def usual_count(scene: Mechanism) -> int:
     """How many positions of the driver a page shows where nobody says: fewer of a mechanism of many links, of which
     each takes its time to draw and to load."""
     return POSITIONS if len(scene.links) <= MANY_LINKS else POSITIONS // 2
 
 
 def positions(
-    of: Scene | Structure, values: Mapping[str, float] | None, count: int = POSITIONS
+    of: Mechanism | Structure, values: Mapping[str, float] | None, count: int = POSITIONS
 ) -> tuple[list[dict[str, float]], int]:
     """Driver values (rad, m) spread over a turn or over what the motion reaches, and which of them is the given one."""
     motion = solver.solve(of, at=values, sweep=count)
@@ -80,7 +80,7 @@ def positions(
 
 
 def views_of(
-    scene: Scene,
+    scene: Mechanism,
     values: Mapping[str, float] | None,
     asked: Sequence[Symbol],
     language: str,
@@ -122,7 +122,7 @@ def _silent(done: int, count: int) -> None:
     pass
 
 
-def _centres(scene: Scene, sheets: Sequence[Sheet], given: int, progress: Progress) -> list[Centres | None]:
+def _centres(scene: Mechanism, sheets: Sequence[Sheet], given: int, progress: Progress) -> list[Centres | None]:
     """The centres in each position, from the given one onwards and then backwards: each starts from its neighbour."""
     found: dict[int, Centres | None] = {}
     for i in (*range(given, len(sheets)), *range(given - 1, -1, -1)):
@@ -132,7 +132,7 @@ def _centres(scene: Scene, sheets: Sequence[Sheet], given: int, progress: Progre
     return [found[i] for i in range(len(sheets))]
 
 
-def _centres_of(scene: Scene, sheet: Sheet, near: Centres | None) -> Centres | None:
+def _centres_of(scene: Mechanism, sheet: Sheet, near: Centres | None) -> Centres | None:
     for start in (near, None) if near is not None else (None,):
         with suppress(Unsolvable):
             return find_centres(scene, sheet.drivers, sheet=sheet, near=start)

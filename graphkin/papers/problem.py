@@ -25,7 +25,7 @@ from graphkin.papers.blocks import (
 )
 from graphkin.papers.lesson import Lesson, plain_words
 from graphkin.papers.pictures import blank_equations, draw_frame, mechanism_picture, paper_of, parts
-from graphkin.scene.model import AngleDriver, Guide, Scene
+from graphkin.scene.model import AngleDriver, Mechanism, PlacedGuide
 from graphkin.words import Phrase, languages, say, word
 
 __all__ = ["given", "paper_title", "problem", "reach", "scene_title"]
@@ -106,7 +106,7 @@ def given(lesson: Lesson) -> Iterator[Paragraph]:
         yield Paragraph(spoken(label + scene.source.replace("$", "$$"), lesson.language), small=True)
 
 
-def _guide(lesson: Lesson, guide: Guide, language: str) -> str:
+def _guide(lesson: Lesson, guide: PlacedGuide, language: str) -> str:
     scene = lesson.sheet.scene
     name = f"${lesson.letters.guide(guide.name, scene.frame.name)}$"
     x, y = (number(part / scene.units.metres) for part in (guide.through.real, guide.through.imag))
@@ -124,7 +124,7 @@ def reach(lesson: Lesson) -> Iterator[Paragraph]:
         yield Paragraph(tuple((each, lesson.speaker.sentence(phrase, each)) for each in languages(lesson.language)))
 
 
-def _speeds(scene: Scene) -> Iterator[str]:
+def _speeds(scene: Mechanism) -> Iterator[str]:
     """Speeds of drivers in r/min, where these are the round ones."""
     for driver in scene.drivers:
         if isinstance(driver, AngleDriver) and driver.omega:

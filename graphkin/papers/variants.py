@@ -20,8 +20,8 @@ from graphkin.construction.sheet import Ray
 from graphkin.errors import GraphkinError, Problem, SceneError, Unsolvable
 from graphkin.papers.pictures import paper_plan
 from graphkin.plane import cross
-from graphkin.scene import read
-from graphkin.scene.model import Scene
+from graphkin.scene import mechanism_of
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion, solve
 from graphkin.structure import Driven, Dyad, analyse
@@ -66,9 +66,9 @@ class Variant:
     remarks: tuple[str, ...] = ()
 
     @property
-    def scene(self) -> Scene:
+    def scene(self) -> Mechanism:
         """The variant as a scene."""
-        return read(self.source)
+        return mechanism_of(self.source)
 
 
 class Unfit(Exception):
@@ -141,7 +141,7 @@ def _put(made: Any, path: Path, value: float) -> None:
     _at(made, path[:-1])[path[-1]] = value
 
 
-def asked_of(scene: Scene) -> tuple[Symbol, ...]:
+def asked_of(scene: Mechanism) -> tuple[Symbol, ...]:
     """What a problem asks: the scene's own ``find``, else the motion of the last group's joint, and the rates of
     the links about fixed pivots."""
     if scene.find:
@@ -177,8 +177,8 @@ def examined(source: Source, base: Source | None, name: str, strict: bool = True
     """
     try:
         made = _moved(source, base) if base is not None else dict(source)
-        made["find"] = [str(s) for s in asked_of(read(made))]
-        scene = read(made)
+        made["find"] = [str(s) for s in asked_of(mechanism_of(made))]
+        scene = mechanism_of(made)
         motion = solve(scene)
         if motion.status[0] != "ok":
             raise Unfit(f"{motion.status[0]}: {motion.why[0]}")
@@ -212,7 +212,7 @@ def examined(source: Source, base: Source | None, name: str, strict: bool = True
 
 def _moved(source: Source, base: Source) -> dict[str, Any]:
     """The file with its driver's value reached from that of ``base``, and a sketch that tells this assembly."""
-    start, goal = read(base), read(source)
+    start, goal = mechanism_of(base), mechanism_of(source)
     motion = solve(start, {d.key: d.values[0] for d in goal.drivers})
     if motion.status[0] != "ok":
         raise Unfit(f"{motion.status[0]}: {motion.why[0]}")
@@ -221,7 +221,7 @@ def _moved(source: Source, base: Source) -> dict[str, Any]:
     return made
 
 
-def _sketch(scene: Scene, motion: Motion) -> dict[str, list[float]]:
+def _sketch(scene: Mechanism, motion: Motion) -> dict[str, list[float]]:
     places = {}
     for point, names in scene.holders.items():
         if scene.frame.name not in names:
@@ -258,7 +258,9 @@ def _measured(sheet: Sheet, symbol: Symbol) -> bool:
     return rate is not None and rate.vector is not None
 
 
-def _answers(scene: Scene, motion: Motion, sheet: Sheet, asked: tuple[Symbol, ...]) -> Iterator[tuple[Symbol, float]]:
+def _answers(
+    scene: Mechanism, motion: Motion, sheet: Sheet, asked: tuple[Symbol, ...]
+) -> Iterator[tuple[Symbol, float]]:
     """The exact answers; the drawing must agree with each of them."""
     drawn = {r.symbol: r.value for r in read_off(sheet, asked)}
     for symbol in asked:

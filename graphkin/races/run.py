@@ -15,7 +15,7 @@ from graphkin.races.drawn import acts, drawn, instant_centres
 from graphkin.races.peers import PEERS, Skipped
 from graphkin.races.timing import Entry, Machine, best_time, this_machine
 from graphkin.races.work import Work, work_of
-from graphkin.scene.model import Scene
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.study.reference import context
 from graphkin.table import Table
@@ -39,7 +39,7 @@ class Race:
     asked : what the limited runs were asked for
     """
 
-    scene: Scene
+    scene: Mechanism
     entries: tuple[Entry, ...]
     copying: tuple[float, float]
     acts: int
@@ -54,7 +54,7 @@ class Race:
         return next(e for e in self.entries if e.key == key and e.tag == tag)
 
 
-def race(scene: Scene, repeats: int, count: int = COUNT) -> Race:
+def race(scene: Mechanism, repeats: int, count: int = COUNT) -> Race:
     """Let all methods run.
 
     Parameters

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from graphkin import solver
 from graphkin.errors import CallError, Problem
-from graphkin.scene.model import AngleDriver, Scene
+from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver import Motion
 from graphkin.structure import Dyad, Structure
@@ -80,7 +80,7 @@ class Work:
     motion: Motion
 
     @property
-    def scene(self) -> Scene:
+    def scene(self) -> Mechanism:
         return self.structure.scene
 
     def errors(self, velocity: Array | None, acceleration: Array | None) -> tuple[float | None, float | None]:
@@ -134,7 +134,7 @@ def _error(right: Split, found: Array | None) -> float | None:
     return float(np.max(right.off(found)) / np.max(np.abs(right.high)))
 
 
-def work_of(scene: Scene, mp: MPContext, count: int) -> Work:
+def work_of(scene: Mechanism, mp: MPContext, count: int) -> Work:
     """Positions over the turn of the driver (over its range, for one that does not turn fully), and the truth there.
 
     Parameters

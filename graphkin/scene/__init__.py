@@ -30,11 +30,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from graphkin.scene.source import library, library_text
-from graphkin.scene.source import mechanism_of as read
-from graphkin.scene.source import mechanism_of_text as read_text
+from graphkin.scene.source import library, library_text, mechanism_of, mechanism_of_text
 
-__all__ = ["library", "library_text", "read", "read_text", "schema"]
+__all__ = ["library", "library_text", "mechanism_of", "mechanism_of_text", "read", "read_text", "schema"]
+
+read, read_text = mechanism_of, mechanism_of_text
 
 
 def schema() -> dict[str, Any]:

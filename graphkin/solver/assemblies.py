@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from graphkin.errors import Problem, Unsolvable
-from graphkin.scene.model import AngleDriver, Scene
+from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.solver.dyads import Solved
 from graphkin.solver.engine import State, positions
 from graphkin.solver.joints import Drive, driver_text
@@ -23,7 +23,7 @@ ROUNDS = 80
 SAME = 1e-6
 
 
-def own_values(scene: Scene) -> Array:
+def own_values(scene: Mechanism) -> Array:
     """The drivers' values in the scene's own position, shape (drivers,)."""
     return np.array([d.values[0] for d in scene.drivers])
 

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from decimal import ROUND_HALF_EVEN, Context, Decimal, DivisionByZero, InvalidOperation, Overflow, localcontext
 from typing import Any
 
-from graphkin.scene.model import AngleDriver, Driver
+from graphkin.scene.model import AngleDriver, AnyDriver
 
 __all__ = [
     "DIGITS",
@@ -49,7 +49,7 @@ def meant_angle(value: float) -> tuple[Decimal, bool]:
         return (degrees * PI / 180 if known else Decimal(value)), known
 
 
-def meant_value(driver: Driver, value: float) -> Decimal:
+def meant_value(driver: AnyDriver, value: float) -> Decimal:
     """The value of a driver that was written for a float."""
     return (meant_angle if isinstance(driver, AngleDriver) else meant)(value)[0]
 

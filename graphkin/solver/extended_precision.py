@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from graphkin.scene.model import AngleDriver, Driver
+from graphkin.scene.model import AngleDriver, AnyDriver
 from graphkin.solver.code import Code
 from graphkin.solver.decimals import cos_sin, meant, meant_angle, working
 from graphkin.solver.expressions import Vec
@@ -35,7 +35,7 @@ class ExtendedPrecision:
 
     dimensioned: DimensionedProgram
     code: Code
-    drivers: Sequence[Driver]
+    drivers: Sequence[AnyDriver]
     value: Array
     rate: Array
     second: Array

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from graphkin.errors import GraphkinError, Problem, Unsolvable
-from graphkin.scene.model import AngleDriver, Scene
+from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.solver.assemblies import choose_forms, own_values
 from graphkin.solver.dead_points import from_dead_point, nearest_dead_point
 from graphkin.solver.decimals import meant_value
@@ -246,7 +246,7 @@ def _guide(pair: Slide) -> str:
 NEARBY = 0.01
 
 
-def structure_of(scene: Scene | Structure) -> Structure:
+def structure_of(scene: Mechanism | Structure) -> Structure:
     """The structure of a scene, a driver's value that is given from a dead point found; a structure as it is.
 
     Raises
@@ -269,7 +269,7 @@ def structure_of(scene: Scene | Structure) -> Structure:
     return structure
 
 
-def _diagnosis(scene: Scene) -> Problem | None:
+def _diagnosis(scene: Mechanism) -> Problem | None:
     tried: list[tuple[str, Fit, bool]] = []
     for link in reversed(scene.links):
         if link.redundant or any(link.name in d.key.split("/") for d in scene.drivers):
@@ -297,7 +297,7 @@ def _diagnosis(scene: Scene) -> Problem | None:
     return _verdict([x for x in tried if x[2] or not counted])
 
 
-def _unit(scene: Scene) -> float:
+def _unit(scene: Mechanism) -> float:
     """A small step of every driver: an angle, or a part of the size."""
     return 1.0 if not any("/" in d.key for d in scene.drivers) else scene.size
 

@@ -8,7 +8,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from graphkin.scene.model import AngleDriver, Driver, Scene
+from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
 from graphkin.solver.dyads import Joints
 from graphkin.solver.pose import Array, Pose
 from graphkin.structure import Body, Driven, Dyad, Pair, Structure, Turn
@@ -48,7 +48,7 @@ def turned(angle: Array) -> Array:
     return u
 
 
-def driver_text(scene: Scene, driver: Driver, value: float) -> str:
+def driver_text(scene: Mechanism, driver: AnyDriver, value: float) -> str:
     """A driver value in its own unit."""
     if isinstance(driver, AngleDriver):
         return f"{np.degrees(value):.10g} deg"
@@ -75,7 +75,7 @@ class Frames(Protocol):
     def turn(self, driver: AngleDriver) -> Pose:
         """The rotation that an angle driver gives."""
 
-    def travel(self, driver: Driver) -> tuple[Any, Any, Any]:
+    def travel(self, driver: AnyDriver) -> tuple[Any, Any, Any]:
         """Value, rate and second rate of a slide driver."""
 
 

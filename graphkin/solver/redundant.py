@@ -10,7 +10,7 @@ import numpy as np
 
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, dot
-from graphkin.scene.model import Link, Scene, SlidingPair
+from graphkin.scene.model import Mechanism, PlacedLink, SlidingPair
 from graphkin.solver.error_bound import ErrorBound
 from graphkin.solver.pose import Array, Pose, rest
 from graphkin.structure import Slide, Structure
@@ -89,17 +89,17 @@ def all_slides(structure: Structure) -> tuple[Slide, ...]:
     return structure.slides + tuple(_slide(scene, s) for s in scene.slidings if s.key not in have)
 
 
-def _slide(scene: Scene, s: SlidingPair) -> Slide:
+def _slide(scene: Mechanism, s: SlidingPair) -> Slide:
     return Slide(s.key, s.link, s.on, scene.by_name[s.on].guides[s.guide], s.turn, s.pin)
 
 
-def fit(scene: Scene, link: Link, poses: Mapping[str, Pose]) -> Fit | None:
+def fit(scene: Mechanism, link: PlacedLink, poses: Mapping[str, Pose]) -> Fit | None:
     """Place a link from what it is joined to; None if the links it is joined to do not place it."""
     with np.errstate(all="ignore"):
         return _fit(scene, link, poses)
 
 
-def _fit(scene: Scene, link: Link, poses: Mapping[str, Pose]) -> Fit | None:
+def _fit(scene: Mechanism, link: PlacedLink, poses: Mapping[str, Pose]) -> Fit | None:
     shared = {p: n for p in link.points for n in scene.holders[p] if n in poses and n != link.name}
     slides = [s for s in scene.slidings if s.link == link.name and s.on in poses]
     pose = _between_hinges(scene, link, shared, poses) if len(shared) > 1 else None
@@ -124,7 +124,9 @@ def _fit(scene: Scene, link: Link, poses: Mapping[str, Pose]) -> Fit | None:
     return Fit(pose, place, _part(velocity, speed), _part(acceleration, push), scale)
 
 
-def _between_hinges(scene: Scene, link: Link, shared: Mapping[str, str], poses: Mapping[str, Pose]) -> Pose | None:
+def _between_hinges(
+    scene: Mechanism, link: PlacedLink, shared: Mapping[str, str], poses: Mapping[str, Pose]
+) -> Pose | None:
     p, q = max(combinations(shared, 2), key=lambda two: abs(link.points[two[0]] - link.points[two[1]]))
     arm = link.points[q] - link.points[p]
     if arm == 0:
@@ -139,7 +141,7 @@ def _between_hinges(scene: Scene, link: Link, shared: Mapping[str, str], poses: 
 
 
 def _on_guide(
-    scene: Scene, link: Link, shared: Mapping[str, str], slides: list[SlidingPair], poses: Mapping[str, Pose]
+    scene: Mechanism, link: PlacedLink, shared: Mapping[str, str], slides: list[SlidingPair], poses: Mapping[str, Pose]
 ) -> Pose | None:
     if not slides:
         return None

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from graphkin.errors import CallError, Problem, Unsolvable
-from graphkin.scene.model import AngleDriver, Scene
+from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.solver.assemblies import choose_forms, own_values
 from graphkin.solver.driver_range import goal_values, motion_of, range_from, way_to
 from graphkin.solver.error_bound import ErrorBound
@@ -22,7 +22,7 @@ __all__ = ["solve"]
 
 
 def solve(
-    scene: Scene | Structure, at: Mapping[str, float] | None = None, sweep: int | None = None
+    scene: Mechanism | Structure, at: Mapping[str, float] | None = None, sweep: int | None = None
 ) -> Motion:
     """Solve a scene, or its structure, analytically.
 

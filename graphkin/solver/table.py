@@ -8,7 +8,7 @@ from typing import IO, Any
 
 import numpy as np
 
-from graphkin.scene.model import Scene, SlideDriver
+from graphkin.scene.model import Mechanism, SlideDriver
 from graphkin.solver.motion import Motion
 from graphkin.solver.pose import Array
 from graphkin.structure import Cluster, Dyad, Slide
@@ -19,7 +19,7 @@ BLOCK = 1024
 """Positions that are made into objects at once."""
 
 
-def listed_points(scene: Scene, slides: Sequence[Slide]) -> tuple[tuple[str, str], ...]:
+def listed_points(scene: Mechanism, slides: Sequence[Slide]) -> tuple[tuple[str, str], ...]:
     """Every point of a moving link, on every link that has it, and every coincident point under a sliding pin:
     (point, link) in the order of the file."""
     found = [(p, link.name) for link in scene.links for p in link.points]

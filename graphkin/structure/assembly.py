@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.errors import Problem, SceneError
-from graphkin.scene.model import AngleDriver, Driver, Scene
+from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
 
 __all__ = ["TOUCH", "Choice", "Passage", "follow", "last_true", "pick", "ways"]
 
@@ -33,7 +33,7 @@ class Choice:
 
 
 def pick(
-    scene: Scene, links: Sequence[str], candidates: Sequence[Mapping[str, complex]], default: int | None
+    scene: Mechanism, links: Sequence[str], candidates: Sequence[Mapping[str, complex]], default: int | None
 ) -> Choice:
     """Choose the assembly of a group at the scene's own position.
 
@@ -64,7 +64,7 @@ def pick(
     return Choice(default, "rule")
 
 
-def _agree(scene: Scene, links: Sequence[str], candidates: Sequence[Mapping[str, complex]]) -> None:
+def _agree(scene: Mechanism, links: Sequence[str], candidates: Sequence[Mapping[str, complex]]) -> None:
     def worst(candidate: Mapping[str, complex]) -> tuple[float, str]:
         return max(((abs(z - scene.drawn[p]), p) for p, z in candidate.items() if p in scene.drawn), default=(0.0, ""))
 
@@ -81,7 +81,7 @@ def _agree(scene: Scene, links: Sequence[str], candidates: Sequence[Mapping[str,
         )
 
 
-def _several(scene: Scene, links: Sequence[str], candidates: Sequence[Mapping[str, complex]]) -> Problem:
+def _several(scene: Mechanism, links: Sequence[str], candidates: Sequence[Mapping[str, complex]]) -> Problem:
     rows = []
     for candidate in candidates:
         places = ", ".join(f"{p} = {_place(scene, z)}" for p, z in candidate.items())
@@ -93,11 +93,11 @@ def _several(scene: Scene, links: Sequence[str], candidates: Sequence[Mapping[st
     )
 
 
-def _place(scene: Scene, z: complex) -> str:
+def _place(scene: Mechanism, z: complex) -> str:
     return f"[{z.real / scene.units.metres:.7g}, {z.imag / scene.units.metres:.7g}]"
 
 
-def ways(drivers: Sequence[Driver], start: Sequence[float], goal: Sequence[float]) -> Iterator[tuple[float, ...]]:
+def ways(drivers: Sequence[AnyDriver], start: Sequence[float], goal: Sequence[float]) -> Iterator[tuple[float, ...]]:
     """Driver values (rad, m) at which the mechanism stands as at the goal: straight on, whole turns left out, then with
     drivers that turn the other way round."""
     choices: list[tuple[float, ...]] = []

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from graphkin.scene.model import AngleDriver, Guide, Link, Scene
+from graphkin.scene.model import AngleDriver, Mechanism, PlacedGuide, PlacedLink
 from graphkin.structure.model import Mobility, Slide
 
 __all__ = ["Constraints", "Node", "Unknown"]
@@ -16,9 +16,9 @@ Unknown = tuple[Node, str]  # a node and one of its coordinates x, y, t
 class Constraints:
     """The links, blocks, hinges and slides that take part, and their constraints."""
 
-    def __init__(self, scene: Scene) -> None:
+    def __init__(self, scene: Mechanism) -> None:
         self.scene = scene
-        links: dict[str, Link] = {scene.frame.name: scene.frame}
+        links: dict[str, PlacedLink] = {scene.frame.name: scene.frame}
         links.update({link.name: link for link in scene.links if not link.redundant})
         slides = [
             Slide(s.key, s.link, s.on, links[s.on].guides[s.guide], s.turn, s.pin)
@@ -28,13 +28,13 @@ class Constraints:
         for pin in scene.pins:
             if pin.of not in links or pin.on not in links:
                 continue
-            links[pin.key] = Link(pin.key, {pin.point: 0j}, (pin.point,), {"": Guide("", 0j, 1 + 0j)})
+            links[pin.key] = PlacedLink(pin.key, {pin.point: 0j}, (pin.point,), {"": PlacedGuide("", 0j, 1 + 0j)})
             slides.append(Slide(pin.key, pin.key, pin.on, links[pin.on].guides[pin.guide], 1 + 0j, pin.point, True))
         hinges: dict[str, list[str]] = {}
         for link in links.values():
             for point in link.points:
                 hinges.setdefault(point, []).append(link.name)
-        self.links: Mapping[str, Link] = links
+        self.links: Mapping[str, PlacedLink] = links
         self.slides = tuple(slides)
         self.hinges = {p: tuple(names) for p, names in hinges.items() if len(names) > 1}
         self._place = {name: i for i, name in enumerate(links)}

@@ -11,7 +11,7 @@ from collections.abc import Hashable, Mapping, Sequence
 from itertools import pairwise
 from typing import TypeVar
 
-from graphkin.scene.model import AngleDriver, Driver
+from graphkin.scene.model import AngleDriver, AnyDriver
 from graphkin.structure.constraints import Constraints
 from graphkin.structure.model import Body, Cluster, Driven, Dyad, Element, Pair, Turn, Weld, driver_pair
 
@@ -121,7 +121,7 @@ def element_of(system: Constraints, members: list[str], known: set[str]) -> Elem
     return dyad or Cluster(tuple(members), tuple(pairs), tuple(drivers), real, _order(members, pairs))
 
 
-def _ends(driver: Driver, system: Constraints) -> set[str]:
+def _ends(driver: AnyDriver, system: Constraints) -> set[str]:
     if isinstance(driver, AngleDriver):
         return {driver.link, driver.relative_to}
     s = next(s for s in system.slides if s.key == driver.key)
@@ -144,10 +144,10 @@ def _pairs(system: Constraints, members: list[str], known: set[str]) -> list[Pai
     return found
 
 
-def _bodies(system: Constraints, members: list[str], drivers: list[Driver]) -> tuple[list[Body], list[Driver]]:
+def _bodies(system: Constraints, members: list[str], drivers: list[AnyDriver]) -> tuple[list[Body], list[AnyDriver]]:
     """Links of the group that drivers hold together, and the drivers that act at no pair inside it."""
     welds: list[Weld] = []
-    loose: list[Driver] = []
+    loose: list[AnyDriver] = []
     for driver in drivers:
         pair = driver_pair(driver, system.links, system.slides)
         if pair is None or not {pair.a, pair.b} <= set(members):

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from graphkin.scene.model import AngleDriver, Driver, Guide, Link, Scene, SlideDriver
+from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedGuide, PlacedLink, SlideDriver
 
 __all__ = ["Body", "Cluster", "Driven", "Dyad", "Element", "Mobility", "Pair", "Slide", "Structure", "Turn", "Weld"]
 
@@ -34,7 +34,7 @@ class Slide:
     key: str
     a: str
     b: str
-    guide: Guide
+    guide: PlacedGuide
     turn: complex
     pin: str | None
     slot: bool = False
@@ -51,7 +51,7 @@ class Weld:
     """
 
     pair: Pair
-    driver: Driver
+    driver: AnyDriver
     a: str
     b: str
     sign: int = 1
@@ -78,7 +78,7 @@ class Driven:
 
     link: str
     pair: Pair
-    driver: Driver
+    driver: AnyDriver
 
 
 @dataclass(frozen=True)
@@ -126,7 +126,7 @@ class Cluster:
 
     members: tuple[str, ...]
     pairs: tuple[Pair, ...]
-    drivers: tuple[Driver, ...]
+    drivers: tuple[AnyDriver, ...]
     links: tuple[str, ...]
     order: int
 
@@ -159,8 +159,8 @@ class Structure:
     ``hinges`` maps each point shared by links to those links.
     """
 
-    scene: Scene
-    links: Mapping[str, Link]
+    scene: Mechanism
+    links: Mapping[str, PlacedLink]
     slides: tuple[Slide, ...]
     hinges: Mapping[str, tuple[str, ...]]
     mobility: Mobility
@@ -176,7 +176,7 @@ class Structure:
         return next(s for s in self.slides if s.key == key)
 
 
-def driver_pair(driver: Driver, links: Mapping[str, Link], slides: tuple[Slide, ...]) -> Pair | None:
+def driver_pair(driver: AnyDriver, links: Mapping[str, PlacedLink], slides: tuple[Slide, ...]) -> Pair | None:
     """The pair at which a driver acts; None for an angle between links that no turning pair joins."""
     if isinstance(driver, SlideDriver):
         return next(s for s in slides if s.key == driver.key)

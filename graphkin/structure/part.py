@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from graphkin.errors import CallError, Problem, did_you_mean
-from graphkin.scene.model import AngleDriver, Driver, Scene
+from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.structure.model import Cluster, Driven, Element, Structure
 
@@ -42,7 +42,7 @@ def links_of(element: Element) -> tuple[str, ...]:
     return tuple(n for body in element.bodies for n in body.links)
 
 
-def part_of(structure: Structure, asked: Sequence[Symbol]) -> Scene:
+def part_of(structure: Structure, asked: Sequence[Symbol]) -> Mechanism:
     """The scene with only the links, pairs and drivers on the way to what is asked; itself if nothing is asked or
     nothing is left out.
 
@@ -66,7 +66,7 @@ def part_of(structure: Structure, asked: Sequence[Symbol]) -> Scene:
     )
 
 
-def _ends(scene: Scene, driver: Driver) -> set[str]:
+def _ends(scene: Mechanism, driver: AnyDriver) -> set[str]:
     """The links that a driver acts between."""
     if isinstance(driver, AngleDriver):
         return {driver.link, driver.relative_to}

@@ -14,7 +14,7 @@ from graphkin.drawing.obstacles import obstacles_of
 from graphkin.drawing.symbols import block_with_pin, fixed_pivot, rigid_link, turning_pair
 from graphkin.drawing.symbols import guide as guide_symbol
 from graphkin.drawing.text import rich
-from graphkin.scene.model import AngleDriver, Scene
+from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.study.driver_axis import (
     HEIGHT,
     LEFT,
@@ -37,7 +37,7 @@ TICKS = 12
 DOT = 0.85  # mm, radius of a mark on the curve
 
 
-def coupler_points(scene: Scene) -> tuple[tuple[str, str], ...]:
+def coupler_points(scene: Mechanism) -> tuple[tuple[str, str], ...]:
     """Points of links that are neither pivoted to the frame nor slide on it, with their link: those that no other kind
     of link carries."""
     frame = scene.frame

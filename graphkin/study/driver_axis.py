@@ -13,7 +13,7 @@ from graphkin.construction.plan import SERIES
 from graphkin.drawing import Primitive, Text
 from graphkin.drawing.chart import degree_step
 from graphkin.drawing.text import rich
-from graphkin.scene.model import AngleDriver, Scene
+from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.solver import DriverRange
 from graphkin.words import Phrase, say
 
@@ -39,12 +39,12 @@ LEFT, RIGHT = 26.0, 14.0
 POINTS = 721
 
 
-def title_of(scene: Scene, language: str) -> str:
+def title_of(scene: Mechanism, language: str) -> str:
     """The scene's title as markup."""
     return scene.title_in(language).replace("$", "$$")
 
 
-def heading(scene: Scene, title: str, facts: Sequence[str], language: str) -> tuple[Primitive, ...]:
+def heading(scene: Mechanism, title: str, facts: Sequence[str], language: str) -> tuple[Primitive, ...]:
     """Title (markup), title of the scene, facts, one under the other."""
     return (
         Text(complex(LEFT, 15.0), rich(title, 5.0, bold=True)),
@@ -58,7 +58,7 @@ def number(value: float, digits: int = 5) -> str:
     return f"{value:.{digits}g}".replace("-", "−")
 
 
-def driver_number(scene: Scene, value: float) -> float:
+def driver_number(scene: Mechanism, value: float) -> float:
     """A value of the first driver in degrees or in the scene's unit."""
     return math.degrees(value) if isinstance(scene.drivers[0], AngleDriver) else value / scene.units.metres
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from graphkin.scene.model import Scene
+from graphkin.scene.model import Mechanism
 from graphkin.structure import Dyad, Pair, Slide, Structure, Turn
 
 __all__ = ["Loop", "loops"]
@@ -71,7 +71,7 @@ def _between(structure: Structure, link: str, one: str, two: str) -> float:
     return abs(points[one] - points[two])
 
 
-def _named(scene: Scene, links: tuple[str, ...]) -> tuple[str, ...]:
+def _named(scene: Mechanism, links: tuple[str, ...]) -> tuple[str, ...]:
     return (*(sorted(links, key=lambda name: scene.order.get(name, -1))), scene.frame.name)
 
 
@@ -169,7 +169,7 @@ def _offset(structure: Structure, slide: Slide, pin: str, centre: complex) -> fl
     return float(((centre - at) * slide.guide.direction.conjugate()).imag)
 
 
-def _slider_crank_named(scene: Scene, lengths: dict[str, float], links: tuple[str, ...], crank: str) -> Loop:
+def _slider_crank_named(scene: Mechanism, lengths: dict[str, float], links: tuple[str, ...], crank: str) -> Loop:
     r, rod, e = lengths["crank"], lengths["rod"], lengths["offset"]
     equal = EQUAL * max(r, rod, e)
     place = "in-line" if e <= equal else "offset"
@@ -186,7 +186,7 @@ def _slider_crank_named(scene: Scene, lengths: dict[str, float], links: tuple[st
     return Loop("slider-crank", name, _named(scene, links), lengths, grashof, turns)
 
 
-def _guide_bar(scene: Scene, lengths: dict[str, float], crank: str, bar: str, links: tuple[str, ...]) -> Loop:
+def _guide_bar(scene: Mechanism, lengths: dict[str, float], crank: str, bar: str, links: tuple[str, ...]) -> Loop:
     r, d, e = lengths["crank"], lengths["centres"], lengths["offset"]
     equal = EQUAL * max(r, d, e)
     if abs(abs(r - d) - e) <= equal:

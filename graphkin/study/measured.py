@@ -10,7 +10,7 @@ import numpy as np
 
 from graphkin.construction import Sheet, draft
 from graphkin.errors import GraphkinError
-from graphkin.scene.model import Scene
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver import DriverRange
 from graphkin.study.quantities import Quantity
@@ -50,14 +50,14 @@ def measured(
     return found
 
 
-def _symbols(scene: Scene, quantity: Quantity) -> list[Symbol]:
+def _symbols(scene: Mechanism, quantity: Quantity) -> list[Symbol]:
     if quantity.kind == "theta":
         return [Symbol("omega", link=quantity.of), Symbol("alpha", link=quantity.of)]
     pin = _pin(scene, quantity.of)
     return [Symbol("v", PointRef(pin)), Symbol("a", PointRef(pin))] if pin else []
 
 
-def _pin(scene: Scene, key: str) -> str | None:
+def _pin(scene: Mechanism, key: str) -> str | None:
     """The first point of a link that slides along the frame."""
     return next((s.pin for s in scene.slidings if s.key == key and s.on == scene.frame.name), None)
 

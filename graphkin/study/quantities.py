@@ -9,7 +9,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.scene.model import Scene
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import DriverRange, Motion
 from graphkin.structure import Dyad, Slide, Structure, Turn
@@ -65,7 +65,7 @@ class Quantity:
         """Whether it is the size of a vector."""
         return self.symbol is not None and self.symbol.is_vector
 
-    def unit(self, scene: Scene, degrees: bool = False) -> str:
+    def unit(self, scene: Mechanism, degrees: bool = False) -> str:
         """The unit of ``in_units``."""
         length, angle = scene.units.length, "deg" if degrees else "rad"
         return {
@@ -77,7 +77,7 @@ class Quantity:
             "acceleration": f"{length}/s2",
         }[self.measure]
 
-    def in_units(self, scene: Scene, value: float, degrees: bool = False) -> float:
+    def in_units(self, scene: Mechanism, value: float, degrees: bool = False) -> float:
         """A value in the scene's length unit, seconds, radians (or degrees)."""
         if self.measure == "angle":
             return math.degrees(value) if degrees else value

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from graphkin.scene.model import AngleDriver, Scene
+from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.study.trace import Extreme, Traced
 from graphkin.study.turn import Output, Turn
 
@@ -61,7 +61,7 @@ def to_json(turn: Turn) -> dict[str, Any]:
     }
 
 
-def _driver(scene: Scene, value: float) -> float:
+def _driver(scene: Mechanism, value: float) -> float:
     first = scene.drivers[0]
     return value if isinstance(first, AngleDriver) else value / scene.units.metres
 
@@ -128,6 +128,6 @@ def row(turn: Turn) -> dict[str, float | str | None]:
     return cells
 
 
-def _shown(scene: Scene, value: float) -> float:
+def _shown(scene: Mechanism, value: float) -> float:
     first = scene.drivers[0]
     return value * 57.29577951308232 if isinstance(first, AngleDriver) else value / scene.units.metres

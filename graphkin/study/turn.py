@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphkin.scene.model import AngleDriver, Scene
+from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import DriverRange, Motion
 from graphkin.study.grashof import Loop, loops
@@ -57,7 +57,7 @@ class Turn:
     loops: tuple[Loop, ...]
 
     @property
-    def scene(self) -> Scene:
+    def scene(self) -> Mechanism:
         return self.reach.scene
 
     @property

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.scene.model import AngleDriver, Scene
+from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver import DriverRange, Motion, listed_points
 from graphkin.solver.redundant import all_slides
@@ -65,7 +65,7 @@ class Watched:
             return (value if self.what.measure.startswith("angular") else value / metres,)
         return vector.real / metres, vector.imag / metres
 
-    def columns(self, scene: Scene, parts: Sequence[Array]) -> list[Column]:
+    def columns(self, scene: Mechanism, parts: Sequence[Array]) -> list[Column]:
         """Its columns, from its values."""
         if isinstance(self.what, PointRef):
             heads, unit = [f"{axis}_{self.what}" for axis in "xy"], str(scene.units.length)
@@ -81,7 +81,7 @@ def watched_symbol(symbol: Symbol) -> Watched:
     return Watched(symbol_quantity(symbol), symbol.is_vector, symbol)
 
 
-def watched_named(scene: Scene, name: str) -> Watched | None:
+def watched_named(scene: Mechanism, name: str) -> Watched | None:
     """What a name shows that is no symbol of ``find``: the place of a point ("C", "B@3"), the angle of a link
     ("theta_3"), travel, velocity and acceleration of a sliding pair ("s_3/4", "v_3/4", "a_3/4"); None for others."""
     kind, mark, rest = name.partition("_")
@@ -112,7 +112,7 @@ def everything(structure: Structure) -> tuple[Watched, ...]:
     return tuple(found)
 
 
-def driver_columns(scene: Scene, values: Array) -> list[Column]:
+def driver_columns(scene: Mechanism, values: Array) -> list[Column]:
     """Columns of the drivers' values (SI), shape (n, drivers)."""
     # a driver value is given, not found: without the last digit that the conversion to radians cost it
     return [

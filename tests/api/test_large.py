@@ -8,7 +8,7 @@ import pytest
 
 import graphkin
 from graphkin.errors import CallError, SceneError
-from graphkin.scene import read_text
+from graphkin.scene import mechanism_of_text
 
 
 def chain(dyads):
@@ -51,7 +51,7 @@ def test_ten_thousand_links_are_refused_by_the_reader():
 @pytest.mark.parametrize("text", ["a = " + "[" * 100_000, "[" + "a." * 5000 + "a]\nb = 1", "x = 1" + "0" * 6000])
 def test_deep_and_gigantic_texts_are_refused_in_sentences(text):
     with pytest.raises(SceneError) as refusal:
-        read_text(text, "hostile")
+        mechanism_of_text(text, "hostile")
     assert all(len(str(p)) < 500 for p in refusal.value.problems)
 
 

@@ -9,7 +9,7 @@ import pytest
 
 import graphkin
 from graphkin.api.prepared import Prepared
-from graphkin.scene import read_text
+from graphkin.scene import mechanism_of_text
 from graphkin.scene.symbol import Symbol
 from tests import scenes
 from tests.mechanisms import KINDS, random_scene
@@ -138,4 +138,4 @@ def test_no_number_of_positions_is_refused(n):
 
 
 def test_a_scene_of_the_tests_without_units_is_in_millimetres():
-    assert "mm/s" == graphkin.prepare(read_text(scenes.FOUR_BAR, "f"), "v_C").units["v_C"]
+    assert "mm/s" == graphkin.prepare(mechanism_of_text(scenes.FOUR_BAR, "f"), "v_C").units["v_C"]

@@ -18,8 +18,8 @@ from unittest.mock import patch
 import numpy as np
 
 from graphkin.errors import GraphkinError
-from graphkin.scene import read
-from graphkin.scene.model import Scene
+from graphkin.scene import mechanism_of
+from graphkin.scene.model import Mechanism
 from graphkin.solver import engine, extended_precision
 from graphkin.solver.assemblies import choose_forms, own_values
 from graphkin.solver.decimals import PI, meant, working
@@ -45,7 +45,7 @@ def _point(rng: np.random.Generator, wide: float) -> list[float]:
     return [_mm(rng, -wide, wide), _mm(rng, -wide, wide)]
 
 
-def random_scene(rng: np.random.Generator) -> Scene:
+def random_scene(rng: np.random.Generator) -> Mechanism:
     """A crank and one to three dyads on it, each of a random kind, hung on a point of what is there already."""
     links: dict[str, Any] = {"1": {"points": ["A", "B"], "length": _mm(rng, 20, 120)}}
     points: dict[str, list[float]] = {"A": [0.0, 0.0]}
@@ -76,7 +76,7 @@ def random_scene(rng: np.random.Generator) -> Scene:
             }  # fmt: skip
             free += [f"E{k}"]
     driver = {"link": "1", "angle": _mm(rng, -180, 180), "omega": _mm(rng, -20, 20), "alpha": _mm(rng, -50, 50)}
-    return read({"frame": {"points": points, "guides": guides}, "links": links, "driver": driver})
+    return mechanism_of({"frame": {"points": points, "guides": guides}, "links": links, "driver": driver})
 
 
 def _values(rng: np.random.Generator, structure: Structure, forms: dict[int, Any], n: int) -> np.ndarray:

@@ -20,7 +20,7 @@ from importlib.metadata import PackageNotFoundError, version
 import numpy as np
 
 import graphkin
-from graphkin.scene import read_text
+from graphkin.scene import mechanism_of_text
 from graphkin.solver import prepare
 
 from . import by_hand, peers
@@ -91,7 +91,7 @@ def agree(name: str, mine: np.ndarray, theirs: np.ndarray) -> str:
 
 def rows(case: Case) -> list[tuple[str, int, float, str]]:
     """What, number of positions, seconds, and whether the values agree."""
-    scene = read_text(case.text, case.name)
+    scene = mechanism_of_text(case.text, case.name)
     ready = prepare(scene, case.asked)
     public, compiled = (graphkin.prepare(scene, case.asked, fast=fast) for fast in (False, True))
     shaper = by_hand.compiled_shaper() if peers.have("numba") else None

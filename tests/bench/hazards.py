@@ -18,8 +18,8 @@ from typing import Any
 import numpy as np
 
 from graphkin.errors import GraphkinError
-from graphkin.scene import read
-from graphkin.scene.model import Scene
+from graphkin.scene import mechanism_of
+from graphkin.scene.model import Mechanism
 from graphkin.solver import Motion, solve, structure_of, to_json
 from graphkin.solver.dead_points import dead_points
 from graphkin.structure import Structure
@@ -34,7 +34,7 @@ def _length(rng: np.random.Generator) -> float:
     return float(round(rng.uniform(20, 200), int(rng.integers(0, 4))))
 
 
-def hazardous(rng: np.random.Generator) -> tuple[Scene, bool]:
+def hazardous(rng: np.random.Generator) -> tuple[Mechanism, bool]:
     """A mechanism that just has a change point, or just misses it; and which of both."""
     kind = int(rng.integers(3))
     miss = float(rng.choice([0.0, 1.0, -1.0])) * 10.0 ** float(rng.uniform(-14, -2))
@@ -71,7 +71,7 @@ def hazardous(rng: np.random.Generator) -> tuple[Scene, bool]:
             },
         }
     angle = float(rng.choice([float(rng.uniform(-180, 180)), 30.0, 60.0, 90.0, 135.0]))
-    return read({**scene, "driver": {"link": "1", "angle": angle, "omega": 1}}), miss == 0.0
+    return mechanism_of({**scene, "driver": {"link": "1", "angle": angle, "omega": 1}}), miss == 0.0
 
 
 @dataclass

@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 
 from graphkin.errors import GraphkinError
-from graphkin.scene import read
-from graphkin.scene.model import Guide, Link, Scene
+from graphkin.scene import mechanism_of
+from graphkin.scene.model import Mechanism, PlacedGuide, PlacedLink
 from graphkin.solver.assemblies import choose_forms, own_values
 from graphkin.solver.decimals import meant, meant_direction
 from graphkin.solver.engine import State, positions
@@ -72,10 +72,10 @@ class _Draft:
         self.links[name] = given
         return name
 
-    def scene(self, driver: str, first: str, second: str) -> Scene:
+    def scene(self, driver: str, first: str, second: str) -> Mechanism:
         angle = math.degrees(np.angle(self.at[second] - self.at[first]))
         rng = self.rng
-        return read({
+        return mechanism_of({
             "frame": {"points": {p: _pair(self.at[p]) for p in self.fixed}, "guides": self.guides},
             "links": self.links,
             "driver": {
@@ -132,7 +132,7 @@ def _six(d: _Draft, hang: str) -> str:
 _GROUPS: tuple[Callable[[_Draft, str], str], ...] = (_triad, _triad, _contour, _six)
 
 
-def random_larger(rng: np.random.Generator) -> Scene:
+def random_larger(rng: np.random.Generator) -> Mechanism:
     """A mechanism with a group that has no closed form."""
     d = _Draft(rng)
     d.point("A", 0j, 1, True)
@@ -287,10 +287,10 @@ def _meant(structure: Structure, mp: Any) -> Structure:
         (x, y), _ = meant_direction(z)
         return mp.mpc(mp.mpf(str(x)), mp.mpf(str(y)))
 
-    def guide(g: Guide) -> Guide:
+    def guide(g: PlacedGuide) -> PlacedGuide:
         return replace(g, through=number(g.through), direction=direction(g.direction))
 
-    def link(x: Link) -> Link:
+    def link(x: PlacedLink) -> PlacedLink:
         return replace(x, points={p: number(z) for p, z in x.points.items()})
 
     slides = {s.key: replace(s, guide=guide(s.guide), turn=direction(s.turn)) for s in structure.slides}

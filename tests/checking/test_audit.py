@@ -10,7 +10,7 @@ import graphkin
 from graphkin.api.audited import _case
 from graphkin.checking.printed import stated, transcription_errors
 from graphkin.errors import CallError
-from graphkin.scene import read
+from graphkin.scene import mechanism_of
 from graphkin.scene.symbol import Symbol
 from graphkin.words import say
 from tests.command import run
@@ -116,7 +116,7 @@ def test_a_wrong_value_that_nothing_explains_has_no_name():
 
 
 def test_slips_drawn_out_in_any_mechanism_are_found_again():
-    scene = read("shaper-scheme-2")
+    scene = mechanism_of("shaper-scheme-2")
     for phrase, _, values in _case(scene, [], None).altered:
         wrong = abs(values[Symbol.parse("a_C")]) * 1e3
         if "coriolis" in phrase.key and abs(wrong - 4137.5) > 300:

@@ -14,7 +14,7 @@ import graphkin
 from graphkin.construction import plan, polygons
 from graphkin.construction import terms as parts
 from graphkin.errors import Unsolvable
-from graphkin.scene import library, read
+from graphkin.scene import library, mechanism_of
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import Symbol
 from tests.mechanisms import KINDS, random_scene
@@ -24,7 +24,7 @@ SIXBAR = "sixbar-guide-40deg"
 
 @pytest.mark.parametrize("name", library())
 def test_every_scene_that_comes_along_passes_at_12_positions(name):
-    scene = read(name)
+    scene = mechanism_of(name)
     driver = scene.drivers[0]
     turns = isinstance(driver, AngleDriver)
     own = math.degrees(driver.angle) if turns else driver.travel / scene.units.metres

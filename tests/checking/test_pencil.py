@@ -10,7 +10,7 @@ import pytest
 import graphkin
 from graphkin.checking.readings import COVERAGE, predict, read_off
 from graphkin.construction import execute, pencil, plan
-from graphkin.scene import library, library_text, read, read_text
+from graphkin.scene import library, library_text, mechanism_of, mechanism_of_text
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Tools
 
@@ -31,7 +31,7 @@ def _series(what, tools):
 
 @pytest.mark.parametrize("name", library())
 def test_readings_lie_within_their_bounds_and_the_bounds_are_not_lazy(name):
-    what = plan(read(name), find=())
+    what = plan(mechanism_of(name), find=())
     if not what.elements:
         pytest.skip("nothing of it is drawn with two lines")
     predicted = predict(what, "pencil", Tools())
@@ -56,14 +56,14 @@ def test_a_pencil_drawing_is_judged_by_its_predicted_uncertainty():
 
 
 def test_a_coarser_ruler_makes_readings_less_certain():
-    what = plan(read(SIXBAR), find=())
+    what = plan(mechanism_of(SIXBAR), find=())
     fine, coarse = (predict(what, "pencil", Tools(ruler=r)) for r in (0.1, 0.5))
     assert all(coarse[s].deviation >= fine[s].deviation for s in fine)
     assert coarse[Symbol.parse("v_D")].deviation > fine[Symbol.parse("v_D")].deviation
 
 
 def test_pricking_errors_fall_with_the_size_of_the_figures():
-    what = plan(read(SIXBAR), find=())
+    what = plan(mechanism_of(SIXBAR), find=())
     s = what.scales
     double = replace(
         what, scales=replace(s, length=s.length / 2, velocity=s.velocity / 2, acceleration=s.acceleration / 2)
@@ -75,7 +75,7 @@ def test_pricking_errors_fall_with_the_size_of_the_figures():
 
 
 def test_faultless_tools_draw_exactly():
-    scene = read(SIXBAR)
+    scene = mechanism_of(SIXBAR)
     clean = replace(scene, sheet=replace(scene.sheet, tools=Tools(0, 0, 0, 0, 0)))
     result = graphkin.check(clean, instrument="pencil")
     assert all(row.error <= 1e-9 * abs(row.exact) + 1e-12 for row in result.report.rows)
@@ -89,7 +89,7 @@ def test_a_drafting_program_shows_two_digits_behind_the_point():
 
 def test_the_tools_of_the_scene_are_used():
     text = library_text(SIXBAR)
-    rough = read_text(text + "\n[sheet.instrument]\nline_width = 2\n", "rough")
+    rough = mechanism_of_text(text + "\n[sheet.instrument]\nline_width = 2\n", "rough")
     fine, coarse = (graphkin.check(s, instrument="pencil")["v_D"].tolerance for s in (SIXBAR, rough))
     assert coarse > 3 * fine
 

@@ -13,7 +13,7 @@ import pytest
 
 from graphkin.api.centred import centres as checked_centres
 from graphkin.construction.centres import Centres, by_centres, find_centres, speeds, velocity_sentences
-from graphkin.scene import library, read
+from graphkin.scene import library, mechanism_of
 from graphkin.scene.symbol import Symbol
 
 
@@ -39,30 +39,30 @@ def test_centres_of_scenes_that_come_along_agree_with_the_solver(name: str) -> N
 
 @pytest.mark.parametrize("name", library())
 def test_every_three_centres_of_three_links_lie_on_one_line(name: str) -> None:
-    assert off_line(find_centres(read(name))) <= 1e-12
+    assert off_line(find_centres(mechanism_of(name))) <= 1e-12
 
 
 def test_links_at_one_hinge_share_a_permanent_centre_two_by_two() -> None:
-    centres = find_centres(read("toggle-press"))
+    centres = find_centres(mechanism_of("toggle-press"))
     assert {"permanent"} == {centres.of(*pair).kind for pair in combinations(("2", "3", "4"), 2)}
 
 
 def test_a_sliding_pair_has_its_centre_at_infinity_square_to_the_guide() -> None:
-    assert 1j == find_centres(read("slider-crank-offset")).of("3", "4").direction
+    assert 1j == find_centres(mechanism_of("slider-crank-offset")).of("3", "4").direction
 
 
 def test_a_pin_in_a_slot_gives_its_common_normal_as_one_line() -> None:
-    found = find_centres(read("cam-eccentric-flat-rocker")).of("1", "2")
+    found = find_centres(mechanism_of("cam-eccentric-flat-rocker")).of("1", "2")
     assert [("O/2",), (("1", "3"), ("2", "3"))] == [line.through for line in found.lines]
 
 
 def test_found_centres_are_numbered_in_the_order_in_which_they_are_found() -> None:
-    found = [c for c in find_centres(read("sixbar-420rpm")).found if c.kind == "found"]
+    found = [c for c in find_centres(mechanism_of("sixbar-420rpm")).found if c.kind == "found"]
     assert [1, 2, 3, 4, 5, 6, 7, 8] == [c.number for c in found]
 
 
 def test_each_line_goes_through_centres_found_before() -> None:
-    centres = find_centres(read("shaper-scheme-2"))
+    centres = find_centres(mechanism_of("shaper-scheme-2"))
     for centre in centres.found:
         for line in centre.lines:
             assert all(centres.of(*pair).number < centre.number for pair in line.through if not isinstance(pair, str))
@@ -70,24 +70,24 @@ def test_each_line_goes_through_centres_found_before() -> None:
 
 @pytest.mark.parametrize(("name", "known"), [("double-butterfly", 10), ("single-flier", 12)])
 def test_indeterminate_eight_bars_stop_kennedys_theorem_where_the_literature_says(name: str, known: int) -> None:
-    centres = find_centres(read(name))
+    centres = find_centres(mechanism_of(name))
     other = min(c.number for c in centres.found if c.way)
     assert known == sum(c.number < other for c in centres.found)
 
 
 def test_what_kennedys_theorem_cannot_find_says_why_and_how_it_was_found() -> None:
-    (centre,) = find_centres(read("double-butterfly")).indeterminate
+    (centre,) = find_centres(mechanism_of("double-butterfly")).indeterminate
     assert centre.why is not None
     assert ("superposition", "centre few lines") == (centre.way, centre.why.key)
 
 
 def test_lines_that_fall_together_at_a_special_position_are_recognised() -> None:
-    centres = find_centres(read("hit-two-RPR"), {"1": 0.0})
+    centres = find_centres(mechanism_of("hit-two-RPR"), {"1": 0.0})
     assert ["centre lines together"] == [c.why.key for c in centres.indeterminate if c.why]
 
 
 def test_links_that_do_not_move_relative_to_each_other_have_no_centre() -> None:
-    centre = find_centres(read(_three_parallelograms())).of("2", "7")
+    centre = find_centres(mechanism_of(_three_parallelograms())).of("2", "7")
     assert centre.why is not None
     assert ("undetermined", "centre no motion") == (centre.kind, centre.why.key)
 
@@ -111,17 +111,17 @@ def _three_parallelograms() -> dict[str, Any]:
 
 
 def test_centres_do_not_need_the_driver_to_move() -> None:
-    still, moving = (find_centres(read(_four_bar(1.0, omega))).of("1", "3").point for omega in (0.0, 10.0))
+    still, moving = (find_centres(mechanism_of(_four_bar(1.0, omega))).of("1", "3").point for omega in (0.0, 10.0))
     assert moving == still
 
 
 def test_a_redundant_link_has_centres_too() -> None:
     scene = _parallelogram()
-    assert "4" in find_centres(read(scene)).links.names
+    assert "4" in find_centres(mechanism_of(scene)).links.names
 
 
 def test_links_of_a_parallelogram_that_turn_alike_have_their_centre_at_infinity() -> None:
-    found = find_centres(read(_parallelogram())).of("1", "3")
+    found = find_centres(mechanism_of(_parallelogram())).of("1", "3")
     assert found.direction is not None
     assert abs(found.direction.imag) <= 1e-12
 
@@ -165,7 +165,7 @@ def test_velocities_by_centres_hold_where_rocker_and_crank_become_parallel(power
 @pytest.mark.parametrize("power", range(3, 13))
 def test_a_far_centre_keeps_its_direction(power: int) -> None:
     apart = 10.0**-power
-    centre = find_centres(read(_four_bar(apart))).of("2", "4")
+    centre = find_centres(mechanism_of(_four_bar(apart))).of("2", "4")
     way = centre.direction if centre.point is None else centre.point
     assert way is not None
     assert abs(math.remainder(cmath.phase(way) - 1.1, math.pi)) <= 2 * apart + 1e-9
@@ -204,11 +204,11 @@ def test_all_15_centres_of_any_six_bar_agree_with_the_solver(seed: int) -> None:
 
 @pytest.mark.parametrize("name", ["sixbar-420rpm", "shaper-scheme-2", "oldham-coupling", "hydraulic-cylinder"])
 def test_the_shortest_chain_leads_from_the_driver_in_one_step(name: str) -> None:
-    assert 2 >= max(len(t.chain) for t in speeds(find_centres(read(name))).values())
+    assert 2 >= max(len(t.chain) for t in speeds(find_centres(mechanism_of(name))).values())
 
 
 def test_the_sense_is_opposite_where_the_common_centre_lies_between() -> None:
-    centres = find_centres(read("sixbar-420rpm"))
+    centres = find_centres(mechanism_of("sixbar-420rpm"))
     assert "centre opposite sense" in [p.key for p in velocity_sentences(centres, speeds(centres))]
 
 
@@ -226,7 +226,7 @@ def test_the_told_rates_multiply_up_to_the_exact_ones(name: str) -> None:
 
 def test_the_speed_of_a_translating_link_is_that_of_the_crank_at_their_centre() -> None:
     # the ram has no finite centre: its speed is that of the crank where both have one velocity
-    scene = replace(read("shaper-scheme-2"), find=(Symbol.parse("v_C@6"),))
+    scene = replace(mechanism_of("shaper-scheme-2"), find=(Symbol.parse("v_C@6"),))
     centres = find_centres(scene)
     (told,) = [p for p in velocity_sentences(centres, speeds(centres)) if p.key == "centre speed"]
     _, link, _, end, rate, arm, scale, said = told.args
@@ -237,18 +237,18 @@ def test_the_speed_of_a_translating_link_is_that_of_the_crank_at_their_centre() 
 
 
 def test_a_clockwise_link_is_told_with_its_sign() -> None:
-    centres = find_centres(read("shaper-scheme-2"))
+    centres = find_centres(mechanism_of("shaper-scheme-2"))
     told = {p.args[0]: p.args[-1] for p in velocity_sentences(centres, speeds(centres)) if "sense" in p.key}
     assert "−0.739601" == told["4"]
 
 
 def test_a_slider_has_the_velocity_of_the_crank_at_their_centre() -> None:
-    centres = find_centres(read("slider-crank-offset"))
+    centres = find_centres(mechanism_of("slider-crank-offset"))
     common = centres.of("1", "3").point
     pivot = centres.of("1", "4").point
     assert common is not None
     assert pivot is not None
-    omega = read("slider-crank-offset").drivers[0].values[1]
+    omega = mechanism_of("slider-crank-offset").drivers[0].values[1]
     value = by_centres(centres, speeds(centres), Symbol.parse("v_C"))
     assert isinstance(value, complex)
     assert abs(common - pivot) * centres.sheet.scales.length * abs(omega) == pytest.approx(abs(value), rel=1e-12)

@@ -13,7 +13,7 @@ from graphkin.construction.sheet import CompassArc, Ray
 from graphkin.construction.steps import FoundVector
 from graphkin.errors import Unsolvable
 from graphkin.plane import cross, dot
-from graphkin.scene import library, read
+from graphkin.scene import library, mechanism_of
 from graphkin.scene.symbol import PointRef, Symbol
 
 pytestmark = pytest.mark.quick
@@ -27,29 +27,29 @@ def _vector(sheet, name):
 
 
 def test_b3_lies_107_578_mm_from_the_pole_at_10_mm_per_s_a_mm():
-    sheet = draft(read(SIXBAR))
+    sheet = draft(mechanism_of(SIXBAR))
     assert 107.578 == pytest.approx(abs(sheet.ends["velocity"][PointRef("B", "3")]), abs=5e-4)
 
 
 def test_the_scales_are_those_the_scene_asks_for():
-    scales = draft(read(SIXBAR)).scales
+    scales = draft(mechanism_of(SIXBAR)).scales
     assert (2e-3, 1e-2, 1e-1) == pytest.approx((scales.length, scales.velocity, scales.acceleration))
 
 
 def test_a_sliding_vector_is_parallel_to_its_guide():
-    sheet = draft(read(SIXBAR))
+    sheet = draft(mechanism_of(SIXBAR))
     guide = sheet.poses["3"].axis
     assert 0 == pytest.approx(cross(_vector(sheet, "ar_B@3/B@2").span, guide), abs=1e-11)
 
 
 def test_a_tangential_vector_is_square_to_its_bar():
-    sheet = draft(read(SIXBAR))
+    sheet = draft(mechanism_of(SIXBAR))
     bar = sheet.points[PointRef("B")] - sheet.points[PointRef("C")]
     assert 0 == pytest.approx(dot(_vector(sheet, "at_B@3/C").span, bar), abs=1e-9)
 
 
 def test_the_coriolis_vector_is_the_sliding_velocity_turned_with_the_guide():
-    sheet = draft(read(SIXBAR))
+    sheet = draft(mechanism_of(SIXBAR))
     slip = _vector(sheet, "v_B@3/B@2").span
     sense = 1j if sheet.omega["3"].value > 0 else -1j
     assert 0 == pytest.approx(cmath.phase(_vector(sheet, "ak_B@3/B@2").span / (sense * slip)), abs=1e-12)
@@ -57,7 +57,7 @@ def test_the_coriolis_vector_is_the_sliding_velocity_turned_with_the_guide():
 
 @pytest.mark.parametrize("name", library())
 def test_every_equation_closes(name):
-    sheet = draft(read(name))
+    sheet = draft(mechanism_of(name))
     for equation in sheet.equations:
         vectors = sheet.vectors(equation.diagram)
         ends = [sum(vectors[t.symbol].span for t in side) for side in equation.sides]
@@ -67,13 +67,13 @@ def test_every_equation_closes(name):
 
 @pytest.mark.parametrize("name", library())
 def test_no_equation_is_drawn_with_more_than_two_unknown_sizes(name):
-    for equation in draft(read(name)).equations:
+    for equation in draft(mechanism_of(name)).equations:
         terms = [t for side in equation.sides for t in side if t.direction_known]
         assert sum(not t.size_known for t in terms) in (0, 2), equation
 
 
 def test_an_image_is_similar_to_its_link_and_turned_the_same_way():
-    sheet = draft(read("four-bar-coupler-point"))
+    sheet = draft(mechanism_of("four-bar-coupler-point"))
     link = next(n for n, k in sheet.structure.links.items() if len(k.points) == 3 and n != sheet.scene.frame.name)
     names = [PointRef(p) for p in sheet.structure.links[link].points]
     for diagram in ("velocity", "acceleration"):
@@ -83,39 +83,39 @@ def test_an_image_is_similar_to_its_link_and_turned_the_same_way():
 
 
 def test_a_position_is_found_with_compass_arcs_of_the_given_lengths():
-    sheet = draft(read("fourbar-150-500-300-400"))
+    sheet = draft(mechanism_of("fourbar-150-500-300-400"))
     arcs = [s for step in sheet.steps for s in step.strokes if isinstance(s, CompassArc)]
     assert [0.3, 0.5] == pytest.approx(sorted(arc.radius * sheet.scales.length for arc in arcs))
 
 
 def test_a_direction_line_is_drawn_before_the_vector_on_it():
-    steps = draft(read(SIXBAR)).steps
+    steps = draft(mechanism_of(SIXBAR)).steps
     ray = next(s.number for s in steps for x in s.strokes if isinstance(x, Ray) and str(x.symbol) == "v_B@3")
     vector = next(s.number for s in steps if isinstance(s.act, FoundVector) and str(s.act.symbol) == "v_B@3")
     assert ray < vector
 
 
 def test_steps_are_numbered_from_one_without_gaps():
-    steps = draft(read(SIXBAR)).steps
+    steps = draft(mechanism_of(SIXBAR)).steps
     assert list(range(1, len(steps) + 1)) == [s.number for s in steps]
 
 
 def test_what_is_asked_for_limits_what_is_drawn():
-    scene = read(SIXBAR)
+    scene = mechanism_of(SIXBAR)
     few = draft(scene, find=[Symbol.parse("omega_3")])
     assert {"6", "1", "2", "3"} == set(few.poses)
     assert len(few.steps) < len(draft(scene).steps)
 
 
 def test_a_vector_asked_for_that_stands_in_no_equation_is_drawn():
-    sheet = draft(read("four-bar-coupler-point"), find=[Symbol.parse("an_P/B"), Symbol.parse("at_P/B")])
+    sheet = draft(mechanism_of("four-bar-coupler-point"), find=[Symbol.parse("an_P/B"), Symbol.parse("at_P/B")])
     arm = sheet.points[PointRef("P")] - sheet.points[PointRef("B")]
     assert 0 == pytest.approx(cross(_vector(sheet, "an_P/B").span, arm), abs=1e-9)
     assert 0 == pytest.approx(dot(_vector(sheet, "at_P/B").span, arm), abs=1e-9)
 
 
 def test_a_zero_velocity_is_said_not_drawn_askew():
-    scene = read("slider-crank-offset")
+    scene = mechanism_of("slider-crank-offset")
     still = replace(scene, drivers=(replace(scene.drivers[0], omega=0.0, alpha=0.0),))
     sheet = draft(still)
     assert any(isinstance(r, ZeroVector) for r in sheet.remarks)
@@ -123,7 +123,7 @@ def test_a_zero_velocity_is_said_not_drawn_askew():
 
 
 def test_lines_that_meet_far_away_are_crossed_all_the_same_and_it_is_said():
-    scene = read("slider-crank-s50-e16-K1.2")
+    scene = mechanism_of("slider-crank-s50-e16-K1.2")
     near = replace(scene, sheet=replace(scene.sheet, velocity_scale=0.05))
     sheet = draft(near)
     assert any(isinstance(r, OffTheSheet) for r in sheet.remarks)
@@ -143,7 +143,7 @@ def test_a_dead_point_is_refused_by_name():
         "driver": {"link": "1", "angle": 90, "omega": 1},
     }
     with pytest.raises(Unsolvable, match="2, 3"):
-        draft(read(mapping))
+        draft(mechanism_of(mapping))
 
 
 CLASS_III = {
@@ -164,7 +164,7 @@ CLASS_III = {
 
 
 def test_a_larger_group_stops_the_drawing_by_name_and_the_rest_is_drawn():
-    sheet = draft(read(CLASS_III))
+    sheet = draft(mechanism_of(CLASS_III))
     assert sheet.stopped is not None
     assert ("2, 3, 4, 5", 3) == sheet.stopped.args
     assert PointRef("K") in sheet.ends["acceleration"]
@@ -173,7 +173,7 @@ def test_a_larger_group_stops_the_drawing_by_name_and_the_rest_is_drawn():
 
 def test_the_motion_does_not_reach_past_its_limit():
     with pytest.raises(Unsolvable, match=r"58\.997"):
-        draft(read("sixbar-AE70"), at={"1": 1.4})
+        draft(mechanism_of("sixbar-AE70"), at={"1": 1.4})
 
 
 def test_a_parallelogram_goes_on_as_one_through_its_change_point():
@@ -186,24 +186,24 @@ def test_a_parallelogram_goes_on_as_one_through_its_change_point():
         },
         "driver": {"link": "1", "angle": 60, "omega": 1},
     }
-    sheet = draft(read(mapping), at={"1": cmath.pi * 4 / 3})
+    sheet = draft(mechanism_of(mapping), at={"1": cmath.pi * 4 / 3})
     assert sheet.poses["1"].axis == pytest.approx(sheet.poses["3"].axis, abs=1e-9)
 
 
 def test_whole_turns_are_left_out_of_the_way_to_a_position():
-    scene = read("sixbar-AE70")
+    scene = mechanism_of("sixbar-AE70")
     once, thrice = (draft(scene, at={"1": 0.5 + turns * 2 * cmath.pi}) for turns in (0, 3))
     assert once.points[PointRef("C")] == pytest.approx(thrice.points[PointRef("C")], abs=1e-9)
 
 
 def test_velocities_need_no_acceleration_polygon():
-    sheet = draft(read(SIXBAR), find=[Symbol.parse("v_D")])
+    sheet = draft(mechanism_of(SIXBAR), find=[Symbol.parse("v_D")])
     assert {} == sheet.vectors("acceleration")
-    assert _vector(sheet, "v_D") == _vector(draft(read(SIXBAR)), "v_D")
+    assert _vector(sheet, "v_D") == _vector(draft(mechanism_of(SIXBAR)), "v_D")
 
 
 def test_a_sheet_at_other_scales_is_the_same_construction_larger():
-    sheet = draft(read(SIXBAR))
+    sheet = draft(mechanism_of(SIXBAR))
     s = sheet.scales
     other = sheet.at(Scales(s.length / 2, s.velocity / 4, s.acceleration * 2))
     for diagram, times in (("velocity", 4.0), ("acceleration", 0.5)):
@@ -214,14 +214,14 @@ def test_a_sheet_at_other_scales_is_the_same_construction_larger():
 
 
 def test_a_remark_belongs_to_the_scale_of_its_figure():
-    sheet = draft(read("slider-crank-s50-e16-K1.2"))
+    sheet = draft(mechanism_of("slider-crank-s50-e16-K1.2"))
     s = sheet.scales
     larger = sheet.at(Scales(s.length, s.velocity / 1000, s.acceleration))
     assert [False, True] == [any(isinstance(r, OffTheSheet) for r in one.remarks) for one in (sheet, larger)]
 
 
 def test_a_sheet_drawn_by_hands_that_err_is_not_had_at_another_scale():
-    scene = read(SIXBAR)
+    scene = mechanism_of(SIXBAR)
     sheet = draft(scene, instrument=pencil(scene.sheet.tools, 1))
     with pytest.raises(ValueError, match="pencil"):
         sheet.at(Scales(1.0, 1.0, 1.0))
@@ -239,4 +239,4 @@ def test_a_bar_that_a_drafting_program_reads_as_nothing_is_refused_by_name():
         "sketch": {"C": [400, 150]},
     }
     with pytest.raises(Unsolvable, match="too short to be read"):
-        draft(read(mapping), instrument=Cad())
+        draft(mechanism_of(mapping), instrument=Cad())

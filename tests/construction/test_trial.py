@@ -10,8 +10,8 @@ import pytest
 from graphkin import solver
 from graphkin.construction.centres.motion import Worked, work
 from graphkin.construction.reduced_mechanism import clusters, reduced_mechanisms
-from graphkin.scene import read
-from graphkin.scene.model import Scene
+from graphkin.scene import mechanism_of
+from graphkin.scene.model import Mechanism
 from graphkin.structure import analyse
 
 COUPLER_DRIVEN = {
@@ -39,7 +39,7 @@ SCENES: dict[str, Any] = {
 }
 
 
-def far_from_solver(scene: Scene, turned: float) -> tuple[float, float]:
+def far_from_solver(scene: Mechanism, turned: float) -> tuple[float, float]:
     """Largest error of a place (in the mechanism's size) and of an angular velocity (in the driver's)."""
     driver = scene.drivers[0]
     at = {driver.key: driver.values[0] + math.radians(turned)}
@@ -54,30 +54,30 @@ def far_from_solver(scene: Scene, turned: float) -> tuple[float, float]:
 @pytest.mark.parametrize("turned", [0, 25, -4])
 @pytest.mark.parametrize("name", SCENES)
 def test_position_and_velocity_by_trial_agree_with_the_solver(name: str, turned: float) -> None:
-    assert max(far_from_solver(read(SCENES[name]), turned)) <= 1e-12
+    assert max(far_from_solver(mechanism_of(SCENES[name]), turned)) <= 1e-12
 
 
 @pytest.mark.parametrize("turned", [120, 200, 330])
 @pytest.mark.parametrize("name", ["single-flier", "double-butterfly"])
 def test_eight_bars_are_drawn_all_the_way_round(name: str, turned: float) -> None:
-    assert max(far_from_solver(read(name), turned)) <= 1e-12
+    assert max(far_from_solver(mechanism_of(name), turned)) <= 1e-12
 
 
 def test_a_mechanism_of_dyads_is_drawn_by_its_polygons() -> None:
-    assert "velocity polygon" == work(read("shaper-scheme-2")).way
+    assert "velocity polygon" == work(mechanism_of("shaper-scheme-2")).way
 
 
 def test_what_the_superposition_keeps_is_named() -> None:
-    worked: Worked = work(read("single-flier"))
+    worked: Worked = work(mechanism_of("single-flier"))
     assert ("superposition", ("7",)) == (worked.way, worked.kept)
 
 
 def test_no_trial_driver_bears_the_name_of_a_real_one() -> None:
-    scene = read(COUPLER_DRIVEN)
+    scene = mechanism_of(COUPLER_DRIVEN)
     (group,) = clusters(analyse(scene))
     assert "2" not in {stand.driver for stand in reduced_mechanisms(scene, group)}
 
 
 def test_a_sheet_found_by_trial_shows_the_link_that_was_left_out() -> None:
-    worked = work(read("single-flier"))
+    worked = work(mechanism_of("single-flier"))
     assert set(worked.kept) <= set(worked.sheet.poses)

@@ -15,13 +15,13 @@ from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.primitives import Group, Line, Polyline, Primitive, Text, walk
 from graphkin.drawing.svg import svg_bytes
 from graphkin.errors import CallError
-from graphkin.scene import read
+from graphkin.scene import mechanism_of
 
 CLASSROOM = ("fourbar-150-500-300-400", "slider-crank-offset", "shaper-scheme-2", "sixbar-420rpm", "whitworth")
 
 
 def figure(name: str, convention: str | None = None) -> tuple[Centres, Drawing]:
-    centres = found_centres(read(name), None)
+    centres = found_centres(mechanism_of(name), None)
     return centres, centres_figure(centres, speeds(centres), convention=convention)
 
 

@@ -16,7 +16,7 @@ from graphkin.construction import Sheet, draft
 from graphkin.drawing import Box, Drawing, Text, figures, sheet_room, svg_bytes
 from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.primitives import walk
-from graphkin.scene import library, read
+from graphkin.scene import library, mechanism_of
 from graphkin.scene.model import PAPERS
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -25,7 +25,7 @@ GUIDE = "sixbar-guide-40deg"
 
 @lru_cache(maxsize=8)
 def drafted(name: str) -> tuple[Sheet, Sheet]:
-    scene = read(name)
+    scene = mechanism_of(name)
     return draft(scene), draft(scene, room=sheet_room(scene))
 
 
@@ -284,7 +284,7 @@ def test_no_two_feet_of_components_bear_the_same_name(convention):
 
 
 def on_paper(name: str, paper: str, orientation: str) -> Drawing:
-    scene = read(name)
+    scene = mechanism_of(name)
     scene = replace(scene, sheet=replace(scene.sheet, paper=paper, orientation=orientation))
     small = draft(scene, room=sheet_room(scene))
     return figures(small, small)["sheet"]

@@ -13,7 +13,7 @@ from graphkin.checking.report import compare
 from graphkin.construction import draft
 from graphkin.drawing import figures, sheet_room, svg_bytes
 from graphkin.errors import Unsolvable
-from graphkin.scene import library, read
+from graphkin.scene import library, mechanism_of
 from graphkin.scene.model import AngleDriver
 
 # All 24 positions take minutes; without this only some are drawn.
@@ -26,7 +26,7 @@ CONVENTIONS = ("chinese", "us", "british", "russian")
 def test_no_label_is_overlapped_crossed_or_cut(
     name: str, turn: int, violations: Callable[[bytes], list[str]]
 ) -> None:
-    scene = read(name)
+    scene = mechanism_of(name)
     driver = scene.drivers[0]
     value = driver.values[0]
     step = 2 * math.pi / POSITIONS if isinstance(driver, AngleDriver) else 0.06 * abs(value) / POSITIONS

@@ -7,11 +7,11 @@ from graphkin.drawing.conventions import letters_of
 from graphkin.drawing.primitives import Group, Text, walk
 from graphkin.drawing.stepwise import births, so_far, step_of, stepped
 from graphkin.papers.pictures import parts
-from graphkin.scene import library, read
+from graphkin.scene import library, mechanism_of
 
 
 def _layers(name, diagram):
-    sheet = draft(read(name))
+    sheet = draft(mechanism_of(name))
     return sheet, parts(sheet, diagram, letters_of(sheet, "chinese"), "en")
 
 

@@ -10,7 +10,7 @@ import pytest
 
 from graphkin.api.handouts import handout
 from graphkin.papers.blocks import clean
-from graphkin.scene import read
+from graphkin.scene import mechanism_of
 
 TITLES = (
     "</title></style></script><script>document.title='owned'</script>",
@@ -79,7 +79,7 @@ def test_a_title_is_typeset_as_words(title):
 
 def test_marks_that_hide_or_turn_what_stands_beside_them_are_dropped():
     # the reader of files refuses them; a scene built in a program may still hold them
-    scene = dataclasses.replace(read("slotter-75-150"), title="safe\u202egpj.exe\u2066x\u2069\x00\x1b[31mend")
+    scene = dataclasses.replace(mechanism_of("slotter-75-150"), title="safe\u202egpj.exe\u2066x\u2069\x00\x1b[31mend")
     made = handout(scene, positions=1).files
     for name in ("problem.html", "handout.html"):
         assert not re.findall("[\u202a-\u202e\u2066-\u2069\x00\x1b]", made[name].decode())
@@ -89,6 +89,6 @@ def test_a_scene_name_never_leads_out_of_the_folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "inside").mkdir()
     monkeypatch.chdir(tmp_path / "inside")
-    scene = dataclasses.replace(read("slotter-75-150"), name="../../evil/..")
+    scene = dataclasses.replace(mechanism_of("slotter-75-150"), name="../../evil/..")
     paths = handout(scene, formats=("pdf",)).write()
     assert {tmp_path / "inside"} == {p.resolve().parent.parent for p in paths}

@@ -5,13 +5,13 @@ import pytest
 from graphkin.construction import draft
 from graphkin.drawing.conventions import letters_of
 from graphkin.papers.lesson import Speaker, plain_words, stages
-from graphkin.scene import library, read
+from graphkin.scene import library, mechanism_of
 
 pytestmark = pytest.mark.quick
 
 
 def _six_bar():
-    sheet = draft(read("sixbar-guide-40deg"))
+    sheet = draft(mechanism_of("sixbar-guide-40deg"))
     return sheet, Speaker(sheet, letters_of(sheet, "chinese"))
 
 
@@ -22,7 +22,7 @@ def test_every_equation_is_one_stage_and_the_position_another():
 
 def test_stages_hold_every_step_once_in_order():
     for name in library():
-        sheet = draft(read(name))
+        sheet = draft(mechanism_of(name))
         assert [s.number for s in sheet.steps] == [step.number for stage in stages(sheet) for step in stage.steps]
 
 
@@ -47,7 +47,7 @@ def test_a_sentence_ends_and_begins_as_its_language_does():
 
 def test_symbols_in_sentences_are_closed_in_every_scene_and_convention():
     for name in library():
-        sheet = draft(read(name))
+        sheet = draft(mechanism_of(name))
         for convention in ("chinese", "us", "british", "russian"):
             speaker = Speaker(sheet, letters_of(sheet, convention))
             for step in sheet.steps:

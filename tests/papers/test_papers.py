@@ -17,7 +17,7 @@ from graphkin.papers.page import document_page
 from graphkin.papers.pictures import paper_of
 from graphkin.papers.problem import problem
 from graphkin.papers.solution import answer_key, key_rows, solution
-from graphkin.scene import library, read
+from graphkin.scene import library, mechanism_of
 
 
 def _pictures(document):
@@ -72,7 +72,7 @@ def _too_large(lesson):
 
 
 def _on(name, **wishes):
-    scene = read(name)
+    scene = mechanism_of(name)
     return dataclasses.replace(scene, sheet=dataclasses.replace(scene.sheet, **wishes))
 
 

@@ -4,13 +4,13 @@ import pytest
 
 from graphkin.construction.centres import find_centres
 from graphkin.papers.prepare import usual_count
-from graphkin.scene import read
+from graphkin.scene import mechanism_of
 
 pytestmark = pytest.mark.quick
 
 
 def test_centres_followed_from_a_neighbour_are_those_found_afresh():
-    scene = read("double-butterfly")
+    scene = mechanism_of("double-butterfly")
     key = scene.drivers[0].key
     start = scene.drivers[0].values[0]
     one = find_centres(scene, {key: start + 0.1})
@@ -22,4 +22,4 @@ def test_centres_followed_from_a_neighbour_are_those_found_afresh():
 
 
 def test_a_mechanism_of_many_links_is_shown_in_fewer_positions():
-    assert 24 == usual_count(read("double-butterfly"))
+    assert 24 == usual_count(mechanism_of("double-butterfly"))

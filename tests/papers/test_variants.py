@@ -24,7 +24,7 @@ from graphkin.papers import problem_set as room
 from graphkin.papers.data_rows import columns_of, replaced, value_of
 from graphkin.papers.variants import Answer, asked_of, round_step
 from graphkin.plane import cross
-from graphkin.scene import library_text, read
+from graphkin.scene import library_text, mechanism_of
 
 SIXBAR = "sixbar-guide-40deg"
 SHAPER = "shaper-scheme-2"
@@ -39,7 +39,7 @@ def made(tmp_path_factory):
 
 
 def scenes(made):
-    return [read(path) for path in sorted(made.folder.glob("*.toml"))]
+    return [mechanism_of(path) for path in sorted(made.folder.glob("*.toml"))]
 
 
 def test_as_many_are_made_as_are_asked_for(made):

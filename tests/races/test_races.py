@@ -14,7 +14,7 @@ import graphkin
 from graphkin.api.studied import SpeedAccuracy
 from graphkin.races import Race, race, race_page, race_table, timing, to_json
 from graphkin.races.peers import Skipped, pylinkage
-from graphkin.scene import read
+from graphkin.scene import mechanism_of
 from tests.drawing.chart_words import off_the_page, overlapping
 
 SIXBAR = "sixbar-guide-40deg"
@@ -27,7 +27,7 @@ def quick(monkeypatch):
 
 @cache
 def raced(name: str = SIXBAR) -> Race:
-    return race(read(name), repeats=1, count=480)
+    return race(mechanism_of(name), repeats=1, count=480)
 
 
 def errors(key: str, tag: str = "", name: str = SIXBAR) -> tuple[float | None, float | None]:

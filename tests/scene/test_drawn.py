@@ -8,8 +8,8 @@ import math
 import pytest
 
 from graphkin.errors import SceneError
-from graphkin.scene import read_text
-from graphkin.scene.model import AngleDriver, Scene, SlideDriver
+from graphkin.scene import mechanism_of_text
+from graphkin.scene.model import AngleDriver, Mechanism, SlideDriver
 
 from .scenes import changed
 
@@ -88,8 +88,8 @@ D = [-20, -164]
 """
 
 
-def read(text: str, *changes: tuple[str, str]) -> Scene:
-    return read_text(changed(text, *changes), "test")
+def read(text: str, *changes: tuple[str, str]) -> Mechanism:
+    return mechanism_of_text(changed(text, *changes), "test")
 
 
 def messages(text: str, *changes: tuple[str, str]) -> list[str]:
@@ -158,7 +158,7 @@ def test_a_guide_beside_its_pivot_turns_until_it_passes_through_what_slides_in_i
 def test_the_first_in_the_file_decides_the_sense_of_a_swinging_guide() -> None:
     text = changed(CYLINDER, ("[driver]", '[links.5]\npoints = ["Q"]\non = "3"\n[driver]'),
                    ("[drawn]", "[drawn]\nQ = [700, -400]"))
-    assert read_text(text, "x").drivers[0].values[0] == pytest.approx(0.5)
+    assert mechanism_of_text(text, "x").drivers[0].values[0] == pytest.approx(0.5)
 
 
 def test_a_given_angle_turns_the_guide_before_what_slides_in_it_does() -> None:
@@ -169,12 +169,12 @@ def test_a_given_angle_turns_the_guide_before_what_slides_in_it_does() -> None:
 
 def test_a_link_with_one_own_point_and_all_else_drawn_has_its_axis_toward_the_drawn() -> None:
     text = changed(FOUR_BAR, ("[driver]", '[links.5]\npoints = ["C"]\nat = { Q = "drawn" }\n[driver]'))
-    assert read_text(text + "Q = [70, 100]\n", "x").by_name["5"].points["Q"] == pytest.approx(0.05, rel=1e-12)
+    assert mechanism_of_text(text + "Q = [70, 100]\n", "x").by_name["5"].points["Q"] == pytest.approx(0.05, rel=1e-12)
 
 
 def test_two_points_of_a_link_at_known_places_give_its_direction() -> None:
     text = changed(FOUR_BAR, ("[driver]", '[links.5]\npoints = ["C"]\nat = { P = [0, 50], Q = "drawn" }\n[driver]'))
-    scene = read_text(text + "P = [50, 140]\nQ = [100, 150]\n", "x")
+    scene = mechanism_of_text(text + "P = [50, 140]\nQ = [100, 150]\n", "x")
     assert scene.by_name["5"].points["Q"] == pytest.approx(0.01, rel=1e-12)
 
 
@@ -182,7 +182,7 @@ def test_a_relative_angle_and_one_direction_give_the_other() -> None:
     text = changed(FOUR_BAR, ("[driver]", '[links.5]\npoints = ["C"]\nat = { Q = "drawn" }\n[driver]'),
                    ("omega = 10", 'omega = 10\nangle = 90\nrelative_to = "5"'))
     turn = (0.6 + 0.8j) / 1j
-    assert read_text(text + "Q = [100, 150]\n", "x").by_name["5"].points["Q"] == pytest.approx(
+    assert mechanism_of_text(text + "Q = [100, 150]\n", "x").by_name["5"].points["Q"] == pytest.approx(
         0.01j / turn, rel=1e-12)
 
 
@@ -190,7 +190,7 @@ def test_the_travel_of_a_pin_in_a_slot_follows_from_the_drawn_points() -> None:
     text = changed(FOUR_BAR, ('link = "1"\nomega = 10', 'slide = "E/4"\nvelocity = 1'),
                    ("[driver]", '[pins.E]\nof = "2"\nin = "4.v"\n[driver]'),
                    ("guides = { u", "guides = { v = { through = [30, 0], angle = 90 }, u"))
-    [driver] = read_text(text, "x").drivers
+    [driver] = mechanism_of_text(text, "x").drivers
     assert driver == SlideDriver("E/4", pytest.approx(0.14, rel=1e-12), pytest.approx(0.001), 0.0)
 
 

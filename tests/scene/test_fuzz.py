@@ -11,7 +11,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from graphkin.errors import Problem, SceneError
-from graphkin.scene import library, library_text, read, read_text
+from graphkin.scene import library, library_text, mechanism_of, mechanism_of_text
 
 from . import test_drawn
 from .scenes import FOUR_BAR, SIX_BAR
@@ -35,7 +35,7 @@ def scene_or_problems(source: Any) -> None:
     problems: tuple[Problem, ...] = ()
     places: list[complex] = []
     try:
-        scene = read(source)
+        scene = mechanism_of(source)
         places = [z for link in (scene.frame, *scene.links) for z in link.points.values()]
     except SceneError as error:
         problems = error.problems
@@ -87,7 +87,7 @@ def test_a_scene_with_anything_put_in_place_of_an_entry_gives_a_scene_or_its_pro
 def test_any_text_that_is_no_scene_gives_problems(text: str) -> None:
     problems: tuple[Problem, ...] = ()
     try:
-        read_text(text, text)
+        mechanism_of_text(text, text)
     except SceneError as error:
         problems = error.problems
     assert problems

@@ -8,8 +8,8 @@ import re
 import pytest
 
 from graphkin.errors import SceneError
-from graphkin.scene import read_text
-from graphkin.scene.model import AngleDriver, PinInSlot, Scene, SlideDriver, SlidingPair
+from graphkin.scene import mechanism_of, mechanism_of_text
+from graphkin.scene.model import AngleDriver, Mechanism, PinInSlot, SlideDriver, SlidingPair
 from graphkin.scene.symbol import Symbol
 
 from .scenes import FOUR_BAR, SIX_BAR, changed
@@ -17,8 +17,8 @@ from .scenes import FOUR_BAR, SIX_BAR, changed
 pytestmark = pytest.mark.quick
 
 
-def read(text: str, *changes: tuple[str, str]) -> Scene:
-    return read_text(changed(text, *changes), "test")
+def read(text: str, *changes: tuple[str, str]) -> Mechanism:
+    return mechanism_of_text(changed(text, *changes), "test")
 
 
 def place(entry: str) -> complex:
@@ -120,7 +120,7 @@ link = "1"
 angle = 30
 rpm = 60
 """
-    assert read_text(text, "oldham").slidings == (
+    assert mechanism_of_text(text, "oldham").slidings == (
         SlidingPair("2", "1", "", 1 + 0j, None), SlidingPair("2", "3", "", 1j, None))
 
 
@@ -132,7 +132,7 @@ def test_one_guide_takes_its_angle_as_a_number_or_a_list() -> None:
 def test_a_pin_in_two_slots_is_one_constraint_for_each() -> None:
     text = changed(SIX_BAR, ('[links.4]\npoints = ["D"]\non     = "3"\n', ""),
                    ('points = ["D"]\non     = "6.h"', 'on = "6.h"\nat = { D = [0, 0] }'))
-    scene = read_text(text + '[pins.D]\nof = "5"\nin = ["3", "1"]\n', "pin")
+    scene = mechanism_of_text(text + '[pins.D]\nof = "5"\nin = ["3", "1"]\n', "pin")
     assert scene.pins == (PinInSlot("D", "5", "3", ""), PinInSlot("D", "5", "1", ""))
 
 
@@ -157,7 +157,7 @@ def test_a_driver_may_be_relative_to_another_link() -> None:
 
 def test_several_drivers_keep_their_order() -> None:
     second = '[[driver]]\nlink = "3"\nangle = 1\nomega = 0\n'
-    scene = read_text(FOUR_BAR.replace("[driver]", "[[driver]]") + second, "x")
+    scene = mechanism_of_text(FOUR_BAR.replace("[driver]", "[[driver]]") + second, "x")
     assert [d.key for d in scene.drivers] == ["1", "3"]
 
 
@@ -172,7 +172,7 @@ def test_a_driven_slide_is_known_by_its_pair(slide: str) -> None:
 
 def test_a_pin_in_a_slot_may_be_driven() -> None:
     text = changed(FOUR_BAR, ('link = "1"\nangle = 60\nomega = 10', 'slide = "E/4"\ntravel = 5\nvelocity = 6'))
-    [driver] = read_text(text + '[pins.E]\nof = "2"\nin = "4.g"\n', "x").drivers
+    [driver] = mechanism_of_text(text + '[pins.E]\nof = "2"\nin = "4.g"\n', "x").drivers
     assert driver.key == "E/4"
 
 
@@ -182,17 +182,17 @@ def test_find_is_read_as_symbols_each_once() -> None:
 
 
 def test_printed_velocities_are_in_metres_per_second_and_rates_as_they_are() -> None:
-    scene = read_text(FOUR_BAR + "[printed]\nv_C = 480\nomega_3 = -2.82\na_C = [1000, -2000]\n", "x")
+    scene = mechanism_of_text(FOUR_BAR + "[printed]\nv_C = 480\nomega_3 = -2.82\na_C = [1000, -2000]\n", "x")
     assert scene.printed == {Symbol.parse("v_C"): pytest.approx(0.48), Symbol.parse("omega_3"): -2.82,
                              Symbol.parse("a_C"): pytest.approx(1 - 2j)}
 
 
 def test_a_sketch_is_in_metres() -> None:
-    assert read_text(FOUR_BAR + "[sketch]\nC = [10, 20]\n", "x").sketch == {"C": pytest.approx(0.01 + 0.02j)}
+    assert mechanism_of_text(FOUR_BAR + "[sketch]\nC = [10, 20]\n", "x").sketch == {"C": pytest.approx(0.01 + 0.02j)}
 
 
 def test_the_sheet_keeps_the_units_of_the_file() -> None:
-    sheet = read_text(FOUR_BAR + '[sheet]\nlength_scale = 2\nvelocity_scale = 10\nlanguage = "zh"\n', "x").sheet
+    sheet = mechanism_of_text(FOUR_BAR + '[sheet]\nlength_scale = 2\nvelocity_scale = 10\nlanguage = "zh"\n', "x").sheet
     assert (sheet.length_scale, sheet.velocity_scale, sheet.acceleration_scale, sheet.language) == (2, 10, None, "zh")
 
 
@@ -260,16 +260,17 @@ velocity = 60
 
 
 def test_a_swinging_block_slides_on_the_axis_of_its_rod() -> None:
-    assert read_text(SWINGING_BLOCK, "x").slidings == (SlidingPair("3", "2", "", 1 + 0j, "C"),)
+    assert mechanism_of_text(SWINGING_BLOCK, "x").slidings == (SlidingPair("3", "2", "", 1 + 0j, "C"),)
 
 
 def test_a_yoke_slides_by_its_own_origin_and_carries_a_slot() -> None:
-    assert [(s.key, s.guide, s.pin) for s in read_text(SCOTCH_YOKE, "x").slidings] == [
+    assert [(s.key, s.guide, s.pin) for s in mechanism_of_text(SCOTCH_YOKE, "x").slidings] == [
         ("2/3", "s", "B"), ("3/4", "x", None)]
 
 
 def test_a_cylinder_drives_by_its_travel() -> None:
-    assert read_text(CYLINDER, "x").drivers == (SlideDriver("2/3", pytest.approx(0.42), pytest.approx(0.06), 0.0),)
+    driven = SlideDriver("2/3", pytest.approx(0.42), pytest.approx(0.06), 0.0)
+    assert mechanism_of_text(CYLINDER, "x").drivers == (driven,)
 
 
 def test_the_own_axis_of_the_frame_is_a_guide() -> None:
@@ -279,19 +280,18 @@ def test_the_own_axis_of_the_frame_is_a_guide() -> None:
 
 def test_arrays_of_another_library_are_numbers() -> None:
     numpy = pytest.importorskip("numpy")
-    from graphkin.scene import read as read_any
-    scene = read_any({"frame": {"points": {"A": [numpy.float64(0), numpy.int64(0)]}},
+    scene = mechanism_of({"frame": {"points": {"A": [numpy.float64(0), numpy.int64(0)]}},
                       "links": {"1": {"points": ["A", "B"], "length": numpy.float32(2.5)}}})
     assert scene.by_name["1"].length == pytest.approx(2.5e-3)
 
 
 def test_a_scene_can_be_read_from_any_line_ending() -> None:
-    assert read_text(FOUR_BAR.replace("\n", "\r\n"), "x") == read_text(FOUR_BAR, "x")
+    assert mechanism_of_text(FOUR_BAR.replace("\n", "\r\n"), "x") == mechanism_of_text(FOUR_BAR, "x")
 
 
 def test_names_are_not_mistaken_for_keys() -> None:
     text = re.sub(r'"3"|links\.3', lambda m: m[0].replace("3", "on"), FOUR_BAR)
-    assert read_text(text, "x").by_name["on"].bar == ("C", "D")
+    assert mechanism_of_text(text, "x").by_name["on"].bar == ("C", "D")
 
 
 @pytest.mark.parametrize("key", ["omega", "rpm"])
@@ -299,4 +299,4 @@ def test_a_rate_whose_square_is_lost_is_refused(key):
     crank = '[frame]\npoints = { A = [0, 0] }\n[links.1]\npoints = ["A", "B"]\nlength = 1\n'
     text = f'{crank}[driver]\nlink = "1"\nangle = 0\n'
     with pytest.raises(SceneError, match="write 0, or at least 1e-15"):
-        read_text(f"{text}{key} = 1e-300", "slow")
+        mechanism_of_text(f"{text}{key} = 1e-300", "slow")

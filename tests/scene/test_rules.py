@@ -7,7 +7,7 @@ import math
 import pytest
 
 from graphkin.errors import SceneError
-from graphkin.scene import read_text
+from graphkin.scene import mechanism_of_text
 from graphkin.scene.model import FromDeadPoint
 
 from .scenes import FOUR_BAR, SIX_BAR, changed
@@ -173,7 +173,7 @@ BROKEN = {
 
 def messages(text: str) -> list[str]:
     with pytest.raises(SceneError) as error:
-        read_text(text, "test")
+        mechanism_of_text(text, "test")
     return [str(p) for p in error.value.problems]
 
 
@@ -293,12 +293,12 @@ DEAD = ('angle = 50', 'angle = 1e-9\nfrom = "dead point"')
 
 
 def test_an_angle_may_count_from_a_dead_point() -> None:
-    driver = read_text(changed(SIX_BAR, DEAD), "scene").drivers[0]
+    driver = mechanism_of_text(changed(SIX_BAR, DEAD), "scene").drivers[0]
     assert driver.dead_point == FromDeadPoint(math.radians(1e-9))
 
 
 def test_a_dead_point_is_told_by_what_it_is_near_to() -> None:
-    driver = read_text(changed(SIX_BAR, (DEAD[0], DEAD[1] + "\nnear = 90")), "scene").drivers[0]
+    driver = mechanism_of_text(changed(SIX_BAR, (DEAD[0], DEAD[1] + "\nnear = 90")), "scene").drivers[0]
     assert driver.dead_point == FromDeadPoint(math.radians(1e-9), math.radians(90))
 
 

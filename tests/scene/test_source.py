@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from graphkin.errors import SceneError
-from graphkin.scene import library, library_text, read, read_text
+from graphkin.scene import library, library_text, mechanism_of, mechanism_of_text
 
 from .scenes import FOUR_BAR
 
@@ -17,28 +17,28 @@ pytestmark = pytest.mark.quick
 
 def sentence(source: object) -> str:
     with pytest.raises(SceneError) as error:
-        read(source)  # type: ignore[arg-type]
+        mechanism_of(source)  # type: ignore[arg-type]
     return str(error.value)
 
 
 def test_a_file_is_named_by_its_stem(tmp_path: Path) -> None:
     (tmp_path / "my bar.toml").write_text(FOUR_BAR)
-    assert read(tmp_path / "my bar.toml").name == "my-bar"
+    assert mechanism_of(tmp_path / "my bar.toml").name == "my-bar"
 
 
 def test_a_path_may_be_a_text(tmp_path: Path) -> None:
     (tmp_path / "bar.toml").write_text(FOUR_BAR)
-    assert read(str(tmp_path / "bar.toml")) == read_text(FOUR_BAR, "bar")
+    assert mechanism_of(str(tmp_path / "bar.toml")) == mechanism_of_text(FOUR_BAR, "bar")
 
 
 def test_a_mapping_is_what_the_parser_gives() -> None:
-    assert read(tomllib.loads(FOUR_BAR)) == read_text(FOUR_BAR, "scene")
+    assert mechanism_of(tomllib.loads(FOUR_BAR)) == mechanism_of_text(FOUR_BAR, "scene")
 
 
 def test_links_of_a_mapping_may_be_named_by_integers() -> None:
     raw = tomllib.loads(FOUR_BAR)
     raw["links"] = {int(name): link for name, link in raw["links"].items()}
-    assert read(raw) == read_text(FOUR_BAR, "scene")
+    assert mechanism_of(raw) == mechanism_of_text(FOUR_BAR, "scene")
 
 
 def test_the_mapping_is_not_changed() -> None:
@@ -49,7 +49,7 @@ def test_the_mapping_is_not_changed() -> None:
 
 @pytest.mark.parametrize("name", library())
 def test_every_scene_that_comes_along_is_read(name: str) -> None:
-    assert read(name).name == name
+    assert mechanism_of(name).name == name
 
 
 def test_the_library_is_sorted_and_has_the_worked_example() -> None:
@@ -60,7 +60,7 @@ def test_the_library_is_sorted_and_has_the_worked_example() -> None:
 def test_a_directory_of_the_same_name_does_not_hide_a_scene(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "scotch-yoke").mkdir()
     monkeypatch.chdir(tmp_path)
-    assert read("scotch-yoke").name == "scotch-yoke"
+    assert mechanism_of("scotch-yoke").name == "scotch-yoke"
 
 
 def test_a_misspelt_scene_is_answered_with_the_nearest() -> None:
@@ -98,7 +98,7 @@ def test_a_binary_file_is_one_sentence(tmp_path: Path) -> None:
 
 def test_a_file_with_a_byte_order_mark_is_read(tmp_path: Path) -> None:
     (tmp_path / "x.toml").write_bytes(b"\xef\xbb\xbf" + FOUR_BAR.encode())
-    assert read(tmp_path / "x.toml").title == "Four-bar"
+    assert mechanism_of(tmp_path / "x.toml").title == "Four-bar"
 
 
 def test_an_empty_file_has_no_links(tmp_path: Path) -> None:
@@ -137,13 +137,13 @@ SYNTAX = {
 @pytest.mark.parametrize("text", SYNTAX)
 def test_what_is_not_toml_is_named_by_line(text: str) -> None:
     with pytest.raises(SceneError) as error:
-        read_text(text, "x")
+        mechanism_of_text(text, "x")
     assert SYNTAX[text] in str(error.value)
 
 
 def test_deep_tables_are_one_sentence() -> None:
     with pytest.raises(SceneError, match="nested"):
-        read_text("[" + ".".join("a" * 50) + "]", "x")
+        mechanism_of_text("[" + ".".join("a" * 50) + "]", "x")
 
 
 def test_a_mapping_that_holds_itself_is_one_sentence() -> None:
@@ -161,4 +161,4 @@ def test_too_many_values_are_one_sentence() -> None:
     ("x" * 300, "x" * 60),
 ])
 def test_a_scene_is_named_so_that_a_folder_can_be(stem: str, name: str) -> None:
-    assert read_text(FOUR_BAR, stem).name == name
+    assert mechanism_of_text(FOUR_BAR, stem).name == name

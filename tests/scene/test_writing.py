@@ -7,7 +7,7 @@ import tomllib
 import numpy as np
 import pytest
 
-from graphkin.scene import library, library_text, read, read_text
+from graphkin.scene import library, library_text, mechanism_of, mechanism_of_text
 from graphkin.scene.written import as_mapping, toml_text
 from graphkin.solver import solve
 
@@ -20,8 +20,8 @@ def test_the_text_of_a_scene_file_gives_its_mapping_again(name):
 
 @pytest.mark.parametrize("name", library())
 def test_a_resolved_scene_written_out_moves_alike(name):
-    scene = read(name)
-    again = read_text(toml_text(as_mapping(scene)), name)
+    scene = mechanism_of(name)
+    again = mechanism_of_text(toml_text(as_mapping(scene)), name)
     one, two = solve(scene), solve(again)
     for link in scene.links:
         np.testing.assert_allclose(one.alpha(link.name), two.alpha(link.name), rtol=1e-6, atol=1e-6)

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from graphkin.scene.model import Scene
+from graphkin.scene.model import Mechanism
 from graphkin.solver import Motion, solve
 
 
@@ -51,7 +51,7 @@ def closure(motion: Motion) -> float:
     return float(worst)
 
 
-def differences(scene: Scene, step: float = 1e-4) -> float:
+def differences(scene: Mechanism, step: float = 1e-4) -> float:
     """How far velocity and acceleration are from finite differences of the position in time, relative."""
     keys = [d.key for d in scene.drivers]
     given = np.array([d.values for d in scene.drivers])
@@ -78,7 +78,7 @@ def differences(scene: Scene, step: float = 1e-4) -> float:
     return float(worst)
 
 
-def slowed(scene: Scene, by: float) -> Scene:
+def slowed(scene: Mechanism, by: float) -> Mechanism:
     """The same with the drivers' rates multiplied, so that finite differences can see them."""
     drivers = []
     for d in scene.drivers:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from graphkin.scene import read_text
+from graphkin.scene import mechanism_of_text
 from graphkin.solver import larger_groups as cluster
 from graphkin.solver import solve, structure_of
 from graphkin.solver.assemblies import choose_forms, own_values
@@ -16,7 +16,7 @@ from tests import scenes
 
 @pytest.mark.parametrize("text", [scenes.TRIAD, scenes.FLOATING, scenes.MOVED_PARALLELOGRAM])
 def test_an_ordinary_position_is_certified_with_room_to_spare(text: str) -> None:
-    structure = structure_of(read_text(text, "scene"))
+    structure = structure_of(mechanism_of_text(text, "scene"))
     forms = {i: f[None] for i, f in choose_forms(structure).items()}
     state = positions(structure, Drive.at(structure, own_values(structure.scene)[None]), forms)
     assert [g.certificate[0] < 1e-6 for g in state.groups.values()] == [True]
@@ -24,15 +24,15 @@ def test_an_ordinary_position_is_certified_with_room_to_spare(text: str) -> None
 
 def test_what_has_not_converged_is_refused_by_name(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(cluster, "certificate", lambda system, members, condition, missed: np.full(len(missed), 0.7))
-    motion = solve(read_text(scenes.TRIAD, "scene"))
+    motion = solve(mechanism_of_text(scenes.TRIAD, "scene"))
     assert "refused, Newton's method has not converged quadratically" in motion.why[0]
 
 
 def test_a_larger_group_stays_within_its_bound() -> None:
     # the same motion with the crank driven, where all is in closed form
-    floating = solve(read_text(scenes.FLOATING, "scene"), at={"2": np.radians(40)})
+    floating = solve(mechanism_of_text(scenes.FLOATING, "scene"), at={"2": np.radians(40)})
     crank = solve(
-        read_text(scenes.FOUR_BAR.replace("omega = 10\nalpha = -30", "omega = 1"), "scene"),
+        mechanism_of_text(scenes.FOUR_BAR.replace("omega = 10\nalpha = -30", "omega = 1"), "scene"),
         at={"1": float(floating.angle("1")[0])},
     )
     ratio = crank.omega("3")[0] / crank.omega("2")[0]
@@ -43,5 +43,5 @@ def test_a_larger_group_stays_within_its_bound() -> None:
 def test_the_assemblies_of_a_larger_group_have_different_words() -> None:
     own = "C = [110, 90]\nD = [200, 100]\nE = [130, 170]"
     other = "C = [95.28, 102.51]\nD = [184.18, 88.49]\nE = [135.81, 166.98]"
-    words = {solve(read_text(scenes.TRIAD.replace(own, s), "scene")).assembly[0] for s in (own, other)}
+    words = {solve(mechanism_of_text(scenes.TRIAD.replace(own, s), "scene")).assembly[0] for s in (own, other)}
     assert len(words) == 2

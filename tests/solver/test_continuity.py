@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from graphkin.errors import CallError, Unsolvable
-from graphkin.scene import library, read, read_text
+from graphkin.scene import library, mechanism_of, mechanism_of_text
 from graphkin.solver import Motion, solve
 from tests import scenes
 
@@ -18,7 +18,7 @@ ROCKER = (
 
 
 def at(text: str, value: float, key: str = "1") -> Motion:
-    return solve(read_text(text, "scene"), at={key: np.radians(value)})
+    return solve(mechanism_of_text(text, "scene"), at={key: np.radians(value)})
 
 
 def law_of_cosines(diagonal: float, a: float, b: float) -> float:
@@ -26,23 +26,23 @@ def law_of_cosines(diagonal: float, a: float, b: float) -> float:
 
 
 def test_a_parallelogram_stays_one_through_its_change_points() -> None:
-    motion = solve(read_text(scenes.PARALLELOGRAM, "scene"), sweep=50)
+    motion = solve(mechanism_of_text(scenes.PARALLELOGRAM, "scene"), sweep=50)
     assert np.abs(motion.omega("2")[motion.ok]).max() < 1e-9
 
 
 def test_a_parallelogram_that_begins_in_line_takes_the_form_of_the_rule() -> None:
-    motion = solve(read_text(scenes.PARALLELOGRAM.replace("angle = 60", "angle = 0"), "scene"), sweep=50)
+    motion = solve(mechanism_of_text(scenes.PARALLELOGRAM.replace("angle = 60", "angle = 0"), "scene"), sweep=50)
     assert np.abs(motion.omega("2")[motion.ok]).max() < 1e-9
 
 
 def test_an_antiparallelogram_stays_one_through_its_change_points() -> None:
     text = scenes.PARALLELOGRAM.replace("C = [350, 87]", "C = [250, -40]")
-    motion = solve(read_text(text, "scene"), sweep=50)
+    motion = solve(mechanism_of_text(text, "scene"), sweep=50)
     assert motion.omega("3")[motion.ok].max() < 0  # the cranks turn against each other all the time
 
 
 def test_a_guide_bar_whose_crank_is_as_long_as_its_ground_goes_on_smoothly() -> None:
-    motion = solve(read_text(scenes.EQUAL_GUIDE, "scene"), sweep=37)
+    motion = solve(mechanism_of_text(scenes.EQUAL_GUIDE, "scene"), sweep=37)
     # half the angle of the crank (peripheral angle), also after the crank pin has passed the pivot of the bar
     crank = 10 + 360 * np.arange(37) / 37
     assert np.degrees(motion.angle("3")) == pytest.approx(45 + crank / 2, abs=1e-9)
@@ -50,7 +50,7 @@ def test_a_guide_bar_whose_crank_is_as_long_as_its_ground_goes_on_smoothly() -> 
 
 @pytest.mark.parametrize("name", library())
 def test_a_sweep_gives_each_position_as_if_it_were_asked_alone(name: str) -> None:
-    scene = read(name)
+    scene = mechanism_of(name)
     motion = solve(scene, sweep=7)
     key = scene.drivers[0].key
     for k in np.flatnonzero(motion.ok):
@@ -60,14 +60,14 @@ def test_a_sweep_gives_each_position_as_if_it_were_asked_alone(name: str) -> Non
 
 
 def test_a_sweep_goes_in_the_sense_of_the_driver() -> None:
-    scene = read_text(scenes.FOUR_BAR.replace("omega = 10", "omega = -10"), "scene")
+    scene = mechanism_of_text(scenes.FOUR_BAR.replace("omega = 10", "omega = -10"), "scene")
     assert np.degrees(solve(scene, sweep=4).values[:, 0]) == pytest.approx([60, -30, -120, -210])
 
 
 def test_angles_of_a_sweep_count_whole_turns_of_a_fast_bar() -> None:
     # at crank 180 the bar turns 50 times as fast; 8 positions are far too few to see its turns from them alone
     text = scenes.EQUAL_GUIDE.replace("length = 100", "length = 101")
-    few, many = (solve(read_text(text, "scene"), sweep=n).angle("3") for n in (4, 3600))
+    few, many = (solve(mechanism_of_text(text, "scene"), sweep=n).angle("3") for n in (4, 3600))
     assert few == pytest.approx(many[::900], abs=1e-9)
 
 
@@ -103,7 +103,7 @@ def test_an_angle_behind_a_limit_is_reached_the_other_way_round() -> None:
 
 
 def test_positions_of_a_sweep_behind_a_limit_are_reached_the_other_way_round() -> None:
-    motion = solve(read("sixbar-AE70"), sweep=36)
+    motion = solve(mechanism_of("sixbar-AE70"), sweep=36)
     degrees = np.degrees(motion.values[:, 0]) % 360
     assert set(np.flatnonzero(motion.ok)) == set(np.flatnonzero((degrees < 58.99) | (degrees > 301.01)))
 
@@ -113,13 +113,13 @@ def test_more_than_a_turn_is_the_same_as_without_it() -> None:
 
 
 def test_a_slide_driver_is_swept_inside_its_range() -> None:
-    motion = solve(read_text(scenes.CYLINDER, "scene"), sweep=10)
+    motion = solve(mechanism_of_text(scenes.CYLINDER, "scene"), sweep=10)
     # A and C are 300 apart, the bar is 200: the cylinder reaches from 100 to 500
     assert motion.values[:, 0] == pytest.approx(0.1 + 0.4 * (np.arange(10) + 0.5) / 10, rel=1e-9)
 
 
 def test_the_second_of_two_drivers_can_be_moved() -> None:
-    scene = read_text(scenes.ARM, "scene")
+    scene = mechanism_of_text(scenes.ARM, "scene")
     assert np.degrees(solve(scene, at={"2": np.radians(-60)}).angle("2")[0]) == pytest.approx(-30, abs=1e-12)
 
 
@@ -129,7 +129,7 @@ def test_an_unknown_driver_is_named() -> None:
 
 
 def test_a_scene_that_does_not_reach_says_where_it_would() -> None:
-    motion = solve(read_text(ROCKER.replace("angle = 20", "angle = 100"), "scene"))
+    motion = solve(mechanism_of_text(ROCKER.replace("angle = 20", "angle = 100"), "scene"))
     assert motion.status[0] == "not assembled"
     assert f"1 = {law_of_cosines(500, 400, 350):.8g}"[:12] in motion.why[0]
 
@@ -138,16 +138,16 @@ def test_a_scene_that_does_not_reach_says_where_it_would() -> None:
 
 
 def test_a_driven_coupler_moves_as_with_the_crank() -> None:
-    floating = solve(read_text(scenes.FLOATING, "scene"), at={"2": np.radians(40)})
-    crank = solve(read_text(scenes.FOUR_BAR, "scene"), at={"1": float(floating.angle("1")[0])})
+    floating = solve(mechanism_of_text(scenes.FLOATING, "scene"), at={"2": np.radians(40)})
+    crank = solve(mechanism_of_text(scenes.FOUR_BAR, "scene"), at={"1": float(floating.angle("1")[0])})
     assert crank.angle("2")[0] == pytest.approx(np.radians(40), abs=1e-12)
 
 
 def test_the_limit_of_a_larger_group_is_where_its_crank_turns_back() -> None:
-    why = solve(read_text(scenes.FLOATING, "scene"), at={"2": np.radians(90)}).why[0]
+    why = solve(mechanism_of_text(scenes.FLOATING, "scene"), at={"2": np.radians(90)}).why[0]
     limit = float(why.split("2 = ")[1].split(" deg")[0])
     # with the crank driven, the coupler stands still where it is most inclined
-    scene = read_text(scenes.FOUR_BAR, "scene")
+    scene = mechanism_of_text(scenes.FOUR_BAR, "scene")
     turn = solve(scene, sweep=720)
     k = int(np.argmax(turn.angle("2")))
     low, high = turn.values[k - 1, 0], turn.values[k + 1, 0]
@@ -159,7 +159,7 @@ def test_the_limit_of_a_larger_group_is_where_its_crank_turns_back() -> None:
 
 
 def test_a_larger_group_comes_back_to_where_it_was() -> None:
-    scene = read_text(scenes.TRIAD, "scene")
+    scene = mechanism_of_text(scenes.TRIAD, "scene")
     there = solve(scene, at={"1": np.radians(85)})
     assert there.status[0] == "ok"
     # a scene written at that position, sketched by what was found there, is followed back
@@ -169,7 +169,7 @@ def test_a_larger_group_comes_back_to_where_it_was() -> None:
         .replace("angle = 50", "angle = 85")
         .replace("[frame]", f"sketch = {{ {places} }}\n[frame]")
     )
-    again = solve(read_text(text, "scene"), at={"1": np.radians(50)})
+    again = solve(mechanism_of_text(text, "scene"), at={"1": np.radians(50)})
     assert again.position("E")[0] == pytest.approx(solve(scene).position("E")[0], abs=1e-14)
 
 
@@ -177,7 +177,7 @@ def moved(degrees: float) -> Motion:
     """The parallelogram whose plate is moved by a slider, with its cranks at an angle."""
     crank = np.radians(degrees)
     travel = 80 + 100 * np.sin(crank) + np.sqrt(400**2 - (500 - 150 - 100 * np.cos(crank)) ** 2)
-    return solve(read_text(scenes.MOVED_PARALLELOGRAM, "moved"), at={"6/0": float(travel) / 1000})
+    return solve(mechanism_of_text(scenes.MOVED_PARALLELOGRAM, "moved"), at={"6/0": float(travel) / 1000})
 
 
 @pytest.mark.parametrize("degrees", [10, 0.01, -0.01, -1, -60])
@@ -190,5 +190,5 @@ def test_a_larger_group_at_its_change_point_is_dead() -> None:
 
 
 def test_a_sweep_of_a_larger_group_never_leaves_its_assembly() -> None:
-    motion = solve(read_text(scenes.MOVED_PARALLELOGRAM, "moved"), sweep=60)
+    motion = solve(mechanism_of_text(scenes.MOVED_PARALLELOGRAM, "moved"), sweep=60)
     assert np.abs(motion.omega("2")[motion.ok]).max() < 1e-9

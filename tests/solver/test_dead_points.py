@@ -10,7 +10,7 @@ import pytest
 
 import graphkin
 from graphkin.errors import Unsolvable
-from graphkin.scene import read_text
+from graphkin.scene import mechanism_of_text
 from graphkin.solver import Motion, solve, structure_of
 from graphkin.solver.dead_points import dead_points
 from tests import scenes
@@ -41,7 +41,7 @@ C = {C}
 
 def at(driver: str, left: bool = True) -> Motion:
     place = "[300, 280]" if left else "[200, 20]"
-    return solve(read_text(REACHING.replace("{driver}", driver).replace("{C}", place), "scene"))
+    return solve(mechanism_of_text(REACHING.replace("{driver}", driver).replace("{C}", place), "scene"))
 
 
 def rocker(distance: str) -> float:
@@ -88,13 +88,13 @@ def test_several_dead_points_are_listed() -> None:
 def test_without_a_dead_point_it_says_so() -> None:
     text = scenes.FOUR_BAR.replace("angle = 60", 'angle = 1e-9\nfrom = "dead point"')
     with pytest.raises(Unsolvable, match="no dead point"):
-        solve(read_text(text, "crank-rocker"))
+        solve(mechanism_of_text(text, "crank-rocker"))
 
 
 def test_a_travel_may_count_from_a_dead_point() -> None:
     # crank and rod in line at 170
     text = scenes.PISTON.replace("travel = 150", 'travel = -1e-9\nfrom = "dead point"\nnear = 170')
-    motion = solve(read_text(text + "[sketch]\nB = [49, 1]\n", "scene"))
+    motion = solve(mechanism_of_text(text + "[sketch]\nB = [49, 1]\n", "scene"))
     with mp.workdps(60):
         s = mp.mpf(170) - mp.mpf("1e-9")
         crank = mp.acos((50**2 + s**2 - 120**2) / (100 * s))
@@ -103,18 +103,18 @@ def test_a_travel_may_count_from_a_dead_point() -> None:
 
 def test_dead_points_have_fifty_digits() -> None:
     text = REACHING.replace("{driver}", "angle = -1e-9\nnear = 90").replace("{C}", "[300, 280]")
-    found = max(p.value for p in dead_points(structure_of(read_text(text, "scene"))))
+    found = max(p.value for p in dead_points(structure_of(mechanism_of_text(text, "scene"))))
     with mp.workdps(60):
         assert abs(mp.mpf(str(found)) - mp.pi / 2) < mp.mpf("1e-47")
 
 
 def test_a_dead_position_tells_where_the_dead_point_lies() -> None:
-    motion = solve(read_text(scenes.PARALLELOGRAM, "scene"), at={"1": math.radians(180)})
+    motion = solve(mechanism_of_text(scenes.PARALLELOGRAM, "scene"), at={"1": math.radians(180)})
     assert motion.why[0].endswith("it lies at 1 = 180 deg, 0 deg away")
 
 
 def test_every_public_function_takes_such_a_scene() -> None:
     text = REACHING.replace("{driver}", "angle = -5\nnear = 90").replace("{C}", "[300, 280]")
-    given = graphkin.solve(read_text(text, "scene")).motion
+    given = graphkin.solve(mechanism_of_text(text, "scene")).motion
     assert np.degrees(given.scene.drivers[0].values[0]) == pytest.approx(85.0)
-    assert graphkin.check(read_text(text, "scene")).ok
+    assert graphkin.check(mechanism_of_text(text, "scene")).ok

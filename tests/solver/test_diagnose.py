@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from graphkin.errors import Unsolvable
-from graphkin.scene import read_text
+from graphkin.scene import mechanism_of_text
 from graphkin.solver import solve
 from tests import scenes
 
@@ -14,7 +14,7 @@ pytestmark = pytest.mark.quick
 
 def refused(text: str) -> str:
     with pytest.raises(Unsolvable) as stop:
-        solve(read_text(text, "scene"))
+        solve(mechanism_of_text(text, "scene"))
     assert stop.value.status == "mobility"
     return str(stop.value)
 

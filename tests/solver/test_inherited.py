@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from graphkin.scene import read
-from graphkin.scene.model import Scene
+from graphkin.scene import mechanism_of
+from graphkin.scene.model import Mechanism
 from graphkin.solver import solve
 from tests import mechanisms
 from tests.api.test_large import chain
@@ -17,15 +17,15 @@ from tests.bench import accuracy
 
 @pytest.mark.parametrize("kind", ["RRR", "RRP", "RPR", "PRP", "RPP"])
 def test_the_true_error_never_exceeds_the_bound(kind: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    def drawn(rng: np.random.Generator) -> Scene:
-        return read(mechanisms.random_scene(int(rng.integers(10**6)), (kind, kind)))
+    def drawn(rng: np.random.Generator) -> Mechanism:
+        return mechanism_of(mechanisms.random_scene(int(rng.integers(10**6)), (kind, kind)))
 
     monkeypatch.setattr(accuracy, "random_scene", drawn)
     assert accuracy.measure(120, 3, each=4).broken == []
 
 
 def _bound(scene: dict[str, Any]) -> float:
-    return float(solve(read(scene)).bound.velocity[0])
+    return float(solve(mechanism_of(scene)).bound.velocity[0])
 
 
 def test_each_dyad_of_a_chain_at_most_trebles_the_bound() -> None:

@@ -9,7 +9,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from graphkin.scene import read, read_text
+from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.solver import Motion, solve, to_json
 from tests import scenes
 
@@ -80,7 +80,7 @@ LOOPS = {
 @pytest.mark.parametrize("kind", LOOPS)
 def test_a_point_is_right_within_the_bound_and_a_few_roundings(kind: str, degrees: str) -> None:
     loop = LOOPS[kind]
-    motion = solve(read_text(loop.text, kind), at={"1": np.radians(float(degrees))})
+    motion = solve(mechanism_of_text(loop.text, kind), at={"1": np.radians(float(degrees))})
     with mp.workdps(D):
 
         def at(t: mp.mpf) -> mp.mpc:
@@ -98,13 +98,13 @@ def test_a_point_is_right_within_the_bound_and_a_few_roundings(kind: str, degree
 
 
 def test_the_bound_of_the_worked_example_is_near_rounding() -> None:
-    bound = to_json(solve(read("sixbar-guide-40deg")))["positions"][0]["error_bound"]
+    bound = to_json(solve(mechanism_of("sixbar-guide-40deg")))["positions"][0]["error_bound"]
     assert 1e-13 < bound["velocity"] < 1e-10
     assert 1e-12 < bound["acceleration"] < 1e-9
 
 
 def test_the_error_does_not_grow_with_the_number_of_positions() -> None:
-    scene = read("shaper-scheme-2")
+    scene = mechanism_of("shaper-scheme-2")
     motion = solve(scene, sweep=20000)
     last = solve(scene, at={"1" if scene.drivers[0].key == "1" else scene.drivers[0].key: float(motion.values[-1, 0])})
     link = scene.links[-1].name

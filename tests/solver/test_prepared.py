@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from graphkin.errors import CallError
-from graphkin.scene import read, read_text
+from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.solver import Prepared, prepare, solve
 from graphkin.solver.compiled import kernel_text
 from tests import scenes
@@ -17,12 +17,12 @@ ASKED = ("C", "v_C", "a_C", "omega_3", "alpha_3")
 
 
 def four_bar() -> Prepared:
-    return prepare(read_text(scenes.FOUR_BAR, "four-bar"), ASKED)
+    return prepare(mechanism_of_text(scenes.FOUR_BAR, "four-bar"), ASKED)
 
 
 def test_the_columns_are_those_of_solve() -> None:
     columns, _ = four_bar().sweep(50)
-    motion = solve(read_text(scenes.FOUR_BAR, "four-bar"), sweep=50)
+    motion = solve(mechanism_of_text(scenes.FOUR_BAR, "four-bar"), sweep=50)
     expected = [
         x
         for z in (motion.position("C"), motion.velocity("C"), motion.acceleration("C"))
@@ -51,7 +51,7 @@ def test_a_sweep_in_pieces_is_the_sweep() -> None:
 
 
 def test_one_position_is_there_where_positions_of_an_array_are() -> None:
-    for scene in (read("sixbar-AE70"), read_text(scenes.CYLINDER, "c")):
+    for scene in (mechanism_of("sixbar-AE70"), mechanism_of_text(scenes.CYLINDER, "c")):
         ready = prepare(scene, ("v_B",))
         values = np.linspace(-7, 7, 301)
         _, ok = ready.columns(values)
@@ -80,50 +80,51 @@ MANY = ("B", "C", "B@3", "v_B", "v_C", "a_B", "a_C", "v_C/B", "omega_2", "omega_
 
 @pytest.mark.skipif(find_spec("numba") is None, reason="the extra fast is not installed")
 def test_many_compiled_columns_are_those_of_numpy() -> None:
-    ready = prepare(read_text(scenes.FOUR_BAR, "four-bar"), MANY)
+    ready = prepare(mechanism_of_text(scenes.FOUR_BAR, "four-bar"), MANY)
     slow, _ = ready.sweep(120_000)
     fast, _ = ready.sweep(120_000, fast=True)
     assert np.abs(fast - slow).max() < 2e-14 * np.abs(slow).max()
 
 
 def test_no_compiled_loop_fills_more_columns_than_can_be_told_apart() -> None:
-    ready = prepare(read_text(scenes.FOUR_BAR, "four-bar"), MANY)
+    ready = prepare(mechanism_of_text(scenes.FOUR_BAR, "four-bar"), MANY)
     loops = kernel_text(ready._code, True, True, len(ready.names), 1e-7).split("for k in range(m)")[1:]
     assert [loop.count("[k] = ") - loop.count("good[k] = ") for loop in loops] == [14, 6]
 
 
 def test_positions_out_of_reach_are_marked() -> None:
-    _, ok = prepare(read("sixbar-AE70"), ("v_C",)).columns(np.radians([50, 58.9, 59.1, 180, 301.1]))
+    _, ok = prepare(mechanism_of("sixbar-AE70"), ("v_C",)).columns(np.radians([50, 58.9, 59.1, 180, 301.1]))
     assert ok.tolist() == [True, True, False, False, True]
 
 
 def test_positions_out_of_reach_have_no_numbers_one_by_one() -> None:
-    assert prepare(read("sixbar-AE70"), ("v_C",)).at(3.0) is None
+    assert prepare(mechanism_of("sixbar-AE70"), ("v_C",)).at(3.0) is None
 
 
 def test_a_change_point_is_marked_as_dead() -> None:
-    _, ok = prepare(read_text(scenes.PARALLELOGRAM, "p"), ("omega_3",)).columns(np.radians([170, 180, 190]))
+    _, ok = prepare(mechanism_of_text(scenes.PARALLELOGRAM, "p"), ("omega_3",)).columns(np.radians([170, 180, 190]))
     assert ok.tolist() == [True, False, True]
 
 
 def test_a_parallelogram_stays_one_through_its_change_points() -> None:
-    columns, ok = prepare(read_text(scenes.PARALLELOGRAM, "p"), ("omega_2",)).sweep(77)
+    columns, ok = prepare(mechanism_of_text(scenes.PARALLELOGRAM, "p"), ("omega_2",)).sweep(77)
     assert np.abs(columns[0, ok]).max() < 1e-9
 
 
 def test_no_column_holds_what_is_not_a_number() -> None:
-    columns, _ = prepare(read_text(scenes.PARALLELOGRAM, "p"), ("a_C", "alpha_2")).columns(np.radians([0, 90, 180]))
+    prepared = prepare(mechanism_of_text(scenes.PARALLELOGRAM, "p"), ("a_C", "alpha_2"))
+    columns, _ = prepared.columns(np.radians([0, 90, 180]))
     assert np.isfinite(columns).all()
 
 
 def test_a_travel_is_that_of_solve() -> None:
-    columns, _ = prepare(read("shaper-scheme-2"), ("s_3/4", "theta_4")).sweep(10)
-    motion = solve(read("shaper-scheme-2"), sweep=10)
+    columns, _ = prepare(mechanism_of("shaper-scheme-2"), ("s_3/4", "theta_4")).sweep(10)
+    motion = solve(mechanism_of("shaper-scheme-2"), sweep=10)
     assert columns[0] == pytest.approx(motion.slide("3/4").travel, abs=1e-15)
 
 
 def test_a_driven_slide_is_swept_inside_its_range() -> None:
-    ready = prepare(read_text(scenes.CYLINDER, "c"), ("v_B",))
+    ready = prepare(mechanism_of_text(scenes.CYLINDER, "c"), ("v_B",))
     assert ready.values(10) == pytest.approx(0.1 + 0.4 * (np.arange(10) + 0.5) / 10, rel=1e-9)
 
 
@@ -133,11 +134,11 @@ def test_a_driven_slide_is_swept_inside_its_range() -> None:
 )
 def test_a_name_that_names_nothing_is_refused(name: str, what: str) -> None:
     with pytest.raises(CallError, match=what):
-        prepare(read_text(scenes.FOUR_BAR, "four-bar"), (name,))
+        prepare(mechanism_of_text(scenes.FOUR_BAR, "four-bar"), (name,))
 
 
 def test_a_larger_group_is_solved_as_by_solve() -> None:
-    scene = read("double-butterfly")
+    scene = mechanism_of("double-butterfly")
     columns, ok = prepare(scene, ("a_E", "omega_5")).sweep(4)
     motion = solve(scene, sweep=4)
     expected = [motion.acceleration("E").real, motion.acceleration("E").imag, motion.omega("5")]

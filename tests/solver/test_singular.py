@@ -6,13 +6,13 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from graphkin.scene import read_text
+from graphkin.scene import mechanism_of_text
 from graphkin.solver import Motion, solve
 from tests import scenes
 
 
 def at(text: str, value: float) -> Motion:
-    return solve(read_text(text, "scene"), at={"1": np.radians(value)})
+    return solve(mechanism_of_text(text, "scene"), at={"1": np.radians(value)})
 
 
 # crank 350, rod 200, rocker 250, ground 400: the crank turns back where 200 + 250 reach across
@@ -51,7 +51,7 @@ def test_the_links_in_line_are_named() -> None:
 
 
 def test_a_scene_in_a_dead_point_says_so() -> None:
-    assert solve(read_text(RIGHT.replace("{angle}", "90"), "scene")).status[0] == "dead point"
+    assert solve(mechanism_of_text(RIGHT.replace("{angle}", "90"), "scene")).status[0] == "dead point"
 
 
 def test_a_position_just_beyond_the_end_is_not_assembled() -> None:
@@ -91,12 +91,12 @@ def test_a_guide_through_its_own_pin_has_no_direction() -> None:
 
 
 def test_a_driven_piston_stands_at_a_dead_point_where_crank_and_rod_are_in_line() -> None:
-    motion = solve(read_text(scenes.PISTON, "scene"), at={"3/0": 0.17})
+    motion = solve(mechanism_of_text(scenes.PISTON, "scene"), at={"3/0": 0.17})
     assert motion.status[0] == "dead point"
 
 
 def test_a_driven_piston_does_not_go_beyond_crank_and_rod_in_line() -> None:
-    motion = solve(read_text(scenes.PISTON, "scene"), at={"3/0": 0.171})
+    motion = solve(mechanism_of_text(scenes.PISTON, "scene"), at={"3/0": 0.171})
     assert "170 mm" in motion.why[0]
 
 
@@ -107,11 +107,11 @@ def test_guides_that_become_parallel_end_the_motion() -> None:
 
 
 def test_a_larger_group_at_its_limit_is_dead_or_out_of_reach() -> None:
-    scene = read_text(scenes.FLOATING, "scene")
+    scene = mechanism_of_text(scenes.FLOATING, "scene")
     why = solve(scene, at={"2": np.radians(90)}).why[0]
     limit = float(why.split("2 = ")[1].split(" deg")[0])
     near = solve(scene, at={"2": np.radians(limit - 0.01)})
-    crank = solve(read_text(scenes.FOUR_BAR, "scene"), at={"1": float(near.angle("1")[0])})
+    crank = solve(mechanism_of_text(scenes.FOUR_BAR, "scene"), at={"1": float(near.angle("1")[0])})
     assert crank.omega("3")[0] / crank.omega("2")[0] == pytest.approx(near.omega("3")[0] / near.omega("2")[0], rel=1e-6)
 
 

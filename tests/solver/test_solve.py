@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from graphkin.scene import library, read, read_text
-from graphkin.scene.model import AngleDriver, Scene, SlideDriver
+from graphkin.scene import library, mechanism_of, mechanism_of_text
+from graphkin.scene.model import AngleDriver, Mechanism, SlideDriver
 from graphkin.solver import Motion, solve
 from tests import scenes
 
@@ -33,8 +33,8 @@ SOLVABLE = (
 )
 
 
-def scene(name: str) -> Scene:
-    return read_text(getattr(scenes, name), name) if name.isupper() else read(name)
+def scene(name: str) -> Mechanism:
+    return mechanism_of_text(getattr(scenes, name), name) if name.isupper() else mechanism_of(name)
 
 
 @pytest.mark.parametrize("name", SOLVABLE)
@@ -81,7 +81,7 @@ REDRIVEN = [
 ]  # fmt: skip
 
 
-def redriven(motion: Motion, key: str, base: str) -> Scene:
+def redriven(motion: Motion, key: str, base: str) -> Mechanism:
     """The scene with its first driver replaced, and every point sketched where the motion found it."""
     old = motion.scene
     if "/" in key:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from graphkin.errors import CallError
-from graphkin.scene import read, read_text
+from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion, solve
 from tests import scenes
@@ -15,12 +15,12 @@ pytestmark = pytest.mark.quick
 
 @pytest.fixture(scope="module")
 def sixbar() -> Motion:
-    return solve(read("sixbar-guide-40deg"))
+    return solve(mechanism_of("sixbar-guide-40deg"))
 
 
 @pytest.fixture(scope="module")
 def fourbar() -> Motion:
-    return solve(read_text(scenes.FOUR_BAR, "scene"))
+    return solve(mechanism_of_text(scenes.FOUR_BAR, "scene"))
 
 
 def value(motion: Motion, symbol: str) -> complex:
@@ -112,7 +112,7 @@ sketch = { B = [60, 80], C = [190, 120] }
 
 
 def test_a_link_seen_from_the_link_it_is_hinged_to_turns_about_the_hinge_and_has_a_coriolis_term() -> None:
-    motion = solve(read_text(RELATIVE, "scene"))
+    motion = solve(mechanism_of_text(RELATIVE, "scene"))
     an, at, ak = (value(motion, f"{kind}_C@2/C@1") for kind in ("an", "at", "ak"))
     assert abs(an) == pytest.approx(2.0**2 * 0.150, rel=1e-12)
     assert abs(at) == pytest.approx(0.5 * 0.150, rel=1e-12)

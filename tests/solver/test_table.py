@@ -9,26 +9,26 @@ from typing import Any
 import numpy as np
 import pytest
 
-from graphkin.scene import library, read, read_text
+from graphkin.scene import library, mechanism_of, mechanism_of_text
 from graphkin.solver import solve, to_json, write_json
 from graphkin.solver import table as table_room
 from tests import scenes
 
 
 def first(name: str) -> dict[str, Any]:
-    found: dict[str, Any] = to_json(solve(read(name)))["positions"][0]
+    found: dict[str, Any] = to_json(solve(mechanism_of(name)))["positions"][0]
     return found
 
 
 @pytest.mark.parametrize("name", library())
 def test_a_sweep_of_any_scene_is_json(name: str) -> None:
-    assert json.dumps(to_json(solve(read(name), sweep=12)), allow_nan=False)
+    assert json.dumps(to_json(solve(mechanism_of(name), sweep=12)), allow_nan=False)
 
 
 @pytest.mark.parametrize("name", ["sixbar-AE70", "shaper-scheme-2", "hydraulic-cylinder"])
 def test_what_is_written_as_it_goes_is_the_object(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(table_room, "BLOCK", 5)
-    motion, out = solve(read(name), sweep=12), io.BytesIO()
+    motion, out = solve(mechanism_of(name), sweep=12), io.BytesIO()
     write_json(motion, out)
     whole = json.dumps(to_json(motion), ensure_ascii=False, allow_nan=False) + "\n"
     assert whole == out.getvalue().decode()
@@ -43,12 +43,12 @@ def test_a_swinging_block_has_its_pivot_as_a_point_of_the_rod() -> None:
 
 
 def test_a_pin_in_a_slot_is_listed_as_a_slide() -> None:
-    table = to_json(solve(read_text(scenes.TWO_SLOTS, "scene")))["positions"][0]
+    table = to_json(solve(mechanism_of_text(scenes.TWO_SLOTS, "scene")))["positions"][0]
     assert set(table["slides"]) == {"2/0", "P/1"}
 
 
 def test_the_block_of_a_pin_is_no_link() -> None:
-    table = to_json(solve(read_text(scenes.TWO_SLOTS, "scene")))["positions"][0]
+    table = to_json(solve(mechanism_of_text(scenes.TWO_SLOTS, "scene")))["positions"][0]
     assert set(table["links"]) == {"1", "2"}
 
 
@@ -67,7 +67,8 @@ def test_coriolis_is_the_term_of_the_sliding_link_relative_to_the_guide() -> Non
 
 
 def test_a_driven_travel_is_in_the_unit_of_the_scene() -> None:
-    assert to_json(solve(read_text(scenes.CYLINDER, "scene")))["positions"][0]["driver"] == pytest.approx({"2/3": 250})
+    position = to_json(solve(mechanism_of_text(scenes.CYLINDER, "scene")))["positions"][0]
+    assert position["driver"] == pytest.approx({"2/3": 250})
 
 
 def test_a_driven_angle_is_in_radians() -> None:
@@ -75,19 +76,19 @@ def test_a_driven_angle_is_in_radians() -> None:
 
 
 def test_a_position_without_values_has_its_reason_and_no_numbers() -> None:
-    table = to_json(solve(read("sixbar-AE70"), at={"1": np.radians(90)}))["positions"][0]
+    table = to_json(solve(mechanism_of("sixbar-AE70"), at={"1": np.radians(90)}))["positions"][0]
     assert set(table) == {"driver", "status", "why"}
 
 
 def test_angles_begin_in_the_half_open_turn() -> None:
     text = scenes.FOUR_BAR.replace("angle = 60", "angle = 500")
-    table = to_json(solve(read_text(text, "scene")))["positions"][0]
+    table = to_json(solve(mechanism_of_text(text, "scene")))["positions"][0]
     assert table["links"]["1"]["angle"] == pytest.approx(np.radians(140))
 
 
 def test_half_a_turn_is_written_positive() -> None:
     text = scenes.FOUR_BAR.replace("angle = 60", "angle = -180")
-    assert to_json(solve(read_text(text, "scene")))["positions"][0]["links"]["1"]["angle"] == np.pi
+    assert to_json(solve(mechanism_of_text(text, "scene")))["positions"][0]["links"]["1"]["angle"] == np.pi
 
 
 GROUPS = {
@@ -100,9 +101,9 @@ GROUPS = {
 
 @pytest.mark.parametrize("name", GROUPS)
 def test_a_group_says_its_class_kind_links_and_assembly(name: str) -> None:
-    assert to_json(solve(read_text(getattr(scenes, name), name)))["groups"] == [GROUPS[name]]
+    assert to_json(solve(mechanism_of_text(getattr(scenes, name), name)))["groups"] == [GROUPS[name]]
 
 
 def test_the_other_assembly_is_said() -> None:
     text = scenes.FOUR_BAR + "[sketch]\nC = [300, -250]\n"
-    assert to_json(solve(read_text(text, "scene")))["groups"][0]["assembly"] == "C right of B to D"
+    assert to_json(solve(mechanism_of_text(text, "scene")))["groups"][0]["assembly"] == "C right of B to D"

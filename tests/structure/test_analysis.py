@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from graphkin.errors import Unsolvable
-from graphkin.scene import read, read_text
+from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.structure import Cluster, Driven, Dyad, Structure, analyse
 from tests import scenes
 
@@ -20,7 +20,7 @@ FOUR_BAR = FRAME + CRANK + ROD + ROCKER + DRIVER
 
 
 def structure(text: str) -> Structure:
-    return analyse(read_text(text, "scene"))
+    return analyse(mechanism_of_text(text, "scene"))
 
 
 def kinds(found: Structure) -> list[str]:
@@ -32,7 +32,7 @@ MOBILITY = {"sixbar-guide-40deg": (5, 7, 0), "cam-eccentric-flat-rocker": (2, 2,
 
 @pytest.mark.parametrize("name", MOBILITY)
 def test_the_count_of_mobility_has_links_lower_and_higher_pairs(name: str) -> None:
-    found = analyse(read(name)).mobility
+    found = analyse(mechanism_of(name)).mobility
     assert (found.links, found.lower, found.higher) == MOBILITY[name]
 
 
@@ -55,7 +55,7 @@ ORDERS = {
 
 @pytest.mark.parametrize("name", ORDERS)
 def test_the_groups_in_the_order_of_solution_are(name: str) -> None:
-    assert kinds(analyse(read(name))) == ORDERS[name]
+    assert kinds(analyse(mechanism_of(name))) == ORDERS[name]
 
 
 def test_the_order_of_solution_is_not_that_of_the_file() -> None:
@@ -135,7 +135,7 @@ omega = 6
 
 
 def test_the_block_of_a_pin_is_not_counted_among_the_links() -> None:
-    assert analyse(read("cam-eccentric-flat-rocker")).groups[0].links == ("2",)
+    assert analyse(mechanism_of("cam-eccentric-flat-rocker")).groups[0].links == ("2",)
 
 
 def test_a_driver_too_many_is_counted() -> None:

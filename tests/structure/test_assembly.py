@@ -7,14 +7,14 @@ from dataclasses import replace
 import pytest
 
 from graphkin.errors import SceneError
-from graphkin.scene.model import Guide, Link, Scene
+from graphkin.scene.model import Mechanism, PlacedGuide, PlacedLink
 from graphkin.structure import Choice, pick
 
 pytestmark = pytest.mark.quick
 
-OWN = {"": Guide("", 0j, 1 + 0j)}
-FRAME = Link("0", {"A": 0j, "D": 0.4 + 0j}, (), OWN)
-SCENE = Scene("s", "s", FRAME, (Link("1", {"A": 0j, "B": 0.1 + 0j}, ("A", "B"), OWN),), (), (), ())
+OWN = {"": PlacedGuide("", 0j, 1 + 0j)}
+FRAME = PlacedLink("0", {"A": 0j, "D": 0.4 + 0j}, (), OWN)
+SCENE = Mechanism("s", "s", FRAME, (PlacedLink("1", {"A": 0j, "B": 0.1 + 0j}, ("A", "B"), OWN),), (), (), ())
 UP, DOWN = {"C": 0.2 + 0.1j}, {"C": 0.2 - 0.1j}
 
 

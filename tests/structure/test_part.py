@@ -7,7 +7,7 @@ import pytest
 import graphkin
 from graphkin.construction import draft
 from graphkin.errors import GraphkinError
-from graphkin.scene import library, read
+from graphkin.scene import library, mechanism_of
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver import solve, structure_of
 from graphkin.structure import analyse, part_of
@@ -21,7 +21,7 @@ def asked(*names: str) -> tuple[Symbol, ...]:
 
 @pytest.mark.parametrize("name", library())
 def test_every_point_moves_in_its_part_as_in_the_whole(name: str) -> None:
-    scene = read(name)
+    scene = mechanism_of(name)
     structure, whole = structure_of(scene), solve(scene)
     for point in scene.holders:
         part = part_of(structure, (Symbol("v", PointRef(point)), Symbol("a", PointRef(point))))
@@ -34,17 +34,17 @@ def test_every_point_moves_in_its_part_as_in_the_whole(name: str) -> None:
 
 
 def test_a_part_has_only_the_links_on_the_way() -> None:
-    part = part_of(structure_of(read(SIXBAR)), asked("omega_3"))
+    part = part_of(structure_of(mechanism_of(SIXBAR)), asked("omega_3"))
     assert ["1", "2", "3"] == [link.name for link in part.links]
 
 
 def test_a_part_of_what_needs_everything_is_the_scene_itself() -> None:
-    scene = read(SIXBAR)
+    scene = mechanism_of(SIXBAR)
     assert part_of(structure_of(scene), asked("v_D")) is scene
 
 
 def test_a_part_has_the_mobility_of_its_drivers() -> None:
-    assert 1 == analyse(part_of(structure_of(read(SIXBAR)), asked("omega_3"))).mobility.value
+    assert 1 == analyse(part_of(structure_of(mechanism_of(SIXBAR)), asked("omega_3"))).mobility.value
 
 
 def test_a_redundant_link_asked_for_keeps_all() -> None:
@@ -59,13 +59,13 @@ def test_a_redundant_link_asked_for_keeps_all() -> None:
         "driver": {"link": "1", "angle": 60, "omega": 10},
         "sketch": {"C": [350, 87]},
     }
-    scene = read(mapping)
+    scene = mechanism_of(mapping)
     assert part_of(structure_of(scene), asked("omega_4")) is scene
 
 
 def counted(*names: str) -> dict[str, int]:
     """Steps of each diagram, and equations, of the worked example limited to what is asked."""
-    sheet = draft(read(SIXBAR), find=asked(*names))
+    sheet = draft(mechanism_of(SIXBAR), find=asked(*names))
     found = {d: sum(s.diagram == d for s in sheet.steps) for d in ("mechanism", "velocity", "acceleration")}
     return {**found, "equations": len(sheet.equations)}
 

@@ -20,7 +20,7 @@ from typing import Any
 import pytest
 
 from graphkin.jobs import Progress, Workers, cluster
-from graphkin.scene import library_text, read
+from graphkin.scene import library_text, mechanism_of
 from graphkin.scene.symbol import Symbol
 from graphkin.study import sweeps
 from graphkin.study.designs import designs_of
@@ -162,7 +162,7 @@ def test_a_finished_sweep_leaves_nothing_behind(plan: Sweep, tmp_path: Path) -> 
 def test_positions_of_a_long_turn_are_the_same_in_one_chunk_or_many(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    long = Sweep(read("slider-crank-offset"), "x", designs_of(None), 100)
+    long = Sweep(mechanism_of("slider-crank-offset"), "x", designs_of(None), 100)
     run(long, tmp_path / "a")
     monkeypatch.setattr(sweeps, "BLOCK", 64)
     run(replace(long), tmp_path / "b")
@@ -170,7 +170,7 @@ def test_positions_of_a_long_turn_are_the_same_in_one_chunk_or_many(
 
 
 def test_a_position_out_of_reach_has_its_reason(tmp_path: Path) -> None:
-    run(Sweep(read("sixbar-AE70"), "x", designs_of(None), 12), tmp_path)
+    run(Sweep(mechanism_of("sixbar-AE70"), "x", designs_of(None), 12), tmp_path)
     rows = (tmp_path / "table.csv").read_text().splitlines()[1:]
     away = [r for r in rows if "not assembled" in r]
     assert len(away) == 8
@@ -234,5 +234,5 @@ def test_a_killed_or_interrupted_command_goes_on(tmp_path: Path, sent: str) -> N
     left = len(list(tmp_path.glob("b/.sweep-*/0*")))
     assert 2 <= left < 16
     subprocess.run([*call, str(tmp_path / "b")], check=True)
-    run(Sweep(read(name), name, designs_of(None), 250_000, (watched("v_C"),)), tmp_path / "a", parquet=True)
+    run(Sweep(mechanism_of(name), name, designs_of(None), 250_000, (watched("v_C"),)), tmp_path / "a", parquet=True)
     assert prints(tmp_path / "a").items() <= prints(tmp_path / "b").items()

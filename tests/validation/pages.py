@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 import graphkin
-from graphkin.scene import read
+from graphkin.scene import mechanism_of
 
 __all__ = ["PAGES", "PROBLEMS", "Page", "Value", "answer"]
 
@@ -99,7 +99,7 @@ def _data(command: str, scene: str, at: float | None) -> dict[str, Any]:
 @cache
 def _metres(scene: str) -> float:
     """The length unit of a scene."""
-    return read(scene).units.metres
+    return mechanism_of(scene).units.metres
 
 
 def _check(scene: str, at: float | None, symbol: str) -> float:

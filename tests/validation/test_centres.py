@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from graphkin.construction.centres import Centres, by_centres, find_centres, speeds
-from graphkin.scene import read
+from graphkin.scene import mechanism_of
 from graphkin.scene.symbol import Symbol
 
 CASES = json.loads((Path(__file__).parent / "truth_centres.json").read_text())["cases"]
@@ -18,7 +18,7 @@ PLACES = [(name, at) for name, rows in CASES.items() for at in rows]
 
 
 def centres_at(name: str, degrees: float) -> Centres:
-    scene = read(name)
+    scene = mechanism_of(name)
     return find_centres(scene, {scene.drivers[0].key: math.radians(degrees)})
 
 
@@ -52,17 +52,17 @@ def test_every_centre_lies_where_the_reference_has_it(name: str, at: str) -> Non
 @pytest.mark.parametrize("name", CASES)
 def test_there_is_a_centre_for_every_two_links(name: str) -> None:
     centres = centres_at(name, float(next(iter(CASES[name]))))
-    count = len(read(name).links) + 1
+    count = len(mechanism_of(name).links) + 1
     assert count * (count - 1) // 2 == sum(c.place is not None for c in centres.table.values())
 
 
 def test_the_centre_of_cam_and_follower_lies_28_603_mm_from_the_cam_pivot() -> None:
-    centres = find_centres(read("cam-eccentric-flat-rocker"))
+    centres = find_centres(mechanism_of("cam-eccentric-flat-rocker"))
     point = centres.of("1", "2").point
     assert point is not None
     assert abs(point) * centres.sheet.scales.length * 1e3 == pytest.approx(28.60332296715029, rel=1e-12)
 
 
 def test_the_cam_gives_the_follower_2_63374_rad_per_s_by_centres() -> None:
-    centres = find_centres(read("cam-eccentric-flat-rocker"))
+    centres = find_centres(mechanism_of("cam-eccentric-flat-rocker"))
     assert by_centres(centres, speeds(centres), Symbol.parse("omega_2")) == pytest.approx(2.633742889782669, rel=1e-12)

@@ -8,7 +8,7 @@ from functools import cache
 import pytest
 
 import graphkin
-from graphkin.scene import library, read
+from graphkin.scene import library, mechanism_of
 
 from .pages import PAGES, PROBLEMS, UNITS, Page, Value, answer
 
@@ -30,7 +30,7 @@ def test_value(value: Value) -> None:
 @cache
 def verdicts(scene: str, at: float | None) -> dict[str, str]:
     """What graphkin says of all printed readings of a position."""
-    metres = read(scene).units.metres
+    metres = mechanism_of(scene).units.metres
     stated = {}
     for v in READINGS:
         if v.printed and (v.scene, v.at) == (scene, at):

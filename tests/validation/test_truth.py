@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 import graphkin
-from graphkin.scene import read
+from graphkin.scene import mechanism_of
 
 CASES = json.loads((Path(__file__).parent / "truth.json").read_text())["cases"]
 PLACES = [(name, k) for name, case in CASES.items() for k in range(len(case["positions"]))]
@@ -35,7 +35,7 @@ def kinds(row: dict[str, Any], kind: str) -> dict[str, complex]:
 
 def found(name: str, position: dict[str, Any], kind: str, key: str, what: str) -> complex:
     """The same in graphkin's data, a point as the links that it joins carry it (not the guide under its block)."""
-    row = position[kind][key if kind != "points" else f"{key}@{read(name).holders[key][0]}"]
+    row = position[kind][key if kind != "points" else f"{key}@{mechanism_of(name).holders[key][0]}"]
     value = row[what]
     return cmath.exp(1j * value) if what == "angle" else complex(*value) if isinstance(value, list) else value
 

@@ -22,7 +22,7 @@ from graphkin.construction.centres.pairs import (
 from graphkin.construction.plan import Room, scales_for
 from graphkin.construction.rigid import LinkMotion
 from graphkin.construction.sheet import Sheet
-from graphkin.scene.model import AngleDriver, Scene
+from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.words import Phrase
 
 __all__ = ["Centre", "Centres", "find_centres"]
@@ -96,7 +96,7 @@ class Centres:
 
 
 def find_centres(
-    scene: Scene, at: Mapping[str, float] | None = None, instrument: Instrument = EXACT,
+    scene: Mechanism, at: Mapping[str, float] | None = None, instrument: Instrument = EXACT,
     sheet: Sheet | None = None, near: Centres | None = None,
 ) -> Centres:  # fmt: skip
     """Find every centre of every two links on the drawing board.
@@ -123,7 +123,7 @@ def find_centres(
     return Centres(worked.sheet, links, chart, table, slots, worked.motions, worked.kept)
 
 
-def _moving(scene: Scene) -> Scene:
+def _moving(scene: Mechanism) -> Mechanism:
     """The scene itself, or at unit speed where its one driver stands still: centres do not depend on the speed."""
     if len(scene.drivers) != 1 or scene.drivers[0].values[1] != 0.0:
         return scene

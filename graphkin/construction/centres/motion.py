@@ -17,7 +17,7 @@ from graphkin.construction.rigid import LinkMotion, Poses
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.trial import Known, trial_position
 from graphkin.errors import Problem, Unsolvable
-from graphkin.scene.model import AngleDriver, Driver, Scene
+from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import Structure, analyse
 
@@ -73,7 +73,7 @@ class Worked:
 
 
 def work(
-    scene: Scene,
+    scene: Mechanism,
     at: Mapping[str, float] | None = None,
     instrument: Instrument = EXACT,
     near: Sheet | None = None,
@@ -111,7 +111,7 @@ def _known(sheet: Sheet) -> Known:
     return sheet.drivers, poses
 
 
-def _true_speed(scene: Scene, removed: RemovedConstraint, key: str, structure: Structure) -> float:
+def _true_speed(scene: Mechanism, removed: RemovedConstraint, key: str, structure: Structure) -> float:
     """The trial driver's speed by proportional division of what two trial drawings leave open."""
     driver = next(d for d in scene.drivers if d.key == key)
     base = max((abs(d.values[1]) for d in scene.drivers if isinstance(d, AngleDriver)), default=0.0) or 1.0
@@ -126,8 +126,8 @@ def _true_speed(scene: Scene, removed: RemovedConstraint, key: str, structure: S
     return once * open_[0] / (open_[0] - open_[1])
 
 
-def _at_speed(scene: Scene, key: str, speed: float) -> Scene:
-    def faster(driver: Driver) -> Driver:
+def _at_speed(scene: Mechanism, key: str, speed: float) -> Mechanism:
+    def faster(driver: AnyDriver) -> AnyDriver:
         if driver.key != key:
             return driver
         return replace(driver, omega=speed) if isinstance(driver, AngleDriver) else replace(driver, velocity=speed)
@@ -136,7 +136,7 @@ def _at_speed(scene: Scene, key: str, speed: float) -> Scene:
 
 
 def _whole(
-    drawn: Sheet, scene: Scene, structure: Structure, values: Mapping[str, float], poses: Poses
+    drawn: Sheet, scene: Mechanism, structure: Structure, values: Mapping[str, float], poses: Poses
 ) -> Sheet:
     """The sheet of the reduced mechanism as one of the scene itself: links left out put back."""
     mm = 1.0 / drawn.scales.length

@@ -17,7 +17,7 @@ from itertools import combinations
 
 from graphkin.construction.sheet import Pose
 from graphkin.plane import dot
-from graphkin.scene.model import Scene
+from graphkin.scene.model import Mechanism
 
 __all__ = [
     "INFINITE",
@@ -128,7 +128,7 @@ class Links:
     points.
     """
 
-    scene: Scene
+    scene: Mechanism
     mm: float
     poses: Mapping[str, Pose]
 
@@ -186,7 +186,7 @@ class Normal:
     key: str
 
 
-def links_on_paper(scene: Scene, mm: float, poses: Mapping[str, Pose]) -> Links:
+def links_on_paper(scene: Mechanism, mm: float, poses: Mapping[str, Pose]) -> Links:
     """Links placed by the drawing, and those redundant ones that two turning pairs place."""
     placed = {name: pose for name, pose in poses.items() if name in scene.by_name}
     for link in scene.links:

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from graphkin.construction.centres.find import Centres
 from graphkin.construction.centres.pairs import LinkPair, Place, product, wedge
 from graphkin.plane import dot
-from graphkin.scene.model import AngleDriver, Driver
+from graphkin.scene.model import AngleDriver, AnyDriver
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import driver_pair
 from graphkin.words import Phrase
@@ -70,7 +70,7 @@ def speeds(centres: Centres) -> dict[str, Turning]:
     return found
 
 
-def _driven(centres: Centres, driver: Driver) -> dict[str, Turning]:
+def _driven(centres: Centres, driver: AnyDriver) -> dict[str, Turning]:
     """The links that the driver's own pair moves, from its rate: turning about their common centre, or sliding."""
     scene, chart = centres.links.scene, centres.chart
     structure = centres.sheet.structure

@@ -20,8 +20,8 @@ from graphkin.checking.readings import predict
 from graphkin.construction import EXACT, execute, plan
 from graphkin.construction.remarks import SharpCrossing
 from graphkin.errors import Unsolvable
-from graphkin.scene import read_text
-from graphkin.scene.model import AngleDriver, FromDeadPoint, Scene
+from graphkin.scene import mechanism_of_text
+from graphkin.scene.model import AngleDriver, FromDeadPoint, Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion
 from graphkin.solver.dead_points import dead_points
@@ -107,10 +107,10 @@ class DeadPointCase:
     side: int
 
     @cached_property
-    def scene(self) -> Scene:
-        return read_text(self.text, self.kind)
+    def scene(self) -> Mechanism:
+        return mechanism_of_text(self.text, self.kind)
 
-    def at(self, angle: float) -> Scene:
+    def at(self, angle: float) -> Mechanism:
         """The scene with its crank at another angle."""
         driver = self.scene.drivers[0]
         assert isinstance(driver, AngleDriver)

@@ -15,8 +15,8 @@ from graphkin.checking.readings import predict
 from graphkin.construction import EXACT, Plan, Scales, execute, pencil, plan
 from graphkin.construction.board import Instrument
 from graphkin.construction.centres import by_centres, find_centres, speeds
-from graphkin.scene import read, read_text
-from graphkin.scene.model import Scene
+from graphkin.scene import mechanism_of, mechanism_of_text
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Tools
 from graphkin.study.equations import Equations
@@ -32,10 +32,10 @@ __all__ = ["drawing_scale", "parallel_lines"]
 SEEDS = 12
 
 
-def _four_bar(phi: float) -> Scene:
+def _four_bar(phi: float) -> Mechanism:
     """Crank AB upright, rocker DC at an angle phi to it: their lines cross in the centre of the coupler."""
     c = complex(300, 0) + 120 * complex(math.sin(phi), math.cos(phi))
-    return read_text(
+    return mechanism_of_text(
         f"""
 [frame]
 points = {{ A = [0, 0], D = [300, 0] }}
@@ -64,7 +64,7 @@ class _Right:
     velocity: mpc
 
 
-def _right(scene: Scene, mp: MPContext) -> _Right:
+def _right(scene: Mechanism, mp: MPContext) -> _Right:
     motion = solver.solve(scene)
     equations = reference(motion.structure, mp)
     value, rate, second = scene.drivers[0].values
@@ -78,7 +78,7 @@ def _right(scene: Scene, mp: MPContext) -> _Right:
     return _Right(z + 1j * v / omega if omega else None, mp.mpc(vx, vy))
 
 
-def _found(scene: Scene, right: _Right, hand: Instrument) -> tuple[float, float, bool]:
+def _found(scene: Mechanism, right: _Right, hand: Instrument) -> tuple[float, float, bool]:
     """Errors of the centre's place (of its distance) and of the velocity of C through it (relative); whether the
     centre is given as a direction only."""
     centres = find_centres(scene, instrument=hand)
@@ -143,7 +143,7 @@ def drawing_scale(mp: MPContext, samples: int = 1, name: str = "slider-crank-off
     ----------
     mp, samples : as for the others; not used, since nothing is random here
     """
-    scene = read(name)
+    scene = mechanism_of(name)
     slider = scene.links[-1]
     symbol = Symbol.parse(f"v_{next(iter(slider.points))}")
     what = plan(scene, find=(symbol,))

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from graphkin import solver
 from graphkin.plane import cross_arcs
-from graphkin.scene import read
+from graphkin.scene import mechanism_of
 from graphkin.solver.assemblies import choose_forms
 from graphkin.solver.engine import positions
 from graphkin.solver.joints import Drive
@@ -100,7 +100,7 @@ def differences(mp: MPContext, samples: int = 4, name: str = "slider-crank-offse
     complex step does not subtract (Squire and Trapp, SIAM Review 40, 1998).  The worst of four positions to a sample.
     """
     places = 4 * samples
-    scene = read(name)
+    scene = mechanism_of(name)
     structure = solver.structure_of(scene)
     forms = {i: f[None] for i, f in choose_forms(structure).items()}
     (_, rate, second), equations = scene.drivers[0].values, Equations(structure)

@@ -12,8 +12,8 @@ from graphkin.checking.readings import predict
 from graphkin.construction import EXACT, execute, plan
 from graphkin.construction.remarks import ShortArm
 from graphkin.errors import Unsolvable
-from graphkin.scene import read_text
-from graphkin.scene.model import AngleDriver, Scene
+from graphkin.scene import mechanism_of_text
+from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion
 from graphkin.study.stability.laws import LOST, ErrorLaw, Singularity, binned, grid
@@ -44,7 +44,7 @@ omega = 10
 """
 
 
-def _at(scene: Scene, angle: float) -> Scene:
+def _at(scene: Mechanism, angle: float) -> Mechanism:
     driver = scene.drivers[0]
     assert isinstance(driver, AngleDriver)
     return replace(scene, drivers=(replace(driver, angle=angle),))
@@ -74,7 +74,7 @@ def _right(mp: MPContext, a: mpf, d: mpf, rate: float, angle: mpf) -> _Bar:
     return _Bar(w / abs(w), omega, (ddw / w - turn * turn).imag, 2 * omega * slip)
 
 
-def _doubles(scene: Scene, angle: float) -> _Bar:
+def _doubles(scene: Mechanism, angle: float) -> _Bar:
     """The closed form in doubles, no more digits where these do not suffice; nan where it refuses."""
     asked = ("theta_3", "omega_3", "alpha_3", "v_B@2/B@3")
     found = solver.prepare(_at(scene, angle), asked).at(angle)
@@ -85,7 +85,7 @@ def _doubles(scene: Scene, angle: float) -> _Bar:
     return _Bar(u, omega, alpha, 2 * omega * (x * u.real + y * u.imag))
 
 
-def _solved(scene: Scene) -> tuple[_Bar, Motion] | None:
+def _solved(scene: Mechanism) -> tuple[_Bar, Motion] | None:
     """What the solver gives; None where it refuses."""
     motion = solver.solve(scene)
     if motion.status[0] != "ok":
@@ -103,7 +103,7 @@ def near_ground(mp: MPContext, samples: int = 4) -> Singularity:
     x = grid(0.3, 1e-8, samples)
     rows, sizes = [], []
     for e in x:
-        scene = read_text(_BAR.format(ground=100, crank=repr(100 * (1 - e)), angle=-90), "near")
+        scene = mechanism_of_text(_BAR.format(ground=100, crank=repr(100 * (1 - e)), angle=-90), "near")
         rate, a = scene.drivers[0].values[1], abs(scene.by_name["1"].points["B"])
         angle = -math.pi / 2 + e
         right = _right(mp, mp.mpf(a), mp.mpf(scene.frame.points["A"].imag), rate, mp.mpf(angle))
@@ -133,7 +133,7 @@ def flip(mp: MPContext, samples: int = 4) -> Singularity:
     With the crank turned by e from there, CB = 2 a sin(e/2) and the bar turns at half the speed of the crank: nothing
     grows, but the direction of CB is told by a length that goes to zero, the rate by that and once more by the length.
     """
-    scene = read_text(_BAR.format(ground=100, crank=100, angle=-80), "flip")
+    scene = mechanism_of_text(_BAR.format(ground=100, crank=100, angle=-80), "flip")
     rate, a = scene.drivers[0].values[1], abs(scene.by_name["1"].points["B"])
     x = grid(0.5, 1e-9, samples)
     plain, refined, bounds, drawn = [], [], [], []
@@ -168,7 +168,7 @@ def flip(mp: MPContext, samples: int = 4) -> Singularity:
     return Singularity("guide flip", "crank from flip", tuple(laws), (Phrase("fate flip"),))
 
 
-def _drawn(scene: Scene) -> float:
+def _drawn(scene: Mechanism) -> float:
     """The second rate of the bar off the exact drawing; nan where it refuses."""
     try:
         return abs(execute(plan(scene), EXACT).alpha["3"].value)
@@ -176,7 +176,7 @@ def _drawn(scene: Scene) -> float:
         return math.nan
 
 
-def _told(scene: Scene) -> bool:
+def _told(scene: Mechanism) -> bool:
     """Whether the drawing warns of the short arm."""
     try:
         return any(isinstance(r, ShortArm) for r in execute(plan(scene), EXACT).remarks)
@@ -187,7 +187,7 @@ def _told(scene: Scene) -> bool:
 def slow_sliding(mp: MPContext, samples: int = 4) -> Singularity:
     """Crank and ground in line: the block stands still on its bar.  The sliding velocity goes to zero and loses its
     digits; what it is only a part of does not."""
-    scene = read_text(_BAR.format(ground=350, crank=90, angle=90), "slow")
+    scene = mechanism_of_text(_BAR.format(ground=350, crank=90, angle=90), "slow")
     rate = scene.drivers[0].values[1]
     a, d = mp.mpf(scene.by_name["1"].length), mp.mpf(scene.frame.points["A"].imag)
     x = grid(0.3, 1e-15, samples)
@@ -214,7 +214,7 @@ def _in_line(mp: MPContext, a: mpf, d: mpf, rate: float, e: float) -> tuple[mpf,
     return -a * d * mp.sin(e) * rate / c, rate * a * (a + d * mp.cos(e)) / (c * c)
 
 
-def _pencil_sliding(scene: Scene, mp: MPContext, rate: float) -> list[ErrorLaw]:
+def _pencil_sliding(scene: Mechanism, mp: MPContext, rate: float) -> list[ErrorLaw]:
     symbols = {"velocity sliding pencil": Symbol.parse("v_B@3/B@2"), "velocity bar pencil": Symbol("omega", link="3")}
     x = grid(0.3, 1e-4, 1)
     errors: dict[str, list[float]] = {key: [] for key in symbols}
