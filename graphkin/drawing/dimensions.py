@@ -8,10 +8,10 @@ points that they come from.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import pairwise
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
@@ -21,7 +21,7 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.font_widths import CAP_HEIGHT, text_box
 from graphkin.drawing.headings import number
 from graphkin.drawing.mechanism_on_paper import GUIDE_LENGTH, sliders
-from graphkin.drawing.obstacles import Obstacles, cross_product, meets, obstacles_of
+from graphkin.drawing.obstacles import Floats, Indices, Obstacles, Points, cross_product, meets, obstacles_of
 from graphkin.drawing.primitives import Arc, Group, Line, Polygon, Primitive, Run, Text, page_direction
 from graphkin.drawing.symbols import POINTER, arrowhead
 from graphkin.drawing.text import plain, rich
@@ -160,7 +160,7 @@ class DimensionClearance:
         kept = tuple(line for line in trimmed if line is not None)
         return *kept, *(part for part in parts if not any(part is line for line in lines[:extensions]))
 
-    def _covered(self, middles: Any, halves: Any) -> bool:
+    def _covered(self, middles: Points, halves: Points) -> bool:
         """Whether boxes meet anything."""
         grown = halves[:, None] + 0.5 * (1 + 1j)
         off, reach = middles[:, None] - self.middles, grown + self.halves
@@ -168,7 +168,7 @@ class DimensionClearance:
             return True
         return bool(meets(self.segments[None], middles[:, None], grown).any())
 
-    def _over_areas(self, segments: Any) -> bool:
+    def _over_areas(self, segments: Points) -> bool:
         return bool(meets(segments[:, None], self.middles[None], self.halves[None] + 0.4 * (1 + 1j)).any())
 
     def _trimmed(self, line: Line) -> Line | None:
@@ -180,7 +180,7 @@ class DimensionClearance:
         start = AROUND_POINT * start + TRIM if start > 0 else 0.0
         return replace(line, start=line.start + start * along) if start < length - LEAST_EXTENSION else None
 
-    def _left(self, near: Any) -> list[float]:
+    def _left(self, near: Points) -> list[float]:
         """Where the way ``near`` from a point leaves the symbols on it, as shares of its length."""
         start, end = complex(near[0, 0]), complex(near[0, 1])
         reach = self.halves + 0.4 * (1 + 1j)
@@ -193,18 +193,18 @@ class DimensionClearance:
         return [abs(chord[1] - start) / AROUND_POINT for chord in chords if chord is not None]
 
 
-def _arrays(boxes: Sequence[Box]) -> tuple[Any, Any]:
+def _arrays(boxes: Sequence[Box]) -> tuple[Points, Points]:
     """Middles and half sizes of boxes."""
     sizes = [complex(box.width, box.height) / 2 for box in boxes]
     return np.array([box.centre for box in boxes], dtype=complex), np.array(sizes, dtype=complex)
 
 
-def _sign(area: Any) -> Any:
+def _sign(area: Floats) -> Floats:
     """On which side a point lies: 0 where it is on the line but for rounding."""
     return np.where(np.abs(area) < 1e-9, 0.0, np.sign(area))
 
 
-def _crossings(own: Any, others: Any) -> tuple[Any, Any]:
+def _crossings(own: Points, others: Points) -> tuple[Indices, Floats]:
     """Which of some segments cross others, and at which share of their length."""
     p, d = own[:, None, 0], own[:, None, 1] - own[:, None, 0]
     q, e = others[None, :, 0], others[None, :, 1] - others[None, :, 0]
@@ -347,7 +347,7 @@ def _angles(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts]:
                 break
 
 
-def _levels(spots: list[complex], key: Any) -> list[tuple[float, complex]]:
+def _levels(spots: list[complex], key: Callable[[complex], float]) -> list[tuple[float, complex]]:
     """Places in the order of one coordinate, each value once."""
     found: dict[float, complex] = {}
     for z in spots:

@@ -104,6 +104,8 @@ def _reach(text: str, italic: bool) -> tuple[float, float, float]:
 
 def runs_width(runs: tuple[Run, ...]) -> float:
     """From the text's own point to the end of the run that reaches furthest (mm)."""
+    if len(runs) == 1:
+        return runs[0].x + width(runs[0].text, runs[0].size, runs[0].italic, runs[0].bold)
     return max((run.x + width(run.text, run.size, run.italic, run.bold) for run in runs), default=0.0)
 
 
@@ -118,6 +120,8 @@ def start_runs(text: Text) -> tuple[Run, ...]:
 def text_box(text: Text) -> Box:
     """Box of a text on the page (mm).  Raises ValueError for a text without runs."""
     boxes = [run_box(run) for run in start_runs(text)]
+    if len(boxes) == 1:
+        return boxes[0]
     return Box(
         min(b.left for b in boxes),
         min(b.top for b in boxes),

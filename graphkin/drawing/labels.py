@@ -10,7 +10,7 @@ point-feature label placement, ACM Trans. Graphics 14, 1995).
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -79,7 +79,7 @@ def place(
     """
     if not labels:
         return ()
-    texts = [replace(label.text, at=0j, anchor="start") for label in labels]
+    texts = [_moved(label.text, 0j) for label in labels]
     boxes = [text_box(text) for text in texts]
     requests = [
         LabelRequest(*ends(label.mark), complex(box.width, box.height) / 2, label.toward)
@@ -98,7 +98,11 @@ def place(
 def _placed(text: Text, box: Box, position: LabelPosition, clear: bool) -> Placed:
     leader = None if position.leader is None else Line(*position.leader, strokes.LEADER)
     at = complex(position.left - box.left, position.top - box.top)
-    return Placed(replace(text, at=at), position.box, leader, clear)
+    return Placed(_moved(text, at), position.box, leader, clear)
+
+
+def _moved(text: Text, at: complex) -> Text:
+    return Text(at, text.runs, "start", text.colour, text.id, text.classes)
 
 
 class _Placement:

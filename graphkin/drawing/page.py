@@ -14,10 +14,15 @@ from contextlib import contextmanager
 from functools import lru_cache
 from io import BytesIO
 from threading import RLock
-from typing import Any
+from typing import TYPE_CHECKING
 
 from graphkin.drawing.font_widths import has_cjk, start_runs
 from graphkin.drawing.primitives import Arc, Circle, Group, Line, Page, Polygon, Polyline, Primitive, Text, walk
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+    from matplotlib.path import Path
+    from matplotlib.transforms import Transform
 
 __all__ = [
     "MM_PER_INCH", "POINTS_PER_MM", "MissingFont", "empty_page", "faces", "figure_pdf", "figure_png", "ink",
@@ -102,7 +107,7 @@ def whole_pixels(mm: float, dpi: float) -> float:
     return math.ceil(mm * dpi / MM_PER_INCH - 1e-6) / dpi * MM_PER_INCH
 
 
-def empty_page(width: float, height: float, dpi: float = 72.0) -> Any:
+def empty_page(width: float, height: float, dpi: float = 72.0) -> Figure:
     """A white matplotlib figure of a size in mm."""
     from matplotlib.figure import Figure
 
@@ -110,7 +115,7 @@ def empty_page(width: float, height: float, dpi: float = 72.0) -> Any:
     return Figure(figsize=size, dpi=dpi, facecolor="white", edgecolor="none", linewidth=0.0)
 
 
-def ink(figure: Any, children: tuple[Primitive, ...], family: list[str], order: int = 0) -> None:
+def ink(figure: Figure, children: tuple[Primitive, ...], family: list[str], order: int = 0) -> None:
     """Put strokes, fills and texts (mm from the left upper corner, y down) on a figure, from a place in its order of
     drawing on."""
     from matplotlib.transforms import Affine2D
@@ -124,7 +129,7 @@ def ink(figure: Any, children: tuple[Primitive, ...], family: list[str], order: 
             _add_shape(figure, thing, page, place)
 
 
-def figure_pdf(figure: Any, title: str, chinese: bool) -> bytes:
+def figure_pdf(figure: Figure, title: str, chinese: bool) -> bytes:
     """A figure as a PDF of one page without a date."""
     from matplotlib import rc_context
     from matplotlib.backends.backend_pdf import FigureCanvasPdf
@@ -139,7 +144,7 @@ def figure_pdf(figure: Any, title: str, chinese: bool) -> bytes:
     return buffer.getvalue()
 
 
-def figure_png(figure: Any) -> bytes:
+def figure_png(figure: Figure) -> bytes:
     """A figure as a PNG, at its own dots per inch."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
 
@@ -148,7 +153,9 @@ def figure_png(figure: Any) -> bytes:
     return buffer.getvalue()
 
 
-def _add_shape(figure: Any, thing: Line | Polyline | Polygon | Circle | Arc, page: Any, order: int) -> None:
+def _add_shape(
+    figure: Figure, thing: Line | Polyline | Polygon | Circle | Arc, page: Transform, order: int
+) -> None:
     from matplotlib.patches import PathPatch
 
     stroke = thing.stroke
@@ -173,7 +180,7 @@ def _add_shape(figure: Any, thing: Line | Polyline | Polygon | Circle | Arc, pag
     )
 
 
-def _path(thing: Line | Polyline | Polygon | Circle | Arc) -> Any:
+def _path(thing: Line | Polyline | Polygon | Circle | Arc) -> Path:
     import numpy as np
     from matplotlib.path import Path
 
@@ -195,7 +202,7 @@ def _pairs(points: tuple[complex, ...]) -> list[tuple[float, float]]:
     return [(point.real, point.imag) for point in points]
 
 
-def _add_text(figure: Any, text: Text, page: Any, order: int, family: list[str]) -> None:
+def _add_text(figure: Figure, text: Text, page: Transform, order: int, family: list[str]) -> None:
     for k, run in enumerate(start_runs(text)):
         figure.text(
             run.x,

@@ -122,7 +122,7 @@ def _reach(thing: Primitive) -> Box | None:
 
 def moved_piece(piece: Piece, by: complex) -> Piece:
     """The same piece elsewhere on the page."""
-    labels = tuple(replace(label, mark=_moved_mark(label.mark, by)) for label in piece.labels)
+    labels = tuple(Label(one.text, _moved_mark(one.mark, by), one.toward, one.rank) for one in piece.labels)
     layers = {layer: moved(things, by) for layer, things in piece.layers.items()}
     return Piece(layers, labels, tuple(_moved_mark(mark, by) for mark in piece.marks))
 

@@ -8,13 +8,13 @@ import math
 from cmath import phase
 from collections.abc import Sequence
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 
 from graphkin.drawing import strokes, symbols
 from graphkin.drawing.labels import Label
 from graphkin.drawing.mechanism_on_paper import GUIDE_LENGTH, MechanismOnPaper, page
+from graphkin.drawing.obstacles import Floats, Points
 from graphkin.drawing.piece import Piece, joined
 from graphkin.drawing.primitives import Group, Line, Stroke, Text
 from graphkin.drawing.symbols import POINTER, arrowhead
@@ -59,7 +59,7 @@ class SenseClearance:
         self.segments.append((name - 1.2, name + 1.2))
         return found
 
-    def _near(self, centres: Sequence[complex], reach: float) -> Any:
+    def _near(self, centres: Sequence[complex], reach: float) -> tuple[Points, Points]:
         """Start and way of each segment that comes within reach of a centre."""
         ends = np.array(self.segments, dtype=complex).reshape(-1, 2)
         start, along = ends[:, 0], ends[:, 1] - ends[:, 0]
@@ -68,18 +68,21 @@ class SenseClearance:
         return start[close], along[close]
 
 
-def _distance(points: Any, segments: Any) -> Any:
+def _distance(points: Points, segments: tuple[Points, Points]) -> Floats:
     """Least distance of each point to any segment."""
     if not len(segments[0]):
         return np.full(points.shape, np.inf)
-    return _off(points, *segments).min(axis=-1)
+    least: Floats = _off(points, *segments).min(axis=-1)
+    return least
 
 
-def _off(points: Any, start: Any, along: Any) -> Any:
+def _off(points: Points, start: Points, along: Points) -> Floats:
+    """Distance of each point to each segment."""
     length2 = np.maximum(np.abs(along) ** 2, 1e-18)
     off = points[..., None] - start
     share = np.clip((off * along.conjugate()).real / length2, 0.0, 1.0)
-    return np.abs(off - share * along)
+    far: Floats = np.abs(off - share * along)
+    return far
 
 
 DRIVER_RADIUS, RADIUS = 6.5, 5.5

@@ -1,9 +1,8 @@
-"""Words from a scene made fit to be shown: nothing that hides, turns or breaks a line of text.
-
-What a handout is made of, whatever it is written as: headings, sentences, steps, figures, tables.
+"""What a handout is made of, whatever it is written as: headings, sentences, steps, figures, tables.
 
 Words are said in one language or in several, one below the other; symbols in them stand between dollar signs, in the
-notation of `graphkin.drawing.text`.
+notation of `graphkin.drawing.text`.  Words from a scene are made fit to be shown: nothing in them hides, turns
+or breaks a line of text.
 """
 
 from __future__ import annotations

@@ -1,6 +1,5 @@
-"""Figures and steps for the screen: every position of the driver drawn in the same frames, every part with its step.
-
-Whole HTML pages: one file each, which loads nothing and runs no script but its own.
+"""Whole HTML pages, one file each, which load nothing and run no script but their own: a document, or the worked
+solution to step through, every position of the driver drawn in the same frames, every part with its step.
 """
 
 from __future__ import annotations
@@ -14,7 +13,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from html import escape
 from importlib.resources import files
-from typing import Any, Literal, TypeAlias
+from typing import Literal, TypeAlias
 
 from graphkin.construction import Plan, execute
 from graphkin.construction.centres import Centres
@@ -89,7 +88,7 @@ def _coarser(scale: float, factor: float) -> float:
     return next(s * power for s in (*SERIES, 10.0) if s * power >= scale * factor * (1 - 1e-9))
 
 
-def positions_data(views: Sequence[View], progress: Progress | None = None) -> dict[str, Any]:
+def positions_data(views: Sequence[View], progress: Progress | None = None) -> dict[str, object]:
     """For each position its name, figures and steps, ready for the page, and the stages of all of them, each once."""
     frames = _Frames(views)
     positions = []
@@ -115,7 +114,7 @@ class _Frames:
         shown = [(v.centres, back) for v, back in zip(views, backs, strict=True) if v.centres is not None]
         self.centres = _joined(near_box(c, back, MECHANISM) for c, back in shown).grown(ROOM) if shown else None
 
-    def data(self, view: View) -> dict[str, Any]:
+    def data(self, view: View) -> dict[str, object]:
         lesson = view.lesson
         born = births(lesson.sheet)
         figures = []

@@ -15,7 +15,7 @@ from functools import lru_cache
 from importlib.resources import files
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, TypeAlias
 
 from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.font_widths import start_runs
@@ -36,7 +36,13 @@ from graphkin.papers.blocks import (
 )
 from graphkin.words import word
 
+if TYPE_CHECKING:
+    import typst
+
 __all__ = ["can_typeset", "pdf"]
+
+Data: TypeAlias = dict[str, object]
+"""What the template reads, as JSON holds it."""
 
 SAG = 0.002  # mm: how far a chord may lie off its arc
 LATIN = "STIXGeneral"  # comes with matplotlib, so that every machine sets the same letters
@@ -86,7 +92,7 @@ def pdf(document: Document) -> bytes:
 
 
 @lru_cache(maxsize=1)
-def _fonts() -> tuple[list[str], Any]:
+def _fonts() -> tuple[list[str], typst.Fonts]:
     """Names of the faces in the order of liking, and the faces found, read once."""
     import matplotlib
     import typst
@@ -96,7 +102,7 @@ def _fonts() -> tuple[list[str], Any]:
     return [name for name in (LATIN, *CHINESE, *SIGNS) if name in known], fonts
 
 
-def _block(block: Block) -> dict[str, Any]:
+def _block(block: Block) -> Data:
     if isinstance(block, Heading):
         return {"kind": "heading", "words": _said(block.words), "level": block.level, "fresh": block.fresh}
     if isinstance(block, Paragraph):
@@ -130,29 +136,29 @@ def _block(block: Block) -> dict[str, Any]:
     }
 
 
-def _said(said: Said) -> list[tuple[str, list[Any]]]:
+def _said(said: Said) -> list[tuple[str, list[str | list[Data]]]]:
     return [(language, _words(markup)) for language, markup in said]
 
 
-def _words(markup: str) -> list[Any]:
+def _words(markup: str) -> list[str | list[Data]]:
     """Stretches of words, and symbols as lists of atoms."""
     return [clean(part) if isinstance(part, str) else _atoms(part) for part in parsed(markup)]
 
 
-def _atoms(atoms: tuple[Atom, ...]) -> list[dict[str, Any]]:
+def _atoms(atoms: tuple[Atom, ...]) -> list[Data]:
     return [
         {"text": clean(atom.text), "italic": is_italic(atom.text), "sub": _atoms(atom.sub), "sup": _atoms(atom.sup)}
         for atom in atoms
     ]
 
 
-def _drawing(drawing: Drawing) -> dict[str, Any]:
+def _drawing(drawing: Drawing) -> Data:
     things = [inked for thing in walk(drawing.children) for inked in _ink(thing)]
     alt = clean(re.sub(r"\s+", " ", f"{drawing.title}. {drawing.desc}").strip())
     return {"width": _mm(drawing.width), "height": _mm(drawing.height), "alt": alt, "things": things}
 
 
-def _ink(thing: Primitive) -> list[dict[str, Any]]:
+def _ink(thing: Primitive) -> list[Data]:
     if isinstance(thing, Group):
         return []
     if isinstance(thing, Text):
@@ -182,7 +188,7 @@ def _chords(arc: Arc) -> tuple[complex, ...]:
     return tuple(arc.at(arc.start + (arc.end - arc.start) * i / count) for i in range(count + 1))
 
 
-def _pen(stroke: Stroke | None) -> dict[str, Any] | None:
+def _pen(stroke: Stroke | None) -> Data | None:
     return None if stroke is None else {"width": stroke.width, "dash": stroke.dash, "colour": stroke.colour}
 
 

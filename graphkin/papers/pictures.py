@@ -1,6 +1,5 @@
-"""The paper of a handout: its size, what fits between its margins, and the scales that suit it.
-
-Figures of a handout at true scale: whole or as far as drawn, bare for the problem sheet, and frames to draw in.
+"""Figures of a handout at true scale: whole or as far as drawn, bare for the problem sheet, and frames to draw in; and
+the paper that they fit, with the scales that suit it.
 """
 
 from __future__ import annotations
