@@ -102,7 +102,7 @@ def _placed(text: Text, box: Box, position: LabelPosition, clear: bool) -> Place
 
 
 def _moved(text: Text, at: complex) -> Text:
-    return Text(at, text.runs, "start", text.colour, text.id, text.classes)
+    return Text(at, text.runs, "start", text.colour, text.id, text.classes, text.step)
 
 
 class _Placement:

@@ -107,40 +107,43 @@ class _Ink:
             shaft = _shaft(thing)
             # Named by its shape: where several figures stand in one HTML page, equal names mean equal clips.
             id = f"clip-{crc32(shaft.encode()):08x}"
-            element["clip-path"] = f"url(#{id})"
+            element.attribs["clip-path"] = f"url(#{id})"
             if id not in self.clips:
                 self.clips.add(id)
-                clip = self.page.clipPath(id=id)
-                clip.add(self.page.path(d=shaft))
+                clip = self._made("clipPath", {"id": id})
+                clip.add(self._made("path", {"d": shaft}))
                 parent.add(clip)
 
+    def _made(self, tag: str, attributes: dict[str, str]) -> Any:
+        """An element of svgwrite, past its slow classes; where svgwrite is to check, it does so as it writes."""
+        from svgwrite.base import BaseElement
+
+        element = BaseElement(factory=self.page)
+        element.elementname, element.attribs = tag, attributes
+        return element
+
     def _element(self, thing: Primitive) -> Any:
-        page = self.page
         if isinstance(thing, Group):
             return self._group(thing)
         if isinstance(thing, Text):
             return self._text(thing)
+        stroke = _stroke(thing.stroke)
         if isinstance(thing, Line):
-            element = page.line(_pair(thing.start), _pair(thing.end))
-        elif isinstance(thing, Polyline):
-            element = page.polyline(map(_pair, thing.points), fill="none")
-        elif isinstance(thing, Polygon):
-            element = page.polygon(map(_pair, thing.points), fill=thing.fill or "none")
-        elif isinstance(thing, Circle):
-            element = page.circle(_pair(thing.centre), number(thing.radius), fill=thing.fill or "none")
-        else:
-            element = page.path(d=_arc(thing), fill="none")
-        if thing.stroke is not None:
-            _stroke(element, thing.stroke)
-        return element
+            (x1, y1), (x2, y2) = _pair(thing.start), _pair(thing.end)
+            return self._made("line", {"x1": x1, "y1": y1, "x2": x2, "y2": y2, **stroke})
+        if isinstance(thing, Polyline):
+            return self._made("polyline", {"points": _points(thing.points), "fill": "none", **stroke})
+        if isinstance(thing, Polygon):
+            return self._made("polygon", {"points": _points(thing.points), "fill": thing.fill or "none", **stroke})
+        if isinstance(thing, Circle):
+            x, y = _pair(thing.centre)
+            look = {"cx": x, "cy": y, "r": number(thing.radius), "fill": thing.fill or "none"}
+            return self._made("circle", {**look, **stroke})
+        return self._made("path", {"d": _arc(thing), "fill": "none", **stroke})
 
     def _group(self, group: Group) -> Any:
-        element = self.page.g()
-        self._name(element, group.id, class_names(group))
-        if group.layer:
-            # Set past svgwrite's check, which knows no Inkscape.
-            element.attribs["inkscape:groupmode"] = "layer"
-            element.attribs["inkscape:label"] = _clean(group.layer)
+        layer = {"inkscape:groupmode": "layer", "inkscape:label": _clean(group.layer)} if group.layer else {}
+        element = self._made("g", {**self._named(group.id, class_names(group)), **layer})
         for child in group.children:
             self.draw(element, child)
         if group.title:  # last, because the first child of a vector's group is its line
@@ -148,40 +151,40 @@ class _Ink:
         return element
 
     def _text(self, text: Text) -> Any:
+        from svgwrite.text import TSpan
+
         runs, anchor = start_runs(text), ""
+        places = [(number(run.x), number(run.y)) for run in runs]
         if len(runs) == 1 and text.anchor != "start":
             # One run may stand by its own middle or end, exact in whatever face the reader has.
             anchor = text.anchor
             share = 0.5 if anchor == "middle" else 1.0
-            x = runs[0].x + share * (runs_width(text.runs) - text.runs[0].x)
-            places = [(x, runs[0].y)]
-        else:
-            places = [(run.x, run.y) for run in runs]
-        element = self.page.text("", insert=tuple(map(number, places[0])), fill=text.colour)
-        element["font-size"] = number(max(run.size for run in runs))
-        self._name(element, text.id, class_names(text))
+            places = [(number(runs[0].x + share * (runs_width(text.runs) - text.runs[0].x)), places[0][1])]
+        look = {"x": places[0][0], "y": places[0][1], "fill": text.colour, **self._named(text.id, class_names(text))}
+        look["font-size"] = number(max(run.size for run in runs))
         if anchor:
-            element["text-anchor"] = anchor
+            look["text-anchor"] = anchor
         if not self.lang.startswith("zh") and has_cjk(text.string):
-            element["xml:lang"] = "zh"
-        for run, place in zip(runs, places, strict=True):
-            span = self.page.tspan(_clean(run.text), insert=tuple(map(number, place)))
-            span["font-size"] = number(run.size)
+            look["xml:lang"] = "zh"
+        element = self._made("text", look)
+        for run, (x, y) in zip(runs, places, strict=True):
+            span = TSpan(_clean(run.text), factory=self.page)
+            span.attribs = {"x": x, "y": y, "font-size": number(run.size)}
             if run.italic:
-                span["font-style"] = "italic"
+                span.attribs["font-style"] = "italic"
             if run.bold:
-                span["font-weight"] = "bold"
+                span.attribs["font-weight"] = "bold"
             element.add(span)
         return element
 
-    def _name(self, element: Any, id: str, classes: tuple[str, ...]) -> None:
+    def _named(self, id: str, classes: tuple[str, ...]) -> dict[str, str]:
         """Id and classes; an id that is taken (B1 of link 2 and B12 are written alike) is told apart by a number."""
+        named = {"class": " ".join(classes)} if classes else {}
         if id:
             free = next(name for name in chain((id,), (f"{id}-{n}" for n in count(2))) if name not in self.ids)
             self.ids.add(free)
-            element["id"] = free
-        if classes:
-            element["class"] = " ".join(classes)
+            named["id"] = free
+        return named
 
 
 def _clean(text: str) -> str:
@@ -192,11 +195,15 @@ def _pair(point: complex) -> tuple[str, str]:
     return number(point.real), number(point.imag)
 
 
-def _stroke(element: Any, stroke: Stroke) -> None:
-    element["stroke"] = stroke.colour
-    element["stroke-width"] = number(stroke.width)
-    if stroke.dash:
-        element["stroke-dasharray"] = " ".join(map(number, stroke.dash))
+def _points(points: tuple[complex, ...]) -> str:
+    return " ".join(f"{number(z.real)},{number(z.imag)}" for z in points)
+
+
+def _stroke(stroke: Stroke | None) -> dict[str, str]:
+    if stroke is None:
+        return {}
+    dashes = {"stroke-dasharray": " ".join(map(number, stroke.dash))} if stroke.dash else {}
+    return {"stroke": stroke.colour, "stroke-width": number(stroke.width), **dashes}
 
 
 def _arc(arc: Arc) -> str:
