@@ -16,7 +16,7 @@ from graphkin.errors import CallError, Problem
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 
-__all__ = ["Answers", "AnswersLike", "Rows", "as_answers", "table_of", "with_points"]
+__all__ = ["Answers", "AnswersLike", "as_answers", "table_of", "with_points"]
 
 AnswersLike = str | os.PathLike[str] | Mapping[str, Mapping[str, object]]
 

@@ -35,11 +35,11 @@ if TYPE_CHECKING:
     from graphkin.solver import Motion
     from graphkin.table import Table
 
-__all__ = ["ROOM", "Centred", "centres", "found_centres", "told_centres"]
+__all__ = ["ROOM", "Centred", "centres", "centres_text", "found_centres"]
 
 
 @dataclass(frozen=True)
-class ToldCentres:
+class CentresText:
     """Heads and rows of the table, and sentences below it."""
 
     heads: list[str]
@@ -47,7 +47,7 @@ class ToldCentres:
     sentences: list[str]
 
 
-def told_centres(centred: Centred) -> ToldCentres:
+def centres_text(centred: Centred) -> CentresText:
     """All centres of a position in words, in the language of the result."""
     language = languages(centred.language or centred.scene.sheet.language)[0]
     letter = "P" if (centred.convention or centred.scene.sheet.convention) in ("chinese", "russian") else "I"
@@ -78,7 +78,7 @@ def told_centres(centred: Centred) -> ToldCentres:
     verdict = Phrase("check failed", (", ".join(off),)) if off else Phrase("centres checked", (count,))
     sentences.append(say(verdict, language))
     heads = ["", *(word(key, language) for key in ("centre", "place", "how found"))]
-    return ToldCentres(heads, rows, sentences)
+    return CentresText(heads, rows, sentences)
 
 
 def _phrase(centre: Centre, name: Callable[[object], str], kept: str) -> Phrase:

@@ -20,7 +20,7 @@ from graphkin.api.arguments import (
     write_files,
 )
 from graphkin.api.checked import Checked, checked, hand_of, solved_here
-from graphkin.api.report_text import told
+from graphkin.api.report_text import report_text
 from graphkin.api.results import Result
 from graphkin.construction import EXACT, plan
 from graphkin.scene.symbol import Symbol
@@ -102,7 +102,7 @@ class Drawn(Result):
                 files[f"{name}.{kind}"] = figure.content(kind)
         files["readings.csv"] = self.table.csv().encode()
         spoken = languages(self.language or self.checked.scene.sheet.language)[0]
-        files["report.txt"] = told(self.checked, spoken).encode()
+        files["report.txt"] = report_text(self.checked, spoken).encode()
         return write_files(target, files)
 
     def __repr__(self) -> str:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from graphkin.study.trace import Extreme
     from graphkin.study.turn import Output, Turn
 
-__all__ = ["show", "told", "told_turn"]
+__all__ = ["report_text", "show", "turn_text"]
 
 _SIGNS = {"square": "⊥", "along": "∥"}
 
@@ -34,7 +34,7 @@ def show(argument: object) -> str:
     return str(argument).replace("{", "").replace("}", "")
 
 
-def told(checked: Checked, language: str) -> str:
+def report_text(checked: Checked, language: str) -> str:
     """The whole report."""
     sheet, scene = checked.sheet, checked.scene
     title = scene.title_in(language)
@@ -115,7 +115,7 @@ def _direction(term: Term) -> str:
 MOST_CURVES = 40
 
 
-def told_turn(turn: Turn, language: str) -> list[str]:
+def turn_text(turn: Turn, language: str) -> list[str]:
     """The study of a turn, in lines."""
     scene = turn.scene
     driver = scene.drivers[0]

@@ -176,11 +176,11 @@ class Swept(Result):
     @property
     def text(self) -> str:
         """The whole summary as lines of text."""
-        from graphkin.api.report_text import told_turn
+        from graphkin.api.report_text import turn_text
 
         lines = [self.over.scene.title_in(self.language)]
         if self.turn is not None:
-            lines += told_turn(self.turn, self.language)
+            lines += turn_text(self.turn, self.language)
         if self.over.designs.keys:
             outcomes = ", ".join(f"{n} {status}" for status, n in self.outcomes.items())
             lines.append(say(Phrase("designs solved", (len(self.over.designs), outcomes)), self.language))

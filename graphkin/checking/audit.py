@@ -18,7 +18,7 @@ from graphkin.checking.slips import Evidence, Suspect, line_of, suspects
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase
 
-__all__ = ["Judged", "Verdict", "judge"]
+__all__ = ["Judged", "judge"]
 
 Verdict = Literal["right", "within drafting accuracy", "wrong"]
 Value = complex | float

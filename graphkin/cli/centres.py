@@ -43,7 +43,7 @@ def centres(
 ) -> None:
     """All instant centres, how each was found, and the velocities by centres."""
     from graphkin.api.centred import centres as finding
-    from graphkin.api.centred import told_centres
+    from graphkin.api.centred import centres_text
 
     wanted, values = listed(formats), driver_values(at)
     if point and centrode is None:
@@ -58,7 +58,7 @@ def centres(
         print_json(found.data)
     elif not quiet:
         print_paths(paths)
-        told = told_centres(found)
+        told = centres_text(found)
         print_table(told.heads, told.rows)
         typer.echo("\n".join(told.sentences))
     if not found.ok:

@@ -113,9 +113,9 @@ def _print_readings(checked: Checked, language: str) -> None:
 
 def _write(folder: Path, checked: Checked, language: str) -> None:
     from graphkin.api.arguments import write_files
-    from graphkin.api.report_text import told
+    from graphkin.api.report_text import report_text
 
-    report = told(checked, language)
+    report = report_text(checked, language)
     checked.write(folder)
     write_files(folder, {"report.txt": report.encode()})
 

@@ -20,7 +20,7 @@ from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, cross_lines
 from graphkin.scene.tables import Tools
 
-__all__ = ["EXACT", "Board", "Cad", "Exact", "Hand", "Instrument", "nudged", "pencil"]
+__all__ = ["EXACT", "Board", "Cad", "Exact", "Instrument", "nudged", "pencil"]
 
 
 class Instrument(Protocol):

@@ -22,7 +22,7 @@ from graphkin.structure import Driven, Dyad, Element, Structure, Turn, links_of,
 from graphkin.structure.assembly import follow, ways
 from graphkin.words import Phrase
 
-__all__ = ["DEAD", "Position", "branches_at", "draw_position", "place"]
+__all__ = ["branches_at", "draw_position", "place"]
 
 DEAD = 1e-7  # sine of a crossing below which a group is at a dead point
 TURNS = 720  # positions looked at on the way round

@@ -23,7 +23,7 @@ from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
 from graphkin.structure import Cluster, Driven, Dyad, Structure, analyse, links_of, pick
 
-__all__ = ["Known", "TrialPosition", "trial_position"]
+__all__ = ["Known", "trial_position"]
 
 GRID = 360  # trial values looked at over a turn
 TRIALS = 3  # trial drivers used, one after the other, to find all assemblies

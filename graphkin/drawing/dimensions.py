@@ -213,9 +213,9 @@ def _crossings(own: Points, others: Points) -> tuple[Indices, Floats]:
     crossing = (one <= 0) & (other <= 0)
     which, what = np.nonzero(crossing)
     turn = cross_product(d[which, 0], e[0, what])
-    with np.errstate(divide="ignore", invalid="ignore"):
-        share = cross_product(q[0, what] - p[which, 0], e[0, what]) / turn
-    return which, np.where(np.isfinite(share), share, 0.0)
+    along = np.abs(turn) < 1e-9  # on one line: no place of their own
+    share = cross_product(q[0, what] - p[which, 0], e[0, what]) / np.where(along, 1.0, turn)
+    return which, np.where(along, 0.0, share)
 
 
 LENGTHS = "dimensions"  # id of their group

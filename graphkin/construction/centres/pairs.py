@@ -20,12 +20,10 @@ from graphkin.plane import dot
 from graphkin.scene.model import Mechanism
 
 __all__ = [
-    "INFINITE",
     "Line",
     "LinkPair",
     "Links",
     "Normal",
-    "Permanent",
     "Place",
     "ProjectiveChart",
     "links_on_paper",
