@@ -271,7 +271,7 @@ def sweep(
             raise CallError(Problem("sweep", f"{over.rows} rows", "give a folder, out=... or -o"))
         arrays = None if made.keys else over.base.arrays(positions)
         if arrays is not None:
-            return Swept(over, Found(over.rows, int(np.count_nonzero(arrays.ok))), spoken, arrays)
+            return Swept(over, Found(over.rows, arrays.good), spoken, arrays)
     if not made.keys and over.base.engine is None:
         _ = over.base.reach  # a start that cannot be assembled
     through = cluster(scheduler) if scheduler else executor

@@ -24,8 +24,6 @@ from graphkin.solver import DriverRange, prepare, structure_of, whole_range
 from graphkin.solver.prepared import Prepared
 from graphkin.structure import Cluster, Structure
 from graphkin.study.designs import Designs, Value, applied
-from graphkin.study.summary import row
-from graphkin.study.turn import study_turn
 from graphkin.study.watched import Watched, driver_columns, everything
 from graphkin.table import Column, Table, have, parquet_of_csv
 
@@ -82,10 +80,12 @@ class Arrays:
 
     parts : for each quantity that is watched its values in the units of the table, two for a vector; NaN where not ok
     ok : bool, shape (positions,)
+    good : how many are ok
     """
 
     parts: Parts
     ok: Array
+    good: int
 
 
 @dataclass(frozen=True)
@@ -135,11 +135,12 @@ class Design:
         return self._arrays(self.engine, *self.engine.sweep(n, fast=n >= MANY and have("numba")))
 
     def _arrays(self, engine: Prepared, columns: Array, ok: Array) -> Arrays:
-        if not ok.all():
+        good = len(ok) if engine.clear else int(np.count_nonzero(ok))
+        if good < len(ok):
             columns[:, ~ok] = np.nan
         by_name = dict(zip(engine.names, columns, strict=True))
         ends = {True: (".x", ".y"), False: ("",)}
-        return Arrays(tuple(tuple(by_name[w.name + e] for e in ends[w.is_vector]) for w in self.watched), ok)
+        return Arrays(tuple(tuple(by_name[w.name + e] for e in ends[w.is_vector]) for w in self.watched), ok, good)
 
     def table(self, n: int, first: int, last: int) -> Table:
         """Positions ``first`` to ``last`` (not included) of n: driver values, what is watched, status and reason."""
@@ -157,7 +158,7 @@ class Design:
         values = np.repeat(self.engine.range.start[None], rows, axis=0)
         values[:, 0] = self.engine.values(n, first, last)
         status, why, parts = np.full(rows, "ok", object), np.full(rows, "", object), arrays.parts
-        bad = np.flatnonzero(~arrays.ok)
+        bad = np.flatnonzero(~arrays.ok) if arrays.good < rows else np.zeros(0, int)
         if len(bad):
             parts = tuple(tuple(part.copy() for part in own) for own in parts)
         for some in (bad[k : k + BLOCK] for k in range(0, len(bad), BLOCK)):
@@ -344,6 +345,9 @@ def _rows(piece: Piece, number: int, values: tuple[Value, ...]) -> tuple[Table, 
         good = len(table) - len(bad)
         status, why = (table["status"][bad[0]], table["why"][bad[0]]) if len(bad) else ("ok", "")
         if keys and piece.first == 0:
+            from graphkin.study.summary import row
+            from graphkin.study.turn import study_turn
+
             cells = row(study_turn(design.reach, everything=False))
     shown = [str(v) if word else v for v, word in zip(values, piece.worded, strict=True)]
     return _with_design(table, keys, number, shown), Outcome(number, status, why, cells, good)

@@ -1,8 +1,8 @@
 """The user's way against the engine behind it, and against peers: run by hand, ``python -m tests.bench.sweeps``.
 
-``graphkin.sweep`` returning arrays, from a scene that is read, against ``prepare`` and its sweep, and against
-pylinkage's compiled sweep of the same twelve columns; then the command line writing a table, against pyarrow writing
-the same numbers.  Times depend on the machine, ratios within one run much less.
+``graphkin.sweep`` returning arrays, from a scene that is read, against the sweep of a mechanism that is prepared
+already, and against pylinkage's compiled sweep of the same twelve columns; then the command line writing a table,
+against pyarrow writing the same numbers.  Times depend on the machine, ratios within one run much less.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from tempfile import TemporaryDirectory
 import graphkin
 from graphkin.scene import read_text
 from graphkin.solver import prepare
+from graphkin.study.sweeps import MANY
 
 from . import peers
 from .compare import best, header
@@ -33,8 +34,9 @@ def arrays() -> None:
     for case in MECHANISMS:
         scene = read_text(case.text, case.name)
         for n in COUNTS:
+            ready = prepare(scene, case.asked)
             calls: dict[str, Callable[[], object]] = {
-                "engine": lambda s=scene, c=case, n=n: prepare(s, c.asked).sweep(n),
+                "engine": lambda r=ready, n=n: r.sweep(n, fast=n >= MANY and peers.have("numba")),
                 "sweep": lambda s=scene, c=case, n=n: graphkin.sweep(s, positions=n, find=c.asked),
             }
             peer = peers.pylinkage(case, n) if peers.have("pylinkage") else None

@@ -97,8 +97,7 @@ def test_another_executor_gives_the_same_bytes(plan: Sweep, tmp_path: Path) -> N
     assert prints(tmp_path / "a") == prints(tmp_path / "b")
 
 
-def test_processes_give_the_same_bytes(tmp_path: Path) -> None:
-    plan = replace(new_plan(), positions=9000)
+def test_processes_give_the_same_bytes(plan: Sweep, tmp_path: Path) -> None:
     run(plan, tmp_path / "a")
     run(plan, tmp_path / "b", processes=2)
     assert prints(tmp_path / "a") == prints(tmp_path / "b")
@@ -111,8 +110,7 @@ def test_a_broken_executor_loses_nothing(plan: Sweep, tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="no SIGKILL on this system")
-def test_a_killed_process_loses_nothing(tmp_path: Path) -> None:
-    plan = replace(new_plan(), positions=9000)
+def test_a_killed_process_loses_nothing(plan: Sweep, tmp_path: Path) -> None:
     run(plan, tmp_path / "a")
     pool = ProcessPoolExecutor(2, mp_context=get_context("spawn"))
     victims = [pool.submit(os.getpid).result()]
@@ -185,9 +183,8 @@ def test_parquet_holds_the_numbers_of_the_csv(plan: Sweep, tmp_path: Path) -> No
     assert text.column("omega_3 (rad/s)").to_pylist() == table.column("omega_3 (rad/s)").to_pylist()
 
 
-def test_a_dask_cluster_that_loses_a_worker_gives_the_same_bytes(tmp_path: Path) -> None:
+def test_a_dask_cluster_that_loses_a_worker_gives_the_same_bytes(plan: Sweep, tmp_path: Path) -> None:
     distributed = pytest.importorskip("distributed", reason="the extra cluster is not installed")
-    plan = replace(new_plan(), positions=9000)
     run(plan, tmp_path / "a")
     with distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as local:
         victims = [next(iter(local.workers.values())).pid]
