@@ -140,7 +140,8 @@ class Code:
             if line[0] in LEAVES:
                 text, deep = inputs.get(line[1]) or self._param[line[1]], 0
             else:
-                text = _WRITTEN[line[0]].format(*(names[k] for k in line[1:]))
+                form = "sqrt({})" if line[0] == "root" and _plain(self.graph, line[1]) else _WRITTEN[line[0]]
+                text = form.format(*(names[k] for k in line[1:]))
                 deep = 1 + max(depth.get(k, 0) for k in line[1:])
             if uses.get(at, 0) > 1 or deep > 12 or at in kept:
                 body.append(f"x{at} = {text}")
