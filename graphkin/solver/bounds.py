@@ -111,8 +111,7 @@ class ErrorFormulas:
             if isinstance(z, Real):
                 return rounding.of(z)
             x, y = rounding.of(z.real), rounding.of(z.imag)
-            far: Real = root(x * x + y * y)
-            return far
+            return root(x * x + y * y)
 
         z, u, v, omega, a, alpha = (of(getattr(pose, part)) for part in FIELDS)
         return FrameError(z, v, a, u, omega, alpha)

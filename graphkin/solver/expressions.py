@@ -7,9 +7,11 @@ or 1 is folded away, what is computed twice is computed once, and what leads to 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
+from typing import Any, cast, overload
 
 import numpy as np
+
+from graphkin.solver.pose import Array
 
 __all__ = ["LEAVES", "ExpressionGraph", "Line", "Real", "Vec", "fmax", "fmin", "operands", "root", "two_sum"]
 
@@ -107,7 +109,11 @@ class Real:
             return self.graph.line("sub", self.line[2], self.line[1])
         return self.graph.line("neg", self.at)
 
-    def __add__(self, other: Any) -> Any:
+    @overload
+    def __add__(self, other: Real | float) -> Real: ...
+    @overload
+    def __add__(self, other: Vec | complex) -> Vec: ...
+    def __add__(self, other: Real | Vec | complex) -> Real | Vec:
         if isinstance(other, Vec | complex):
             return Vec(self, self.graph.const(0)) + other
         b = self._of(other)
@@ -124,7 +130,11 @@ class Real:
 
     __radd__ = __add__
 
-    def __sub__(self, other: Any) -> Any:
+    @overload
+    def __sub__(self, other: Real | float) -> Real: ...
+    @overload
+    def __sub__(self, other: Vec | complex) -> Vec: ...
+    def __sub__(self, other: Real | Vec | complex) -> Real | Vec:
         if isinstance(other, Vec | complex):
             return Vec(self, self.graph.const(0)) - other
         b = self._of(other)
@@ -138,10 +148,18 @@ class Real:
             return self + Real(self.graph, b.line[1])
         return self.graph.line("sub", self.at, b.at)
 
-    def __rsub__(self, other: Any) -> Any:
+    @overload
+    def __rsub__(self, other: float) -> Real: ...
+    @overload
+    def __rsub__(self, other: complex) -> Vec: ...
+    def __rsub__(self, other: complex) -> Real | Vec:
         return -(self - other) if isinstance(other, complex) else self._of(other) - self
 
-    def __mul__(self, other: Any) -> Any:
+    @overload
+    def __mul__(self, other: Real | float) -> Real: ...
+    @overload
+    def __mul__(self, other: Vec | complex) -> Vec: ...
+    def __mul__(self, other: Real | Vec | complex) -> Real | Vec:
         if isinstance(other, Vec | complex):
             return Vec(self, self.graph.const(0)) * other
         b = self._of(other)
@@ -163,7 +181,7 @@ class Real:
 
     __rmul__ = __mul__
 
-    def __truediv__(self, other: Any) -> Any:
+    def __truediv__(self, other: Real | float) -> Real:
         b = self._of(other)
         if self.value == 0 or b.value == 1:
             return self
@@ -171,7 +189,7 @@ class Real:
             return self.graph.const(self.value / b.value)
         return self.graph.line("div", self.at, b.at)
 
-    def __rtruediv__(self, other: Any) -> Any:
+    def __rtruediv__(self, other: float) -> Real:
         return self._of(other) / self
 
     def __abs__(self) -> Real:
@@ -215,7 +233,7 @@ class Vec:
         self.real = real
         self.imag = imag
 
-    def _of(self, other: Any) -> Vec:
+    def _of(self, other: Vec | Real | complex) -> Vec:
         if isinstance(other, Vec):
             return other
         graph = self.real.graph
@@ -226,26 +244,26 @@ class Vec:
     def __neg__(self) -> Vec:
         return Vec(-self.real, -self.imag)
 
-    def __add__(self, other: Any) -> Vec:
+    def __add__(self, other: Vec | Real | complex) -> Vec:
         b = self._of(other)
         return Vec(self.real + b.real, self.imag + b.imag)
 
     __radd__ = __add__
 
-    def __sub__(self, other: Any) -> Vec:
+    def __sub__(self, other: Vec | Real | complex) -> Vec:
         b = self._of(other)
         return Vec(self.real - b.real, self.imag - b.imag)
 
-    def __rsub__(self, other: Any) -> Vec:
+    def __rsub__(self, other: Real | complex) -> Vec:
         return self._of(other) - self
 
-    def __mul__(self, other: Any) -> Vec:
+    def __mul__(self, other: Vec | Real | complex) -> Vec:
         b = self._of(other)
         return Vec(self.real * b.real - self.imag * b.imag, self.real * b.imag + self.imag * b.real)
 
     __rmul__ = __mul__
 
-    def __truediv__(self, other: Any) -> Vec:
+    def __truediv__(self, other: Real | float) -> Vec:
         """By a real number."""
         return Vec(self.real / other, self.imag / other)
 
@@ -261,7 +279,11 @@ class Vec:
         return Vec(self.real, -self.imag)
 
 
-def root(x: Any) -> Any:
+@overload
+def root(x: Real) -> Real: ...
+@overload
+def root(x: Array) -> Array: ...
+def root(x: Real | Array) -> Real | Array:
     """Square root of the size of a number: where rounding has put a zero below zero it stays near zero."""
     if not isinstance(x, Real):
         return np.sqrt(np.abs(x))
@@ -272,15 +294,23 @@ def root(x: Any) -> Any:
     return x.graph.line("root", x.at)
 
 
-def fmin(x: Any, y: Any) -> Any:
+@overload
+def fmin(x: Real, y: Real) -> Real: ...
+@overload
+def fmin(x: Array, y: Array) -> Array: ...
+def fmin(x: Any, y: Any) -> Real | Array:
     """The smaller of two numbers; the other one where one is not a number."""
-    return x.graph.line("fmin", x.at, y.at) if isinstance(x, Real) else np.fmin(x, y)
+    return x.graph.line("fmin", x.at, y.at) if isinstance(x, Real) else cast(Array, np.fmin(x, y))
 
 
-def fmax(x: Any, y: Any) -> Any:
+@overload
+def fmax(x: Real, y: Real) -> Real: ...
+@overload
+def fmax(x: Array, y: Array) -> Array: ...
+def fmax(x: Any, y: Any) -> Real | Array:
     """The greater of two numbers."""
     if not isinstance(x, Real):
-        return np.fmax(x, y)
+        return cast(Array, np.fmax(x, y))
     if x.at == y.at or (y.value == 0 and x.never_negative):
         return x
     return x.graph.line("fmax", *sorted((x.at, y.at)))

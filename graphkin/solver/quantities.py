@@ -117,17 +117,17 @@ class _Quantity:
         if self.kind == "s":
             slide = self.structure.slide(self.link)
             moved, guide = self._link_bounds(slide.a).position, self._link_bounds(slide.b)
-            return cast(Real, moved + guide.position + abs(cast(Real, self.formula())) * (guide.angle + 4.0 * unit))
+            return moved + guide.position + abs(cast(Real, self.formula())) * (guide.angle + 4.0 * unit)
         if self.kind in ("theta", "omega", "alpha"):
             self._pose(self.link)
             bound = self._link_bounds(self.link).of_turning[("theta", "omega", "alpha").index(self.kind)]
-            return cast(Real, bound + 16.0 * unit if self.kind == "theta" else bound)
+            return bound + 16.0 * unit if self.kind == "theta" else bound
         order = {"point": 0, "v": 1, "a": 2}[self.kind]
         one, *other = [self._point_bounds(ref)[order] for ref in self.refs]
         if not other:
             return one
         both = cast(Vec, self.formula())
-        return cast(Real, one + other[0] + unit * fmax(abs(both.real), abs(both.imag)))
+        return one + other[0] + unit * fmax(abs(both.real), abs(both.imag))
 
     def _link_bounds(self, link: str) -> FrameError:
         """Of any point of a link and of its turning."""

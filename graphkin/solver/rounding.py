@@ -62,35 +62,28 @@ class Rounding:
         if kind == "root":
             # |sqrt(p + e) - sqrt(p)| <= |e| / sqrt(p) and <= sqrt(|e|)
             moved = one if one.value == 0 else fmin(one / x, root(one))
-            return _sum(moved, self.unit * abs(x))
+            return moved + self.unit * abs(x)
         two = errors[1]
         if kind in ("fmin", "fmax"):
-            most: Real = fmax(one, two)
-            return most
+            return fmax(one, two)
         a, b = parts
         rounded = self.unit * abs(x)
         if kind == "sum":
-            return _sum(one, two)
+            return one + two
         if kind in ("add", "sub"):
-            return _sum(_sum(one, two), rounded)
+            return one + two + rounded
         if kind == "mul":
             if _exact(a) or _exact(b):
-                return _sum(abs(a) * two, abs(b) * one)
+                return abs(a) * two + abs(b) * one
             if a.at == b.at:
-                return _sum((2.0 * abs(a) + one) * one, rounded)
-            return _sum(_sum((abs(a) + one) * two, abs(b) * one), rounded)
+                return (2.0 * abs(a) + one) * one + rounded
+            return (abs(a) + one) * two + abs(b) * one + rounded
         if kind == "div":
             if two.value == 0:
-                return _sum(one / abs(b), rounded)
+                return one / abs(b) + rounded
             left = fmax(abs(b) - two, self.graph.const(0))
-            return _sum(_sum(one, abs(x) * two) / left, rounded)
+            return (one + abs(x) * two) / left + rounded
         raise ValueError(f"no bound for {kind}")
-
-
-def _sum(a: Real, b: Real) -> Real:
-    total = a + b
-    assert isinstance(total, Real)
-    return total
 
 
 def _exact(x: Real) -> bool:
