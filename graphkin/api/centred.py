@@ -28,6 +28,7 @@ from graphkin.construction.centres.pairs import LinkPair, normal, wedge
 from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.structure import Structure
 from graphkin.words import Phrase, languages, say, word
 
 if TYPE_CHECKING:
@@ -238,9 +239,9 @@ class Centred(Result):
         return svg_bytes(self.figure).decode()
 
 
-def found_centres(scene: Mechanism, values: Mapping[str, float] | None) -> Centres:
+def found_centres(of: Mechanism | Structure, values: Mapping[str, float] | None) -> Centres:
     """All centres at driver values in SI, on a drawing of a scale of its own that leaves room around the mechanism."""
-    return find_centres(scene, values).in_room(ROOM)
+    return find_centres(of, values).in_room(ROOM)
 
 
 def _name(pair: LinkPair) -> str:
@@ -338,7 +339,7 @@ def centres(
     given = as_scene(scene)
     values = driver_values(given, at)
     motion = solved_here(given, values)
-    found = found_centres(given, values)
+    found = found_centres(motion.structure, values)
     centred = Centred(found, speeds(found), motion, language, convention)
     if out is not None:
         centred.write(out, formats)

@@ -96,7 +96,9 @@ class Handout(Result):
             return handout_files(self.lesson, formats=self.formats)
         lesson, scales = self.lesson, self.lesson.sheet.scales
         asked, language, convention = lesson.asked, lesson.language, lesson.convention
-        views, start = views_of(self.scene, self.values, asked, language, convention, scales, self.count, self._half(0))
+        views, start = views_of(
+            lesson.sheet.structure, self.values, asked, language, convention, scales, self.count, self._half(0)
+        )
         return handout_files(lesson, views, start, self.formats, self._half(1))
 
     def _half(self, done: int) -> Progress | None:

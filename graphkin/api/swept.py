@@ -28,7 +28,7 @@ from graphkin.api.arguments import (
 from graphkin.api.results import Result
 from graphkin.errors import CallError, Problem
 from graphkin.jobs import Progress, Workers, cluster
-from graphkin.scene.model import Scene
+from graphkin.scene.model import Mechanism
 from graphkin.scene.source import written
 from graphkin.scene.symbol import Symbol
 from graphkin.table import Table, have
@@ -289,7 +289,7 @@ def sweep(
     return swept
 
 
-def _asked(scene: Scene, find: Iterable[str | Symbol] | None) -> tuple[Watched, ...]:
+def _asked(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tuple[Watched, ...]:
     """What is asked, in its order.  Raises CallError, naming everything that names nothing."""
     from graphkin.study.watched import watched_named, watched_symbol
 

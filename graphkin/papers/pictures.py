@@ -24,7 +24,7 @@ from graphkin.drawing.polygon_on_page import extent
 from graphkin.drawing.primitives import Circle, Group, Polygon, Primitive, Text
 from graphkin.drawing.stepwise import births, so_far, stepped
 from graphkin.drawing.text import rich, symbol
-from graphkin.scene.model import Scene
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Structure
 from graphkin.words import languages
@@ -85,12 +85,12 @@ class Paper:
 A4 = Paper()
 
 
-def paper_of(scene: Scene) -> Paper:
+def paper_of(scene: Mechanism) -> Paper:
     """The paper that a scene wishes."""
     return Paper(*scene.sheet.size)
 
 
-def paper_plan(of: Scene | Structure, values: Mapping[str, float] | None, asked: Sequence[Symbol]) -> Plan:
+def paper_plan(of: Mechanism | Structure, values: Mapping[str, float] | None, asked: Sequence[Symbol]) -> Plan:
     """What to draw, at the scene's own scales where the figures fit the paper so, at coarser ones where they do not."""
     own = plan(of, values, asked)
     scene = own.structure.scene

@@ -80,7 +80,7 @@ def positions(
 
 
 def views_of(
-    scene: Mechanism,
+    structure: Structure,
     values: Mapping[str, float] | None,
     asked: Sequence[Symbol],
     language: str,
@@ -95,7 +95,6 @@ def views_of(
     solution on paper, kept wherever the figures fit.  Positions in which the construction fails (dead points) are left
     out.
     """
-    structure = solver.structure_of(scene)
     rows, start = positions(structure, values, count)
     plans: list[Plan] = []
     given = 0
@@ -110,7 +109,7 @@ def views_of(
             given = len(plans)
         plans.append(found)
     sheets = [execute(replace(w, scales=s)) for w, s in zip(plans, common_scales(plans, paper), strict=True)]
-    centres = _centres(scene, sheets, given, progress or _silent)
+    centres = _centres(structure, sheets, given, progress or _silent)
     views = []
     for sheet, here in zip(sheets, centres, strict=True):
         empty = Report(sheet.instrument, sheet.scales, ())
@@ -122,20 +121,20 @@ def _silent(done: int, count: int) -> None:
     pass
 
 
-def _centres(scene: Mechanism, sheets: Sequence[Sheet], given: int, progress: Progress) -> list[Centres | None]:
+def _centres(structure: Structure, sheets: Sequence[Sheet], given: int, progress: Progress) -> list[Centres | None]:
     """The centres in each position, from the given one onwards and then backwards: each starts from its neighbour."""
     found: dict[int, Centres | None] = {}
     for i in (*range(given, len(sheets)), *range(given - 1, -1, -1)):
         near = found.get(i - 1) if i > given else found.get(i + 1)
-        found[i] = _centres_of(scene, sheets[i], near)
+        found[i] = _centres_of(structure, sheets[i], near)
         progress(len(found), len(sheets))
     return [found[i] for i in range(len(sheets))]
 
 
-def _centres_of(scene: Mechanism, sheet: Sheet, near: Centres | None) -> Centres | None:
+def _centres_of(structure: Structure, sheet: Sheet, near: Centres | None) -> Centres | None:
     for start in (near, None) if near is not None else (None,):
         with suppress(Unsolvable):
-            return find_centres(scene, sheet.drivers, sheet=sheet, near=start)
+            return find_centres(structure, sheet.drivers, sheet=sheet, near=start)
     return None
 
 

@@ -14,7 +14,7 @@ from functools import cached_property
 import numpy as np
 
 from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
-from graphkin.scene.model import AngleDriver, Driver, Scene
+from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
 from graphkin.solver.assemblies import choose_forms, own_values
 from graphkin.solver.engine import positions
 from graphkin.solver.error_bound import ErrorBound
@@ -55,11 +55,11 @@ class DriverRange:
     turns: int
 
     @property
-    def scene(self) -> Scene:
+    def scene(self) -> Mechanism:
         return self.structure.scene
 
     @property
-    def driver(self) -> Driver:
+    def driver(self) -> AnyDriver:
         return self.scene.drivers[0]
 
     @property
@@ -250,7 +250,7 @@ def _first(like: Array) -> Array:
     return unit
 
 
-def driver_range(scene: Scene | Structure, at: Mapping[str, float] | None = None) -> DriverRange:
+def driver_range(scene: Mechanism | Structure, at: Mapping[str, float] | None = None) -> DriverRange:
     """Follow a mechanism from its own position, or from other driver values, over a turn of its first driver, or as far
     as this slides.
 
@@ -275,7 +275,7 @@ def driver_range(scene: Scene | Structure, at: Mapping[str, float] | None = None
     return range_from(structure, forms, start)
 
 
-def whole_range(scene: Scene | Structure, at: Mapping[str, float] | None = None) -> DriverRange:
+def whole_range(scene: Mechanism | Structure, at: Mapping[str, float] | None = None) -> DriverRange:
     """``driver_range`` over as many turns as it takes until the motion closes."""
     return driver_range(scene, at).until_closed()
 
@@ -304,7 +304,7 @@ def way_to(structure: Structure, forms: Mapping[int, Array], goal: Array) -> Pat
     return first
 
 
-def goal_values(scene: Scene, at: Mapping[str, float] | None) -> Array:
+def goal_values(scene: Mechanism, at: Mapping[str, float] | None) -> Array:
     """The scene's driver values, but for those given by driver key, shape (drivers,).
 
     Raises

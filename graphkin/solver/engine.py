@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 
@@ -12,7 +11,7 @@ from graphkin.scene.model import AngleDriver
 from graphkin.solver.code import Code
 from graphkin.solver.dyads import Solved
 from graphkin.solver.error_bound import ErrorBound
-from graphkin.solver.expressions import Real, Vec
+from graphkin.solver.expressions import Name, Real, Vec
 from graphkin.solver.extended_precision import ExtendedPrecision
 from graphkin.solver.group_errors import bounds as bounds_together
 from graphkin.solver.joints import Drive, turned
@@ -85,7 +84,7 @@ def positions(
 
 
 def extended_precision_of(
-    structure: Structure, forms: Mapping[int, Array], key: Any, choose: Callable[[Program], list[Real]]
+    structure: Structure, forms: Mapping[int, Array], key: Hashable, choose: Callable[[Program], list[Real]]
 ) -> ExtendedPrecision:
     """What computes some formulas of a mechanism of dyads in fifty digits, at any value of its drivers."""
     own = np.array([[d.values[0] for d in structure.scene.drivers]])
@@ -105,7 +104,7 @@ class _Run:
         self.rate, self.second = (x[0] if self.n else np.zeros(x.shape[1]) for x in (drive.rate, drive.second))
         self.dimensioned = program_of(structure, tuple(bool(s) for s in self.second))
         most = np.abs(drive.value).max(axis=0, initial=0.0)
-        self.rates_of: dict[Any, float] = {}
+        self.rates_of: dict[Name, float] = {}
         for k, wide in enumerate(most.tolist()):
             for name, value in (("rate", float(self.rate[k])), ("second", float(self.second[k]))):
                 self.rates_of[name, k] = value
@@ -115,8 +114,8 @@ class _Run:
         self.clusters: dict[int, ClusterSolved] = {}
         self.given = self._drivers()
 
-    def _drivers(self) -> dict[Any, Array]:
-        given: dict[Any, Array] = {}
+    def _drivers(self) -> dict[Name, Array]:
+        given: dict[Name, Array] = {}
         for k, driver in enumerate(self.structure.scene.drivers):
             value = self.drive.value[:, k]
             if isinstance(driver, AngleDriver):
@@ -189,11 +188,11 @@ class _Run:
                 if np.iscomplexobj(value):
                     self.given["pose", name, f, "y"] = np.ascontiguousarray(value.imag)
 
-    def _known(self, name: Any) -> float:
+    def _known(self, name: Name) -> float:
         """A number of the formulas that is the same at all positions."""
         return self.dimensioned.params([name], self.rates_of)[0]
 
-    def _values(self, key: Any, asked: list[Any]) -> list[Array]:
+    def _values(self, key: Hashable, asked: Sequence[Real | Vec]) -> list[Array]:
         """Formulas at all positions: vectors as complex arrays, numbers as real ones."""
         reals: list[Real] = []
         for x in asked:

@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
-from typing import Any
 
 import numpy as np
 
 from graphkin.scene.model import AngleDriver, AnyDriver
 from graphkin.solver.code import Code
 from graphkin.solver.decimals import cos_sin, meant, meant_angle, working
-from graphkin.solver.expressions import Vec
+from graphkin.solver.expressions import Name, Real, Vec
 from graphkin.solver.pose import Array
 from graphkin.solver.program import FIELDS, GIVEN, DimensionedProgram
 from graphkin.solver.rounding import UNIT
@@ -39,7 +38,7 @@ class ExtendedPrecision:
     value: Array
     rate: Array
     second: Array
-    signs: Mapping[Any, Array]
+    signs: Mapping[Name, Array]
 
     def exact(self) -> Array:
         """Positions whose driver values are known to fifty digits, shape (n,)."""
@@ -49,13 +48,13 @@ class ExtendedPrecision:
                 found |= self.value[:, j] == driver.values[0]
         return found
 
-    def place(self, asked: Sequence[Any], columns: Sequence[Array]) -> None:
+    def place(self, asked: Sequence[Real | Vec], columns: Sequence[Array]) -> None:
         """Compute these positions in 50 digits, in ``columns`` of ``asked``."""
         with working():
             for k in np.flatnonzero(self.exact()).tolist():
                 self._put(k, asked, columns)
 
-    def _put(self, k: int, asked: Sequence[Any], columns: Sequence[Array]) -> bool:
+    def _put(self, k: int, asked: Sequence[Real | Vec], columns: Sequence[Array]) -> bool:
         try:
             row = [float(x) for x in self.row(k)]
         except ArithmeticError:
@@ -64,7 +63,7 @@ class ExtendedPrecision:
             column[k] = complex(row.pop(0), row.pop(0)) if isinstance(x, Vec) else row.pop(0)
         return True
 
-    def refine(self, asked: Sequence[Any], columns: Sequence[Array], links: int) -> None:
+    def refine(self, asked: Sequence[Real | Vec], columns: Sequence[Array], links: int) -> None:
         """Replace the rough positions in ``columns``: those of ``asked``, which begin with the fields of so many links
         and end with their bounds."""
         speed, push = (self._largest(columns, links, k) for k in (1, 2))
@@ -93,7 +92,7 @@ class ExtendedPrecision:
 
     def row(self, k: int, at: Mapping[int, Decimal] | None = None) -> tuple[Decimal, ...]:
         """What the code computes at position ``k``, or with drivers at other values."""
-        given: dict[Any, Decimal] = {name: Decimal(float(column[k])) for name, column in self.signs.items()}
+        given: dict[Name, Decimal] = {name: Decimal(float(column[k])) for name, column in self.signs.items()}
         for j, driver in enumerate(self.drivers):
             value = float(self.value[k, j])
             turns = isinstance(driver, AngleDriver)

@@ -9,12 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from graphkin.scene.model import AngleDriver
 from graphkin.solver.error_bound import ErrorBound
+from graphkin.solver.expressions import Name
 from graphkin.solver.joints import Drive, joint_place
 from graphkin.solver.larger_groups import System
 from graphkin.solver.pose import Array, Pose
@@ -30,7 +31,7 @@ _NONE = Errors(*(np.zeros(1),) * 6)
 
 
 def bounds(
-    structure: Structure, poses: Mapping[str, Pose], drive: Drive, given: Callable[[tuple[Any, ...]], float]
+    structure: Structure, poses: Mapping[str, Pose], drive: Drive, given: Callable[[Name], float]
 ) -> Errors:
     """Bounds of the errors of a whole mechanism: the most of any point of any link and of the turning of any.
 
@@ -189,7 +190,7 @@ class _Rows:
     system: System
     poses: Mapping[str, Pose]
     errors: Mapping[str, Errors]
-    given: Callable[[tuple[Any, ...]], float]
+    given: Callable[[Name], float]
 
     def off(self, order: int) -> list[Array]:
         """In the order of the constraints, of their values (0), first (1) or second rates (2)."""

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
-from graphkin.scene.model import Link, Scene
+from graphkin.scene.model import Mechanism, PlacedLink
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver.error_bound import ErrorBound
 from graphkin.solver.pose import Array, Pose
@@ -174,7 +174,7 @@ class Motion:
     turned: Mapping[str, Array] = field(default_factory=dict)
 
     @property
-    def scene(self) -> Scene:
+    def scene(self) -> Mechanism:
         return self.structure.scene
 
     @property
@@ -191,7 +191,7 @@ class Motion:
             raise Unsolvable(str(self.status[0]), Problem(self.scene.name or "scene", self.why[0]))
         return self
 
-    def link(self, name: str) -> Link:
+    def link(self, name: str) -> PlacedLink:
         """A link or the block of a pin.  Raises CallError for an unknown name."""
         if name in self.structure.links:
             return self.structure.links[name]

@@ -6,7 +6,7 @@ A scene has none with too many or too few drivers, and where parts are held too 
 from __future__ import annotations
 
 from graphkin.errors import Problem, Unsolvable
-from graphkin.scene.model import Scene
+from graphkin.scene.model import Mechanism
 from graphkin.structure.constraints import Constraints, Node, Unknown
 from graphkin.structure.groups import components, element_of, match
 from graphkin.structure.model import Element, Mobility, Structure
@@ -94,7 +94,7 @@ def _wrong_part(system: Constraints, unknowns: list[list[Unknown]], given: dict[
     return Problem("mobility", f"links held too much: {names(over)}; links left free: {names(free)}", wanted)
 
 
-def analyse(scene: Scene | Structure) -> Structure:
+def analyse(scene: Mechanism | Structure) -> Structure:
     """Find the mobility and the order of solution; a structure is handed back as it is.
 
     Each constraint is assigned one coordinate that it gives (a perfect matching exists just when every part of the
@@ -134,6 +134,6 @@ def analyse(scene: Scene | Structure) -> Structure:
     return Structure(scene, system.links, system.slides, system.hinges, mobility, tuple(elements))
 
 
-def mobility_of(scene: Scene) -> Mobility:
+def mobility_of(scene: Mechanism) -> Mobility:
     """Links, pairs and F of a scene, whatever its drivers are."""
     return Constraints(scene).mobility()

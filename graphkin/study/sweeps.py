@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable
 from graphkin.jobs import Checkpoints, Progress, Workers, key_of, whole_file
 from graphkin.scene import read
-from graphkin.scene.model import Scene
+from graphkin.scene.model import Mechanism
 from graphkin.solver import DriverRange, prepare, structure_of, whole_range
 from graphkin.solver.prepared import Prepared
 from graphkin.structure import Cluster, Structure
@@ -96,7 +96,7 @@ class Design:
     at : driver values to start from (SI), by driver key
     """
 
-    scene: Scene
+    scene: Mechanism
     asked: tuple[Watched, ...]
     at: tuple[tuple[str, float], ...]
 
@@ -199,7 +199,7 @@ class Sweep:
     asked, at : as for a `Design`
     """
 
-    source: Scene | Mapping[str, Any]
+    source: Mechanism | Mapping[str, Any]
     name: str
     designs: Designs
     positions: int
@@ -221,14 +221,14 @@ class Sweep:
         return self.rows * (2 * len(self.base.watched) + 1)
 
     @property
-    def scene(self) -> Scene:
+    def scene(self) -> Mechanism:
         """The scene itself, with nothing replaced."""
         return self.base.scene
 
     @cached_property
     def base(self) -> Design:
         """The scene itself as a design."""
-        scene = self.source if isinstance(self.source, Scene) else read(self.source)
+        scene = self.source if isinstance(self.source, Mechanism) else read(self.source)
         return _same(Design(scene, self.asked, self.at))
 
     @cached_property
@@ -240,7 +240,7 @@ class Sweep:
     @cached_property
     def key(self) -> str:
         """A key that two sweeps share only if they give the same results."""
-        source = repr(self.source) if isinstance(self.source, Scene) else dict(self.source)
+        source = repr(self.source) if isinstance(self.source, Mechanism) else dict(self.source)
         return key_of(BLOCK, source, self.name, repr(self.designs), self.positions, repr(self.asked), self.at)
 
     @property
@@ -356,7 +356,7 @@ def _rows(piece: Piece, number: int, values: tuple[Value, ...]) -> tuple[Table, 
 def _followed(sweep: Sweep, values: tuple[Value, ...]) -> Design | tuple[str, str]:
     """A design whose way is known, or the status and the reason why it has none."""
     try:
-        if isinstance(sweep.source, Scene):
+        if isinstance(sweep.source, Mechanism):
             design = sweep.base
         else:
             scene = read(applied(sweep.source, sweep.designs.keys, values))

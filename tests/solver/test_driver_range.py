@@ -9,7 +9,7 @@ import pytest
 
 from graphkin.errors import CallError, Unsolvable
 from graphkin.scene import read_text
-from graphkin.scene.model import AngleDriver, Scene
+from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.solver import DriverRange, driver_range, prepare, solve, structure_of
 from graphkin.structure.assembly import ways
 from tests import scenes
@@ -18,7 +18,7 @@ ROCKER = scenes.FOUR_BAR.replace("length = 150", "length = 350").replace("length
 LOOSE = scenes.DOUBLE_PARALLELOGRAM.replace("length = 100\nredundant", "length = 101\nredundant")
 
 
-def scene_of(text: str) -> Scene:
+def scene_of(text: str) -> Mechanism:
     return read_text(text, "scene")
 
 

@@ -23,6 +23,7 @@ from graphkin.construction.plan import Room, scales_for
 from graphkin.construction.rigid import LinkMotion
 from graphkin.construction.sheet import Sheet
 from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.structure import Structure
 from graphkin.words import Phrase
 
 __all__ = ["Centre", "Centres", "find_centres"]
@@ -96,14 +97,14 @@ class Centres:
 
 
 def find_centres(
-    scene: Mechanism, at: Mapping[str, float] | None = None, instrument: Instrument = EXACT,
+    of: Mechanism | Structure, at: Mapping[str, float] | None = None, instrument: Instrument = EXACT,
     sheet: Sheet | None = None, near: Centres | None = None,
 ) -> Centres:  # fmt: skip
     """Find every centre of every two links on the drawing board.
 
     Parameters
     ----------
-    scene, at, instrument : as for `draft`
+    of, at, instrument : a mechanism or its structure, and as for `draft`
     sheet : the scene drawn at this position already; it is used if every link stands on it
     near : the centres at other driver values, from which a scene with larger groups is followed; without them the
         scene's own position is found first
@@ -112,11 +113,12 @@ def find_centres(
     ------
     Unsolvable : wrong mobility, a position that cannot be assembled or reached, a dead point
     """
+    scene = of.scene if isinstance(of, Structure) else of
     moving = _moving(scene)
     if sheet is not None and moving is scene and set(sheet.structure.links) <= set(sheet.poses):
         worked = Worked(sheet, measured(sheet))
     else:
-        worked = work(moving, at, instrument, near.sheet if near is not None else None)
+        worked = work(of if moving is scene else moving, at, instrument, near.sheet if near is not None else None)
     links = links_on_paper(scene, 1.0 / worked.sheet.scales.length, worked.sheet.poses)
     chart = links.chart()
     table, slots = _search(links, chart, worked.motions, instrument, worked.way)

@@ -73,7 +73,7 @@ class Worked:
 
 
 def work(
-    scene: Mechanism,
+    of: Mechanism | Structure,
     at: Mapping[str, float] | None = None,
     instrument: Instrument = EXACT,
     near: Sheet | None = None,
@@ -83,10 +83,11 @@ def work(
     Parameters and exceptions are those of `draft`; a group larger than a dyad is drawn by trial, with ``near``, the
     whole scene on paper at other driver values, from there.
     """
-    sheet = draft(scene, at, (), instrument)
+    structure = analyse(of)
+    scene = structure.scene
+    sheet = draft(structure, at, (), instrument)
     if sheet.stopped is None:
         return Worked(sheet, measured(sheet))
-    structure = analyse(scene)
     values = {d.key: d.values[0] for d in scene.drivers} | dict(at or {})
     trial = trial_position(scene, values, _known(near) if near is not None else None)
     dyads = trial.scene
