@@ -1,6 +1,22 @@
-"""Scenes of the tests of structure and solver."""
+"""Scenes of the tests: as texts of files, and a four-bar of any lengths as a mapping."""
 
 from __future__ import annotations
+
+from typing import Any
+
+
+def four_bar(crank: float, coupler: float, rocker: float, ground: float, **more: Any) -> dict[str, Any]:
+    """A four-bar whose crank stands at 60 deg and turns at 10 rad/s, unless ``more`` says otherwise (mm)."""
+    return {
+        "frame": {"name": "4", "points": {"A": [0, 0], "D": [ground, 0]}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": crank},
+            "2": {"points": ["B", "C"], "length": coupler},
+            "3": {"points": ["D", "C"], "length": rocker},
+        },
+        "driver": {"link": "1", "angle": 60, "omega": 10},
+    } | more
+
 
 FOUR_BAR = """
 [frame]

@@ -15,6 +15,7 @@ from graphkin.cli import app
 from graphkin.errors import CallError, Unsolvable
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import Symbol
+from tests.scenes import four_bar
 
 NAME = "slider-crank-s50-e16-K1.2"
 
@@ -161,15 +162,7 @@ def test_no_solvable_design_is_exit_3(tmp_path: Path) -> None:
 
 
 def test_a_scene_that_cannot_be_assembled_is_unsolvable() -> None:
-    scene = {
-        "frame": {"name": "4", "points": {"A": [0, 0], "D": [400, 0]}},
-        "links": {
-            "1": {"points": ["A", "B"], "length": 50},
-            "2": {"points": ["B", "C"], "length": 100},
-            "3": {"points": ["D", "C"], "length": 100},
-        },
-        "driver": {"link": "1", "angle": 60, "omega": 10},
-    }
+    scene = four_bar(50, 100, 100, 400)
     with pytest.raises(Unsolvable):
         graphkin.sweep(scene)
 

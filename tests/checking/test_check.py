@@ -18,6 +18,7 @@ from graphkin.scene import library, mechanism_of
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import Symbol
 from tests.mechanisms import KINDS, random_scene
+from tests.scenes import four_bar
 
 SIXBAR = "sixbar-guide-40deg"
 
@@ -130,16 +131,7 @@ def test_the_json_of_a_check_gives_vectors_by_size_and_rates_with_sign():
     assert {"length": 2, "velocity": 10, "acceleration": 100} == graphkin.check(SIXBAR).data["scales"]
 
 
-PARALLELOGRAM = {
-    "frame": {"points": {"A": [0, 0], "D": [200, 0]}},
-    "links": {
-        "1": {"points": ["A", "B"], "length": 50},
-        "2": {"points": ["B", "C"], "length": 200},
-        "3": {"points": ["D", "C"], "length": 50},
-    },
-    "driver": {"link": "1", "angle": 60, "omega": 5},
-    "sketch": {"C": [225, 43]},
-}
+PARALLELOGRAM = four_bar(50, 200, 50, 200, sketch={"C": [225, 43]})
 
 
 def test_rates_that_are_all_zero_are_judged_by_the_vectors_they_come_from():

@@ -6,6 +6,7 @@ import pytest
 
 import graphkin
 from tests import command
+from tests.scenes import four_bar
 
 
 def run(*args, cwd):
@@ -52,14 +53,6 @@ def test_the_room_is_called_as_its_function():
 
 
 def test_a_mechanism_that_cannot_be_assembled_is_refused():
-    apart = {
-        "frame": {"name": "4", "points": {"A": [0, 0], "D": [400, 0]}},
-        "links": {
-            "1": {"points": ["A", "B"], "length": 150},
-            "2": {"points": ["B", "C"], "length": 100},
-            "3": {"points": ["D", "C"], "length": 100},
-        },
-        "driver": {"link": "1", "angle": 120, "omega": 10},
-    }
+    apart = four_bar(150, 100, 100, 400, driver={"link": "1", "angle": 120, "omega": 10})
     with pytest.raises(graphkin.Unsolvable, match="2, 3"):
         graphkin.handout(apart)

@@ -11,6 +11,7 @@ import pytest
 from graphkin.api.handouts import handout
 from graphkin.papers.blocks import clean
 from graphkin.scene import mechanism_of
+from tests.scenes import four_bar
 
 TITLES = (
     "</title></style></script><script>document.title='owned'</script>",
@@ -21,19 +22,7 @@ TITLES = (
 
 
 def _scene(title: str) -> dict:
-    return {
-        "title": title,
-        "title_zh": title,
-        "source": title,
-        "frame": {"name": "4", "points": {"A": [0, 0], "D": [400, 0]}},
-        "links": {
-            "1": {"points": ["A", "B"], "length": 150},
-            "2": {"points": ["B", "C"], "length": 500},
-            "3": {"points": ["D", "C"], "length": 300},
-        },
-        "driver": {"link": "1", "angle": 60, "omega": 10},
-        "sketch": {"C": [500, 290]},
-    }
+    return four_bar(150, 500, 300, 400, title=title, title_zh=title, source=title, sketch={"C": [500, 290]})
 
 
 class _Tags(HTMLParser):

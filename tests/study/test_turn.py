@@ -121,15 +121,7 @@ def test_rates_that_grow_without_bound_have_no_zeros_there() -> None:
     assert alpha.zeros == (0.0,)
 
 
-FOUR_BAR = {
-    "frame": {"name": "4", "points": {"A": [0, 0], "D": [400, 0]}},
-    "links": {
-        "1": {"points": ["A", "B"], "length": 150},
-        "2": {"points": ["B", "C"], "length": 500},
-        "3": {"points": ["D", "C"], "length": 300},
-    },
-    "driver": {"link": "1", "angle": 60, "omega": 10},
-}
+FOUR_BAR = scenes.four_bar(150, 500, 300, 400)
 
 
 @pytest.mark.parametrize(
@@ -144,12 +136,7 @@ FOUR_BAR = {
     ],
 )
 def test_class_of_a_four_bar(lengths: tuple[float, ...], name: str, turning: tuple[str, ...]) -> None:
-    a, b, c, d = lengths
-    scene = json.loads(json.dumps(FOUR_BAR))
-    scene["frame"]["points"]["D"] = [d, 0]
-    for link, length in zip("123", (a, b, c), strict=True):
-        scene["links"][link]["length"] = length
-    loop = study_turn(whole_range(read(scene)), everything=False).loops[0]
+    loop = study_turn(whole_range(read(scenes.four_bar(*lengths))), everything=False).loops[0]
     assert (loop.name, loop.turns) == (name, turning)
 
 
@@ -203,15 +190,12 @@ def test_json_holds_no_nan(name: str) -> None:
 
 
 def test_parallelogram_repeats_after_one_turn_and_its_antiparallel_form_is_not_reached() -> None:
-    scene = json.loads(json.dumps(FOUR_BAR))
-    scene["links"]["1"]["length"] = scene["links"]["3"]["length"] = 150
-    scene["links"]["2"]["length"] = 400
-    turn = study_turn(whole_range(read(scene)), everything=False)
+    turn = study_turn(whole_range(read(scenes.four_bar(150, 400, 150, 400))), everything=False)
     assert (turn.reach.turns, turn.outputs[0].swings) == (1, False)
 
 
 def test_wrong_mobility_is_refused_by_name() -> None:
-    scene = json.loads(json.dumps(FOUR_BAR))
+    scene = scenes.four_bar(150, 500, 300, 400)
     scene["links"]["5"] = {"points": ["A", "C"], "length": 450}
     with pytest.raises(Unsolvable):
         whole_range(read(scene))
