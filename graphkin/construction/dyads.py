@@ -37,7 +37,7 @@ Story = tuple[tuple[Act, tuple[Stroke, ...]], ...]
 class Meeting:
     """Two loci that meet.
 
-    ``gap`` is positive where they cross, zero where they touch, negative where they miss each other; for ``two_lines``
+    ``gap`` is positive where they cross, zero where they touch, negative where they miss each other; for two lines
     it is the sine of their angle, and they meet once.  ``poses`` are the possible places of the group's links, the one
     of the default rule first; ``tell`` gives what is drawn for each.  ``sine`` of the crossing angle is 0 where the
     crossing is lost.
@@ -47,7 +47,6 @@ class Meeting:
     sine: float
     poses: tuple[Poses, ...]
     tell: Callable[[int], Story]
-    two_lines: bool = False
 
 
 def _nothing(_: int) -> Story:
@@ -203,12 +202,12 @@ def _rpp(frame: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meet
     # shift = s * step = want - t * along
     sine = cross(step, along)
     if sine == 0.0:
-        return Meeting(0.0, 0.0, (), _nothing, True)
+        return Meeting(0.0, 0.0, (), _nothing)
     shift = step * (cross(want, along) / sine)
     base = p - want
     strokes = (Bar(base, base + shift, ""), Bar(base + shift, p, ""))
     story: Story = ((SlidToMeet(outer.point, slide.key, inner.key), strokes),)
-    return Meeting(sine, abs(sine), (placed(shift),), lambda _: story, True)
+    return Meeting(sine, abs(sine), (placed(shift),), lambda _: story)
 
 
 def _two_lines(
@@ -220,9 +219,9 @@ def _two_lines(
     sine = cross(one[1], two[1])
     q = cross_lines(*one, *two)
     if q is None:
-        return Meeting(0.0, 0.0, (), _nothing, True)
+        return Meeting(0.0, 0.0, (), _nothing)
     story: Story = ((act, (Bar(one[0], q, ""), Bar(two[0], q, ""))),)
-    return Meeting(sine, abs(sine), (placed(q),), lambda _: story, True)
+    return Meeting(sine, abs(sine), (placed(q),), lambda _: story)
 
 
 # The one place in this room where the kinds of dyads are told apart.

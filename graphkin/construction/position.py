@@ -91,7 +91,7 @@ def _start(structure: Structure, mm: float, values: Mapping[str, float], instrum
 
 def _refuse(element: Dyad, meeting: Meeting) -> None:
     names = ", ".join(element.links)
-    if meeting.gap < -1e-14 and not meeting.two_lines:
+    if meeting.gap < -1e-14 and not element.is_two_lines:
         raise Unsolvable(
             "not assembled",
             Problem(
@@ -265,12 +265,8 @@ def draw_position(
             index = branches.get(i, 0) % len(meeting.poses)
             story = meeting.tell(index)
             key = ", ".join(element.links)
-            assembly[key] = Phrase(
-                f"{element.kind} {index}"
-                if len(meeting.poses) > 1 or not element.is_two_lines
-                else "one assembly",
-                _assembly_names(element),
-            )
+            which = "one assembly" if element.is_two_lines else f"{element.kind} {index}"
+            assembly[key] = Phrase(which, _assembly_names(element))
         for act, strokes in story:
             board.do("mechanism", act, *strokes)
         for name in links_of(element):
@@ -287,7 +283,7 @@ def draw_position(
 def _remark_arm(board: Board, dyad: Dyad, frame: PlacedLinks) -> None:
     """How far the two points are apart that direct a guide."""
     one, two = dyad.outer_first, dyad.outer_second
-    if dyad.kind == "RPR" and isinstance(one, Turn) and isinstance(two, Turn):
+    if not isinstance(dyad.inner, Turn) and isinstance(one, Turn) and isinstance(two, Turn):
         apart = abs(frame.point(one.b, one.point) - frame.point(two.b, two.point))
         board.notice("mechanism", ShortArm(dyad.links, (one.point, two.point), apart))
 
