@@ -74,8 +74,9 @@ class Centroded(Result):
 
         unit, columns = self.scene.units.metres, [Column("driver", self.motion.values[:, 0], form=".12g")]
         for name, curve in (("fixed", self.curves.fixed), ("moving", self.curves.moving)):
-            places = np.where(np.isfinite(curve), curve / unit, complex(np.nan, np.nan))
-            columns += [Column(f"{name}_x", places.real, form=".12g"), Column(f"{name}_y", places.imag, form=".12g")]
+            places = np.where(np.isfinite(curve), curve, complex(np.nan, np.nan))
+            parts = zip("xy", (places.real, places.imag), strict=True)
+            columns += [Column(f"{name}_{axis}", part / unit, form=".12g") for axis, part in parts]
         return Table(tuple(columns))
 
     @cached_property
