@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from importlib.util import find_spec
 
 import numpy as np
@@ -11,6 +12,7 @@ import graphkin
 from graphkin.api.prepared import Prepared
 from graphkin.scene import mechanism_of_text
 from graphkin.scene.symbol import Symbol
+from graphkin.solver import compiled
 from tests import scenes
 from tests.mechanisms import KINDS, random_scene
 
@@ -19,6 +21,17 @@ ASKED = ["C", "v_C", "a_C", "a_B@4", "v_C/B", "omega_4", "alpha_4", "theta_4", "
 
 def shaper(**wishes: bool) -> Prepared:
     return graphkin.prepare("shaper-scheme-2", ASKED, **wishes)
+
+
+@pytest.fixture
+def without_numba(monkeypatch):
+    caches = compiled._library, compiled._compiled
+    for cache in caches:
+        cache.cache_clear()
+    monkeypatch.setitem(sys.modules, "numba", None)
+    yield
+    for cache in caches:
+        cache.cache_clear()
 
 
 def test_a_turn_has_the_values_of_solve_in_the_units_of_the_scene():
@@ -139,3 +152,13 @@ def test_no_number_of_positions_is_refused(n):
 
 def test_a_scene_of_the_tests_without_units_is_in_millimetres():
     assert "mm/s" == graphkin.prepare(mechanism_of_text(scenes.FOUR_BAR, "f"), "v_C").units["v_C"]
+
+
+def test_without_numba_many_positions_are_computed_in_numpy(without_numba):
+    samples = graphkin.prepare("shaper-scheme-2", "omega_4").sweep(500_000)
+    assert samples.ok.all()
+
+
+def test_compiling_without_numba_says_what_to_install(without_numba):
+    with pytest.raises(graphkin.CallError, match=r"graphkin\[fast\]"):
+        shaper(fast=True).sweep(10)
