@@ -48,7 +48,7 @@ def test_importing_graphkin_imports_no_numpy():
         ("audit", "shaper-scheme-2"),
         ("sweep", "sine-mechanism", "--positions", "4", "--json", "-o", "out"),
         ("handout", "no-such-scene"),
-        ("study", "stability", "no-such-scene"),
+        ("study", "speed-accuracy", "no-such-scene"),
     ],
     ids=lambda args: args[0],
 )
