@@ -1,8 +1,8 @@
 """How long the worked job of a scene takes after import: run by hand, ``python -m tests.bench.figures [SCENE ...]``.
 
 Drawing, readings and check; the four figures (mechanism, both polygons, instant centres) with their labels, written as
-SVG; the share of labels labels among them; and the A4 sheet, which draws everything once more.  Times depend on the
-machine; the last column is the job in units of the solver's own part of it.
+SVG; the share of placing labels among them; and the A4 sheet, which shows the same construction at its own scales.
+Times depend on the machine; the last column is the job in units of the solver's own part of it.
 """
 
 from __future__ import annotations
@@ -76,7 +76,7 @@ def placed(name: str) -> tuple[float, int]:
 def main() -> None:
     names = sys.argv[1:] or sorted(library())
     whole(names[0])  # imports, fonts
-    print(f"{'scene':<32}{'job, ms':>10}{'labels, ms':>12}{'labelss':>10}{'with sheet':>12}{'job / solve':>13}")
+    print(f"{'scene':<32}{'job, ms':>10}{'labels, ms':>12}{'placings':>10}{'with sheet':>12}{'job / solve':>13}")
     for name in names:
         four, five = best(lambda name=name: job(name)), best(lambda name=name: whole(name))
         alone = best(lambda name=name: graphkin.solve(name))
