@@ -1,7 +1,7 @@
 """graphkin draws velocity and acceleration polygons of mechanisms as with ruler and compass, measures and checks them.
 
-A four-bar, from a scene to a checked diagram.  A scene is a text file (TOML), the name of a scene that comes along, or
-a mapping of the same shape:
+A four-bar, from a scene to a checked diagram.  A scene is a text file (TOML), the name of a scene that comes along, a
+mapping of the same shape, or a `Scene` built of `Frame`, `Link`, `Guide`, `Driver`:
 
 >>> import graphkin
 >>> four_bar = {
