@@ -25,7 +25,7 @@ from graphkin.drawing.obstacles import Floats, Indices, Obstacles, Points, cross
 from graphkin.drawing.primitives import Arc, Group, Line, Polygon, Primitive, Run, Text, page_direction
 from graphkin.drawing.symbols import POINTER, arrowhead
 from graphkin.drawing.text import plain, rich
-from graphkin.scene.model import AngleDriver, Link
+from graphkin.scene.model import AngleDriver, PlacedLink
 from graphkin.scene.symbol import PointRef
 
 __all__ = ["GAP", "LENGTHS", "OVERRUN", "angle_dimension", "check_bar", "dimension", "drawn_lengths"]
@@ -278,7 +278,7 @@ def _bars(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts]:
                 yield parts
 
 
-def _round(link: Link, one: str, other: str, metres: float) -> bool:
+def _round(link: PlacedLink, one: str, other: str, metres: float) -> bool:
     """Whether a distance looks like one that was given: at most four digits."""
     value = abs(link.points[other] - link.points[one]) / metres
     return value > 0.0 and abs(float(f"{value:.4g}") - value) < 1e-9 * value

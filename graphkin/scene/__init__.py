@@ -30,11 +30,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from graphkin.scene.source import library, library_text, mechanism_of, mechanism_of_text
+from graphkin.scene.source import library, library_text, mechanism_of, mechanism_of_text, read
 
-__all__ = ["library", "library_text", "mechanism_of", "mechanism_of_text", "read", "read_text", "schema"]
-
-read, read_text = mechanism_of, mechanism_of_text
+__all__ = ["library", "library_text", "mechanism_of", "mechanism_of_text", "read", "schema"]
 
 
 def schema() -> dict[str, Any]:

@@ -206,10 +206,3 @@ class Mechanism:
         spans += [abs(z - w) for z in self.drawn.values() for w in fixed]
         spans += [abs(d.travel) for d in self.drivers if isinstance(d, SlideDriver)]
         return max(spans, default=0.0) or self.units.metres
-
-
-# names of before, until the last reader has changed
-Scene = Mechanism
-Link = PlacedLink
-Guide = PlacedGuide
-Driver = AnyDriver

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable
 from graphkin.jobs import Checkpoints, Progress, Workers, key_of, whole_file
-from graphkin.scene import read
+from graphkin.scene import mechanism_of
 from graphkin.scene.model import Mechanism
 from graphkin.solver import DriverRange, prepare, structure_of, whole_range
 from graphkin.solver.prepared import Prepared
@@ -228,7 +228,7 @@ class Sweep:
     @cached_property
     def base(self) -> Design:
         """The scene itself as a design."""
-        scene = self.source if isinstance(self.source, Mechanism) else read(self.source)
+        scene = self.source if isinstance(self.source, Mechanism) else mechanism_of(self.source)
         return _same(Design(scene, self.asked, self.at))
 
     @cached_property
@@ -359,7 +359,7 @@ def _followed(sweep: Sweep, values: tuple[Value, ...]) -> Design | tuple[str, st
         if isinstance(sweep.source, Mechanism):
             design = sweep.base
         else:
-            scene = read(applied(sweep.source, sweep.designs.keys, values))
+            scene = mechanism_of(applied(sweep.source, sweep.designs.keys, values))
             design = Design(scene, sweep.asked, sweep.at)
         if design.engine is None or sweep.designs.keys:
             _ = design.reach

@@ -17,7 +17,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import graphkin
-from graphkin.scene import read_text
+from graphkin.scene import mechanism_of_text
 from graphkin.solver import prepare
 from graphkin.study.sweeps import MANY
 
@@ -32,7 +32,7 @@ SCENE = "shaper-scheme-2"
 def arrays() -> None:
     print(f"{'mechanism':14}{'positions':>10}{'engine ms':>11}{'sweep ms':>10}{'of engine':>11}{'of pylinkage':>14}")
     for case in MECHANISMS:
-        scene = read_text(case.text, case.name)
+        scene = mechanism_of_text(case.text, case.name)
         for n in COUNTS:
             ready = prepare(scene, case.asked)
             calls: dict[str, Callable[[], object]] = {

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from graphkin.errors import CallError, Unsolvable
-from graphkin.scene import read_text
+from graphkin.scene import mechanism_of_text
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.solver import DriverRange, driver_range, prepare, solve, structure_of
 from graphkin.structure.assembly import ways
@@ -19,7 +19,7 @@ LOOSE = scenes.DOUBLE_PARALLELOGRAM.replace("length = 100\nredundant", "length =
 
 
 def scene_of(text: str) -> Mechanism:
-    return read_text(text, "scene")
+    return mechanism_of_text(text, "scene")
 
 
 def range_of(text: str) -> DriverRange:

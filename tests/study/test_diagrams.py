@@ -10,7 +10,7 @@ import pytest
 from graphkin.drawing import Box, ChartPage, Drawing, Group, Line, Polyline, Text
 from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.primitives import walk
-from graphkin.scene import read, read_text
+from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.solver import whole_range
 from graphkin.study.coupler import coupler_points
 from graphkin.study.diagrams import diagrams
@@ -23,12 +23,12 @@ from tests.drawing.chart_words import off_the_page, overlapping
 
 
 def pages(name: str, language: str = "en", positions: int = 12) -> dict[str, ChartPage | Drawing]:
-    return diagrams(study_turn(whole_range(read(name))), language, positions)
+    return diagrams(study_turn(whole_range(mechanism_of(name))), language, positions)
 
 
 @pytest.mark.parametrize("name", ["sixbar-420rpm", "shaper-scheme-2"])
 def test_values_measured_off_the_polygons_are_those_of_the_solver(name: str) -> None:
-    reach = whole_range(read(name))
+    reach = whole_range(mechanism_of(name))
     quantities = [o.quantity for o in study_turn(reach, everything=False).outputs]
     for quantity, rows in measured(reach, quantities, 4).items():
         motion = reach.motion(np.array([r[0] for r in rows]))
@@ -42,7 +42,7 @@ def test_every_output_has_a_diagram_and_every_coupler_point_a_curve() -> None:
 
 
 def test_pins_of_cranks_and_sliders_are_no_coupler_points() -> None:
-    assert coupler_points(read("slider-crank-s50-e16-K1.2")) == ()
+    assert coupler_points(mechanism_of("slider-crank-s50-e16-K1.2")) == ()
 
 
 MECHANISMS = ["sixbar-guide-40deg", "sixbar-AE70", "hydraulic-cylinder", "shaper-scheme-2"]
@@ -92,7 +92,7 @@ def test_twelve_measured_points_lie_on_each_curve() -> None:
 
 
 def test_the_curve_shows_the_values_of_the_solver() -> None:
-    reach = whole_range(read("shaper-scheme-2"))
+    reach = whole_range(mechanism_of("shaper-scheme-2"))
     page = pages("shaper-scheme-2", positions=0)["motion-slide-6-1"]
     for quantity in slide_quantities("6/1"):
         curve = lines(page, quantity.name.replace("/", "-"))["curve"]
@@ -103,7 +103,7 @@ def test_the_curve_shows_the_values_of_the_solver() -> None:
 
 
 def test_extremes_are_marked_where_they_are_and_say_how_much() -> None:
-    turn = study_turn(whole_range(read("shaper-scheme-2")))
+    turn = study_turn(whole_range(mechanism_of("shaper-scheme-2")))
     page = diagrams(turn, positions=0)["motion-slide-6-1"]
     axes = next(a for a in page.figure().axes if a.get_gid() == "v_6-1")
     found = next(t for t in turn.curves if t.quantity.name == "v_6/1").extremes
@@ -115,7 +115,7 @@ def test_extremes_are_marked_where_they_are_and_say_how_much() -> None:
 
 
 def test_limit_positions_are_lines_through_all_panels() -> None:
-    turn = study_turn(whole_range(read("shaper-scheme-2")))
+    turn = study_turn(whole_range(mechanism_of("shaper-scheme-2")))
     output = next(o for o in turn.outputs if o.quantity.of == "6/1")
     page = diagrams(turn, positions=0)["motion-slide-6-1"]
     right = sorted(np.degrees([output.low.driver, output.high.driver]))
@@ -150,7 +150,7 @@ def test_the_zero_line_is_heavier_than_the_grid() -> None:
 
 def test_the_coupler_curve_is_drawn_in_its_scale() -> None:
     page = pages("four-bar-coupler-point", positions=0)["curve-P"]
-    reach = whole_range(read("four-bar-coupler-point"))
+    reach = whole_range(mechanism_of("four-bar-coupler-point"))
     path = reach.motion(np.linspace(*reach.ends, 721)).position("P")
     scale = json.loads(json.dumps(page.metadata))["scales"]["length"]
     curve = next(g for g in page.children if isinstance(g, Group) and g.id == "curve-P")
@@ -161,7 +161,7 @@ def test_the_coupler_curve_is_drawn_in_its_scale() -> None:
 
 @pytest.mark.parametrize("angle", ["33", "0"])
 def test_a_change_point_at_the_end_of_the_axis_is_a_gap_in_the_curve_only(angle: str) -> None:
-    scene = read_text(scenes.PARALLELOGRAM.replace("angle = 60", f"angle = {angle}"), "p")
+    scene = mechanism_of_text(scenes.PARALLELOGRAM.replace("angle = 60", f"angle = {angle}"), "p")
     page = diagrams(study_turn(whole_range(scene)), positions=12)["motion-link-3"]
     assert all(np.isfinite(lines(page, panel)["dots"]).all() for panel in ("theta_3", "omega_3", "alpha_3"))
 
