@@ -26,8 +26,8 @@ from graphkin.api.results import Result
 from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.papers.lesson import Lesson
 from graphkin.papers.page import Progress
+from graphkin.papers.paper import paper_plan
 from graphkin.papers.pdf import can_typeset
-from graphkin.papers.pictures import paper_plan
 from graphkin.papers.prepare import FORMATS, Papers, handout_files, lesson_of, usual_count, views_of
 from graphkin.papers.solution import KeyRow, key_rows
 from graphkin.scene.model import Mechanism

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from graphkin.drawing.drawing import Drawing
-from graphkin.papers.pictures import A4, Paper
+from graphkin.papers.paper import A4, Paper
 from graphkin.words import Phrase, languages, say, word
 
 __all__ = [

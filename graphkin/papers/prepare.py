@@ -21,8 +21,8 @@ from graphkin.drawing import figures
 from graphkin.errors import Unsolvable
 from graphkin.papers.lesson import Lesson
 from graphkin.papers.page import POSITIONS, Progress, View, common_scales, document_page, handout_page
+from graphkin.papers.paper import paper_plan
 from graphkin.papers.pdf import can_typeset, pdf
-from graphkin.papers.pictures import paper_plan
 from graphkin.papers.problem import problem
 from graphkin.papers.solution import answer_key, key_table, solution
 from graphkin.papers.variants import Variant, asked_of

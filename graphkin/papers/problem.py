@@ -24,7 +24,8 @@ from graphkin.papers.blocks import (
     spoken,
 )
 from graphkin.papers.lesson import Lesson, plain_words
-from graphkin.papers.pictures import blank_equations, draw_frame, mechanism_picture, paper_of, parts
+from graphkin.papers.paper import paper_of
+from graphkin.papers.pictures import blank_equations, draw_frame, mechanism_picture, parts
 from graphkin.scene.model import AngleDriver, Mechanism, PlacedGuide
 from graphkin.words import Phrase, languages, say, word
 

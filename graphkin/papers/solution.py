@@ -32,7 +32,8 @@ from graphkin.papers.blocks import (
     spoken,
 )
 from graphkin.papers.lesson import Lesson, Stage, plain_words
-from graphkin.papers.pictures import Layers, equation_picture, paper_of, parts, stage_picture
+from graphkin.papers.paper import paper_of
+from graphkin.papers.pictures import Layers, equation_picture, parts, stage_picture
 from graphkin.papers.problem import given, paper_title, reach, scene_title
 from graphkin.words import Phrase, languages, say, word
 

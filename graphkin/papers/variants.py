@@ -18,7 +18,7 @@ from graphkin.checking.readings import predict, read_off
 from graphkin.construction import Sheet, execute
 from graphkin.construction.sheet import Ray
 from graphkin.errors import GraphkinError, Problem, SceneError, Unsolvable
-from graphkin.papers.pictures import paper_plan
+from graphkin.papers.paper import paper_plan
 from graphkin.plane import cross
 from graphkin.scene import mechanism_of
 from graphkin.scene.model import Mechanism

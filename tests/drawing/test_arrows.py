@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 
 from graphkin.drawing import symbols as arrows
-from graphkin.drawing.primitives import Circle, Line
+from graphkin.drawing.primitives import Circle, Line, class_names
 from graphkin.drawing.symbols import arrow, head_size, vector_group
 
 pytestmark = pytest.mark.quick
@@ -49,4 +49,4 @@ def test_a_vector_group_begins_with_its_line():
 
 
 def test_a_vector_group_says_its_step():
-    assert vector_group("v_B", 7, 0j, 10 + 0j).classes == ("vector", "step-07")
+    assert class_names(vector_group("v_B", 7, 0j, 10 + 0j)) == ("vector", "step-07")

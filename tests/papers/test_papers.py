@@ -14,7 +14,7 @@ from graphkin.drawing.primitives import Line, Text, walk
 from graphkin.papers import prepare as papers
 from graphkin.papers.blocks import Picture, Steps, Table, laid_out
 from graphkin.papers.page import document_page
-from graphkin.papers.pictures import paper_of
+from graphkin.papers.paper import paper_of
 from graphkin.papers.problem import problem
 from graphkin.papers.solution import answer_key, key_rows, solution
 from graphkin.scene import library, mechanism_of
