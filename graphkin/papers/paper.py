@@ -59,7 +59,7 @@ A4 = Paper(*PAPERS["A4"])
 
 
 def paper_of(scene: Mechanism) -> Paper:
-    """The paper that a scene given."""
+    """The paper that a scene asks for."""
     return Paper(*scene.sheet.size)
 
 
