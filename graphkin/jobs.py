@@ -30,7 +30,17 @@ from typing import IO, Any, Generic, TypeVar
 from graphkin.errors import CallError, Problem
 from graphkin.version import __version__
 
-__all__ = ["Checkpoints", "Piece", "Progress", "Started", "Workers", "cluster", "key_of", "process_pool", "whole_file"]
+__all__ = [
+    "Checkpoints",
+    "FinishedPiece",
+    "Progress",
+    "Started",
+    "Workers",
+    "cluster",
+    "key_of",
+    "process_pool",
+    "whole_file",
+]
 
 Progress = Callable[[int, int], None]
 """Called with how much is done, and with all there is to do."""
@@ -75,7 +85,7 @@ def key_of(*parts: object) -> str:
 
 
 @dataclass(frozen=True)
-class Piece:
+class FinishedPiece:
     """A finished piece of work: facts about it, and where its content begins in its file."""
 
     facts: Mapping[str, Any]
@@ -124,12 +134,12 @@ class Checkpoints:
             out.write(json.dumps(facts, ensure_ascii=False).encode() + b"\n")
             out.write(content)
 
-    def load(self, number: int) -> Piece:
+    def load(self, number: int) -> FinishedPiece:
         """A finished piece."""
         path = self.place / f"{number:07d}"
         with open(path, "rb") as stream:
             line = stream.readline()
-        return Piece(json.loads(line), path, len(line))
+        return FinishedPiece(json.loads(line), path, len(line))
 
     def close(self) -> None:
         """Take them away: the job is done."""

@@ -23,7 +23,7 @@ from graphkin.scene.symbol import Symbol
 if TYPE_CHECKING:
     from graphkin import solver
     from graphkin.api.design_keys import DesignKeys
-    from graphkin.solver.designs import Designs
+    from graphkin.solver.designs import PreparedMechanisms
 
 __all__ = ["Prepared", "PreparedDesigns", "prepare"]
 
@@ -50,7 +50,7 @@ class Prepared:
     source: SceneLike
     asked: tuple[str, ...]
     fast: bool | None
-    ready: solver.Prepared
+    ready: solver.PreparedMechanism
 
     @property
     def scene(self) -> Mechanism:
@@ -158,7 +158,7 @@ class Prepared:
             lengths that are not positive, or values of different shapes
         """
         from graphkin.api.design_keys import design_keys
-        from graphkin.solver.designs import Designs
+        from graphkin.solver.designs import PreparedMechanisms
 
         try:
             values = np.broadcast_arrays(*(np.asarray(v, dtype=float) for v in designs.values()))
@@ -172,7 +172,7 @@ class Prepared:
             self._keys[keys] = design_keys(written(self.source)[0], self.scene, keys)
         given = {key: np.atleast_1d(own) for key, own in zip(keys, values, strict=True)}
         numbers = self._keys[keys].numbers(given)
-        return PreparedDesigns(self, given, not values[0].ndim, Designs(self.ready, numbers))
+        return PreparedDesigns(self, given, not values[0].ndim, PreparedMechanisms(self.ready, numbers))
 
     @cached_property
     def _keys(self) -> dict[tuple[str, ...], DesignKeys]:
@@ -207,7 +207,7 @@ class PreparedDesigns:
     prepared: Prepared
     values: Mapping[str, Reals]
     single: bool
-    _designs: Designs
+    _designs: PreparedMechanisms
 
     def __len__(self) -> int:
         return self._designs.count

@@ -18,7 +18,7 @@ from graphkin.errors import CallError, GraphkinError, Problem, did_you_mean
 from graphkin.jobs import Progress, Workers
 from graphkin.papers.data_rows import Columns, columns_of, replaced
 from graphkin.papers.problem_set import Job, MadeSet, Render, jobs_of_rows, jobs_of_seed, make
-from graphkin.papers.variants import Answer, Range, Variant, asked_of, varied_keys
+from graphkin.papers.variants import Answer, Spread, Variant, asked_of, varied_keys
 from graphkin.scene.model import Mechanism
 from graphkin.scene.source import written
 from graphkin.scene.symbol import Symbol
@@ -92,7 +92,7 @@ def problem_set(
     seed: int = 0,
     rows: str | os.PathLike[str] | None = None,
     out: str | os.PathLike[str] | None = None,
-    spread: Range | None = None,
+    spread: Spread | None = None,
     executor: Executor | None = None,
     workers: int | None = None,
     render: Render | None = None,
@@ -128,7 +128,7 @@ def problem_set(
     if find is not None:
         source["find"] = [str(s) for s in asked_symbols(as_scene(source), find)]
     given = as_scene(source)
-    jobs, unused = _jobs(source, variants, seed, rows, spread or Range())
+    jobs, unused = _jobs(source, variants, seed, rows, spread or Spread())
     folder = Path(out) if out is not None else None
     left: list[Path] = []
     if folder is not None:
@@ -171,7 +171,7 @@ def _source(scene: SceneLike) -> tuple[dict[str, Any], str]:
 
 
 def _jobs(
-    source: Mapping[str, Any], variants: int | None, seed: int, rows: str | os.PathLike[str] | None, spread: Range
+    source: Mapping[str, Any], variants: int | None, seed: int, rows: str | os.PathLike[str] | None, spread: Spread
 ) -> tuple[Sequence[Job], tuple[str, ...]]:
     if rows is None:
         count = whole_number("variants", variants, 1, MOST)

@@ -16,7 +16,7 @@ from graphkin.words import Phrase, say, word
 
 if TYPE_CHECKING:
     from graphkin.study.trace import Extreme
-    from graphkin.study.turn import Output, Turn
+    from graphkin.study.turn import Output, TurnStudy
 
 __all__ = ["report_text", "show", "turn_text"]
 
@@ -115,7 +115,7 @@ def _direction(term: Term) -> str:
 MOST_CURVES = 40
 
 
-def turn_text(turn: Turn, language: str) -> list[str]:
+def turn_text(turn: TurnStudy, language: str) -> list[str]:
     """The study of a turn, in lines."""
     scene = turn.scene
     driver = scene.drivers[0]
@@ -164,7 +164,7 @@ def _at(scene: Mechanism, extreme: Extreme) -> str:
     return own_unit(scene, scene.drivers[0], extreme.driver)
 
 
-def _output(turn: Turn, output: Output, language: str) -> list[str]:
+def _output(turn: TurnStudy, output: Output, language: str) -> list[str]:
     scene, quantity = turn.scene, output.quantity
     unit = quantity.unit(scene, degrees=True).replace("deg", "°")
 
@@ -184,7 +184,7 @@ def _output(turn: Turn, output: Output, language: str) -> list[str]:
     return [head + said, f"  {word('limit position', language)}: {places}"]
 
 
-def _curves(turn: Turn, language: str) -> list[str]:
+def _curves(turn: TurnStudy, language: str) -> list[str]:
     scene = turn.scene
     lines: list[str] = []
     moving = [t for t in turn.curves if t.constant is None and not t.quantity.is_position]

@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 
     from graphkin.drawing import ChartPage, Drawing
     from graphkin.study.sweeps import Arrays, Found, Sweep
-    from graphkin.study.turn import Turn
+    from graphkin.study.turn import TurnStudy
     from graphkin.study.watched import Watched
 
 __all__ = ["Swept", "sweep"]
@@ -115,7 +115,7 @@ class Swept(Result):
         return designs_table(self.over, self.found.outcomes) if self.over.designs.keys else None
 
     @cached_property
-    def turn(self) -> Turn | None:
+    def turn(self) -> TurnStudy | None:
         """The study of the scene itself (limit positions, K, transmission, classes, extremes); None over designs."""
         from graphkin.study.turn import study_turn
 

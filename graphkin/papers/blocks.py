@@ -27,7 +27,7 @@ __all__ = [
     "Said",
     "StepItem",
     "Steps",
-    "Table",
+    "TableBlock",
     "Together",
     "clean",
     "laid_out",
@@ -100,7 +100,7 @@ class Picture:
 
 
 @dataclass(frozen=True)
-class Table:
+class TableBlock:
     """Rows under heads; ``align`` is one of l, r, c for each column; ``bold`` are the rows that stand out.
 
     ``roomy`` makes cells to write in by hand.
@@ -132,10 +132,10 @@ class Beside:
 class Together:
     """Blocks that stand on one page if they fit on one."""
 
-    blocks: tuple[Heading | Paragraph | Steps | Picture | Table | Fields | Beside, ...]
+    blocks: tuple[Heading | Paragraph | Steps | Picture | TableBlock | Fields | Beside, ...]
 
 
-Block: TypeAlias = Heading | Paragraph | Steps | Picture | Table | Fields | Beside | Together
+Block: TypeAlias = Heading | Paragraph | Steps | Picture | TableBlock | Fields | Beside | Together
 
 
 @dataclass(frozen=True)
@@ -148,7 +148,7 @@ class Document:
     paper: Paper = A4
 
 
-def laid_out(blocks: Iterable[Block]) -> Iterator[Heading | Paragraph | Steps | Picture | Table | Fields]:
+def laid_out(blocks: Iterable[Block]) -> Iterator[Heading | Paragraph | Steps | Picture | TableBlock | Fields]:
     """Every block by itself, in the order in which they are read."""
     for block in blocks:
         if isinstance(block, Together):

@@ -20,7 +20,7 @@ from graphkin.papers.blocks import (
     Picture,
     Said,
     Steps,
-    Table,
+    TableBlock,
     Together,
     clean,
 )
@@ -132,7 +132,7 @@ def _block(block: Block) -> str:
     return _table(block)
 
 
-def _table(table: Table) -> str:
+def _table(table: TableBlock) -> str:
     ways = {"l": "", "r": ' class="right"', "c": ' class="middle"'}
     heads = "".join(
         f'<th scope="col"{ways[a]}>{said_html(h)}</th>' for h, a in zip(table.heads, table.align, strict=True)

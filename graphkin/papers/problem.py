@@ -17,7 +17,7 @@ from graphkin.papers.blocks import (
     Paragraph,
     Picture,
     Said,
-    Table,
+    TableBlock,
     Together,
     said,
     sentences,
@@ -142,7 +142,7 @@ def _line(key: str, text: str, language: str) -> str:
     return word(key, language) + word("colon", language) + text + word("full stop", language)
 
 
-def _blank_table(lesson: Lesson) -> Table:
+def _blank_table(lesson: Lesson) -> TableBlock:
     heads = tuple(said(key, lesson.language) for key in ("quantity", "on paper", "value", "unit", "sense"))
     rows = tuple((f"${lesson.letters.vector(s)}$", "", "", lesson.unit(s), "") for s in lesson.questions)
-    return Table(heads, rows, "lcclc", roomy=True)
+    return TableBlock(heads, rows, "lcclc", roomy=True)

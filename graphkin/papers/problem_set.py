@@ -17,7 +17,7 @@ from typing import Any
 
 from graphkin.errors import GraphkinError
 from graphkin.jobs import Checkpoints, Progress, Started, Workers, key_of
-from graphkin.papers.variants import Answer, Range, Unfit, Variant, candidate, examined, varied_keys
+from graphkin.papers.variants import Answer, Spread, Unfit, Variant, candidate, examined, varied_keys
 
 __all__ = ["Failure", "Job", "MadeSet", "Render", "distinct", "jobs_of_rows", "jobs_of_seed", "make"]
 
@@ -41,14 +41,14 @@ class Job:
     name: str
     number: int
     source: Source
-    spread: Range | None = None
+    spread: Spread | None = None
     seed: int = 0
     base: Source | None = None
     trouble: str = ""
 
 
 @dataclass(frozen=True)
-class Made:
+class Attempt:
     """What became of a job: a variant with the attempt that gave it, or why there is none."""
 
     variant: Variant | None
@@ -79,7 +79,7 @@ class MadeSet:
         return not self.failures
 
 
-def jobs_of_seed(source: Source, count: int, seed: int, spread: Range) -> Iterator[Job]:
+def jobs_of_seed(source: Source, count: int, seed: int, spread: Spread) -> Iterator[Job]:
     """One job for each of so many variants of a scene file."""
     digits = max(2, len(str(count)))
     for number in range(1, count + 1):
@@ -92,7 +92,7 @@ def jobs_of_rows(rows: Iterable[tuple[str, Source, Source | None, str]]) -> Iter
         yield Job(name, number, source, base=base, trouble=trouble)
 
 
-def work(job: Job, attempt: int) -> Made:
+def work(job: Job, attempt: int) -> Attempt:
     """The first good variant of a job from an attempt on; depends on nothing else, so it runs anywhere."""
     if job.spread is None:
         return _row(job)
@@ -100,28 +100,28 @@ def work(job: Job, attempt: int) -> Made:
     for k in range(attempt, ATTEMPTS):
         try:
             source = _named(candidate(job.source, job.spread, job.seed, job.number, k), job.name)
-            return Made(examined(source, _where_it_was(source, job.source), job.name), k)
+            return Attempt(examined(source, _where_it_was(source, job.source), job.name), k)
         except Unfit as unfit:
             why[str(unfit)] += 1
         except Exception as error:  # whatever goes wrong with one must not take the others along
             why[_reason(error)] += 1
     reason = why.most_common(1)[0][0] if why else "every attempt has the answers of another variant"
-    return Made(None, ATTEMPTS, f"none of {ATTEMPTS} attempts is a good problem, for example: {reason}")
+    return Attempt(None, ATTEMPTS, f"none of {ATTEMPTS} attempts is a good problem, for example: {reason}")
 
 
-def _row(job: Job) -> Made:
+def _row(job: Job) -> Attempt:
     """A row of data as it stands; what makes it hard to draw is a remark."""
     why = job.trouble
     for base in (job.base, None) if job.base is not None else (None,):
         if job.trouble:
             break
         try:
-            return Made(examined(_named(job.source, job.name), base, job.name, strict=False))
+            return Attempt(examined(_named(job.source, job.name), base, job.name, strict=False))
         except Unfit as unfit:
             why = str(unfit)
         except Exception as error:
             why = _reason(error)
-    return Made(None, 0, why)
+    return Attempt(None, 0, why)
 
 
 def _named(source: Source, name: str) -> dict[str, Any]:
@@ -181,9 +181,9 @@ def make(
         points.open(variants=len(jobs))
     again = False
 
-    def settle(job: Job, result: Made, papers: Started[Papers] | None) -> None:
+    def settle(job: Job, result: Attempt, papers: Started[RenderedPapers] | None) -> None:
         nonlocal again
-        rendered = papers.result() if papers is not None else Papers()
+        rendered = papers.result() if papers is not None else RenderedPapers()
         why = result.why or rendered.why
         files: tuple[str, ...] = ()
         if papers is not None and keep is not None and result.variant is not None and not why:
@@ -205,7 +205,7 @@ def make(
         if progress is not None:
             progress(len(made.names) + len(made.failures), len(jobs))
 
-    waiting: deque[tuple[Job, Made, Started[Papers] | None]] = deque()
+    waiting: deque[tuple[Job, Attempt, Started[RenderedPapers] | None]] = deque()
     for job, result in _accepted(jobs, done, workers):
         new = result.variant is not None and job.number not in done
         waiting.append((job, result, workers.start(_rendered, render, result.variant) if new else None))
@@ -220,10 +220,10 @@ def make(
     return made
 
 
-def _accepted(jobs: Iterable[Job], done: Mapping[int, Made], workers: Workers) -> Iterator[tuple[Job, Made]]:
+def _accepted(jobs: Iterable[Job], done: Mapping[int, Attempt], workers: Workers) -> Iterator[tuple[Job, Attempt]]:
     """What becomes of each job, in order; variants drawn from a seed are distinct from all before them."""
     taken: list[tuple[Answer, ...]] = []
-    queue: deque[tuple[Job, Started[Made] | None]] = deque()
+    queue: deque[tuple[Job, Started[Attempt] | None]] = deque()
     left = iter(jobs)
     while True:
         for job in islice(left, 1 + workers.ahead - len(queue)):
@@ -252,9 +252,9 @@ def _key(jobs: Sequence[Job], render: Render | None) -> str:
     return key_of(ATTEMPTS, papers, *drawn)
 
 
-def _finished(points: Checkpoints | None) -> dict[int, Made]:
+def _finished(points: Checkpoints | None) -> dict[int, Attempt]:
     """Finished jobs by number, of those whose files are all there."""
-    found: dict[int, Made] = {}
+    found: dict[int, Attempt] = {}
     for number in points.done() if points is not None else ():
         assert points is not None
         facts = points.load(number).facts
@@ -263,27 +263,27 @@ def _finished(points: Checkpoints | None) -> dict[int, Made]:
     return found
 
 
-def _made(facts: Mapping[str, Any]) -> Made:
+def _made(facts: Mapping[str, Any]) -> Attempt:
     v = facts["variant"]
     if v is None:
-        return Made(None, facts["attempt"], facts["why"])
+        return Attempt(None, facts["attempt"], facts["why"])
     answers = tuple(Answer(**a) for a in v["answers"])
-    return Made(Variant(v["name"], v["source"], answers, tuple(v["remarks"])), facts["attempt"], facts["why"])
+    return Attempt(Variant(v["name"], v["source"], answers, tuple(v["remarks"])), facts["attempt"], facts["why"])
 
 
 @dataclass(frozen=True)
-class Papers:
+class RenderedPapers:
     """Rendered files by name, or why there are none."""
 
     files: Mapping[str, bytes] = field(default_factory=dict)
     why: str = ""
 
 
-def _rendered(render: Render | None, variant: Variant) -> Papers:
+def _rendered(render: Render | None, variant: Variant) -> RenderedPapers:
     try:
-        return Papers(render(variant)) if render is not None else Papers()
+        return RenderedPapers(render(variant)) if render is not None else RenderedPapers()
     except Exception as error:  # whatever goes wrong with one must not take the others along
-        return Papers(why=_reason(error))
+        return RenderedPapers(why=_reason(error))
 
 
 def _reason(error: Exception) -> str:

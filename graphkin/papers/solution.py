@@ -25,7 +25,7 @@ from graphkin.papers.blocks import (
     Said,
     StepItem,
     Steps,
-    Table,
+    TableBlock,
     Together,
     said,
     sentences,
@@ -118,7 +118,7 @@ def answer_key(lesson: Lesson) -> Document:
         Heading(scene_title(lesson), 1),
         Heading(said("answer key", language)),
         *reach(lesson),
-        Table(heads, tuple(rows), "lrrrrll", frozenset(bold)),
+        TableBlock(heads, tuple(rows), "lrrrrll", frozenset(bold)),
         Paragraph(sentences(words, said("sense words", language)), small=True),
     )
     return Document(paper_title(lesson, "answer key"), languages(language), blocks, paper_of(lesson.sheet.scene))
@@ -248,7 +248,7 @@ def _remarks(lesson: Lesson) -> Iterator[Block]:
         yield Paragraph(tuple((each, lesson.speaker.sentence(note, each)) for each in languages(lesson.language)))
 
 
-def _results(lesson: Lesson) -> Table:
+def _results(lesson: Lesson) -> TableBlock:
     heads = tuple(said(key, lesson.language) for key in ("quantity", "on paper", "measured", "exact", "unit", "sense"))
     rows, bold = [], set()
     for i, row in enumerate(lesson.results):
@@ -263,7 +263,7 @@ def _results(lesson: Lesson) -> Table:
             lesson.unit(symbol),
             way(row, lesson.language),
         ))  # fmt: skip
-    return Table(heads, tuple(rows), "lrrrll", frozenset(bold))
+    return TableBlock(heads, tuple(rows), "lrrrll", frozenset(bold))
 
 
 def _plain(lesson: Lesson, row: Compared, value: complex | float) -> float:

@@ -26,7 +26,7 @@ from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion, solve
 from graphkin.structure import Driven, Dyad, analyse
 
-__all__ = ["Answer", "Range", "Unfit", "Variant", "asked_of", "candidate", "examined", "round_step", "varied_keys"]
+__all__ = ["Answer", "Spread", "Unfit", "Variant", "asked_of", "candidate", "examined", "round_step", "varied_keys"]
 
 Source = Mapping[str, Any]
 Path = tuple[str | int, ...]
@@ -38,7 +38,7 @@ STEPS = (1.0, 2.0, 5.0)
 
 
 @dataclass(frozen=True)
-class Range:
+class Spread:
     """How far the data vary: lengths and rates by a part of their size, places by a part of theirs, angles by all."""
 
     lengths: float = 0.15
@@ -110,7 +110,7 @@ def varied_keys(source: Source) -> tuple[tuple[Path, str], ...]:
     return tuple(found)
 
 
-def candidate(source: Source, spread: Range, seed: int, number: int, attempt: int) -> dict[str, Any]:
+def candidate(source: Source, spread: Spread, seed: int, number: int, attempt: int) -> dict[str, Any]:
     """One try at a variant: every number that varies drawn afresh and rounded; not looked at yet."""
     dice = random.Random(f"{seed}/{number}/{attempt}")
     made = copy.deepcopy(dict(source))
@@ -119,7 +119,7 @@ def candidate(source: Source, spread: Range, seed: int, number: int, attempt: in
     return made
 
 
-def _drawn(dice: random.Random, value: float, kind: str, spread: Range) -> float:
+def _drawn(dice: random.Random, value: float, kind: str, spread: Spread) -> float:
     if kind == "angle":
         turn = round(360.0 / spread.angle_step)
         angle = spread.angle_step * dice.randrange(turn)

@@ -16,7 +16,7 @@ from graphkin import solver
 from graphkin.races.timing import Entry, best_time
 from graphkin.races.work import Work
 from graphkin.scene.model import AngleDriver
-from graphkin.solver import Prepared
+from graphkin.solver import PreparedMechanism
 from graphkin.solver.assemblies import choose_forms
 from graphkin.solver.code import Code
 from graphkin.solver.program import program_of
@@ -66,7 +66,7 @@ def closed_forms(work: Work, repeats: int) -> Iterator[Entry]:
         half = len(work.outputs)
         return Entry("closed", key, "", costs[0], costs[1], *work.errors(found[:half], found[half:]))
 
-    def timed(run: Callable[[Prepared, Array], object]) -> list[float]:
+    def timed(run: Callable[[PreparedMechanism, Array], object]) -> list[float]:
         return [best_time(partial(run, p, r), repeats) / work.count for p, r in zip(ways, rooms, strict=True)]
 
     yield entry("closed arrays", both.columns(values)[0], timed(lambda p, r: p.sweep(work.count, r)))

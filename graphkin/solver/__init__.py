@@ -3,14 +3,14 @@
 from graphkin.solver.driver_range import DriverRange, driver_range, whole_range
 from graphkin.solver.findings import structure_of
 from graphkin.solver.motion import Motion, Sliding
-from graphkin.solver.prepared import Prepared, prepare
+from graphkin.solver.prepared import PreparedMechanism, prepare
 from graphkin.solver.solve import solve
 from graphkin.solver.table import listed_points, to_json, write_json
 
 __all__ = [
     "DriverRange",
     "Motion",
-    "Prepared",
+    "PreparedMechanism",
     "Sliding",
     "driver_range",
     "listed_points",

@@ -8,7 +8,7 @@ import numpy as np
 
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, Mechanism
-from graphkin.solver.dyads import Solved
+from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import State, positions
 from graphkin.solver.joints import Drive, driver_text
 from graphkin.solver.larger_groups import ClusterSolved, System, as_place, solve_all, solve_cluster
@@ -60,7 +60,7 @@ def _choose_sign(structure: Structure, i: int, dyad: Dyad, drive: Drive, forms: 
         given = {**{k: f[None] for k, f in forms.items()}, i: np.array([sign])}
         states.append(positions(structure, drive, given, i + 1, rates=False))
     solved = states[0].groups[i]
-    assert isinstance(solved, Solved)
+    assert isinstance(solved, DyadSolution)
     if dyad.is_two_lines:
         sign = float(np.sign(solved.sine[0])) or 1.0
         if abs(solved.sine[0]) >= states[0].singular[0]:
@@ -91,7 +91,7 @@ def _nearest(structure: Structure, i: int, drive: Drive, forms: Mapping[int, Arr
         value = np.repeat(drive.value, len(offset), axis=0)
         value[:, 0] += wide * offset
         state = positions(structure, Drive.at(structure, value), {**forms, i: np.ones(1)}, i + 1, rates=False)
-        gaps = [g.discriminant >= 0 for g in state.groups.values() if isinstance(g, Solved)]
+        gaps = [g.discriminant >= 0 for g in state.groups.values() if isinstance(g, DyadSolution)]
         return np.asarray(np.logical_and.reduce(np.broadcast_arrays(*gaps)))
 
     if any(isinstance(e, Cluster) for e in structure.elements[:i]):

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Any, Protocol
 
 from graphkin.scene.model import AngleDriver
-from graphkin.solver.dyads import Joints, Solved
+from graphkin.solver.dyads import DyadSolution, Joints
 from graphkin.solver.expressions import ExpressionGraph, Real, Vec, fmax, root
 from graphkin.solver.frame_errors import FrameError, carried, of_dyad, seen, within
 from graphkin.solver.joints import Frames, body_shape
@@ -28,7 +28,7 @@ class Formulas(Frames, Protocol):
     graph: ExpressionGraph
     poses: dict[str, Pose]
     joints: dict[int, Joints]
-    groups: dict[int, Solved]
+    groups: dict[int, DyadSolution]
 
     def at_rest(self, place: Any, direction: Any) -> Pose:
         """Axes that do not move."""

@@ -14,7 +14,7 @@ from graphkin.errors import GraphkinError, Problem, Unsolvable
 from graphkin.scene.model import AngleDriver
 from graphkin.solver.assemblies import choose_forms
 from graphkin.solver.decimals import PI, meant_value, working
-from graphkin.solver.dyads import Solved
+from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import extended_precision_of, positions
 from graphkin.solver.joints import Drive, driver_text
 from graphkin.solver.pose import Array
@@ -99,9 +99,9 @@ def _of_group(structure: Structure, i: int, signs: Mapping[int, float], grid: Ar
             structure, Drive.at(structure, value[:, None]), {**{j: np.asarray(s) for j, s in signs.items()}, i: _ONE},
             i + 1, rates=False,
         )  # fmt: skip
-        before = [g.discriminant for j, g in state.groups.items() if j != i and isinstance(g, Solved)]
+        before = [g.discriminant for j, g in state.groups.items() if j != i and isinstance(g, DyadSolution)]
         solved = state.groups[i]
-        assert isinstance(solved, Solved)
+        assert isinstance(solved, DyadSolution)
         held = np.logical_and.reduce([np.broadcast_to(b >= 0, value.shape) for b in before]) if before else True
         return np.where(held, np.broadcast_to(solved.discriminant, value.shape), np.nan)
 

@@ -23,12 +23,12 @@ from graphkin.solver.engine import SINGULAR
 from graphkin.solver.expressions import Name
 from graphkin.solver.joints import turned
 from graphkin.solver.pose import Array
-from graphkin.solver.prepared import CLEAR, Prepared, prepare
+from graphkin.solver.prepared import CLEAR, PreparedMechanism, prepare
 from graphkin.solver.program import GIVEN, program_of
 from graphkin.solver.quantities import bounds, formulas
 from graphkin.structure import Dyad, analyse
 
-__all__ = ["Designs"]
+__all__ = ["PreparedMechanisms"]
 
 NODES = 360
 """Positions of a turn at which the groups of a design are looked at."""
@@ -43,7 +43,7 @@ LOOP = 64
 class _OpenCode:
     """The formulas of a prepared mechanism with some of its numbers open, and their code."""
 
-    def __init__(self, ready: Prepared, names: frozenset[Name], moving: tuple[bool, ...]) -> None:
+    def __init__(self, ready: PreparedMechanism, names: frozenset[Name], moving: tuple[bool, ...]) -> None:
         self.ready = ready
         self.dimensioned = program_of(ready.structure, moving, names)
         program, structure = self.dimensioned.program, ready.structure
@@ -75,13 +75,13 @@ def _nodes() -> tuple[Array, Array]:
 
 
 @dataclass(frozen=True)
-class Designs:
+class PreparedMechanisms:
     """Designs of a prepared mechanism.
 
     given : what each of them changes, shape (designs,) each, SI
     """
 
-    ready: Prepared
+    ready: PreparedMechanism
     given: Mapping[Dimension, Array]
 
     @cached_property
@@ -166,7 +166,7 @@ class Designs:
         steps = np.abs(seen - np.roll(seen, 1, axis=2))
         return np.asarray(((seen > CLEAR * CLEAR) & (steps < seen / 2)).all(axis=(0, 2)))
 
-    def _alone(self, k: int) -> Prepared | None:
+    def _alone(self, k: int) -> PreparedMechanism | None:
         """A design followed by itself; None where it cannot be assembled."""
         scene = with_dimensions(self.ready.structure.scene, {name: complex(x[k]) for name, x in self.given.items()})
         ready, own = self.ready, self.ready.range.forms(np.zeros(1))

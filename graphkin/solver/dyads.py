@@ -23,7 +23,7 @@ from graphkin.plane import cross, dot
 from graphkin.solver.expressions import fmax, fmin, root, two_sum
 from graphkin.solver.pose import Pose
 
-__all__ = ["Joints", "Solved", "solve_dyad"]
+__all__ = ["DyadSolution", "Joints", "solve_dyad"]
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ class Joints:
     size: Any
 
 
-class Solved(NamedTuple):
+class DyadSolution(NamedTuple):
     """What a dyad gives.
 
     first, second : the axes of the two bodies
@@ -64,7 +64,7 @@ class Solved(NamedTuple):
     load: Any
 
 
-def solve_dyad(kind: str, joints: Joints, sign: Any) -> Solved:
+def solve_dyad(kind: str, joints: Joints, sign: Any) -> DyadSolution:
     """Solve a dyad of the given kind.
 
     Parameters
@@ -99,7 +99,7 @@ def _bent(arm: Any, u: Any, outer: Pose, inner: Pose, omega: Any) -> Any:
     return u * (inner.a - outer.a + omega * (2j * (inner.v - outer.v))) - (omega * omega) * arm
 
 
-def _rrr(j: Joints, sign: Any) -> Solved:
+def _rrr(j: Joints, sign: Any) -> DyadSolution:
     r1, r2 = j.inner1.z - j.outer1.z, j.inner2.z - j.outer2.z
     long1, long2 = _length(r1), _length(r2)
     line = j.known2.z - j.known1.z
@@ -121,7 +121,7 @@ def _rrr(j: Joints, sign: Any) -> Solved:
     bend = j.known2.a - j.known1.a + _bent(to2, u2, j.outer2, j.inner2, w2) - _bent(to1, u1, j.outer1, j.inner1, w1)
     al1, al2 = dot(bend, to2) * over, dot(bend, to1) * over
     whole = 1.0 / (2.0 * (long1 * long2))
-    return Solved(
+    return DyadSolution(
         j.known1.pinned(j.outer1, u1, w1, al1),
         j.known2.pinned(j.outer2, u2, w2, al2),
         product * (whole * whole),
@@ -132,7 +132,7 @@ def _rrr(j: Joints, sign: Any) -> Solved:
     )
 
 
-def _rrp(j: Joints, sign: Any) -> Solved:
+def _rrp(j: Joints, sign: Any) -> DyadSolution:
     guide = j.known2
     u2 = guide.u * j.outer2.u.conjugate()
     w2, al2 = guide.omega - j.outer2.omega, guide.alpha - j.outer2.alpha
@@ -156,7 +156,7 @@ def _rrp(j: Joints, sign: Any) -> Solved:
     bend = moved.a + 1j * al2 * arm2 + _bent(arm2, u2, j.outer2, j.inner2, w2)
     bend = bend - j.known1.a - _bent(arm1, u1, j.outer1, j.inner1, w1)
     al1, ddt = cross(guide.u, bend) * over, -dot(arm1, bend) * over
-    return Solved(
+    return DyadSolution(
         j.known1.pinned(j.outer1, u1, w1, al1),
         guide.along(t, dt, ddt).pinned(j.outer2, u2, w2, al2),
         inside * (1.0 / (radius * radius)),
@@ -167,7 +167,7 @@ def _rrp(j: Joints, sign: Any) -> Solved:
     )
 
 
-def _rpr(j: Joints, sign: Any) -> Solved:
+def _rpr(j: Joints, sign: Any) -> DyadSolution:
     # both outer points in the axes of the guide: q is what the shapes of the bodies add to the travel
     one, two = j.inner1.inverse().of(j.outer1), j.inner2.inverse().of(j.outer2)
     q, dq, ddq = one.z - two.z, one.v - two.v, one.a - two.a
@@ -184,7 +184,7 @@ def _rpr(j: Joints, sign: Any) -> Solved:
     ds, w = dot(load, line) * over, cross(d, load) * over
     bend = ddline + (w * w) * line - d * (ddq + 2j * w * (ds + dq))
     al = cross(d, bend) * over
-    return Solved(
+    return DyadSolution(
         j.known1.pinned(j.outer1, d * j.inner1.u.conjugate(), w - j.inner1.omega, al - j.inner1.alpha),
         j.known2.pinned(j.outer2, d * j.inner2.u.conjugate(), w - j.inner2.omega, al - j.inner2.alpha),
         inside * (1.0 / (j.size * j.size)),
@@ -205,7 +205,7 @@ def _two(e1: Any, e2: Any, over: Any, w: Any) -> tuple[Any, Any]:
     return cross(w, e2) * over, cross(e1, w) * over
 
 
-def _prp(j: Joints, sign: Any) -> Solved:
+def _prp(j: Joints, sign: Any) -> DyadSolution:
     g1, g2 = j.known1, j.known2
     u1, u2 = g1.u * j.outer1.u.conjugate(), g2.u * j.outer2.u.conjugate()
     w1, w2 = g1.omega - j.outer1.omega, g2.omega - j.outer2.omega
@@ -224,7 +224,7 @@ def _prp(j: Joints, sign: Any) -> Solved:
     ends = moved2.a + 1j * al2 * arm2 + _bent(arm2, u2, j.outer2, j.inner2, w2)
     ends = ends - moved1.a - 1j * al1 * arm1 - _bent(arm1, u1, j.outer1, j.inner1, w1)
     ddt1, ddt2 = _two(e1, e2, over, ends)
-    return Solved(
+    return DyadSolution(
         g1.along(t1, dt1, ddt1).pinned(j.outer1, u1, w1, al1),
         g2.along(t2, dt2, ddt2).pinned(j.outer2, u2, w2, al2),
         sign * sine,
@@ -235,7 +235,7 @@ def _prp(j: Joints, sign: Any) -> Solved:
     )
 
 
-def _rpp(j: Joints, sign: Any) -> Solved:
+def _rpp(j: Joints, sign: Any) -> DyadSolution:
     guide = j.known2
     u2 = guide.u * j.outer2.u.conjugate()
     w2, al2 = guide.omega - j.outer2.omega, guide.alpha - j.outer2.alpha
@@ -256,10 +256,10 @@ def _rpp(j: Joints, sign: Any) -> Solved:
     load = end1.v - inner_at(t, none).v - 1j * w * s * d
     dt, ds = _two(e1, e2, over, load)
     ddt, _ = _two(e1, e2, over, end1.a - inner_at(t, dt).a - (2j * w * ds + (1j * al - w * w) * s) * d)
-    return Solved(first, guide.along(t, dt, ddt).pinned(j.outer2, u2, w2, al2), sign * sine, sine, e1, e2, load)
+    return DyadSolution(first, guide.along(t, dt, ddt).pinned(j.outer2, u2, w2, al2), sign * sine, sine, e1, e2, load)
 
 
-_SOLVERS: dict[str, Callable[[Joints, Any], Solved]] = {
+_SOLVERS: dict[str, Callable[[Joints, Any], DyadSolution]] = {
     "RRR": _rrr,
     "RRP": _rrp,
     "RPR": _rpr,

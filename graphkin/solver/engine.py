@@ -9,7 +9,7 @@ import numpy as np
 
 from graphkin.scene.model import AngleDriver
 from graphkin.solver.code import Code
-from graphkin.solver.dyads import Solved
+from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.error_bound import ErrorBound
 from graphkin.solver.expressions import Name, Real, Vec
 from graphkin.solver.extended_precision import ExtendedPrecision
@@ -49,7 +49,7 @@ class State:
     """
 
     poses: Mapping[str, Pose]
-    groups: Mapping[int, Solved | ClusterSolved] = field(default_factory=dict)
+    groups: Mapping[int, DyadSolution | ClusterSolved] = field(default_factory=dict)
     bounds: ErrorBound[Array] | None = None
     rough: tuple[Array, Array] = (_ZERO, _ZERO)
     singular: Array = field(default_factory=lambda: np.full(1, SINGULAR))
@@ -156,12 +156,12 @@ class _Run:
         values = iter(columns)
         poses = {self.structure.scene.frame.name: rest()}
         poses |= {n: _pose(dict(zip(fields, values, strict=False))) for n in names}
-        groups: dict[int, Solved | ClusterSolved] = dict(self.clusters)
+        groups: dict[int, DyadSolution | ClusterSolved] = dict(self.clusters)
         for i in dyads:
             given = dict(zip(parts, values, strict=False))
-            groups[i] = Solved(
+            groups[i] = DyadSolution(
                 *(poses[body.links[0]] for body in elements[i].bodies),  # type: ignore[union-attr]
-                *(given.get(p, _LOST) for p in Solved._fields[2:]),
+                *(given.get(p, _LOST) for p in DyadSolution._fields[2:]),
             )
         found = list(values)
         if self.sure and self.clusters:

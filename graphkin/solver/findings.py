@@ -15,7 +15,7 @@ from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.solver.assemblies import choose_forms, own_values
 from graphkin.solver.dead_points import from_dead_point, nearest_dead_point
 from graphkin.solver.decimals import meant_value
-from graphkin.solver.dyads import Solved
+from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import SINGULAR, State, positions
 from graphkin.solver.joints import Drive, driver_text
 from graphkin.solver.larger_groups import ClusterSolved
@@ -36,7 +36,7 @@ HAIR, FAR_OFF = 1e-7, 1e2
 
 def singular(structure: Structure, state: State, n: int) -> Iterator[tuple[int, Array]]:
     """For each group where it stands in a dead point, shape (n,); near one, where no bound is known, too."""
-    dyads = [i for i, solved in state.groups.items() if isinstance(solved, Solved)]
+    dyads = [i for i, solved in state.groups.items() if isinstance(solved, DyadSolution)]
     if state.bounds is not None and dyads:
         lost = ~np.isfinite(sum(np.broadcast_to(b, (n,)) for b in state.bounds))
         sines = [np.broadcast_to(np.abs(state.groups[i].sine), (n,)) for i in dyads]  # type: ignore[union-attr]
@@ -45,7 +45,7 @@ def singular(structure: Structure, state: State, n: int) -> Iterator[tuple[int, 
             # far from any dead point a bound is lost only by the length of a chain: there it is given as unknown
             yield i, lost & (weakest == k) & ~(sines[k] >= WEAK)
     for i, solved in state.groups.items():
-        if isinstance(solved, Solved):
+        if isinstance(solved, DyadSolution):
             yield i, np.broadcast_to(~(np.abs(solved.sine) >= state.singular), (n,))
         else:
             refused = ~(solved.missed < OPEN) | ~(solved.certificate < CERTIFIED)
@@ -84,7 +84,7 @@ def _apart(structure: Structure, i: int, values: Array, forms: Mapping[int, Arra
         nudged = values[None].copy()
         nudged[0, driver] += HAIR * (1.0 if turns else size)
         solved = positions(structure, Drive(nudged, one, 0 * one), forms, i + 1, rates=False).groups[i]
-        assert isinstance(solved, Solved)
+        assert isinstance(solved, DyadSolution)
         if max(abs(complex(np.ravel(pose.z)[0])) for pose in (solved.first, solved.second)) > FAR_OFF * size:
             return f"links {', '.join(group.links)} have parallel guides that lie apart: they meet nowhere"
     return ""

@@ -13,7 +13,7 @@ from dataclasses import replace
 from typing import Any
 
 from graphkin.plane import cross
-from graphkin.solver.dyads import Joints, Solved
+from graphkin.solver.dyads import DyadSolution, Joints
 from graphkin.solver.error_bound import ErrorBound
 from graphkin.solver.expressions import Real, Vec, fmax, root
 from graphkin.solver.pose import Pose
@@ -78,7 +78,7 @@ def carried(error: FrameError, frame: Pose, way: _Way, off: _Off = (0.0, 0.0, 0.
 
 
 def of_dyad(
-    kind: str, joints: Joints, solved: Solved, first: FrameError, second: FrameError
+    kind: str, joints: Joints, solved: DyadSolution, first: FrameError, second: FrameError
 ) -> tuple[FrameError, FrameError]:
     """The errors of the two bodies of a dyad.
 
@@ -123,7 +123,7 @@ def _origin(joint: Pose) -> _Way:
     return within(_still(joint), joint)
 
 
-def _rrr(j: Joints, s: Solved, first: FrameError, second: FrameError) -> _Parts:
+def _rrr(j: Joints, s: DyadSolution, first: FrameError, second: FrameError) -> _Parts:
     arm1, arm2 = within(j.outer1, j.inner1), within(j.outer2, j.inner2)
     back1, back2 = _origin(j.outer1), _origin(j.outer2)
 
@@ -136,7 +136,7 @@ def _rrr(j: Joints, s: Solved, first: FrameError, second: FrameError) -> _Parts:
     return ends, bodies, lambda x, y: x + y
 
 
-def _rrp(j: Joints, s: Solved, first: FrameError, second: FrameError) -> _Parts:
+def _rrp(j: Joints, s: DyadSolution, first: FrameError, second: FrameError) -> _Parts:
     slid, arm1, arm2 = seen(j.known2, s.second.of(j.outer2)), within(j.outer1, j.inner1), within(j.outer2, j.inner2)
     back1, back2 = _origin(j.outer1), _origin(j.outer2)
 
@@ -151,7 +151,7 @@ def _rrp(j: Joints, s: Solved, first: FrameError, second: FrameError) -> _Parts:
     return ends, bodies, lambda x, y: x + second.angle
 
 
-def _rpr(j: Joints, s: Solved, first: FrameError, second: FrameError) -> _Parts:
+def _rpr(j: Joints, s: DyadSolution, first: FrameError, second: FrameError) -> _Parts:
     bar = s.second.of(j.inner2)
     # from one known point to the other, seen from the common direction
     axes = Pose(j.known2.z, bar.u, j.known2.v, bar.omega, j.known2.a, bar.alpha)
@@ -166,7 +166,7 @@ def _rpr(j: Joints, s: Solved, first: FrameError, second: FrameError) -> _Parts:
     return ends, bodies, lambda x, y: y + y
 
 
-def _prp(j: Joints, s: Solved, first: FrameError, second: FrameError) -> _Parts:
+def _prp(j: Joints, s: DyadSolution, first: FrameError, second: FrameError) -> _Parts:
     slid1, slid2 = seen(j.known1, s.first.of(j.outer1)), seen(j.known2, s.second.of(j.outer2))
     arm1, arm2 = within(j.outer1, j.inner1), within(j.outer2, j.inner2)
     back1, back2 = _origin(j.outer1), _origin(j.outer2)
@@ -185,7 +185,7 @@ def _prp(j: Joints, s: Solved, first: FrameError, second: FrameError) -> _Parts:
     return ends, bodies, lambda x, y: first.angle + second.angle
 
 
-def _rpp(j: Joints, s: Solved, first: FrameError, second: FrameError) -> _Parts:
+def _rpp(j: Joints, s: DyadSolution, first: FrameError, second: FrameError) -> _Parts:
     bar = s.second.of(j.inner2)
     hinge, along = first.turning_as(*second.of_turning), seen(bar, s.first.of(j.inner1))
     slid, arm1, arm2 = seen(j.known2, s.second.of(j.outer2)), within(j.outer1, j.inner1), within(j.outer2, j.inner2)
@@ -201,7 +201,7 @@ def _rpp(j: Joints, s: Solved, first: FrameError, second: FrameError) -> _Parts:
     return ends, bodies, lambda x, y: second.angle + second.angle
 
 
-_KINDS: Mapping[str, Callable[[Joints, Solved, FrameError, FrameError], _Parts]] = {
+_KINDS: Mapping[str, Callable[[Joints, DyadSolution, FrameError, FrameError], _Parts]] = {
     "RRR": _rrr,
     "RRP": _rrp,
     "RPR": _rpr,

@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 
 from graphkin.scene.model import SlideDriver
-from graphkin.solver.dyads import Solved
+from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import positions
 from graphkin.solver.joints import Drive
 from graphkin.solver.larger_groups import ClusterSolved
@@ -261,7 +261,7 @@ def _follow_dyad(path: Path, i: int, dyad: Dyad, sign: float, grid: Array) -> Pa
         t = _off_flips(path.flips, t)
         forms = {**path.form(t), i: np.asarray(sign)}
         solved = positions(path.structure, path.drive(t), forms, i + 1, rates=False).groups[i]
-        assert isinstance(solved, Solved)
+        assert isinstance(solved, DyadSolution)
         return np.broadcast_to(solved.discriminant, t.shape)
 
     passage = follow(discriminant, grid, flips=not dyad.is_two_lines)

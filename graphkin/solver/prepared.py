@@ -15,7 +15,7 @@ from graphkin.solver.code import Code
 from graphkin.solver.compiled import LONG, Kernel
 from graphkin.solver.driver_range import DriverRange, driver_range
 from graphkin.solver.driver_values import GivenValues, UniformGrid, quarter
-from graphkin.solver.dyads import Solved
+from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import SINGULAR, positions
 from graphkin.solver.expressions import Name, Real
 from graphkin.solver.findings import singular, structure_of
@@ -26,7 +26,7 @@ from graphkin.solver.quantities import Units, bounds, formulas
 from graphkin.solver.rounding import UNIT
 from graphkin.structure import Cluster, Structure
 
-__all__ = ["Prepared", "prepare"]
+__all__ = ["PreparedMechanism", "prepare"]
 
 CHUNK = 16384
 """Positions in a piece, so that all columns of one stay in the cache."""
@@ -37,7 +37,7 @@ CLEAR = 0.2
 
 
 @dataclass(frozen=True)
-class Prepared:
+class PreparedMechanism:
     """A mechanism with its assembly followed over the range of its first driver, and the code for what is asked.
 
     names : of the columns, two for a vector ("v_B.x", "v_B.y")
@@ -79,7 +79,7 @@ class Prepared:
             return False
         t = ahead.nodes
         state = positions(self.structure, ahead.drive(t), ahead.form(t), rates=False)
-        return all(float(np.min(np.abs(g.sine))) > CLEAR for g in state.groups.values() if isinstance(g, Solved))
+        return all(float(np.min(np.abs(g.sine))) > CLEAR for g in state.groups.values() if isinstance(g, DyadSolution))
 
     @cached_property
     def signs(self) -> dict[Name, float] | None:
@@ -359,7 +359,7 @@ def prepare(
     units: Units = (1.0, 1.0),
     bounded: bool = False,
     along: DriverRange | None = None,
-) -> Prepared:
+) -> PreparedMechanism:
     """Make a mechanism ready for many positions.
 
     Parameters
@@ -381,4 +381,4 @@ def prepare(
     names = tuple(found)
     formed = [*found.values(), *(bounds(dimensioned.program, structure, asked, units).values() if bounded else ())]
     along = along or driver_range(structure)
-    return Prepared(names, along, tuple(formed), dimensioned, tuple(asked), units, bounded)
+    return PreparedMechanism(names, along, tuple(formed), dimensioned, tuple(asked), units, bounded)

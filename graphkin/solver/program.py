@@ -15,7 +15,7 @@ from graphkin.scene.model import AngleDriver, AnyDriver
 from graphkin.solver.bounds import FIELDS, ErrorFormulas
 from graphkin.solver.code import Code
 from graphkin.solver.decimals import DIGITS, meant, meant_direction
-from graphkin.solver.dyads import Joints, Solved, solve_dyad
+from graphkin.solver.dyads import DyadSolution, Joints, solve_dyad
 from graphkin.solver.expressions import ExpressionGraph, Name, Real, Vec
 from graphkin.solver.joints import body_shape, driven, dyad_joints, members
 from graphkin.solver.pose import Pose
@@ -46,7 +46,7 @@ class Program:
         self._numbers = _numbers(structure)
         self.joints: dict[int, Joints] = {}
         self.poses: dict[str, Pose] = {structure.scene.frame.name: self.at_rest(0j, 1 + 0j)}
-        self.groups: dict[int, Solved] = {}
+        self.groups: dict[int, DyadSolution] = {}
         for i, element in enumerate(structure.elements):
             self._add(i, element)
         self.bounds = ErrorFormulas(self)

@@ -28,7 +28,7 @@ from graphkin.study.driver_axis import (
     number,
     title_of,
 )
-from graphkin.study.turn import Turn
+from graphkin.study.turn import TurnStudy
 from graphkin.words import Phrase, say, word
 
 __all__ = ["coupler_points", "curve_page"]
@@ -53,7 +53,7 @@ def coupler_points(scene: Mechanism) -> tuple[tuple[str, str], ...]:
     return tuple(found)
 
 
-def curve_page(turn: Turn, point: str, link: str, language: str) -> Drawing:
+def curve_page(turn: TurnStudy, point: str, link: str, language: str) -> Drawing:
     """The path of a coupler point in scale, with marks at equal steps of the driver, and the mechanism at its own
     position."""
     reach, scene = turn.reach, turn.scene
@@ -133,7 +133,7 @@ def _need(world: Box, width: float, height: float) -> float:
     return max(world.width / panel.width, world.height / panel.height) * 1e3 or 1.0
 
 
-def _skeleton(turn: Turn, places: dict[str, complex], page: Callable[[complex], complex]) -> list[Primitive]:
+def _skeleton(turn: TurnStudy, places: dict[str, complex], page: Callable[[complex], complex]) -> list[Primitive]:
     """The mechanism at its own position, thin: links, blocks, guides, pivots."""
     scene = turn.scene
     motion = turn.reach.motion(np.zeros(1))

@@ -42,7 +42,7 @@ from graphkin.study.driver_axis import (
 from graphkin.study.measured import measured
 from graphkin.study.quantities import Quantity, link_quantities, slide_quantities
 from graphkin.study.trace import Extreme, Traced
-from graphkin.study.turn import Output, Turn
+from graphkin.study.turn import Output, TurnStudy
 from graphkin.words import Phrase, say, word
 
 if TYPE_CHECKING:
@@ -61,7 +61,7 @@ ZERO = Stroke(0.18)
 LIMIT = Stroke(0.18, (4.0, 0.9, 0.9, 0.9))
 
 
-def diagrams(turn: Turn, language: str = "en", positions: int = 12) -> dict[str, ChartPage | Drawing]:
+def diagrams(turn: TurnStudy, language: str = "en", positions: int = 12) -> dict[str, ChartPage | Drawing]:
     """The motion diagrams of each output and the curve of each coupler point, by name of file.
 
     Parameters
@@ -99,7 +99,7 @@ class _Panel:
         return self.quantity.kind == "theta" and self.span[1] - self.span[0] > 60 * (1 + 2 * MARGIN)
 
 
-def _motion_page(turn: Turn, output: Output, dots: Sequence[tuple[float, ...]], language: str) -> ChartPage:
+def _motion_page(turn: TurnStudy, output: Output, dots: Sequence[tuple[float, ...]], language: str) -> ChartPage:
     scene, quantity = turn.scene, output.quantity
     turns = quantity.kind == "theta"
     curves = link_quantities(quantity.of) if turns else slide_quantities(quantity.of)
@@ -159,7 +159,7 @@ def _draw(axes: Axes, panel: _Panel, axis: DriverAxis, limits: Sequence[float]) 
     add_labels(axes, labels, toward=toward)
 
 
-def _facts(turn: Turn, output: Output, language: str) -> list[str]:
+def _facts(turn: TurnStudy, output: Output, language: str) -> list[str]:
     """Stroke, K and limit positions in words."""
     scene, quantity, stroke = turn.scene, output.quantity, output.stroke
     if stroke is None:
@@ -190,7 +190,7 @@ def _with_unit(value: float, unit: str) -> str:
 
 
 def _panel(
-    turn: Turn, axis: DriverAxis, quantity: Quantity, traced: Traced | None, dots: Sequence[tuple[float, float]]
+    turn: TurnStudy, axis: DriverAxis, quantity: Quantity, traced: Traced | None, dots: Sequence[tuple[float, float]]
 ) -> _Panel:
     reach, scene = turn.reach, turn.scene
     offsets = axis.offsets

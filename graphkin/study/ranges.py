@@ -16,7 +16,7 @@ from graphkin.solver.path import FAR
 from graphkin.structure import Cluster, Dyad
 from graphkin.structure.assembly import last_true
 
-__all__ = ["Range", "not_searched", "ranges"]
+__all__ = ["AssemblyRange", "not_searched", "ranges"]
 
 Array = NDArray[np.float64]
 
@@ -25,7 +25,7 @@ MOST_GROUPS = 7
 
 
 @dataclass(frozen=True)
-class Range:
+class AssemblyRange:
     """Values of the first driver (SI) between which the mechanism assembles.
 
     ``reached`` says whether the motion of the scene's own assembly runs there; ``whole`` that it is a full turn;
@@ -40,15 +40,15 @@ class Range:
     open_high: bool = False
 
 
-def ranges(reach: DriverRange) -> tuple[Range, ...]:
+def ranges(reach: DriverRange) -> tuple[AssemblyRange, ...]:
     """The range that the motion reaches, then all others in which some assembly closes, as far as ``not_searched`` does
     not say otherwise: within a turn of the driver; of a driven slide within four sizes of the mechanism and twice as
     far as its motion reaches."""
     if reach.full:
-        return (Range(0.0, 2 * np.pi * reach.turns, True, whole=True),)
+        return (AssemblyRange(0.0, 2 * np.pi * reach.turns, True, whole=True),)
     low, high = sorted(float(reach.value(np.array(end))) for end in reach.ends)
     below, above = reach.limited if reach.sense > 0 else reach.limited[::-1]
-    own = Range(low, high, True, open_low=not below, open_high=not above)
+    own = AssemblyRange(low, high, True, open_low=not below, open_high=not above)
     if not_searched(reach):
         return (own,)
     dyads = [i for i, e in enumerate(reach.structure.elements) if isinstance(e, Dyad)]
@@ -66,7 +66,7 @@ def not_searched(reach: DriverRange) -> tuple[str, ...]:
     return tuple(name for links in (*larger, *many) for name in links)
 
 
-def _elsewhere(reach: DriverRange, dyads: list[int], own: Range) -> list[Range]:
+def _elsewhere(reach: DriverRange, dyads: list[int], own: AssemblyRange) -> list[AssemblyRange]:
     def closes(value: Array) -> NDArray[np.bool_]:
         values = np.repeat(reach.start[None], len(value), axis=0)
         values[:, 0] = value
@@ -87,7 +87,7 @@ def _elsewhere(reach: DriverRange, dyads: list[int], own: Range) -> list[Range]:
         wide = max(FAR * reach.scene.size, 2 * abs(own.low), 2 * abs(own.high))
         grid = np.linspace(-wide, wide, GRID + 1)
     holds = closes(grid)
-    found: list[Range] = []
+    found: list[AssemblyRange] = []
     k = 0
     while k <= GRID:
         if not holds[k]:
@@ -102,7 +102,7 @@ def _elsewhere(reach: DriverRange, dyads: list[int], own: Range) -> list[Range]:
         if apart and turning and k > 0 and end < GRID:
             found.append(_within(low, high))
         elif apart and not turning:
-            found.append(Range(low, high, False, open_low=k == 0, open_high=end == GRID))
+            found.append(AssemblyRange(low, high, False, open_low=k == 0, open_high=end == GRID))
         k = end + 1
     return found
 
@@ -115,7 +115,7 @@ def _closed(reach: DriverRange, i: int, solved: object) -> NDArray[np.bool_]:
     return np.asarray(discriminant >= 0)
 
 
-def _within(low: float, high: float) -> Range:
+def _within(low: float, high: float) -> AssemblyRange:
     """The same range with its middle in (-pi, pi]."""
     shift = 2 * np.pi * np.ceil(((low + high) / 2 - np.pi - 1e-9) / (2 * np.pi))
-    return Range(float(low - shift), float(high - shift), False)
+    return AssemblyRange(float(low - shift), float(high - shift), False)

@@ -6,12 +6,12 @@ from typing import Any
 
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.study.trace import Extreme, Traced
-from graphkin.study.turn import Output, Turn
+from graphkin.study.turn import Output, TurnStudy
 
 __all__ = ["row", "to_json"]
 
 
-def to_json(turn: Turn) -> dict[str, Any]:
+def to_json(turn: TurnStudy) -> dict[str, Any]:
     """The object that ``sweep --json`` prints: numbers in the scene's length unit, seconds, radians.
 
     ``null`` stands where there is no value, with a ``why`` beside it.
@@ -66,7 +66,7 @@ def _driver(scene: Mechanism, value: float) -> float:
     return value if isinstance(first, AngleDriver) else value / scene.units.metres
 
 
-def _extreme(turn: Turn, traced: Traced, extreme: Extreme) -> dict[str, Any]:
+def _extreme(turn: TurnStudy, traced: Traced, extreme: Extreme) -> dict[str, Any]:
     return {
         "kind": extreme.kind,
         "driver": _driver(turn.scene, extreme.driver),
@@ -74,7 +74,7 @@ def _extreme(turn: Turn, traced: Traced, extreme: Extreme) -> dict[str, Any]:
     }
 
 
-def _curve(turn: Turn, traced: Traced) -> dict[str, Any]:
+def _curve(turn: TurnStudy, traced: Traced) -> dict[str, Any]:
     scene = turn.scene
     data: dict[str, Any] = {
         "unit": traced.quantity.unit(scene),
@@ -86,7 +86,7 @@ def _curve(turn: Turn, traced: Traced) -> dict[str, Any]:
     return data
 
 
-def _output(turn: Turn, output: Output) -> dict[str, Any]:
+def _output(turn: TurnStudy, output: Output) -> dict[str, Any]:
     scene, quantity = turn.scene, output.quantity
     name = quantity.of
     data: dict[str, Any] = {
@@ -104,7 +104,7 @@ def _output(turn: Turn, output: Output) -> dict[str, Any]:
     return data
 
 
-def row(turn: Turn) -> dict[str, float | str | None]:
+def row(turn: TurnStudy) -> dict[str, float | str | None]:
     """One row of a table of designs: strokes and swings (deg), K, the least transmission angle (deg) and where."""
     scene = turn.scene
     length = scene.units.length

@@ -21,7 +21,7 @@ from graphkin.jobs import Checkpoints, Progress, Workers, key_of, whole_file
 from graphkin.scene import mechanism_of
 from graphkin.scene.model import Mechanism
 from graphkin.solver import DriverRange, prepare, structure_of, whole_range
-from graphkin.solver.prepared import Prepared
+from graphkin.solver.prepared import PreparedMechanism
 from graphkin.structure import Cluster, Structure
 from graphkin.study.designs import Designs, Value, applied
 from graphkin.study.watched import Watched, driver_columns, everything
@@ -115,7 +115,7 @@ class Design:
         return whole_range(self.structure, dict(self.at))
 
     @cached_property
-    def engine(self) -> Prepared | None:
+    def engine(self) -> PreparedMechanism | None:
         """The mechanism prepared for what is asked; None where everything is asked, or something that the formulas do
         not give, where a larger group has no closed form, or where it starts elsewhere than the scene."""
         if not self.asked or self.at or not all(w.can_be_prepared for w in self.asked):
@@ -134,7 +134,7 @@ class Design:
             return None
         return self._arrays(self.engine, *self.engine.sweep(n, fast=n >= MANY and have("numba")))
 
-    def _arrays(self, engine: Prepared, columns: Array, ok: Array) -> Arrays:
+    def _arrays(self, engine: PreparedMechanism, columns: Array, ok: Array) -> Arrays:
         good = len(ok) if engine.clear else int(np.count_nonzero(ok))
         if good < len(ok):
             columns[:, ~ok] = np.nan
@@ -261,7 +261,7 @@ class Sweep:
         """Designs in a piece."""
         return max(1, min(BLOCK // self.positions, MOST_DESIGNS))
 
-    def piece(self, number: int, text: bool) -> Piece:
+    def piece(self, number: int, text: bool) -> SweepPiece:
         """One piece, with all that is needed to make it."""
         if self.positions > BLOCK:
             design, block = divmod(number, -(-self.positions // BLOCK))
@@ -273,11 +273,11 @@ class Sweep:
         designs = tuple((k, self.designs[k]) for k in some)
         # the values of all other designs stay at home
         alone = replace(self, designs=Designs(self.designs.keys))
-        return Piece(self.key, alone, self.designs.worded, designs, first, last, text)
+        return SweepPiece(self.key, alone, self.designs.worded, designs, first, last, text)
 
 
 @dataclass(frozen=True)
-class Piece:
+class SweepPiece:
     """Some designs of a sweep, or some positions of one; its table is wanted as text or as it is."""
 
     key: str
@@ -290,7 +290,7 @@ class Piece:
 
 
 @dataclass(frozen=True)
-class Made:
+class PieceResult:
     """What a piece gives: its table, or the text of it, how its designs came out, and rows that are ok."""
 
     table: Table | None
@@ -314,7 +314,7 @@ _LATEST: dict[tuple[str, int], Design | tuple[str, str]] = {}
 """The design that was followed last, or why there is none: the pieces of a long one share it."""
 
 
-def make(piece: Piece) -> Made:
+def make(piece: SweepPiece) -> PieceResult:
     """Make one piece.  What goes wrong with a design is said in its rows; nothing is raised for it."""
     made = [_rows(piece, number, values) for number, values in piece.designs]
     table = Table.joined([t for t, _ in made])
@@ -325,10 +325,10 @@ def make(piece: Piece) -> Made:
         table.write_csv(out, head=False)
         text = out.getvalue()
     good = sum(o.good for o in outcomes)
-    return Made(None if piece.text else table, text, outcomes if piece.sweep.designs.keys else (), good)
+    return PieceResult(None if piece.text else table, text, outcomes if piece.sweep.designs.keys else (), good)
 
 
-def _rows(piece: Piece, number: int, values: tuple[Value, ...]) -> tuple[Table, Outcome]:
+def _rows(piece: SweepPiece, number: int, values: tuple[Value, ...]) -> tuple[Table, Outcome]:
     design = _LATEST.get((piece.key, number))
     if design is None:
         design = _followed(piece.sweep, values)
@@ -391,7 +391,7 @@ def _words(name: str, words: Words, n: int) -> Column:
 
 def collect(sweep: Sweep, workers: Workers, progress: Progress | None = None) -> Found:
     """A whole sweep in memory."""
-    made: list[Made] = []
+    made: list[PieceResult] = []
     for piece in workers.results(make, ((sweep.piece(k, False),) for k in range(sweep.pieces))):
         made.append(piece)
         _count(sweep, len(made), progress)

@@ -12,10 +12,10 @@ from graphkin.scene.symbol import Symbol
 from graphkin.solver import DriverRange, Motion
 from graphkin.study.grashof import Loop, loops
 from graphkin.study.quantities import Quantity, link_quantities, slide_quantities, symbol_quantity
-from graphkin.study.ranges import Range, not_searched, ranges
+from graphkin.study.ranges import AssemblyRange, not_searched, ranges
 from graphkin.study.trace import Extreme, Least, Traced, trace
 
-__all__ = ["Output", "Turn", "study_turn"]
+__all__ = ["Output", "TurnStudy", "study_turn"]
 
 
 @dataclass(frozen=True)
@@ -46,11 +46,11 @@ class Output:
 
 
 @dataclass(frozen=True)
-class Turn:
+class TurnStudy:
     """What is to be said about the motion over a whole turn (SI)."""
 
     reach: DriverRange
-    ranges: tuple[Range, ...]
+    ranges: tuple[AssemblyRange, ...]
     outputs: tuple[Output, ...]
     curves: tuple[Traced, ...]
     transmission: tuple[Least, ...]
@@ -80,7 +80,7 @@ class Turn:
         return longer / (2 * np.pi - longer), float(longer - np.pi)
 
 
-def study_turn(reach: DriverRange, asked: Sequence[Symbol] = (), everything: bool = True) -> Turn:
+def study_turn(reach: DriverRange, asked: Sequence[Symbol] = (), everything: bool = True) -> TurnStudy:
     """Study the whole range.
 
     Parameters
@@ -104,7 +104,7 @@ def study_turn(reach: DriverRange, asked: Sequence[Symbol] = (), everything: boo
         wanted += [q for q in others if q not in wanted]
     traced, least = trace(reach, wanted)
     outputs = tuple(_output(reach, t) for t in traced[: len(mains)])
-    return Turn(reach, ranges(reach), outputs, traced, least, loops(reach.structure))
+    return TurnStudy(reach, ranges(reach), outputs, traced, least, loops(reach.structure))
 
 
 def _with_rates(quantity: Quantity) -> tuple[Quantity, ...]:

@@ -12,7 +12,7 @@ from graphkin.api.checked import check
 from graphkin.api.handouts import handout
 from graphkin.drawing.primitives import Line, Text, walk
 from graphkin.papers import prepare as papers
-from graphkin.papers.blocks import Picture, Steps, Table, laid_out
+from graphkin.papers.blocks import Picture, Steps, TableBlock, laid_out
 from graphkin.papers.page import document_page
 from graphkin.papers.paper import paper_of
 from graphkin.papers.problem import problem
@@ -44,7 +44,7 @@ def test_no_number_of_the_key_stands_on_the_problem_sheet(shaper):
 
 
 def test_the_problem_sheet_asks_for_every_bold_row_of_the_key(shaper):
-    table = next(b for b in laid_out(problem(shaper.lesson).blocks) if isinstance(b, Table))
+    table = next(b for b in laid_out(problem(shaper.lesson).blocks) if isinstance(b, TableBlock))
     assert sum(row.asked for row in shaper.key) == len(table.rows)
 
 

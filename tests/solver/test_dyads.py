@@ -7,7 +7,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from graphkin.solver.dyads import Joints, Solved, solve_dyad
+from graphkin.solver.dyads import DyadSolution, Joints, solve_dyad
 from graphkin.solver.pose import Pose
 
 KINDS = ("RRR", "RRP", "RPR", "PRP", "RPP")
@@ -27,7 +27,7 @@ def joints(draw: st.DrawFn) -> Joints:
     return Joints(*frames, sense=draw(st.sampled_from([1.0, -1.0])), size=1.0)
 
 
-def solved(kind: str, j: Joints, sign: float) -> Solved:
+def solved(kind: str, j: Joints, sign: float) -> DyadSolution:
     with np.errstate(all="ignore"):
         found = solve_dyad(kind, j, np.array([sign]))
     assume(kind in ("PRP", "RPP") or found.discriminant[0] > 1e-3)
@@ -36,7 +36,7 @@ def solved(kind: str, j: Joints, sign: float) -> Solved:
     return found
 
 
-def gaps(kind: str, j: Joints, found: Solved) -> dict[str, list[float]]:
+def gaps(kind: str, j: Joints, found: DyadSolution) -> dict[str, list[float]]:
     """For each pair how far it is open, in place, velocity and acceleration."""
     first, second = found.first, found.second
     ends = ((j.known1, first.of(j.outer1)), (first.of(j.inner1), second.of(j.inner2)), (j.known2, second.of(j.outer2)))
@@ -50,7 +50,7 @@ def gaps(kind: str, j: Joints, found: Solved) -> dict[str, list[float]]:
     return open_
 
 
-def scale(found: Solved) -> float:
+def scale(found: DyadSolution) -> float:
     poses = (found.first, found.second)
     return 1 + max(float(np.max(np.abs(np.concatenate([p.z, p.v, p.omega, p.a, p.alpha])))) for p in poses)
 
@@ -78,7 +78,7 @@ def test_the_inner_point_of_rrr_lies_left_of_the_line_between_the_outer_ones(j: 
 def test_the_first_form_of_rrp_has_the_greater_travel(j: Joints) -> None:
     one, two = solved("RRP", j, 1.0), solved("RRP", j, -1.0)
 
-    def travel(found: Solved) -> float:
+    def travel(found: DyadSolution) -> float:
         seen = j.known2.inverse().of(found.second.of(j.outer2))
         return float(j.sense * seen.z[0].real)
 
@@ -90,7 +90,7 @@ def test_the_first_form_of_rrp_has_the_greater_travel(j: Joints) -> None:
 def test_the_first_form_of_rpr_has_the_greater_travel_of_the_sliding_body(j: Joints) -> None:
     one, two = solved("RPR", j, 1.0), solved("RPR", j, -1.0)
 
-    def travel(found: Solved) -> float:
+    def travel(found: DyadSolution) -> float:
         return float(found.second.of(j.inner2).inverse().of(found.first.of(j.inner1)).z[0].real)
 
     assert travel(one) > travel(two)

@@ -9,14 +9,14 @@ import pytest
 
 from graphkin.errors import CallError
 from graphkin.scene import mechanism_of, mechanism_of_text
-from graphkin.solver import Prepared, prepare, solve
+from graphkin.solver import PreparedMechanism, prepare, solve
 from graphkin.solver.compiled import kernel_text
 from tests import scenes
 
 ASKED = ("C", "v_C", "a_C", "omega_3", "alpha_3")
 
 
-def four_bar() -> Prepared:
+def four_bar() -> PreparedMechanism:
     return prepare(mechanism_of_text(scenes.FOUR_BAR, "four-bar"), ASKED)
 
 

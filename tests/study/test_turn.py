@@ -14,7 +14,7 @@ from graphkin.errors import Unsolvable
 from graphkin.scene import library, mechanism_of, mechanism_of_text
 from graphkin.solver import whole_range
 from graphkin.study.summary import to_json
-from graphkin.study.turn import Output, Turn, study_turn
+from graphkin.study.turn import Output, TurnStudy, study_turn
 from tests import scenes
 
 TRUTH = json.loads((Path(__file__).parents[1] / "validation" / "limits.json").read_text())
@@ -30,11 +30,11 @@ LIMITS = {
 
 
 @lru_cache
-def turn_of(name: str) -> Turn:
+def turn_of(name: str) -> TurnStudy:
     return study_turn(whole_range(mechanism_of(name)))
 
 
-def slider(turn: Turn) -> Output:
+def slider(turn: TurnStudy) -> Output:
     return next(o for o in turn.outputs if o.quantity.kind == "s")
 
 
