@@ -38,9 +38,9 @@ if TYPE_CHECKING:
     import xarray
 
     from graphkin.drawing import ChartPage, Drawing
-    from graphkin.study.sweeps import Arrays, Found, Sweep
+    from graphkin.study.sweeps import Found, Sweep
     from graphkin.study.turn import TurnStudy
-    from graphkin.study.watched import Watched
+    from graphkin.study.watched import Arrays, Watched
 
 __all__ = ["Swept", "sweep"]
 

@@ -1,25 +1,48 @@
-"""What the table of a sweep shows: what is asked, or everything that moves, in the scene's units and degrees."""
+"""What the table of a sweep shows of a mechanism: what is asked, or everything that moves, in the scene's units and
+degrees; as arrays where the mechanism can be prepared, and as the table itself.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from graphkin.errors import CallError
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.solver import DriverRange, Motion, listed_points
+from graphkin.solver import DriverRange, Motion, listed_points, prepare, structure_of, whole_range
+from graphkin.solver.prepared import PreparedMechanism
 from graphkin.solver.redundant import all_slides
-from graphkin.structure import Structure
+from graphkin.structure import Cluster, Structure
 from graphkin.study.quantities import Quantity, link_quantities, slide_quantities, symbol_quantity
-from graphkin.table import Column
+from graphkin.table import Column, Table, have
 
-__all__ = ["Watched", "driver_columns", "everything", "watched_named", "watched_symbol"]
+__all__ = [
+    "BLOCK",
+    "MANY",
+    "Arrays",
+    "Design",
+    "Watched",
+    "driver_columns",
+    "everything",
+    "watched_named",
+    "watched_symbol",
+    "word_column",
+]
 
 Array = NDArray[Any]
+Parts = tuple[tuple[Array, ...], ...]
+Words = Sequence[str] | Array
+
+BLOCK = 16384
+"""Positions that are computed and written together, about."""
+MANY = 500_000
+"""From so many positions on compiled code is worth the second or two that compiling takes."""
 
 
 @dataclass(frozen=True)
@@ -122,3 +145,126 @@ def driver_columns(scene: Mechanism, values: Array) -> list[Column]:
         for d, v in zip(scene.drivers, values.T, strict=True)
     ]
 
+
+def word_column(name: str, words: Words, n: int) -> Column:
+    """A column of words; a single one stands in every row."""
+    values = np.empty(n, dtype=object)
+    values[:] = words[0] if len(words) == 1 else words
+    return Column(name, values)
+
+
+@dataclass(frozen=True)
+class Arrays:
+    """What a prepared mechanism gives at all positions of a sweep.
+
+    parts : for each quantity that is watched its values in the units of the table, two for a vector; NaN where not ok
+    ok : bool, shape (positions,)
+    good : how many are ok
+    """
+
+    parts: Parts
+    ok: Array
+    good: int
+
+
+@dataclass(frozen=True)
+class Design:
+    """One mechanism, whose motion is followed.
+
+    asked : what the table shows; nothing: everything that moves
+    at : driver values to start from (SI), by driver key
+    """
+
+    scene: Mechanism
+    asked: tuple[Watched, ...]
+    at: tuple[tuple[str, float], ...]
+
+    @cached_property
+    def structure(self) -> Structure:
+        return structure_of(self.scene)
+
+    @cached_property
+    def watched(self) -> tuple[Watched, ...]:
+        """What the table shows."""
+        return self.asked or everything(self.structure)
+
+    @cached_property
+    def reach(self) -> DriverRange:
+        """The range of its first driver.  Raises Unsolvable."""
+        return whole_range(self.structure, dict(self.at))
+
+    @cached_property
+    def engine(self) -> PreparedMechanism | None:
+        """The mechanism prepared for what is asked; None where everything is asked, or something that the formulas do
+        not give, where a larger group has no closed form, or where it starts elsewhere than the scene."""
+        if not self.asked or self.at or not all(w.can_be_prepared for w in self.asked):
+            return None
+        if any(isinstance(e, Cluster) for e in self.structure.elements):
+            return None
+        units = 1.0 / self.scene.units.metres, float(np.degrees(1.0))
+        try:
+            return prepare(self.structure, [w.name for w in self.asked], units)
+        except CallError:  # a redundant link is none of its
+            return None
+
+    def arrays(self, n: int) -> Arrays | None:
+        """All of n positions at once, where the mechanism can be prepared; very many by compiled code."""
+        if self.engine is None:
+            return None
+        return self._arrays(self.engine, *self.engine.sweep(n, fast=n >= MANY and have("numba")))
+
+    def _arrays(self, engine: PreparedMechanism, columns: Array, ok: Array) -> Arrays:
+        good = len(ok) if engine.clear else int(np.count_nonzero(ok))
+        if good < len(ok):
+            columns[:, ~ok] = np.nan
+        by_name = dict(zip(engine.names, columns, strict=True))
+        ends = {True: (".x", ".y"), False: ("",)}
+        return Arrays(tuple(tuple(by_name[w.name + e] for e in ends[w.is_vector]) for w in self.watched), ok, good)
+
+    def table(self, n: int, first: int, last: int) -> Table:
+        """Positions ``first`` to ``last`` (not included) of n: driver values, what is watched, status and reason."""
+        if self.engine is not None:
+            found = self.engine.columns(self.engine.values(n, first, last))
+            return self.table_of(self._arrays(self.engine, *found), n, first, last)
+        motion = self.reach.motion(self.reach.table_offsets(n, first, last))
+        parts = tuple(w.parts(self.reach, motion) for w in self.watched)
+        return self._table(first, motion.values, parts, motion.status.tolist(), motion.why)
+
+    def table_of(self, arrays: Arrays, n: int, first: int, last: int) -> Table:
+        """The table of what a prepared mechanism gave at positions ``first`` to ``last`` of n."""
+        assert self.engine is not None
+        rows = last - first
+        values = np.repeat(self.engine.range.start[None], rows, axis=0)
+        values[:, 0] = self.engine.values(n, first, last)
+        status, why, parts = np.full(rows, "ok", object), np.full(rows, "", object), arrays.parts
+        bad = np.flatnonzero(~arrays.ok) if arrays.good < rows else np.zeros(0, int)
+        if len(bad):
+            parts = tuple(tuple(part.copy() for part in own) for own in parts)
+        for some in (bad[k : k + BLOCK] for k in range(0, len(bad), BLOCK)):
+            # why there is nothing there the solver says, and it has the last word on whether there is
+            motion = self.reach.motion(self.reach.table_offsets(n, first, last)[some])
+            for own, watched in zip(parts, self.watched, strict=True):
+                for part, found in zip(own, watched.parts(self.reach, motion), strict=True):
+                    part[some] = found
+            status[some], why[some] = motion.status.tolist(), motion.why
+        return self._table(first, values, parts, status, why)
+
+    def blank(self, first: int, last: int, status: str = "", why: str = "") -> Table:
+        """The table of positions that have no values."""
+        nothing = np.full(last - first, np.nan)
+        parts = tuple((nothing,) * (1 + w.is_vector) for w in self.watched)
+        return self._table(first, np.stack([nothing] * len(self.scene.drivers), axis=1), parts, [status], [why])
+
+    def _table(self, first: int, values: Array, parts: Parts, status: Words, why: Words) -> Table:
+        n = len(values)
+        shown = (c for w, own in zip(self.watched, parts, strict=True) for c in w.columns(self.scene, own))
+        return Table(
+            (
+                Column("position", np.arange(first + 1, first + n + 1)),
+                *driver_columns(self.scene, values),
+                *shown,
+                word_column("status", status, n),
+                word_column("why", why, n),
+            ),
+            ("position",),
+        )
