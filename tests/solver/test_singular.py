@@ -15,7 +15,7 @@ def at(text: str, value: float) -> Motion:
     return solve(mechanism_of_text(text, "scene"), at={"1": np.radians(value)})
 
 
-# crank 350, rod 200, rocker 250, ground 400: the crank turns back where 200 + 250 reach across
+# crank 300, rod 200, rocker 300, ground 400: the crank turns back where 200 + 300 reach across
 RIGHT = """
 [frame]
 points = { A = [0, 0], D = [400, 0] }
