@@ -13,7 +13,6 @@ from pathlib import Path
 from typing import get_args
 
 from graphkin.errors import CallError, Problem, did_you_mean
-from graphkin.jobs import whole_file
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
 from graphkin.scene.source import SceneLike, mechanism_of
 from graphkin.scene.symbol import Symbol
@@ -197,6 +196,8 @@ def write_files(folder: Path, files: Mapping[str, bytes]) -> list[Path]:
     ------
     CallError : the folder cannot be written
     """
+    from graphkin.jobs import whole_file  # it brings the modules for processes, which a check without files needs not
+
     try:
         folder.mkdir(parents=True, exist_ok=True)
         for name, content in files.items():

@@ -26,9 +26,33 @@ def print_paths(paths: Iterable[Path]) -> None:
 
 
 def print_table(heads: Sequence[str], rows: Sequence[Sequence[str]], right: tuple[int, ...] = ()) -> None:
-    """A table, if there are rows; the columns of numbers named in ``right`` stand to the right."""
-    if not rows:
-        return
+    """A table, if there are rows; the columns of numbers named in ``right`` stand to the right.
+
+    In a terminal it is fitted to the width; elsewhere each row is one line, however long.
+    """
+    if rows and sys.stdout.isatty():
+        _show_table(heads, rows, right)
+    elif rows:
+        typer.echo(plain_table(heads, rows, right))
+
+
+def plain_table(heads: Sequence[str], rows: Sequence[Sequence[str]], right: tuple[int, ...] = ()) -> str:
+    """The lines of a table for a file or another program."""
+    from rich.cells import cell_len  # the rest of rich takes longer to import than a check does
+
+    heads, *rows = [["".join(c if c.isprintable() else " " for c in cell) for cell in row] for row in (heads, *rows)]
+    widths = [max(cell_len(text) for text in column) for column in zip(heads, *rows, strict=True)]
+
+    def line(cells: Sequence[str]) -> str:
+        blanks = [" " * (width - cell_len(cell)) for cell, width in zip(cells, widths, strict=True)]
+        placed = [f"{b}{c}" if i in right else f"{c}{b}" for i, (c, b) in enumerate(zip(cells, blanks, strict=True))]
+        return f" {'   '.join(placed)} "
+
+    rule = f" {'─' * (len(line([''] * len(widths))) - 2)} "
+    return "\n".join([" " * len(rule), line(heads), rule, *map(line, rows), " " * len(rule)])
+
+
+def _show_table(heads: Sequence[str], rows: Sequence[Sequence[str]], right: tuple[int, ...]) -> None:
     from rich import box
     from rich.console import Console
     from rich.table import Table
@@ -39,10 +63,7 @@ def print_table(heads: Sequence[str], rows: Sequence[Sequence[str]], right: tupl
         table.add_column(head, justify="right" if i in right else "left", no_wrap=i != 1)
     for row in rows:
         table.add_row(*(Text(cell) for cell in row))
-    console = Console()
-    if not console.is_terminal:
-        console = Console(width=160)
-    console.print(table)
+    Console().print(table)
 
 
 @contextmanager

@@ -99,7 +99,7 @@ Drivers = Annotated[
 ]
 
 SCENE: TypeAdapter[SceneTables] = TypeAdapter(SceneTables)
-SCENE.rebuild(_types_namespace=dict(globals()))
+SCENE.rebuild(_types_namespace=dict(globals()))  # the annotations of the tables are names of this module
 
 
 def _without_null(node: Any) -> Any:

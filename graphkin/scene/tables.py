@@ -74,7 +74,7 @@ def _closed(description: str) -> dict[str, Any]:
 class FileTable:
     """A table of a scene file."""
 
-    __pydantic_config__: ClassVar = {"extra": "forbid"}
+    __pydantic_config__: ClassVar = {"extra": "forbid", "defer_build": True}
 
 
 @dataclass(frozen=True)

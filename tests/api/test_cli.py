@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 import json
 import subprocess
 import sys
@@ -10,6 +11,7 @@ import xml.etree.ElementTree as ET
 
 import pytest
 
+from graphkin.cli.output import plain_table, print_table
 from tests.command import run, start
 
 SIXBAR = "sixbar-guide-40deg"
@@ -55,6 +57,30 @@ def test_importing_graphkin_imports_no_numpy():
 def test_a_command_says_in_a_process_of_its_own_what_it_says_here(args, tmp_path):
     here, there = run(*args, cwd=tmp_path), start(*args, cwd=tmp_path)
     assert (here.returncode, here.stdout, here.stderr) == (there.returncode, there.stdout, there.stderr)
+
+
+def test_a_table_in_a_file_is_that_of_a_terminal_wide_enough(monkeypatch):
+    heads, rows = ["quantity", "量", ""], [["v_B", "1.25", "ok"], ["角速度", "-1000", "off"]]
+    shown = io.StringIO()
+    monkeypatch.setattr(shown, "isatty", lambda: True)
+    monkeypatch.setattr(sys, "stdout", shown)
+    monkeypatch.setenv("COLUMNS", "200")
+    monkeypatch.setenv("NO_COLOR", "1")
+    monkeypatch.setenv("TERM", "dumb")
+    print_table(heads, rows, right=(1,))
+    assert shown.getvalue() == plain_table(heads, rows, right=(1,)) + "\n"
+
+
+def test_a_row_of_a_table_in_a_file_is_one_line_however_long():
+    assert 5 == len(plain_table(["a", "b"], [["1", "x" * 500 + "\n" + "y" * 500]]).splitlines())
+
+
+def test_a_check_waits_neither_for_rich_nor_for_processes():
+    program = HELP_ONLY.replace('"--help"', f'"check", "{SIXBAR}"').replace('"numpy"', '"rich.console"')
+    done = subprocess.run(
+        [sys.executable, "-c", program + 'assert "multiprocessing" not in sys.modules'], capture_output=True, text=True
+    )
+    assert 0 == done.returncode, done.stderr
 
 
 def test_the_version_is_printed():
