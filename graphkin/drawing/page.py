@@ -9,11 +9,11 @@ from __future__ import annotations
 import math
 import re
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from functools import lru_cache
 from io import BytesIO
-from threading import RLock
+from threading import RLock, local
 from typing import TYPE_CHECKING
 
 from graphkin.drawing.font_widths import has_cjk, start_runs
@@ -64,13 +64,61 @@ class MissingFont(UserWarning):
 
 @contextmanager
 def own_settings(**further: object) -> Iterator[None]:
-    """matplotlib with settings of ours whatever the user's are, which come back afterwards; as they are settings of the
-    whole process, one thread at a time."""
-    from matplotlib import style
+    """matplotlib with settings of ours, whatever the user's are, in this thread alone: the user's stay as they are,
+    also for his other threads meanwhile, and what those change is kept.
 
-    with _ALONE, style.context(["default", {**_SETTINGS, **further}]), warnings.catch_warnings():
+    matplotlib's settings are one dict for the whole process.  While somebody draws here, that dict answers the drawing
+    thread out of ours; all that is written goes to the user's.  One thread draws at a time, for matplotlib's reader of
+    formulas cannot serve two.
+    """
+    import matplotlib
+
+    users = matplotlib.rcParams
+    with _ALONE, warnings.catch_warnings():
         warnings.filterwarnings("ignore", message="Glyph .* missing from")
-        yield
+        kind, before = type(users), _OF_THREAD.settings
+        _OF_THREAD.settings = _settings(tuple(further.items())) if before is None else {**before, **further}
+        users.__class__ = _answering()
+        try:
+            yield
+        finally:
+            users.__class__ = kind
+            _OF_THREAD.settings = before
+
+
+class _OfThread(local):
+    settings: Mapping[str, object] | None = None
+
+
+_OF_THREAD = _OfThread()
+
+
+def _settings(further: tuple[tuple[str, object], ...]) -> dict[str, object]:
+    """matplotlib's own, and then ours, in the form in which it keeps them."""
+    import matplotlib
+
+    ours = matplotlib.RcParams({**_SETTINGS, **dict(further)})
+    both = {**dict.copy(matplotlib.rcParamsDefault), **dict.copy(ours)}
+    return {key: value for key, value in both.items() if not key.startswith("backend")}
+
+
+@lru_cache(maxsize=1)
+def _answering() -> type:
+    """The user's settings, which answer a thread that draws here out of ours."""
+    from matplotlib import RcParams
+
+    class Answering(RcParams):
+        def __getitem__(self, key: str) -> object:
+            ours = _OF_THREAD.settings
+            return ours[key] if ours is not None and key in ours else super().__getitem__(key)
+
+        def copy(self) -> RcParams:
+            """Of the user's, as one of his threads may make it meanwhile."""
+            made = RcParams()
+            dict.update(made, dict.copy(self))
+            return made
+
+    return Answering
 
 
 def pdf_bytes(drawing: Page) -> bytes:
@@ -131,7 +179,6 @@ def ink(figure: Figure, children: tuple[Primitive, ...], family: list[str], orde
 
 def figure_pdf(figure: Figure, title: str, chinese: bool) -> bytes:
     """A figure as a PDF of one page without a date."""
-    from matplotlib import rc_context
     from matplotlib.backends.backend_pdf import FigureCanvasPdf
 
     figure.patch.set_visible(False)
@@ -139,7 +186,7 @@ def figure_pdf(figure: Figure, title: str, chinese: bool) -> bytes:
     facts = {"Title": title or None, "CreationDate": None, "Producer": None, "Creator": "graphkin"}
     # Chinese faces mostly hold PostScript outlines, which do not fit into a TrueType (42) font of a PDF; as Type 3 any
     # outlines do.  TrueType is what printers ask for, so it is used wherever it can be.
-    with rc_context({"pdf.fonttype": 3 if chinese else 42}):
+    with own_settings(**{"pdf.fonttype": 3 if chinese else 42}):
         FigureCanvasPdf(figure).print_pdf(buffer, metadata=facts)
     return buffer.getvalue()
 

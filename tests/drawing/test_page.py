@@ -6,13 +6,14 @@ import shutil
 import subprocess
 import warnings
 import zlib
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
 
 from graphkin.drawing import page
 from graphkin.drawing.drawing import Drawing
-from graphkin.drawing.page import MissingFont, pdf_bytes, png_bytes
+from graphkin.drawing.page import MissingFont, own_settings, pdf_bytes, png_bytes
 from graphkin.drawing.primitives import Arc, Line, Text
 from graphkin.drawing.strokes import CONSTRUCTION, LINK
 from graphkin.drawing.symbols import vector_group
@@ -114,6 +115,46 @@ def test_the_users_own_matplotlib_settings_do_not_show():
     before = png_bytes(A4)
     with matplotlib.rc_context({"text.usetex": True, "font.family": "monospace", "path.snap": True}):
         assert png_bytes(A4) == before
+
+
+def test_eight_threads_get_the_bytes_of_one_alone():
+    alone = [write(drawing) for write in (pdf_bytes, png_bytes) for drawing in (A4, CHINESE)]
+    given = [(write, drawing) for write in (pdf_bytes, png_bytes) for drawing in (A4, CHINESE)] * 4
+    with ThreadPoolExecutor(8) as pool:
+        made = [pool.submit(*each) for each in given]
+    assert alone * 4 == [one.result() for one in made]
+
+
+def test_another_thread_keeps_the_users_settings_while_one_draws():
+    import matplotlib
+
+    def users() -> tuple[object, object]:
+        with matplotlib.rc_context({"font.size": 7.0}):
+            matplotlib.rcParams["lines.linewidth"] = 3.25
+            return matplotlib.rcParams["text.hinting"], matplotlib.rcParams["font.size"]
+
+    with matplotlib.rc_context({"text.hinting": "native"}), ThreadPoolExecutor(1) as pool:
+        with own_settings():
+            assert ("none", ("native", 7.0)) == (matplotlib.rcParams["text.hinting"], pool.submit(users).result())
+        assert "native" == matplotlib.rcParams["text.hinting"]
+
+
+def test_what_another_thread_changes_while_one_draws_is_kept():
+    import matplotlib
+
+    with matplotlib.rc_context(), ThreadPoolExecutor(1) as pool:
+        with own_settings():
+            pool.submit(matplotlib.rcParams.update, {"lines.linewidth": 3.25}).result()
+        assert 3.25 == matplotlib.rcParams["lines.linewidth"]
+
+
+def test_the_settings_are_of_their_own_kind_again():
+    import matplotlib
+
+    kind = type(matplotlib.rcParams)
+    with own_settings(), own_settings(**{"pdf.fonttype": 42}):
+        pass
+    assert (matplotlib.RcParams, matplotlib.RcParams) == (kind, type(matplotlib.rcParams))
 
 
 def test_a_missing_chinese_font_is_one_warning_and_no_failure(monkeypatch):
