@@ -5,11 +5,12 @@ Text for the terminal, the notebook and the tests is made here and nowhere else.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 from difflib import get_close_matches
 
-__all__ = ["CallError", "GraphkinError", "Problem", "SceneError", "Unsolvable", "did_you_mean"]
+__all__ = ["CallError", "GraphkinError", "Problem", "SceneError", "Unsolvable", "did_you_mean", "printable"]
 
 
 @dataclass(frozen=True)
@@ -29,7 +30,7 @@ class Problem:
 
     def __str__(self) -> str:
         tail = f"; {self.wanted}" if self.wanted else ""
-        return f"{self.where}: {self.found}{tail}"
+        return printable(f"{self.where}: {self.found}{tail}")
 
 
 class GraphkinError(Exception):
@@ -72,6 +73,19 @@ class Unsolvable(GraphkinError):
     def why(self) -> str:
         """The reason in one line."""
         return " ".join(str(p) for p in self.problems)
+
+
+# C0 and C1 codes and DEL, ends of lines that are none on paper, and marks that turn the direction of writing
+_CONTROL = re.compile("[\x00-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u2069\ud800-\udfff]")
+
+
+def printable(text: str) -> str:
+    """A text in one line in which nothing commands a terminal: control characters are written out.
+
+    >>> printable("a title \x1b[2J")
+    'a title \\\\x1b[2J'
+    """
+    return _CONTROL.sub(lambda found: found[0].encode("unicode_escape", "surrogatepass").decode(), text)
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str:

@@ -14,13 +14,13 @@ import multiprocessing
 import os
 import shutil
 import signal
-import tempfile
 import threading
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future, ProcessPoolExecutor
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
+from multiprocessing import resource_tracker
 from multiprocessing.connection import wait
 from multiprocessing.process import BaseProcess
 from pathlib import Path
@@ -28,6 +28,7 @@ from types import TracebackType
 from typing import IO, Any, Generic, TypeVar
 
 from graphkin.errors import CallError, Problem
+from graphkin.files import whole_file
 from graphkin.version import __version__
 
 __all__ = [
@@ -39,7 +40,6 @@ __all__ = [
     "cluster",
     "key_of",
     "process_pool",
-    "whole_file",
 ]
 
 Progress = Callable[[int, int], None]
@@ -54,23 +54,6 @@ LOST = Problem("the workers", "are lost again and again", "run with --workers 1"
 RENEWED = 600
 """Pieces after which processes of one's own are replaced by fresh ones, so that what libraries keep of each (Typst its
 words, for one) does not add up."""
-
-
-@contextmanager
-def whole_file(path: Path, beside: Path | None = None) -> Iterator[IO[bytes]]:
-    """Open a file that takes its name only when it is whole; one of the same name is replaced.  Until then it is in its
-    own folder, or in another one.  Raises OSError."""
-    handle, temporary = tempfile.mkstemp(prefix=f".{path.name}.", dir=beside or path.parent)
-    try:
-        with os.fdopen(handle, "wb") as stream:
-            yield stream
-        mask = os.umask(0)
-        os.umask(mask)
-        os.chmod(temporary, 0o666 & ~mask)
-        os.replace(temporary, path)
-    except BaseException:
-        os.unlink(temporary)
-        raise
 
 
 # what is done
@@ -201,15 +184,14 @@ class Workers:
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
-        for future in list(self._waiting):
-            future.cancel()
-        if self._pool is not None:
-            running = _processes(self._pool)
-            self._pool.shutdown(wait=kind is None, cancel_futures=True)
-            if kind is not None:
-                for process in (*self._old, *running):
-                    process.kill()
-        self._pool, self._old = None, []
+        pool, old, self._pool, self._old = self._pool, self._old, None, []
+        if pool is None:
+            for future in list(self._waiting):
+                future.cancel()
+        elif kind is None:
+            pool.shutdown(wait=True, cancel_futures=True)
+        else:
+            _end(pool, old)
 
     def _submit(self, task: Callable[..., Result], given: tuple[Any, ...]) -> Future[Result] | None:
         """The future of a piece; None where there is no executor, or none that takes it."""
@@ -234,7 +216,8 @@ class Workers:
                 self._pool, self._count = process_pool(self._processes or 1), 0
             self._count += 1
             try:
-                return self._pool.submit(task, *given)
+                with _uninterrupted():
+                    return self._pool.submit(task, *given)
             except BrokenExecutor:  # one of its processes was killed
                 self._count = self._renewed
         raise CallError(LOST)
@@ -275,7 +258,41 @@ def process_pool(processes: int) -> ProcessPoolExecutor:
 
     They end by themselves when the one that started them is killed; what interrupts it is not theirs to answer.
     """
+    before = os.environ.get("PYTHONWARNINGS")
+    # what is killed leaves semaphores behind: they are cleared away by a process that need not tell the user of it
+    os.environ["PYTHONWARNINGS"] = ",".join(filter(None, (before, "ignore:resource_tracker")))
+    try:
+        resource_tracker.ensure_running()
+    finally:
+        if before is None:
+            del os.environ["PYTHONWARNINGS"]
+        else:
+            os.environ["PYTHONWARNINGS"] = before
     return ProcessPoolExecutor(processes, multiprocessing.get_context("spawn"), _end_with_parent)
+
+
+def _end(pool: ProcessPoolExecutor, others: Iterable[BaseProcess]) -> None:
+    """End a pool at once, and processes of pools before it, whatever they are about."""
+    running = _processes(pool)
+    with suppress(AttributeError, OSError):
+        # a result that is half written would be waited for while anybody can write, and this process could
+        pool._result_queue._writer.close()  # type: ignore[attr-defined]
+    for process in (*others, *running):
+        process.kill()
+    pool.shutdown(wait=False, cancel_futures=True)
+
+
+@contextmanager
+def _uninterrupted() -> Iterator[None]:
+    """What is started here is not told of an interruption, which comes to this process alone, and a moment later."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _processes(pool: ProcessPoolExecutor) -> list[BaseProcess]:

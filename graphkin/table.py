@@ -307,7 +307,7 @@ class Table:
         ------
         CallError : another ending, pyarrow is missing for .parquet, or a place that cannot be written
         """
-        from graphkin.jobs import whole_file
+        from graphkin.files import whole_file
 
         target = Path(path)
         kind = target.suffix.lower()

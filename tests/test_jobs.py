@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 
 from graphkin.errors import CallError
-from graphkin.jobs import Checkpoints, Workers, cluster, key_of, whole_file
+from graphkin.jobs import Checkpoints, Workers, cluster, key_of
 
 PROGRAM = """
 import os, sys, time
@@ -162,19 +162,6 @@ def test_a_checkpoint_that_is_half_written_does_not_count(tmp_path: Path) -> Non
 
 def test_another_job_has_another_key() -> None:
     assert key_of({"n": 1}, "a") != key_of({"n": 2}, "a")
-
-
-def test_a_file_that_fails_leaves_the_one_before(tmp_path: Path) -> None:
-    (tmp_path / "a").write_bytes(b"before")
-
-    def interrupted() -> None:
-        with whole_file(tmp_path / "a") as out:
-            out.write(b"half")
-            raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        interrupted()
-    assert (b"before", ["a"]) == ((tmp_path / "a").read_bytes(), [p.name for p in tmp_path.iterdir()])
 
 
 def test_a_scheduler_that_does_not_answer_is_a_wrong_call() -> None:

@@ -196,7 +196,7 @@ def write_files(folder: Path, files: Mapping[str, bytes]) -> list[Path]:
     ------
     CallError : the folder cannot be written
     """
-    from graphkin.jobs import whole_file  # it brings the modules for processes, which a check without files needs not
+    from graphkin.files import whole_file
 
     try:
         folder.mkdir(parents=True, exist_ok=True)

@@ -6,6 +6,7 @@ import os
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
+from contextlib import nullcontext
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -15,6 +16,7 @@ from graphkin.api.answers import table_of, with_points
 from graphkin.api.arguments import MOST_SEED, SceneLike, as_scene, asked_symbols, whole_number, write_files
 from graphkin.api.results import Result
 from graphkin.errors import CallError, GraphkinError, Problem, did_you_mean
+from graphkin.files import folder_alone
 from graphkin.jobs import Progress, Workers
 from graphkin.papers.data_rows import Columns, columns_of, replaced
 from graphkin.papers.problem_set import Job, MadeSet, Render, jobs_of_rows, jobs_of_seed, make
@@ -149,7 +151,7 @@ def problem_set(
             for path in left:
                 path.unlink(missing_ok=True)
 
-    with Workers(executor, workers) as working:
+    with folder_alone(folder) if folder is not None else nullcontext(), Workers(executor, workers) as working:
         made = make(jobs, working, folder, keep, render, progress, finish)
     return ProblemSet(given, made, unused, folder)
 

@@ -18,7 +18,7 @@ from graphkin.cli.options import (
     driver_values,
     listed,
 )
-from graphkin.cli.output import print_json, print_paths, print_table, unsolvable_as_json
+from graphkin.cli.output import print_json, print_paths, print_table, tell, unsolvable_as_json
 from graphkin.errors import CallError, Problem, Unsolvable
 
 __all__ = ["centres"]
@@ -60,7 +60,7 @@ def centres(
         print_paths(paths)
         told = centres_text(found)
         print_table(told.heads, told.rows)
-        typer.echo("\n".join(told.sentences))
+        tell("\n".join(told.sentences))
     if not found.ok:
         raise typer.Exit(1)
 

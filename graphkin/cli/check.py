@@ -28,7 +28,7 @@ from graphkin.cli.options import (
     driver_values,
     listed,
 )
-from graphkin.cli.output import print_json, print_paths, print_table, tell_unused, unsolvable_as_json
+from graphkin.cli.output import print_json, print_paths, print_table, tell, tell_unused, unsolvable_as_json
 from graphkin.errors import Unsolvable
 from graphkin.words import languages
 
@@ -80,7 +80,7 @@ def print_check(checked: Checked, language: str, as_json: bool, quiet: bool) -> 
     elif not quiet:
         _print_readings(checked, language)
     if checked.sheet.stopped is not None:
-        typer.echo(f"graphkin: {say(checked.sheet.stopped, language, show)}", err=True)
+        tell(f"graphkin: {say(checked.sheet.stopped, language, show)}", err=True)
         if checked.report.missing or not checked.report.rows:
             raise typer.Exit(3)
     if not checked.ok:
@@ -105,10 +105,10 @@ def _print_readings(checked: Checked, language: str) -> None:
     heads = [word(key, language) for key in ("quantity", "on paper", "measured", "exact")]
     print_table([*heads, ""], rows, right=(1, 2, 3))
     for note in checked.sheet.notes:
-        typer.echo(say(note, language, show))
+        tell(say(note, language, show))
     if checked.advice:
-        typer.echo(say(checked.advice.phrase(), language, show))
-    typer.echo(verdict(checked, language))
+        tell(say(checked.advice.phrase(), language, show))
+    tell(verdict(checked, language))
 
 
 def _write(folder: Path, checked: Checked, language: str) -> None:

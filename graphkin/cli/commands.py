@@ -5,7 +5,9 @@ from __future__ import annotations
 import atexit
 import gc
 import os
+import signal
 import sys
+from contextlib import suppress
 from typing import Annotated
 
 import typer
@@ -14,12 +16,17 @@ from graphkin import __version__
 from graphkin.cli.centres import centres
 from graphkin.cli.check import audit, check, draw
 from graphkin.cli.handout import handout
+from graphkin.cli.output import tell
 from graphkin.cli.solve import scenes, solve
+from graphkin.cli.streams import Unwritable, own_streams
 from graphkin.cli.study import study
 from graphkin.cli.sweep import sweep
 from graphkin.errors import GraphkinError
 
 __all__ = ["app", "main"]
+
+INTERRUPTED = 130
+"""Exit status of what was interrupted, as shells have it."""
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -48,20 +55,48 @@ def _common(
 
 
 def main() -> None:
-    """Run the command line; problems are said on stderr, one a line, and give the exit status."""
+    """Run the command line; problems are said on stderr, one a line, and give the exit status.
+
+    A reader of the output that goes away changes nothing; a place that cannot take it is status 2, an interruption 130.
+    """
     # nearly all that a command makes are modules, which stay: looking for garbage among them takes a tenth of its time
     gc.set_threshold(100_000, 50, 100)
     atexit.register(gc.freeze)
     # and looking through all installed packages for plugins of pydantic another twentieth
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
-    for stream in (sys.stdout, sys.stderr):
-        if hasattr(stream, "reconfigure"):
-            stream.reconfigure(encoding="utf-8", errors="replace")
+    own_streams()
+    status: str | int | None = 0
+    try:
+        status = _run()
+        sys.stdout.flush()
+    except Unwritable as error:
+        with suppress(OSError):
+            tell(f"graphkin: what is printed cannot be written: {error.strerror}", err=True)
+        status = 2
+    if status == INTERRUPTED:
+        _leave()
+    if status:
+        sys.exit(status)
+
+
+def _run() -> str | int | None:
+    """The exit status of the command."""
     try:
         app()
+    except SystemExit as end:
+        return end.code
     except GraphkinError as error:
-        for problem in error.problems:
-            typer.echo(f"graphkin: {problem}", err=True)
-        sys.exit(error.exit_code)
-    except BrokenPipeError:
-        sys.exit(0)
+        tell("\n".join(f"graphkin: {problem}" for problem in error.problems), err=True)
+        return error.exit_code
+    except KeyboardInterrupt:  # a second one, while the first was answered
+        return INTERRUPTED
+    return 0
+
+
+def _leave() -> None:
+    """End at once: nothing that runs is waited for, and a further interruption finds nobody."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    with suppress(OSError):
+        sys.stdout.flush()
+        sys.stderr.flush()
+    os._exit(INTERRUPTED)

@@ -20,7 +20,7 @@ from graphkin.cli.options import (
     listed,
     processes,
 )
-from graphkin.cli.output import print_json, print_paths, progress_bar, short_bar, tell_unused
+from graphkin.cli.output import print_json, print_paths, progress_bar, short_bar, tell, tell_unused
 from graphkin.errors import CallError, Problem
 
 __all__ = ["handout"]
@@ -75,7 +75,7 @@ def handout(
     elif not quiet:
         print_paths(paths)
     for note in made.notes:
-        typer.echo(f"graphkin: {say(note, languages(made.lesson.language)[0])}", err=True)
+        tell(f"graphkin: {say(note, languages(made.lesson.language)[0])}", err=True)
     if not made.ok:
         raise typer.Exit(1)
 
@@ -106,9 +106,9 @@ def _problem_set(
     if as_json:
         print_json(made.data)
     elif not quiet:
-        typer.echo(f"{len(made.made.names)} problems in {target}, all answers in {target / 'answers.csv'}")
+        tell(f"{len(made.made.names)} problems in {target}, all answers in {target / 'answers.csv'}")
     tell_unused(made.unused)
     for failure in made.made.failures:
-        typer.echo(f"graphkin: {failure.name}: {failure.why}", err=True)
+        tell(f"graphkin: {failure.name}: {failure.why}", err=True)
     if not made.ok:
         raise typer.Exit(3)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -11,18 +12,27 @@ from pathlib import Path
 
 import typer
 
-from graphkin.errors import Unsolvable
+from graphkin.errors import Unsolvable, printable
 
-__all__ = ["print_json", "print_paths", "print_table", "progress_bar", "short_bar", "tell_unused", "unsolvable_as_json"]
+__all__ = [
+    "print_json", "print_paths", "print_table", "progress_bar", "short_bar", "tell", "tell_unused",
+    "unsolvable_as_json",
+]  # fmt: skip
+
+
+def tell(text: str, err: bool = False) -> None:
+    """Print lines of text, on stderr if it is no result; what in them would command the terminal is written out."""
+    typer.echo("\n".join(map(printable, text.split("\n"))), err=err)
 
 
 def print_json(data: object) -> None:
-    typer.echo(json.dumps(data, ensure_ascii=False, allow_nan=False))
+    text = json.dumps(data, ensure_ascii=False, allow_nan=False)
+    typer.echo(re.sub("[\x7f-\x9f]", lambda found: f"\\u{ord(found[0]):04x}", text))
 
 
 def print_paths(paths: Iterable[Path]) -> None:
     """One path a line."""
-    typer.echo("\n".join(str(path) for path in paths))
+    tell("\n".join(str(path) for path in paths))
 
 
 def print_table(heads: Sequence[str], rows: Sequence[Sequence[str]], right: tuple[int, ...] = ()) -> None:
@@ -40,7 +50,7 @@ def plain_table(heads: Sequence[str], rows: Sequence[Sequence[str]], right: tupl
     """The lines of a table for a file or another program."""
     from rich.cells import cell_len  # the rest of rich takes longer to import than a check does
 
-    heads, *rows = [["".join(c if c.isprintable() else " " for c in cell) for cell in row] for row in (heads, *rows)]
+    heads, *rows = [list(map(printable, row)) for row in (heads, *rows)]
     widths = [max(cell_len(text) for text in column) for column in zip(heads, *rows, strict=True)]
 
     def line(cells: Sequence[str]) -> str:
@@ -62,7 +72,7 @@ def _show_table(heads: Sequence[str], rows: Sequence[Sequence[str]], right: tupl
     for i, head in enumerate(heads):
         table.add_column(head, justify="right" if i in right else "left", no_wrap=i != 1)
     for row in rows:
-        table.add_row(*(Text(cell) for cell in row))
+        table.add_row(*(Text(printable(cell)) for cell in row))
     Console().print(table)
 
 
@@ -80,17 +90,17 @@ def unsolvable_as_json(wanted: bool, answer: Callable[[Unsolvable], object]) -> 
 def tell_unused(heads: Sequence[str]) -> None:
     """Say which columns of a table were not used."""
     if heads:
-        typer.echo(f"graphkin: columns left alone: {', '.join(heads)[:300]}", err=True)
+        tell(f"graphkin: columns left alone: {', '.join(heads)[:300]}", err=True)
 
 
 @contextmanager
 def progress_bar(shown: bool, target: Path) -> Iterator[Callable[[int, int], None] | None]:
     """Progress of a run that keeps what it has done in a folder; where it is interrupted, it is said how to go on."""
-    with short_bar(shown) as tell:
+    with short_bar(shown) as count:
         try:
-            yield tell
+            yield count
         except KeyboardInterrupt:
-            typer.echo(f"graphkin: interrupted; what is done is kept in {target}, the same command goes on", err=True)
+            tell(f"graphkin: interrupted; what is done is kept in {target}, the same command goes on", err=True)
             raise
 
 
@@ -108,12 +118,12 @@ def short_bar(shown: bool) -> Iterator[Callable[[int, int], None] | None]:
     task = bar.add_task("", total=None)
     started = time.monotonic()
 
-    def tell(done: int, total: int) -> None:
+    def count(done: int, total: int) -> None:
         if time.monotonic() - started > 1.0 and not bar.live.is_started:
             bar.start()
         bar.update(task, completed=done, total=total)
 
     try:
-        yield tell
+        yield count
     finally:
         bar.stop()

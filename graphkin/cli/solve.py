@@ -23,7 +23,7 @@ from graphkin.cli.options import (
     SceneArgument,
     driver_values,
 )
-from graphkin.cli.output import print_json, print_paths, print_table, unsolvable_as_json
+from graphkin.cli.output import print_json, print_paths, print_table, tell, unsolvable_as_json
 from graphkin.errors import CallError, Problem
 
 if TYPE_CHECKING:
@@ -113,7 +113,7 @@ def solve(
         _print_solution(solved, lang)
     if not solved.ok:
         first = solved.data["positions"][0]
-        typer.echo(f"graphkin: {first['status']}: {first['why']}", err=True)
+        tell(f"graphkin: {first['status']}: {first['why']}", err=True)
         raise typer.Exit(3)
 
 
@@ -122,17 +122,17 @@ def _print_solution(solved: Solved, lang: str | None) -> None:
 
     data, scene = solved.data, solved.motion.scene
     language = lang or scene.sheet.language
-    typer.echo(f"{scene.title_in(language)}   F = {data['mobility']}")
+    tell(f"{scene.title_in(language)}   F = {data['mobility']}")
     for group in data["groups"]:
         links = ", ".join(group["links"])
         args = links, group["kind"], group["class"], group["assembly"]
-        typer.echo(say(Phrase("solved group", args), language))
+        tell(say(Phrase("solved group", args), language))
     for position in data["positions"]:
-        typer.echo("")
+        tell("")
         values = ", ".join(f"{k} = {v:.6g}" for k, v in position["driver"].items())
-        typer.echo(say(Phrase("solved driver", (values,)), language))
+        tell(say(Phrase("solved driver", (values,)), language))
         if position["status"] != "ok":
-            typer.echo(f"{position['status']}: {position['why']}")
+            tell(f"{position['status']}: {position['why']}")
             continue
         _print_position(position, scene.units.length, language)
 

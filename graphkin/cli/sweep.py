@@ -20,7 +20,7 @@ from graphkin.cli.options import (
     listed,
     processes,
 )
-from graphkin.cli.output import print_json, print_paths, progress_bar, unsolvable_as_json
+from graphkin.cli.output import print_json, print_paths, progress_bar, tell, unsolvable_as_json
 from graphkin.errors import CallError, Problem
 
 __all__ = ["sweep"]
@@ -72,10 +72,10 @@ def sweep(
     if as_json:
         print_json(swept.data)
     elif not quiet:
-        typer.echo(swept.text)
+        tell(swept.text)
         print_paths(sorted(p for p in target.iterdir() if not p.name.startswith(".")))
     if not swept.ok:
-        typer.echo("graphkin: no position could be solved; designs.csv or table.csv says why", err=True)
+        tell("graphkin: no position could be solved; designs.csv or table.csv says why", err=True)
         raise typer.Exit(3)
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from graphkin.drawing.primitives import Page
 from graphkin.drawing.svg import svg_bytes
 from graphkin.errors import CallError, Problem
-from graphkin.jobs import whole_file
+from graphkin.files import whole_file
 
 __all__ = ["FORMATS", "Drawing", "Kept", "save"]
 

@@ -126,7 +126,7 @@ class Scene(SceneTables):
         ------
         CallError : a place that cannot be written
         """
-        from graphkin.jobs import whole_file
+        from graphkin.files import whole_file
 
         target = Path(path)
         try:

@@ -16,7 +16,8 @@ from typing import Any
 import numpy as np
 
 from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable
-from graphkin.jobs import Checkpoints, Progress, Workers, key_of, whole_file
+from graphkin.files import folder_alone, whole_file
+from graphkin.jobs import Checkpoints, Progress, Workers, key_of
 from graphkin.scene import mechanism_of
 from graphkin.scene.model import Mechanism
 from graphkin.study.designs import Designs, Value, applied
@@ -275,25 +276,26 @@ def write_tables(
 
     Raises
     ------
-    CallError : the folder cannot be written
+    CallError : the folder cannot be written, or another program is writing into it
     """
     # what is wrong with the scene itself is said before anything is written
     _ = sweep.head
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        points = Checkpoints.of(folder, "sweep", sweep.key)
-        points.open(scene=sweep.name, pieces=sweep.pieces, rows=sweep.rows)
-        finished = points.done()
-        missing = [k for k in range(sweep.pieces) if k not in finished]
-        done = sweep.pieces - len(missing)
-        _count(sweep, done, progress)
-        results = workers.results(make, ((sweep.piece(k, True),) for k in missing))
-        for number, made in zip(missing, results, strict=True):
-            outcomes = [asdict(o) for o in made.outcomes]
-            points.save(number, {"outcomes": outcomes, "good": made.good}, made.text)
-            done += 1
+        with folder_alone(folder):
+            points = Checkpoints.of(folder, "sweep", sweep.key)
+            points.open(scene=sweep.name, pieces=sweep.pieces, rows=sweep.rows)
+            finished = points.done()
+            missing = [k for k in range(sweep.pieces) if k not in finished]
+            done = sweep.pieces - len(missing)
             _count(sweep, done, progress)
-        return _merged(sweep, points, folder, parquet)
+            results = workers.results(make, ((sweep.piece(k, True),) for k in missing))
+            for number, made in zip(missing, results, strict=True):
+                outcomes = [asdict(o) for o in made.outcomes]
+                points.save(number, {"outcomes": outcomes, "good": made.good}, made.text)
+                done += 1
+                _count(sweep, done, progress)
+            return _merged(sweep, points, folder, parquet)
     except OSError as error:
         raise CallError(
             Problem(str(folder), f"cannot be written: {error.strerror or error}", "give another folder with -o")

@@ -1,0 +1,100 @@
+"""Files that appear whole or not at all, and folders into which one program writes at a time."""
+
+from __future__ import annotations
+
+import os
+import platform
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import IO
+
+from graphkin.errors import CallError, Problem
+
+__all__ = ["folder_alone", "whole_file"]
+
+_LOCK = ".graphkin-writes-here"
+
+
+@contextmanager
+def whole_file(path: Path, beside: Path | None = None) -> Iterator[IO[bytes]]:
+    """Open a file that takes its name only when it is whole; one of the same name is replaced.  Until then it is in its
+    own folder, or in another one.  Who may read it the user's own rule for new files says.  Raises OSError."""
+    temporary = (beside or path.parent) / f".{path.name}.{os.urandom(4).hex()}"
+    handle = os.open(temporary, os.O_CREAT | os.O_EXCL | os.O_WRONLY | getattr(os, "O_BINARY", 0), 0o666)
+    try:
+        with os.fdopen(handle, "wb") as stream:
+            yield stream
+        os.replace(temporary, path)
+    except BaseException:
+        with suppress(OSError):
+            os.unlink(temporary)
+        raise
+
+
+@contextmanager
+def folder_alone(folder: Path) -> Iterator[None]:
+    """Have a folder of results for oneself for a long job: a second program that wants it is told who is there.
+
+    A file is held locked in it, which the system lets go of when the program ends, however that comes about.
+
+    Raises
+    ------
+    CallError : another program is writing into the folder
+    OSError : the folder cannot be written
+    """
+    path = folder / _LOCK
+    handle = _locked(path)
+    if handle is None:
+        who = ""
+        with suppress(OSError):
+            who = path.read_text(encoding="utf-8").strip()
+        found = f"another graphkin is writing into it{f' ({who})' if who else ''}"
+        raise CallError(Problem(str(folder), found, "wait until it has done, or give another folder with -o"))
+    try:
+        with suppress(OSError):  # a full disk: then nobody is named
+            os.write(handle, f"process {os.getpid()} on {platform.node()}\n".encode())
+        yield
+    finally:
+        with suppress(OSError):
+            os.unlink(path)
+        os.close(handle)
+
+
+def _locked(path: Path) -> int | None:
+    """A handle of the file, locked; None where another has it."""
+    while True:
+        handle = os.open(path, os.O_CREAT | os.O_RDWR, 0o666)
+        if not _lock(handle):
+            os.close(handle)
+            return None
+        with suppress(OSError):  # who had it before may have taken it away meanwhile
+            if os.path.samestat(os.fstat(handle), os.stat(path)):
+                os.ftruncate(handle, 0)
+                return handle
+        os.close(handle)
+
+
+def _lock(handle: int) -> bool:
+    try:
+        import fcntl
+    except ImportError:  # Windows
+        return _lock_on_windows(handle)
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    except OSError:  # a file system that knows no locks: as if nobody were there
+        pass
+    return True
+
+
+def _lock_on_windows(handle: int) -> bool:
+    from importlib import import_module
+
+    msvcrt = import_module("msvcrt")
+    try:
+        msvcrt.locking(handle, msvcrt.LK_NBLCK, 1)
+    except OSError:
+        return False
+    return True

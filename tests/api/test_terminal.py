@@ -1,0 +1,65 @@
+"""Where a command prints to: pipes that close, disks that are full, terminals, and those who interrupt."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from ..command import PROGRAM, run
+
+SIXBAR = "sixbar-guide-40deg"
+CALL = [*PROGRAM, "check", SIXBAR]
+POSIX = pytest.mark.skipif(sys.platform == "win32", reason="pipes, signals and /dev/full of POSIX")
+
+
+@POSIX
+def test_a_reader_that_goes_away_changes_nothing() -> None:
+    reads, writes = os.pipe()
+    os.close(reads)
+    ended = subprocess.run(CALL, stdout=writes, stderr=subprocess.PIPE, text=True, check=False)
+    os.close(writes)
+    assert (0, "") == (ended.returncode, ended.stderr)
+
+
+@POSIX
+def test_a_full_disk_under_what_is_printed_is_a_sentence() -> None:
+    with open("/dev/full", "w") as full:
+        ended = subprocess.run(CALL, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+    said = "graphkin: what is printed cannot be written: No space left on device\n"
+    assert (2, said) == (ended.returncode, ended.stderr)
+
+
+@pytest.mark.parametrize("bad", ["\x1b[2J", "\x9b31m", "\u202e", "\x7f"])
+def test_control_characters_of_a_file_never_reach_the_terminal(tmp_path: Path, bad: str) -> None:
+    quoted = json.dumps(bad).replace("\x7f", "\\u007f").replace("\x9b", "\\u009b")
+    (tmp_path / "bad.toml").write_text(f'title = "a"\n[links.{quoted}]\npoints = ["A", {quoted}]\n', encoding="utf-8")
+    said = run("check", str(tmp_path / "bad.toml"))
+    assert 2 == said.returncode
+    assert bad not in said.stderr
+    assert "is no name" in said.stderr
+
+
+@POSIX
+def test_a_sweep_that_is_interrupted_twice_ends_at_once_with_all_its_processes(tmp_path: Path) -> None:
+    call = [*PROGRAM, "sweep", "shaper-scheme-2", "--set", "links.2.length=80:100:4000", "--workers", "2", "-o", "out"]
+    with subprocess.Popen(call, cwd=tmp_path, stderr=subprocess.PIPE, text=True, start_new_session=True) as program:
+        deadline = time.monotonic() + 30
+        while not list(tmp_path.glob("out/.sweep-*/0*")) and time.monotonic() < deadline:
+            time.sleep(0.02)
+        begin = time.monotonic()
+        for _ in range(2):
+            os.killpg(program.pid, signal.SIGINT)
+            time.sleep(0.01)
+        # a process that lives on would hold the pipe of stderr open
+        said = program.communicate(timeout=20)[1]
+        assert time.monotonic() - begin < 5.0  # less than one, where nothing else runs
+    assert 130 == program.returncode
+    told = "graphkin: interrupted; what is done is kept in out, the same command goes on\n"
+    assert said in ("", told)
