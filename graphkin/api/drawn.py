@@ -67,7 +67,7 @@ class Drawn(Result):
 
     @cached_property
     def figures(self) -> Mapping[str, Drawing]:
-        """Figures by name: mechanism, velocity, acceleration, centres, sheet."""
+        """Figures by name: mechanism, velocity, acceleration, centres, sheet, and sheet-2 where the sheet goes on."""
         from graphkin.api.centred import ROOM, found_centres
         from graphkin.construction.centres import speeds
         from graphkin.drawing import figures
@@ -97,8 +97,12 @@ class Drawn(Result):
         known_words(formats)
         target = Path(folder) if folder is not None else Path(self.checked.scene.name)
         files: dict[str, bytes] = {}
-        for name, figure in self.figures.items():
+        figures = self.figures
+        overleaf = {id(page) for figure in figures.values() for page in figure.further}
+        for name, figure in figures.items():
             for kind in formats:
+                if kind == "pdf" and id(figure) in overleaf:
+                    continue  # a page of the PDF that it goes on
                 files[f"{name}.{kind}"] = figure.content(kind)
         files["readings.csv"] = self.table.csv().encode()
         spoken = languages(self.language or self.checked.scene.sheet.language)[0]

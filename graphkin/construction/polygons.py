@@ -68,14 +68,9 @@ class Polygons(Plot):
             self.rates[order][name] = Rate(name, base + sign * rate)
             assert isinstance(pair, Turn)
             pivot = PointRef(pair.point)
-            far = [
-                PointRef(p)
-                for p in self.links[name].points
-                if abs(self.places[p] - self.places[pair.point]) > self.tiny
-            ]
-            if far:
-                edge = Edge(pivot, far[0], (pivot, far[0]), Direction("square", (pivot.point, far[0].point)), link=name)
-                self._lay_off(order, (edge,), element)
+            for end in self._first_ends(name, pair.point):
+                way = Direction("square", (pivot.point, end.point))
+                self._lay_off(order, (Edge(pivot, end, (pivot, end), way, link=name),), element)
             return
         assert isinstance(pair, Slide)
         known = pair.b if name == pair.a else pair.a
@@ -84,6 +79,18 @@ class Polygons(Plot):
         if point:
             edge = self._slide_edge(pair, point)
             self._lay_off(order, (edge if name == pair.a else edge.reversed(),), element)
+
+    def _first_ends(self, name: str, hinge: str) -> list[PointRef]:
+        """With which points of a driven link a drawing begins: one of its own, else those under what slides on it."""
+        own = [PointRef(p) for p in self.links[name].points if p != hinge]
+        under = [
+            node(self.links, s.pin, name)
+            for s in self.structure.slides
+            if s.pin in self.places and s.b == name and "/" not in name
+        ]
+        away = [n for n in (*own, *under) if abs(self.places[n.point] - self.places[hinge]) > self.tiny]
+        first = away[:1] if any(n in own for n in away) else away
+        return list(dict.fromkeys(first))
 
     def _slide_edge(self, slide: Slide, point: str) -> Edge:
         a, b = node(self.links, point, slide.a), node(self.links, point, slide.b)

@@ -16,7 +16,7 @@ from graphkin.words import Phrase
 
 __all__ = [
     "ZERO_MM", "Act", "ArcOnPath", "Asked", "ByImage", "ByRate", "Carried", "Cause", "CompassArcs", "Direction",
-    "DirectionLine", "FixedPoints", "Formula", "FoundVector", "Given", "GuideThrough", "GuideTouching", "LaidOff",
+    "DirectionLine", "FixedPoints", "FoundVector", "Given", "GuideThrough", "GuideTouching", "LaidOff",
     "LaidOffAngle", "LaidOffTravel", "LinesMeet", "LinkPoints", "MeasuredRate", "Named", "PathDrawn", "PathsCross",
     "Placing", "PutBack", "RateTimes", "ReadOff", "Resultant", "SamePlace", "Size", "SlidToMeet", "Translated",
     "links_drawn", "phrase_of", "scaled",
@@ -69,17 +69,7 @@ class RateTimes:
         return f"{'2' * self.twice}{letter}_{{{''.join(self.links)}}}{'²' * self.square}·{factor}"
 
 
-@dataclass(frozen=True)
-class Formula:
-    """A rule written without names, as for links that a driver turns about a hinge of another link."""
-
-    text: str
-
-    def __str__(self) -> str:
-        return self.text
-
-
-Size = Given | RateTimes | Formula
+Size = Given | RateTimes
 
 # -- acts in the mechanism ---------------------------------------------------------------------------------------------
 

@@ -7,7 +7,7 @@ from typing import Literal
 from graphkin.construction.equations import Edge
 from graphkin.construction.plot import Order, Plot
 from graphkin.construction.slip import Component
-from graphkin.construction.steps import Direction, Formula, Given, RateTimes
+from graphkin.construction.steps import Direction, Given, RateTimes
 from graphkin.plane import dot, unit
 from graphkin.scene.model import AngleDriver, SlideDriver
 from graphkin.scene.symbol import Symbol
@@ -109,11 +109,12 @@ def _weld_parts(plot: Plot, order: Order, edge: Edge, weld: Weld) -> list[Compon
     way = 1 if edge.forward else -1
     _, speed, rate = weld.driver.values
     omega, alpha = way * turn_sign(weld) * speed, way * turn_sign(weld) * rate
-    arm_m = plot.measured(arm, (hinge, edge.end.point))
+    name = (hinge, edge.end.point)
+    arm_m = plot.measured(arm, name)
     square = 1j * unit(arm)
     if order == "velocity":
         span = square * (omega * arm_m / plot.scales.velocity)
-        size = RateTimes("omega", (weld.b, weld.a), (hinge, edge.end.point))
+        size = RateTimes("omega", (weld.b, weld.a), name)
         return [Component(symbol_of(plot, "v", edge), "relative", square, span, edge.direction, size)]
     base = weld.a if edge.forward else weld.b
     turn = plot.rates["velocity"][base].value
@@ -125,8 +126,8 @@ def _weld_parts(plot: Plot, order: Order, edge: Edge, weld: Weld) -> list[Compon
             "normal",
             inward,
             inward * (omega**2 * per),
-            Direction("towards", (edge.end.point, hinge)),
-            Formula("ω²r"),
+            Direction("towards", name[::-1]),
+            RateTimes("omega", (weld.b, weld.a), name, square=True),
         ),
         Component(
             symbol_of(plot, "at", edge),
@@ -134,15 +135,15 @@ def _weld_parts(plot: Plot, order: Order, edge: Edge, weld: Weld) -> list[Compon
             square,
             square * (alpha * per),
             edge.direction,
-            Formula("αr"),
+            RateTimes("alpha", (weld.b, weld.a), name),
         ),
         Component(
             symbol_of(plot, "ak", edge),
             "coriolis",
             inward,
             inward * (2 * turn * omega * per),
-            Direction("turned", edge.direction.names),
-            Formula("2ωv"),
+            Direction("along", name),
+            RateTimes("omega", (base,), symbol_of(plot, "v", edge), twice=True),
         ),
     ]
 

@@ -75,8 +75,16 @@ class Letters:
             return ref.point
         return f"{ref.point}_{{{link}}}" if ref.point[-1].isdigit() else f"{ref.point}{link}"
 
+    def arrow(self, symbol: Symbol) -> str:
+        r"""A vector as such, in an equation or at its arrow, told from its magnitude: ``\mathbf{v}_{B3B2}``.
+
+        All four books print vectors bold (Sun Huan, Norton, Artobolevsky) or have no mark of their own.
+        """
+        magnitude = self.vector(symbol)
+        return rf"\mathbf{{{magnitude[0]}}}{magnitude[1:]}"
+
     def vector(self, symbol: Symbol) -> str:
-        """A vector or a rate: ``v_{B3B2}``, ``a^{n}_{CB}``, ``ω_{3}``."""
+        """The magnitude of a vector, or a rate: ``v_{B3B2}``, ``a^{n}_{CB}``, ``ω_{3}``."""
         if symbol.of is None:
             return f"{'ω' if symbol.kind == 'omega' else 'α'}_{{{symbol.link}}}"
         us = self.convention == "us"
@@ -145,7 +153,11 @@ class Letters:
         letter = "ω" if rule.rate == "omega" else "α"
         name = f"{'2' * rule.twice}{letter}_{{{''.join(rule.links)}}}{'^{2}' * rule.square}"
         factor = rule.factor
-        return f"{name} {self.vector(factor) if isinstance(factor, Symbol) else f'l_{{{factor[0]}{factor[1]}}}'}"
+        return f"{name} {self.vector(factor) if isinstance(factor, Symbol) else self.length(factor)}"
+
+    def length(self, names: Sequence[str]) -> str:
+        """The length of a bar: ``l_{AB}``."""
+        return f"l_{{{''.join(names)}}}"
 
 
 def in_counting_order(link: str) -> tuple[bool, int, str]:

@@ -68,8 +68,8 @@ def coriolis_inset(sheet: Sheet, term: CoriolisTerm, letters: Letters, box: Box)
     id = vector.symbol.id
     links = "".join(rule.links) if isinstance(rule, RateTimes) and rule.rate == "omega" else ""
     names = [
-        _label(letters.vector(velocity.symbol), f"label-inset-v-{id}", tips[0], phase(slip)),
-        _label(letters.vector(vector.symbol), f"label-inset-{id}", tips[1], phase(turned)),
+        _label(letters.arrow(velocity.symbol), f"label-inset-v-{id}", tips[0], phase(slip)),
+        _label(letters.arrow(vector.symbol), f"label-inset-{id}", tips[1], phase(turned)),
     ]
     if links:
         middle = centre + 3.6 * (slip + turned).conjugate() / abs(slip + turned)

@@ -53,10 +53,13 @@ class Kept:
 
 @dataclass(frozen=True)
 class Drawing(Page, Kept):
-    """A page of primitives that can be kept.
+    """A page of primitives that can be kept; ``further`` are the pages on which it goes on: they follow it in a PDF,
+    and are files of their own in other formats.
 
     Two types, because the writers, which a drawing calls, know nothing but what is on a page.
     """
+
+    further: tuple[Drawing, ...] = ()
 
     def _svg(self) -> bytes:
         return svg_bytes(self)
@@ -64,7 +67,7 @@ class Drawing(Page, Kept):
     def _pdf(self) -> bytes:
         from graphkin.drawing.page import pdf_bytes
 
-        return pdf_bytes(self)
+        return pdf_bytes(self, *self.further)
 
     def _png(self, dpi: float) -> bytes:
         from graphkin.drawing.page import png_bytes

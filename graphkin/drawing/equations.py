@@ -1,12 +1,13 @@
-"""Vector equations as they are written: terms with what is known of their size and direction."""
+"""Vector equations as they are written: terms with what is known of their size and direction; and the angular rates
+that are measured, or shared, between them."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
-from graphkin.construction.sheet import Equation, Sheet, Term
-from graphkin.construction.steps import Given
+from graphkin.construction.sheet import Equation, Rate, Sheet, Term
+from graphkin.construction.steps import Given, MeasuredRate
 from graphkin.drawing import strokes
 from graphkin.drawing.conventions import Letters, rows_of
 from graphkin.drawing.font_widths import run_box, runs_width
@@ -15,13 +16,13 @@ from graphkin.drawing.piece import moved
 from graphkin.drawing.primitives import Line, Primitive, Run, Text
 from graphkin.drawing.text import rich, symbol
 
-__all__ = ["Written", "write_equation", "write_equations"]
+__all__ = ["Written", "equations_in_room", "write_equation", "written_lines"]
 
-SIZES = (3.2, 2.9, 2.6, 2.3, 2.0)  # mm, of the letters; the largest that fits is taken
+SIZES = (3.2, 2.9, 2.6)  # mm, of the letters; the largest that fits is taken
+LEAST_ROW = 2.3  # mm, of the letters in rows: below it a square over an index runs into it
 CLEAR, UNDERLINE = 0.55, 0.6  # mm between two rows, and between two lines under a term
 GAP = 1.3  # mm beside a column of terms
 COLUMN_GAP = 5.0  # mm between two columns of equations
-REMARK = 4.0  # mm for the remark on those left out
 
 
 @dataclass(frozen=True)
@@ -49,21 +50,25 @@ class _Cell:
         return max(runs_width(self.runs), runs_width(self.size), runs_width(self.direction), runs_width(self.over))
 
 
-def write_equations(
-    sheet: Sheet, letters: Letters, language: str, width: float, height: float
+WrittenLine = Equation | str
+"""A vector equation, or a rule on one line as words with symbols."""
+
+
+def equations_in_room(
+    lines: Sequence[WrittenLine], sheet: Sheet, letters: Letters, language: str, width: float, height: float
 ) -> tuple[tuple[Primitive, ...], int]:
-    """All equations of a sheet as large as they fit an area (mm), in one column or two, about its left upper corner;
-    and how many had to be left out."""
+    """Lines as large as they fit an area (mm), in one column or two, about its left upper corner; and how many of them,
+    the first ones, fit."""
     fullest: list[tuple[Written, complex]] = []
     for size in SIZES:
         for columns in (1, 2):
             wide = (width - (columns - 1) * COLUMN_GAP) / columns
-            blocks = [write_equation(sheet, e, letters, language, wide, size) for e in sheet.equations]
+            blocks = [_write_line(line, sheet, letters, language, wide, size) for line in lines]
             placed = _in_columns(blocks, wide, height, columns)
+            fullest = max(fullest, placed, key=len)
             if len(placed) == len(blocks):
-                return _written(placed), 0
-            fullest = max(fullest, _in_columns(blocks, wide, height - REMARK, columns), key=len)
-    return _written(fullest), len(sheet.equations) - len(fullest)
+                return _written(placed), len(placed)
+    return _written(fullest), len(fullest)
 
 
 def _written(blocks: Sequence[tuple[Written, complex]]) -> tuple[Primitive, ...]:
@@ -84,25 +89,85 @@ def _in_columns(blocks: Sequence[Written], wide: float, height: float, columns: 
     return placed
 
 
+def written_lines(sheet: Sheet, letters: Letters, language: str) -> list[WrittenLine]:
+    """Everything that is written to repeat a construction, in its order: each vector equation, and the angular rates
+    where they are known."""
+    lines: list[WrittenLine] = []
+    written: set[int] = set()
+    for step in sheet.steps:
+        if step.equation is not None and step.equation not in written:
+            written.add(step.equation)
+            equation = sheet.equations[step.equation - 1]
+            if step.diagram not in {one.diagram for one in lines if isinstance(one, Equation)}:
+                lines += _shared_with_drivers(sheet, equation)
+            lines.append(equation)
+        if isinstance(step.act, MeasuredRate):
+            lines.append(_measured(sheet, step.act, letters, language))
+    return lines
+
+
+def _measured(sheet: Sheet, act: MeasuredRate, letters: Letters, language: str) -> str:
+    """``ω_4 = ω_3 = v_A4 / l_AO4 = 0.74 rad/s, clockwise``."""
+    rates = sheet.omega if act.rate == "omega" else sheet.alpha
+    rate = rates[act.link]
+    names = [act.link, *_alike(rates.values(), rate)]
+    rule = f"${letters.vector(act.vector)}$ / ${letters.length(act.bar)}$"
+    unit = "rad/s" if act.rate == "omega" else "rad/s²"
+    way = "" if rate.value == 0.0 else f",  {term('clockwise' if rate.value < 0 else 'counter-clockwise', language)}"
+    value = f"{number(abs(rate.value), 5)} {unit}{way}"
+    return " = ".join((*(_rate_name(act.rate, n) for n in names), rule, value))
+
+
+def _shared_with_drivers(sheet: Sheet, equation: Equation) -> Iterator[str]:
+    """``ω_2 = ω_1``: links that slide on a driven one turn as it does."""
+    kind = "omega" if equation.diagram == "velocity" else "alpha"
+    rates = sheet.omega if kind == "omega" else sheet.alpha
+    for rate in rates.values():
+        if rate.vector is None and not rate.same_as and rate.value != 0.0:
+            alike = _alike(rates.values(), rate)
+            if alike:
+                yield " = ".join(_rate_name(kind, name) for name in (*alike[::-1], rate.link))
+
+
+def _alike(rates: Iterable[Rate], rate: Rate) -> list[str]:
+    """Links that turn as another, blocks of pins left out."""
+    return [
+        other.link for other in rates if other.same_as == rate.link and other.value == rate.value
+        and "/" not in other.link
+    ]  # fmt: skip
+
+
+def _rate_name(kind: str, link: str) -> str:
+    return f"${'ω' if kind == 'omega' else 'α'}_{{{link}}}$"
+
+
+def _write_line(line: WrittenLine, sheet: Sheet, letters: Letters, language: str, width: float, size: float) -> Written:
+    if isinstance(line, Equation):
+        return write_equation(sheet, line, letters, language, width, size)
+    return _one_line(line, size)
+
+
+def _one_line(markup: str, size: float) -> Written:
+    runs = rich(markup, size)
+    return Written((Text(complex(0, size), runs),), runs_width(runs), 1.9 * size)
+
+
 def write_equation(
     sheet: Sheet, equation: Equation, letters: Letters, language: str, width: float, size: float = 3.2
 ) -> Written:
-    """One equation, at most ``width`` mm wide: rules of sizes become √ where they do not fit, long ones are broken."""
-    short = _short(sheet, equation, letters, size)
+    """One equation, at most ``width`` mm wide: long ones are broken."""
+    short = _short(sheet, equation, letters)
     if short is not None:
-        runs = rich(short, size)
-        return Written((Text(complex(0, size), runs),), runs_width(runs), 1.9 * size)
+        written = _one_line(short, size)
+        if written.width <= width:
+            return written
     gap = 1.2 * GAP if rows_of(letters.convention) == "table" else 0.6 * GAP
-    for rules in (True, False):
-        cells = _cells(sheet, equation, letters, size, rules)
-        heads = _heads(letters, language, size)
-        lead = max((runs_width(h) for h in heads), default=0.0) + (2 * GAP if heads else 0.0)
-        if lead + sum(c.width + gap for c in cells) <= width:
-            break
-    lines = _lines(cells, width - lead, gap)
+    cells = _cells(sheet, equation, letters, size)
+    heads = _heads(letters, language, size)
+    lead = max((runs_width(h) for h in heads), default=0.0) + (2 * GAP if heads else 0.0)
     children: list[Primitive] = []
     y = most = 0.0
-    for line in lines:
+    for line in _lines(cells, width - lead, gap):
         block = _set(line, heads, lead, gap, letters, size, y)
         children += block.children
         y += block.height
@@ -110,7 +175,7 @@ def write_equation(
     return Written(tuple(children), most, y)
 
 
-def _short(sheet: Sheet, equation: Equation, letters: Letters, size: float) -> str | None:
+def _short(sheet: Sheet, equation: Equation, letters: Letters) -> str | None:
     """An equation that is only a rule, on one line: ``v_B = ω_1 l_AB = 1220 mm/s, ⊥AB``."""
     last = equation.sides[-1]
     if len(last) != 1 or not last[0].size_known or len(equation.sides) > 2:
@@ -129,36 +194,42 @@ def _short(sheet: Sheet, equation: Equation, letters: Letters, size: float) -> s
     return " = ".join(parts) + (f",  ${way}$" if way else "")
 
 
-def _cells(sheet: Sheet, equation: Equation, letters: Letters, size: float, rules: bool) -> list[_Cell]:
+def _cells(sheet: Sheet, equation: Equation, letters: Letters, size: float) -> list[_Cell]:
     cells: list[_Cell] = []
     for i, side in enumerate(equation.sides):
         for j, one in enumerate(side):
             if i or j:
                 cells.append(_Cell(symbol("+" if j else "=", size), is_term=False))
-            cells.append(_cell(sheet, one, letters, size, rules))
+            cells.append(_cell(sheet, one, letters, size))
     return cells
 
 
-def _cell(sheet: Sheet, one: Term, letters: Letters, size: float, rules: bool) -> _Cell:
+def _row_size(size: float) -> float:
+    return max(LEAST_ROW, 0.8 * size)
+
+
+def _cell(sheet: Sheet, one: Term, letters: Letters, size: float) -> _Cell:
+    """A term with its rows; where marks say what is known, the rows only tell how large and along what."""
     rows = rows_of(letters.convention)
-    small = max(2.0, 0.8 * size)
-    whole = symbol(letters.vector(one.symbol), size)
-    way = letters.direction(one.direction, sheet.scene.frame.name) or ("√" if one.direction_known else "?")
+    small = _row_size(size)
+    whole = symbol(letters.arrow(one.symbol), size)
+    rule = letters.size(one.size) if one.size and not isinstance(one.size, Given) else ""
+    way = letters.direction(one.direction, sheet.scene.frame.name)
+    told = symbol(rule, small) if rule else (), symbol(way, small) if way else ()
     if rows == "over":
         marks = ("√" if one.size_known else "?") + ("√" if one.direction_known else "?")
-        return _Cell(whole, over=symbol(marks, small))
+        return _Cell(whole, *told, over=symbol(marks, small))
     if rows == "underlines":
-        lines = one.direction_known + one.size_known
-        return _Cell(whole, direction=symbol(way, small) if one.direction else (), underlines=lines)
-    known = letters.size(one.size) if rules and one.size and not isinstance(one.size, Given) else "√"
-    return _Cell(whole, size=symbol(known if one.size_known else "?", small), direction=symbol(way, small))
+        return _Cell(whole, *told, underlines=one.direction_known + one.size_known)
+    sized = told[0] or symbol("√" if one.size_known else "?", small)
+    return _Cell(whole, sized, told[1] or symbol("√" if one.direction_known else "?", small))
 
 
 def _heads(letters: Letters, language: str, size: float) -> tuple[tuple[Run, ...], ...]:
     """Names of the rows."""
     if rows_of(letters.convention) not in ("rows", "table"):
         return ()
-    small = max(2.0, 0.8 * size)
+    small = _row_size(size)
     return rich(term("size", language), small), rich(term("direction of", language), small)
 
 
@@ -185,8 +256,9 @@ def _set(
     rows = rows_of(letters.convention)
     stack = [[c.over for c in line], [c.runs for c in line], [c.size for c in line], [c.direction for c in line]]
     lines = max((c.underlines for c in line), default=0)
-    room = UNDERLINE * (lines + 0.5) if rows == "underlines" else 2 * CLEAR if rows == "table" else CLEAR
-    bases, edges_down = _baselines(stack, heads, top, room)
+    between = 2 * CLEAR if rows == "table" else CLEAR
+    under = max(UNDERLINE * (lines + 0.5) if lines else 0.0, between)
+    bases, edges_down = _baselines(stack, heads, top, under, between)
     children: list[Primitive] = [Text(complex(0, y), head) for head, y in zip(heads, bases[2:], strict=False)]
     x = lead
     across = []
@@ -208,11 +280,13 @@ def _set(
 
 
 def _baselines(
-    stack: list[list[tuple[Run, ...]]], heads: tuple[tuple[Run, ...], ...], top: float, room: float
+    stack: list[list[tuple[Run, ...]]], heads: tuple[tuple[Run, ...], ...], top: float, under: float, between: float
 ) -> tuple[list[float], list[float]]:
-    """Baselines of the rows of an equation, marks above it first, and the lower edge of each; ``room`` mm between."""
+    """Baselines of the rows of an equation, marks above it first, and the lower edge of each; ``under`` the terms and
+    ``between`` other rows is so much room (mm)."""
     bases: list[float] = []
     down: list[float] = []
+    below = next((i for i in (2, 3) if any(stack[i])), 0)  # the first row under the terms
     y = top
     for i, row in enumerate(stack):
         boxes = [run_box(run) for runs in (*row, *heads[max(0, i - 2) : max(0, i - 1)]) for run in runs]
@@ -220,7 +294,7 @@ def _baselines(
             bases.append(y)
             down.append(y)
             continue
-        y += -min(b.top for b in boxes) + (room if i > 1 else CLEAR if i == 1 and bases[0] > top else 0.0)
+        y += -min(b.top for b in boxes) + (under if i == below else between if y > top else 0.0)
         bases.append(y)
         y += max(b.bottom for b in boxes)
         down.append(y)

@@ -105,7 +105,10 @@ def figures(
     convention: str | None = None,
 ) -> dict[str, Drawing]:
     """All figures of a scene by name: "mechanism", "velocity", "acceleration" where it was drawn, and "sheet" where its
-    own drawing is given (``sheet_a4``, drafted in ``sheet_room(scene)``); ``report`` is the check of that drawing."""
+    own drawing is given (``sheet_a4``, drafted in ``sheet_room(scene)``), with "sheet-2" where it goes on.
+
+    ``report`` is the check of that drawing.
+    """
     made = {
         "mechanism": mechanism_figure(sheet, language=language, convention=convention),
         "velocity": velocity_figure(sheet, language=language, convention=convention),
@@ -113,5 +116,6 @@ def figures(
     if sheet.vectors("acceleration"):
         made["acceleration"] = acceleration_figure(sheet, language=language, convention=convention)
     if sheet_a4 is not None:
-        made["sheet"] = sheet_page(sheet_a4, report, language=language, convention=convention)
+        made["sheet"] = whole = sheet_page(sheet_a4, report, language=language, convention=convention)
+        made.update({f"sheet-{number}": page for number, page in enumerate(whole.further, 2)})
     return made

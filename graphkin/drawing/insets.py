@@ -21,7 +21,7 @@ from graphkin.drawing.strokes import colour_of_vector
 from graphkin.drawing.symbols import COMPONENT, RESULTANT, arrow
 from graphkin.drawing.text import fitted, symbol
 
-__all__ = ["INSET", "coriolis_row", "polygon_with_insets", "strip_height"]
+__all__ = ["INSET", "coriolis_row", "per_row", "polygon_with_insets", "strip_height"]
 
 INSET = (32.0, 26.0)  # mm
 GUTTER = 2.0
@@ -66,7 +66,7 @@ def polygon_with_insets(
 
 def coriolis_row(sheet: Sheet, terms: Sequence[CoriolisTerm], letters: Letters, row: Box) -> Piece:
     """Insets of Coriolis terms side by side in a row, as many as fit."""
-    boxes = _in_rows(row, min(len(terms), int((row.width + GUTTER) // (INSET[0] + GUTTER))))
+    boxes = _in_rows(row, min(len(terms), per_row(row.width)))
     return joined(_labelled_inset(sheet, one, letters, box) for one, box in zip(terms, boxes, strict=False))
 
 
@@ -74,10 +74,15 @@ def _labelled_inset(sheet: Sheet, one: CoriolisTerm, letters: Letters, box: Box)
     return with_labels(*coriolis_inset(sheet, one, letters, box))
 
 
+def per_row(width: float) -> int:
+    """How many insets stand side by side in a width (mm), one at least."""
+    return max(1, int((width + GUTTER) // (INSET[0] + GUTTER)))
+
+
 def _in_rows(strip: Box, count: int) -> list[Box]:
-    per_row = max(1, int((strip.width + GUTTER) // (INSET[0] + GUTTER)))
+    many = per_row(strip.width)
     corners = [
-        (strip.left + (i % per_row) * (INSET[0] + GUTTER), strip.top + (i // per_row) * (INSET[1] + GUTTER))
+        (strip.left + (i % many) * (INSET[0] + GUTTER), strip.top + (i // many) * (INSET[1] + GUTTER))
         for i in range(count)
     ]
     return [Box(x, y, x + INSET[0], y + INSET[1]) for x, y in corners]
@@ -86,8 +91,7 @@ def _in_rows(strip: Box, count: int) -> list[Box]:
 def strip_height(sheet: Sheet, diagram: DiagramName, width: float) -> float:
     """Height (mm) of a strip of a width that holds all insets of a polygon."""
     count = len(_coriolis(sheet, diagram)) + len(details(sheet, diagram)[:MOST_DETAILS])
-    per_row = max(1, int((width + GUTTER) // (INSET[0] + GUTTER)))
-    return -(-count // per_row) * (INSET[1] + GUTTER)
+    return -(-count // per_row(width)) * (INSET[1] + GUTTER)
 
 
 def _coriolis(sheet: Sheet, diagram: DiagramName) -> list[CoriolisTerm]:
@@ -141,7 +145,7 @@ def _detail_inset(
         tail, tip = at(vector.tail), at(vector.tip)
         if vector.symbol in own:
             parts += arrow(tail, tip, kind, colour)
-            text = Text(0j, symbol(letters.vector(vector.symbol), 2.8), "start", colour,
+            text = Text(0j, symbol(letters.arrow(vector.symbol), 2.8), "start", colour,
                         f"label-detail-{vector.symbol.id}", ("label",))
             names.append(Label(text, (tail, tip), rank=1))
             continue

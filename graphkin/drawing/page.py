@@ -121,19 +121,23 @@ def _answering() -> type:
     return Answering
 
 
-def pdf_bytes(drawing: Page) -> bytes:
-    """The drawing as a PDF of one page at true size with its fonts embedded and no date.
+def pdf_bytes(drawing: Page, *further: Page) -> bytes:
+    """Drawings as a PDF at true size, a page each, with its fonts embedded and no date.
 
     Warns
     -----
-    MissingFont : once for the drawing, where it holds Chinese and the machine has no face for it
+    MissingFont : once, where one holds Chinese and the machine has no face for it
     """
-    chinese = _holds_cjk(drawing)
+    pages = drawing, *further
+    chinese = any(map(_holds_cjk, pages))
     family = faces(chinese)
     with own_settings():
-        figure = empty_page(drawing.width, drawing.height)
-        ink(figure, drawing.children, family)
-        return figure_pdf(figure, drawing.title, chinese)
+        inked = []
+        for page in pages:
+            figure = empty_page(page.width, page.height)
+            ink(figure, page.children, family)
+            inked.append(figure)
+        return figure_pdf(inked[0], drawing.title, chinese, *inked[1:])
 
 
 def png_bytes(drawing: Page, dpi: float = 200.0) -> bytes:
@@ -177,17 +181,18 @@ def ink(figure: Figure, children: tuple[Primitive, ...], family: list[str], orde
             _add_shape(figure, thing, page, place)
 
 
-def figure_pdf(figure: Figure, title: str, chinese: bool) -> bytes:
-    """A figure as a PDF of one page without a date."""
-    from matplotlib.backends.backend_pdf import FigureCanvasPdf
+def figure_pdf(figure: Figure, title: str, chinese: bool, *further: Figure) -> bytes:
+    """Figures as a PDF without a date, a page each."""
+    from matplotlib.backends.backend_pdf import FigureCanvasPdf, PdfPages
 
-    figure.patch.set_visible(False)
     buffer = BytesIO()
     facts = {"Title": title or None, "CreationDate": None, "Producer": None, "Creator": "graphkin"}
     # Chinese faces mostly hold PostScript outlines, which do not fit into a TrueType (42) font of a PDF; as Type 3 any
     # outlines do.  TrueType is what printers ask for, so it is used wherever it can be.
-    with own_settings(**{"pdf.fonttype": 3 if chinese else 42}):
-        FigureCanvasPdf(figure).print_pdf(buffer, metadata=facts)
+    with own_settings(**{"pdf.fonttype": 3 if chinese else 42}), PdfPages(buffer, metadata=facts) as pages:
+        for page in (figure, *further):
+            page.patch.set_visible(False)
+            FigureCanvasPdf(page).print_pdf(pages)
     return buffer.getvalue()
 
 

@@ -93,7 +93,7 @@ def _head(line: Segment, tip: complex) -> Iterator[Primitive]:
 
 def _carried(here: PolygonOnPage, moved: Symbol, line: Segment) -> Iterator[Label]:
     if abs(line[1] - line[0]) > 4.0:
-        markup = symbol(here.letters.vector(moved), 3.0)
+        markup = symbol(here.letters.arrow(moved), 3.0)
         yield Label(Text(0j, markup, "start", strokes.GREY, f"label-carried-{moved.id}", ("label",)), line, rank=4)
 
 
@@ -173,7 +173,8 @@ def _name(here: PolygonOnPage, length: float, vectors: Sequence[Vector]) -> Labe
     if not vectors:
         return None
     first = vectors[0]
-    markup = " = ".join(here.letters.vector(v.symbol) for v in vectors)
+    written = here.letters.vector if length < ZERO else here.letters.arrow
+    markup = " = ".join(written(v.symbol) for v in vectors)
     id = f"label-{first.symbol.id}"
     if length < ZERO:
         text = Text(0j, symbol(markup + " = 0"), "start", strokes.BLACK, id, ("label",))

@@ -16,17 +16,18 @@ from graphkin.drawing.conventions import Letters, letters_of, scale_statement
 from graphkin.drawing.coriolis import CoriolisTerm
 from graphkin.drawing.dimensions import check_bar
 from graphkin.drawing.drawing import Drawing
-from graphkin.drawing.equations import write_equations
-from graphkin.drawing.headings import FIGURE_WORDS, describe, drivers, facts, figure_title, term, titles
-from graphkin.drawing.insets import INSET, coriolis_row, polygon_with_insets
+from graphkin.drawing.equations import WrittenLine, equations_in_room, written_lines
+from graphkin.drawing.headings import FIGURE_WORDS, describe, facts, figure_title, term, titles
+from graphkin.drawing.insets import INSET, coriolis_row, per_row, polygon_with_insets
 from graphkin.drawing.mechanism import mechanism_piece
+from graphkin.drawing.overleaf import Remainder, captioned, heading, overleaf
 from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved, moved_piece, with_labels
 from graphkin.drawing.polygon_on_page import extent
 from graphkin.drawing.primitives import Group, Line, Polygon, Primitive, Run, Text
-from graphkin.drawing.tables import given_data, readings_table
-from graphkin.drawing.text import fitted, rich, wrapped
+from graphkin.drawing.tables import given_data, readings_table, table_rows
+from graphkin.drawing.text import fitted, plain, wrapped
 from graphkin.scene.model import Mechanism
-from graphkin.words import Phrase, languages, say
+from graphkin.words import Phrase, languages, say, word
 
 __all__ = ["BLOCK", "GUTTER", "MARGIN", "SheetPlan", "sheet_page", "sheet_plan", "sheet_room"]
 
@@ -123,7 +124,7 @@ def _landscape(width: float, height: float) -> SheetPlan:
 def sheet_page(
     sheet: Sheet, report: Report | None = None, *, language: str | None = None, convention: str | None = None
 ) -> Drawing:
-    """One page with everything.
+    """One page with everything; what it has no room for stands on its ``further`` pages.
 
     Parameters
     ----------
@@ -144,27 +145,30 @@ def sheet_page(
         drawn.append("acceleration")
         acceleration, homeless = _polygon(sheet, "acceleration", letters, spoken, plan.acceleration)
         pieces += [_panel(plan.acceleration, _caption(sheet, letters, spoken, "acceleration")), acceleration]
-    given = given_data(sheet, letters, spoken, plan.given)
+    given, given_rest = given_data(sheet, letters, spoken, plan.given)
     spare = _spare(plan.given, given)
-    if spare is not None:
+    if spare is not None and not given_rest:
         pieces.append(coriolis_row(sheet, homeless[:1], letters, spare))
         homeless = homeless[1:]
+    equations, lines, homeless = _equations(sheet, letters, spoken, plan.equations, homeless)
+    rows = table_rows(sheet, report)
+    readings, count = readings_table(sheet, rows, letters, spoken, plan.readings)
+    page = Box(MARGIN, MARGIN, plan.width - MARGIN, plan.height - MARGIN)
     pieces += [
-        _heading(sheet, letters, spoken, plan),
+        heading(sheet, letters, spoken, page),
         _panel(plan.mechanism, _caption(sheet, letters, spoken, "mechanism")),
         _panel(plan.velocity, _caption(sheet, letters, spoken, "velocity")),
         _mechanism(sheet, letters, plan.mechanism),
         velocity,
-        _equations(sheet, letters, spoken, plan.equations, homeless),
-        _captioned(plan.given, term("given", spoken), "labels", given),
-        _captioned(
-            plan.readings,
-            term("readings", spoken),
-            "answers",
-            readings_table(sheet, report, letters, spoken, plan.readings),
-        ),
+        equations,
+        captioned(plan.given, term("given", spoken), "labels", given),
+        captioned(plan.readings, term("readings", spoken), "answers", readings),
         _title_block(sheet, report, letters, spoken, plan.block),
     ]
+    rest = Remainder(lines, homeless, given_rest, rows[count:])
+    further = overleaf(sheet, rest, letters, spoken, page)
+    if further:
+        pieces.append(_goes_on(spoken, page))
     return Drawing(
         plan.width,
         plan.height,
@@ -173,7 +177,13 @@ def sheet_page(
         describe(sheet, tuple(drawn), spoken),
         languages(spoken)[0],
         facts(sheet, "sheet"),
+        further,
     )
+
+
+def _goes_on(language: str, page: Box) -> Piece:
+    words = plain(word("goes on", languages(language)[0]), 2.6)
+    return Piece({"labels": (Text(complex(page.right, page.bottom + 4.0), words, "end"),)})
 
 
 def _spare(box: Box, written: tuple[Primitive, ...]) -> Box | None:
@@ -181,15 +191,6 @@ def _spare(box: Box, written: tuple[Primitive, ...]) -> Box | None:
     ink = ink_box(written)
     top = box.bottom - INSET[1]
     return Box(box.left, top, box.right, box.bottom) if ink is None or ink.bottom + GUTTER < top else None
-
-
-def _heading(sheet: Sheet, letters: Letters, language: str, plan: SheetPlan) -> Piece:
-    width = plan.width - 2 * MARGIN
-    words = "   ".join(titles(sheet, language))
-    return Piece({"labels": (
-        Text(complex(MARGIN, MARGIN + 4.0), fitted(words, 4.6, width, bold=True, least=2.6)),
-        Text(complex(MARGIN, MARGIN + 9.2), fitted(drivers(sheet, letters), 3.2, width)),
-    )})  # fmt: skip
 
 
 def _caption(sheet: Sheet, letters: Letters, language: str, diagram: DiagramName) -> str:
@@ -200,11 +201,6 @@ def _panel(box: Box, caption: str) -> Piece:
     frame = Polygon(box.corners, "", strokes.DIMENSION)
     words = Text(complex(box.left, box.top - 1.6), fitted(caption, 3.2, box.width))
     return Piece({"construction": (Group((frame,), classes=("panel",)),), "labels": (words,)})
-
-
-def _captioned(box: Box, caption: str, layer: str, children: tuple[Primitive, ...]) -> Piece:
-    words = Text(complex(box.left, box.top - 1.6), fitted(caption, 3.2, box.width, bold=True))
-    return joined((Piece({"labels": (words,)}), Piece({layer: children})))
 
 
 def _mechanism(sheet: Sheet, letters: Letters, panel: Box) -> Piece:
@@ -221,21 +217,25 @@ def _polygon(
     return polygon_with_insets(sheet, diagram, letters, language, panel.grown(-0.8), origin)
 
 
-def _equations(sheet: Sheet, letters: Letters, language: str, box: Box, senses: list[CoriolisTerm]) -> Piece:
-    """The equations, and below them the insets of Coriolis terms that found no room in their panel."""
+def _equations(
+    sheet: Sheet, letters: Letters, language: str, box: Box, senses: list[CoriolisTerm]
+) -> tuple[Piece, list[WrittenLine], list[CoriolisTerm]]:
+    """The equations, and below them the insets of Coriolis terms that found no room in their panel; and what of both
+    is left for another page."""
+    lines = written_lines(sheet, letters, language)
+    count = 0
     insets = INSET[1] + GUTTER if senses else 0.0
-    if box.height < insets + EQUATIONS_ROOM:  # on small paper the equations come first
-        senses, insets = [], 0.0
-    blocks, left_out = write_equations(sheet, letters, language, box.width, box.height - insets)
-    written: list[Primitive] = [Group(moved(blocks, complex(box.left, box.top)), id="equations")]
-    if left_out:
-        text = say(Phrase("more equations", (left_out,)), languages(language)[0])
-        written.append(Text(complex(box.left, box.bottom - insets - 0.6), rich(text, 2.4)))
-    parts = [_captioned(box, term("equations", language), "labels", tuple(written))]
-    if senses:
+    if senses and box.height >= insets + EQUATIONS_ROOM:
+        blocks, count = equations_in_room(lines, sheet, letters, language, box.width, box.height - insets)
+    shown = senses[: per_row(box.width)] if count == len(lines) else []  # the equations come first
+    if not shown:
+        blocks, count = equations_in_room(lines, sheet, letters, language, box.width, box.height)
+    written = Group(moved(blocks, complex(box.left, box.top)), id="equations")
+    parts = [captioned(box, term("equations", language), "labels", (written,))]
+    if shown:
         row = Box(box.left, box.bottom - INSET[1], box.right, box.bottom)
-        parts.append(coriolis_row(sheet, senses, letters, row))
-    return joined(parts)
+        parts.append(coriolis_row(sheet, shown, letters, row))
+    return joined(parts), lines[count:], senses[len(shown) :]
 
 
 def _title_block(sheet: Sheet, report: Report | None, letters: Letters, language: str, box: Box) -> Piece:

@@ -18,9 +18,9 @@ from graphkin.drawing.primitives import Line, Primitive, Run, Text
 from graphkin.drawing.text import rich, wrapped
 from graphkin.plane import degrees
 from graphkin.scene.model import Mechanism, PlacedLink
-from graphkin.words import Phrase, languages, say, word
+from graphkin.words import languages, word
 
-__all__ = ["given_data", "given_lengths", "readings_table"]
+__all__ = ["TableRow", "given_data", "given_lengths", "readings_table", "set_lines", "table_rows"]
 
 ROW, LEAST_ROW = 4.2, 3.75  # mm
 _LETTERS = {"v": 0, "omega": 1, "a": 2, "alpha": 4}
@@ -28,7 +28,7 @@ _SHARES = (0.26, 0.18, 0.19, 0.19, 0.18)  # of the width: symbol, mm on paper, m
 
 
 @dataclass(frozen=True)
-class _Row:
+class TableRow:
     reading: Reading
     compared: Compared | None = None
     more: tuple[str, ...] = ()  # further links that turn alike
@@ -40,19 +40,12 @@ class _Row:
 
 
 def readings_table(
-    sheet: Sheet, report: Report | None, letters: Letters, language: str, area: Box
-) -> tuple[Primitive, ...]:
-    """Readings in columns that fill an area (mm): symbol, mm on paper, measured, exact, relative difference.
-
-    Where they do not all fit, what was asked and the absolute quantities stay and the number of the others is said.
-    """
-    rows = _rows(sheet, report)
+    sheet: Sheet, rows: Sequence[TableRow], letters: Letters, language: str, area: Box
+) -> tuple[tuple[Primitive, ...], int]:
+    """Readings in columns that fill an area (mm): symbol, mm on paper, measured, exact, relative difference; and how
+    many of them, the first ones, fit."""
     count, columns, row_height = _grid(len(rows), area, len(languages(language)))
-    left_out = max(0, len(rows) - count)
-    if left_out:
-        rows = _most_asked(sheet, rows, count - 1)
-        left_out += 1
-    rows = sorted(rows, key=lambda r: r.rank)
+    rows = rows[: max(0, count)]
     width = (area.width - 4.0 * (columns - 1)) / columns
     per_column = max(1, math.ceil(len(rows) / columns))
     children: list[Primitive] = []
@@ -61,19 +54,17 @@ def readings_table(
         if part:
             corner = complex(area.left + c * (width + 4.0), area.top)
             children += _column(sheet, part, letters, language, corner, width, row_height)
-    if left_out:
-        text = rich(say(Phrase("more readings", (left_out,)), languages(language)[0]), 2.2)
-        children.append(Text(complex(area.right, area.bottom - 0.4), text, "end"))
-    return tuple(children)
+    return tuple(children), len(rows)
 
 
-def _rows(sheet: Sheet, report: Report | None) -> list[_Row]:
-    """Readings to show: rates that are given are left out, links that turn alike share a row."""
+def table_rows(sheet: Sheet, report: Report | None) -> list[TableRow]:
+    """Readings to show, in the order of the table: rates that are given are left out, links that turn alike share a
+    row."""
     if report is not None:
-        rows = [_Row(row.reading, row) for row in report.rows]
+        rows = [TableRow(row.reading, row) for row in report.rows]
     else:
-        rows = [_Row(reading) for reading in read_off(sheet, sheet.scene.find)]
-    shown: list[_Row] = []
+        rows = [TableRow(reading) for reading in read_off(sheet, sheet.scene.find)]
+    shown: list[TableRow] = []
     for row in rows:
         reading = row.reading
         if reading.symbol.is_vector:
@@ -84,10 +75,10 @@ def _rows(sheet: Sheet, report: Report | None) -> list[_Row]:
             shown[alike] = replace(shown[alike], more=(*shown[alike].more, reading.symbol.link))
         elif reading.on_paper:
             shown.append(row)
-    return shown
+    return sorted(shown, key=lambda row: row.rank)
 
 
-def _alike(one: _Row, two: _Row) -> bool:
+def _alike(one: TableRow, two: TableRow) -> bool:
     a, b = one.reading, two.reading
     return a.symbol.kind == b.symbol.kind and a.value == b.value and a.on_paper == b.on_paper != 0.0
 
@@ -105,19 +96,8 @@ def _grid(count: int, area: Box, heads: int) -> tuple[int, int, float]:
     return int(area.height / LEAST_ROW - 1.2 - 0.75 * heads) * widest, widest, LEAST_ROW
 
 
-def _most_asked(sheet: Sheet, rows: list[_Row], count: int) -> list[_Row]:
-    asked = set(sheet.scene.find) | set(sheet.scene.printed)
-
-    def worth(row: _Row) -> tuple[bool, bool, bool]:
-        symbol = row.reading.symbol
-        return symbol not in asked, symbol.of is not None and symbol.to is not None, symbol.kind in ("an", "at")
-
-    kept = sorted(range(len(rows)), key=lambda i: (worth(rows[i]), i))[:count]
-    return [rows[i] for i in sorted(kept)]
-
-
 def _column(
-    sheet: Sheet, rows: Sequence[_Row], letters: Letters, language: str, corner: complex, width: float, row: float
+    sheet: Sheet, rows: Sequence[TableRow], letters: Letters, language: str, corner: complex, width: float, row: float
 ) -> list[Primitive]:
     compared = any(r.compared for r in rows)
     shares = _SHARES if compared else (0.4, 0.25, 0.35)
@@ -158,7 +138,7 @@ def _shrunk(runs: tuple[Run, ...], width: float) -> tuple[Run, ...]:
     return tuple(Run(r.text, r.x * share, r.y, max(2.0, r.size * share), r.italic, r.bold) for r in runs)
 
 
-def _texts(sheet: Sheet, row: _Row, letters: Letters, size: float) -> list[tuple[Run, ...]]:
+def _texts(sheet: Sheet, row: TableRow, letters: Letters, size: float) -> list[tuple[Run, ...]]:
     reading, compared = row.reading, row.compared
     unit, per = _unit(sheet, reading)
     value = abs(reading.value) if reading.symbol.is_vector else float(reading.value.real)
@@ -193,8 +173,8 @@ def _unit(sheet: Sheet, reading: Reading) -> tuple[str, float]:
     return kinds.get(reading.symbol.kind, f"{name}/s²"), per
 
 
-def given_data(sheet: Sheet, letters: Letters, language: str, area: Box) -> tuple[Primitive, ...]:
-    """Drivers, lengths, fixed points and remarks as lines of text in an area (mm); as large as they fit."""
+def given_lines(sheet: Sheet, letters: Letters, language: str, width: float, size: float) -> list[tuple[Run, ...]]:
+    """Drivers, lengths, fixed points and remarks as lines of text of a width (mm)."""
     scene = sheet.scene
     unit = scene.units.length
     items = drivers(sheet, letters).split(",  ")
@@ -205,17 +185,29 @@ def given_data(sheet: Sheet, letters: Letters, language: str, area: Box) -> tupl
             angle = number(degrees(guide.direction))
             name = letters.guide(guide.name, scene.frame.name)
             fixed.append(f"{term('guide', language)} ${name}$: ({_pair(guide.through, scene)}) {unit}, {angle}°")
-    lines: list[tuple[Run, ...]] = []
-    for size in (2.8, 2.5, 2.2, 2.0):
-        lines = [line for group in (items, fixed) for line in _flowed(group, size, area.width)]
-        for each in languages(language):
-            lines += [line for note in remarks(sheet, each, letters) for line in wrapped(note, size, area.width)]
+    lines = [line for group in (items, fixed) for line in _flowed(group, size, width)]
+    for each in languages(language):
+        lines += [line for note in remarks(sheet, each, letters) for line in wrapped(note, size, width)]
+    return lines
+
+
+def given_data(
+    sheet: Sheet, letters: Letters, language: str, area: Box
+) -> tuple[tuple[Primitive, ...], list[tuple[Run, ...]]]:
+    """The given data as lines of text in an area (mm), as large as they fit; and those lines for which there is no
+    room."""
+    for size in (2.8, 2.5, 2.2):
+        lines = given_lines(sheet, letters, language, area.width, size)
         if len(lines) * 1.55 * size <= area.height:
             break
     most = int(area.height / (1.55 * size))
-    return tuple(
-        Text(complex(area.left, area.top + size + i * 1.55 * size), runs) for i, runs in enumerate(lines[:most])
-    )
+    return set_lines(lines[:most], complex(area.left, area.top)), lines[most:]
+
+
+def set_lines(lines: Sequence[tuple[Run, ...]], corner: complex) -> tuple[Primitive, ...]:
+    """Lines of text below each other from a corner."""
+    size = max((run.size for line in lines for run in line), default=0.0)
+    return tuple(Text(corner + complex(0, size + i * 1.55 * size), runs) for i, runs in enumerate(lines))
 
 
 def _flowed(items: Sequence[str], size: float, width: float) -> list[tuple[Run, ...]]:
@@ -235,7 +227,7 @@ def given_lengths(scene: Mechanism, letters: Letters) -> list[tuple[str, float]]
     found: list[tuple[str, float]] = []
     for link in scene.links:
         if link.length is not None:
-            found.append((_bar(letters, link.bar), link.length / scene.units.metres))
+            found.append((letters.length(link.bar), link.length / scene.units.metres))
         found += _further(link, scene, letters)
     return found
 
@@ -244,14 +236,10 @@ def _further(link: PlacedLink, scene: Mechanism, letters: Letters) -> list[tuple
     """Distances of the further points of a link from its own."""
     more = [p for p in link.points if p not in link.bar]
     return [
-        (_bar(letters, (own, p)), abs(link.points[p] - link.points[own]) / scene.units.metres)
+        (letters.length((own, p)), abs(link.points[p] - link.points[own]) / scene.units.metres)
         for p in more
         for own in link.bar
     ]
-
-
-def _bar(letters: Letters, names: tuple[str, ...]) -> str:
-    return f"l_{{{''.join(names)}}}"
 
 
 def _pair(z: complex, scene: Mechanism) -> str:

@@ -1,9 +1,9 @@
-"""Texts as runs: plain words, and symbols with sub- and superscripts at places of their own; fitted to a width.
+r"""Texts as runs: plain words, and symbols with sub- and superscripts at places of their own; fitted to a width.
 
 Between dollar signs stands a symbol, in the notation of TeX: ``"velocity $v_{B3}$ of the ram"``.
 Letters of symbols are italic, digits and signs upright, Chinese upright everywhere; ``_`` and ``^`` take one character
 or a group in braces; both after one letter stand above each other; an index may have an index (``$v_{B_3}$``); a prime
-is ``′`` or ``'``.  ``$$`` is a dollar sign.
+is ``′`` or ``'``; ``\mathbf{v}`` is a vector, bold and upright.  ``$$`` is a dollar sign.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ __all__ = ["Atom", "fitted", "is_italic", "parsed", "plain", "rich", "symbol", "
 LETTER, INDEX, SMALLEST = 3.5, 2.5, 2.0  # mm
 _DROP, _DROP_STACKED, _RISE = 0.24, 0.30, 0.40  # of the size of the letter, after the usual practice of typesetting
 _GAP_SUB, _GAP_SUPER = 0.02, 0.06
+_BOLD = r"\mathbf"
 
 
 @dataclass(frozen=True)
@@ -28,6 +29,7 @@ class Atom:
     text: str
     sub: tuple[Atom, ...] = ()
     sup: tuple[Atom, ...] = ()
+    bold: bool = False
 
 
 def plain(text: str, size: float = LETTER, italic: bool = False, bold: bool = False) -> tuple[Run, ...]:
@@ -149,6 +151,9 @@ def _read(markup: str, at: int) -> tuple[tuple[Atom, ...], int]:
         elif character == "{":
             inner, at = _argument(markup, at)
             atoms += inner
+        elif markup.startswith(_BOLD, at):
+            inner, at = _argument(markup, at + len(_BOLD))
+            atoms += [replace(atom, bold=True) for atom in inner]
         else:
             atoms.append(Atom("′" if character == "'" else character))
             at += 1
@@ -171,22 +176,23 @@ def _argument(markup: str, at: int) -> tuple[tuple[Atom, ...], int]:
 def _set(atoms: tuple[Atom, ...], x: float, y: float, size: float, level: int, base: float) -> tuple[list[Run], float]:
     """Runs of atoms from a place on, and the place after them; ``base`` is the size of the letters at level 0."""
     runs: list[Run] = []
-    stretch, begin = "", x
+    stretch, begin, face = "", x, (False, False)
 
     def flush() -> None:
         nonlocal stretch
         if stretch:
-            runs.extend(_trimmed(stretch, begin, y, size, is_italic(stretch[0]), False))
+            runs.extend(_trimmed(stretch, begin, y, size, *face))
             stretch = ""
 
     for atom in atoms:
         character = "−" if atom.text == "-" and level == 0 else atom.text
-        if stretch and is_italic(stretch[0]) != is_italic(character):
+        own = is_italic(character) and not atom.bold, atom.bold
+        if stretch and face != own:
             flush()
         if not stretch:
-            begin = x
+            begin, face = x, own
         stretch += character
-        x = begin + width(stretch, size, is_italic(character))
+        x = begin + width(stretch, size, *face)
         if atom.sub or atom.sup:
             flush()
             drop = _DROP_STACKED if atom.sup else _DROP

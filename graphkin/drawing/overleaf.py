@@ -1,0 +1,141 @@
+"""The pages on which a sheet goes on: what of its equations, data, insets and readings found no room on the first."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from graphkin.construction.sheet import Sheet
+from graphkin.drawing.box import Box
+from graphkin.drawing.conventions import Letters
+from graphkin.drawing.coriolis import CoriolisTerm
+from graphkin.drawing.drawing import Drawing
+from graphkin.drawing.equations import WrittenLine, equations_in_room
+from graphkin.drawing.headings import drivers, facts, figure_title, term, titles
+from graphkin.drawing.insets import INSET, coriolis_row, per_row
+from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved
+from graphkin.drawing.primitives import Group, Primitive, Run, Text
+from graphkin.drawing.tables import TableRow, readings_table, set_lines
+from graphkin.drawing.text import fitted, plain
+from graphkin.words import Phrase, languages, say
+
+__all__ = ["Remainder", "captioned", "heading", "overleaf"]
+
+GAP = 6.0  # mm between two parts
+CAPTION = 5.5
+HEAD = 15.0  # mm for the heading
+LEAST_TABLE = 20.0  # mm: a table of fewer rows is none
+
+
+@dataclass(frozen=True)
+class Remainder:
+    """What is left to be shown, in the order of its parts."""
+
+    equations: Sequence[WrittenLine] = ()
+    senses: Sequence[CoriolisTerm] = ()
+    given: Sequence[tuple[Run, ...]] = ()
+    readings: Sequence[TableRow] = ()
+
+    def __bool__(self) -> bool:
+        return bool(self.equations or self.senses or self.given or self.readings)
+
+    @property
+    def count(self) -> int:
+        return len(self.equations) + len(self.senses) + len(self.given) + len(self.readings)
+
+
+def overleaf(sheet: Sheet, rest: Remainder, letters: Letters, language: str, page: Box) -> tuple[Drawing, ...]:
+    """As many pages as the rest takes, each of the size of a first page whose inside is ``page``."""
+    made: list[Drawing] = []
+    while rest:
+        number = len(made) + 2
+        pieces = [heading(sheet, letters, language, page), _number(sheet, language, number, page)]
+        room = Box(page.left, page.top + HEAD, page.right, page.bottom)
+        before = rest.count
+        for part in (_equations, _senses, _given, _readings):
+            piece, rest, room = part(sheet, rest, letters, language, room)
+            pieces.append(piece)
+        made.append(
+            Drawing(
+                page.left + page.right,
+                page.top + page.bottom,
+                layer_groups(joined(pieces)),
+                f"{figure_title(sheet, 'sheet', language)} ({number})",
+                "",
+                languages(language)[0],
+                facts(sheet, "sheet"),
+            )
+        )
+        if rest.count == before:  # nothing is so large that a page does not hold it
+            raise AssertionError("a page holds nothing of what is left")
+    return tuple(made)
+
+
+def heading(sheet: Sheet, letters: Letters, language: str, page: Box) -> Piece:
+    """Title and driver values at the head of a page."""
+    words = "   ".join(titles(sheet, language))
+    return Piece({"labels": (
+        Text(complex(page.left, page.top + 4.0), fitted(words, 4.6, page.width, bold=True, least=2.6)),
+        Text(complex(page.left, page.top + 9.2), fitted(drivers(sheet, letters), 3.2, page.width)),
+    )})  # fmt: skip
+
+
+def _number(sheet: Sheet, language: str, number: int, page: Box) -> Piece:
+    words = plain(say(Phrase("sheet number", (number,)), languages(language)[0]), 2.6)
+    return Piece({"labels": (Text(complex(page.right, page.bottom + 4.0), words, "end"),)})
+
+
+def captioned(box: Box, caption: str, layer: str, children: tuple[Primitive, ...]) -> Piece:
+    """Things in a box under its caption."""
+    words = Text(complex(box.left, box.top - 1.6), fitted(caption, 3.2, box.width, bold=True))
+    return joined((Piece({"labels": (words,)}), Piece({layer: children})))
+
+
+_Part = tuple[Piece, Remainder, Box]
+
+
+def _below(room: Box, drawn: tuple[Primitive, ...]) -> Box:
+    ink = ink_box(drawn)
+    return Box(room.left, (ink.bottom if ink else room.top) + GAP, room.right, room.bottom)
+
+
+def _equations(sheet: Sheet, rest: Remainder, letters: Letters, language: str, room: Box) -> _Part:
+    if not rest.equations:
+        return Piece(), rest, room
+    box = Box(room.left, room.top + CAPTION, room.right, room.bottom)
+    blocks, count = equations_in_room(rest.equations, sheet, letters, language, box.width, box.height)
+    written = moved(blocks, complex(box.left, box.top))
+    piece = captioned(box, term("equations", language), "labels", (Group(written, id="equations"),))
+    left = Remainder(rest.equations[count:], rest.senses, rest.given, rest.readings)
+    return piece, left, _below(box, written)
+
+
+def _senses(sheet: Sheet, rest: Remainder, letters: Letters, language: str, room: Box) -> _Part:
+    pieces: list[Piece] = []
+    senses = rest.senses
+    while senses and room.height >= INSET[1]:
+        count = per_row(room.width)
+        row = Box(room.left, room.top, room.right, room.top + INSET[1])
+        pieces.append(coriolis_row(sheet, senses[:count], letters, row))
+        senses, room = senses[count:], Box(room.left, row.bottom + GAP, room.right, room.bottom)
+    return joined(pieces), Remainder(rest.equations, senses, rest.given, rest.readings), room
+
+
+def _given(sheet: Sheet, rest: Remainder, letters: Letters, language: str, room: Box) -> _Part:
+    size = max((run.size for line in rest.given for run in line), default=1.0)
+    most = max(0, int((room.height - CAPTION) / (1.55 * size)))
+    if not rest.given or not most:
+        return Piece(), rest, room
+    box = Box(room.left, room.top + CAPTION, room.right, room.bottom)
+    lines = set_lines(rest.given[:most], complex(box.left, box.top))
+    left = Remainder(rest.equations, rest.senses, rest.given[most:], rest.readings)
+    return captioned(box, term("given", language), "labels", lines), left, _below(box, lines)
+
+
+def _readings(sheet: Sheet, rest: Remainder, letters: Letters, language: str, room: Box) -> _Part:
+    if not rest.readings or room.height < LEAST_TABLE:
+        return Piece(), rest, room
+    box = Box(room.left, room.top + CAPTION, room.right, room.bottom)
+    table, count = readings_table(sheet, rest.readings, letters, language, box)
+    left = Remainder(rest.equations, rest.senses, rest.given, rest.readings[count:])
+    return captioned(box, term("readings", language), "answers", table), left, _below(box, table)

@@ -1,0 +1,67 @@
+"""What stands on a sheet, and on the pages on which it goes on."""
+
+import re
+
+import pytest
+
+from graphkin import draw
+from graphkin.drawing import Text
+from graphkin.drawing.primitives import walk
+from graphkin.drawing.tables import table_rows
+
+FOUR = ("chinese", "us", "british", "russian")
+
+
+def words(figure) -> list[str]:
+    return [thing.string for thing in walk(figure.children) if isinstance(thing, Text)]
+
+
+def pages(drawn) -> list[str]:
+    return [text for name, figure in drawn.figures.items() if name.startswith("sheet") for text in words(figure)]
+
+
+@pytest.mark.parametrize(
+    ("scene", "first"),
+    [
+        ("hit16-double-guide", "vB1=ω1lAB="),
+        ("rotating-guide-bar", "vB1=ω1lAB="),
+        ("oldham-coupling", "vM1=ω1lAM="),
+        ("shaper-scheme-2", "vA3=ω2lO2A="),
+    ],
+)
+def test_the_first_equation_is_written_whatever_drives(scene, first):
+    drawn = draw(scene, convention="british")
+    assert any(text.replace(" ", "").startswith(first) for text in pages(drawn))
+
+
+def test_links_that_turn_together_are_said_to():
+    assert "ω3=ω2=ω1" in [text.replace(" ", "") for text in pages(draw("oldham-coupling"))]
+
+
+@pytest.mark.parametrize("convention", FOUR)
+def test_a_size_is_told_by_its_rule_in_every_convention(convention):
+    told = [re.sub(r"\W", "", text) for text in pages(draw("shaper-scheme-2", convention=convention))]
+    assert "2ω4vA4A3" in told or "2ω4VA4A3" in told
+
+
+@pytest.mark.parametrize("convention", FOUR)
+def test_a_vector_in_an_equation_is_bold_and_its_magnitude_is_not(convention):
+    sheet = draw("shaper-scheme-2", convention=convention).figures["sheet"]
+    texts = [thing for thing in walk(sheet.children) if isinstance(thing, Text)]
+    letter = "V" if convention == "us" else "v"
+    whole = [text.runs[0].bold for text in texts if re.sub(r"\W", "", text.string) == f"{letter}A4A3"]
+    assert {True} == set(whole)
+    assert not any(run.bold for text in texts if "ω" in text.string for run in text.runs)
+
+
+@pytest.mark.parametrize("language", ["en", "both"])
+def test_every_reading_stands_on_a_sheet(language):
+    drawn = draw("sixbar-AE70", language=language)
+    rows = [text for text in pages(drawn) if re.search(r"\w, (mm|rad)/s²?$", text)]
+    assert len(table_rows(drawn.small.sheet, drawn.small.report)) == len(rows)
+
+
+def test_a_sheet_that_goes_on_is_one_pdf_of_two_pages(tmp_path):
+    draw("sixbar-AE70", tmp_path, formats=("svg", "pdf"))
+    assert {"sheet.svg", "sheet-2.svg", "sheet.pdf"} == {p.name for p in tmp_path.glob("sheet*")}
+    assert b"/Count 2" in (tmp_path / "sheet.pdf").read_bytes()
