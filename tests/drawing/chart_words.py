@@ -8,14 +8,22 @@ from graphkin.drawing.page import own_settings
 SLACK = 0.2  # mm
 
 
+_LAST: list[tuple[ChartPage, list[tuple[str, Box]]]] = []
+
+
 def word_boxes(chart: ChartPage) -> list[tuple[str, Box]]:
     """Every visible word of a page with its box (mm of the page); a label of several runs is one."""
+    if not any(known is chart for known, _ in _LAST):  # setting a page takes long, and it is asked several things
+        _LAST[:] = [(chart, _word_boxes(chart))]
+    return _LAST[0][1]
+
+
+def _word_boxes(chart: ChartPage) -> list[tuple[str, Box]]:
     from matplotlib.backends.backend_agg import FigureCanvasAgg
 
     with own_settings(**{"text.parse_math": True}):  # letters without hinting, as in the files
         figure = chart.figure(dpi=254.0)
         renderer = FigureCanvasAgg(figure).get_renderer()
-        figure.draw_without_rendering()
 
         def box_of(text) -> Box:
             extent = text.get_window_extent(renderer)

@@ -8,7 +8,7 @@ import math
 import re
 import xml.etree.ElementTree as ET
 from dataclasses import replace
-from functools import lru_cache
+from functools import cache, lru_cache
 
 import pytest
 
@@ -23,16 +23,21 @@ SVG = "{http://www.w3.org/2000/svg}"
 GUIDE = "sixbar-guide-40deg"
 
 
-@lru_cache(maxsize=8)
+@cache
 def drafted(name: str) -> tuple[Sheet, Sheet]:
     scene = mechanism_of(name)
     return draft(scene), draft(scene, room=sheet_room(scene))
 
 
+@cache
+def drawn(name: str, language: str, convention: str) -> dict[str, Drawing]:
+    own, on_sheet = drafted(name)
+    return figures(own, on_sheet, None, language, convention)
+
+
 @lru_cache(maxsize=64)
 def root(name: str, figure: str, language: str = "en", convention: str = "chinese") -> ET.Element:
-    own, on_sheet = drafted(name)
-    return ET.fromstring(svg_bytes(figures(own, on_sheet, None, language, convention)[figure]))
+    return ET.fromstring(svg_bytes(drawn(name, language, convention)[figure]))
 
 
 def facts(page: ET.Element) -> dict:
