@@ -51,6 +51,7 @@ if TYPE_CHECKING:
     from graphkin.api.centred import Centred, centres
     from graphkin.api.centroded import Centroded, centrodes
     from graphkin.api.checked import Checked, check
+    from graphkin.api.designed import Designed, design
     from graphkin.api.drawn import Drawn, draw
     from graphkin.api.handouts import Handout, handout
     from graphkin.api.prepared import Prepared, PreparedDesigns, prepare
@@ -83,6 +84,7 @@ __all__ = [
     "Centroded",
     "Checked",
     "Compass",
+    "Designed",
     "Drawn",
     "DrivenSlide",
     "Driver",
@@ -113,6 +115,7 @@ __all__ = [
     "centres",
     "centrodes",
     "check",
+    "design",
     "draw",
     "handout",
     "prepare",
@@ -130,6 +133,7 @@ _PLACES = {
     "api.centred": "Centred centres",
     "api.centroded": "Centroded centrodes",
     "api.checked": "Checked check",
+    "api.designed": "Designed design",
     "api.drawn": "Drawn draw",
     "api.handouts": "Handout handout",
     "api.prepared": "Prepared PreparedDesigns prepare",

@@ -15,6 +15,7 @@ import typer
 from graphkin import __version__
 from graphkin.cli.centres import centres
 from graphkin.cli.check import audit, check, draw
+from graphkin.cli.design import design
 from graphkin.cli.handout import handout
 from graphkin.cli.output import tell
 from graphkin.cli.solve import scenes, solve
@@ -34,7 +35,7 @@ app = typer.Typer(
     rich_markup_mode=None,
     help="Velocity and acceleration polygons of mechanisms: constructed, measured, checked, drawn.",
 )
-for command in (scenes, draw, check, solve, centres, audit, sweep, handout):
+for command in (scenes, draw, check, solve, centres, audit, sweep, handout, design):
     app.command()(command)
 app.add_typer(study, name="study")
 

@@ -25,7 +25,7 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Cluster, Driven, Dyad, Element, Structure, analyse, links_of, needed
 from graphkin.words import Phrase
 
-__all__ = ["Plan", "Room", "draft", "execute", "plan", "scales_for"]
+__all__ = ["Extent", "Plan", "Room", "draft", "execute", "fitting_scale", "plan", "scales_for"]
 
 SERIES = (1.0, 2.0, 2.5, 5.0)
 ORDERS: tuple[Order, ...] = ("velocity", "acceleration")
@@ -62,10 +62,11 @@ def _chosen_scales(scene: Mechanism, extents: Mapping[DiagramName, Extent], room
     """The scene's own scales, and for those it does not give the finest of the series that fit the room."""
     wanted, unit = scene.sheet, scene.units.metres
     space = room or Room()
-    lengths = [_fit(extents["mechanism"], room_of_it, 1e3) * 1e-3 for room_of_it in (space.mechanism, *space.larger)]
+    rooms = (space.mechanism, *space.larger)
+    lengths = [fitting_scale(extents["mechanism"], one, 1e3) * 1e-3 for one in rooms]
     length = next((finer for finer in lengths if 2.0 * finer <= lengths[0] * (1 + 1e-9)), lengths[0])
-    velocity = _fit(extents["velocity"], space.polygon, 1.0 / unit) * unit
-    acceleration = _fit(extents["acceleration"], space.polygon, 1.0 / unit) * unit
+    velocity = fitting_scale(extents["velocity"], space.polygon, 1.0 / unit) * unit
+    acceleration = fitting_scale(extents["acceleration"], space.polygon, 1.0 / unit) * unit
     if room is None:
         length = wanted.length_scale * 1e-3 if wanted.length_scale else length
         velocity = wanted.velocity_scale * unit if wanted.velocity_scale else velocity
@@ -73,7 +74,7 @@ def _chosen_scales(scene: Mechanism, extents: Mapping[DiagramName, Extent], room
     return Scales(length, velocity, acceleration)
 
 
-def _fit(extent: Extent, room: tuple[float, float], units: float) -> float:
+def fitting_scale(extent: Extent, room: tuple[float, float], units: float) -> float:
     """The finest scale of the series (units for one mm) at which something fits the room; 1 if it spans nothing."""
     least = max(extent.width / room[0], extent.height / room[1]) * units
     if not math.isfinite(least) or least <= 0.0:

@@ -24,7 +24,7 @@ from graphkin.scene.form import SCENE
 from graphkin.scene.names import Flaws, Path
 from graphkin.scene.tables import FileTable, SceneTables, entries, key_of, keys_of
 
-__all__ = ["checked", "keys_at", "path_name", "plain"]
+__all__ = ["checked", "keys_at", "path_name", "plain", "shown"]
 
 MOST_VALUES = 20_000
 DEEPEST = 8

@@ -15,7 +15,17 @@ from graphkin.errors import Problem, SceneError, did_you_mean
 from graphkin.scene.model import Mechanism
 from graphkin.scene.written import Scene, as_mapping, resolved
 
-__all__ = ["SceneLike", "library", "library_text", "mechanism_of", "mechanism_of_text", "read", "written"]
+__all__ = [
+    "SceneLike",
+    "file_text",
+    "library",
+    "library_text",
+    "mechanism_of",
+    "mechanism_of_text",
+    "parsed",
+    "read",
+    "written",
+]
 
 SceneLike = Scene | Mechanism | str | os.PathLike[str] | Mapping[str, Any]
 """A scene in any of its forms: built, read, a file, the name of one that comes along, or a mapping."""
@@ -70,7 +80,7 @@ def mechanism_of(source: SceneLike) -> Mechanism:
 
 def mechanism_of_text(text: str, name: str) -> Mechanism:
     """What the text of a scene file says; ``name`` is the scene's name.  Raises SceneError."""
-    return resolved(_parsed(text), name)[1]
+    return resolved(parsed(text), name)[1]
 
 
 def written(source: SceneLike) -> tuple[dict[str, Any], str]:
@@ -95,13 +105,14 @@ def written(source: SceneLike) -> tuple[dict[str, Any], str]:
                 raise SceneError(Problem("the scene", "found the text of a scene file instead of its name",
                                          "save it as a file, or give tomllib.loads(text)"))
             if isinstance(source, str) and text in library() and not _is_file(text):
-                return _parsed(library_text(text)), text
-            return _parsed(_file_text(text)), Path(text).stem
+                return parsed(library_text(text)), text
+            return parsed(file_text(text)), Path(text).stem
     raise SceneError(Problem("the scene", f"found a {type(source).__name__}",
                              "give a file, the name of a scene that comes along, or a mapping"))
 
 
-def _parsed(text: str) -> dict[str, Any]:
+def parsed(text: str) -> dict[str, Any]:
+    """The mapping of a TOML text.  Raises SceneError with the line that is wrong."""
     if len(text) > LARGEST_FILE:
         raise SceneError(_too_large())
     try:
@@ -124,7 +135,7 @@ def _is_file(path: str) -> bool:
         return False
 
 
-def _file_text(path: str) -> str:
+def file_text(path: str) -> str:
     """The text of a file.  Raises SceneError where there is no such text."""
     shown = path if path.isprintable() and len(path) <= 200 else ascii(path)[:200]
     try:

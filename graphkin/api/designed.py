@@ -1,0 +1,321 @@
+"""``graphkin design``: a mechanism for what it shall do, constructed, measured, checked, and tried over a turn."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from graphkin.api.arguments import MOST_SEED, ON_SHEETS, known_words, whole_number, write_files
+from graphkin.api.results import Result
+from graphkin.checking.synthesis import FoundLength, compare_lengths
+from graphkin.construction import EXACT, Cad, Instrument, pencil
+from graphkin.construction.design_sheet import DesignSheet
+from graphkin.construction.synthesis import construct
+from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
+from graphkin.plane import degrees, direction
+from graphkin.scene.design_file import DesignLike, design_of
+from graphkin.scene.synthesis import (
+    BarPositionsTask,
+    CrankRockerTask,
+    Design,
+    FunctionTask,
+    GuideBarTask,
+    LimitsTask,
+    SliderCrankTask,
+    scene_table,
+)
+from graphkin.scene.written import Scene
+from graphkin.words import LANGUAGES, Phrase, say, word
+
+if TYPE_CHECKING:
+    from graphkin.drawing import ChartPage, Drawing
+    from graphkin.drawing.synthesis import Confirmed
+    from graphkin.solver.synthesis import Choice, Synthesis
+    from graphkin.study.turn import TurnStudy
+    from graphkin.table import Table
+
+__all__ = ["Designed", "design"]
+
+CONFIRMS = 1e-6  # of what was asked: a turn found by searching for its limits
+
+
+@dataclass(frozen=True, repr=False, eq=False)
+class Designed(Result):
+    """A mechanism found for a task: its drawing, its lengths, and the scene with them.
+
+    ``designed["AB"]`` is a length that was measured, with the exact one beside it, in the file's unit.
+    """
+
+    given: Design
+    found: Synthesis
+    sheet: DesignSheet
+    rows: tuple[FoundLength, ...]
+    language: str | None = None
+
+    @property
+    def ok(self) -> bool:
+        """Whether every length drawn agrees with the exact one, and a turn confirms what was asked; a position that
+        belongs to the other assembly of the links is told, and no fault."""
+        either = isinstance(self.given.task, BarPositionsTask | FunctionTask)
+        return all(row.ok for row in self.rows) and (either or all(one.ok for one in self.confirmed))
+
+    def __getitem__(self, name: str) -> FoundLength:
+        """A length by its name.  Raises CallError for one that there is not."""
+        known = {row.symbol: row for row in self.rows}
+        if name not in known:
+            raise CallError(Problem("length", f'"{name}"', did_you_mean(str(name), known)))
+        return known[name]
+
+    @cached_property
+    def scene(self) -> Scene:
+        """The mechanism as a scene, its crank turning at 1 rad/s."""
+        return Scene.of(scene_table(self.given, self.found.lengths, self.found.places), self.given.name)
+
+    @cached_property
+    def turn(self) -> TurnStudy:
+        """The motion of the scene over a turn."""
+        from graphkin.api.swept import sweep
+
+        turn = sweep(self.scene, positions=1).turn
+        assert turn is not None
+        return turn
+
+    @cached_property
+    def confirmed(self) -> tuple[Confirmed, ...]:
+        """What was asked beside what the scene does."""
+        return tuple(self._confirmed())
+
+    def _confirmed(self) -> list[Confirmed]:
+        from graphkin.drawing.synthesis import Confirmed
+
+        task, metres = self.given.task, self.given.units.metres
+        spoken = self._language
+
+        def row(key: str, asked: float, found: float, size: float, *args: object) -> Confirmed:
+            return Confirmed(say(Phrase(key, args), spoken), asked, found, abs(found - asked) <= CONFIRMS * size)
+
+        made: list[Confirmed] = []
+        if isinstance(task, SliderCrankTask | GuideBarTask | CrankRockerTask | LimitsTask):
+            name = "5/0" if isinstance(task, GuideBarTask) else "3/0" if isinstance(task, SliderCrankTask) else "3"
+            output = next(o for o in self.turn.outputs if o.quantity.of == name)
+            back = self.turn.quick_return(output)
+            assert output.stroke is not None
+            if isinstance(task, LimitsTask):
+                assert output.low is not None
+                assert output.high is not None
+                ends = [math.degrees(end.value) for end in (output.low, output.high)]
+                # which limit is which: by the turns that bring them together
+                for asked in task.angles:
+                    near = min(ends, key=lambda end: abs(math.remainder(end - asked, 360.0)))
+                    made.append(row("design limit value", asked, asked + math.remainder(near - asked, 360.0), 360.0,
+                                    f"{asked:.6g}°"))  # fmt: skip
+            elif isinstance(task, CrankRockerTask):
+                made.append(row("design swing value", task.swing, math.degrees(output.stroke), 360.0))
+            else:
+                made.append(row("design stroke value", task.stroke, output.stroke / metres, task.stroke))
+            if not isinstance(task, LimitsTask):
+                made.append(row("design K value", task.K, back[0] if back else math.nan, task.K))
+        elif isinstance(task, FunctionTask):
+            for crank, rocker in task.pairs:
+                turned = 180.0 * ("AB" in self.found.turned)
+                values = self._solved(crank + turned)
+                own = values and values["D", "C"] * direction(180.0 * ("CD" in self.found.turned))
+                gap = math.remainder(degrees(own) - rocker, 360.0) if own else math.nan
+                made.append(row("design pair value", rocker, rocker + gap, 360.0, f"{crank:.6g}"))
+        else:
+            for i, bar in enumerate(task.positions, 1):
+                first, second = ("M", "N") if "M" in self.found.places else ("B", "C")
+                place = bar.B if first == "B" else task.positions[0].moved(self.found.places["M"], bar)
+                values = self._solved(degrees(place - self.found.places["A"]))
+                angle = degrees(bar.C - bar.B)
+                own = values and values[first, second] * (self._bar_turn if first == "M" else 1.0)
+                gap = math.remainder(degrees(own) - angle, 360.0) if own else math.nan
+                made.append(row("design position value", angle, angle + gap, 360.0, str(i)))
+        return made
+
+    @property
+    def _bar_turn(self) -> complex:
+        """The turn from MN to the bar BC."""
+        places = self.found.places
+        turn = (places["C"] - places["B"]) / (places["N"] - places["M"])
+        return turn / abs(turn)
+
+    def _solved(self, crank: float) -> dict[tuple[str, str], complex] | None:
+        """Vectors between points with the crank at an angle (degrees), by the motion that leads there; None where it
+        does not."""
+        import numpy as np
+
+        from graphkin.api.solved import solve
+
+        try:
+            motion = solve(self.scene, at=crank).motion
+        except Unsolvable:
+            return None
+        if not motion.ok[0]:
+            return None
+        names = ("M", "N") if "M" in self.found.places else ("B", "C")
+        place = {name: complex(np.broadcast_to(motion.point(name).z, 1)[0]) for name in (*names, "D")}
+        return {(a, b): place[b] - place[a] for a in place for b in place if a != b}
+
+    @property
+    def _language(self) -> str:
+        wished = self.language or self.given.sheet.language
+        return wished if wished in LANGUAGES else "en"
+
+    @cached_property
+    def choice(self) -> Choice | None:
+        """The datum that might be chosen otherwise, and the best for the transmission; None where there is none."""
+        from graphkin.solver.synthesis import choice
+
+        found = choice(self.given.task)
+        return found if found is not None and 1.002 * found.low < found.best < 0.998 * found.high else None
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """The object that ``graphkin design --json`` prints."""
+        made: dict[str, Any] = {
+            "kind": self.given.task.kind,
+            "ok": self.ok,
+            "units": {"length": self.given.units.length},
+            "scales": {"length": self.sheet.scale},
+            "lengths": dict(self.found.lengths),
+            "points": {name: [z.real, z.imag] for name, z in self.found.pivots.items()},
+            "readings": [
+                {"symbol": row.symbol, "on_paper_mm": row.on_paper, "measured": row.measured, "exact": row.exact,
+                 "error": row.error, "tolerance": row.tolerance if math.isfinite(row.tolerance) else None,
+                 "direction_error_rad": 0.0, "ok": row.ok}
+                for row in self.rows
+            ],
+            "confirmed": [
+                {"what": one.what, "asked": one.asked, "found": one.found if math.isfinite(one.found) else None,
+                 "ok": one.ok}
+                for one in self.confirmed
+            ],
+        }  # fmt: skip
+        if self.found.turned:
+            made["turned"] = list(self.found.turned)
+        if self.found.least is not None:
+            made["least_transmission_angle_deg"] = self.found.least
+        if self.choice is not None:
+            free = self.choice
+            made["choice"] = {"key": free.key, "from": free.low, "to": free.high, "best": free.best,
+                              "least_transmission_angle_deg": free.least}  # fmt: skip
+        return made
+
+    @property
+    def table(self) -> Table:
+        """The lengths: mm on paper, measured, exact, in the file's unit."""
+        import numpy as np
+
+        from graphkin.table import Column, Table, text_column
+
+        unit = self.given.units.length
+        return Table((
+            text_column("symbol", [row.symbol for row in self.rows]),
+            Column("on_paper", np.array([row.on_paper for row in self.rows]), "mm"),
+            Column("measured", np.array([row.measured for row in self.rows]), unit),
+            Column("exact", np.array([row.exact for row in self.rows]), unit),
+        ))  # fmt: skip
+
+    def sentences(self, language: str) -> list[str]:
+        """What is to be said of the result."""
+        made = [say(Phrase("turned bar", (name,)), language) for name in self.found.turned]
+        made += [say(Phrase("other assembly", (one.what,)), language) for one in self.confirmed if not one.ok]
+        if self.found.least is not None:
+            made.append(f"{word('least transmission', language)}: {self.found.least:.2f}°")
+        free = self.choice
+        if free is not None and self.found.least is not None and free.least > self.found.least + 0.005:
+            numbers = f"{free.low:.5g}", f"{free.high:.5g}", self.given.units.length, f"{free.least:.2f}"
+            args = word(f"datum {free.key}", language), *numbers, f"{free.best:.5g}", f"{self.found.least:.2f}"
+            made.append(say(Phrase("best choice", args), language))
+        return made
+
+    @cached_property
+    def figures(self) -> dict[str, Drawing | ChartPage]:
+        """The construction ("design"), and where a datum is free the chart of its choice ("choice")."""
+        from graphkin.drawing.synthesis import choice_chart, design_figure
+
+        spoken = self.language or self.given.sheet.language
+        notes = list(zip(self.sentences("en"), self.sentences("zh"), strict=True))
+        made: dict[str, Drawing | ChartPage] = {
+            "design": design_figure(self.given, self.sheet, self.rows, self.confirmed, notes, spoken)
+        }
+        if self.choice is not None and self.found.least is not None:
+            free = self.choice
+            now = getattr(self.given.task, free.key)
+            made["choice"] = choice_chart(self.given, free.key, free.at, (free.low, free.high), (now, self.found.least),
+                                          (free.best, free.least), self._language)  # fmt: skip
+        return made
+
+    def write(self, folder: str | os.PathLike[str] | None = None, formats: Sequence[str] = ("svg",)) -> list[Path]:
+        """Write the figures and scene.toml; returns the paths.
+
+        Raises
+        ------
+        CallError : an unknown format, a folder that cannot be written
+        """
+        from graphkin.scene.written import toml_text
+
+        known_words(formats)
+        files = {f"{name}.{kind}": page.content(kind) for name, page in self.figures.items() for kind in formats}
+        files["scene.toml"] = toml_text(self.scene.to_dict()).encode()
+        return write_files(Path(folder) if folder is not None else Path(self.given.name), files)
+
+    def __repr__(self) -> str:
+        told = ", ".join(f"{name} {length:.6g}" for name, length in self.found.lengths.items())
+        return f"<Designed {self.given.name}: {told}>"
+
+    def _repr_svg_(self) -> str:
+        return self.figures["design"]._repr_svg_()
+
+
+def design(
+    file: DesignLike,
+    out: str | os.PathLike[str] | None = None,
+    formats: Sequence[str] = ("svg",),
+    language: str | None = None,
+    instrument: str = "exact",
+    seed: int = 0,
+) -> Designed:
+    """Find a mechanism for what it shall do: drawn, measured, checked against the closed form, tried over a turn.
+
+    Parameters
+    ----------
+    file : a design file, the name of one that comes along, or a mapping of the same shape
+    out : folder for design.svg, choice.svg where a datum is free, and scene.toml
+    language : "en", "zh" or "both" for the figure; the file's own if None
+    instrument, seed : as for `check`
+
+    Raises
+    ------
+    SceneError, CallError : the file or the call is wrong
+    Unsolvable : no mechanism does what is wished, with the nearest that one can
+
+    Examples
+    --------
+    >>> found = design({"design": {"kind": "slider-crank", "stroke": 50, "offset": 16, "K": 1.2}})
+    >>> f"crank {found['AB'].measured:.4f}, rod {found['BC'].measured:.4f}, {found.ok}"
+    'crank 23.8220, rod 58.3700, True'
+    """
+    from graphkin.drawing.synthesis import design_scale
+    from graphkin.solver.synthesis import synthesise
+
+    known_words(formats, language, None, instrument, known_languages=ON_SHEETS)
+    whole_number("seed", seed, 0, MOST_SEED)
+    given = design_of(file)
+    found = synthesise(given.task)
+    tools = given.sheet.tools
+    natural = construct(given.task, max(found.lengths.values()) / 100.0)
+    scale = design_scale(given, natural)
+    hand: Instrument = EXACT if instrument == "exact" else Cad() if instrument == "cad" else pencil(tools, seed)
+    sheet = construct(given.task, scale, hand)
+    rows = compare_lengths(sheet, found.lengths, hand, tools)
+    made = Designed(given, found, sheet, rows, language)
+    if out is not None:
+        made.write(out, formats)
+    return made

@@ -1,0 +1,67 @@
+"""``graphkin design``: a mechanism for what it shall do."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from graphkin.cli.options import (
+    FormatOption,
+    InstrumentOption,
+    JsonOption,
+    OutOption,
+    QuietOption,
+    SeedOption,
+    SheetLangOption,
+    listed,
+)
+from graphkin.cli.output import print_json, print_paths, print_table, unsolvable_as_json
+from graphkin.errors import Unsolvable
+from graphkin.words import languages
+
+__all__ = ["design"]
+
+
+def design(
+    file: Annotated[str, typer.Argument(metavar="FILE", help="A design file, or the name of one that comes along.")],
+    out: OutOption = None,
+    formats: FormatOption = "svg",
+    lang: SheetLangOption = None,
+    instrument: InstrumentOption = "exact",
+    seed: SeedOption = 0,
+    as_json: JsonOption = False,
+    quiet: QuietOption = False,
+) -> None:
+    """Find the lengths of a mechanism for what it shall do: drawn, measured, checked; write it as a scene."""
+    from graphkin.api.designed import design as designing
+    from graphkin.words import word
+
+    wanted = listed(formats)
+    with unsolvable_as_json(as_json, _refused):
+        designed = designing(file, None, wanted, lang, instrument, seed)
+        paths = designed.write(out, wanted)
+    if as_json:
+        print_json(designed.data)
+    elif not quiet:
+        language = languages(lang or designed.given.sheet.language)[0]
+        print_paths(paths)
+        rows = [
+            [row.symbol, f"{row.on_paper:.3f}", f"{row.measured:.7g}", f"{row.exact:.7g}", "ok" if row.ok else "off"]
+            for row in designed.rows
+        ]
+        heads = [word(key, language) for key in ("length found", "on paper", "measured", "exact")]
+        print_table([*heads, ""], rows, right=(1, 2, 3))
+        told = [
+            [one.what, f"{one.asked:.7g}", f"{one.found:.7g}", "ok" if one.ok else "off"] for one in designed.confirmed
+        ]
+        print_table([word("confirmed", language), word("given wish", language), "", ""], told, right=(1, 2))
+        for sentence in designed.sentences(language):
+            typer.echo(sentence)
+    if not designed.ok:
+        raise typer.Exit(1)
+
+
+def _refused(error: Unsolvable) -> dict[str, object]:
+    """The answer for a program, where nothing does what is wished."""
+    return {"ok": False, "status": error.status, "why": error.why, "lengths": {}, "readings": []}

@@ -1,0 +1,351 @@
+"""Mechanisms designed on the drawing board: from what they shall do to their lengths, with ruler, compass, protractor.
+
+Each construction is drawn at its true scale and measured; only what the task gives, and angles reckoned from it, are
+taken as given.  Slider-crank, crank-rocker and guide bar by K after Sun Huan, Mechanical Principles, ch. 8; places of a
+bar by the circles of its points, or by inversion (Hartenberg and Denavit, Kinematic Synthesis of Linkages, ch. 9).
+"""
+
+from __future__ import annotations
+
+import math
+from functools import singledispatch
+
+from graphkin.construction.board import EXACT, Instrument
+from graphkin.construction.design_sheet import (
+    DesignAngle,
+    DesignCircle,
+    DesignLine,
+    DesignPaper,
+    DesignPoint,
+    DesignSheet,
+    DesignStroke,
+)
+from graphkin.errors import Problem, Unsolvable
+from graphkin.plane import cross, direction, dot, unit
+from graphkin.scene.synthesis import (
+    BarPositionsTask,
+    CrankRockerTask,
+    DesignTask,
+    FunctionTask,
+    GuideBarTask,
+    LimitsTask,
+    SliderCrankTask,
+)
+
+__all__ = ["construct"]
+
+
+def construct(task: DesignTask, scale: float = 1.0, instrument: Instrument = EXACT) -> DesignSheet:
+    """Draw a task at a scale (units of length for one mm of paper).
+
+    Raises
+    ------
+    Unsolvable : lines or arcs that should meet do not
+    """
+    paper = DesignPaper(scale, instrument)
+    draw(task, paper)
+    return DesignSheet(
+        task, scale, instrument.name, tuple(paper.steps), dict(paper.points), dict(paper.lengths), tuple(paper.turned)
+    )
+
+
+@singledispatch
+def draw(task: DesignTask, paper: DesignPaper) -> None:
+    """Draw a task on paper, by its kind."""
+    raise TypeError(task)
+
+
+@draw.register
+def _(task: SliderCrankTask, paper: DesignPaper) -> None:
+    theta = _theta(task.K)
+    near = paper.hand.point(0j)
+    far = paper.lay_off(near, 1 + 0j, paper.mm(task.stroke))
+    paper.do("design stroke", ("C_{2}C_{1}", paper.shown(paper.mm(task.stroke))),
+            DesignLine(near, far, "given"), DesignPoint("C1", far), DesignPoint("C2", near))  # fmt: skip
+    middle, radius = _locus(paper, far, near, 1, theta, task.K)
+    # A lies beyond the near end of the stroke, the offset above its line
+    height = near + 1j * paper.hand.length(paper.mm(task.offset))
+    along = paper.hand.direction(1 + 0j)
+    A = paper.cut("A", height, along, middle, radius)[1]
+    paper.do("design parallel", (paper.shown(paper.mm(task.offset)),),
+            DesignLine(A, complex(far.real, A.imag), "direction"), DesignPoint("A", A, pivot=True))  # fmt: skip
+    _crank_from_limits(paper, A, far, near)
+
+
+@draw.register
+def _(task: CrankRockerTask, paper: DesignPaper) -> None:
+    theta, half = _theta(task.K), task.swing / 2
+    D = paper.hand.point(0j)
+    arm = paper.mm(task.rocker)
+    first = paper.lay_off_angle(D, direction(90.0 + half), arm)
+    second = paper.lay_off_angle(D, direction(90.0 - half), arm)
+    paper.do("design swing", (f"{task.swing:.6g}", paper.shown(arm)), DesignPoint("D", D, pivot=True),
+            DesignLine(D, first, "given"), DesignLine(D, second, "given"), DesignPoint("C1", first),
+            DesignPoint("C2", second),
+            DesignAngle(D, second - D, first - D, task.swing, "ψ"))  # fmt: skip
+    middle, radius = _locus(paper, first, second, -1, theta, task.K)
+    reach = paper.hand.compass(paper.mm(task.frame))
+    line = middle - D
+    if abs(line) < 1e-9 * radius:
+        raise Unsolvable("not drawn", Problem("A", "the circle over C1C2 is one about D", "another K or swing"))
+    up = (reach**2 - (radius - abs(line)) * (radius + abs(line))) / (2.0 * abs(line))
+    across = (reach - up) * (reach + up)
+    if across < 0.0:
+        raise Unsolvable("not drawn", Problem("A", "the arc about D does not reach the circle", "another frame"))
+    sides = [D + unit(line) * complex(up, s * math.sqrt(across)) for s in (1.0, -1.0)]
+    A = paper.hand.point(min(sides, key=lambda z: z.real))
+    paper.do("design arc", ("D", paper.shown(paper.mm(task.frame)), "A"),
+            DesignCircle(D, reach, (A,)), DesignPoint("A", A, pivot=True))  # fmt: skip
+    swapped = abs(first - A) < abs(second - A)
+    far, near = (second, first) if swapped else (first, second)
+    _crank_from_limits(paper, A, far, near, swapped)
+    paper.measure("CD", first, D)
+    paper.measure("AD", A, D)
+
+
+def _locus(
+    paper: DesignPaper, first: complex, second: complex, above: int, theta: float, K: float
+) -> tuple[complex, float]:
+    """The circle over C1C2 from whose points above the chord (-1: below) it is seen under theta: centre and radius."""
+    left, right = sorted((first, second), key=lambda z: z.real)
+    tilt = math.pi / 2 - theta
+    midway, square = paper.bisector(first, second)
+    leg = paper.hand.angle(unit(right - left) * complex(math.cos(tilt), above * math.sin(tilt)))
+    centre = paper.meet("O", left, leg, midway, square)
+    radius = paper.hand.compass(abs(first - centre))
+    shown = f"{math.degrees(theta):.6g}"
+    paper.do("design theta", (f"{K:.6g}", shown))
+    legs = right - left, (centre - left) or leg
+    turn = legs if (tilt > 0) == (above > 0) else legs[::-1]
+    paper.do("design centre", (f"{math.degrees(tilt):.6g}", shown), DesignAngle(left, *turn, abs(math.degrees(tilt))),
+            DesignLine(left, centre, "construction"), DesignLine(left, right, "construction"),
+            DesignLine(midway, centre, "direction"),
+            DesignPoint("O", centre), DesignCircle(centre, radius))  # fmt: skip
+    return centre, radius
+
+
+def _crank_from_limits(paper: DesignPaper, A: complex, far: complex, near: complex, swapped: bool = False) -> None:
+    """The crank as half the difference of AC1 and AC2, laid off by the compass, with both limit positions."""
+    names = ("C_{2}", "C_{1}") if swapped else ("C_{1}", "C_{2}")
+    reach = paper.hand.compass(abs(near - A))
+    on_far = paper.hand.point(A + reach * unit(far - A))  # AC2 laid on AC1: what remains is twice the crank
+    crank = paper.hand.compass(abs(far - on_far) / 2)
+    ends = (near, far) if cross(near - A, far - A) > 0 else (far, near)
+    theta = math.degrees(math.atan2(abs(cross(near - A, far - A)), dot(near - A, far - A)))
+    paper.do("design halve", ("A" + names[0], "A" + names[1]),
+            DesignAngle(A, ends[0] - A, ends[1] - A, theta, "θ"), DesignLine(A, far, "limit"),
+            DesignLine(A, near, "limit"), DesignCircle(A, reach, (on_far,)))  # fmt: skip
+    out, back = paper.hand.point(A + crank * unit(far - A)), paper.hand.point(A - crank * unit(near - A))
+    labels = ("B2", "B1") if swapped else ("B1", "B2")
+    paper.do("design crank circle", (), DesignCircle(A, crank), DesignPoint(labels[0], out),
+            DesignPoint(labels[1], back), DesignLine(A, back, "limit"),
+            DesignLine(A, out, "mechanism"), DesignLine(out, far, "mechanism"))  # fmt: skip
+    AB, BC = paper.measure("AB", A, out), paper.measure("BC", out, far)
+    paper.do("design measured", (_told("AB", AB) + ",  " + _told("BC", BC),))
+
+
+def _told(name: str, mm: float) -> str:
+    return f"{name} = {mm:.2f} mm"
+
+
+@draw.register
+def _(task: GuideBarTask, paper: DesignPaper) -> None:
+    theta = _theta(task.K)
+    half = theta / 2
+    C = paper.hand.point(0j)
+    A = paper.lay_off(C, 1j, paper.mm(task.centres))
+    paper.do("design centres", (paper.shown(paper.mm(task.centres)),), DesignLine(C, A, "given"),
+            DesignPoint("A", A, pivot=True), DesignPoint("C", C, pivot=True))  # fmt: skip
+    paper.do("design theta", (f"{task.K:.6g}", f"{math.degrees(theta):.6g}"))
+    left = paper.hand.angle(unit(A - C) * complex(math.cos(half), math.sin(half)))
+    right = paper.hand.angle(unit(A - C) * complex(math.cos(half), -math.sin(half)))
+    foot = paper.meet("B1", C, left, A, paper.hand.direction(1j * left))
+    other = paper.meet("B2", C, right, A, paper.hand.direction(1j * right))
+    reach = abs(A - C)
+    paper.do("design bar limits", (f"{math.degrees(half):.6g}",),
+            DesignLine(C, C + 1.15 * reach * left, "direction"),
+            DesignLine(C, C + 1.15 * reach * right, "direction"),
+            DesignAngle(C, reach * right, reach * left, math.degrees(theta), "θ"))  # fmt: skip
+    paper.do("design feet", (), DesignLine(A, foot, "mechanism"), DesignLine(A, other, "limit"),
+            DesignPoint("B1", foot), DesignPoint("B2", other), DesignCircle(A, abs(foot - A)))  # fmt: skip
+    apart = paper.hand.length(paper.mm(task.stroke) / 2)
+    first = paper.meet("D1", C, left, C - apart, paper.hand.direction(1j))
+    second = paper.meet("D2", C, right, C + apart, paper.hand.direction(1j))
+    middle = C + 1j * abs(first - C)
+    paper.do("design bar ends", (paper.shown(paper.mm(task.stroke) / 2),),
+            DesignLine(C - apart, first, "construction"), DesignLine(C + apart, second, "construction"),
+            DesignPoint("D1", first), DesignPoint("D2", second), DesignLine(C, first, "mechanism"),
+            DesignLine(C, second, "limit"))  # fmt: skip
+    top = paper.hand.point(middle)
+    chord = paper.meet("chord", first, unit(second - first), C, 1j)
+    line = paper.hand.point((top + chord) / 2)
+    rod = paper.hand.compass(paper.mm(task.rod_length))
+    paper.do("design sagitta", (), DesignCircle(C, abs(first - C), (first, top, second)),
+            DesignLine(first, second, "construction"),
+            DesignLine(line - apart, line + apart + rod, "direction"))  # fmt: skip
+    E = paper.cut("E", line, 1 + 0j, first, rod)[0]
+    paper.do("design ram", (paper.shown(paper.mm(task.rod_length)),), DesignCircle(first, rod, (E,)),
+            DesignPoint("E1", E), DesignLine(first, E, "mechanism"))  # fmt: skip
+    told = [_told(name, paper.measure(name, a, b))
+            for name, a, b in (("AB", A, foot), ("AC", A, C), ("CD", C, first), ("ram", C, line))]  # fmt: skip
+    paper.do("design measured", (",  ".join(told),))
+
+
+@draw.register
+def _(task: LimitsTask, paper: DesignPaper) -> None:
+    A, D = paper.plot(task.A), paper.plot(task.D)
+    arm = paper.mm(task.rocker)
+    first, second = (paper.lay_off_angle(D, direction(angle), arm) for angle in task.angles)
+    shown = tuple(f"{angle:.6g}" for angle in task.angles)
+    paper.do("design limit positions", (paper.shown(arm), *shown), DesignPoint("A", A, pivot=True),
+            DesignPoint("D", D, pivot=True), DesignLine(D, first, "given"), DesignLine(D, second, "given"),
+            DesignPoint("C1", first), DesignPoint("C2", second))  # fmt: skip
+    swapped = abs(first - A) < abs(second - A)
+    far, near = (second, first) if swapped else (first, second)
+    _crank_from_limits(paper, A, far, near, swapped)
+    paper.measure("CD", first, D)
+    paper.measure("AD", A, D)
+
+
+@draw.register
+def _(task: BarPositionsTask, paper: DesignPaper) -> None:
+    bars = [(paper.plot(bar.B), paper.plot(bar.C)) for bar in task.positions]
+    named = [(f"{name}{i}", at) for i, bar in enumerate(bars, 1) for name, at in zip("BC", bar, strict=True)]
+    marks = [DesignPoint(name, at) for name, at in named]
+    lines = [DesignLine(*bar, "given" if i == 0 else "limit") for i, bar in enumerate(bars)]
+    paper.do("design places", (), *lines, *marks)
+    if task.A is None or task.D is None:
+        A = _circle_centre(paper, "A", "B", [bar[0] for bar in bars], pivot=True)
+        D = _circle_centre(paper, "D", "C", [bar[1] for bar in bars], pivot=True)
+        chain = ("A", A), ("B", bars[0][0]), ("C", bars[0][1]), ("D", D)
+    else:
+        A, D = paper.plot(task.A), paper.plot(task.D)
+        paper.do("design pivots", (), DesignPoint("A", A, pivot=True), DesignPoint("D", D, pivot=True))
+        found = []
+        for name, at, new in (("A", A, "M"), ("D", D, "N")):
+            turned = [at, *(_carried(paper, at, bar, bars[0]) for bar in bars[1:])]
+            paper.do("design inverted", (name,), *(
+                stroke for i, z in enumerate(turned[1:], 2)
+                for stroke in (DesignPoint(f"{name}{i}", z), DesignLine(bars[0][0], z, "construction"),
+                               DesignLine(bars[0][1], z, "construction"))))  # fmt: skip
+            found.append(_circle_centre(paper, new, name, turned, numbered=(2, 3)))
+        chain = ("A", A), ("M", found[0]), ("N", found[1]), ("D", D)
+    _chain(paper, chain, close="DN" if len(chain) and chain[2][0] == "N" else "CD")
+
+
+def _carried(paper: DesignPaper, at: complex, bar: tuple[complex, complex], to: tuple[complex, complex]) -> complex:
+    """A point carried along with the bar, by overlay."""
+    turn = unit(to[1] - to[0]) / unit(bar[1] - bar[0])
+    return paper.hand.point(to[0] + (at - bar[0]) * turn)
+
+
+def _circle_centre(
+    paper: DesignPaper, name: str, of: str, points: list[complex], pivot: bool = False,
+    numbered: tuple[int, ...] = (1, 2, 3),
+) -> complex:
+    """The centre of the circle through three points: where the perpendicular bisectors of two chords meet."""
+    # the two longest sides give the best crossing
+    sides = sorted(((i, j) for i, j in ((0, 1), (1, 2), (0, 2))), key=lambda s: -abs(points[s[1]] - points[s[0]]))
+    (i, j), (k, m) = sorted(sides[:2])
+    p, d = paper.bisector(points[i], points[j])
+    q, e = paper.bisector(points[k], points[m])
+    at = paper.meet(name, p, d, q, e)
+
+    def written(n: int) -> str:
+        return of if len(numbered) == 2 and n == 0 else f"{of}_{{{n + 1}}}"
+
+    paper.do("design bisectors", (name, f"{written(i)}{written(j)}", f"{written(k)}{written(m)}"),
+            DesignLine(points[i], points[j], "construction"), DesignLine(points[k], points[m], "construction"),
+            DesignLine(p, at, "direction"), DesignLine(q, at, "direction"),
+            DesignCircle(at, abs(points[0] - at), tuple(points)), DesignPoint(name, at, pivot))  # fmt: skip
+    return at
+
+
+def _chain(paper: DesignPaper, chain: tuple[tuple[str, complex], ...], close: str) -> None:
+    """The four bars of a linkage measured, drawn as it stands."""
+    (a, A), (b, B), (c, C), (d, D) = chain
+    bars = [DesignLine(A, B, "mechanism"), DesignLine(B, C, "mechanism"), DesignLine(C, D, "mechanism")]
+    told = [_told(name, paper.measure(name, p, q))
+            for name, p, q in ((a + b, A, B), (b + c, B, C), (close, C, D), (a + d, A, D))]  # fmt: skip
+    paper.do("design measured", (",  ".join(told),), *bars)
+
+
+@draw.register
+def _(task: FunctionTask, paper: DesignPaper) -> None:
+    """Two trial cranks, each with the rockers that two pairs of pairs ask for; between the reciprocals of crank and
+    rocker each relation is a straight line (Freudenstein's equation is linear in them)."""
+    frame = paper.mm(task.frame)
+    A = paper.hand.point(0j)
+    D = paper.lay_off(A, 1 + 0j, frame)
+    phi = [paper.hand.angle(direction(pair[0])) for pair in task.pairs]
+    psi = [paper.hand.angle(direction(pair[1])) for pair in task.pairs]
+    rays = [DesignLine(A, A + 0.6 * frame * way, "direction") for way in phi]
+    rays += [DesignLine(D, D + 0.6 * frame * way, "direction") for way in psi]
+    paper.do("design pairs", (paper.shown(frame),), DesignLine(A, D, "given"), DesignPoint("A", A, pivot=True),
+            DesignPoint("D", D, pivot=True), *rays)  # fmt: skip
+    trials = [_trials(paper, A, D, frame, phi, psi, other) for other in (1, 2)]
+    # one unit of the diagram, so that what was tried fits beside the mechanism
+    one = frame / max(1.0, *(max(abs(z.real), abs(z.imag)) for line in trials for z in line))
+    (p, q), (r, s) = ([paper.hand.point(one * z) for z in line] for line in trials)
+    crossing = paper.meet("AB", p, unit(q - p), r, unit(s - r))
+    corner = complex(2.2 * frame, 0.0)
+    axes = [DesignLine(corner, corner + max(0.3 * frame, 1.1 * z), "direction") if not up else
+            DesignLine(corner, corner + 1j * max(0.3 * frame, 1.1 * z), "direction")
+            for up, z in ((False, crossing.real), (True, crossing.imag))]  # fmt: skip
+    strokes: list[DesignStroke] = [DesignPoint("", corner + z) for z in (p, q, r, s)]
+    for a, b in ((p, q), (r, s)):
+        along = sorted((a, b, crossing), key=lambda z: (z.real, z.imag))
+        strokes.append(DesignLine(corner + along[0], corner + along[-1], "construction"))
+    paper.do("design reciprocals", (paper.shown(one),), *axes, *strokes, DesignPoint("Q", corner + crossing))
+    across = paper.hand.read(abs(crossing.real)) * math.copysign(1.0, crossing.real)
+    upward = paper.hand.read(abs(crossing.imag)) * math.copysign(1.0, crossing.imag)
+    if min(abs(across), abs(upward)) < 1e-9 * one:
+        raise Unsolvable("not drawn", Problem("design.pairs", "they ask for a bar without end", "other angles"))
+    crank, rocker = frame * one / across, frame * one / upward
+    paper.turned += [name for name, mm in (("AB", crank), ("CD", rocker)) if mm < 0]
+    B = paper.hand.point(A + paper.hand.length(abs(crank)) * math.copysign(1.0, crank) * phi[0])
+    C = paper.hand.point(D + paper.hand.length(abs(rocker)) * math.copysign(1.0, rocker) * psi[0])
+    told = (across, upward, abs(crank), abs(rocker), one)
+    paper.do("design reckoned", tuple(map(paper.shown, told)),
+            DesignPoint("B", B), DesignPoint("C", C))  # fmt: skip
+    _chain(paper, (("A", A), ("B", B), ("C", C), ("D", D)), close="CD")
+
+
+def _trials(
+    paper: DesignPaper, A: complex, D: complex, frame: float, phi: list[complex], psi: list[complex], other: int
+) -> tuple[complex, complex]:
+    """Two points of a line in the diagram of reciprocals: frame over crank, frame over rocker."""
+    back = psi[0] / psi[other]
+    found = []
+    for share in (0.4, 0.9, 0.65, 0.3, 1.3):
+        crank = paper.hand.length(share * frame)
+        B, moved = A + crank * phi[0], paper.hand.point(D + (A + crank * phi[other] - D) * back)
+        if abs(moved - B) < 1e-9 * frame:
+            continue
+        p, d = paper.bisector(B, moved)
+        normal = -1j * d
+        # the ray of the rocker and the bisector meet at frame / reciprocal from D
+        level = dot(p - D, normal)
+        if abs(level) < 1e-6 * frame:
+            continue
+        found.append((crank, frame * dot(psi[0], normal) / level, B, moved, p))
+        if len(found) == 2:
+            break
+    if len(found) < 2:
+        raise Unsolvable("not drawn", Problem("design.pairs", "no trial crank tells the pairs apart", "other pairs"))
+    strokes: list[DesignStroke] = []
+    ends = []
+    for crank, reciprocal, B, moved, p in found:
+        at = D + psi[0] * (frame / reciprocal) if abs(reciprocal) > 1e-9 else None
+        strokes += [DesignPoint("", B), DesignPoint("", moved), DesignLine(B, moved, "construction")]
+        if at is not None and abs(at - D) < 3 * frame:
+            strokes += [DesignLine(p, at, "direction"), DesignPoint("", at)]
+            reciprocal = frame / (paper.hand.read(abs(at - D)) * math.copysign(1.0, reciprocal))
+        ends.append(complex(frame / paper.hand.read(crank), reciprocal))
+    paper.do("design trial", (str(other + 1),), *strokes)
+    return ends[0], ends[1]
+
+
+def _theta(K: float) -> float:
+    """Acute angle between the crank's limit positions (rad)."""
+    return math.pi * (K - 1.0) / (K + 1.0)

@@ -1,0 +1,343 @@
+"""The figure of a synthesis: the construction at its true scale, its steps in words, the lengths measured beside the
+exact ones, and what a turn of the found mechanism confirms."""
+
+from __future__ import annotations
+
+import cmath
+import math
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from graphkin.checking.synthesis import FoundLength
+from graphkin.construction.design_sheet import (
+    DesignAngle,
+    DesignCircle,
+    DesignLine,
+    DesignPoint,
+    DesignSheet,
+    DesignStroke,
+    LineKind,
+)
+from graphkin.construction.plan import Extent, fitting_scale
+from graphkin.drawing import strokes, symbols
+from graphkin.drawing.box import Box
+from graphkin.drawing.chart import ChartPage
+from graphkin.drawing.dimensions import check_bar
+from graphkin.drawing.drawing import Drawing
+from graphkin.drawing.headings import number, term
+from graphkin.drawing.labels import Label
+from graphkin.drawing.piece import Piece, cut_to, joined, layer_groups, moved_piece, with_labels
+from graphkin.drawing.primitives import Arc, Circle, Group, Line, Primitive, Run, Stroke, Text
+from graphkin.drawing.text import plain, rich, wrapped
+from graphkin.scene.synthesis import Design
+from graphkin.version import __version__
+from graphkin.words import Phrase, languages, say, word
+
+if TYPE_CHECKING:
+    from graphkin.drawing.chart import Figure
+
+__all__ = ["Confirmed", "choice_chart", "design_figure", "design_scale"]
+
+WIDTH, MARGIN, ROOM = 210.0, 12.0, 9.0
+PANEL = (168.0, 128.0)  # mm that the construction may fill
+LINE, FOOT, LETTER = 4.6, 14.0, 3.0
+FAR, WHOLE = 2.2, 1.3  # a help point, or the whole of a circle, that makes the figure so many times larger is cut off
+_KINDS: dict[LineKind, Stroke] = {
+    "given": strokes.LINK,
+    "construction": strokes.CONSTRUCTION,
+    "direction": strokes.DIRECTION,
+    "limit": Stroke(0.35, (3.0, 1.0)),
+    "mechanism": Stroke(0.7),
+}
+_NAME = re.compile(r"([A-Z])(\d*)")
+_SYMBOLS = re.compile(r"(?:(?<![A-Za-z])(?:[A-Z](?:_\{\d\})?)+(?![a-z]))|[θψ]")  # letters of points, angles
+
+
+@dataclass(frozen=True)
+class Confirmed:
+    """What was asked beside what the found mechanism does, in words and numbers."""
+
+    what: str
+    asked: float
+    found: float
+    ok: bool
+
+
+def design_scale(design: Design, natural: DesignSheet) -> float:
+    """Units of length for one mm of paper: the file's own, or the finest of the series at which the construction
+    fits; ``natural`` is it at any scale."""
+    if design.sheet.length_scale:
+        return design.sheet.length_scale / (design.units.metres * 1e3)
+    box = _content(natural)
+    return fitting_scale(Extent(box.width, box.height), PANEL, natural.scale)
+
+
+def _content(sheet: DesignSheet) -> Box:
+    """What must be seen, y up: all points, help points that lie far off left out."""
+    points = [s.at for step in sheet.steps for s in step.strokes if isinstance(s, DesignPoint) and s.name != "O"]
+    ends = [z for step in sheet.steps for s in step.strokes if isinstance(s, DesignLine) and s.kind != "direction"
+            for z in (s.a, s.b)]  # fmt: skip
+    centres = [sheet.points[name] for name in ("O",) if name in sheet.points]
+    box = Box.around([*points, *(z for z in ends if z not in centres)])
+    circles = [
+        Box.around((s.centre,)).grown(s.radius)
+        for step in sheet.steps for s in step.strokes if isinstance(s, DesignCircle) and not s.near
+    ]  # fmt: skip
+    for far, more in (*((FAR, Box.around((z,))) for z in centres), *((WHOLE, one) for one in circles)):
+        wider = box.joined(more)
+        if max(wider.width, wider.height) <= far * max(box.width, box.height):
+            box = wider
+    return box
+
+
+def design_figure(
+    design: Design, sheet: DesignSheet, rows: Sequence[FoundLength], confirmed: Sequence[Confirmed],
+    notes: Sequence[tuple[str, str]], language: str,
+) -> Drawing:  # fmt: skip
+    """Draw a synthesis on a page of its own.
+
+    Parameters
+    ----------
+    rows : the lengths measured and compared
+    notes : sentences to be said of the result, in English and Chinese
+    language : "en", "zh" or "both"
+    """
+    content = _content(sheet)
+    content = Box(content.left, -content.bottom, content.right, -content.top)  # y down
+    title = " / ".join(dict.fromkeys(design.title_in(each) or design.name for each in languages(language)))
+    head = [rich(title.replace("$", "$$"), 4.0, bold=True), *wrapped(_asked(design, language), 3.2, WIDTH - 2 * MARGIN)]
+    top = MARGIN + 5.0 * len(head) + 1.0
+    panel = Box(MARGIN, top, WIDTH - MARGIN, top + max(content.height, 40.0) + 2 * ROOM)
+    origin = panel.centre - content.centre
+    around = panel.moved(-origin)
+    piece = with_labels(joined([_strokes(step.strokes, step.number, around) for step in sheet.steps]), around)
+    drawn = moved_piece(piece, origin)
+    words: list[Primitive] = [
+        Text(complex(MARGIN, MARGIN + 3.5 + 5.0 * i), runs, classes=("heading",)) for i, runs in enumerate(head)
+    ]
+    y = panel.bottom + 5.0
+    for each in languages(language):
+        for step in sheet.steps:
+            lines = wrapped(_SYMBOLS.sub(r"$\g<0>$", say(step.phrase, each)), LETTER, WIDTH - 2 * MARGIN - 8.0)
+            words.append(Text(complex(MARGIN + 5.0, y), plain(str(step.number), LETTER, bold=True), "end",
+                              classes=("told",), step=step.number))  # fmt: skip
+            for line in lines:
+                words.append(Text(complex(MARGIN + 8.0, y), line, classes=("told",), step=step.number))
+                y += LINE
+        y += 2.0
+    table, y = _tables(design, rows, confirmed, language, y + 1.0)
+    for each in languages(language):
+        for note in (zh if each == "zh" else en for en, zh in notes):
+            for line in wrapped(note, LETTER, WIDTH - 2 * MARGIN):
+                words.append(Text(complex(MARGIN, y), line, classes=("told",)))
+                y += LINE
+    height = y + FOOT
+    unit = design.units.length
+    scale = f"1 mm = {number(sheet.scale)} {unit}"
+    words.append(Text(complex(MARGIN, height - 6.0), rich(scale, 3.5)))
+    words += check_bar(complex(WIDTH - MARGIN - 50.0, height - 6.0), rich(term("check bar", language), 2.5))
+    page = joined((drawn, Piece({"labels": tuple(words), "answers": table})))
+    steps = " ".join(_spoken(say(s.phrase, languages(language)[0])) + "." for s in sheet.steps)
+    found = "; ".join(f"{row.symbol} = {row.measured:.6g} {unit}" for row in rows)
+    facts = {"figure": "design", "design": design.name, "kind": design.task.kind,
+             "units": {"length": unit, "paper": "mm"},
+             "scales": {"length": sheet.scale}, "instrument": sheet.instrument, "graphkin": __version__}  # fmt: skip
+    first = languages(language)[0]
+    return Drawing(WIDTH, height, layer_groups(page), f"{title}: {word('design figure', first)}", f"{steps} {found}",
+                   first, facts)  # fmt: skip
+
+
+def _asked(design: Design, language: str) -> str:
+    """What the file asks, in its own names."""
+    task, unit = design.task, design.units.length
+    parts = []
+    for key, value in vars(task).items():
+        if isinstance(value, float):
+            size = f" {unit}" if key not in ("K", "swing") else "°" if key == "swing" else ""
+            name = key if key in ("K", "BC") else term(f"datum {key}", language)
+            parts.append(f"{name} = {number(value)}{size}")
+        elif key == "pairs":
+            parts += [f"{number(a)}° → {number(b)}°" for a, b in value]
+        elif key == "angles" and value and task.kind == "limits":
+            parts.append(f"{number(value[0])}°, {number(value[1])}°")
+        elif isinstance(value, complex):
+            parts.append(f"{key} ({number(value.real)}, {number(value.imag)})")
+    return f"{term('given wish', language)}: {', '.join(parts)}" if parts else term("design figure", language)
+
+
+def _spoken(text: str) -> str:
+    return text.replace("_{", "").replace("}", "")
+
+
+def _page(z: complex) -> complex:
+    return z.conjugate()
+
+
+def _strokes(made: Sequence[DesignStroke], step: int, panel: Box) -> Piece:
+    """The strokes of one step, y down, cut at the panel."""
+    lines: list[Primitive] = []
+    marks: list[Primitive] = []
+    labels: list[Label] = []
+    for stroke in made:
+        if isinstance(stroke, DesignLine):
+            line = Line(_page(stroke.a), _page(stroke.b), _KINDS[stroke.kind])
+            inside = cut_to((line,), panel)
+            (marks if stroke.kind in ("given", "mechanism") else lines).extend(inside)
+        elif isinstance(stroke, DesignCircle):
+            lines += _arcs(stroke, panel)
+        elif isinstance(stroke, DesignAngle):
+            part, label = _angle(stroke)
+            lines += part
+            labels.append(label)
+        else:
+            at = _page(stroke.at)
+            if not (panel.left <= at.real <= panel.right and panel.top <= at.imag <= panel.bottom):
+                continue
+            if not stroke.name:
+                marks.append(Group(symbols.turning_pair(at, radius=0.5), classes=("point",), step=step))
+                continue
+            shape = symbols.fixed_pivot(at) if stroke.pivot else symbols.turning_pair(at, radius=0.9)
+            name = stroke.name
+            marks.append(Group(tuple(shape), id=f"point-{name}", classes=("point",), step=step))
+            text = Text(0j, rich(_letter(name)), id=f"label-point-{name}", classes=("label",), step=step)
+            labels.append(Label(text, at))
+    group = (Group(tuple(lines), classes=("strokes",), step=step),) if lines else ()
+    things = tuple(thing if isinstance(thing, Group) else Group((thing,), step=step) for thing in marks)
+    return Piece({"construction": group, "mechanism": things}, tuple(labels))
+
+
+def _letter(name: str) -> str:
+    found = _NAME.fullmatch(name)
+    if found is None:
+        return name
+    letter, index = found.groups()
+    return f"${letter}_{{{index}}}$" if index else f"${letter}$"
+
+
+def _angle(stroke: DesignAngle) -> tuple[list[Primitive], Label]:
+    first, second = cmath.phase(stroke.first), cmath.phase(stroke.second)
+    if second < first:
+        second += 2 * math.pi
+    radius = min(12.0, 0.4 * abs(stroke.first))
+    apex = _page(stroke.apex)
+    middle = apex + (radius + 1.0) * cmath.rect(1.0, -(first + second) / 2)
+    text = f"${stroke.name}$ = {number(stroke.value)}°" if stroke.name else f"{number(stroke.value)}°"
+    label = Label(Text(0j, rich(text, 2.8), classes=("label",)), middle, ((first + second) / 2,), rank=1)
+    return [Arc(apex, radius, first, second, strokes.DIMENSION)], label
+
+
+def _arcs(stroke: DesignCircle, panel: Box) -> list[Primitive]:
+    """A circle as far as it lies in the panel, or its arcs near points."""
+    centre, radius = _page(stroke.centre), stroke.radius
+    if stroke.near:
+        half = min(0.35, 6.0 / radius)
+        angles = [cmath.phase(z - stroke.centre) for z in stroke.near]
+        return [Arc(centre, radius, a - half, a + half, strokes.CONSTRUCTION) for a in angles]
+    if panel.holds(Box.around((centre,)).grown(radius)):
+        return [Circle(centre, radius, stroke=strokes.CONSTRUCTION)]
+    cuts: list[float] = []
+    for level, across in ((panel.left, False), (panel.right, False), (panel.top, True), (panel.bottom, True)):
+        share = ((level - centre.imag) if across else (level - centre.real)) / radius
+        if abs(share) < 1.0:
+            angle = -math.asin(share) if across else math.acos(share)
+            cuts += [angle, math.pi - angle] if across else [angle, -angle]
+    ordered = sorted(angle % (2 * math.pi) for angle in cuts)
+    found: list[Primitive] = []
+    for a, b in zip(ordered, [*ordered[1:], ordered[0] + 2 * math.pi] if ordered else [], strict=True):
+        z = centre + radius * cmath.rect(1.0, -(a + b) / 2)
+        if panel.left <= z.real <= panel.right and panel.top <= z.imag <= panel.bottom:
+            found.append(Arc(centre, radius, a, b, strokes.CONSTRUCTION))
+    return found
+
+
+def _tables(
+    design: Design, rows: Sequence[FoundLength], confirmed: Sequence[Confirmed], language: str, y: float
+) -> tuple[tuple[Primitive, ...], float]:
+    """Lengths on paper, measured, exact; beside them what a turn confirms.  Also where the next line may stand."""
+    unit = design.units.length
+    heads = [term("length found", language), term("on paper", language), f"{term('measured', language)} ({unit})",
+             f"{term('exact', language)} ({unit})"]  # fmt: skip
+    cells = [
+        [row.symbol if row.symbol == "ram" else f"${row.symbol}$", f"{row.on_paper:.2f} mm", number(row.measured),
+         number(row.exact)]
+        for row in rows
+    ]  # fmt: skip
+    left, low = _grid(heads, cells, MARGIN, y, (26.0, 24.0, 30.0, 30.0))
+    if not confirmed:
+        return left, low + 2.0
+    told = [[one.what, number(one.asked), number(one.found) if math.isfinite(one.found) else "–"] for one in confirmed]
+    right, other = _grid([term("confirmed", language), term("given wish", language), ""], told, MARGIN + 112.0, y,
+                         (42.0, 18.0, 16.0))  # fmt: skip
+    return (*left, *right), max(low, other) + 2.0
+
+
+def _grid(
+    heads: Sequence[str], cells: Sequence[Sequence[str]], x: float, y: float, widths: Sequence[float]
+) -> tuple[tuple[Primitive, ...], float]:
+    """A small table with a line under its heads; the first column to the left, numbers to the right."""
+    drawn: list[Primitive] = []
+    total = sum(widths)
+    for i, row in enumerate((heads, *cells)):
+        at = x
+        for k, (text, width) in enumerate(zip(row, widths, strict=True)):
+            runs: tuple[Run, ...] = rich(text, 2.6 if i == 0 else LETTER, bold=i == 0)
+            place = complex(at if k == 0 else at + width - 1.0, y)
+            if runs:
+                drawn.append(Text(place, runs, "start" if k == 0 else "end", classes=("cell",)))
+            at += width
+        if i == 0:
+            drawn.append(Line(complex(x, y + 1.4), complex(x + total, y + 1.4), strokes.DIMENSION))
+            y += 1.2
+        y += LINE
+    return tuple(drawn), y
+
+
+CHART_WIDTH, CHART_HEIGHT = 150.0, 95.0
+
+
+def choice_chart(
+    design: Design, key: str, at: Callable[[float], float | None], span: tuple[float, float],
+    here: tuple[float, float], best: tuple[float, float], language: str,
+) -> ChartPage:  # fmt: skip
+    """The least transmission angle over the values that a free datum may have, with the design's own and the best."""
+    import numpy as np
+
+    from graphkin.drawing.chart import (
+        SOLID_AND_DASHED,
+        add_labels,
+        add_panel,
+        add_words,
+        count_steps,
+        degree_step,
+        look,
+        marker,
+    )
+
+    # a range without end is shown as far as it tells
+    low, high = max(span[0], min(here[0], best[0]) / 4), min(span[1], 4 * max(here[0], best[0]))
+    low = span[0] if span[0] > low / 3 else low
+    x = np.linspace(low, high, 241)
+    y = np.array([angle if (angle := at(float(value))) is not None else np.nan for value in x])
+    title = say(Phrase("choice chart", (word(f"datum {key}", language),)), language)
+
+    def paint(figure: Figure) -> None:
+        add_words(figure, Text(complex(8.0, 10.0), rich(title, 4.0, bold=True)))
+        box = Box(20.0, 22.0, CHART_WIDTH - 8.0, CHART_HEIGHT - 16.0)
+        axes = add_panel(figure, box, "choice", f"{word('least transmission', language)} (°)",
+                         f"{word(f'datum {key}', language)} ({design.units.length})")  # fmt: skip
+        axes.set_xlim(low, high)
+        top = 5.0 * math.ceil((float(np.nanmax(y)) + 3.0) / 5.0)
+        axes.set_ylim(0.0, top)
+        count_steps(axes.xaxis)
+        count_steps(axes.yaxis, degree_step(top, 9))
+        axes.plot(x, y, **look(SOLID_AND_DASHED[0]))
+        axes.plot([here[0]], [here[1]], **marker("circle"))
+        axes.plot([best[0]], [best[1]], **marker("up"))
+        both = dict.fromkeys((here, best))
+        marks = [(f"{number(value, 4)}: {number(angle, 4)}°", (value, angle)) for value, angle in both]
+        add_labels(axes, marks, toward=((-math.pi / 2,), (math.pi / 2,))[: len(marks)])
+
+    facts = {"figure": "choice", "design": design.name, "graphkin": __version__}
+    return ChartPage(CHART_WIDTH, CHART_HEIGHT, paint, title=title, desc=title, lang=language, metadata=facts)

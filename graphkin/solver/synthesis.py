@@ -1,0 +1,305 @@
+"""Lengths of a mechanism that does what is wished, in closed form, and the wish refused where none can.
+
+Slider-crank and crank-rocker by K after Sun Huan, Mechanical Principles, ch. 8; three angle pairs after Freudenstein,
+Approximate synthesis of four-bar linkages, Trans. ASME 77 (1955).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import singledispatch
+
+import numpy as np
+
+from graphkin.errors import Problem, Unsolvable
+from graphkin.plane import cross, direction, unit
+from graphkin.scene.synthesis import (
+    BarPositionsTask,
+    CrankRockerTask,
+    DesignTask,
+    FunctionTask,
+    GuideBarTask,
+    LimitsTask,
+    SliderCrankTask,
+)
+
+__all__ = ["Choice", "Synthesis", "choice", "crank_angle", "synthesise"]
+
+IN_LINE = 1e-12  # of the size: three points whose circle is larger than this allows lie in one line
+
+
+@dataclass(frozen=True)
+class Synthesis:
+    """What was found, in the unit of the file.
+
+    lengths : of each bar by its two points ("ram": distance of the ram's line from C)
+    pivots : the fixed pivots
+    places : all points in the position in which the scene stands
+    turned : bars that stand opposite to the angles asked
+    least : the least transmission angle (degrees); None where nothing transmits by an angle that changes
+    """
+
+    task: DesignTask
+    lengths: Mapping[str, float]
+    pivots: Mapping[str, complex]
+    places: Mapping[str, complex]
+    turned: tuple[str, ...] = ()
+    least: float | None = None
+
+
+@dataclass(frozen=True)
+class Choice:
+    """A datum that may be chosen freely: from ``low`` to ``high`` it meets the rest of the wish; ``best`` gives the
+    greatest ``least`` transmission angle (degrees)."""
+
+    key: str
+    low: float
+    high: float
+    best: float
+    least: float
+    at: Callable[[float], float | None] = field(compare=False)
+
+
+def crank_angle(K: float) -> float:
+    """Acute angle of the crank between the limit positions, 180 (K - 1) / (K + 1), in radians."""
+    return math.pi * (K - 1.0) / (K + 1.0)
+
+
+def _refused(where: str, found: str, wanted: str) -> Unsolvable:
+    return Unsolvable("not assembled", Problem(f"design.{where}", found, wanted))
+
+
+def _quick_return(K: float, most: float | None = None) -> float:
+    if K <= 1.0:
+        raise _refused("K", f"{K:.6g} is no quick return", "K must be above 1")
+    if most is not None and most <= K:
+        raise _refused("K", f"{K:.6g} cannot be reached", f"K must be below {most:.6g} here")
+    return crank_angle(K)
+
+
+@singledispatch
+def synthesise(task: DesignTask) -> Synthesis:
+    """Find the lengths.
+
+    Raises
+    ------
+    Unsolvable : no mechanism of this kind does what is wished, with the nearest that one can
+    """
+    raise TypeError(task)
+
+
+@synthesise.register
+def _(task: SliderCrankTask) -> Synthesis:
+    H, e = task.stroke, task.offset
+    theta = _quick_return(task.K, 3.0)
+    if e == 0.0:
+        raise _refused("offset", f"0 gives K = 1, not {task.K:.6g}", "an offset greater than 0")
+    greatest = H / math.tan(theta)
+    if e >= greatest:
+        raise _refused("offset", f"{e:.6g} is too large for K = {task.K:.6g}", f"it must be below {greatest:.6g}")
+    half = math.tan(theta / 2.0)
+    # AC1 = BC + AB and AC2 = BC - AB enclose theta over the chord H, at the height e over it
+    crank = math.sqrt(H * (H - 2.0 * e * half)) / 2.0
+    rod = math.sqrt(H * (H + 2.0 * e / half)) / 2.0
+    at = 60.0
+    B = crank * direction(at)
+    C = complex(B.real + math.sqrt(rod**2 - (B.imag + e) ** 2), -e)
+    least = math.degrees(math.acos((crank + e) / rod))
+    return Synthesis(task, {"AB": crank, "BC": rod}, {"A": 0j}, {"A": 0j, "B": B, "C": C}, least=least)
+
+
+@synthesise.register
+def _(task: CrankRockerTask) -> Synthesis:
+    c, d = task.rocker, task.frame
+    if task.swing >= 180.0:
+        raise _refused("swing", f"{task.swing:.6g} is too wide for a rocker", "it must be below 180 degrees")
+    psi = math.radians(task.swing)
+    # beyond it the circle over the chord lies between the arms of the rocker
+    widest = math.pi / 2 + psi / 2
+    theta = _quick_return(task.K, (math.pi + widest) / (math.pi - widest))
+    low, high = sorted((c, c * abs(math.sin(psi - theta)) / math.sin(theta)))
+    if not low < d < high:
+        raise _refused(
+            "frame", f"the circle about D with {d:.6g} does not cut the circle over C1C2 where A may lie",
+            f"it must lie between {low:.6g} and {high:.6g}",
+        )
+    first, second = c * direction(90.0 + task.swing / 2), c * direction(90.0 - task.swing / 2)
+    chord = abs(first - second)
+    # from D along the middle of the swing: the circle's centre and, of the crossing with the circle about D, its foot
+    centre = c * math.cos(psi / 2) - chord / (2.0 * math.tan(theta))
+    radius = chord / (2.0 * math.sin(theta))
+    up = (d**2 - (radius - centre) * (radius + centre)) / (2.0 * centre) if centre else 0.0
+    A = complex(-math.sqrt(max(0.0, (d - up) * (d + up))), up)
+    return _crank_rocker(task, A, 0j, first, second, standing=False)
+
+
+@synthesise.register
+def _(task: LimitsTask) -> Synthesis:
+    first, second = (task.D + task.rocker * direction(angle) for angle in task.angles)
+    if abs(task.A - task.D) < 1e-12 * task.rocker:
+        raise _refused("A", "lies where D lies", "two pivots apart from each other")
+    if abs(first - second) < 1e-12 * task.rocker:
+        raise _refused("angles", "the two limit positions are one", "two different angles")
+    return _crank_rocker(task, task.A, task.D, first, second, standing=True)
+
+
+def _crank_rocker(
+    task: CrankRockerTask | LimitsTask, A: complex, D: complex, first: complex, second: complex, standing: bool
+) -> Synthesis:
+    """The four-bar of which these are the limit positions, on its place or with A and D on the x axis."""
+    far, near = max(abs(first - A), abs(second - A)), min(abs(first - A), abs(second - A))
+    AB, BC, CD, AD = (far - near) / 2, (far + near) / 2, abs(first - D), abs(A - D)
+    sides = cross(D - A, first - A), cross(D - A, second - A)
+    if AB < 1e-12 * BC:
+        raise _refused("A", "lies as far from C1 as from C2, so that no crank is left", "move A off the line midway")
+    if sides[0] * sides[1] <= 0.0:
+        raise _refused("A", "lies between the lines C1D and C2D, so that the rocker would have to pass through AD",
+                       "move A to one side of both lines")
+    side = 1.0 if sides[0] > 0 else -1.0
+    if not standing:
+        A, D = 0j, complex(AD, 0.0)
+    B = A + AB * unit(D - A) * direction(60.0)
+    C = _third(B, BC, D, CD, side)
+    least = _least_transmission(AB, BC, CD, AD)
+    lengths = {"AB": AB, "BC": BC, "CD": CD, "AD": AD}
+    return Synthesis(task, lengths, {"A": A, "D": D}, {"A": A, "B": B, "C": C, "D": D}, least=least)
+
+
+def _third(p: complex, r: float, q: complex, s: float, side: float) -> complex:
+    """The corner of a triangle over pq, ``side`` of it: +1 left where r lies on p."""
+    c = abs(q - p)
+    along = ((r - s) * (r + s) / c + c) / 2.0
+    height = math.sqrt(max(0.0, (r - along) * (r + along)))
+    # B turns about A: the side of the rocker's point from the line BD is that from AD
+    return p + unit(q - p) * complex(along, side * height)
+
+
+def _least_transmission(AB: float, BC: float, CD: float, AD: float) -> float:
+    """Least angle between coupler and rocker: where crank and frame lie in one line (degrees)."""
+    angles = []
+    for across in (AD + AB, abs(AD - AB)):
+        cosine = (BC**2 + CD**2 - across**2) / (2.0 * BC * CD)
+        angle = math.degrees(math.acos(min(1.0, max(-1.0, cosine))))
+        angles.append(min(angle, 180.0 - angle))
+    return min(angles)
+
+
+@synthesise.register
+def _(task: GuideBarTask) -> Synthesis:
+    theta = _quick_return(task.K)
+    half = theta / 2.0
+    AB, CD = task.centres * math.sin(half), task.stroke / (2.0 * math.sin(half))
+    ram = CD * (1.0 + math.cos(half)) / 2.0
+    sagitta = CD - CD * math.cos(half)
+    shortest = sagitta / (2.0 * math.cos(half))
+    rod = task.rod_length
+    if rod <= shortest:
+        raise _refused("rod", f"{rod:.6g} is too short to let the ram rest where the bar does",
+                       f"it must exceed {shortest:.6g}")
+    C = complex(0.0, -task.centres)
+    B = AB * direction(30.0)
+    D = C + CD * unit(B - C)
+    height = C.imag + ram
+    E = complex(D.real + math.sqrt(rod**2 - (D.imag - height) ** 2), height)
+    lengths = {"AB": AB, "AC": task.centres, "CD": CD, "ram": ram}
+    least = math.degrees(math.acos(sagitta / 2.0 / rod))
+    places = {"A": 0j, "B": B, "C": C, "D": D, "E": E}
+    return Synthesis(task, lengths, {"A": 0j, "C": C}, places, least=least)
+
+
+@synthesise.register
+def _(task: BarPositionsTask) -> Synthesis:
+    bars = task.positions
+    if task.A is None or task.D is None:
+        A = _centre(tuple(bar.B for bar in bars), "B")
+        D = _centre(tuple(bar.C for bar in bars), "C")
+        B, C = bars[0].B, bars[0].C
+        lengths = {"AB": abs(B - A), "BC": abs(C - B), "CD": abs(C - D), "AD": abs(A - D)}
+        return Synthesis(task, lengths, {"A": A, "D": D}, {"A": A, "B": B, "C": C, "D": D})
+    M = _centre(tuple(bar.moved(task.A, bars[0]) for bar in bars), "A")
+    N = _centre(tuple(bar.moved(task.D, bars[0]) for bar in bars), "D")
+    A, D = task.A, task.D
+    lengths = {"AM": abs(M - A), "MN": abs(N - M), "DN": abs(N - D), "AD": abs(A - D)}
+    points = {"A": A, "D": D, "M": M, "N": N}
+    for key, length in lengths.items():
+        if length < IN_LINE * max(lengths.values()):
+            raise _refused("positions", f"{key[0]} and {key[1]} fall together", "other pivots or other positions")
+    return Synthesis(task, lengths, points, {**points, "B": bars[0].B, "C": bars[0].C})
+
+
+def _centre(points: tuple[complex, ...], letter: str) -> complex:
+    """The centre of the circle through three points."""
+    a, b, c = points
+    size = max(abs(b - a), abs(c - b), abs(a - c))
+    if min(abs(b - a), abs(c - b), abs(a - c)) <= IN_LINE * size:
+        raise _refused("positions", f"two of the places of {letter} are one, so that no circle is fixed",
+                       "three different places")
+    area = cross(b - a, c - a)
+    if abs(area) <= IN_LINE * size**2:
+        raise _refused("positions", f"the three places of {letter} lie in one line: no circle goes through them",
+                       "a slide along that line, or another point of the bar")
+    u, v = b - a, c - a
+    return a + 1j * (v * abs(u) ** 2 - u * abs(v) ** 2) / (-2.0 * area)
+
+
+@synthesise.register
+def _(task: FunctionTask) -> Synthesis:
+    # Freudenstein: K1 cos psi - K2 cos phi + K3 = cos(phi - psi), K1 = AD/AB, K2 = AD/CD
+    phi, psi = (np.radians([pair[i] for pair in task.pairs]) for i in (0, 1))
+    lines = np.column_stack([np.cos(psi), -np.cos(phi), np.ones(3)])
+    if np.linalg.cond(lines) > 1e12:
+        raise _refused("pairs", "the three pairs fix no four-bar", "three pairs that differ in both angles")
+    k = np.linalg.solve(lines, np.cos(phi - psi))
+    if min(abs(k[0]), abs(k[1])) < 1e-9:
+        raise _refused("pairs", "they ask for a bar without end", "change one of the angles")
+    AB, CD = (float(task.frame / k[i]) for i in (0, 1))
+    A, D = 0j, complex(task.frame, 0.0)
+    B, C = A + AB * direction(task.pairs[0][0]), D + CD * direction(task.pairs[0][1])
+    turned = tuple(name for name, length in (("AB", AB), ("CD", CD)) if length < 0)
+    lengths = {"AB": abs(AB), "BC": abs(C - B), "CD": abs(CD), "AD": task.frame}
+    if lengths["BC"] < IN_LINE * max(lengths.values()):
+        raise _refused("pairs", "B and C fall together", "change one of the angles")
+    return Synthesis(task, lengths, {"A": A, "D": D}, {"A": A, "B": B, "C": C, "D": D}, turned)
+
+
+_FREE: dict[type[DesignTask], str] = {SliderCrankTask: "offset", CrankRockerTask: "frame", LimitsTask: "rocker"}
+_SAMPLES = 400
+
+
+def choice(task: DesignTask) -> Choice | None:
+    """The datum that could be chosen otherwise while the rest of the wish stays, and the best for the transmission;
+    None where there is none.
+
+    Raises Unsolvable where nothing that this datum could be meets the rest.
+    """
+    key = _FREE.get(type(task))
+    if key is None:
+        return None
+
+    def least(value: float) -> float | None:
+        try:
+            return synthesise(replace(task, **{key: value})).least  # type: ignore[arg-type]
+        except (Unsolvable, ValueError):
+            return None
+
+    now = getattr(task, key)
+    size = max(now, abs(task.A - task.D) if isinstance(task, LimitsTask) else now)
+    grid = np.geomspace(1e-3, 1e2, _SAMPLES) * size
+    good = [float(x) for x in grid if least(float(x)) is not None]
+    if not good:
+        return None
+    best = max(good, key=lambda x: least(x) or 0.0)
+    i = int(np.searchsorted(grid, best))
+    low, high = float(grid[max(i - 1, 0)]), float(grid[min(i + 1, _SAMPLES - 1)])
+    for _ in range(60):  # golden section
+        a, b = high - 0.6180339887498949 * (high - low), low + 0.6180339887498949 * (high - low)
+        if (least(a) or 0.0) < (least(b) or 0.0):
+            low = a
+        else:
+            high = b
+    top = (low + high) / 2
+    if (least(top) or 0.0) < (least(best) or 0.0):
+        top = best
+    return Choice(key, min(good), max(good), top, least(top) or 0.0, least)

@@ -1,0 +1,200 @@
+"""A mechanism for what it shall do: its lengths, its drawing and its motion agree, and what cannot be is refused."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+
+import mpmath
+import pytest
+
+import graphkin
+from graphkin.checking.synthesis import compare_lengths
+from graphkin.construction import EXACT, pencil
+from graphkin.construction.synthesis import construct
+from graphkin.plane import direction
+from graphkin.scene.design_file import design_of, designs
+from graphkin.scene.tables import Tools
+from graphkin.solver.synthesis import synthesise
+from tests.command import run
+
+SLIDER = {"kind": "slider-crank", "stroke": 50, "offset": 16, "K": 1.2}
+ROCKER = {"kind": "crank-rocker", "swing": 40, "rocker": 50, "K": 1.3, "frame": 45}
+BAR = {"kind": "guide-bar", "stroke": 100, "centres": 150, "K": 2}
+LIMITS = {"kind": "limits", "A": [0, 0], "D": [100, 20], "rocker": 60, "angles": [130, 70]}
+PLACES = {"kind": "three-positions", "BC": 80, "positions": [
+    {"B": [10, 60], "angle": 10}, {"B": [35, 80], "angle": -8}, {"B": [70, 82], "angle": -35}]}  # fmt: skip
+PAIRS = {"kind": "function", "frame": 10, "pairs": [[60, 20], [75, 45], [135, 130]]}
+EACH = [SLIDER, ROCKER, BAR, LIMITS, PLACES, {**PLACES, "A": [11, -35], "D": [57, 28]}, PAIRS]
+
+
+def found(task):
+    return graphkin.design({"design": task})
+
+
+def lengths(task):
+    return found(task).data["lengths"]
+
+
+def test_slider_crank_by_stroke_offset_and_K():
+    assert {"AB": 23.8220, "BC": 58.3700} == pytest.approx(lengths(SLIDER), abs=5e-5)
+
+
+def test_slotter_by_K_stroke_and_centres():
+    made = lengths(BAR)
+    assert (75, 150, 100, 93.3013) == pytest.approx((made["AB"], made["AC"], made["CD"], made["ram"]), abs=5e-5)
+
+
+@pytest.mark.parametrize("task", EACH, ids=lambda task: f"{task['kind']}{'-pivots' if 'A' in task else ''}")
+def test_what_was_drawn_and_what_moves_confirm_the_wish(task):
+    made = found(task)
+    assert made.ok
+    assert all(one.ok for one in made.confirmed)
+    assert all(row.error <= 1e-9 * max(made.found.lengths.values()) for row in made.rows)
+
+
+@pytest.mark.parametrize("name", designs())
+def test_designs_that_come_along_can_be_made(name):
+    assert graphkin.design(name).ok
+
+
+def test_lengths_of_a_slider_crank_in_30_digits():
+    with mpmath.workdps(30):
+        theta = mpmath.pi * mpmath.mpf("0.2") / mpmath.mpf("2.2")
+        # the two distances of A from the ends of the stroke enclose theta
+        far, near = mpmath.findroot(
+            lambda a, b: [a**2 + b**2 - 2 * a * b * mpmath.cos(theta) - 2500, a * b * mpmath.sin(theta) - 50 * 16],
+            (82.2, 34.5),
+        )
+        expected = {"AB": float((far - near) / 2), "BC": float((far + near) / 2)}
+    assert expected == pytest.approx(lengths(SLIDER), rel=1e-14)
+
+
+def test_freudensteins_equation_holds_for_the_three_pairs():
+    made = lengths(PAIRS)
+    for phi, psi in PAIRS["pairs"]:
+        B, C = made["AB"] * direction(phi), made["AD"] + made["CD"] * direction(psi)
+        assert made["BC"] == pytest.approx(abs(C - B), rel=1e-12)
+
+
+def test_a_bar_that_stands_opposite_to_the_angles_is_told():
+    task = {"kind": "function", "pairs": [[20, 100], [60, 70], [110, 65]]}
+    made = found(task)
+    assert made.data["turned"]
+    sign = {name: -1 if name in made.data["turned"] else 1 for name in ("AB", "CD")}
+    for phi, psi in task["pairs"]:
+        B = sign["AB"] * made.found.lengths["AB"] * direction(phi)
+        C = 1 + sign["CD"] * made.found.lengths["CD"] * direction(psi)
+        assert made.found.lengths["BC"] == pytest.approx(abs(C - B), rel=1e-12)
+
+
+def test_fixed_pivots_given_the_moving_ones_are_carried_by_the_bar():
+    made = found({**PLACES, "A": [0, 0], "D": [60, -10]})
+    points = {name: complex(*at) for name, at in made.data["points"].items()}
+    assert {"A", "D", "M", "N"} == set(points)
+    first, *others = made.given.task.positions
+    for bar in others:
+        for fixed, moving, length in (("A", "M", "AM"), ("D", "N", "DN")):
+            place = first.moved(points[moving], bar)
+            assert made.found.lengths[length] == pytest.approx(abs(place - points[fixed]), rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({**SLIDER, "K": 1.0}, "K must be above 1"),
+        ({**SLIDER, "offset": 300}, r"it must be below 170\.\d+"),
+        ({**SLIDER, "offset": 0}, "an offset greater than 0"),
+        ({**ROCKER, "frame": 500}, r"between [\d.]+ and [\d.]+"),
+        ({**ROCKER, "swing": 180}, "below 180"),
+        ({**BAR, "rod": 1}, r"it must exceed [\d.]+"),
+        ({**LIMITS, "A": [100, 20]}, "two pivots apart"),
+        ({**LIMITS, "A": [99, -80]}, "to one side"),
+        ({**PLACES, "positions": [{"B": [x, 0], "angle": x} for x in (0, 10, 20)]}, "in one line"),
+        ({**PAIRS, "pairs": [[30, 45], [30, 45], [120, 90]]}, "three pairs"),
+    ],
+)
+def test_what_no_mechanism_does_is_refused_with_what_one_could(change, said):
+    with pytest.raises(graphkin.Unsolvable, match=said):
+        found(change)
+
+
+def test_the_greatest_offset_is_just_not_reached():
+    with pytest.raises(graphkin.Unsolvable) as refused:
+        found({**SLIDER, "offset": 300})
+    most = float(re.search(r"below ([\d.]+)", refused.value.why)[1])
+    assert found({**SLIDER, "offset": most * 0.999}).ok
+
+
+@pytest.mark.parametrize(
+    ("design", "said"),
+    [
+        ({"kind": "slider-crank", "stroke": 50}, "design.K: is missing"),
+        ({**SLIDER, "stroke": -5}, "design.stroke: found -5, a negative number"),
+        ({**SLIDER, "strok": 5}, 'did you mean "stroke"'),
+        ({**SLIDER, "offset": -1}, "positive or 0"),
+        ({"kind": "slider"}, 'did you mean "slider-crank"'),
+        ({"kind": "three-positions", "positions": [{"B": [0, 0], "C": [1, 0]}]}, "found 1 of them"),
+        ({**PLACES, "A": [0, 0]}, "design.D: is missing"),
+        ({"kind": "limits", "A": [0], "D": [1, 1], "rocker": 1, "angles": [1, 2]}, "a place is"),
+    ],
+)
+def test_a_wrong_file_is_told_by_name(design, said):
+    with pytest.raises(graphkin.SceneError, match=re.escape(said)):
+        found(design)
+
+
+def test_all_problems_of_a_file_are_told_at_once():
+    with pytest.raises(graphkin.SceneError) as wrong:
+        graphkin.design({"design": {"kind": "slider-crank", "stroke": 0, "K": "x"}, "unitz": {}})
+    assert 3 == len(wrong.value.problems)
+
+
+@pytest.mark.parametrize("task", [SLIDER, ROCKER, PLACES], ids=lambda task: task["kind"])
+def test_pencils_stay_within_what_is_predicted(task):
+    given = design_of({"design": task})
+    exact = synthesise(given.task).lengths
+    rows = [
+        row
+        for seed in range(40)
+        for hand in [pencil(Tools(), seed)]
+        for row in compare_lengths(construct(given.task, 1.0, hand), exact, hand)
+    ]
+    assert 0.95 < sum(row.ok for row in rows) / len(rows)
+    assert any(row.error > 0.02 for row in rows)
+
+
+def test_a_wrong_construction_is_noticed():
+    given = design_of({"design": SLIDER})
+    wrong = construct(design_of({"design": {**SLIDER, "offset": 16.001}}).task, 1.0, EXACT)
+    assert not all(row.ok for row in compare_lengths(wrong, synthesise(given.task).lengths))
+
+
+def test_the_command_writes_figure_and_scene_and_says_how_it_went(tmp_path):
+    (tmp_path / "task.toml").write_text('[design]\nkind = "slider-crank"\nstroke = 50\noffset = 16\nK = 1.2\n')
+    done = run("design", str(tmp_path / "task.toml"), "-o", str(tmp_path / "out"), "--json")
+    assert 0 == done.returncode
+    data = json.loads(done.stdout)
+    assert {"kind", "ok", "lengths", "points", "readings"} <= set(data)
+    assert ["AB", "BC"] == [row["symbol"] for row in data["readings"]]
+    assert {"design.svg", "choice.svg", "scene.toml"} == {path.name for path in (tmp_path / "out").iterdir()}
+    turn = graphkin.sweep(tmp_path / "out" / "scene.toml", positions=12).data["outputs"][0]
+    assert (50, 1.2) == pytest.approx((turn["stroke"], turn["K"]))
+
+
+def test_the_command_ends_with_the_status_of_the_contract(tmp_path):
+    for status, K in ((3, "1"), (2, "-1"), (2, '"x"')):
+        (tmp_path / "task.toml").write_text(f'[design]\nkind = "slider-crank"\nstroke = 50\noffset = 16\nK = {K}\n')
+        assert status == run("design", str(tmp_path / "task.toml"), "-o", str(tmp_path / "out")).returncode
+    assert not (tmp_path / "out").exists()
+
+
+def test_every_length_on_the_figure_is_that_of_the_drawing_at_its_scale():
+    svg = found(LIMITS).figures["design"].content("svg").decode()
+    sheet = found(LIMITS).sheet
+    ends = [(float(a), float(b)) for a, b in re.findall(r'<line[^>]*?x1="([\d.-]+)"[^>]*?x2="([\d.-]+)"', svg)]
+    rocker = abs(sheet.points["C1"] - sheet.points["D"])
+    assert rocker * sheet.scale == pytest.approx(60)
+    across = abs((sheet.points["C1"] - sheet.points["D"]).real)
+    assert any(math.isclose(abs(b - a), across, abs_tol=2e-3) for a, b in ends)
