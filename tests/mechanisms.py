@@ -12,7 +12,7 @@ import random
 from dataclasses import dataclass, field
 from typing import Any
 
-__all__ = ["KINDS", "random_scene"]
+__all__ = ["KINDS", "floating_cylinder", "random_scene"]
 
 KINDS = ("RRR", "RRP", "RPR", "PRP", "RPP", "pin")
 
@@ -176,3 +176,63 @@ def random_scene(seed: int, kinds: tuple[str, ...]) -> dict[str, Any]:
     if b.pins:
         scene["pins"] = b.pins
     return scene
+
+
+def floating_cylinder(seed: int) -> dict[str, Any]:
+    """Two links that hang together by a hinge or a slide, a driven cylinder between them, and a rest that is known only
+    with both: a rod, a slider or a pin in a slot of the frame."""
+    r = random.Random(seed)
+
+    def any_place() -> complex:
+        return complex(r.uniform(-100, 100), r.uniform(-100, 100))
+
+    def seen(z: complex, origin: complex, axis: complex) -> list[float]:
+        local = (z - origin) / axis
+        return [local.real, local.imag]
+
+    a, j, p, q, d = (any_place() for _ in range(5))
+    if r.random() < 0.2:
+        p = j + abs(q - j) * cmath.rect(1.0, r.uniform(-3, 3))  # arms of equal length
+    one = (j - a) / abs(j - a)
+    frame: dict[str, Any] = {"points": {"A": [a.real, a.imag]}, "guides": {}}
+    links: dict[str, dict[str, Any]] = {
+        "1": {"points": ["A", "J"], "length": abs(j - a), "at": {"P": seen(p, a, one)}}
+    }
+    pins: dict[str, dict[str, Any]] = {}
+    sketch = {name: [z.real, z.imag] for name, z in (("P", p), ("Q", q), ("D", d))}
+    if r.random() < 0.7:
+        links["2"] = {"points": ["J", "D"], "length": abs(d - j), "at": {"Q": seen(q, j, (d - j) / abs(d - j))}}
+        sketch["J"] = [j.real, j.imag]
+    else:
+        along = cmath.rect(1.0, r.uniform(-3, 3))
+        angle = math.degrees(cmath.phase(along / one))
+        links["1"]["guides"] = {"s": {"through": seen(d - along * r.uniform(-50, 50), a, one), "angle": angle}}
+        links["2"] = {"points": ["D"], "on": "1.s", "at": {"Q": seen(q, d, along)}}
+    rest = r.choice(["slider", "rod", "slot"])
+    if rest == "rod":
+        foot = any_place()
+        frame["points"]["F"] = [foot.real, foot.imag]
+        links["5"] = {"points": ["F", "D"], "length": abs(d - foot)}
+    else:
+        angle = r.uniform(-180, 180)
+        start = d - cmath.rect(r.uniform(-50, 50), math.radians(angle))
+        frame["guides"]["h"] = {"through": [start.real, start.imag], "angle": angle}
+        if rest == "slider":
+            links["5"] = {"points": ["D"], "on": "0.h"}
+        else:
+            pins["D"] = {"of": "2", "in": "0.h"}
+    long = abs(q - p)
+    off = r.choice([0.0, 0.0, r.uniform(-0.4, 0.4) * long])
+    on = "3.s" if off else "3"
+    key = "Q/3" if r.random() < 0.3 else "4"
+    if key == "4":
+        links["4"] = {"points": ["Q"], "on": on}
+    else:
+        pins["Q"] = {"of": "2", "in": on}
+    links["3"] = {"points": ["P"]}
+    if off:
+        links["3"]["guides"] = {"s": {"through": [0, off], "angle": 0}}
+    travel = r.choice([1, 1, -1]) * math.sqrt(long * long - off * off)
+    driver = {"slide": key, "travel": travel, "velocity": r.choice([0, 50, -30]), "acceleration": r.choice([0, 20])}
+    scene = {"title": f"cylinder {seed}", "frame": frame, "links": links, "driver": driver, "sketch": sketch}
+    return scene | ({"pins": pins} if pins else {})

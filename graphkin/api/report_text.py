@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from graphkin.api.arguments import own_unit
 from graphkin.api.checked import Checked, reading_row
-from graphkin.construction.sheet import Equation, Term
+from graphkin.construction.sheet import Equation, Sheet, Term
 from graphkin.construction.steps import Direction
 from graphkin.scene.model import Mechanism
 from graphkin.words import Phrase, say, word
@@ -52,6 +52,7 @@ def report_text(checked: Checked, language: str) -> str:
         "",
         f"1 mm = {scales['length']:g} mm, {scales['velocity']:g} {unit}/s, {scales['acceleration']:g} {unit}/s²",
         "",
+        *_held_still(sheet, language),
         word("steps", language),
         *(f"{s.number:3}  {say(s.phrase, language, show)}" for s in sheet.steps),
         "",
@@ -72,6 +73,14 @@ def report_text(checked: Checked, language: str) -> str:
         lines.append(say(sheet.stopped, language, show))
     lines.append(verdict(checked, language))
     return "\n".join(lines) + "\n"
+
+
+def _held_still(sheet: Sheet, language: str) -> list[str]:
+    """What was drawn apart, with one link for a frame."""
+    if not sheet.held_still:
+        return []
+    steps = [f"{s.number:3}  {say(s.phrase, language, show)}" for s in sheet.held_still]
+    return [word("held still", language), *steps, ""]
 
 
 def verdict(checked: Checked, language: str) -> str:

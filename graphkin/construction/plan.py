@@ -14,10 +14,11 @@ from functools import cached_property
 from graphkin.construction.asked import show
 from graphkin.construction.board import EXACT, Board, Instrument
 from graphkin.construction.equations import Chain
+from graphkin.construction.held_still import Inversion, TriangleDrawn, inversions_of, opened_at_triangles, own_assembly
 from graphkin.construction.plot import Order
 from graphkin.construction.polygons import Polygons
 from graphkin.construction.position import branches_at, draw_position, place
-from graphkin.construction.sheet import DiagramName, Scales, Sheet, Vector
+from graphkin.construction.sheet import DiagramName, Scales, Sheet, Step, Vector
 from graphkin.construction.slip import NO_SLIP, Slip
 from graphkin.construction.steps import Asked
 from graphkin.scene.model import AngleDriver, Mechanism
@@ -115,31 +116,37 @@ NATURAL = Scales(1e-3, 1e-3, 1e-3)  # 1 mm of paper for 1 mm, 1 mm/s, 1 mm/s2
 
 @dataclass(frozen=True)
 class Task:
-    """What is to be drawn, at which position, in which assembly, and by which equation for each dyad."""
+    """What is to be drawn, at which position, in which assembly, and by which equation for each dyad.
+
+    ``opened`` is the structure with groups that driven triangles turn into dyads in their parts, ``triangles`` are
+    these, each with its assembly; ``values`` are the drivers', those at the triangles' pairs included.
+    """
 
     structure: Structure
+    opened: Structure
     asked: tuple[Symbol, ...]
     elements: tuple[Driven | Dyad, ...]
     values: Mapping[str, float]
     branches: Mapping[int, int]
     stopped: Phrase | None
     chains: Mapping[Dyad, Chain]
+    triangles: tuple[tuple[Inversion, int], ...]
 
     @cached_property
     def drawn(self) -> Mapping[Order, tuple[Driven | Dyad, ...]]:
         """What each polygon needs for what is asked: accelerations only of what leads to accelerations."""
         pushes = [s for s in self.asked if s.kind not in ("v", "omega")]
-        wanted = needed(self.structure, pushes) if pushes else []
+        wanted = needed(self.opened, pushes) if pushes else []
         pushed = tuple(e for e in self.elements if e in wanted) if self.asked else self.elements
         return {"velocity": self.elements, "acceleration": pushed}
 
     @cached_property
     def left_out(self) -> tuple[Phrase, ...]:
         """What nothing asked for needs."""
-        wanted = needed(self.structure, self.asked)
+        wanted = needed(self.opened, self.asked)
         placed = {n for e in self.elements for n in links_of(e)}
         pushed = {n for e in self.drawn["acceleration"] for n in links_of(e)}
-        gone = {n for e in self.structure.elements if e not in wanted for n in links_of(e)}
+        gone = {n for e in self.opened.elements if e not in wanted for n in links_of(e)}
         names = [link.name for link in self.structure.scene.links]
         without = [n for n in names if n in gone], [n for n in names if n in placed - pushed]
         keys = "left out elements", "left out accelerations"
@@ -177,19 +184,31 @@ def plan(
     structure = analyse(scene)
     scene = structure.scene
     asked = tuple(scene.find if find is None else find)
-    wanted = needed(structure, asked)
+    opened = opened_at_triangles(structure)
+    wanted = needed(opened, asked)
     elements = tuple(_drawable(wanted))
-    values = {d.key: d.values[0] for d in scene.drivers} | dict(at or {})
-    branches = branches_at(structure, elements, values)
-    return _planned(Task(structure, asked, elements, values, branches, _stopped(wanted), {}), room)
+    own = {d.key: d.values[0] for d in scene.drivers}
+    values = own | dict(at or {})
+    inversions = inversions_of(structure)
+    triangles: tuple[tuple[Inversion, int], ...] = ()
+    chosen = None
+    if inversions:
+        taken, own, chosen = own_assembly(structure, opened, elements, inversions, own)
+        triangles = tuple((v, v.branch(own, values, taken[v.key])) for v in inversions if v.key in taken)
+        values |= {v.key: v.near(own[v.key], v.value(values, branch)) for v, branch in triangles}
+    keys = [d.key for d in opened.scene.drivers]
+    branches = branches_at(opened, elements, {k: values[k] for k in keys}, {k: own[k] for k in keys}, chosen)
+    return _planned(
+        Task(structure, opened, asked, elements, values, branches, _stopped(wanted), {}, triangles), room
+    )
 
 
 def _planned(task: Task, room: Room | None) -> Plan:
-    polygons, assembly = _carried_out(task, NATURAL, EXACT, NO_SLIP)
+    polygons, assembly, held = _carried_out(task, NATURAL, EXACT, NO_SLIP)
     extents = _extents(polygons.places.values(), lambda order: polygons.drawn[order].values(), NATURAL)
     own = {f.name: getattr(task, f.name) for f in fields(Task)} | {"chains": polygons.chains}
     scales = _chosen_scales(task.structure.scene, extents, room)
-    return Plan(**own, scales=scales, exact=_finished(task, polygons, assembly), extents=extents)
+    return Plan(**own, scales=scales, exact=_finished(task, polygons, assembly, held), extents=extents)
 
 
 def _stopped(elements: Sequence[Element]) -> Phrase | None:
@@ -235,21 +254,36 @@ def execute(what: Plan, instrument: Instrument = EXACT, slip: Slip = NO_SLIP) ->
 
 def _carried_out(
     task: Task, scales: Scales, instrument: Instrument, slip: Slip
-) -> tuple[Polygons, Mapping[str, Phrase]]:
-    """Position and both polygons on a board, and the words for each assembly."""
+) -> tuple[Polygons, Mapping[str, Phrase], tuple[Step, ...]]:
+    """Position and both polygons on a board, the words for each assembly, and what was drawn with a link held still."""
     board = Board(instrument)
-    position = place(task.structure, task.elements, 1.0 / scales.length, task.values, task.branches, instrument)
-    assembly = draw_position(board, task.structure, task.elements, position, task.branches)
-    board.causes[:] = position.causes
-    polygons = Polygons(board, task.structure, position.frame, scales, slip)
+    found: list[TriangleDrawn] = []
+    values, rates = dict(task.values), dict[str, tuple[float, float]]()
+    for inversion, branch in task.triangles:
+        carried = inversion.drawn(instrument, scales, task.values, branch)
+        values[inversion.key] = inversion.near(task.values[inversion.key], carried.value)
+        rates[inversion.key] = carried.rate, carried.second
+        found.append(carried)
+    board.causes += [cause for carried in found for cause in carried.causes]
+    before = list(board.causes)
+    told = [part for carried in found for part in carried.told()]
+    position = place(task.opened, task.elements, 1.0 / scales.length, values, task.branches, instrument)
+    assembly = draw_position(board, task.opened, task.elements, position, task.branches)
+    board.causes[:] = [*before, *position.causes]
+    polygons = Polygons(board, task.opened, position.frame, scales, slip)
+    polygons.given.update(rates)
     polygons.chains.update(task.chains)
+    for name, act in told:
+        board.do(name, act)
     for order in ORDERS:
         for element in task.drawn[order]:
             polygons.draw(order, element)
-    return polygons, assembly
+    return polygons, assembly, tuple(step for carried in found for step in carried.steps)
 
 
-def _finished(task: Task, polygons: Polygons, assembly: Mapping[str, Phrase]) -> Sheet:
+def _finished(
+    task: Task, polygons: Polygons, assembly: Mapping[str, Phrase], held: tuple[Step, ...]
+) -> Sheet:
     """What stands on the board as a sheet, with the vectors that only a question asks for."""
     show(polygons, task.asked)
     board = polygons.board
@@ -257,7 +291,7 @@ def _finished(task: Task, polygons: Polygons, assembly: Mapping[str, Phrase]) ->
         scene=task.structure.scene,
         structure=task.structure,
         instrument=board.instrument.name,
-        drivers=task.values,
+        drivers={d.key: task.values[d.key] for d in task.structure.scene.drivers},
         scales=polygons.scales,
         poses=dict(polygons.frame.poses),
         points={PointRef(p): z for p, z in polygons.places.items()},
@@ -265,6 +299,7 @@ def _finished(task: Task, polygons: Polygons, assembly: Mapping[str, Phrase]) ->
         omega=dict(polygons.rates["velocity"]),
         alpha=dict(polygons.rates["acceleration"]),
         steps=tuple(board.steps),
+        held_still=held,
         equations=tuple(board.equations),
         assembly=assembly,
         noticed=tuple(board.noticed),

@@ -39,6 +39,7 @@ class Plot:
         self, board: Board, structure: Structure, frame: PlacedLinks, scales: Scales, slip: Slip = NO_SLIP
     ) -> None:
         self.board, self.structure, self.frame, self.scales, self.slip = board, structure, frame, scales, slip
+        self.given = {d.key: d.values[1:] for d in structure.scene.drivers}  # rates of the drivers
         self.believed: set[tuple[Order, str]] = set()  # rates of links that a slip has put in place of the measured
         self.links = structure.links
         self.ground = structure.scene.frame.name

@@ -60,8 +60,7 @@ class Polygons(Plot):
 
     def _driven(self, order: Order, element: Driven) -> None:
         name, driver, pair = element.link, element.driver, element.pair
-        which = 1 if order == "velocity" else 2
-        rate = driver.values[which]
+        rate = self.given[driver.key][0 if order == "velocity" else 1]
         if isinstance(driver, AngleDriver):
             other, sign = (driver.relative_to, 1) if driver.link == name else (driver.link, -1)
             base = self.rates[order][other].value
@@ -148,13 +147,14 @@ class Polygons(Plot):
 
     def _spread(self, order: Order, start: str, dyad: Dyad) -> None:
         """From one known rotation to those of all links that slide on each other or are held by drivers."""
-        which = 1 if order == "velocity" else 2
+        which = 0 if order == "velocity" else 1
         pairs: list[tuple[str, str, float]] = []
         for pair in (dyad.outer_first, dyad.inner, dyad.outer_second):
             if isinstance(pair, Slide):
                 pairs.append((pair.a, pair.b, 0.0))
         for w in (w for body in dyad.bodies for w in body.welds):
-            pairs.append((w.a, w.b, 0.0 if isinstance(w.pair, Slide) else turn_sign(w) * w.driver.values[which]))
+            turns = not isinstance(w.pair, Slide)
+            pairs.append((w.a, w.b, turn_sign(w) * self.given[w.driver.key][which] if turns else 0.0))
         queue = [start]
         while queue:
             at = queue.pop(0)

@@ -22,7 +22,7 @@ from graphkin.structure import Driven, Dyad, Element, Structure, Turn, links_of,
 from graphkin.structure.assembly import follow, ways
 from graphkin.words import Phrase
 
-__all__ = ["branches_at", "draw_position", "place"]
+__all__ = ["Branches", "branches_at", "choose", "draw_position", "place", "start_board"]
 
 DEAD = 1e-7  # sine of a crossing below which a group is at a dead point
 TURNS = 720  # positions looked at on the way round
@@ -61,7 +61,7 @@ def place(
     Unsolvable
         the loci of a dyad miss each other ("not assembled") or only touch ("dead point")
     """
-    frame = _start(structure, mm, values, instrument)
+    frame = start_board(structure, mm, values, instrument)
     meetings: dict[int, Meeting] = {}
     causes: list[tuple[int, Cause]] = [(instrument.acts, Placing((structure.scene.frame.name,)))]
     for i, element in enumerate(elements):
@@ -80,7 +80,9 @@ def place(
     return Position(frame, meetings, causes)
 
 
-def _start(structure: Structure, mm: float, values: Mapping[str, float], instrument: Instrument = EXACT) -> PlacedLinks:
+def start_board(
+    structure: Structure, mm: float, values: Mapping[str, float], instrument: Instrument = EXACT
+) -> PlacedLinks:
     """The empty sheet with the fixed points pricked."""
     ground = structure.scene.frame.name
     frame = PlacedLinks(structure.links, mm, values, {ground: Pose(0j, 1 + 0j)}, instrument)
@@ -111,19 +113,31 @@ def _refuse(element: Dyad, meeting: Meeting) -> None:
         )
 
 
-def branches_at(structure: Structure, elements: Sequence[Element], values: Mapping[str, float]) -> dict[int, int]:
+def branches_at(
+    structure: Structure,
+    elements: Sequence[Element],
+    values: Mapping[str, float],
+    own: Mapping[str, float] | None = None,
+    chosen: Mapping[int, int] | None = None,
+) -> dict[int, int]:
     """The assembly of each dyad at some driver values.
 
-    It is chosen once, at the scene's own position, and followed from there without a jump; where the straight way is
-    barred the other way round is tried.
+    It is chosen once, at the scene's own position (``own`` values and ``chosen`` assemblies, where these are known),
+    and followed from there without a jump; where the straight way is barred the other way round is tried.
 
     Raises
     ------
     Unsolvable
         status "not assembled": the motion does not reach the values; the message gives the limit
     """
-    own = {d.key: d.values[0] for d in structure.scene.drivers}
-    chosen = _choose(structure, elements, own)
+    if own is None:
+        own = {d.key: d.values[0] for d in structure.scene.drivers}
+    if chosen is None:
+        frame, found = start_board(structure, 1.0 / structure.scene.size, own), dict[int, int]()
+        for i, element in enumerate(elements):
+            choose(structure, frame, i, element, found)
+        chosen = found
+    chosen = dict(chosen)
     if all(values[k] == v for k, v in own.items()):
         return chosen
     limits = []
@@ -136,26 +150,17 @@ def branches_at(structure: Structure, elements: Sequence[Element], values: Mappi
     raise Unsolvable("not assembled", _out_of_reach(structure.scene, values, limits))
 
 
-def _choose(structure: Structure, elements: Sequence[Element], own: Mapping[str, float]) -> dict[int, int]:
-    scene = structure.scene
-    mm = 1.0 / scene.size
-    frame = _start(structure, mm, own)
-    chosen: dict[int, int] = {}
-    for i, element in enumerate(elements):
-        if isinstance(element, Driven):
-            frame.poses[element.link], _ = drive(frame, element)
-        elif isinstance(element, Dyad):
-            meeting = meet(frame, element)
-            _refuse(element, meeting)
-            placed = {p for name in frame.poses for p in structure.links[name].points}
-            candidates = []
-            for poses in meeting.poses:
-                trial = PlacedLinks(frame.links, mm, own, {**frame.poses, **poses})
-                fresh = [(n, p) for n in poses for p in structure.links[n].points if p not in placed]
-                candidates.append({p: trial.point(n, p) / mm for n, p in fresh})
-            chosen[i] = pick(scene, element.links, candidates, 0).index
-            frame.poses.update(meeting.poses[chosen[i]])
-    return chosen
+def choose(structure: Structure, frame: PlacedLinks, i: int, element: Element, chosen: dict[int, int]) -> None:
+    """Place an element at the scene's own position; of a dyad in the assembly that the scene means, noted in
+    ``chosen``."""
+    if isinstance(element, Driven):
+        frame.poses[element.link], _ = drive(frame, element)
+    elif isinstance(element, Dyad):
+        meeting = meet(frame, element)
+        _refuse(element, meeting)
+        candidates = [frame.fresh(poses) for poses in meeting.poses]
+        chosen[i] = pick(structure.scene, element.links, candidates, 0).index
+        frame.poses.update(meeting.poses[chosen[i]])
 
 
 def _follow(
@@ -205,7 +210,7 @@ def _gap(
 
     ``placed`` keeps how many elements stand at a place of the path, and their links, for those that come after.
     """
-    frame = _start(structure, 1.0 / structure.scene.size, {k: own[k] + t * (target[k] - own[k]) for k in own})
+    frame = start_board(structure, 1.0 / structure.scene.size, {k: own[k] + t * (target[k] - own[k]) for k in own})
     first, poses = placed.get(t, (0, {}))
     frame.poses.update(poses)
     gap = -1.0

@@ -52,6 +52,12 @@ class PlacedLinks:
             return self.pricked[point]
         return self.place(link, self.links[link].points[point])
 
+    def fresh(self, poses: Poses) -> dict[str, complex]:
+        """Places (m) of the points of more links, laid so, that none of those here has."""
+        known = {p for name in self.poses for p in self.links[name].points}
+        there = PlacedLinks(self.links, self.mm, self.values, dict(poses))
+        return {p: there.point(n, p) / self.mm for n in poses for p in self.links[n].points if p not in known}
+
     def settle(self, names: Sequence[str]) -> None:
         """Prick the new points of links just placed, and let the links lie as their points came out."""
         if self.instrument.faultless:

@@ -18,6 +18,7 @@ from graphkin.structure.model import Element, Structure
 from graphkin.words import Phrase
 
 __all__ = [
+    "DIAGRAMS",
     "Bar",
     "CompassArc",
     "DiagramName",
@@ -227,7 +228,7 @@ class Sheet:
     ``omega`` and ``alpha`` hold the measured rates by link.  ``stopped`` names the group that could not be drawn and
     why; everything before it stands.  ``noticed`` are what may have to be said of the construction, by diagram.
     ``causes`` tells to what the acts of the hand belong: (acts made when it was done, what).
-    ``left_out`` says what nothing asked for needs.
+    ``left_out`` says what nothing asked for needs; ``held_still`` are steps drawn apart, with one link for a frame.
     """
 
     scene: Mechanism
@@ -247,6 +248,7 @@ class Sheet:
     stopped: Phrase | None = None
     causes: tuple[tuple[int, Cause], ...] = ()
     left_out: tuple[Phrase, ...] = ()
+    held_still: tuple[Step, ...] = ()
 
     def at(self, scales: Scales) -> Sheet:
         """The same construction at other scales: every length on paper so many times as large.
@@ -273,6 +275,7 @@ class Sheet:
             omega={name: rate.scaled(velocity, length) for name, rate in self.omega.items()},
             alpha={name: rate.scaled(acceleration, length) for name, rate in self.alpha.items()},
             steps=tuple(step.scaled(k[step.diagram]) for step in self.steps),
+            held_still=tuple(step.scaled(k[step.diagram]) for step in self.held_still),
             noticed=tuple((name, remark.scaled(k[name])) for name, remark in self.noticed),
         )
 

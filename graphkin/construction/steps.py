@@ -16,10 +16,10 @@ from graphkin.words import Phrase
 
 __all__ = [
     "ZERO_MM", "Act", "ArcOnPath", "Asked", "ByImage", "ByRate", "Carried", "Cause", "CompassArcs", "Direction",
-    "DirectionLine", "FixedPoints", "FoundVector", "Given", "GuideThrough", "GuideTouching", "LaidOff",
-    "LaidOffAngle", "LaidOffTravel", "LinesMeet", "LinkPoints", "MeasuredRate", "Named", "PathDrawn", "PathsCross",
-    "Placing", "PutBack", "RateTimes", "ReadOff", "Resultant", "SamePlace", "Size", "SlidToMeet", "Translated",
-    "links_drawn", "phrase_of", "scaled",
+    "DirectionLine", "FixedPoints", "FoundVector", "Given", "GuideThrough", "GuideTouching", "HeldStill",
+    "LaidOff", "LaidOffAngle", "LaidOffTravel", "LinesMeet", "LinkPoints", "MeasuredRate", "Named", "PathDrawn",
+    "PathsCross", "Placing", "PutBack", "RateTimes", "ReadOff", "Resultant", "SamePlace", "Size", "SlidToMeet",
+    "Translated", "links_drawn", "phrase_of", "scaled",
 ]  # fmt: skip
 
 ZERO_MM = 1e-7  # a vector shorter than this is no vector on paper
@@ -170,6 +170,18 @@ class LinkPoints:
     transferred: bool
 
 
+@dataclass(frozen=True)
+class HeldStill:
+    """What a driven slide gives of one link on another that is held still: the angle or the travel at their common pair
+    (rad, m), or its rate (rad/s, m/s) or second rate (rad/s2, m/s2)."""
+
+    held: str
+    link: str
+    slide: str
+    gives: Literal["angle", "travel", "omega", "velocity", "alpha", "acceleration"]
+    value: float
+
+
 # -- acts in a polygon -------------------------------------------------------------------------------------------------
 
 
@@ -285,7 +297,7 @@ class MeasuredRate:
 
 OnMechanism = (
     FixedPoints | LaidOffAngle | LaidOffTravel | CompassArcs | PathDrawn | ArcOnPath | GuideThrough | GuideTouching
-    | PathsCross | SlidToMeet | LinkPoints
+    | PathsCross | SlidToMeet | LinkPoints | HeldStill
 )  # fmt: skip
 InPolygon = (
     LaidOff | FoundVector | DirectionLine | Carried | PutBack | Resultant | Asked | LinesMeet | Named | SamePlace
@@ -367,6 +379,9 @@ def phrase_of(thing: Cause) -> Phrase:
             return Phrase("slide to meet", (point, along, until))
         case LinkPoints(link, points, transferred):
             return Phrase("transfer" if transferred else "points", (link, ", ".join(points)))
+        case HeldStill(held, link, slide, gives, value):
+            shown = math.degrees(value) if gives == "angle" else value
+            return Phrase(f"held still {gives}", (held, link, slide, f"{shown:.6g}"))
         case Placing(links):
             return Phrase("placing", (", ".join(links),))
         case ReadOff(symbol):

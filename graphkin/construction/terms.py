@@ -9,7 +9,7 @@ from graphkin.construction.plot import Order, Plot
 from graphkin.construction.slip import Component
 from graphkin.construction.steps import Direction, Given, RateTimes
 from graphkin.plane import dot, unit
-from graphkin.scene.model import AngleDriver, SlideDriver
+from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Slide, Weld
 
@@ -96,10 +96,8 @@ def _slide_parts(plot: Plot, order: Order, edge: Edge, slide: Slide) -> list[Com
 
 def _given(plot: Plot, key: str, order: Order) -> float | None:
     """Rate of a driven slide."""
-    for driver in plot.structure.scene.drivers:
-        if isinstance(driver, SlideDriver) and driver.key == key:
-            return driver.velocity if order == "velocity" else driver.acceleration
-    return None
+    rates = plot.given.get(key)
+    return None if rates is None else rates[0 if order == "velocity" else 1]
 
 
 def _weld_parts(plot: Plot, order: Order, edge: Edge, weld: Weld) -> list[Component]:
@@ -107,7 +105,7 @@ def _weld_parts(plot: Plot, order: Order, edge: Edge, weld: Weld) -> list[Compon
     hinge = weld.pair.point  # type: ignore[union-attr]
     arm = plot.places[edge.end.point] - plot.places[hinge]
     way = 1 if edge.forward else -1
-    _, speed, rate = weld.driver.values
+    speed, rate = plot.given[weld.driver.key]
     omega, alpha = way * turn_sign(weld) * speed, way * turn_sign(weld) * rate
     name = (hinge, edge.end.point)
     arm_m = plot.measured(arm, name)

@@ -5,11 +5,15 @@ A scene has none with too many or too few drivers, and where parts are held too 
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from graphkin.errors import Problem, Unsolvable
-from graphkin.scene.model import Mechanism
+from graphkin.scene.model import AnyDriver, Mechanism
 from graphkin.structure.constraints import Constraints, Node, Unknown
 from graphkin.structure.groups import components, element_of, match
-from graphkin.structure.model import Element, Mobility, Structure
+from graphkin.structure.model import Cluster, Driven, DrivenTriangle, Dyad, Element, Mobility, Structure
+from graphkin.structure.part import links_of
+from graphkin.structure.triangles import triangles_of
 
 __all__ = ["analyse", "mobility_of"]
 
@@ -131,7 +135,32 @@ def analyse(scene: Mechanism | Structure) -> Structure:
         members.sort(key=lambda name: system.place(("link", name)))
         elements.append(element_of(system, members, known))
         known.update(members)
-    return Structure(scene, system.links, system.slides, system.hinges, mobility, tuple(elements))
+    return _in_parts(Structure(scene, system.links, system.slides, system.hinges, mobility, tuple(elements)))
+
+
+def _in_parts(structure: Structure) -> Structure:
+    """Larger groups that driven triangles turn into dyads, told as such: of class II."""
+    taken = {d.key for d in structure.scene.drivers}
+    found: dict[Element, tuple[DrivenTriangle, ...]] = {}
+    for e in structure.elements:
+        if isinstance(e, Cluster) and (triangles := triangles_of(e, structure.links, structure.hinges, taken)):
+            found[e] = tuple(triangles)
+    if not found:
+        return structure
+    instead: dict[AnyDriver, AnyDriver] = {t.driver: t.stand_in for triangles in found.values() for t in triangles}
+    try:
+        opened = analyse(replace(structure.scene, drivers=tuple(instead.get(d, d) for d in structure.scene.drivers)))
+    except Unsolvable:
+        return structure
+    elements: list[Element] = []
+    for e in structure.elements:
+        if e in found and isinstance(e, Cluster):
+            inside = [part for part in opened.elements if set(links_of(part)) & set(e.members)]
+            parts = tuple(part for part in inside if isinstance(part, Driven | Dyad))
+            if len(parts) == len(inside):
+                e = replace(e, order=2, triangles=found[e], parts=parts)
+        elements.append(e)
+    return replace(structure, elements=tuple(elements))
 
 
 def mobility_of(scene: Mechanism) -> Mobility:

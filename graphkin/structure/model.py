@@ -11,7 +11,21 @@ from dataclasses import dataclass
 
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedGuide, PlacedLink, SlideDriver
 
-__all__ = ["Body", "Cluster", "Driven", "Dyad", "Element", "Mobility", "Pair", "Slide", "Structure", "Turn", "Weld"]
+__all__ = [
+    "Body",
+    "Cluster",
+    "Driven",
+    "DrivenTriangle",
+    "Dyad",
+    "Element",
+    "Mobility",
+    "Pair",
+    "Slide",
+    "Structure",
+    "Turn",
+    "Weld",
+    "driver_pair",
+]
 
 
 @dataclass(frozen=True)
@@ -117,11 +131,27 @@ class Dyad:
 
 
 @dataclass(frozen=True)
+class DrivenTriangle:
+    """Two links of a group that a pair joins, and a driven slide hung on both.
+
+    With ``held`` at rest the other three ``links`` (the other of the two, then the slide's) are a dyad, whatever the
+    group does; what it gives at ``pair`` is what the driver ``stand_in`` there would give.
+    """
+
+    held: str
+    links: tuple[str, str, str]
+    pair: Pair
+    driver: SlideDriver
+    stand_in: AnyDriver
+
+
+@dataclass(frozen=True)
 class Cluster:
     """A larger group (class III and higher, or with a driver that joins no common pair): solved as a whole.
 
     ``members`` are all its links, blocks of pins included; ``pairs`` all pairs that hold them (each with at least one
-    side among the members); ``drivers`` those inside the group.
+    side among the members); ``drivers`` those inside the group.  With ``triangles`` it is drawn like dyads: ``parts``
+    are the elements that it falls into where each triangle's stand-in takes the place of its driver.
     """
 
     members: tuple[str, ...]
@@ -129,6 +159,8 @@ class Cluster:
     drivers: tuple[AnyDriver, ...]
     links: tuple[str, ...]
     order: int
+    triangles: tuple[DrivenTriangle, ...] = ()
+    parts: tuple[Driven | Dyad, ...] = ()
 
     @property
     def kind(self) -> str:

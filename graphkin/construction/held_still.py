@@ -1,0 +1,259 @@
+"""Driven triangles drawn with one of their links held still, as if it were the frame.
+
+What is found of the other link there, its place and how it moves, is the same whatever the held one does: it is carried
+over to the mechanism as a driver at their common pair, and what is left of the group are dyads.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import product
+
+from graphkin.construction.board import EXACT, Board, Instrument
+from graphkin.construction.dyads import drive, meet
+from graphkin.construction.plot import Order
+from graphkin.construction.polygons import Polygons
+from graphkin.construction.position import Branches, branches_at, choose, draw_position, place, start_board
+from graphkin.construction.rigid import PlacedLinks
+from graphkin.construction.sheet import DiagramName, Pose, Scales, Step
+from graphkin.construction.steps import Cause, HeldStill
+from graphkin.errors import Problem, Unsolvable
+from graphkin.plane import dot
+from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
+from graphkin.scene.symbol import PointRef
+from graphkin.structure import Cluster, Driven, DrivenTriangle, Dyad, Element, Slide, Structure, analyse, pick
+
+__all__ = ["Inversion", "TriangleDrawn", "inversions_of", "opened_at_triangles", "own_assembly"]
+
+FITS = 1e-6  # of the size: so well the slide must have its travel in an assembly
+
+
+@dataclass(frozen=True)
+class Inversion:
+    """A driven triangle with its held link for a frame."""
+
+    triangle: DrivenTriangle
+    structure: Structure
+
+    @property
+    def key(self) -> str:
+        """Of the stand-in at the common pair."""
+        return self.triangle.stand_in.key
+
+    def branch(self, own: Mapping[str, float], values: Mapping[str, float], branch: int) -> int:
+        """The assembly of the triangle at some driver values, followed from the scene's own."""
+        key = self.triangle.driver.key
+        elements = self.structure.elements
+        return branches_at(self.structure, elements, {key: values[key]}, {key: own[key]}, {0: branch})[0]
+
+    def value(self, values: Mapping[str, float], branch: int) -> float:
+        """The stand-in's value (rad, m) as exact hands find it.  Raises Unsolvable where the triangle cannot be."""
+        mm = 1.0 / self.structure.scene.size
+        return self._read(place(self.structure, self.structure.elements, mm, values, {0: branch}).frame)
+
+    def near(self, before: float, value: float) -> float:
+        """A value of the stand-in nearest to another: angles but for whole turns."""
+        turns = isinstance(self.triangle.stand_in, AngleDriver)
+        return before + math.remainder(value - before, math.tau) if turns else value
+
+    def _read(self, frame: PlacedLinks) -> float:
+        pair, stand_in = self.triangle.pair, self.triangle.stand_in
+        if isinstance(stand_in, AngleDriver):
+            return cmath.phase(frame.poses[stand_in.link].axis / frame.poses[stand_in.relative_to].axis)
+        assert isinstance(pair, Slide)
+        rail = frame.poses[pair.b]
+        start = rail.origin + rail.axis * pair.guide.through * frame.mm
+        return dot(rail.axis * pair.guide.direction, frame.poses[pair.a].origin - start) / frame.mm
+
+    def drawn(self, instrument: Instrument, scales: Scales, values: Mapping[str, float], branch: int) -> TriangleDrawn:
+        """The triangle on a board of its own, with its two polygons."""
+        board = Board(instrument)
+        elements = [e for e in self.structure.elements if isinstance(e, Dyad)]
+        position = place(self.structure, elements, 1.0 / scales.length, values, {0: branch}, instrument)
+        draw_position(board, self.structure, elements, position, {0: branch})
+        board.causes[:] = position.causes
+        polygons = Polygons(board, self.structure, position.frame, scales)
+        for order in _ORDERS:
+            polygons.draw(order, elements[0])
+        value, rates = self._read(position.frame), self._rates(polygons)
+        return TriangleDrawn(self.triangle, value, *rates, tuple(board.causes), board.steps)
+
+    def _rates(self, polygons: Polygons) -> tuple[float, float]:
+        pair, other = self.triangle.pair, self.triangle.links[0]
+        if not isinstance(pair, Slide):
+            return polygons.rates["velocity"][other].value, polygons.rates["acceleration"][other].value
+        # the other link cannot turn on the held one: all its points move alike
+        along = polygons.frame.poses[pair.b].axis * pair.guide.direction * (1 if pair.a == other else -1)
+        points = [PointRef(p) for p in self.structure.links[other].points]
+        end = next(ref for ref in points if ref in polygons.ends["velocity"])
+        speed, push = (dot(along, polygons.ends[order][end]) * polygons.scales.of(order) for order in _ORDERS)
+        return speed, push
+
+
+_ORDERS: tuple[Order, ...] = ("velocity", "acceleration")
+
+
+@dataclass(frozen=True)
+class TriangleDrawn:
+    """What a triangle gives at its common pair: value, rate and second rate (SI); and how it was drawn."""
+
+    triangle: DrivenTriangle
+    value: float
+    rate: float
+    second: float
+    causes: tuple[tuple[int, Cause], ...]
+    steps: Sequence[Step]
+
+    def told(self) -> tuple[tuple[DiagramName, HeldStill], ...]:
+        """What is carried over to each diagram."""
+        t = self.triangle
+        names = (t.held, t.links[0], t.driver.key)
+        value, rate, second = self.value, self.rate, self.second
+        turns = not isinstance(t.pair, Slide)
+        return (
+            ("mechanism", HeldStill(*names, "angle" if turns else "travel", value)),
+            ("velocity", HeldStill(*names, "omega" if turns else "velocity", rate)),
+            ("acceleration", HeldStill(*names, "alpha" if turns else "acceleration", second)),
+        )
+
+
+def opened_at_triangles(structure: Structure) -> Structure:
+    """A structure with groups that driven triangles turn into dyads in their parts; itself where there are none."""
+    elements: list[Element] = []
+    instead: dict[AnyDriver, AnyDriver] = {}
+    for e in structure.elements:
+        if isinstance(e, Cluster) and e.parts:
+            elements += e.parts
+            instead |= {t.driver: t.stand_in for t in e.triangles}
+        else:
+            elements.append(e)
+    if not instead:
+        return structure
+    scene = structure.scene
+    drivers = tuple(instead.get(d, d) for d in scene.drivers)
+    return replace(structure, scene=replace(scene, drivers=drivers), elements=tuple(elements))
+
+
+def inversions_of(structure: Structure) -> tuple[Inversion, ...]:
+    """The driven triangles of a structure, in the order in which their groups are drawn."""
+    groups = [e for e in structure.elements if isinstance(e, Cluster) and e.parts]
+    return tuple(Inversion(t, analyse(_held(structure.scene, t))) for group in groups for t in group.triangles)
+
+
+def _held(scene: Mechanism, triangle: DrivenTriangle) -> Mechanism:
+    """The links of a triangle alone, the held one for a frame."""
+    names = {triangle.held, *triangle.links}
+    return replace(
+        scene,
+        frame=scene.by_name[triangle.held],
+        links=tuple(link for link in scene.links if link.name in names - {triangle.held}),
+        slidings=tuple(s for s in scene.slidings if {s.link, s.on} <= names),
+        pins=tuple(p for p in scene.pins if {p.of, p.on} <= names),
+        drivers=(triangle.driver,),
+        sketch={},
+        drawn={},
+        find=(),
+        printed={},
+    )
+
+
+@dataclass(frozen=True)
+class _Way:
+    """One assembly of a group: that of each triangle, the stand-ins' values, that of each dyad, and the links."""
+
+    triangles: tuple[int, ...]
+    values: Mapping[str, float]
+    branches: Branches
+    poses: Mapping[str, Pose]
+
+
+def own_assembly(
+    structure: Structure,
+    opened: Structure,
+    elements: Sequence[Driven | Dyad],
+    inversions: Sequence[Inversion],
+    own: Mapping[str, float],
+) -> tuple[dict[str, int], dict[str, float], dict[int, int]]:
+    """Which assembly a scene with driven triangles means at its own position.
+
+    Returns
+    -------
+    that of each triangle by the key of its stand-in, all driver values with those of the stand-ins, and that of each
+    dyad by its place among the elements
+
+    Raises
+    ------
+    Unsolvable : "not assembled"
+    SceneError : a group has several assemblies and no sketch says which is meant
+    """
+    frame = start_board(opened, 1.0 / structure.scene.size, own)
+    taken: dict[str, int] = {}
+    chosen: dict[int, int] = {}
+    i = 0
+    while i < len(elements):
+        group = next((e for e in structure.elements if isinstance(e, Cluster) and elements[i] in e.parts), None)
+        if group is None:
+            choose(opened, frame, i, elements[i], chosen)
+            i += 1
+            continue
+        run = [j for j in range(i, len(elements)) if elements[j] in group.parts]
+        mine = [v for v in inversions if v.triangle in group.triangles]
+        found = list(_ways(frame, elements, run, mine))
+        if not found:
+            names = ", ".join(group.links)
+            raise Unsolvable("not assembled", Problem(f"links {names}", "no assembly of the group fits together here"))
+        index = pick(structure.scene, group.links, [frame.fresh(way.poses) for way in found], None).index
+        way = found[index]
+        taken.update({v.key: branch for v, branch in zip(mine, way.triangles, strict=True)})
+        frame.values = way.values
+        chosen.update(way.branches)
+        frame.poses.update(way.poses)
+        i = run[-1] + 1
+    return taken, dict(frame.values), chosen
+
+
+def _ways(
+    frame: PlacedLinks, elements: Sequence[Driven | Dyad], run: Sequence[int], inversions: Sequence[Inversion]
+) -> Iterator[_Way]:
+    """Every assembly of the dyads of a group and of its triangles."""
+    for branches in product((0, 1), repeat=len(inversions)):
+        try:
+            given = {v.key: v.value(frame.values, branch) for v, branch in zip(inversions, branches, strict=True)}
+        except Unsolvable:
+            continue
+        values = {**frame.values, **given}
+        begun = PlacedLinks(frame.links, frame.mm, values, dict(frame.poses), EXACT)
+        for chosen, poses in _assembled(begun, elements, run):
+            if all(_has_its_travel(begun, v, poses) for v in inversions):
+                yield _Way(branches, values, chosen, poses)
+
+
+def _assembled(
+    frame: PlacedLinks, elements: Sequence[Driven | Dyad], run: Sequence[int]
+) -> Iterator[tuple[dict[int, int], dict[str, Pose]]]:
+    if not run:
+        yield {}, {}
+        return
+    first, element = run[0], elements[run[0]]
+    if isinstance(element, Driven):
+        several: Sequence[Mapping[str, Pose]] = ({element.link: drive(frame, element)[0]},)
+    else:
+        several = meet(frame, element).poses
+    for branch, poses in enumerate(several):
+        further = PlacedLinks(frame.links, frame.mm, frame.values, {**frame.poses, **poses})
+        for chosen, rest in _assembled(further, elements, run[1:]):
+            yield ({first: branch, **chosen} if isinstance(element, Dyad) else chosen), {**poses, **rest}
+
+
+def _has_its_travel(frame: PlacedLinks, inversion: Inversion, poses: Mapping[str, Pose]) -> bool:
+    """Whether the driven slide itself stands as it is given: drawn last, it may also point the other way."""
+    slide = inversion.structure.slide(inversion.triangle.driver.key)
+    if slide.a not in poses or slide.b not in poses:
+        return True
+    rail = poses[slide.b]
+    start = rail.origin + rail.axis * slide.guide.through * frame.mm
+    travel = dot(rail.axis * slide.guide.direction, poses[slide.a].origin - start)
+    return abs(travel - frame.values[slide.key] * frame.mm) < FITS

@@ -1,0 +1,87 @@
+"""A driven slide between two links not yet known: the triangle gives their relative motion, the rest are dyads."""
+
+from __future__ import annotations
+
+import pytest
+
+import graphkin
+from graphkin.construction import draft
+from graphkin.scene import mechanism_of
+from graphkin.structure import Dyad, analyse
+from tests.mechanisms import floating_cylinder
+
+SCISSOR_LIFT = """
+[frame]
+points = { A = [0, 0] }
+guides = { h = { through = [0, 0], angle = 0 } }
+[links.1]
+points = ["A", "C"]
+length = 2000
+at = { J = [1000, 0], P = [400, 60] }
+[links.2]
+points = ["D", "E"]
+length = 2000
+at = { J = [1000, 0], Q = [1500, 80] }
+[links.5]
+points = ["D"]
+on = "0.h"
+[links.3]
+points = ["P"]
+[links.4]
+points = ["Q"]
+on = "3"
+[driver]
+slide = "4"
+travel = 800
+velocity = 50
+[sketch]
+J = [900, 400]
+D = [1800, 0]
+"""
+
+
+@pytest.fixture(scope="module")
+def lift(tmp_path_factory: pytest.TempPathFactory) -> str:
+    path = tmp_path_factory.mktemp("lift") / "scissor-lift.toml"
+    path.write_text(SCISSOR_LIFT)
+    return str(path)
+
+
+@pytest.mark.quick
+def test_a_scissor_lift_is_of_class_two(lift: str) -> None:
+    assert [2] == [getattr(e, "order", 2) for e in analyse(mechanism_of(lift)).elements]
+
+
+@pytest.mark.quick
+def test_its_arms_and_foot_are_a_dyad_and_so_is_its_cylinder(lift: str) -> None:
+    (group,) = analyse(mechanism_of(lift)).elements
+    assert [("RRP", ("1", "2", "5")), ("RPR", ("3", "4"))] == [
+        (part.kind, part.links) for part in group.parts if isinstance(part, Dyad)  # type: ignore[union-attr]
+    ]
+
+
+@pytest.mark.parametrize("travel", [700, 800])
+def test_a_scissor_lift_is_drawn_whole_as_it_is_solved(lift: str, travel: float) -> None:
+    checked = graphkin.check(lift, at=travel)
+    assert (True, True) == (checked.ok, checked.complete)
+
+
+def test_the_report_of_a_scissor_lift_says_what_was_drawn_with_an_arm_held_still(lift: str) -> None:
+    sheet = draft(mechanism_of(lift))
+    told = [step.phrase.key for step in sheet.steps if step.phrase.key.startswith("held still")]
+    assert ["held still angle", "held still omega", "held still alpha"] == told
+
+
+def test_a_pencil_draws_a_scissor_lift_within_what_it_promises(lift: str) -> None:
+    assert graphkin.check(lift, find=["omega_1"], instrument="pencil", seed=3).ok
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_any_cylinder_between_two_floating_links_is_drawn_as_it_is_solved(seed: int) -> None:
+    checked = graphkin.check(floating_cylinder(seed))
+    assert (True, True) == (checked.ok, checked.complete)
+
+
+@pytest.mark.parametrize("seed", range(6, 10))
+def test_its_centres_agree_too(seed: int) -> None:
+    assert graphkin.centres(floating_cylinder(seed)).ok
