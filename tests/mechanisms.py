@@ -1,4 +1,4 @@
-"""Random mechanisms of class II: a crank and dyads of every kind hung on what is there already.
+"""Random mechanisms of class II: a driver of every kind, and dyads of every kind hung on what is there already.
 
 Every place is chosen first and the given lengths follow from it, so that each mechanism assembles at its own position;
 the sketch tells which assembly that is.
@@ -14,7 +14,8 @@ from typing import Any
 
 __all__ = ["KINDS", "floating_cylinder", "random_scene"]
 
-KINDS = ("RRR", "RRP", "RPR", "PRP", "RPP", "pin")
+KINDS = ("RRR", "RRP", "RPR", "PRP", "RPP", "pin", "slotted")
+DRIVES = ("crank", "resting", "slider", "cylinder", "slot")
 
 
 @dataclass
@@ -27,9 +28,18 @@ class _Builder:
     pose: dict[str, tuple[complex, complex]] = field(default_factory=lambda: {"0": (0j, 1 + 0j)})
     where: dict[str, tuple[complex, str]] = field(default_factory=dict)  # point: place, a link that has it
     letters: int = 0
+    textbook: bool = False  # round places, and angles as teachers set them
 
     def place(self, spread: float = 100.0) -> complex:
+        if self.textbook:
+            steps = int(spread // 20)
+            return 20.0 * complex(self.rng.randint(-steps, steps), self.rng.randint(-steps, steps))
         return complex(self.rng.uniform(-spread, spread), self.rng.uniform(-spread, spread))
+
+    def angle(self) -> float:
+        if self.textbook:
+            return float(self.rng.choice([-135, -120, -90, -60, -45, -30, 0, 0, 30, 45, 60, 90, 90, 120, 150, 180]))
+        return self.rng.uniform(-180, 180)
 
     def letter(self) -> str:
         self.letters += 1
@@ -44,7 +54,7 @@ class _Builder:
         self.pose[name] = (z, (w - z) / abs(w - z))
         if self.rng.random() < 0.5:
             extra = self.letter()
-            r, angle = self.rng.uniform(20, 60), self.rng.uniform(-170, 170)
+            r, angle = self.rng.uniform(20, 60), self.angle()
             self.links[name]["at"] = {extra: {"from": q, "r": r, "angle": angle}}
             self.where[extra] = (w + self.pose[name][1] * cmath.rect(r, math.radians(angle)), name)
         return name
@@ -63,7 +73,7 @@ class _Builder:
     def guide(self, link: str, on: complex) -> tuple[str, complex]:
         """A new guide of a link through a place, at any angle; its name and its direction."""
         origin, axis = self.pose[link]
-        along = cmath.rect(1.0, self.rng.uniform(-math.pi, math.pi))
+        along = cmath.rect(1.0, math.radians(self.angle()))
         start = on - along * self.rng.uniform(20, 80)
         local, turned = (start - origin) / axis, along / axis
         holder = self.frame if link == "0" else self.links[link]
@@ -152,26 +162,109 @@ class _Builder:
         self.pins[r] = {"of": name, "in": slot}
         self._mark(r, x, name)
 
+    def _slotted(self) -> None:
+        """A link held by a hinge, a slot of which takes a pin of a link that is there already."""
+        q, w, link = self.old()
+        pins = [p for p, (_, holder) in self.where.items() if holder not in ("0", link) and p not in self.pins]
+        if not pins:
+            return self._pin()
+        p = self.rng.choice(pins)
+        z, holder = self.where[p]
+        name = self.link()
+        offset = self.rng.choice([0.0, 0.0, self.rng.uniform(-0.4, 0.4) * abs(z - w)])
+        axis = (z - w) / complex(math.sqrt(abs(z - w) ** 2 - offset**2), offset)
+        axis /= abs(axis)
+        self.links[name] = {"points": [q], "guides": {"s": {"through": [0, offset], "angle": 0}}}
+        end = self.letter()
+        self.links[name]["at"] = {end: [-40.0, 10.0]}
+        self.pose[name] = (w, axis)
+        self.pins[p] = {"of": holder, "in": f"{name}.s" if offset else name}
+        self._mark(end, w + axis * (-40 + 10j), name)
+        return None
+
     def _mark(self, point: str, z: complex, link: str) -> None:
         self.where[point] = (z, link)
         self.sketch[point] = [z.real, z.imag]
 
 
-def random_scene(seed: int, kinds: tuple[str, ...]) -> dict[str, Any]:
-    """A crank and one dyad of each of the given kinds, as a scene mapping."""
-    b = _Builder(random.Random(seed))
-    a, z = b.letter(), b.place(40)
-    b.frame["points"][a] = [z.real, z.imag]
-    b.where[a] = (z, "0")
-    angle, length = b.rng.uniform(-180, 180), b.rng.uniform(20, 60)
-    crank = b.letter()
-    w = z + cmath.rect(length, math.radians(angle))
-    b.links["1"] = {"points": [a, crank], "length": length}
-    b.pose["1"] = (z, cmath.rect(1.0, math.radians(angle)))
-    b.where[crank] = (w, "1")
+    # -- drivers: each places its links and says what it does
+
+    def crank(self) -> dict[str, Any]:
+        a, z = self.letter(), self.place(40)
+        self.frame["points"][a] = [z.real, z.imag]
+        self.where[a] = (z, "0")
+        angle, length = self.angle(), self.rng.uniform(20, 60)
+        crank = self.letter()
+        w = z + cmath.rect(length, math.radians(angle))
+        self.links["1"] = {"points": [a, crank], "length": length}
+        self.pose["1"] = (z, cmath.rect(1.0, math.radians(angle)))
+        self.where[crank] = (w, "1")
+        return {"link": "1", "angle": angle, "omega": self.rng.uniform(-10, 10), "alpha": self.rng.uniform(-20, 20)}
+
+    def _sliding(self, key: str, travel: float) -> dict[str, Any]:
+        rates = {"velocity": self.rng.uniform(-80, 80), "acceleration": self.rng.uniform(-100, 100)}
+        return {"slide": key, "travel": travel, **rates}
+
+    def _travel(self, on: str, z: complex) -> float:
+        link, _, name = on.partition(".")
+        origin, axis = self.pose[link]
+        guide = (self.frame if link == "0" else self.links[link])["guides"][name]
+        start = origin + axis * complex(*guide["through"])
+        return abs(z - start)
+
+    def slider(self) -> dict[str, Any]:
+        r, x = self.letter(), self.place()
+        on, along = self.guide("0", x)
+        name = self.block(r if self.rng.random() < 0.8 else None, on, along, x)
+        if "points" in self.links[name]:
+            self.where[r] = (x, name)
+        else:
+            self.links[name]["at"] = {r: [30.0, 10.0]}
+            self.where[r] = (x + self.pose[name][1] * (30 + 10j), name)
+        return self._sliding(name, self._travel(on, x))
+
+    def cylinder(self) -> dict[str, Any]:
+        """An arm about the frame, moved by a cylinder about the frame."""
+        (a, z, _), (c, y, _) = self.fixed(), self.fixed()
+        b, x = self.letter(), self.place()
+        arm = self.bar(a, z, b, x)
+        self._mark(b, x, arm)
+        rod, name = self.link(), str(len(self.links) + 2)
+        axis = (x - y) / abs(x - y)
+        self.links[rod] = {"points": [b], "on": name}
+        self.links[name] = {"points": [c]}
+        self.pose[rod], self.pose[name] = (x, axis), (y, axis)
+        return self._sliding(rod, abs(x - y))
+
+    def slot(self) -> dict[str, Any]:
+        """An arm about the frame with a driven pin in a slot of the frame: of a link about the frame, cylinder-like."""
+        (a, z, _), (c, y, _) = self.fixed(), self.fixed()
+        b, x = self.letter(), self.place()
+        arm = self.bar(a, z, b, x)
+        self._mark(b, x, arm)
+        name = self.link()
+        self.links[name] = {"points": [c]}
+        self.pose[name] = (y, (x - y) / abs(x - y))
+        self.pins[b] = {"of": arm, "in": name}
+        return self._sliding(f"{b}/{name}", abs(x - y))
+
+    def resting(self) -> dict[str, Any]:
+        """A crank that stands, and is about to move or is not, or turns evenly."""
+        return self.crank() | self.rng.choice([{"omega": 0.0}, {"omega": 0.0, "alpha": 0.0}, {"alpha": 0.0}])
+
+    def fixed(self) -> tuple[str, complex, str]:
+        p, z = self.letter(), self.place()
+        self.frame["points"][p] = [z.real, z.imag]
+        self.where[p] = (z, "0")
+        return p, z, "0"
+
+
+def random_scene(seed: int, kinds: tuple[str, ...], drive: str = "crank", textbook: bool = False) -> dict[str, Any]:
+    """A driver and one dyad of each of the given kinds, as a scene mapping."""
+    b = _Builder(random.Random(seed), textbook=textbook)
+    driver = getattr(b, drive)()
     for kind in kinds:
         b.add(kind)
-    driver = {"link": "1", "angle": angle, "omega": b.rng.uniform(-10, 10), "alpha": b.rng.uniform(-20, 20)}
     scene = {"title": f"random {seed}", "frame": b.frame, "links": b.links, "driver": driver, "sketch": b.sketch}
     if b.pins:
         scene["pins"] = b.pins
