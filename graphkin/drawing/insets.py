@@ -4,6 +4,7 @@ small for a ruler drawn again larger."""
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.drawing import strokes
@@ -15,8 +16,11 @@ from graphkin.drawing.labels import Label
 from graphkin.drawing.obstacles import Obstacles, obstacles_of
 from graphkin.drawing.piece import Piece, joined, with_labels
 from graphkin.drawing.polygon import polygon_piece
-from graphkin.drawing.polygon_on_page import Detail, details
-from graphkin.drawing.primitives import Group, Line, Polygon, Primitive, Text
+from graphkin.drawing.polygon_on_page import Detail, PolygonOnPage, details
+from graphkin.drawing.polygon_points import END_RADIUS
+from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Primitive, Text
+from graphkin.drawing.side_by_side import side_by_side
+from graphkin.drawing.step_numbers import step_numbers
 from graphkin.drawing.strokes import colour_of_vector
 from graphkin.drawing.symbols import COMPONENT, RESULTANT, arrow
 from graphkin.drawing.text import fitted, symbol
@@ -51,17 +55,29 @@ def polygon_with_insets(
     if strip is not None:
         boxes = _in_rows(strip, count)
     elif count:
-        bare = polygon_piece(sheet, diagram, letters, language, panel, origin)
+        bare = polygon_piece(PolygonOnPage(sheet, diagram, letters, language, panel, origin, ()))
         boxes = _free_boxes(count, INSET, panel, obstacles_of(bare.drawn))
     else:
         boxes = []
     shown, enlarged = senses[: len(boxes)], small[: max(0, len(boxes) - len(senses))]
     pieces = [_labelled_inset(sheet, one, letters, box) for one, box in zip(shown, boxes, strict=False)]
+    here = PolygonOnPage(sheet, diagram, letters, language, panel, origin, tuple(enlarged))
+    own = polygon_piece(here)
     for number, (one, box) in enumerate(zip(enlarged, boxes[len(shown) :], strict=False), 1):
-        pieces.append(with_labels(*_detail_inset(sheet, diagram, one, letters, language, box, number)))
-    own = polygon_piece(sheet, diagram, letters, language, panel, origin, enlarged)
+        pieces.append(with_labels(*_detail_inset(here, one, box, number, _points_in(own, here, one))))
     figure = with_labels(own, panel, boxes)
-    return joined((figure, *pieces)), senses[len(shown) :]
+    around = obstacles_of(figure.drawn) + Obstacles(areas=tuple(boxes))
+    arrows = [(step, here.drawn(vector)) for step, vector in here.in_order()]
+    numbers = Piece({"labels": step_numbers(arrows, panel, around)})
+    return joined((figure, numbers, *pieces)), senses[len(shown) :]
+
+
+def _points_in(piece: Piece, here: PolygonOnPage, detail: Detail) -> list[Label]:
+    """The letters of points in a place that is drawn again larger."""
+    middle = here.at(detail.centre)
+    return [
+        one for one in piece.labels if isinstance(one.mark, complex) and abs(one.mark - middle) <= detail.radius + 0.6
+    ]
 
 
 def coriolis_row(sheet: Sheet, terms: Sequence[CoriolisTerm], letters: Letters, row: Box) -> Piece:
@@ -128,10 +144,12 @@ def _places(size: tuple[float, float], panel: Box) -> list[Box]:
 
 
 def _detail_inset(
-    sheet: Sheet, diagram: DiagramName, detail: Detail, letters: Letters, language: str, box: Box, number: int
+    here: PolygonOnPage, detail: Detail, box: Box, number: int, points: Sequence[Label]
 ) -> tuple[Piece, Box]:
-    """The inset in a box of the page, and the part of it in which its names may stand."""
+    """The inset in a box of the page, and the part of it in which its names may stand; ``points`` are the letters of
+    the points in it."""
     inner = Box(box.left + 0.6, box.top + 0.6, box.right - 0.6, box.bottom - 5.0)
+    sheet, letters = here.sheet, here.letters
 
     def at(z: complex) -> complex:
         return inner.centre + detail.factor * (z - detail.centre).conjugate()
@@ -139,10 +157,12 @@ def _detail_inset(
     parts: list[Primitive] = [Polygon(box.corners, "", strokes.DIMENSION)]
     names = []
     own = {v.symbol for v in detail.vectors}
-    for vector in sheet.vectors(diagram).values():
+    shifts = side_by_side(v.scaled(detail.factor) for v in detail.vectors)
+    for _, vector in here.in_order():
         kind = RESULTANT if vector.role == "resultant" else COMPONENT
         colour = colour_of_vector(sheet, vector.symbol)
-        tail, tip = at(vector.tail), at(vector.tip)
+        shift = shifts.get(vector.symbol, 0j).conjugate()
+        tail, tip = at(vector.tail) + shift, at(vector.tip) + shift
         if vector.symbol in own:
             parts += arrow(tail, tip, kind, colour)
             text = Text(0j, symbol(letters.arrow(vector.symbol), 2.8), "start", colour,
@@ -156,9 +176,16 @@ def _detail_inset(
             parts += arrow(clipped[0], tip, kind, colour)
         else:
             parts.append(Line(*clipped, kind.stroke.coloured(colour)))
-    words = f"{term('detail', language).replace('{0}', f'{detail.factor:g}')}"
-    id = f"detail-{diagram}-{number}"
+    for point in points:
+        assert isinstance(point.mark, complex)
+        spot = inner.centre + detail.factor * (point.mark - here.at(detail.centre))
+        if inner.distance(spot) == 0.0:
+            parts.append(Circle(spot, END_RADIUS, fill=strokes.BLACK))
+            id = f"label-detail-{point.text.id.removeprefix('label-')}"
+            names.append(Label(replace(point.text, id=id), spot, point.toward, rank=1))
+    words = f"{term('detail', here.language).replace('{0}', f'{detail.factor:g}')}"
+    id = f"detail-{here.diagram}-{number}"
     runs = fitted(words, 2.6, box.width - 1.6)
     caption = Text(complex(box.centre.real, box.bottom - 1.6), runs, "middle", id=f"label-{id}")
     group = Group(tuple(parts), id=id, classes=("inset", "detail"))
-    return Piece({diagram: (group,), "labels": (caption,)}, tuple(names)), inner
+    return Piece({here.diagram: (group,), "labels": (caption,)}, tuple(names)), inner

@@ -29,7 +29,7 @@ _STAGES = (0, 2, 5, len(RINGS))
 # What a label is worth by its rank: so much more must others be worth together before it gives way to them.
 _WORTH = (12, 5, 4, 3, 2, 1)
 _DRIVES = 4  # how often labels may drive out others, for each label
-_SPACE = 0.5  # between two labels, mm
+_SPACE = 0.9  # between two labels, mm
 _NOTHING = Obstacles()
 
 

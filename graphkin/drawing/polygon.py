@@ -5,16 +5,16 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
-from graphkin.construction.sheet import Bar, DiagramName, Image, Ray, Sheet, Vector
+from graphkin.construction.sheet import Bar, Image, Ray, Vector
 from graphkin.construction.steps import Carried
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
-from graphkin.drawing.conventions import Letters
 from graphkin.drawing.headings import spoken_vector
 from graphkin.drawing.labels import Label
 from graphkin.drawing.piece import Piece, joined
-from graphkin.drawing.polygon_on_page import SAME, ZERO, Detail, PolygonOnPage, same_place
+from graphkin.drawing.polygon_on_page import SAME, ZERO, PolygonOnPage, same_place
 from graphkin.drawing.polygon_points import points
 from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Primitive, Segment, Text
 from graphkin.drawing.strokes import colour_of_link, colour_of_vector
@@ -24,23 +24,12 @@ from graphkin.scene.symbol import Symbol
 
 __all__ = ["polygon_piece"]
 
+SHADE, SHADED = 0.09, 12.0  # how much of its colour an image has within, from which size (mm) on
 BEYOND = 9.0  # mm: how far a direction line runs past the crossing
-SHORT = 8.0  # mm: a shorter vector from the pole is named by its end points alone
 
 
-def polygon_piece(
-    sheet: Sheet, diagram: DiagramName, letters: Letters, language: str, panel: Box, origin: complex,
-    enlarged: Sequence[Detail] = (),
-) -> Piece:  # fmt: skip
-    """Draw a polygon with its pole at a point of the page.
-
-    Parameters
-    ----------
-    panel : lines known by direction only are clipped to it
-    origin : page point of the pole (mm)
-    enlarged : places that are drawn again larger; they get a ring, and their vectors no names here
-    """
-    here = PolygonOnPage(sheet, diagram, letters, language, panel, origin, tuple(enlarged))
+def polygon_piece(here: PolygonOnPage) -> Piece:
+    """Draw a polygon at its place; what is drawn again larger gets a ring, and its vectors no names here."""
     return joined((_construction(here), _vectors(here), points(here), _vector_names(here)))
 
 
@@ -62,8 +51,13 @@ def _images(here: PolygonOnPage) -> Iterator[Primitive]:
             count[image.link] += 1
             tail = f"-{count[image.link]}" if count[image.link] > 1 else ""
             outline = strokes.CONSTRUCTION.coloured(colour_of_link(here.sheet.scene, image.link))
-            shape = Polygon(tuple(map(here.at, image.corners)), "", outline)
-            yield Group((shape,), id=f"image-{here.diagram}-{image.link}{tail}", classes=("image",), step=step.number)
+            corners = tuple(map(here.at, image.corners))
+            shape = Polygon(corners, "", outline)
+            box = Box.around(corners)
+            large = max(box.width, box.height) > SHADED
+            shade = (Polygon(corners, strokes.tint(outline.colour, SHADE)),) if large else ()
+            id = f"image-{here.diagram}-{image.link}{tail}"
+            yield Group((*shade, shape), id=id, classes=("image",), step=step.number)
 
 
 def _bars(here: PolygonOnPage) -> Iterator[Piece]:
@@ -103,32 +97,33 @@ def _rays(here: PolygonOnPage) -> Iterator[Piece]:
     for step in here.steps:
         for ray in (s for s in step.strokes if isinstance(s, Ray)):
             end = ray.to if ray.to is not None else ray.through
-            leading, beyond = _lines(here, ray, end)
+            whole, free = _line(here, ray, end)
             names: list[Label] = []
-            if beyond is not None:
+            if free is not None:
                 markup = here.letters.direction(ray.direction, here.sheet.scene.frame.name)
                 key = (markup, same_place(end))
-                if key not in named and abs(beyond[1] - beyond[0]) > 1.0:
+                if key not in named and abs(free[1] - free[0]) > 1.0:
                     named.add(key)
                     id = f"label-direction-{step.number:02d}"
                     text = Text(0j, symbol(markup, 3.0), "start", strokes.GREY, id, ("label", "direction"))
-                    names.append(Label(text, beyond, rank=4))
-            lines = tuple(Line(*line, strokes.DIRECTION) for line in (leading, beyond) if line is not None)
+                    names.append(Label(text, free, rank=4))
+            lines = (Line(*whole, strokes.DIRECTION),) if whole is not None else ()
             yield Piece({"construction": (Group(lines, classes=("direction",), step=step.number),)}, tuple(names))
 
 
-def _lines(here: PolygonOnPage, ray: Ray, end: complex) -> tuple[Segment | None, Segment | None]:
-    """The part of a ray that leads to its end, if no vector lies there, and the part beyond it, as far as they show."""
+def _line(here: PolygonOnPage, ray: Ray, end: complex) -> tuple[Segment | None, Segment | None]:
+    """A ray from its start to beyond its end, and the part of it on which no vector comes to lie."""
     way = end - ray.through
     e = way / abs(way) if abs(way) > 1.0 else ray.along
-    first = ray.through if not here.covered(ray.through, end) else end
-    beyond = here.panel.clip(here.at(end), here.at(end + BEYOND * e))
+    first, last = ray.through, end + BEYOND * e
+    beyond = here.panel.clip(here.at(end), here.at(last))
     if beyond is None or abs(beyond[1] - beyond[0]) < 5.0:
         # no room beyond: the line shows on its other side
         base = ray.through if abs(way) > 1.0 else end
-        beyond = here.panel.clip(here.at(base), here.at(base - BEYOND * e)) or beyond
-    leading = here.panel.clip(here.at(first), here.at(end)) if abs(first - end) > SAME else None
-    return leading, beyond
+        behind = here.panel.clip(here.at(base), here.at(base - BEYOND * e))
+        if behind is not None:
+            beyond, first, last = behind, base - BEYOND * e, end
+    return here.panel.clip(here.at(first), here.at(last)), beyond
 
 
 def _vectors(here: PolygonOnPage) -> Piece:
@@ -137,16 +132,22 @@ def _vectors(here: PolygonOnPage) -> Piece:
 
 
 def _arrow(here: PolygonOnPage, step: int, vector: Vector) -> Group:
-    return vector_group(
+    tail, tip = here.drawn(vector)
+    group = vector_group(
         vector.symbol.id,
         step,
-        here.at(vector.tail),
-        here.at(vector.tip),
+        tail,
+        tip,
         RESULTANT if vector.role == "resultant" else COMPONENT,
         colour_of_vector(here.sheet, vector.symbol),
         spoken_vector(vector.symbol, here.language),
         classes=(vector.role,),
     )
+    if vector.symbol not in here.shifts:
+        return group
+    true = here.at(vector.tail), here.at(vector.tip)
+    ties = tuple(Line(z, w, strokes.CONSTRUCTION) for z, w in zip(true, (tail, tip), strict=True))
+    return replace(group, children=(*group.children, *ties))
 
 
 def _vector_names(here: PolygonOnPage) -> Piece:
@@ -180,8 +181,5 @@ def _name(here: PolygonOnPage, length: float, vectors: Sequence[Vector]) -> Labe
         text = Text(0j, symbol(markup + " = 0"), "start", strokes.BLACK, id, ("label",))
         return Label(text, here.at(first.tip), rank=3)
     resultants = all(v.role == "resultant" for v in vectors)
-    asked = any(v.symbol in here.sheet.scene.find for v in vectors)
-    if not us and length < SHORT and resultants and not asked:
-        return None  # the letters at its ends say it
     text = Text(0j, symbol(markup), "start", colour_of_vector(here.sheet, first.symbol), id, ("label",))
-    return Label(text, (here.at(first.tail), here.at(first.tip)), rank=2 if resultants and not us else 1)
+    return Label(text, here.drawn(first), rank=2 if resultants and not us else 1)

@@ -10,6 +10,8 @@ from functools import cached_property
 from graphkin.construction.sheet import Bar, DiagramName, Sheet, Step, Vector
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
+from graphkin.drawing.primitives import Segment
+from graphkin.drawing.side_by_side import side_by_side
 from graphkin.scene.symbol import Symbol
 
 __all__ = ["SAME", "ZERO", "Detail", "PolygonOnPage", "details", "extent", "same_place"]
@@ -25,7 +27,8 @@ LONGEST = 13.0  # mm of the largest part in the inset
 
 @dataclass(frozen=True)
 class PolygonOnPage:
-    """A sheet's polygon with the letters of a convention and the words of a language."""
+    """A sheet's polygon with the letters of a convention and the words of a language, its pole at ``origin`` of a page;
+    lines known by direction only are clipped to the ``panel``, and ``enlarged`` places are drawn again larger."""
 
     sheet: Sheet
     diagram: DiagramName
@@ -47,6 +50,17 @@ class PolygonOnPage:
     def vectors(self) -> Mapping[Symbol, tuple[int, Vector]]:
         """Each vector, with the number of the step that drew it last."""
         return {s.symbol: (step.number, s) for step in self.steps for s in step.strokes if isinstance(s, Vector)}
+
+    @cached_property
+    def shifts(self) -> Mapping[Symbol, complex]:
+        """How far (mm on the page) vectors lie off their places, so that they do not cover others."""
+        found = side_by_side(vector for _, vector in self.vectors.values())
+        return {symbol: shift.conjugate() for symbol, shift in found.items()}
+
+    def drawn(self, vector: Vector) -> Segment:
+        """Where a vector is drawn on the page."""
+        shift = self.shifts.get(vector.symbol, 0j)
+        return self.at(vector.tail) + shift, self.at(vector.tip) + shift
 
     def in_order(self) -> list[tuple[int, Vector]]:
         """Long vectors first, so that short ones lie on top."""

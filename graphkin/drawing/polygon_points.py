@@ -20,7 +20,7 @@ from graphkin.drawing.strokes import link_of_vector
 from graphkin.drawing.text import symbol
 from graphkin.scene.symbol import PointRef
 
-__all__ = ["points"]
+__all__ = ["END_RADIUS", "points"]
 
 POLE_RADIUS, END_RADIUS, FOOT_RADIUS, RING = 0.9, 0.5, 0.4, 0.45
 MOST_AT_POLE = 24.0  # mm of names of points at rest beside the letter of the pole

@@ -14,7 +14,7 @@ from functools import lru_cache
 from graphkin.drawing.font_widths import is_cjk, runs_width, width
 from graphkin.drawing.primitives import Run
 
-__all__ = ["Atom", "fitted", "is_italic", "parsed", "plain", "rich", "symbol", "wrapped"]
+__all__ = ["SMALLEST", "Atom", "fitted", "is_italic", "parsed", "plain", "rich", "symbol", "wrapped"]
 
 LETTER, INDEX, SMALLEST = 3.5, 2.5, 2.0  # mm
 _DROP, _DROP_STACKED, _RISE = 0.24, 0.30, 0.40  # of the size of the letter, after the usual practice of typesetting

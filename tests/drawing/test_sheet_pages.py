@@ -6,7 +6,7 @@ import pytest
 
 from graphkin import draw
 from graphkin.drawing import Text
-from graphkin.drawing.primitives import walk
+from graphkin.drawing.primitives import Group, walk
 from graphkin.drawing.tables import table_rows
 
 FOUR = ("chinese", "us", "british", "russian")
@@ -65,3 +65,24 @@ def test_a_sheet_that_goes_on_is_one_pdf_of_two_pages(tmp_path):
     draw("sixbar-AE70", tmp_path, formats=("svg", "pdf"))
     assert {"sheet.svg", "sheet-2.svg", "sheet.pdf"} == {p.name for p in tmp_path.glob("sheet*")}
     assert b"/Count 2" in (tmp_path / "sheet.pdf").read_bytes()
+
+
+def test_vectors_that_would_cover_each_other_lie_side_by_side():
+    lines = {}
+    for thing in walk(draw("shaper-scheme-2").figures["velocity"].children):
+        if isinstance(thing, Group) and "vector" in thing.classes:
+            lines[thing.id] = thing.children[0]
+    whole, part = lines["v_B"], lines["v_S4"]
+    way = (whole.end - whole.start) / abs(whole.end - whole.start)
+    apart = ((part.start - whole.start) * way.conjugate()).imag
+    assert pytest.approx(0.0, abs=1e-9) == ((part.end - part.start) * way.conjugate()).imag
+    assert abs(apart) > 0.9
+
+
+def test_steps_are_numbered_at_the_vectors():
+    drawn = draw("sixbar-guide-40deg")
+    texts = [thing for thing in walk(drawn.figures["velocity"].children) if isinstance(thing, Text)]
+    numbers = [text.string for text in texts if "step-number" in text.classes]
+    drawn_in = {f"({step.number})" for step in drawn.checked.sheet.steps if step.diagram == "velocity"}
+    assert set(numbers) <= drawn_in
+    assert len(numbers) >= 5
