@@ -14,7 +14,7 @@ from graphkin.api.arguments import asked_symbols
 from graphkin.checking.printed import Printed, stated
 from graphkin.errors import CallError, Problem
 from graphkin.scene.model import Mechanism
-from graphkin.scene.symbol import Symbol
+from graphkin.scene.symbol import KINDS, Symbol
 
 __all__ = ["Answers", "AnswersLike", "as_answers", "table_of", "with_points"]
 
@@ -22,10 +22,10 @@ AnswersLike = str | os.PathLike[str] | Mapping[str, Mapping[str, object]]
 
 LARGEST = 10_000_000
 PLACE = "at"
-_QUANTITY = re.compile(r"(v|a|an|at|ak|ar|omega|alpha)_")
+_QUANTITY = re.compile(rf"({'|'.join(KINDS)})_")
 _UNIT = re.compile(r"^(.*?)\s*[(（\[]([^)）\]]*)[)）\]]$")
-_GREEK = {"ω": "omega", "α": "alpha", "a": "a", "v": "v"}
-_JOINED = re.compile(r"([ωα])_?([A-Za-z0-9]+)|([va])([A-Z][A-Za-z0-9]*)")
+_GREEK = {"ω": "omega", "α": "alpha", "θ": "theta", "γ": "gamma", "a": "a", "v": "v"}
+_JOINED = re.compile(r"([ωαθ])_?([A-Za-z0-9]+)|([va])([A-Z][A-Za-z0-9]*)")
 _NOTHING = {"", "-", "--", "–", "—", "/", "?", "？", "n/a", "na", "无"}
 _DECIMAL = re.compile(r"[+\-\u2212]?\d+,\d+(?:[eE][+\-]?\d+)?")
 _THOUSANDS = re.compile(r"[+\-\u2212]?\d{1,3}(?:,\d{3})+(?:\.\d+)?")
@@ -175,7 +175,7 @@ def _text(value: object) -> str:
 
 def unit_of(symbol: Symbol, length: str) -> str:
     """The unit in which a quantity is stated."""
-    return {"v": f"{length}/s", "omega": "rad/s", "alpha": "rad/s2"}.get(symbol.kind, f"{length}/s2")
+    return symbol.unit(length)
 
 
 def head_of(head: str) -> tuple[str, str]:

@@ -7,7 +7,7 @@ folder for the files of the result.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from numbers import Integral, Real
 from pathlib import Path
 from typing import get_args
@@ -15,7 +15,7 @@ from typing import get_args
 from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
 from graphkin.scene.source import SceneLike, mechanism_of
-from graphkin.scene.symbol import Symbol
+from graphkin.scene.symbol import Symbol, missing_names
 from graphkin.scene.tables import Convention
 from graphkin.words import BOTH, LANGUAGES
 
@@ -176,16 +176,14 @@ def asked_symbols(scene: Mechanism, find: str | Symbol | Iterable[str | Symbol] 
 
 
 def _unknown_names(scene: Mechanism, symbol: Symbol) -> list[Problem]:
-    links = [link.name for link in scene.links]
-    problems = []
-    for link in [symbol.link, *(r.link for r in (symbol.of, symbol.to) if r)]:
-        if link and link not in links and link != scene.frame.name:
-            problems.append(Problem(f"find {symbol}", f'there is no link "{link}"', did_you_mean(link, links)))
-    for ref in (symbol.of, symbol.to):
-        if ref and ref.point not in scene.holders:
-            wanted = did_you_mean(ref.point, scene.holders)
-            problems.append(Problem(f"find {symbol}", f'there is no point "{ref.point}"', wanted))
-    return problems
+    def missing(what: str, known: Collection[str]) -> Callable[[str], Problem | None]:
+        def problem(name: str) -> Problem | None:
+            found = f'there is no {what} "{name}"'
+            return None if name in known else Problem(f"find {symbol}", found, did_you_mean(name, known))
+
+        return problem
+
+    return missing_names(symbol, missing("link", scene.by_name), missing("point", scene.holders), scene.by_name)
 
 
 def write_files(folder: Path, files: Mapping[str, bytes]) -> list[Path]:

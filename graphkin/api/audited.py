@@ -121,8 +121,8 @@ def _value(scene: Mechanism, who: Answers, judged: Judged, language: str) -> dic
         if isinstance(value, complex):
             # what is left of a component that cancels is no value
             parts = (v if abs(v) > 1e-12 * abs(value) else 0.0 for v in (value.real, value.imag))
-            return [_plain(in_scene_units(scene, symbol, v)) for v in parts]
-        return _plain(in_scene_units(scene, symbol, value))
+            return [_plain(in_scene_units(scene, symbol, v, degrees=True)) for v in parts]
+        return _plain(in_scene_units(scene, symbol, value, degrees=True))
 
     row: dict[str, Any] = {"symbol": str(symbol), "printed": unit(judged.printed.value), "exact": unit(judged.exact)}
     row["deviation_pct"] = None if judged.deviation is None else 100 * judged.deviation
@@ -191,6 +191,8 @@ def audit(scene: SceneLike, answers: AnswersLike | None = None, at: At = None, l
 
 
 def _case(scene: Mechanism, asked: Sequence[Symbol], at: At) -> Evidence:
+    from graphkin.solver import exact_values
+
     values = driver_values(scene, at)
     motion = solved_here(scene, values)
     structure = motion.structure
@@ -199,12 +201,8 @@ def _case(scene: Mechanism, asked: Sequence[Symbol], at: At) -> Evidence:
     whole = plan(structure, values, ())
     drawn = what if set(what.elements) == set(whole.elements) else whole
 
-    def exact(symbol: Symbol) -> complex | float:
-        found = motion.value(symbol)[0]
-        return complex(found) if symbol.is_vector else float(found.real)
-
     predicted = predict(what, "pencil", scene.sheet.tools)
-    return Evidence(drawn, exact, predicted, _elsewhere(scene, values))
+    return Evidence(drawn, exact_values(motion, asked), predicted, _elsewhere(scene, values))
 
 
 def _elsewhere(scene: Mechanism, values: dict[str, float] | None) -> ValuesElsewhere:
@@ -221,7 +219,9 @@ def _elsewhere(scene: Mechanism, values: dict[str, float] | None) -> ValuesElsew
         return solver.solve(scene, values, POSITIONS), solver.solve(scene, from_zero, POSITIONS)
 
     def table(symbol: Symbol) -> list[tuple[str, complex | float]]:
-        found = []
+        found: list[tuple[str, complex | float]] = []
+        if symbol.scope == "turn":
+            return found
         for motion in motions():
             for i, value in enumerate(motion.value(symbol)):
                 if motion.ok[i]:

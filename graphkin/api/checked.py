@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from graphkin.api.arguments import (
     INSTRUMENTS,
@@ -30,7 +32,7 @@ from graphkin.construction.steps import phrase_of
 from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
-from graphkin.structure import Structure, analyse, part_of
+from graphkin.structure import Structure, part_of
 from graphkin.words import say
 
 if TYPE_CHECKING:
@@ -98,8 +100,7 @@ class Checked(Result):
 
         length, rows = self.scene.units.length, []
         for row in self.report.rows:
-            unit = {"v": f"{length}/s", "omega": "rad/s", "alpha": "rad/s2"}.get(row.symbol.kind, f"{length}/s2")
-            cells = {**reading_row(self.scene, row), "unit": unit}
+            cells = {**reading_row(self.scene, row, degrees=True), "unit": row.symbol.unit(length)}
             rows.append([cells.get(key) for key in _FORMS])
         return Table.of(list(_FORMS), rows, list(_FORMS.values()))
 
@@ -132,11 +133,9 @@ class Checked(Result):
     @cached_property
     def centres(self) -> Centres:
         """The instant centres of what leads to the asked, from which velocities come by a third way."""
-        from graphkin.construction.centres import find_centres
+        from graphkin.construction.centres import centres_on
 
-        part = self.part
-        sheet = replace(self.sheet, scene=part, structure=analyse(part)) if part is not self.scene else self.sheet
-        return find_centres(part, {d.key: self.sheet.drivers[d.key] for d in part.drivers}, sheet=sheet)
+        return centres_on(self.sheet, self.asked)
 
     @cached_property
     def _turning(self) -> Mapping[str, Turning]:
@@ -160,35 +159,38 @@ def _plain(value: float) -> float:
     return float(f"{value:.12g}")
 
 
-def in_scene_units(scene: Mechanism, symbol: Symbol, value: float) -> float:
-    """A value in the scene's length unit; rates stay as they are."""
-    return value / scene.units.metres if symbol.is_vector else value
+def in_scene_units(scene: Mechanism, symbol: Symbol, value: float, degrees: bool = False) -> float:
+    """A value in the scene's length unit, seconds, and radians as in JSON, or degrees as in files."""
+    metres = scene.units.metres
+    return value / (symbol.per_unit(metres) if degrees else symbol.per_unit_of_programs(metres))
 
 
-def reading_row(scene: Mechanism, row: Compared) -> dict[str, Any]:
-    """One reading as in the JSON: vectors by size, rates with sign."""
+def reading_row(scene: Mechanism, row: Compared, degrees: bool = False) -> dict[str, Any]:
+    """One reading as in the JSON: vectors by size, others with sign; ``degrees`` for tables that people read."""
+
+    def unit(value: float) -> float:
+        return in_scene_units(scene, row.symbol, value, degrees)
 
     def size(value: complex | float) -> float:
-        plain = abs(value) if row.symbol.is_vector else float(value.real)
-        return in_scene_units(scene, row.symbol, plain)
+        return unit(abs(value) if row.symbol.is_vector else float(value.real))
 
     return {
         "symbol": str(row.symbol),
         "on_paper_mm": row.reading.on_paper,
         "measured": size(row.reading.value),
         "exact": size(row.exact),
-        "error": in_scene_units(scene, row.symbol, row.error),
-        "tolerance": in_scene_units(scene, row.symbol, row.tolerance),
+        "error": unit(row.error),
+        "tolerance": unit(row.tolerance),
         "direction_error_rad": row.direction_error,
         "ok": row.ok,
-        **(_predicted(scene, row, row.uncertainty) if row.uncertainty else {}),
+        **(_predicted(unit(row.uncertainty.deviation), row.uncertainty) if row.uncertainty else {}),
     }
 
 
-def _predicted(scene: Mechanism, row: Compared, uncertainty: Uncertainty) -> dict[str, Any]:
-    """Standard deviation of a reading in scene units, and the step that adds most to it."""
+def _predicted(deviation: float, uncertainty: Uncertainty) -> dict[str, Any]:
+    """Standard deviation of a reading in its unit, and the step that adds most to it."""
     return {
-        "uncertainty": in_scene_units(scene, row.symbol, uncertainty.deviation),
+        "uncertainty": deviation,
         "cause": say(phrase_of(uncertainty.cause)),
         "cause_share": uncertainty.share,
     }
@@ -236,14 +238,14 @@ def check(
 def checked(what: Plan, motion: Motion, hand: Instrument) -> Checked:
     """Draw a plan and hold everything on it against the solver at the same position."""
 
-    def value(symbol: Symbol) -> complex | float:
-        found = motion.value(symbol)[0]
-        return complex(found) if symbol.is_vector else float(found.real)
+    from graphkin.solver import exact_values
 
+    value = exact_values(motion, what.asked)
     sheet = execute(what, hand)
     readings = read_off(sheet, (), hand)
     if hand is EXACT:
         rounding: dict[DiagramName, float] = {
+            "mechanism": float(np.nan_to_num(motion.bound.position[0], posinf=0.0)),
             "velocity": float(motion.rough[0][0]),
             "acceleration": float(motion.rough[1][0]),
         }

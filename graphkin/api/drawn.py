@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -22,7 +22,9 @@ from graphkin.api.arguments import (
 from graphkin.api.checked import Checked, checked, hand_of, solved_here
 from graphkin.api.report_text import report_text
 from graphkin.api.results import Result
-from graphkin.construction import EXACT, plan
+from graphkin.construction import EXACT, Plan, plan
+from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.table import Table
 from graphkin.words import languages
@@ -30,22 +32,38 @@ from graphkin.words import languages
 if TYPE_CHECKING:
     from graphkin.checking.report import Compared
     from graphkin.drawing import Drawing
-    from graphkin.table import Table
+    from graphkin.solver import Motion
 
-__all__ = ["Drawn", "draw"]
+__all__ = ["Drawn", "draw", "known_figures"]
 
 
 @dataclass(frozen=True, repr=False, eq=False)
 class Drawn(Result):
     """The figures of a scene by name, with the check of everything on them.
 
-    In a notebook it shows the sheet.  ``figures["velocity"].save("v.pdf")`` picks the format by the name.
+    In a notebook it shows the sheet.  ``wanted`` are the figures asked for.  ``figures["velocity"].save("v.pdf")``
+    picks the format by the name.
     """
 
     checked: Checked
-    small: Checked
-    language: str | None
-    convention: str | None
+    plan: Plan
+    motion: Motion
+    wanted: tuple[str, ...]
+    seed: int = 0
+    language: str | None = None
+    convention: str | None = None
+
+    @property
+    def scene(self) -> Mechanism:
+        return self.checked.scene
+
+    @cached_property
+    def small(self) -> Checked:
+        """The same construction at the scales that fit the sheet, which bears its own readings."""
+        from graphkin.drawing import sheet_room
+
+        fitting = replace(self.plan, scales=self.plan.scales_for(sheet_room(self.scene)))
+        return checked(fitting, self.motion, hand_of(self.scene, self.checked.sheet.instrument, self.seed))
 
     @property
     def ok(self) -> bool:
@@ -67,24 +85,14 @@ class Drawn(Result):
 
     @cached_property
     def figures(self) -> Mapping[str, Drawing]:
-        """Figures by name: mechanism, velocity, acceleration, centres, sheet, and sheet-2 where the sheet goes on."""
-        from graphkin.api.centred import ROOM, found_centres
-        from graphkin.construction.centres import speeds
-        from graphkin.drawing import figures
-        from graphkin.drawing.centres import centres_figure
-
-        spoken, letters = self.language, self.convention
-        made = dict(
-            figures(
-                self.checked.sheet, self.small.sheet, self.small.report, language=spoken, convention=letters
-            )
-        )
-        part = self.checked.part
-        values = {d.key: self.checked.sheet.drivers[d.key] for d in part.drivers}
-        # what exact hands have drawn serves this figure too; finite ones draw nothing of the centres
-        exact = self.checked.sheet.instrument == EXACT.name
-        found = self.checked.centres.in_room(ROOM) if exact else found_centres(part, values)
-        made["centres"] = centres_figure(found, speeds(found), language=spoken, convention=letters)
+        """The figures that were asked for, by name, and their further pages (sheet-2, where the sheet goes on); only
+        these are drawn."""
+        made: dict[str, Drawing] = {}
+        for name in self.wanted:
+            figure = FIGURES[name].make(self)
+            if figure is not None:
+                made[name] = figure
+                made.update({f"{name}-{number}": page for number, page in enumerate(figure.further, 2)})
         return made
 
     def write(self, folder: str | os.PathLike[str] | None = None, formats: Sequence[str] = ("svg",)) -> list[Path]:
@@ -110,12 +118,96 @@ class Drawn(Result):
         return write_files(target, files)
 
     def __repr__(self) -> str:
-        return f"<Drawn {self.checked.scene.name}: {', '.join(self.figures)}>"
+        return f"<Drawn {self.scene.name}: {', '.join(self.wanted)}>"
 
     def _repr_svg_(self) -> str:
         from graphkin.drawing import svg_bytes
 
-        return svg_bytes(self.figures["sheet"]).decode()
+        shown = "sheet" if "sheet" in self.wanted else next(iter(self.figures), "")
+        return svg_bytes(self.figures[shown]).decode() if shown else ""
+
+
+@dataclass(frozen=True)
+class FigureKind:
+    """A figure that can be asked for by name.
+
+    by_itself : whether it is drawn of a scene where no figure is asked for by name
+    make : draws it; None where there is nothing to draw
+    """
+
+    by_itself: Callable[[Mechanism], bool]
+    make: Callable[[Drawn], Drawing | None]
+
+
+def _always(scene: Mechanism) -> bool:
+    return True
+
+
+def _mechanism(drawn: Drawn) -> Drawing:
+    from graphkin.drawing import mechanism_figure
+
+    return mechanism_figure(drawn.checked.sheet, language=drawn.language, convention=drawn.convention)
+
+
+def _velocity(drawn: Drawn) -> Drawing:
+    from graphkin.drawing import velocity_figure
+
+    return velocity_figure(drawn.checked.sheet, language=drawn.language, convention=drawn.convention)
+
+
+def _acceleration(drawn: Drawn) -> Drawing | None:
+    from graphkin.drawing import acceleration_figure
+
+    if not drawn.checked.sheet.vectors("acceleration"):
+        return None
+    return acceleration_figure(drawn.checked.sheet, language=drawn.language, convention=drawn.convention)
+
+
+def _sheet(drawn: Drawn) -> Drawing:
+    from graphkin.drawing import sheet_page
+
+    small = drawn.small
+    return sheet_page(small.sheet, small.report, language=drawn.language, convention=drawn.convention)
+
+
+def _centres(drawn: Drawn) -> Drawing:
+    from graphkin.api.centred import ROOM, found_centres
+    from graphkin.construction.centres import speeds
+    from graphkin.drawing.centres import centres_figure
+
+    whole = drawn.checked
+    # what exact hands have drawn serves this figure too; finite ones draw nothing of the centres
+    exact = whole.sheet.instrument == EXACT.name
+    values = {d.key: whole.sheet.drivers[d.key] for d in whole.part.drivers}
+    found = whole.centres.in_room(ROOM) if exact else found_centres(whole.part, values)
+    return centres_figure(found, speeds(found), language=drawn.language, convention=drawn.convention)
+
+
+FIGURES: Mapping[str, FigureKind] = {
+    "mechanism": FigureKind(_always, _mechanism),
+    "velocity": FigureKind(_always, _velocity),
+    "acceleration": FigureKind(_always, _acceleration),
+    "sheet": FigureKind(_always, _sheet),
+    "centres": FigureKind(_always, _centres),
+}
+"""Every figure of `draw` by its name: the one place where a further figure is entered."""
+
+
+def known_figures(scene: Mechanism, names: Sequence[str] | None) -> tuple[str, ...]:
+    """The figures asked for, each once; without names the five that every scene has, and those it has a table for.
+
+    Raises
+    ------
+    CallError : every name that is no figure
+    """
+    if names is None:
+        return tuple(name for name, figure in FIGURES.items() if figure.by_itself(scene))
+    if isinstance(names, str) or not isinstance(names, Iterable):
+        raise CallError(Problem("figures", f"found {names!r:.60}", 'give a list: ["velocity"]'))
+    wrong = [Problem("figure", f'"{name}"', did_you_mean(str(name), FIGURES)) for name in names if name not in FIGURES]
+    if wrong:
+        raise CallError(*wrong)
+    return tuple(dict.fromkeys(names))
 
 
 def draw(
@@ -128,13 +220,16 @@ def draw(
     convention: str | None = None,
     instrument: str = "exact",
     seed: int = 0,
+    figures: Sequence[str] | None = None,
 ) -> Drawn:
     """Draw a scene step by step, check it, and write the figures if a folder is given.
 
     Parameters
     ----------
     scene, at, find, instrument, seed : as for `check`
-    out : folder for mechanism, velocity, acceleration and sheet in each of the ``formats``, readings.csv and report.txt
+    out : folder for the figures in each of the ``formats``, readings.csv and report.txt
+    figures : names of figures, to draw these only; without it mechanism, velocity, acceleration, sheet, centres, and
+        those for which the scene has a table
     language : "en", "zh" or "both" (on the figures; the report is in English then); the scene's own if None
     convention : "chinese", "us", "british" or "russian"; the scene's own if None
 
@@ -144,21 +239,17 @@ def draw(
     Unsolvable : wrong mobility, a position that cannot be assembled or reached, a dead point
     """
     from graphkin import solver
-    from graphkin.drawing import sheet_room
 
     known_words(formats, language, convention, instrument, known_languages=ON_SHEETS)
     given = for_paper(scene)
+    wanted = known_figures(given, figures)
     asked = asked_symbols(given, find)
     values = driver_values(given, at)
     hand = hand_of(given, instrument, seed)
     structure = solver.structure_of(given)
     motion = solved_here(structure, values, asked)
     what = plan(structure, values, asked)
-    whole = checked(what, motion, hand)
-    # the sheet shows the same construction at the scales that fit it, and bears its own readings
-    fitting = replace(what, scales=what.scales_for(sheet_room(given)))
-    small = checked(fitting, motion, hand_of(given, instrument, seed))
-    drawn = Drawn(whole, small, language, convention)
+    drawn = Drawn(checked(what, motion, hand), what, motion, wanted, seed, language, convention)
     if out is not None:
         drawn.write(out, formats)
     return drawn

@@ -64,9 +64,10 @@ def report_text(checked: Checked, language: str) -> str:
     head = (word("quantity", language), word("on paper", language), word("measured", language), word("exact", language))
     lines.append(f"{head[0]:<16}{head[1]:>12}{head[2]:>16}{head[3]:>16}")
     for row in checked.report.rows:
-        r = reading_row(scene, row)
+        r = reading_row(scene, row, degrees=True)
         mark = "" if row.ok else "  !"
-        lines.append(f"{r['symbol']:<16}{r['on_paper_mm']:>12.3f}{r['measured']:>16.6g}{r['exact']:>16.6g}{mark}")
+        mm = "" if r["on_paper_mm"] is None else f"{r['on_paper_mm']:.3f}"
+        lines.append(f"{r['symbol']:<16}{mm:>12}{r['measured']:>16.6g}{r['exact']:>16.6g}{mark}")
     lines.append("")
     lines += [say(note, language, show) for note in (*sheet.left_out, *sheet.notes)]
     if sheet.stopped:

@@ -30,7 +30,7 @@ from graphkin.errors import CallError, Problem
 from graphkin.jobs import Progress, Workers, cluster
 from graphkin.scene.model import Mechanism
 from graphkin.scene.source import written
-from graphkin.scene.symbol import Symbol
+from graphkin.scene.symbol import KINDS, Symbol
 from graphkin.table import Table, have
 from graphkin.words import Phrase, say
 
@@ -45,6 +45,7 @@ if TYPE_CHECKING:
 __all__ = ["Swept", "sweep"]
 
 MOST_POSITIONS = 1_000_000_000
+OF_TURN = tuple(f"{kind.name}_" for kind in KINDS.values() if kind.scope == "turn")
 IN_MEMORY = 200_000_000
 """Numbers of a table that are kept in memory where no folder is given."""
 
@@ -294,13 +295,16 @@ def _asked(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tuple[Watch
     from graphkin.study.watched import watched_named, watched_symbol
 
     if find is None:
-        return tuple(map(watched_symbol, scene.find))
+        return tuple(watched_symbol(s) for s in scene.find if s.scope != "turn" and not s.at)
     found: list[Watched] = []
     problems: list[Problem] = []
     if not isinstance(find, Iterable | Symbol):
         raise CallError(Problem("find", f"found {find!r:.60}", 'give symbols: ["v_B", "omega_3"]'))
     for name in [find] if isinstance(find, str | Symbol) else find:
         named = watched_named(scene, name) if isinstance(name, str) else None
+        if isinstance(name, str) and name.startswith(OF_TURN):
+            problems.append(Problem(f"find {name}", "is of the whole turn, no column", "it stands in the summary"))
+            continue
         try:
             found += [named] if named is not None else map(watched_symbol, asked_symbols(scene, [name]))
         except CallError as error:

@@ -62,7 +62,7 @@ def _judged(case: Evidence, printed: Printed) -> Judged:
     right = case.exact(symbol)
     line = line_of(case.sheet, symbol)
     exact = _comparable(printed, right, line)
-    off = abs(printed.value - exact)
+    off = abs(_difference(printed, exact))
     uncertainty = case.predicted.get(symbol)
     bound = uncertainty.bound if uncertainty and math.isfinite(uncertainty.bound) else 0.0
     deviation = _deviation(printed, exact)
@@ -80,12 +80,18 @@ def _judged(case: Evidence, printed: Printed) -> Judged:
     return judged
 
 
+def _difference(printed: Printed, exact: Value) -> Value:
+    """A printed value less the exact one; of an angle without whole turns."""
+    off = printed.value - exact
+    return math.remainder(off.real, math.tau) if printed.symbol.measure == "angle" else off
+
+
 def _deviation(printed: Printed, exact: Value) -> float | None:
     if exact == 0:
         return None
     if isinstance(exact, complex):
         return abs(printed.value - exact) / abs(exact)
-    return (printed.value.real - exact) / exact
+    return _difference(printed, exact).real / exact
 
 
 def _comparable(printed: Printed, value: Value, line: complex | None) -> Value:

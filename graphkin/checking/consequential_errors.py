@@ -51,6 +51,8 @@ def consequential_values(plan: Plan, base: Sheet, own: Mapping[Symbol, Value], o
 
 def _step(sheet: Sheet, symbol: Symbol) -> float:
     """When a quantity is known on the drawing; a rate follows the vector that it is measured from."""
+    if symbol.scope != "motion":
+        return 0.0
     if not symbol.is_vector:
         rate = (sheet.omega if symbol.kind == "omega" else sheet.alpha).get(symbol.link)
         if rate is not None and rate.same_as:

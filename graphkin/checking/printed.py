@@ -58,7 +58,7 @@ def stated(symbol: Symbol, texts: Sequence[str], metres: float) -> Printed:
     >>> v.value, v.step, v.digits
     (0.48, 0.0001, 4)
     """
-    unit = metres if symbol.is_vector else 1.0
+    unit = symbol.per_unit(metres)
     numbers = [_number(text) for text in texts]
     values = [float(n) * unit for n in numbers]
     last = max(int(n.as_tuple().exponent) for n in numbers)
@@ -83,7 +83,7 @@ def printed_values(scene: Mechanism) -> tuple[Printed, ...]:
     """The ``[printed]`` values of a scene, as they stand in the file but for zeros at the end of decimals."""
     found = []
     for symbol, value in scene.printed.items():
-        unit = scene.units.metres if symbol.is_vector else 1.0
+        unit = symbol.per_unit(scene.units.metres)
         parts = (value.real, value.imag) if isinstance(value, complex) else (value,)
         found.append(stated(symbol, [_shortest(part / unit) for part in parts], scene.units.metres))
     return tuple(found)

@@ -11,15 +11,17 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_left
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from graphkin.construction import Plan, Scales, execute, nudged
 from graphkin.construction.board import EXACT, Instrument
+from graphkin.construction.centres import Centres, centres_on
+from graphkin.construction.measures import measured
 from graphkin.construction.sheet import DiagramName, Sheet, Vector
 from graphkin.construction.steps import Cause, ReadOff, phrase_of
-from graphkin.errors import Unsolvable
-from graphkin.scene.symbol import Symbol
+from graphkin.errors import Problem, Unsolvable
+from graphkin.scene.symbol import Symbol, centre_links
 from graphkin.scene.tables import Tools
 from graphkin.words import Phrase
 
@@ -30,18 +32,20 @@ __all__ = ["COVERAGE", "Advice", "Reading", "Uncertainty", "advise", "predict", 
 class Reading:
     """One quantity measured on the drawing.
 
-    ``on_paper`` is the length on paper (mm) it comes from; ``value`` a complex number (m/s, m/s2) for a vector, a float
-    (rad/s, rad/s2, counter-clockwise positive) for a rate.  ``diagram`` is the one it was read from.
+    ``on_paper`` is the length on paper (mm) it comes from, None for an angle read with the protractor; ``value`` a
+    complex number (m/s, m/s2) for a vector, a float (rad/s, rad/s2, counter-clockwise positive; m, rad) for others.
+    ``diagram`` is the one it was read from.
     """
 
     symbol: Symbol
-    on_paper: float
+    on_paper: float | None
     value: complex | float
     diagram: DiagramName
 
 
 def read_off(sheet: Sheet, asked: Sequence[Symbol] = (), instrument: Instrument = EXACT) -> tuple[Reading, ...]:
-    """Measure every vector and every rate that was drawn, or only those asked for, with the instrument's eyes.
+    """Measure every vector and every rate that was drawn, and the positions that the drawing was asked for, or only
+    what is asked for here, with the instrument's eyes.
 
     >>> from graphkin.scene import mechanism_of
     >>> from graphkin.construction import draft
@@ -60,9 +64,36 @@ def read_off(sheet: Sheet, asked: Sequence[Symbol] = (), instrument: Instrument 
                 continue
             symbol = Symbol(kind, link=link)
             found[symbol] = Reading(symbol, r.mm, r.value, name)
+    places = _centres(sheet, instrument)
+    for symbol in dict.fromkeys((*sheet.asked, *asked)):
+        if symbol.scope != "motion" and not symbol.at:
+            one = measured(sheet, symbol, instrument, places)
+            if one is not None:
+                found[symbol] = Reading(symbol, one.mm, one.value, "mechanism")
     if not asked:
         return tuple(found.values())
     return tuple(found[s] for s in asked if s in found)
+
+
+def _centres(sheet: Sheet, instrument: Instrument) -> Callable[[str], complex | None]:
+    """Where instant centres lie on the drawing (mm), found as soon as one is asked for."""
+    centres: list[Centres] = []
+
+    def place(name: str) -> complex | None:
+        pair = centre_links(name, sheet.scene.by_name)
+        if pair is None:
+            return None
+        if not centres:
+            centres.append(centres_on(sheet, sheet.asked, instrument))
+        if not set(pair) <= set(centres[0].links.names):
+            return None
+        centre = centres[0].of(*pair)
+        if centre.point is None:
+            found = "lies at infinity here" if centre.place is not None else "has no place here"
+            raise Unsolvable("not drawn", Problem(name, f"the instant centre of links {' and '.join(pair)} {found}"))
+        return centre.point
+
+    return place
 
 
 def _vector(sheet: Sheet, diagram: DiagramName, vector: Vector, instrument: Instrument) -> Reading:
@@ -159,6 +190,11 @@ class Advice:
         )
 
 
+def _sort(symbol: Symbol) -> str:
+    """What readings are compared with for their size."""
+    return symbol.kind[0] if symbol.scope == "motion" else symbol.measure
+
+
 def advise(
     what: Plan, name: str, tools: Tools, readings: Sequence[Reading], predicted: Mapping[Symbol, Uncertainty]
 ) -> Advice | None:
@@ -168,11 +204,11 @@ def advise(
     """
     largest: dict[str, float] = {}
     for r in readings:
-        largest[r.symbol.kind[0]] = max(largest.get(r.symbol.kind[0], 0.0), abs(r.value))
+        largest[_sort(r.symbol)] = max(largest.get(_sort(r.symbol), 0.0), abs(r.value))
     worst: tuple[float, Symbol] | None = None
     for r in readings:
         expected = predicted[r.symbol]
-        if r.value == 0 or abs(r.value) < SMALL * largest[r.symbol.kind[0]] or not expected.deviation:
+        if r.value == 0 or abs(r.value) < SMALL * largest[_sort(r.symbol)] or not expected.deviation:
             continue
         part = expected.deviation / abs(r.value)
         if math.isfinite(part) and (worst is None or part > worst[0]):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import cmath
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
@@ -38,8 +39,8 @@ class Compared:
         return self.reading.symbol
 
     @property
-    def on_paper(self) -> float:
-        """Length on paper it was read from (mm)."""
+    def on_paper(self) -> float | None:
+        """Length on paper it was read from (mm); None for an angle."""
         return self.reading.on_paper
 
     @property
@@ -76,13 +77,15 @@ def compare(
     exact : gives the exact value of a symbol at the drawn position (SI; a complex number for a vector)
     predicted : uncertainty of each reading, by which it is judged; without it (exact instrument) a reading may be off
         by 1e-9 of the largest vector of the diagram, a rate by 1e-9 of the largest rate or of that vector over the size
-    rounding : how far rounding may have moved the exact vectors of a diagram (m/s, m/s2): within a hair of a dead point
-        it exceeds 1e-9, and drawing and solver can agree no better
+    rounding : how far rounding may have moved the exact places (m) and vectors of a diagram (m/s, m/s2): within a hair
+        of a dead point it exceeds 1e-9, and drawing and solver can agree no better
     """
     pairs = [(r, exact(r.symbol)) for r in readings]
     # a vector is judged by the largest of its diagram, a rate by the largest rate or by that vector over the size
     largest: dict[tuple[str, bool], float] = {}
     for reading, value in pairs:
+        if reading.symbol.scope != "motion":
+            continue
         group = (reading.diagram, reading.symbol.is_vector)
         largest[group] = max(largest.get(group, 0.0), abs(value), abs(reading.value))
     for order in ("velocity", "acceleration"):
@@ -94,6 +97,9 @@ def compare(
         largest[order, False] = max(largest.get((order, False), 0.0), largest[order, True] / sheet.scene.size)
     rows = []
     for reading, value in pairs:
+        if reading.symbol.scope != "motion":
+            rows.append(_position(sheet, reading, float(value.real), predicted, rounding))
+            continue
         most = largest[reading.diagram, reading.symbol.is_vector]
         error = abs(reading.value - value)
         turned = 0.0
@@ -105,3 +111,19 @@ def compare(
         rows.append(Compared(reading, value, error, tolerance, turned, expected))
     have = {r.symbol for r in readings}
     return Report(sheet.instrument, sheet.scales, tuple(rows), tuple(s for s in asked if s not in have))
+
+
+def _position(
+    sheet: Sheet, reading: Reading, exact: float, predicted: Mapping[Symbol, Uncertainty] | None,
+    rounding: Mapping[DiagramName, float] | None,
+) -> Compared:  # fmt: skip
+    """A length is judged by the size of the mechanism, an angle by a radian, a number by itself."""
+    off = reading.value.real - exact
+    if reading.symbol.measure == "angle":
+        off = math.remainder(off, math.tau)
+    size, length = sheet.scene.size, reading.symbol.measure == "length"
+    most = max(size if length else 1.0, abs(exact))
+    expected = (predicted or {}).get(reading.symbol)
+    rounded = (rounding or {}).get("mechanism", 0.0) / (1.0 if length else size)
+    tolerance = max(expected.bound if expected else 0.0, EXACT_TOLERANCE * most, rounded)
+    return Compared(reading, exact, abs(off), tolerance, 0.0, expected)

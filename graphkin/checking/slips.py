@@ -175,7 +175,7 @@ def suspects(case: Evidence, symbol: Symbol) -> Iterator[Suspect]:
 
 
 def _factors(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
-    second = symbol.kind not in ("v", "omega")
+    second = symbol.measure in ("acceleration", "angular acceleration")
     for power in (1, 2, 3):
         for factor in (10.0**power, 0.1**power):
             yield Suspect(Phrase("slip factor", (f"{factor:g}",)), exact * factor, 0.02)
@@ -187,6 +187,8 @@ def _factors(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
     yield Suspect(Phrase("slip double"), exact * 2, 0.02)
     yield Suspect(Phrase("slip half"), exact / 2, 0.02)
     scales, wanted = case.plan.scales, case.plan.structure.scene.sheet
+    if symbol.scope != "motion":
+        return
     if wanted.velocity_scale and wanted.acceleration_scale:
         ratio = scales.velocity / scales.acceleration
         phrase = Phrase("slip velocity scale") if second else Phrase("slip acceleration scale")
@@ -241,6 +243,8 @@ def _others(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
 
 
 def _dimension(symbol: Symbol) -> str:
+    if symbol.scope != "motion":
+        return symbol.measure
     if not symbol.is_vector:
         return symbol.kind
     return "v" if symbol.kind == "v" else "a"

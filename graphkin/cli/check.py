@@ -95,12 +95,12 @@ def _print_readings(checked: Checked, language: str) -> None:
     rows = [
         [
             r["symbol"],
-            f"{r['on_paper_mm']:.3f}",
+            "" if r["on_paper_mm"] is None else f"{r['on_paper_mm']:.3f}",
             f"{r['measured']:.6g}",
             f"{r['exact']:.6g}",
             "ok" if r["ok"] else "off",
         ]
-        for r in (reading_row(checked.scene, row) for row in checked.report.rows)
+        for r in (reading_row(checked.scene, row, degrees=True) for row in checked.report.rows)
     ]
     heads = [word(key, language) for key in ("quantity", "on paper", "measured", "exact")]
     print_table([*heads, ""], rows, right=(1, 2, 3))
@@ -130,6 +130,10 @@ def draw(
     convention: ConventionOption = None,
     instrument: InstrumentOption = "exact",
     seed: SeedOption = 0,
+    figure: Annotated[
+        list[str] | None,
+        typer.Option("--figure", metavar="NAME", help="Draw this figure only (velocity, sheet, ...); may be repeated."),
+    ] = None,
     as_json: JsonOption = False,
     quiet: QuietOption = False,
 ) -> None:
@@ -138,7 +142,9 @@ def draw(
 
     wanted = listed(formats)
     with unsolvable_as_json(as_json, unchecked):
-        drawn = drawing(scene, None, driver_values(at), find or None, wanted, lang, convention, instrument, seed)
+        drawn = drawing(
+            scene, None, driver_values(at), find or None, wanted, lang, convention, instrument, seed, figure or None
+        )
         paths = drawn.write(out, wanted)
     if not as_json and not quiet:
         print_paths(paths)

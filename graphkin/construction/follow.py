@@ -12,10 +12,10 @@ from graphkin.construction.rigid import PlacedLinks, Poses
 from graphkin.construction.sheet import Pose
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, Mechanism
-from graphkin.structure import Driven, Dyad, Structure, analyse
+from graphkin.structure import Driven, Dyad, Element, Structure, analyse
 from graphkin.structure.assembly import ways
 
-__all__ = ["best_reduced", "moved_to", "trial_value"]
+__all__ = ["best_reduced", "found_near", "moved_to", "trial_value"]
 
 STEP = math.radians(2.0)
 FIT = 1e-12  # what is left out fits, in the size of the mechanism
@@ -57,7 +57,7 @@ def _walk(scene: Mechanism, own: Mapping[str, float], target: Mapping[str, float
         step = min(step, longest, 1.0 - t)
         here = {k: own[k] + (t + step) * (target[k] - own[k]) for k in own}
         guess = _ahead(before, at, step / last) if t > 0.0 else at
-        found = _found_near(scene, structure, table, here, guess)
+        found = found_near(structure, structure.elements, table, here, guess)
         if found is None or _moved(guess, found) > SURPRISE + _moved(at, found) * (0.3 if t > 0.0 else 0.0):
             step /= 2
             if step < longest / 1e5:
@@ -83,12 +83,14 @@ def _moved(one: Poses, other: Poses) -> float:
     return max(abs(p.origin - other[n].origin) + abs(p.axis - other[n].axis) for n, p in one.items())
 
 
-def _found_near(
-    scene: Mechanism, structure: Structure, table: Table, values: Mapping[str, float], guess: Poses
+def found_near(
+    structure: Structure, elements: Sequence[Element], table: Table, values: Mapping[str, float], guess: Poses
 ) -> dict[str, Pose] | None:
-    """All links at driver values near which a position is guessed; None where nothing fits near by."""
+    """All links of the elements at driver values near which a position is guessed, on paper of the mechanism's size;
+    None where nothing fits near by.  ``table`` has the reduced mechanisms of each larger group."""
+    scene = structure.scene
     frame = PlacedLinks(structure.links, 1.0 / scene.size, values, {scene.frame.name: Pose(0j, 1 + 0j)})
-    for element in structure.elements:
+    for element in elements:
         if isinstance(element, Driven):
             frame.poses[element.link], _ = drive(frame, element)
             continue

@@ -15,10 +15,11 @@ from graphkin.construction.asked import show
 from graphkin.construction.board import EXACT, Board, Instrument
 from graphkin.construction.equations import Chain
 from graphkin.construction.held_still import Inversion, TriangleDrawn, inversions_of, opened_at_triangles, own_assembly
+from graphkin.construction.limits import limits_asked, limits_on_paper
 from graphkin.construction.plot import Order
 from graphkin.construction.polygons import Polygons
 from graphkin.construction.position import branches_at, draw_position, place
-from graphkin.construction.sheet import DiagramName, Scales, Sheet, Step, Vector
+from graphkin.construction.sheet import DiagramName, Limits, Scales, Sheet, Step, Vector
 from graphkin.construction.slip import NO_SLIP, Slip
 from graphkin.construction.steps import Asked
 from graphkin.scene.model import AngleDriver, Mechanism
@@ -119,7 +120,8 @@ class Task:
     """What is to be drawn, at which position, in which assembly, and by which equation for each dyad.
 
     ``opened`` is the structure with groups that driven triangles turn into dyads in their parts, ``triangles`` are
-    these, each with its assembly; ``values`` are the drivers', those at the triangles' pairs included.
+    these, each with its assembly; ``values`` are the drivers', those at the triangles' pairs included; ``limits`` are
+    the limit positions of what is asked, on paper of the mechanism's size.
     """
 
     structure: Structure
@@ -131,11 +133,12 @@ class Task:
     stopped: Phrase | None
     chains: Mapping[Dyad, Chain]
     triangles: tuple[tuple[Inversion, int], ...]
+    limits: Mapping[str, Limits]
 
     @cached_property
     def drawn(self) -> Mapping[Order, tuple[Driven | Dyad, ...]]:
         """What each polygon needs for what is asked: accelerations only of what leads to accelerations."""
-        pushes = [s for s in self.asked if s.kind not in ("v", "omega")]
+        pushes = [s for s in self.asked if s.measure in ("acceleration", "angular acceleration")]
         wanted = needed(self.opened, pushes) if pushes else []
         pushed = tuple(e for e in self.elements if e in wanted) if self.asked else self.elements
         return {"velocity": self.elements, "acceleration": pushed}
@@ -199,12 +202,16 @@ def plan(
     keys = [d.key for d in opened.scene.drivers]
     branches = branches_at(opened, elements, {k: values[k] for k in keys}, {k: own[k] for k in keys}, chosen)
     return _planned(
-        Task(structure, opened, asked, elements, values, branches, _stopped(wanted), {}, triangles), room
+        Task(structure, opened, asked, elements, values, branches, _stopped(wanted), {}, triangles, {}), room
     )
 
 
 def _planned(task: Task, room: Room | None) -> Plan:
     polygons, assembly, held = _carried_out(task, NATURAL, EXACT, NO_SLIP)
+    size = NATURAL.length / task.structure.scene.size
+    poses = {name: pose.scaled(size) for name, pose in polygons.frame.poses.items()}
+    found = limits_asked(task.structure, needed(task.structure, task.asked), task.asked, task.values, poses)
+    task = replace(task, limits=found)
     extents = _extents(polygons.places.values(), lambda order: polygons.drawn[order].values(), NATURAL)
     own = {f.name: getattr(task, f.name) for f in fields(Task)} | {"chains": polygons.chains}
     scales = _chosen_scales(task.structure.scene, extents, room)
@@ -306,6 +313,11 @@ def _finished(
         stopped=task.stopped,
         left_out=task.left_out,
         causes=tuple(board.causes) if board.instrument.acts else (),
+        asked=task.asked,
+        limits=limits_on_paper(
+            task.limits, task.structure, task.elements, task.values, polygons.scales,
+            EXACT if task.triangles else board.instrument,
+        ),
     )
 
 

@@ -7,7 +7,7 @@ acceleration polygons from their poles; where a figure is placed on a page is no
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 from graphkin.construction.remarks import Remark
@@ -24,6 +24,8 @@ __all__ = [
     "DiagramName",
     "Equation",
     "Image",
+    "LimitPosition",
+    "Limits",
     "Mark",
     "Pose",
     "Rate",
@@ -221,6 +223,31 @@ class Pose:
 
 
 @dataclass(frozen=True)
+class LimitPosition:
+    """The mechanism drawn once more, at a limit position of an output: the crank's value (rad) and where links lie."""
+
+    value: float
+    poses: Mapping[str, Pose]
+
+    def scaled(self, times: float) -> LimitPosition:
+        return LimitPosition(self.value, {name: pose.scaled(times) for name, pose in self.poses.items()})
+
+
+@dataclass(frozen=True)
+class Limits:
+    """Both limit positions of a slide or of a link over a whole turn of the crank, the one furthest along the guide's
+    sense, or furthest counter-clockwise, being ``high``; ``swing`` is how far a link turns between them (rad), to a
+    few degrees."""
+
+    low: LimitPosition
+    high: LimitPosition
+    swing: float
+
+    def scaled(self, times: float) -> Limits:
+        return Limits(self.low.scaled(times), self.high.scaled(times), self.swing)
+
+
+@dataclass(frozen=True)
 class Sheet:
     """Everything drawn, in order.
 
@@ -229,6 +256,8 @@ class Sheet:
     why; everything before it stands.  ``noticed`` are what may have to be said of the construction, by diagram.
     ``causes`` tells to what the acts of the hand belong: (acts made when it was done, what).
     ``left_out`` says what nothing asked for needs; ``held_still`` are steps drawn apart, with one link for a frame.
+    ``asked`` is what is asked for, if the drawing is limited to it; ``limits`` are the limit positions drawn for it, by
+    sliding pair or link.
     """
 
     scene: Mechanism
@@ -249,6 +278,8 @@ class Sheet:
     causes: tuple[tuple[int, Cause], ...] = ()
     left_out: tuple[Phrase, ...] = ()
     held_still: tuple[Step, ...] = ()
+    asked: tuple[Symbol, ...] = ()
+    limits: Mapping[str, Limits] = field(default_factory=dict)
 
     def at(self, scales: Scales) -> Sheet:
         """The same construction at other scales: every length on paper so many times as large.
@@ -277,6 +308,7 @@ class Sheet:
             steps=tuple(step.scaled(k[step.diagram]) for step in self.steps),
             held_still=tuple(step.scaled(k[step.diagram]) for step in self.held_still),
             noticed=tuple((name, remark.scaled(k[name])) for name, remark in self.noticed),
+            limits={pair: limits.scaled(length) for pair, limits in self.limits.items()},
         )
 
     @property

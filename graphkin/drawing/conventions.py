@@ -38,6 +38,11 @@ _PARTS: Mapping[str, tuple[str, str, str, str]] = {
 _ROWS: Mapping[str, Rows] = {"chinese": "rows", "us": "over", "british": "table", "russian": "underlines"}
 _ORDER = ("an", "at", "ak", "ar")
 _ROLES = {"normal": 0, "tangential": 1, "coriolis": 2, "sliding": 3}
+# letters of positions, and what stands above them to tell them from others
+_PLACES: Mapping[str, tuple[str, str]] = {
+    "x": ("x", ""), "y": ("y", ""), "theta": ("θ", ""), "d": ("l", ""), "s": ("s", ""), "gamma": ("γ", ""),
+    "pressure": ("α", "p"), "stroke": ("H", ""), "swing": ("ψ", ""), "K": ("K", ""), "theta_lag": ("θ", "K"),
+}  # fmt: skip
 _NAME = re.compile(r"([A-Za-z]+)(.*)")
 
 
@@ -85,6 +90,12 @@ class Letters:
 
     def vector(self, symbol: Symbol) -> str:
         """The magnitude of a vector, or a rate: ``v_{B3B2}``, ``a^{n}_{CB}``, ``ω_{3}``."""
+        if symbol.at:
+            return f"{self.vector(symbol.here)}({symbol.at})"
+        if symbol.kind in _PLACES:
+            letter, mark = _PLACES[symbol.kind]
+            names = "".join(self.ref(ref) for ref in (symbol.of, symbol.to) if ref) + symbol.link + symbol.other
+            return f"{letter}{f'^{{{mark}}}' if mark else ''}_{{{names}}}"
         if symbol.of is None:
             return f"{'ω' if symbol.kind == 'omega' else 'α'}_{{{symbol.link}}}"
         us = self.convention == "us"

@@ -35,8 +35,8 @@ class TableRow:
 
     @property
     def rank(self) -> int:
-        """Order in the table: velocities, rates, accelerations and their parts, rates."""
-        return _LETTERS.get(self.reading.symbol.kind, 3)
+        """Order in the table: positions, velocities, rates, accelerations and their parts, rates."""
+        return -1 if self.reading.symbol.scope != "motion" else _LETTERS.get(self.reading.symbol.kind, 3)
 
 
 def readings_table(
@@ -67,7 +67,7 @@ def table_rows(sheet: Sheet, report: Report | None) -> list[TableRow]:
     shown: list[TableRow] = []
     for row in rows:
         reading = row.reading
-        if reading.symbol.is_vector:
+        if reading.symbol.is_vector or reading.symbol.scope != "motion":
             shown.append(row)
             continue
         alike = next((i for i, other in enumerate(shown) if _alike(other, row)), None)
@@ -146,7 +146,7 @@ def _texts(sheet: Sheet, row: TableRow, letters: Letters, size: float) -> list[t
     if row.more:
         name = f"{name[0]}_{{{','.join((reading.symbol.link, *row.more))}}}"
     texts = [
-        rich(f"${name}$, {unit}", size),
+        rich(f"${name}$, {unit}" if unit else f"${name}$", size),
         rich(f"{reading.on_paper:.2f}" if reading.on_paper else "–", size),
         rich(number(value / per, 5), size),
     ]
@@ -167,10 +167,8 @@ def _difference(share: float) -> str:
 
 
 def _unit(sheet: Sheet, reading: Reading) -> tuple[str, float]:
-    name = sheet.scene.units.length
-    kinds = {"v": f"{name}/s", "omega": "rad/s", "alpha": "rad/s²"}
-    per = 1.0 if reading.symbol.kind in ("omega", "alpha") else sheet.scene.units.metres
-    return kinds.get(reading.symbol.kind, f"{name}/s²"), per
+    units = sheet.scene.units
+    return reading.symbol.written_unit(units.length), reading.symbol.per_unit(units.metres)
 
 
 def given_lines(sheet: Sheet, letters: Letters, language: str, width: float, size: float) -> list[tuple[Run, ...]]:

@@ -94,11 +94,11 @@ class Lesson:
     def results(self) -> tuple[Compared, ...]:
         """The readings that are results: not what is given, nor the same rate under a second name.
 
-        Velocities come first, then angular velocities, accelerations, angular accelerations.
+        Positions come first, then velocities, angular velocities, accelerations, angular accelerations.
         """
         kept = [row for row in self.report.rows if row.symbol in self.questions or self._is_result(row.symbol)]
-        order = {"v": 0, "omega": 1, "alpha": 3}
-        return tuple(sorted(kept, key=lambda row: order.get(row.symbol.kind, 2)))
+        order = {"velocity": 1, "angular velocity": 2, "acceleration": 3, "angular acceleration": 4}
+        return tuple(sorted(kept, key=lambda row: order.get(row.symbol.measure, 0)))
 
     @cached_property
     def questions(self) -> tuple[Symbol, ...]:
@@ -113,19 +113,18 @@ class Lesson:
         )
 
     def _is_result(self, symbol: Symbol) -> bool:
-        if symbol.is_vector:
+        if symbol.is_vector or symbol.scope != "motion":
             return True
         rate = (self.sheet.omega if symbol.kind == "omega" else self.sheet.alpha)[symbol.link]
         return rate.vector is not None and not rate.same_as
 
     def unit(self, symbol: Symbol) -> str:
         """The unit in which a quantity is given."""
-        length = self.sheet.scene.units.length
-        return {"v": f"{length}/s", "omega": "rad/s", "alpha": "rad/s²"}.get(symbol.kind, f"{length}/s²")
+        return symbol.written_unit(self.sheet.scene.units.length)
 
     def in_unit(self, symbol: Symbol, value: float) -> float:
         """A value (SI) in that unit."""
-        return value / self.sheet.scene.units.metres if symbol.is_vector else value
+        return value / symbol.per_unit(self.sheet.scene.units.metres)
 
 
 _POINT_NAMES = re.compile(r"(?:[A-Z][a-z]*\d*)+")

@@ -39,12 +39,8 @@ MANY_LINKS = 10
 def lesson_of(what: Plan, motion: Motion, language: str, convention: str) -> Lesson:
     """The lesson of a plan, with its check and with the tolerances of a pencil drawing."""
 
-    def value(symbol: Symbol) -> complex | float:
-        found = motion.value(symbol)[0]
-        return complex(found) if symbol.is_vector else float(found.real)
-
     sheet = execute(what)
-    report = compare(sheet, read_off(sheet), value, what.asked)
+    report = compare(sheet, read_off(sheet), solver.exact_values(motion, what.asked), what.asked)
     tolerance = predict(what, "pencil", sheet.scene.sheet.tools)
     return Lesson(sheet, report, tolerance, language, convention, what.asked)
 

@@ -61,7 +61,7 @@ class KeyRow:
     symbol: str
     unit: str
     asked: bool
-    on_paper: float
+    on_paper: float | None
     exact: float
     tolerance: float | None
     direction: float | None
@@ -82,7 +82,7 @@ def _row(lesson: Lesson, row: Compared) -> KeyRow:
     )
     size = abs(row.exact) if symbol.is_vector else float(row.exact.real)
     angle = math.degrees(math.atan2(complex(row.exact).imag, complex(row.exact).real)) + 0.0
-    has_way = symbol.is_vector and row.reading.on_paper > 1e-6
+    has_way = symbol.is_vector and (row.reading.on_paper or 0.0) > 1e-6
     return KeyRow(
         symbol=str(symbol),
         unit=lesson.unit(symbol),
@@ -107,9 +107,12 @@ def answer_key(lesson: Lesson) -> Document:
         if line.tolerance is not None:
             low, high = max(0.0, size - line.tolerance), size + line.tolerance
             places = _places(line.tolerance)
+            if row.symbol.scope == "position":
+                low, high = line.exact - line.tolerance, line.exact + line.tolerance
             within = (f"± {_fixed(line.tolerance, places)}", f"{_fixed(low, places)} … {_fixed(high, places)}")
         name = f"${lesson.letters.vector(row.symbol)}$"
-        rows.append((name, f"{line.on_paper:.2f}", number(size, 5), *within, line.unit, way(row, language)))
+        shown = number(line.exact if row.symbol.scope == "position" else size, 5)
+        rows.append((name, on_paper(line.on_paper), shown, *within, line.unit, way(row, language)))
     tools = lesson.sheet.scene.sheet.tools
     words = said(
         "key words", language, *(f"{x:g}" for x in (tools.line_width / 2, tools.ruler, tools.compass, tools.set_square))
@@ -257,7 +260,7 @@ def _results(lesson: Lesson) -> TableBlock:
             bold.add(i)
         rows.append((
             f"${lesson.letters.vector(symbol)}$",
-            f"{row.reading.on_paper:.2f}",
+            on_paper(row.reading.on_paper),
             number(_plain(lesson, row, row.reading.value), 5),
             number(_plain(lesson, row, row.exact), 5),
             lesson.unit(symbol),
@@ -268,14 +271,23 @@ def _results(lesson: Lesson) -> TableBlock:
 
 def _plain(lesson: Lesson, row: Compared, value: complex | float) -> float:
     size = abs(value) if row.symbol.is_vector else abs(float(value.real))
+    if row.symbol.scope == "position":  # its sign says where it lies
+        size = float(value.real)
     return lesson.in_unit(row.symbol, size)
+
+
+def on_paper(mm: float | None) -> str:
+    """A length on paper; angles have none."""
+    return "–" if mm is None else f"{mm:.2f}"
 
 
 def way(row: Compared, language: str) -> str:
     """Direction of a vector in degrees, or the sense of a rate in words; "" where it is zero."""
     value = row.exact
+    if row.symbol.scope != "motion":
+        return ""
     if row.symbol.is_vector:
-        if row.reading.on_paper < 1e-6:
+        if (row.reading.on_paper or 0.0) < 1e-6:
             return ""
         angle = round(math.degrees(cmath.phase(complex(value))), 1) + 0.0
         return f"{180.0 if angle == -180.0 else angle:.1f}°".replace("-", "−")

@@ -23,7 +23,7 @@ from graphkin.plane import cross
 from graphkin.scene import mechanism_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
-from graphkin.solver import Motion, solve
+from graphkin.solver import Motion, exact_values, solve
 from graphkin.structure import Driven, Dyad, analyse
 
 __all__ = ["Answer", "Spread", "Unfit", "Variant", "asked_of", "candidate", "examined", "round_step", "varied_keys"]
@@ -199,7 +199,7 @@ def examined(source: Source, base: Source | None, name: str, strict: bool = True
     bounded = []
     for symbol, value in answers:
         bound = predicted[symbol].bound if symbol in predicted else 0.0
-        unit = scene.units.metres if symbol.is_vector else 1.0
+        unit = symbol.per_unit(scene.units.metres)
         if not math.isfinite(bound):
             raise Unfit(f"{symbol} cannot be drawn: so near a dead point a pencil misses it")
         if bound > WIDEST * abs(value):
@@ -246,13 +246,13 @@ def _remarks(sheet: Sheet, asked: tuple[Symbol, ...]) -> Iterator[str]:
     for symbol in asked:
         if symbol not in readings:
             yield f"{symbol} is not drawn"
-        elif readings[symbol].on_paper < LEAST_READING and _measured(sheet, symbol):
-            yield f"{symbol} is {readings[symbol].on_paper:.1f} mm on paper only"
+        elif (mm := readings[symbol].on_paper) is not None and mm < LEAST_READING and _measured(sheet, symbol):
+            yield f"{symbol} is {mm:.1f} mm on paper only"
 
 
 def _measured(sheet: Sheet, symbol: Symbol) -> bool:
     """Whether a rate is read off a vector, not given or shared."""
-    if symbol.is_vector:
+    if symbol.is_vector or symbol.scope != "motion":
         return True
     rate = (sheet.omega if symbol.kind == "omega" else sheet.alpha).get(symbol.link)
     return rate is not None and rate.vector is not None
@@ -263,8 +263,9 @@ def _answers(
 ) -> Iterator[tuple[Symbol, float]]:
     """The exact answers; the drawing must agree with each of them."""
     drawn = {r.symbol: r.value for r in read_off(sheet, asked)}
+    exact = exact_values(motion, asked)
     for symbol in asked:
-        found = complex(motion.value(symbol)[0])
+        found = complex(exact(symbol))
         value = abs(found) if symbol.is_vector else found.real
         if symbol in drawn and abs(drawn[symbol] - found) > 1e-6 * max(abs(found), 1e-9):
             raise SceneError(Problem(str(symbol), "the drawing and the solver disagree"))

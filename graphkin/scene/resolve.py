@@ -23,7 +23,7 @@ from graphkin.scene.rules import (
     unwritable_texts,
     wrong_own_points,
 )
-from graphkin.scene.symbol import Symbol
+from graphkin.scene.symbol import Symbol, missing_names
 from graphkin.scene.tables import Link, SceneTables
 
 __all__ = ["asked", "published", "resolve", "unknown_places"]
@@ -35,13 +35,13 @@ def _symbol(where: str, text: str, names: Names) -> Symbol | Problem:
         symbol = Symbol.parse(text[:120])
     except ValueError as error:
         return Problem(where, str(error))
+    missing = missing_names(
+        symbol, lambda link: names.no_link(where, link), lambda point: names.no_point(where, point), names.points
+    )
+    if missing:
+        return missing[0]
     if symbol.of is None:
-        return names.no_link(where, symbol.link) or symbol
-    for ref in (symbol.of, symbol.to):
-        if ref is not None:
-            missing = names.no_point(where, ref.point) or (names.no_link(where, ref.link) if ref.link else None)
-            if missing:
-                return missing
+        return symbol
     if symbol.to == symbol.of:
         return Problem(where, f'"{text}" is relative to itself', "name two different points")
     if symbol.kind in ("ak", "ar") and symbol.to and symbol.to.point != symbol.of.point:
@@ -72,9 +72,9 @@ def published(file: SceneTables, names: Names, metres: float, problems: list[Pro
             if symbol.is_vector:
                 values[symbol] = complex(*value) * metres
             else:
-                problems.append(Problem(where, "found two numbers", "an angular rate is one number"))
+                problems.append(Problem(where, "found two numbers", "it is one number, no vector"))
         else:
-            values[symbol] = float(value) * metres if symbol.is_vector else float(value)
+            values[symbol] = float(value) * symbol.per_unit(metres)
     return values
 
 

@@ -1,15 +1,91 @@
-"""Names of quantities: ``v_B``, ``v_B@3/B@2``, ``omega_3``, ``an_C/B`` ..."""
+"""Names of quantities: ``v_B``, ``v_B@3/B@2``, ``omega_3``, ``theta_3/2``, ``d_B/C``, ``stroke_5/6`` ...
+
+A kind of quantity is one entry of `KINDS`: what its name is followed by, and what it measures.
+"""
 
 from __future__ import annotations
 
+import math
 import re
-from dataclasses import dataclass
+from collections.abc import Callable, Container, Iterator
+from dataclasses import dataclass, replace
+from typing import Literal
 
-__all__ = ["VECTORS", "PointRef", "Symbol"]
+from graphkin.errors import Problem
 
-VECTORS = ("v", "a", "an", "at", "ak", "ar")
-_POINT = re.compile(r"([A-Z][A-Za-z0-9]*)(?:@([A-Za-z0-9]+))?")
-_LINK = re.compile(r"[A-Za-z0-9]+")
+__all__ = ["KINDS", "VECTORS", "Kind", "Measure", "PointRef", "Symbol", "centre_links", "missing_names"]
+
+Measure = Literal[
+    "velocity", "acceleration", "angular velocity", "angular acceleration", "length", "angle", "number"
+]
+Scope = Literal["motion", "position", "turn"]
+
+_POINT = r"[A-Z][A-Za-z0-9]*"
+_LINK = r"[A-Za-z0-9]+"
+_REF = rf"{_POINT}(?:@{_LINK})?"
+# what may stand behind the kind: groups "of" and "to" are points, "link" and "other" links
+_FORMS = {
+    "point": rf"(?P<of>{_POINT})",
+    "points": rf"(?P<of>{_REF})(?:/(?P<to>{_REF}))?",
+    "coincident": rf"(?P<of>{_REF})/(?P<to>{_REF})",
+    "two points": rf"(?P<of>{_POINT})/(?P<to>{_POINT})",
+    "link": rf"(?P<link>{_LINK})",
+    "link of link": rf"(?P<link>{_LINK})(?:/(?P<other>{_LINK}))?",
+    "pair": rf"(?P<link>{_LINK})/(?P<other>{_LINK})",
+    "links": rf"(?P<link>{_LINK})-(?P<other>{_LINK})",
+}
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A kind of quantity.
+
+    ``form`` says what it is of (a key of the forms above), ``scope`` whether it is a motion drawn in a polygon, a
+    position measured on the mechanism, or belongs to the whole turn.
+    """
+
+    name: str
+    measure: Measure
+    form: str
+    scope: Scope
+    example: str
+    is_vector: bool = False
+
+    @property
+    def sign(self) -> str:
+        """What parts the names of two links."""
+        return "-" if self.form == "links" else "/"
+
+
+KINDS = {
+    kind.name: kind
+    for kind in (
+        Kind("v", "velocity", "points", "motion", "v_B, v_B@3 or v_C/B", True),
+        Kind("a", "acceleration", "points", "motion", "a_B, a_B@3 or a_C/B", True),
+        Kind("an", "acceleration", "points", "motion", "an_B or an_C/B", True),
+        Kind("at", "acceleration", "points", "motion", "at_B or at_C/B", True),
+        Kind("ak", "acceleration", "coincident", "motion", "ak_B@3/B@2", True),
+        Kind("ar", "acceleration", "coincident", "motion", "ar_B@3/B@2", True),
+        Kind("omega", "angular velocity", "link", "motion", "omega_3"),
+        Kind("alpha", "angular acceleration", "link", "motion", "alpha_3"),
+        Kind("x", "length", "point", "position", "x_D"),
+        Kind("y", "length", "point", "position", "y_D"),
+        Kind("theta", "angle", "link of link", "position", "theta_3 or theta_3/2"),
+        Kind("d", "length", "two points", "position", "d_B/C or d_P12/A"),
+        Kind("s", "length", "pair", "position", "s_2/3"),
+        Kind("gamma", "angle", "links", "position", "gamma_2-3"),
+        Kind("pressure", "angle", "link", "position", "pressure_5"),
+        Kind("stroke", "length", "pair", "turn", "stroke_5/6"),
+        Kind("swing", "angle", "link", "turn", "swing_3"),
+        Kind("K", "number", "link of link", "turn", "K_5/6"),
+        Kind("theta_lag", "angle", "link of link", "turn", "theta_lag_5/6"),
+    )
+}
+"""All kinds of quantities by name.  A further kind of quantity is a further entry."""
+
+VECTORS = tuple(name for name, kind in KINDS.items() if kind.is_vector)
+_LONGEST_FIRST = sorted(KINDS, key=len, reverse=True)
+_ELSEWHERE = re.compile(r"(.*\S)\s+at\s+(\S+)", re.DOTALL)
 
 
 @dataclass(frozen=True, order=True)
@@ -30,52 +106,145 @@ class PointRef:
 class Symbol:
     """A quantity by name.
 
-    ``kind`` is v, a (velocity, acceleration of ``of``, relative to ``to`` if given), an, at, ak, ar (normal,
-    tangential, Coriolis, sliding part of an acceleration), omega or alpha (of link ``link``).
+    ``kind`` is a name of `KINDS`; ``of`` and ``to`` are its points (``to`` that relative to which it is meant, or the
+    second of two), ``link`` and ``other`` its links (of a sliding pair the sliding and the guiding one; of a pin in a
+    slot ``link`` is the pin).  ``at`` names the position that is meant, "" this one.
 
     >>> Symbol.parse("v_B@3/B@2").id
     'v_B3-B2'
-    >>> str(Symbol.parse("omega_3"))
-    'omega_3'
+    >>> str(Symbol.parse("omega_3")), str(Symbol.parse("gamma_2-3 at 7"))
+    ('omega_3', 'gamma_2-3 at 7')
     """
 
     kind: str
     of: PointRef | None = None
     to: PointRef | None = None
     link: str = ""
+    other: str = ""
+    at: str = ""
 
     @classmethod
     def parse(cls, text: str) -> Symbol:
         """Read a symbol.  Raises ValueError, saying what is wrong, where it is none."""
-        kind, _, rest = text.partition("_")
-        if kind in ("omega", "alpha"):
-            if not _LINK.fullmatch(rest):
-                raise ValueError(f'"{text}" names no link; write for example {kind}_3')
-            return cls(kind, link=rest)
-        if kind not in VECTORS:
-            raise ValueError(
-                f'"{text}" is no quantity; known are v_B, v_C/B, a_B, an_C/B, at_C/B, ak_B@3/B@2, '
-                "ar_B@3/B@2, omega_3, alpha_3"
-            )
-        parts = rest.split("/")
-        refs = [_POINT.fullmatch(part) for part in parts]
-        if len(parts) > 2 or not all(refs):
-            raise ValueError(f'"{text}" names no point; write for example {kind}_B, {kind}_B@3 or {kind}_C/B')
-        points = [PointRef(m[1], m[2] or "") for m in refs if m]
-        if kind in ("ak", "ar") and len(points) == 1:
-            raise ValueError(f'"{text}" needs two coincident points; write for example {kind}_B@3/B@2')
-        return cls(kind, points[0], points[1] if len(points) == 2 else None)
+        elsewhere = _ELSEWHERE.fullmatch(text)
+        if elsewhere:
+            return replace(cls.parse(elsewhere[1]), at=elsewhere[2])
+        name = next((kind for kind in _LONGEST_FIRST if text.startswith(f"{kind}_")), None)
+        if name is None:
+            known = ", ".join(re.sub(" or .*|,.*", "", kind.example) for kind in KINDS.values())
+            raise ValueError(f'"{text}" is no quantity; known are {known}')
+        kind = KINDS[name]
+        match = re.fullmatch(_FORMS[kind.form], text[len(name) + 1 :])
+        if match is None:
+            raise ValueError(f'"{text}" {_MISSING[kind.form]}; write for example {kind.example}')
+        found = {part: given for part, given in match.groupdict().items() if given}
+        points = {part: PointRef(*found[part].split("@")) for part in ("of", "to") if part in found}
+        return cls(name, **points, link=found.get("link", ""), other=found.get("other", ""))  # type: ignore[arg-type]
+
+    @property
+    def meaning(self) -> Kind:
+        """What kind of quantity it is."""
+        return KINDS[self.kind]
 
     @property
     def is_vector(self) -> bool:
         return self.kind in VECTORS
 
     @property
+    def scope(self) -> Scope:
+        return KINDS[self.kind].scope
+
+    @property
+    def measure(self) -> Measure:
+        return KINDS[self.kind].measure
+
+    @property
+    def pair(self) -> str:
+        """The sliding pair or the link that it is of, as `solve` names it."""
+        return f"{self.link}/{self.other}" if self.other else self.link
+
+    @property
+    def here(self) -> Symbol:
+        """The same quantity without the position that is meant."""
+        return replace(self, at="") if self.at else self
+
+    def links(self) -> Iterator[str]:
+        """The names of links in it; the first may be a pin's (see ``link``)."""
+        yield from (name for name in (self.link, self.other) if name)
+        yield from (ref.link for ref in (self.of, self.to) if ref and ref.link)
+
+    def unit(self, length: str) -> str:
+        """The unit in files and tables: degrees for angles."""
+        return {
+            "velocity": f"{length}/s", "acceleration": f"{length}/s2", "angular velocity": "rad/s",
+            "angular acceleration": "rad/s2", "length": length, "angle": "deg", "number": "",
+        }[self.measure]  # fmt: skip
+
+    def written_unit(self, length: str) -> str:
+        """The same as it stands on figures and papers: ``mm/s²``, ``°``."""
+        return self.unit(length).replace("s2", "s²").replace("deg", "°")
+
+    def per_unit(self, metres: float) -> float:
+        """What one such unit is in SI, ``metres`` being one length unit."""
+        return math.radians(1.0) if self.measure == "angle" else self.per_unit_of_programs(metres)
+
+    def per_unit_of_programs(self, metres: float) -> float:
+        """The same in JSON, where angles are in radians."""
+        return metres if self.measure in ("velocity", "acceleration", "length") else 1.0
+
+    @property
     def id(self) -> str:
         """The symbol as an SVG id: ``@`` dropped, ``/`` written ``-``."""
-        return str(self).replace("@", "").replace("/", "-")
+        return str(self).replace("@", "").replace("/", "-").replace(" at ", "-at-")
 
     def __str__(self) -> str:
         if self.of is None:
-            return f"{self.kind}_{self.link}"
-        return f"{self.kind}_{self.of}" + (f"/{self.to}" if self.to else "")
+            name = f"{self.kind}_{self.link}" + (f"{KINDS[self.kind].sign}{self.other}" if self.other else "")
+        else:
+            name = f"{self.kind}_{self.of}" + (f"/{self.to}" if self.to else "")
+        return f"{name} at {self.at}" if self.at else name
+
+
+_MISSING = {
+    "point": "names no point",
+    "points": "names no point",
+    "coincident": "needs two coincident points",
+    "two points": "needs two points",
+    "link": "names no link",
+    "link of link": "names no link",
+    "pair": "names no sliding pair",
+    "links": "needs two links",
+}
+
+
+def centre_links(name: str, links: Container[str]) -> tuple[str, str] | None:
+    """The two links whose instant centre a name means, as books print it; None where it means none.
+
+    >>> centre_links("P12", {"1", "2"}), centre_links("P", {"1"})
+    (('1', '2'), None)
+    """
+    cuts = ((name[1:k], name[k:]) for k in range(2, len(name))) if name.startswith(("P", "I")) else ()
+    return next(((a, b) for a, b in cuts if a != b and a in links and b in links), None)
+
+
+def missing_names(
+    symbol: Symbol,
+    no_link: Callable[[str], Problem | None],
+    no_point: Callable[[str], Problem | None],
+    links: Container[str],
+) -> list[Problem]:
+    """What is wrong with the names in a symbol.
+
+    Parameters
+    ----------
+    no_link, no_point : the problem of a name that is no link, or no point; None if it is one
+    links : the names of all links, by which instant centres are named
+    """
+    pins = symbol.other != "" and symbol.kind in ("s", "stroke", "K", "theta_lag") and symbol.link[:1].isupper()
+    found = [no_point(symbol.link) if pins and no_link(symbol.link) else no_link(symbol.link)] if symbol.link else []
+    found += [no_link(name) for name in symbol.links() if name != symbol.link]
+    for ref in (symbol.of, symbol.to):
+        if ref is not None:
+            missing = no_point(ref.point)
+            found.append(None if symbol.kind == "d" and centre_links(ref.point, links) else missing)
+    return [problem for problem in found if problem is not None]

@@ -264,7 +264,9 @@ class SceneTables(FileTable):
     source: Text = field(default="", metadata=_about("Where the problem comes from."))
     find: Symbols | None = field(
         default=None,
-        metadata=_about("Quantities asked for: v_D, a_B@3, v_B@3/B@2, omega_3, ... Everything if left out."),
+        metadata=_about(
+            "Quantities asked for: v_D, a_B@3, v_B@3/B@2, omega_3, theta_3, d_B/C, K_5/6, ... All motion if left out."
+        ),
     )
     units: Units = Units()
     frame: Frame = field(default_factory=Frame)
@@ -279,7 +281,7 @@ class SceneTables(FileTable):
     )
     printed: dict[str, NumberOrPair] = field(
         default_factory=dict,
-        metadata=_about("Values that somebody published, by symbol, in scene units, rad/s and rad/s2."),
+        metadata=_about("Values that somebody published, by symbol, in scene units, degrees, rad/s and rad/s2."),
     )
     sheet: SheetWishes = SheetWishes()
 

@@ -6,6 +6,7 @@ from graphkin.solver.motion import Motion, Sliding
 from graphkin.solver.prepared import PreparedMechanism, prepare
 from graphkin.solver.solve import solve
 from graphkin.solver.table import listed_points, to_json, write_json
+from graphkin.solver.whole_turn import exact_values
 
 __all__ = [
     "DriverRange",
@@ -13,6 +14,7 @@ __all__ = [
     "PreparedMechanism",
     "Sliding",
     "driver_range",
+    "exact_values",
     "listed_points",
     "prepare",
     "solve",

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphkin.solver.motion import Motion
+from graphkin.solver.places import pole
 from graphkin.solver.pose import Array
 
 __all__ = ["Centrode", "centrode", "instant_centre"]
@@ -25,9 +26,7 @@ def instant_centre(motion: Motion, a: str, b: str) -> tuple[Array, Array]:
         the centre is q / omega; at infinity in the direction of q where omega is 0; none where both are 0.  With the
         velocity v0 of the point at the world's origin, 0 = v0 + i omega z gives q = i v0.
     """
-    one, two = motion.poses[a], motion.poses[b]
-    v0 = (one.v - 1j * one.omega * one.z) - (two.v - 1j * two.omega * two.z)
-    return np.asarray(1j * v0), np.asarray(one.omega - two.omega)
+    return pole(motion.poses[a], motion.poses[b])
 
 
 @dataclass(frozen=True)

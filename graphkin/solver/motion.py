@@ -13,6 +13,7 @@ from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
 from graphkin.scene.model import Mechanism, PlacedLink
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver.error_bound import ErrorBound
+from graphkin.solver.places import position
 from graphkin.solver.pose import Array, Pose
 from graphkin.structure import Slide, Structure
 
@@ -25,6 +26,8 @@ def evaluate(motion: Motion, symbol: Symbol) -> Array:
         return motion.omega(symbol.link)
     if symbol.kind == "alpha":
         return motion.alpha(symbol.link)
+    if symbol.scope != "motion":
+        return position(motion.structure, motion.poses, symbol)
     assert symbol.of is not None
     if symbol.kind in ("v", "a"):
         one = motion.point(symbol.of.point, symbol.of.link)
@@ -264,7 +267,7 @@ class Motion:
         return Sliding(seen.z.real, seen.v.real, seen.a.real, 2j * guide.omega * guide.u * seen.v.real)
 
     def value(self, symbol: Symbol) -> Array:
-        """A quantity by its symbol: complex for vectors, real for omega and alpha, shape (n,).
+        """A quantity by its symbol: complex for vectors, real for others (m, rad, rad/s, rad/s2), shape (n,).
 
         Raises CallError where the symbol names nothing here.
         """

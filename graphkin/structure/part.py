@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
-from graphkin.scene.symbol import Symbol
+from graphkin.scene.symbol import Symbol, centre_links
 from graphkin.structure.model import Cluster, Driven, Element, Structure
 
 __all__ = ["links_of", "needed", "part_of"]
@@ -49,7 +49,7 @@ def part_of(structure: Structure, asked: Sequence[Symbol]) -> Mechanism:
     A link that only repeats others is not on the way to anything, unless it is asked for itself: then all is kept.
     """
     scene = structure.scene
-    named = {s.link for s in asked} | {r.link for s in asked for r in (s.of, s.to) if r is not None}
+    named = {name for s in asked for name in s.links()}
     if not asked or any(link.redundant and link.name in named for link in scene.links):
         return scene
     kept = {scene.frame.name, *(n for e in needed(structure, asked) for n in links_of(e))}
@@ -76,10 +76,15 @@ def _ends(scene: Mechanism, driver: AnyDriver) -> set[str]:
 
 def _links_for(structure: Structure, symbol: Symbol) -> set[str]:
     if symbol.link:
-        return {symbol.link}
+        # of a pin in a slot the block that stands for it
+        return {name for name in (symbol.link, symbol.other, symbol.pair) if name in structure.links} or {symbol.link}
     found: set[str] = set()
     for ref in (symbol.of, symbol.to):
         if ref is None:
+            continue
+        centre = None if ref.point in structure.scene.holders else centre_links(ref.point, structure.scene.by_name)
+        if centre is not None:
+            found.update(centre)
             continue
         holders = [n for n, link in structure.links.items() if ref.point in link.points]
         if not holders or (ref.link and ref.link not in structure.links):

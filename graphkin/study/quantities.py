@@ -12,9 +12,8 @@ from numpy.typing import NDArray
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import DriverRange, Motion
-from graphkin.structure import Dyad, Slide, Structure, Turn
 
-__all__ = ["Crossing", "Quantity", "link_quantities", "slide_quantities", "symbol_quantity", "transmission"]
+__all__ = ["Quantity", "link_quantities", "slide_quantities", "symbol_quantity"]
 
 Array = NDArray[Any]
 Kind = Literal["theta", "omega", "alpha", "s", "v", "a", "symbol"]
@@ -27,6 +26,14 @@ _MEASURES: dict[str, Measure] = {
     "s": "length",
     "v": "speed",
     "a": "acceleration",
+}
+_OF_SYMBOLS: dict[str, Measure] = {
+    "velocity": "speed",
+    "acceleration": "acceleration",
+    "angular velocity": "angular rate",
+    "angular acceleration": "angular acceleration",
+    "length": "length",
+    "angle": "angle",
 }
 
 
@@ -48,12 +55,12 @@ class Quantity:
         """What kind of number it is."""
         if self.symbol is None:
             return _MEASURES[self.kind]
-        return _MEASURES.get(self.symbol.kind, "acceleration")
+        return _OF_SYMBOLS[self.symbol.measure]
 
     @property
     def is_position(self) -> bool:
         """Whether it is an angle or a travel."""
-        return self.kind in ("theta", "s")
+        return self.kind in ("theta", "s") or (self.symbol is not None and self.symbol.scope == "position")
 
     @property
     def is_speed(self) -> bool:
@@ -86,6 +93,8 @@ class Quantity:
     def values(self, reach: DriverRange | None, motion: Motion) -> Array:
         """Its values in a motion (SI), shape (n,); in one of a range angles go on from those before."""
         if self.symbol is not None:
+            if self.symbol.kind == "theta" and reach is not None:  # between two links, without jumps
+                return reach.angle(motion, self.symbol.link) - reach.angle(motion, self.symbol.other)
             found = motion.value(self.symbol)
             return np.abs(found) if self.is_size else np.asarray(found.real)
         if self.kind == "theta":
@@ -98,11 +107,16 @@ class Quantity:
         return {"s": slide.travel, "v": slide.velocity, "a": slide.acceleration}[self.kind]
 
     def smooth(self, reach: DriverRange, motion: Motion) -> Array:
-        """What is smooth where the quantity may not be: the square of a vector's size, else the quantity itself.
+        """What is smooth where the quantity may not be: the square of a vector's size or of a distance, the cosine of
+        twice an angle that is 90 degrees at most, else the quantity itself.
 
         A rate that is nothing but rounding (no larger than the solver's own bound of its error) is 0.
         """
         value = self.values(reach, motion)
+        if self.symbol is not None and self.symbol.kind in ("gamma", "pressure"):
+            return np.asarray(np.cos(2 * value))
+        if self.symbol is not None and self.symbol.kind == "d":
+            return value**2
         if not self.is_position:
             bound = motion.bound.velocity if self.is_speed else motion.bound.acceleration
             if self.measure.startswith("angular"):
@@ -110,6 +124,12 @@ class Quantity:
                 bound = bound / min(lengths, default=reach.scene.size)
             value = np.where(np.abs(value) <= bound, 0.0, value)
         return value**2 if self.is_size else value
+
+    def of_smooth(self, value: float) -> float:
+        """A position from what is smooth of it."""
+        if self.symbol is not None and self.symbol.kind in ("gamma", "pressure"):
+            return math.acos(min(1.0, max(-1.0, value))) / 2
+        return math.sqrt(max(0.0, value)) if self.symbol is not None and self.symbol.kind == "d" else value
 
 
 def link_quantities(link: str) -> tuple[Quantity, Quantity, Quantity]:
@@ -126,55 +146,6 @@ def symbol_quantity(symbol: Symbol) -> Quantity:
     """What ``find`` names."""
     if symbol.kind in ("omega", "alpha"):
         return Quantity("omega" if symbol.kind == "omega" else "alpha", symbol.link)
+    if symbol.kind == "s" or (symbol.kind == "theta" and not symbol.other):
+        return Quantity("s" if symbol.kind == "s" else "theta", symbol.pair)
     return Quantity("symbol", str(symbol), symbol)
-
-
-@dataclass(frozen=True)
-class Crossing:
-    """Sine and cosine of the angle between the two directions that decide how well a group passes on a force."""
-
-    cosine: Array
-    sine: Array
-
-    @property
-    def angle(self) -> Array:
-        """Transmission angle (rad), in 0 .. pi/2."""
-        return np.arctan2(np.abs(self.sine), np.abs(self.cosine))
-
-
-def transmission(structure: Structure, dyad: Dyad, motion: Motion) -> Crossing:
-    """The transmission angle of a group of two links; the pressure angle is what it lacks to 90 degrees.
-
-    Taken is the acute angle between the two paths on which the inner joint can move as a point of either link (Hall,
-    Kinematics and Linkage Design; Norton, Design of Machinery, ch. 3; 孙桓 《机械原理》, ch. 8):
-
-    - RRR: between coupler and rocker, at their common pin
-    - RRP: between rod and the normal of the guide
-    - RPR: between the normal of the guide and the line of the two outer pivots; 90 degrees where the guide passes
-      through both, as in most guide-bar mechanisms and swinging blocks
-    - PRP, RPP: between the two guides
-    """
-
-    def place(turn: Turn) -> Array:
-        return np.asarray(motion.poses[turn.a].fixed(structure.links[turn.a].points[turn.point]).z)
-
-    def guide(slide: Slide) -> Array:
-        return np.asarray(motion.poses[slide.b].u * slide.guide.direction)
-
-    inner, one, two = dyad.inner, dyad.outer_first, dyad.outer_second
-    if isinstance(inner, Turn):
-        first = place(inner) - place(one) if isinstance(one, Turn) else guide(one)
-        second = place(inner) - place(two) if isinstance(two, Turn) else guide(two)
-        if isinstance(one, Turn) != isinstance(two, Turn):
-            second = 1j * second
-    else:
-        first = guide(inner)
-        if isinstance(one, Turn) and isinstance(two, Turn):
-            first, second = 1j * first, place(one) - place(two)
-        else:
-            other = two if isinstance(two, Slide) else one
-            assert isinstance(other, Slide)
-            second = guide(other)
-    with np.errstate(all="ignore"):
-        across = np.conj(first) * second / (np.abs(first) * np.abs(second))
-    return Crossing(np.asarray(across.real), np.asarray(across.imag))

@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 
 from graphkin.scene.model import AngleDriver
 from graphkin.solver import DriverRange
+from graphkin.solver.places import transmission
 from graphkin.structure import Dyad
 from graphkin.study.curves import Pieces, resolve
-from graphkin.study.quantities import Quantity, link_quantities, slide_quantities, transmission
+from graphkin.study.quantities import Quantity, link_quantities, slide_quantities
 
 __all__ = ["Extreme", "Least", "Traced", "driver_value", "trace"]
 
@@ -89,7 +90,7 @@ def trace(reach: DriverRange, quantities: Sequence[Quantity]) -> tuple[tuple[Tra
     def positions(parameter: Array) -> Array:
         motion = reach.motion(way.offset(parameter))
         columns = [q.smooth(reach, motion) for q in places]
-        columns += [transmission(reach.structure, d, motion).cosine for d in dyads]
+        columns += [transmission(reach.structure, d, motion.poses).cosine for d in dyads]
         return np.stack(columns, axis=1)
 
     def speeds(parameter: Array) -> Array:
@@ -101,7 +102,7 @@ def trace(reach: DriverRange, quantities: Sequence[Quantity]) -> tuple[tuple[Tra
     least: tuple[Least, ...] = ()
     if places or dyads:
         size = reach.scene.size
-        floor = np.array([size if q.kind == "s" else 1.0 for q in places] + [1.0] * len(dyads))
+        floor = np.array([size if q.measure == "length" else 1.0 for q in places] + [1.0] * len(dyads))
         pieces = resolve(positions, *way.range, periodic=reach.full, floor=floor)
         found.update({q: _traced(way, pieces, k, q) for k, q in enumerate(places)})
         least = tuple(_least(way, pieces, len(places) + k, d) for k, d in enumerate(dyads))
@@ -166,7 +167,7 @@ def _traced(way: _Way, pieces: Pieces, k: int, quantity: Quantity) -> Traced:
         return Traced(quantity, (), (), 0.0 if nothing else float(quantity.values(reach, at_start)[0]))
     offset = way.offset(way.inside(pieces.extremes(k)))
     zeros = way.offset(way.inside(pieces.zeros(k)))
-    if quantity.is_position:
+    if quantity.kind in ("theta", "s"):
         offset = _polished(reach, quantity, offset)
     elif quantity.kind in ("omega", "v") and len(reach.scene.drivers) == 1 and reach.driver.values[2] == 0:
         offset = _at_zero(reach, quantity, offset)
@@ -241,6 +242,7 @@ def _extremes(way: _Way, pieces: Pieces, curve: int, quantity: Quantity, offset:
         if place in ends:
             # the solver refuses a position at the end of the motion, or loses half of its digits there
             kind, value = "end", pieces.at(way.range[0] if place == low else way.range[1], curve)
+            value = quantity.of_smooth(value)
         elif before[k] < value > after[k]:
             kind = "max"
         elif before[k] > value < after[k]:
@@ -260,7 +262,7 @@ def _least(way: _Way, pieces: Pieces, k: int, dyad: Dyad) -> Least:
     reach = way.reach
 
     def angle(offset: Array) -> Array:
-        return transmission(reach.structure, dyad, reach.motion(offset)).angle
+        return transmission(reach.structure, dyad, reach.motion(offset).poses).angle
 
     if pieces.is_constant(k):
         return Least(dyad, float(angle(np.zeros(1))[0]), None)

@@ -63,7 +63,7 @@ class Watched:
 
     @property
     def is_vector(self) -> bool:
-        return isinstance(self.what, PointRef) or self.what.symbol is not None
+        return isinstance(self.what, PointRef) or (self.what.symbol is not None and self.what.symbol.is_vector)
 
     @property
     def can_be_prepared(self) -> bool:
@@ -81,6 +81,8 @@ class Watched:
             vector = motion.position(self.what.point, self.what.link)
         elif self.what.symbol is not None:
             vector = motion.value(self.what.symbol)
+            if not self.what.symbol.is_vector:
+                return (vector / self.what.symbol.per_unit(metres),)
         else:
             value = np.asarray(self.what.values(reach, motion))
             if self.what.measure == "angle":

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -23,10 +23,11 @@ from graphkin.construction.plan import Room, scales_for
 from graphkin.construction.rigid import LinkMotion
 from graphkin.construction.sheet import Sheet
 from graphkin.scene.model import AngleDriver, Mechanism
-from graphkin.structure import Structure
+from graphkin.scene.symbol import Symbol
+from graphkin.structure import Structure, analyse, part_of
 from graphkin.words import Phrase
 
-__all__ = ["Centre", "Centres", "find_centres"]
+__all__ = ["Centre", "Centres", "centres_on", "find_centres"]
 
 
 @dataclass(frozen=True)
@@ -123,6 +124,14 @@ def find_centres(
     chart = links.chart()
     table, slots = _search(links, chart, worked.motions, instrument, worked.way)
     return Centres(worked.sheet, links, chart, table, slots, worked.motions, worked.kept)
+
+
+def centres_on(sheet: Sheet, asked: Sequence[Symbol], instrument: Instrument = EXACT) -> Centres:
+    """The centres of what leads to the asked, on a sheet that shows it; errors as for `find_centres`."""
+    part = part_of(sheet.structure, asked)
+    if part is not sheet.scene:
+        sheet = replace(sheet, scene=part, structure=analyse(part))
+    return find_centres(part, {d.key: sheet.drivers[d.key] for d in part.drivers}, instrument, sheet)
 
 
 def _moving(scene: Mechanism) -> Mechanism:

@@ -1,0 +1,268 @@
+"""Limit positions of a slide or a link over a whole turn of the crank, found on the drawing board.
+
+The mechanism is drawn again and again while the crank goes round; where the output stands highest and lowest, a smooth
+curve through the positions near by gives the place to the last digits.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.polynomial import chebyshev
+
+from graphkin.construction.board import Instrument
+from graphkin.construction.dyads import meet
+from graphkin.construction.follow import found_near
+from graphkin.construction.position import place
+from graphkin.construction.reduced_mechanism import ReducedMechanism, clusters, reduced_mechanisms
+from graphkin.construction.rigid import PlacedLinks, Poses
+from graphkin.construction.sheet import LimitPosition, Limits, Pose, Scales
+from graphkin.errors import Problem, Unsolvable
+from graphkin.plane import dot
+from graphkin.scene.model import AngleDriver
+from graphkin.scene.symbol import Symbol
+from graphkin.structure import Driven, Dyad, Element, Slide, Structure, links_of
+from graphkin.structure.transmitting import sliding_pair
+
+__all__ = ["TurnOfCrank", "Turned", "limits_asked", "limits_on_paper"]
+
+STEP = math.radians(3.0)
+SURPRISE = 0.05  # so far from where it was expected a link may be found, in the size of the mechanism
+SMALLEST = 1e-5  # steps shorter than this part of the usual one find nothing
+NODES = 16
+RESOLVED = 1e-13
+CLOSED = 1e-7
+STILL = 1e-11
+EQUAL = 1e-9  # of two extremes that differ by less, the one at the smaller angle of the crank is meant
+
+_NODES = np.cos(np.pi * (np.arange(NODES) + 0.5) / NODES)
+_FIT = np.linalg.inv(chebyshev.chebvander(_NODES, NODES - 1))
+
+
+@dataclass(frozen=True)
+class Turned:
+    """A position of the turn: the crank's value (rad), and all links on paper of the mechanism's size."""
+
+    value: float
+    poses: Poses
+
+
+@dataclass(frozen=True)
+class TurnOfCrank:
+    """Positions over a whole turn of the first driver, each followed from the one before.
+
+    ``elements`` are what is placed, ``values`` the driver values at the start (rad, m).
+    """
+
+    structure: Structure
+    elements: Sequence[Element]
+    values: Mapping[str, float]
+    table: Mapping[tuple[str, ...], Sequence[ReducedMechanism]]
+    positions: tuple[Turned, ...]
+
+    @classmethod
+    def of(cls, structure: Structure, elements: Sequence[Element], values: Mapping[str, float], poses: Poses,
+           why: str) -> TurnOfCrank:  # fmt: skip
+        """Go round once.
+
+        Parameters
+        ----------
+        poses : where all links lie at ``values``, on paper of the mechanism's size
+        why : the name of what is asked for, for the message
+
+        Raises
+        ------
+        Unsolvable : the first driver is no crank, or does not turn fully, or the motion does not repeat after one turn
+        """
+        driver = structure.scene.drivers[0]
+        if not isinstance(driver, AngleDriver):
+            raise Unsolvable("no whole turn", Problem(why, "belongs to a whole turn, but the driver slides",
+                                                      "ask for s_, theta_ or d_ at single positions"))  # fmt: skip
+        table = {c.members: reduced_mechanisms(structure.scene, c) for c in clusters(structure) if c in elements}
+        placed = {structure.scene.frame.name, *(n for e in elements for n in links_of(e))}
+        turn = cls(structure, elements, values, table, ())
+        start = {name: pose for name, pose in poses.items() if name in placed}
+        before = at = Turned(values[driver.key], start)
+        found = [at]
+        end, step = at.value + math.tau, STEP
+        last = step
+        while at.value < end - 1e-12:
+            step = min(step, end - at.value)
+            guess = _ahead(before.poses, at.poses, step / last) if len(found) > 1 else at.poses
+            here = turn.near(at.value + step, guess)
+            allowed = SURPRISE if len(found) > 1 else 4 * SURPRISE
+            if here is None or _moved(guess, here.poses) > allowed + 0.3 * _moved(at.poses, here.poses):
+                step /= 2
+                if step < SMALLEST * STEP:
+                    raise Unsolvable("no whole turn", _short(why, driver.link, at.value))
+                continue
+            before, at, last = at, here, step
+            found.append(at)
+            step = min(2 * step, STEP)
+        if _moved(start, at.poses) > CLOSED:
+            raise Unsolvable("no whole turn", Problem(why, "the motion does not repeat after one turn of the driver"))
+        return cls(structure, elements, values, table, tuple(found))
+
+    def near(self, value: float, guess: Poses) -> Turned | None:
+        """The position at a crank's value, near to where it is expected; None where nothing fits there."""
+        driver = self.structure.scene.drivers[0]
+        values = {**self.values, driver.key: value}
+        poses = found_near(self.structure, self.elements, self.table, values, guess)
+        return None if poses is None else Turned(value, poses)
+
+    def limits(self, output: Slide | str, why: str) -> tuple[Turned, Turned, float]:
+        """The lowest and the highest position of a slide (by its travel) or of a link (by its angle), and how far it
+        goes from one to the other (mm of paper, or rad).  Raises Unsolvable for a link that turns on and on.
+        """
+        course = _course(output, self.positions)
+        if isinstance(output, str) and abs(course[-1] - course[0]) > 1.0:
+            found = f"link {output} turns on and on, it has no limit positions"
+            raise Unsolvable("no whole turn", Problem(why, found, "ask for a link that swings, or a slide"))
+        if max(course) - min(course) < STILL:
+            name = output if isinstance(output, str) else output.key
+            found = f"{name} does not move, it has no limit positions"
+            raise Unsolvable("no whole turn", Problem(why, found, "ask for an output that moves"))
+        low, high = (self._extreme(output, course, sign) for sign in (-1.0, 1.0))
+        return low[0], high[0], high[1] - low[1]
+
+    def _extreme(self, output: Slide | str, course: Sequence[float], sign: float) -> tuple[Turned, float]:
+        n = len(course) - 1
+        height = [sign * value for value in course]
+        tops = [k for k in range(n) if height[k] >= max(height[k - 1 if k else n - 1], height[k + 1])]
+        best = max(height[k] for k in tops)
+        near = [k for k in tops if height[k] > best - 0.02 * (max(course) - min(course))]
+        found = [self._refined(output, k, course) for k in near]
+        most = max(sign * value for _, value in found)
+        equal = [one for one in found if sign * one[1] > most - EQUAL * (max(course) - min(course))]
+        return min(equal, key=lambda one: (one[0].value + EQUAL) % math.tau)
+
+    def _refined(self, output: Slide | str, k: int, course: Sequence[float]) -> tuple[Turned, float]:
+        """The place where a curve through the positions about the k-th is at rest."""
+        base = self.positions[k]
+        middle, half = base.value, 2 * STEP
+        guess = base
+
+        def value(at: float) -> float:
+            nonlocal guess
+            here = self.near(at, guess.poses)
+            if here is None:
+                raise Unsolvable("no whole turn", _short(str(output), self.structure.scene.drivers[0].key, at))
+            return _along(output, here, course[k])
+
+        for _ in range(24):
+            c = _FIT @ np.array([value(float(middle + half * x)) for x in _NODES])
+            slope = chebyshev.chebder(c)
+            roots = [z.real for z in chebyshev.chebroots(slope) if abs(z.imag) < 1e-6 and abs(z.real) <= 1.0]
+            x = min(roots, key=abs, default=0.0)
+            good = float(np.abs(c[-3:]).max()) <= RESOLVED * float(np.abs(c).max())
+            curved = float(np.abs(c[1:]).max()) > 1e-3 * abs(float(c[0])) * SMALLEST
+            middle += half * x
+            near = self.near(middle, guess.poses)
+            guess = near or guess
+            if (good and abs(x) < 0.7) or not curved or half < 1e-3:
+                break
+            half = half / 2 if not good else half
+        at = self.near(middle, guess.poses) or base
+        return at, _along(output, at, course[k])
+
+
+def limits_asked(
+    structure: Structure, elements: Sequence[Element], asked: Sequence[Symbol], values: Mapping[str, float],
+    poses: Poses,
+) -> dict[str, Limits]:  # fmt: skip
+    """The limit positions of every output that a quantity of the whole turn is asked of, by its name, on paper of the
+    mechanism's size; of none that is not drawn.
+
+    Parameters
+    ----------
+    values, poses : driver values (rad, m), and where the links lie there, on such paper
+
+    Raises
+    ------
+    Unsolvable : no whole turn, or a link that has no limit positions
+    CallError : a sliding pair that there is not
+    """
+    found: dict[str, Limits] = {}
+    turn: TurnOfCrank | None = None
+    for symbol in asked:
+        if symbol.scope != "turn" or symbol.pair in found:
+            continue
+        output = sliding_pair(structure, symbol) if symbol.other else symbol.link
+        if not {n for e in elements for n in links_of(e)} <= set(poses):
+            continue
+        turn = turn or TurnOfCrank.of(structure, elements, values, poses, str(symbol))
+        low, high, swing = turn.limits(output, str(symbol))
+        found[symbol.pair] = Limits(LimitPosition(low.value, low.poses), LimitPosition(high.value, high.poses), swing)
+    return found
+
+
+def limits_on_paper(
+    found: Mapping[str, Limits], structure: Structure, elements: Sequence[Driven | Dyad], values: Mapping[str, float],
+    scales: Scales, hand: Instrument,
+) -> dict[str, Limits]:  # fmt: skip
+    """Limit positions that exact hands found on paper of the mechanism's size, drawn at a scale by any hands."""
+    mm = 1.0 / scales.length
+    if hand.faultless:
+        return {pair: limits.scaled(structure.scene.size * mm) for pair, limits in found.items()}
+    return {pair: _drawn_again(limits, structure, elements, values, mm, hand) for pair, limits in found.items()}
+
+
+def _drawn_again(
+    limits: Limits, structure: Structure, elements: Sequence[Driven | Dyad], values: Mapping[str, float], mm: float,
+    hand: Instrument,
+) -> Limits:  # fmt: skip
+    key = structure.scene.drivers[0].key
+
+    def drawn(limit: LimitPosition) -> LimitPosition:
+        there = {**values, key: limit.value}
+        frame = PlacedLinks(structure.links, 1.0 / structure.scene.size, there, dict(limit.poses))
+        branches = {}
+        for i, element in enumerate(elements):
+            if isinstance(element, Dyad):
+                ways = meet(frame, element).poses
+                branches[i] = min(range(len(ways)), key=lambda k: _moved(ways[k], limit.poses))
+        return LimitPosition(limit.value, place(structure, elements, mm, there, branches, hand).frame.poses)
+
+    return Limits(drawn(limits.low), drawn(limits.high), limits.swing)
+
+
+def _short(why: str, link: str, value: float) -> Problem:
+    end = f"it stops near {math.degrees(value):.2f} deg"
+    found = f"belongs to a whole turn, but driver {link} does not turn fully ({end})"
+    return Problem(why, found, "ask for s_, theta_ or d_ at single positions")
+
+
+def _along(output: Slide | str, here: Turned, near: float) -> float:
+    """Travel of a slide (mm of paper of the mechanism's size), or a link's angle that lies nearest to a known one."""
+    if isinstance(output, str):
+        angle = cmath.phase(here.poses[output].axis)
+        return angle + math.tau * round((near - angle) / math.tau)
+    guide = here.poses[output.b]
+    return dot(here.poses[output.a].origin - guide.origin, guide.axis * output.guide.direction)
+
+
+def _course(output: Slide | str, positions: Sequence[Turned]) -> list[float]:
+    course: list[float] = []
+    for here in positions:
+        course.append(_along(output, here, course[-1] if course else 0.0))
+    return course
+
+
+def _ahead(before: Poses, at: Poses, times: float) -> dict[str, Pose]:
+    """The next position if everything went on as in the last step."""
+    made = {}
+    for name, pose in at.items():
+        old = before[name]
+        axis = pose.axis * cmath.rect(1.0, cmath.phase(pose.axis / old.axis) * times)
+        made[name] = Pose(pose.origin + (pose.origin - old.origin) * times, axis)
+    return made
+
+
+def _moved(one: Poses, other: Poses) -> float:
+    return max((abs(p.origin - other[n].origin) + abs(p.axis - other[n].axis) for n, p in one.items()), default=0.0)
+
+

@@ -1,0 +1,162 @@
+"""Quantities of the whole turn: stroke of a slide, swing of a link, coefficient of travel-speed variation."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from graphkin.errors import Problem, Unsolvable
+from graphkin.scene.model import AngleDriver
+from graphkin.scene.symbol import Symbol
+from graphkin.solver.driver_range import DriverRange, whole_range
+from graphkin.solver.motion import Motion
+from graphkin.solver.pose import Array
+from graphkin.solver.solve import solve
+from graphkin.structure.transmitting import sliding_pair
+
+__all__ = ["Extremes", "exact_values", "extremes"]
+
+SAMPLES = 720
+ROUNDS = 60
+EQUAL = 1e-9  # of two extremes that differ by less, the one at the smaller angle of the crank is meant
+WHERE_ELSE = "ask for s_, theta_ or d_ at single positions"
+
+
+@dataclass(frozen=True)
+class Extremes:
+    """The least and the greatest value of an output over a turn (m, rad), and the driver's offsets there."""
+
+    low: float
+    high: float
+    low_offset: float
+    high_offset: float
+
+    @property
+    def stroke(self) -> float:
+        return self.high - self.low
+
+    @property
+    def lag(self) -> float:
+        """The angle theta between the crank's two limit positions (rad), what the longer way lacks to half a turn."""
+        way = abs(self.high_offset - self.low_offset)
+        return max(way, math.tau - way) - math.pi
+
+    @property
+    def ratio(self) -> float:
+        """K = (180 + theta) / (180 - theta): the longer way of the crank over the shorter (coefficient of travel speed
+        variation, 行程速比系数; time ratio, Norton, Design of Machinery, ch. 3)."""
+        return (math.pi + self.lag) / (math.pi - self.lag)
+
+
+def extremes(reach: DriverRange, symbol: Symbol) -> Extremes:
+    """The extremes of the sliding pair or link that a symbol is of, over one turn of the driver.
+
+    Raises
+    ------
+    Unsolvable : the driver slides or does not turn fully, the motion does not repeat after one turn, or the output has
+        no limit positions
+    CallError : there is no such sliding pair
+    """
+    if not isinstance(reach.driver, AngleDriver):
+        raise _without(symbol, "belongs to a whole turn, but the driver slides", WHERE_ELSE)
+    if reach.turns != 1:
+        why = reach.limit_why or "the motion does not repeat after one turn of the driver"
+        raise _without(symbol, f"belongs to a whole turn, which the driver does not make: {why}", WHERE_ELSE)
+    if symbol.other:
+        sliding_pair(reach.structure, symbol)
+
+    def course(offset: Array) -> tuple[Array, Array]:
+        """Value and rate by the driver's own angle."""
+        motion = reach.motion(offset, unit=True)
+        if symbol.other:
+            slide = motion.slide(symbol.pair)
+            return slide.travel, slide.velocity
+        return reach.angle(motion, symbol.link), motion.omega(symbol.link)
+
+    grid = np.linspace(0.0, math.tau, SAMPLES + 1)
+    values, rates = course(grid)
+    pair = symbol.pair
+    if not symbol.other and abs(values[-1] - values[0]) > 1.0:
+        raise _without(symbol, f"link {pair} turns on and on, it has no limit positions", "ask for one that swings")
+    size = reach.scene.size if symbol.other else 1.0
+    if np.ptp(values) < 1e-12 * size:
+        raise _without(symbol, f"{pair} does not move, it has no limit positions", "ask for an output that moves")
+    (low_at, low), (high_at, high) = (
+        _best(course, grid, values, rates, sign, lambda offset: float(reach.value(np.array(offset))))
+        for sign in (-1.0, 1.0)
+    )
+    return Extremes(low, high, low_at, high_at)
+
+
+def _without(symbol: Symbol, found: str, wanted: str) -> Unsolvable:
+    return Unsolvable("no whole turn", Problem(str(symbol), found, wanted))
+
+
+def _best(
+    course: Callable[[Array], tuple[Array, Array]], grid: Array, values: Array, rates: Array, sign: float,
+    angle: Callable[[float], float],
+) -> tuple[float, float]:
+    """Where the greatest (or for sign -1 the least) value stands, and how much it is: the rate changes its sign there,
+    which is found by halving and proportional division in turn.  ``angle`` is the crank's at an offset."""
+    n = len(grid) - 1
+    step = float(grid[1])
+    tops = [k for k in range(n) if sign * rates[k] >= 0.0 > sign * rates[k + 1]]
+    best = max((sign * values[k] for k in tops), default=0.0)
+    found = []
+    for k in tops:
+        if max(sign * values[k], sign * values[k + 1]) < best - 0.05 * float(np.ptp(values)):
+            continue
+        a, b, one, two = float(grid[k]), float(grid[k]) + step, float(rates[k]), float(rates[k + 1])
+        for turn in range(ROUNDS):
+            c = (a + b) / 2 if turn % 3 == 2 or one == two else (one * b - two * a) / (one - two)
+            c = c if a < c < b else (a + b) / 2
+            rate = float(course(np.array([c]))[1][0])
+            if rate == 0.0 or b - a <= 4e-16 * math.tau:
+                break
+            if sign * rate > 0.0:
+                a, one = c, rate
+            else:
+                b, two = c, rate
+        found.append((c, float(course(np.array([c]))[0][0])))
+    most = max(sign * value for _, value in found)
+    equal = [one for one in found if sign * one[1] > most - EQUAL * float(np.ptp(values))]
+    return min(equal, key=lambda one: (angle(one[0]) + EQUAL) % math.tau)
+
+
+Value = complex | float
+
+
+def exact_values(motion: Motion, asked: Sequence[Symbol] = ()) -> Callable[[Symbol], Value]:
+    """What gives the exact value of a symbol at the one position of a motion (SI), those of the whole turn among the
+    asked too.  Raises Unsolvable where there is no whole turn."""
+    scene = motion.scene
+    values = {d.key: float(v) for d, v in zip(scene.drivers, motion.values[0], strict=True)}
+    of_turn: Mapping[Symbol, float] = {}
+    if any(s.scope == "turn" for s in asked):
+        reach = whole_range(motion.structure, values)
+        of_turn = {s: _of_turn(reach, s) for s in asked if s.scope == "turn"}
+
+    def value(symbol: Symbol) -> Value:
+        if symbol in of_turn:
+            return of_turn[symbol]
+        found = motion.value(symbol)[0]
+        if symbol.kind == "d" and math.isnan(found):  # the centre of links at rest: that of any motion
+            found = _in_motion(motion, values).value(symbol)[0]
+        return complex(found) if symbol.is_vector else float(found.real)
+
+    return value
+
+
+def _of_turn(reach: DriverRange, symbol: Symbol) -> float:
+    found = extremes(reach, symbol)
+    return {"K": found.ratio, "theta_lag": found.lag}.get(symbol.kind, found.stroke)
+
+
+def _in_motion(motion: Motion, values: Mapping[str, float]) -> Motion:
+    """The same position with the first driver at unit speed."""
+    scene, first = motion.scene, motion.scene.drivers[0]
+    faster = replace(first, **{"omega" if isinstance(first, AngleDriver) else "velocity": 1.0})  # type: ignore[arg-type]
+    return solve(replace(scene, drivers=(faster, *scene.drivers[1:])), at=values)

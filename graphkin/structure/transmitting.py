@@ -1,0 +1,128 @@
+"""Between which two directions the transmission angle of a joint lies.
+
+Taken is the acute angle between the two paths on which the inner joint of a group can move as a point of either link
+(Hall, Kinematics and Linkage Design; Norton, Design of Machinery, ch. 3; 孙桓 《机械原理》, ch. 8):
+
+- RRR: between coupler and rocker, at their common pin
+- RRP: between rod and the normal of the guide
+- RPR: between the normal of the guide and the line of the two outer pivots; 90 degrees where the guide passes
+  through both, as in most guide-bar mechanisms and swinging blocks
+- PRP, RPP: between the two guides
+
+The pressure angle, between the force that drives a link and the velocity of where it acts, is what it lacks to 90
+degrees.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from graphkin.errors import CallError, Problem
+from graphkin.scene.symbol import Symbol
+from graphkin.structure.model import Cluster, Dyad, Slide, Structure, Turn
+
+__all__ = ["Joint", "joint_between", "joint_of_dyad", "joint_of_follower", "sliding_pair"]
+
+Spot = tuple[str, complex]
+"""A link, and a place in its own axes (m)."""
+Way = tuple[Spot, Spot]
+"""A direction: from one place to the other."""
+
+
+@dataclass(frozen=True)
+class Joint:
+    """Two directions; where they are ``square``, the angle is that from one to the normal of the other."""
+
+    first: Way
+    second: Way
+    square: bool = False
+
+
+def _guide(slide: Slide) -> Way:
+    return (slide.b, 0j), (slide.b, slide.guide.direction)
+
+
+def _spot(structure: Structure, turn: Turn) -> Spot:
+    return turn.a, structure.links[turn.a].points[turn.point]
+
+
+def joint_of_dyad(structure: Structure, dyad: Dyad) -> Joint:
+    """The joint of a group of two links."""
+    inner, one, two = dyad.inner, dyad.outer_first, dyad.outer_second
+    if isinstance(inner, Turn):
+        here = _spot(structure, inner)
+        first, second = (
+            (_spot(structure, pair), here) if isinstance(pair, Turn) else _guide(pair) for pair in (one, two)
+        )
+        return Joint(first, second, isinstance(one, Turn) != isinstance(two, Turn))
+    if isinstance(one, Turn) and isinstance(two, Turn):
+        return Joint(_guide(inner), (_spot(structure, two), _spot(structure, one)), True)
+    other = two if isinstance(two, Slide) else one
+    assert isinstance(other, Slide)
+    return Joint(_guide(inner), _guide(other))
+
+
+def joint_between(structure: Structure, a: str, b: str, symbol: Symbol) -> Joint:
+    """The joint that two links share.  Raises CallError where they share none that has a transmission angle."""
+    blocks = {p.key: {p.of, p.key} for p in structure.scene.pins}
+    for dyad in structure.groups:
+        if isinstance(dyad, Dyad):
+            one, two = ({n for link in body.links for n in blocks.get(link, {link})} for body in dyad.bodies)
+            if (a in one and b in two) or (b in one and a in two):
+                return joint_of_dyad(structure, dyad)
+    links = structure.links
+    shared = [p for p in links[a].points if p in links[b].points]
+    for point in shared:
+        ways = [_arm(structure, name, point) for name in (a, b)]
+        if ways[0] and ways[1]:
+            return Joint(ways[0], ways[1])
+    wanted = "name two links of one joint, bars or a rod and its slider"
+    raise CallError(Problem(str(symbol), f"links {a} and {b} share no joint at which a force is passed on", wanted))
+
+
+def _arm(structure: Structure, name: str, point: str) -> Way | None:
+    """The path's normal of a point of a link: along its bar, or square to the guide on which it slides."""
+    link = structure.links[name]
+    own = [p for p in (*link.bar, *link.points) if p != point and link.points[p] != link.points[point]]
+    if own:
+        return (name, link.points[own[0]]), (name, link.points[point])
+    slide = next((s for s in structure.slides if s.a == name), None)
+    return ((slide.b, 0j), (slide.b, 1j * slide.guide.direction)) if slide else None
+
+
+def joint_of_follower(structure: Structure, name: str, symbol: Symbol) -> Joint:
+    """The joint through which a link is driven.  Raises CallError where none can be told."""
+    for dyad in structure.groups:
+        if isinstance(dyad, Dyad) and any(name in body.links for body in dyad.bodies):
+            return joint_of_dyad(structure, dyad)
+    frame, link = structure.scene.frame, structure.links.get(name)
+    members = {n for e in structure.elements if isinstance(e, Cluster) and name in e.links for n in e.links}
+    # in a larger group: by a bar of two joints, which passes a force on along itself
+    for other in (n for n in structure.scene.links if n.name in members and link is not None):
+        ends = [p for p in other.points if len(structure.scene.holders[p]) > 1]
+        if other.name == name or len(ends) != 2 or other.points[ends[0]] == other.points[ends[1]]:
+            continue
+        for point, far in (ends, ends[::-1]):
+            assert link is not None
+            if point not in link.points or far in link.points or frame.name in structure.scene.holders[far]:
+                continue
+            bar = (other.name, other.points[far]), (other.name, other.points[point])
+            slide = next((s for s in structure.slides if s.a == name and s.b == frame.name), None)
+            if slide:
+                return Joint(bar, _guide(slide), True)
+            pivot = next((p for p in link.points if p in frame.points and link.points[p] != link.points[point]), None)
+            if pivot:
+                return Joint(bar, ((name, link.points[pivot]), (name, link.points[point])))
+    raise CallError(
+        Problem(str(symbol), f"link {name} is driven through no joint of a group of two links", "name a follower")
+    )
+
+
+def sliding_pair(structure: Structure, symbol: Symbol) -> Slide:
+    """The sliding pair or pin in slot that a symbol names.  Raises CallError where there is none."""
+    found = next((s for s in structure.slides if s.key == symbol.pair), None)
+    if found is None:
+        known = ", ".join(s.key for s in structure.slides)
+        wanted = f"known here: {known}" if known else "nothing slides here"
+        raise CallError(Problem(str(symbol), "there is no such sliding pair", wanted))
+    return found

@@ -1,0 +1,112 @@
+"""Positions asked for by name: measured on the drawing, equal to what geometry says and to the solver."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+import graphkin
+from graphkin.errors import CallError, Unsolvable
+from graphkin.scene.symbol import Symbol
+
+SHAPER = "shaper-scheme-2"
+FOUR_BAR = {
+    "frame": {"name": "4", "points": {"A": [0, 0], "D": [400, 0]}},
+    "links": {
+        "1": {"points": ["A", "B"], "length": 150},
+        "2": {"points": ["B", "C"], "length": 500},
+        "3": {"points": ["D", "C"], "length": 300},
+    },
+    "driver": {"link": "1", "angle": 60, "omega": 10},
+    "sketch": {"C": [500, 290]},
+}
+EVERY = ["theta_4", "theta_5/4", "x_C", "d_B/C", "d_P25/P46", "s_3/4", "gamma_5-6", "pressure_6", "stroke_6/1",
+         "swing_4", "K_6/1", "theta_lag_6/1"]  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def shaper() -> graphkin.Checked:
+    return graphkin.check(SHAPER, find=EVERY)
+
+
+def test_every_kind_of_position_agrees_with_the_solver(shaper: graphkin.Checked) -> None:
+    assert [] == [name for name in EVERY if shaper[name].error > 1e-11]
+
+
+def test_the_shaper_has_the_stroke_and_the_K_of_its_course_design(shaper: graphkin.Checked) -> None:
+    theta = 2 * math.asin(90 / 350)
+    stroke, k = shaper["stroke_6/1"].reading.value, shaper["K_6/1"].reading.value
+    assert [0.58 * 2 * 90 / 350, (math.pi + theta) / (math.pi - theta)] == pytest.approx([stroke, k], rel=1e-12)
+
+
+def test_the_angle_between_the_limit_positions_is_that_of_the_tangents(shaper: graphkin.Checked) -> None:
+    assert math.degrees(shaper["theta_lag_6/1"].reading.value) == pytest.approx(2 * math.degrees(math.asin(90 / 350)))
+
+
+def test_lengths_stand_on_paper_and_angles_do_not(shaper: graphkin.Checked) -> None:
+    rows = {row["symbol"]: row["on_paper_mm"] for row in shaper.data["readings"]}
+    assert (None, None, 298.28571428571428 / 5) == (rows["theta_4"], rows["K_6/1"], pytest.approx(rows["stroke_6/1"]))
+
+
+def test_angles_are_radians_for_programs_and_degrees_in_files(shaper: graphkin.Checked) -> None:
+    (row,) = (r for r in shaper.data["readings"] if r["symbol"] == "theta_4")
+    column = list(shaper.table["symbol"]).index("theta_4")
+    assert math.degrees(row["measured"]) == pytest.approx(shaper.table["measured"][column])
+
+
+@pytest.fixture(scope="module")
+def pencil() -> graphkin.Checked:
+    return graphkin.check(FOUR_BAR, find=["theta_3", "d_P13/A", "K_3", "swing_3"], instrument="pencil", seed=3)
+
+
+def test_a_pencil_keeps_within_what_is_predicted_for_positions(pencil: graphkin.Checked) -> None:
+    assert [] == [str(row.symbol) for row in pencil.report.rows if not row.ok]
+
+
+def test_a_pencil_is_uncertain_of_what_it_measures(pencil: graphkin.Checked) -> None:
+    places = [row for row in pencil.report.rows if row.symbol.scope != "motion"]
+    assert all(row.uncertainty and row.uncertainty.deviation > 0 for row in places)
+
+
+def test_a_four_bar_has_the_transmission_angle_of_the_law_of_cosines() -> None:
+    b = 150 * complex(math.cos(math.radians(60)), math.sin(math.radians(60)))
+    cosine = (500**2 + 300**2 - abs(400 - b) ** 2) / (2 * 500 * 300)
+    gamma = graphkin.check(FOUR_BAR, find=["gamma_2-3"])["gamma_2-3"].reading.value
+    assert math.acos(abs(cosine)) == pytest.approx(gamma, abs=1e-12)
+
+
+def test_a_printed_angle_is_judged_in_degrees_and_without_whole_turns() -> None:
+    scene = {**FOUR_BAR, "printed": {"theta_3": 57.93 - 360, "K_3": 1.366, "d_B/C": 500}}
+    assert ["right"] * 3 == [v["verdict"] for v in graphkin.audit(scene).data["values"]]
+
+
+@pytest.mark.parametrize("name", ["swing_1", "K_1"])
+def test_a_link_that_turns_on_and_on_has_no_limit_positions(name: str) -> None:
+    with pytest.raises(Unsolvable, match=f"{name}: link 1 turns on and on"):
+        graphkin.check(FOUR_BAR, find=[name])
+
+
+def test_a_driver_that_does_not_turn_fully_has_no_whole_turn() -> None:
+    scene = {**FOUR_BAR, "driver": {"link": "3", "angle": 58, "omega": 1}, "sketch": {"B": [75, 130]}}
+    with pytest.raises(Unsolvable, match="K_1: belongs to a whole turn, but driver 3 does not turn fully"):
+        graphkin.check(scene, find=["K_1"])
+
+
+def test_a_pair_that_does_not_slide_is_refused_by_name() -> None:
+    with pytest.raises(CallError, match="s_2/1: there is no such sliding pair"):
+        graphkin.check(FOUR_BAR, find=["s_2/1"])
+
+
+def test_a_symbol_reads_as_it_is_written() -> None:
+    names = [*EVERY, "v_C at 10", "s_B/3", "theta_lag_3", "ak_B@3/B@2", "d_P12/A at 7'"]
+    assert names == [str(Symbol.parse(name)) for name in names]
+
+
+def test_a_figure_is_drawn_alone_when_it_is_asked_for() -> None:
+    assert ["velocity"] == list(graphkin.draw(FOUR_BAR, figures=["velocity"]).figures)
+
+
+def test_an_unknown_figure_is_refused_with_the_nearest_name() -> None:
+    with pytest.raises(CallError, match='figure: "velocty"; did you mean "velocity"'):
+        graphkin.draw(FOUR_BAR, figures=["velocty"])
