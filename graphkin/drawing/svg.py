@@ -8,7 +8,8 @@ from __future__ import annotations
 import json
 import math
 import re
-from functools import lru_cache
+from functools import cache, lru_cache, partial
+from html import escape
 from itertools import chain, count
 from typing import Any
 from zlib import crc32
@@ -37,6 +38,8 @@ FONTS = (
 )
 # What XML 1.0 cannot hold, and other control characters.
 _UNFIT = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\ud800-\udfff\ufffe\uffff]")
+_MARKUP = re.compile('[&<>"\\r\\n\\t]')
+_IN_QUOTES = str.maketrans({'"': "&quot;", "\r": "&#13;", "\n": "&#10;", "\t": "&#09;"})
 _INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"
 
 
@@ -80,16 +83,17 @@ def svg_bytes(drawing: Page, debug: bool = False) -> bytes:
     page["stroke-linejoin"] = "round"
     page["text-rendering"] = "geometricPrecision"
     page.elements.remove(page.defs)  # empty; the title comes first
+    ink = _Ink(page, drawing.lang)
     facts = json.dumps(drawing.metadata, ensure_ascii=False, sort_keys=True, allow_nan=False, separators=(",", ":"))
     for tag, words in (("title", drawing.title), ("desc", drawing.desc), ("metadata", facts)):
         if words:
-            page.elements.append(_words(tag, words))
+            page.elements.append(ink.made(tag, {}, _clean(words)))
     # white paper, so that black lines show on a dark screen too
-    page.add(page.rect((0, 0), ("100%", "100%"), fill="#ffffff", class_="paper"))
-    ink = _Ink(page, drawing.lang)
+    whole = {"x": "0", "y": "0", "width": "100%", "height": "100%"}
+    page.add(ink.made("rect", {**whole, "fill": "#ffffff", "class": "paper"}))
     for child in drawing.children:
         ink.draw(page, child)
-    text: str = page.tostring()
+    text: str = page.tostring() if debug else _written(page)
     return f'<?xml version="1.0" encoding="utf-8"?>\n{text}\n'.encode()
 
 
@@ -98,6 +102,7 @@ class _Ink:
 
     def __init__(self, page: Any, lang: str) -> None:
         self.page, self.lang = page, lang
+        self.made = partial(_element_class(), page)
         self.clips: set[str] = set()
         self.ids: set[str] = set()
 
@@ -110,17 +115,9 @@ class _Ink:
             element.attribs["clip-path"] = f"url(#{id})"
             if id not in self.clips:
                 self.clips.add(id)
-                clip = self._made("clipPath", {"id": id})
-                clip.add(self._made("path", {"d": shaft}))
+                clip = self.made("clipPath", {"id": id})
+                clip.add(self.made("path", {"d": shaft}))
                 parent.add(clip)
-
-    def _made(self, tag: str, attributes: dict[str, str]) -> Any:
-        """An element of svgwrite, past its slow classes; where svgwrite is to check, it does so as it writes."""
-        from svgwrite.base import BaseElement
-
-        element = BaseElement(factory=self.page)
-        element.elementname, element.attribs = tag, attributes
-        return element
 
     def _element(self, thing: Primitive) -> Any:
         if isinstance(thing, Group):
@@ -130,29 +127,27 @@ class _Ink:
         stroke = _stroke(thing.stroke)
         if isinstance(thing, Line):
             (x1, y1), (x2, y2) = _pair(thing.start), _pair(thing.end)
-            return self._made("line", {"x1": x1, "y1": y1, "x2": x2, "y2": y2, **stroke})
+            return self.made("line", {"x1": x1, "y1": y1, "x2": x2, "y2": y2, **stroke})
         if isinstance(thing, Polyline):
-            return self._made("polyline", {"points": _points(thing.points), "fill": "none", **stroke})
+            return self.made("polyline", {"points": _points(thing.points), "fill": "none", **stroke})
         if isinstance(thing, Polygon):
-            return self._made("polygon", {"points": _points(thing.points), "fill": thing.fill or "none", **stroke})
+            return self.made("polygon", {"points": _points(thing.points), "fill": thing.fill or "none", **stroke})
         if isinstance(thing, Circle):
             x, y = _pair(thing.centre)
             look = {"cx": x, "cy": y, "r": number(thing.radius), "fill": thing.fill or "none"}
-            return self._made("circle", {**look, **stroke})
-        return self._made("path", {"d": _arc(thing), "fill": "none", **stroke})
+            return self.made("circle", {**look, **stroke})
+        return self.made("path", {"d": _arc(thing), "fill": "none", **stroke})
 
     def _group(self, group: Group) -> Any:
         layer = {"inkscape:groupmode": "layer", "inkscape:label": _clean(group.layer)} if group.layer else {}
-        element = self._made("g", {**self._named(group.id, class_names(group)), **layer})
+        element = self.made("g", {**self._named(group.id, class_names(group)), **layer})
         for child in group.children:
             self.draw(element, child)
         if group.title:  # last, because the first child of a vector's group is its line
-            element.elements.append(_words("title", group.title))
+            element.elements.append(self.made("title", {}, _clean(group.title)))
         return element
 
     def _text(self, text: Text) -> Any:
-        from svgwrite.text import TSpan
-
         runs, anchor = start_runs(text), ""
         places = [(number(run.x), number(run.y)) for run in runs]
         if len(runs) == 1 and text.anchor != "start":
@@ -166,15 +161,14 @@ class _Ink:
             look["text-anchor"] = anchor
         if not self.lang.startswith("zh") and has_cjk(text.string):
             look["xml:lang"] = "zh"
-        element = self._made("text", look)
+        element = self.made("text", look)
         for run, (x, y) in zip(runs, places, strict=True):
-            span = TSpan(_clean(run.text), factory=self.page)
-            span.attribs = {"x": x, "y": y, "font-size": number(run.size)}
+            face = {"x": x, "y": y, "font-size": number(run.size)}
             if run.italic:
-                span.attribs["font-style"] = "italic"
+                face["font-style"] = "italic"
             if run.bold:
-                span.attribs["font-weight"] = "bold"
-            element.add(span)
+                face["font-weight"] = "bold"
+            element.add(self.made("tspan", face, _clean(run.text)))
         return element
 
     def _named(self, id: str, classes: tuple[str, ...]) -> dict[str, str]:
@@ -223,13 +217,54 @@ def _shaft(line: Line) -> str:
     return "M" + "L".join(" ".join(_pair(corner)) for corner in corners) + "Z"
 
 
-def _words(tag: str, words: str) -> Any:
-    """An element that holds nothing but words."""
-    from svgwrite.base import Title
+@cache
+def _element_class() -> Any:
+    from svgwrite.base import BaseElement
 
-    element = Title(_clean(words))
-    element.xml.tag = element.elementname = tag
-    return element
+    class Element(BaseElement):  # type: ignore[misc]
+        """An element of svgwrite whose attributes are texts already, and which may hold a text."""
+
+        def __init__(self, page: Any, tag: str, attributes: dict[str, str], text: str = "") -> None:
+            self._parameter = page._parameter  # its own way looks at each for options of svgwrite
+            self.elementname, self.attribs, self.text = tag, attributes, text
+            self.elements: list[Any] = []
+
+        def get_xml(self) -> Any:
+            xml = super().get_xml()
+            xml.text = self.text
+            return xml
+
+    return Element
+
+
+def _written(page: Any) -> str:
+    """The text that ``page.tostring()`` gives, which makes a tree of it first and takes several times as long."""
+    children, page.elements = page.elements, []
+    out = [page.tostring().removesuffix(" />"), ">"]
+
+    def write(element: Any) -> None:
+        tag = element.elementname
+        look = "".join([f' {key}="{_quoted(value)}"' for key, value in sorted(element.attribs.items()) if value])
+        if not (element.elements or element.text):
+            out.append(f"<{tag}{look} />")
+            return
+        out.append(f"<{tag}{look}>{_escaped(element.text)}")
+        for child in element.elements:
+            write(child)
+        out.append(f"</{tag}>")
+
+    for child in children:
+        write(child)
+    page.elements = children
+    return "".join([*out, "</svg>"])
+
+
+def _escaped(text: str) -> str:
+    return escape(text, quote=False) if _MARKUP.search(text) else text
+
+
+def _quoted(text: str) -> str:
+    return _escaped(text).translate(_IN_QUOTES) if _MARKUP.search(text) else text
 
 
 def _allow_accessibility(page: Any) -> None:
