@@ -5,7 +5,7 @@ analytic solver.
 """
 
 from graphkin.construction.board import EXACT, Cad, Exact, Instrument, nudged, pencil
-from graphkin.construction.plan import Plan, Room, draft, execute, plan
+from graphkin.construction.plan import Plan, Room, draft, drawn_sizes, execute, plan
 from graphkin.construction.sheet import Scales, Sheet
 from graphkin.construction.slip import NO_SLIP, Slip
 
@@ -21,6 +21,7 @@ __all__ = [
     "Sheet",
     "Slip",
     "draft",
+    "drawn_sizes",
     "execute",
     "nudged",
     "pencil",

@@ -19,7 +19,7 @@ from graphkin.construction.limits import limits_asked, limits_on_paper
 from graphkin.construction.plot import Order
 from graphkin.construction.polygons import Polygons
 from graphkin.construction.position import branches_at, draw_position, place
-from graphkin.construction.sheet import DiagramName, Limits, Scales, Sheet, Step, Vector
+from graphkin.construction.sheet import DIAGRAMS, DiagramName, Limits, Scales, Sheet, Step, Vector
 from graphkin.construction.slip import NO_SLIP, Slip
 from graphkin.construction.steps import Asked
 from graphkin.scene.model import AngleDriver, Mechanism
@@ -27,7 +27,7 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Cluster, Driven, Dyad, Element, Structure, analyse, links_of, needed
 from graphkin.words import Phrase
 
-__all__ = ["Extent", "Plan", "Room", "draft", "execute", "fitting_scale", "plan", "scales_for"]
+__all__ = ["Extent", "Plan", "Room", "draft", "drawn_sizes", "execute", "fitting_scale", "plan", "scales_for"]
 
 SERIES = (1.0, 2.0, 2.5, 5.0)
 ORDERS: tuple[Order, ...] = ("velocity", "acceleration")
@@ -35,12 +35,18 @@ ORDERS: tuple[Order, ...] = ("velocity", "acceleration")
 
 @dataclass(frozen=True)
 class Room:
-    """Width and height (mm) that the mechanism and each polygon may fill; ``larger`` are rooms that the mechanism has
-    instead where it can be drawn twice as large in them, the first such."""
+    """Width and height (mm) that the mechanism and each polygon may fill.
+
+    ``others`` are rooms that may be taken instead, where their scales are so much finer (in powers of ten, of all three
+    figures together) as they ``cost`` more; with ``keeps_wishes`` scales that the scene wishes for are kept in a room
+    that holds them.
+    """
 
     mechanism: tuple[float, float] = (150.0, 150.0)
     polygon: tuple[float, float] = (140.0, 140.0)
-    larger: tuple[tuple[float, float], ...] = ()
+    others: tuple[Room, ...] = ()
+    cost: float = 0.0
+    keeps_wishes: bool = False
 
 
 @dataclass(frozen=True)
@@ -60,20 +66,38 @@ class Extent:
         return Extent((max(x) - min(x)) * per_mm, (max(y) - min(y)) * per_mm)
 
 
+UNMET = 40.0  # what a wish that a room does not hold costs, as `Room.cost`
+
+
 def _chosen_scales(scene: Mechanism, extents: Mapping[DiagramName, Extent], room: Room | None) -> Scales:
     """The scene's own scales, and for those it does not give the finest of the series that fit the room."""
-    wanted, unit = scene.sheet, scene.units.metres
+    unit = scene.units.metres
+    wanted = scene.sheet.length_scale, scene.sheet.velocity_scale, scene.sheet.acceleration_scale
+    wishes = [wish * per if wish else None for wish, per in zip(wanted, (1e-3, unit, unit), strict=True)]
     space = room or Room()
-    rooms = (space.mechanism, *space.larger)
-    lengths = [fitting_scale(extents["mechanism"], one, 1e3) * 1e-3 for one in rooms]
-    length = next((finer for finer in lengths if 2.0 * finer <= lengths[0] * (1 + 1e-9)), lengths[0])
-    velocity = fitting_scale(extents["velocity"], space.polygon, 1.0 / unit) * unit
-    acceleration = fitting_scale(extents["acceleration"], space.polygon, 1.0 / unit) * unit
-    if room is None:
-        length = wanted.length_scale * 1e-3 if wanted.length_scale else length
-        velocity = wanted.velocity_scale * unit if wanted.velocity_scale else velocity
-        acceleration = wanted.acceleration_scale * unit if wanted.acceleration_scale else acceleration
-    return Scales(length, velocity, acceleration)
+    best: tuple[float, list[float]] | None = None
+    for one in (space, *space.others):
+        cost, scales = one.cost, []
+        for name, wish in zip(DIAGRAMS, wishes, strict=True):
+            most = one.mechanism if name == "mechanism" else one.polygon
+            fitting = fitting_scale(extents[name], most, 1.0 / unit) * unit
+            if wish is not None and (room is None or space.keeps_wishes):
+                if room is None or wish * (1 + 1e-9) >= _least(extents[name], one, name):
+                    scales.append(wish)
+                    continue
+                cost += UNMET
+            scales.append(fitting)
+            cost += math.log10(fitting)
+        if best is None or cost < best[0] - 1e-9:
+            best = cost, scales
+    assert best is not None
+    return Scales(*best[1])
+
+
+def _least(extent: Extent, room: Room, name: DiagramName) -> float:
+    """The scale (m, m/s, m/s2 for one mm) at which something just fits a room."""
+    width, height = room.mechanism if name == "mechanism" else room.polygon
+    return max(extent.width / width, extent.height / height)
 
 
 def fitting_scale(extent: Extent, room: tuple[float, float], units: float) -> float:
@@ -103,13 +127,24 @@ def _extents(
 
 def scales_for(sheet: Sheet, room: Room) -> Scales:
     """The finest scales of the series at which a sheet fits a room; vectors that only a question asks for left out."""
+    return _chosen_scales(sheet.scene, _extents_of(sheet), room)
 
+
+def drawn_sizes(sheet: Sheet) -> tuple[tuple[float, float], ...]:
+    """Width and height (mm) of the mechanism and of both polygons as they are drawn, as scales are chosen by them."""
+    extents = _extents_of(sheet)
+    return tuple(
+        (extents[name].width / sheet.scales.of(name), extents[name].height / sheet.scales.of(name)) for name in DIAGRAMS
+    )
+
+
+def _extents_of(sheet: Sheet) -> dict[DiagramName, Extent]:
     def vectors(order: Order) -> Iterator[Vector]:
         for step in sheet.steps:
             if step.diagram == order and not isinstance(step.act, Asked):
                 yield from (s for s in step.strokes if isinstance(s, Vector))
 
-    return _chosen_scales(sheet.scene, _extents(sheet.points.values(), vectors, sheet.scales), room)
+    return _extents(sheet.points.values(), vectors, sheet.scales)
 
 
 NATURAL = Scales(1e-3, 1e-3, 1e-3)  # 1 mm of paper for 1 mm, 1 mm/s, 1 mm/s2

@@ -13,7 +13,8 @@ from graphkin.drawing.svg import svg_bytes
 if TYPE_CHECKING:
     from graphkin.drawing.chart import ChartPage
     from graphkin.drawing.figure_pages import acceleration_figure, figures, mechanism_figure, velocity_figure
-    from graphkin.drawing.sheet import sheet_page, sheet_room
+    from graphkin.drawing.sheet import sheet_page
+    from graphkin.drawing.sheet_plan import sheet_room
 
 __all__ = [
     "Arc",
@@ -47,7 +48,7 @@ _COMPOSED = {
     "mechanism_figure": "figure_pages",
     "velocity_figure": "figure_pages",
     "sheet_page": "sheet",
-    "sheet_room": "sheet",
+    "sheet_room": "sheet_plan",
 }
 
 

@@ -5,6 +5,7 @@ someone who does not see it; in one language or both.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 
 from graphkin.construction.remarks import ZeroVector
@@ -33,10 +34,24 @@ def term(key: str, language: str) -> str:
     return " ".join(dict.fromkeys(word(key, each) for each in languages(language)))
 
 
+# Words of a title that tell the scene's own position: "position 7", "crank at 40 deg", "位置 7".
+_OWN_POSITION = re.compile(
+    r"[,;:，；：、]?\s*(?:(?:in|at)\s+)?(?:position|pos\.)\s+[\w'′]+|[,;:，；：、]?\s*位置\s*[\w'′]+"
+    r"|[,;:，；：、]?\s*(?:\w+\s+)?at\s+-?[\d.]+\s*(?:deg(?:rees)?\b|°)",
+    re.IGNORECASE,
+)
+
+
 def titles(sheet: Sheet, language: str) -> tuple[str, ...]:
-    """Title of the scene, one for each language that it has one in."""
+    """Title of the scene, one for each language that it has one in; elsewhere than in its own position without the
+    words that tell that."""
     scene = sheet.scene
-    return tuple(dict.fromkeys(_plain(scene.title_in(each) or scene.name) for each in languages(language)))
+    own = all(
+        d.dead_point is not None or math.isclose(sheet.drivers[d.key], d.values[0], rel_tol=1e-9, abs_tol=1e-12)
+        for d in scene.drivers
+    )
+    found = (scene.title_in(each) or scene.name for each in languages(language))
+    return tuple(dict.fromkeys(_plain(title if own else _OWN_POSITION.sub("", title).strip()) for title in found))
 
 
 def number(value: float, digits: int = 6) -> str:

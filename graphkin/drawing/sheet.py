@@ -1,14 +1,9 @@
-"""Where everything stands on a sheet: panels of the mechanism and of the polygons, equations, data, readings.
-
-The sheet: mechanism, both polygons, equations, given data, readings and title block on one page, true to scale.
+"""The sheet: mechanism, both polygons, equations, given data, readings and title block on one page, true to scale.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from graphkin.checking.report import Report
-from graphkin.construction import Room
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
@@ -24,101 +19,16 @@ from graphkin.drawing.overleaf import Remainder, captioned, heading, overleaf
 from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved, moved_piece, with_labels
 from graphkin.drawing.polygon_on_page import extent
 from graphkin.drawing.primitives import Group, Line, Polygon, Primitive, Run, Text
-from graphkin.drawing.tables import given_data, readings_table, table_rows
+from graphkin.drawing.sheet_plan import BLOCK, GUTTER, SheetPlan, sheet_plan
+from graphkin.drawing.tables import given_data, given_lines, readings_table, table_rows
 from graphkin.drawing.text import fitted, plain, wrapped
-from graphkin.scene.model import Mechanism
 from graphkin.words import Phrase, languages, say, word
 
-__all__ = ["BLOCK", "GUTTER", "MARGIN", "SheetPlan", "sheet_page", "sheet_plan", "sheet_room"]
+__all__ = ["sheet_page"]
 
-MARGIN, GUTTER, CAPTION = 10.0, 2.0, 5.5
-HEAD, BLOCK = 11.0, 16.0  # heading above, title block below
-FILL = 0.87  # of a panel, by the polygon with the finest scale
 BAR_ROOM, SCALES_ROOM = 56.0, 33.0  # least widths in the title block, for the check bar and for the scales
+GIVEN = 2.8  # mm, letters of the given data overleaf
 EQUATIONS_ROOM = 20.0  # least height of the equations above insets of Coriolis terms
-AROUND_MECHANISM = (13.0, 15.0)  # mm for symbols and names
-# Height of the mechanism's panel by that of a polygon's: the usual one, and such as tall mechanisms may have.
-HEIGHTS = (1.08, 1.33, 1.43)
-
-
-@dataclass(frozen=True)
-class SheetPlan:
-    """Where everything stands on the page (mm); panels without their captions."""
-
-    width: float
-    height: float
-    mechanism: Box
-    velocity: Box
-    acceleration: Box
-    equations: Box
-    given: Box
-    readings: Box
-    block: Box
-
-
-def sheet_room(scene: Mechanism) -> Room:
-    """The room in which a sheet for ``sheet_page`` is to be drafted: ``draft(scene, room=sheet_room(scene))``."""
-    plans = _plans(scene)
-    first, *others = (_mechanism_room(plan) for plan in plans)
-    panel = plans[0].velocity
-    return Room(first, (panel.width * FILL, panel.height * FILL), tuple(others))
-
-
-def _mechanism_room(plan: SheetPlan) -> tuple[float, float]:
-    return plan.mechanism.width - AROUND_MECHANISM[0], plan.mechanism.height - AROUND_MECHANISM[1]
-
-
-def _plans(scene: Mechanism) -> tuple[SheetPlan, ...]:
-    """The usual plan of a page, and those for taller mechanisms."""
-    if scene.sheet.orientation == "landscape":
-        return (_landscape(*scene.sheet.size),)
-    return tuple(_portrait(*scene.sheet.size, tall) for tall in HEIGHTS)
-
-
-def sheet_plan(sheet: Sheet) -> SheetPlan:
-    """The first plan whose room holds the mechanism as it is drawn."""
-    plans = _plans(sheet.scene)
-    size = Box.around(sheet.points.values()) if sheet.points else Box(0.0, 0.0, 0.0, 0.0)
-    for plan in plans:
-        room = _mechanism_room(plan)
-        if size.width <= room[0] + 1e-6 and size.height <= room[1] + 1e-6:
-            return plan
-    return plans[0]
-
-
-def _portrait(width: float, height: float, tall: float) -> SheetPlan:
-    page = Box(MARGIN, MARGIN, width - MARGIN, height - MARGIN)
-    top = page.top + HEAD + CAPTION
-    split = page.left + 0.483 * page.width
-    polygon = 0.315 * page.height  # height of a polygon's panel
-    right = split + GUTTER
-    velocity = Box(right, top, page.right, top + polygon)
-    acceleration = velocity.moved(complex(0, polygon + CAPTION + GUTTER))
-    mechanism = Box(page.left, top, split, top + tall * polygon)
-    equations = Box(page.left, mechanism.bottom + GUTTER + CAPTION, split, acceleration.bottom)
-    block = Box(page.left, page.bottom - BLOCK, page.right, page.bottom)
-    low = acceleration.bottom + GUTTER + CAPTION
-    third = page.left + 0.27 * page.width
-    given = Box(page.left, low, third, block.top - GUTTER)
-    readings = Box(third + 2 * GUTTER, low, page.right, block.top - GUTTER)
-    return SheetPlan(width, height, mechanism, velocity, acceleration, equations, given, readings, block)
-
-
-def _landscape(width: float, height: float) -> SheetPlan:
-    page = Box(MARGIN, MARGIN, width - MARGIN, height - MARGIN)
-    top = page.top + HEAD + CAPTION
-    panel = (page.width - 2 * GUTTER) / 3
-    bottom = top + panel * 0.98
-    boxes = [
-        Box(page.left + i * (panel + GUTTER), top, page.left + i * (panel + GUTTER) + panel, bottom) for i in range(3)
-    ]
-    block = Box(page.left, page.bottom - BLOCK, page.right, page.bottom)
-    low = bottom + GUTTER + CAPTION
-    one, two = page.left + 0.17 * page.width, page.left + 0.53 * page.width
-    given = Box(page.left, low, one, block.top - GUTTER)
-    equations = Box(one + GUTTER, low, two, block.top - GUTTER)
-    readings = Box(two + GUTTER, low, page.right, block.top - GUTTER)
-    return SheetPlan(width, height, boxes[0], boxes[1], boxes[2], equations, given, readings, block)
 
 
 def sheet_page(
@@ -145,30 +55,19 @@ def sheet_page(
         drawn.append("acceleration")
         acceleration, homeless = _polygon(sheet, "acceleration", letters, spoken, plan.acceleration)
         pieces += [_panel(plan.acceleration, _caption(sheet, letters, spoken, "acceleration")), acceleration]
-    given, given_rest = given_data(sheet, letters, spoken, plan.given)
-    spare = _spare(plan.given, given)
-    if spare is not None and not given_rest:
-        pieces.append(coriolis_row(sheet, homeless[:1], letters, spare))
-        homeless = homeless[1:]
-    equations, lines, homeless = _equations(sheet, letters, spoken, plan.equations, homeless)
-    rows = table_rows(sheet, report)
-    readings, count = readings_table(sheet, rows, letters, spoken, plan.readings)
-    page = Box(MARGIN, MARGIN, plan.width - MARGIN, plan.height - MARGIN)
+    writing, rest = _writing(sheet, report, letters, spoken, plan, homeless)
     pieces += [
-        heading(sheet, letters, spoken, page),
+        heading(sheet, letters, spoken, plan.page),
         _panel(plan.mechanism, _caption(sheet, letters, spoken, "mechanism")),
         _panel(plan.velocity, _caption(sheet, letters, spoken, "velocity")),
         _mechanism(sheet, letters, plan.mechanism),
         velocity,
-        equations,
-        captioned(plan.given, term("given", spoken), "labels", given),
-        captioned(plan.readings, term("readings", spoken), "answers", readings),
+        *writing,
         _title_block(sheet, report, letters, spoken, plan.block),
     ]
-    rest = Remainder(lines, homeless, given_rest, rows[count:])
-    further = overleaf(sheet, rest, letters, spoken, page)
+    further = overleaf(sheet, rest, letters, spoken, plan.page)
     if further:
-        pieces.append(_goes_on(spoken, page))
+        pieces.append(_goes_on(spoken, plan.page))
     return Drawing(
         plan.width,
         plan.height,
@@ -179,6 +78,27 @@ def sheet_page(
         facts(sheet, "sheet"),
         further,
     )
+
+
+def _writing(
+    sheet: Sheet, report: Report | None, letters: Letters, language: str, plan: SheetPlan, senses: list[CoriolisTerm]
+) -> tuple[list[Piece], Remainder]:
+    """Equations, given data and readings, with the insets of Coriolis terms that found no room in their panel; and what
+    is left of them for further pages."""
+    rows = table_rows(sheet, report)
+    if plan.equations is None or plan.given is None or plan.readings is None:
+        lines = given_lines(sheet, letters, language, plan.page.width, GIVEN)
+        return [], Remainder(written_lines(sheet, letters, language), senses, lines, rows)
+    given, given_rest = given_data(sheet, letters, language, plan.given)
+    pieces = [captioned(plan.given, term("given", language), "labels", given)]
+    spare = _spare(plan.given, given)
+    if spare is not None and not given_rest:
+        pieces.append(coriolis_row(sheet, senses[:1], letters, spare))
+        senses = senses[1:]
+    equations, lines_left, senses = _equations(sheet, letters, language, plan.equations, senses)
+    readings, count = readings_table(sheet, rows, letters, language, plan.readings)
+    pieces += [equations, captioned(plan.readings, term("readings", language), "answers", readings)]
+    return pieces, Remainder(lines_left, senses, given_rest, rows[count:])
 
 
 def _goes_on(language: str, page: Box) -> Piece:

@@ -20,7 +20,7 @@ from graphkin.plane import degrees
 from graphkin.scene.model import Mechanism, PlacedLink
 from graphkin.words import languages, word
 
-__all__ = ["TableRow", "given_data", "given_lengths", "readings_table", "set_lines", "table_rows"]
+__all__ = ["TableRow", "given_data", "given_lengths", "given_lines", "readings_table", "set_lines", "table_rows"]
 
 ROW, LEAST_ROW = 4.2, 3.75  # mm
 _LETTERS = {"v": 0, "omega": 1, "a": 2, "alpha": 4}

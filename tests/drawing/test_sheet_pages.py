@@ -1,13 +1,16 @@
 """What stands on a sheet, and on the pages on which it goes on."""
 
 import re
+from dataclasses import replace
 
 import pytest
 
 from graphkin import draw
-from graphkin.drawing import Text
+from graphkin.construction import plan
+from graphkin.drawing import Text, sheet_room
 from graphkin.drawing.primitives import Group, walk
 from graphkin.drawing.tables import table_rows
+from graphkin.scene import mechanism_of
 
 FOUR = ("chinese", "us", "british", "russian")
 
@@ -86,3 +89,23 @@ def test_steps_are_numbered_at_the_vectors():
     drawn_in = {f"({step.number})" for step in drawn.checked.sheet.steps if step.diagram == "velocity"}
     assert set(numbers) <= drawn_in
     assert len(numbers) >= 5
+
+
+def test_a_sheet_keeps_the_scales_that_the_scene_wishes_for():
+    drawn = draw("sixbar-guide-40deg")
+    assert {"length": 2, "velocity": 10, "acceleration": 100} == drawn.figures["sheet"].metadata["scales"]
+    assert (297.0, 420.0) == (drawn.figures["sheet"].width, drawn.figures["sheet"].height)
+
+
+def test_scales_are_round_in_inches():
+    scene = mechanism_of("slider-crank-offset")
+    scene = replace(scene, units=replace(scene.units, length="in"))
+    scales = plan(scene).scales_for(sheet_room(scene))
+    for per in (scales.length / 0.0254, scales.velocity / 0.0254, scales.acceleration / 0.0254):
+        assert f"{per:e}"[:3] in ("1.0", "2.0", "2.5", "5.0")
+
+
+@pytest.mark.parametrize(("at", "expected"), [(None, "position 7"), (75, "scheme 2")])
+def test_the_title_elsewhere_is_without_the_words_of_the_scenes_own_position(at, expected):
+    told = words(draw("shaper-scheme-2", at=at).figures["velocity"])
+    assert [expected] == [text[-len(expected) :] for text in told if text.startswith("Shaper")]

@@ -1,0 +1,178 @@
+"""Where everything may stand on a sheet: plans of its page, and which of them suits a mechanism.
+
+The usual plan has the equations under the mechanism.  Others give the mechanism or the polygons more room; where the
+scene wishes for scales that none of them holds, writing goes overleaf, and after that the paper grows.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import product
+
+from graphkin.construction import Room, drawn_sizes
+from graphkin.construction.sheet import Sheet
+from graphkin.drawing.box import Box
+from graphkin.scene.model import Mechanism
+from graphkin.scene.tables import PAPERS
+
+__all__ = ["BLOCK", "CAPTION", "GUTTER", "MARGIN", "SheetPlan", "sheet_plan", "sheet_room"]
+
+MARGIN, GUTTER, CAPTION = 10.0, 2.0, 5.5
+HEAD, BLOCK = 11.0, 16.0  # heading above, title block below
+FILL = 0.87  # of a panel, by the polygon with the finest scale
+AROUND_MECHANISM = (13.0, 15.0)  # mm for symbols and names
+# Width of the mechanism's panel by that of the page: the usual one, others, and one with nothing below it.
+SPLITS, SLENDER = (0.483, 0.36, 0.6), 0.28
+# Height of a polygon's panel by that of the page: the usual one, and that beside which few readings have room.
+POLYGON, HIGHER = 0.315, 0.36
+FEW = 3  # moving links
+# Height of the mechanism's panel by that of a polygon's: the usual one, and such as tall mechanisms may have.
+HEIGHTS = (1.08, 1.33, 1.43)
+NARROWEST, WIDEST = 0.26, 0.66  # width of the mechanism's panel where writing goes overleaf
+# What a plan costs beside the usual one, in tenfold finer scales: less room for the equations, a column too narrow for
+# them, less room below the polygons, writing overleaf, a larger paper.
+TALL, NARROW, STRIP, LESS_BELOW, OVERLEAF, LARGER = 0.28, 0.35, 0.45, 0.1, 3.0, 5.0
+
+
+@dataclass(frozen=True)
+class SheetPlan:
+    """Where everything stands on the page (mm); panels without their captions.  What is None stands overleaf."""
+
+    width: float
+    height: float
+    mechanism: Box
+    velocity: Box
+    acceleration: Box
+    equations: Box | None
+    given: Box | None
+    readings: Box | None
+    block: Box
+    cost: float = 0.0
+
+    @property
+    def page(self) -> Box:
+        """The page within its margins."""
+        return Box(MARGIN, MARGIN, self.width - MARGIN, self.height - MARGIN)
+
+    @property
+    def room(self) -> Room:
+        """Where the figures may be drawn in it."""
+        mechanism = self.mechanism.width - AROUND_MECHANISM[0], self.mechanism.height - AROUND_MECHANISM[1]
+        return Room(mechanism, (self.velocity.width * FILL, self.velocity.height * FILL), cost=self.cost)
+
+    def holds(self, sizes: tuple[tuple[float, float], ...]) -> bool:
+        """Whether mechanism and polygons of these widths and heights fit."""
+        room = self.room
+        rooms = room.mechanism, room.polygon, room.polygon
+        return all(
+            size[0] <= most[0] * (1 + 1e-9) and size[1] <= most[1] * (1 + 1e-9)
+            for size, most in zip(sizes, rooms, strict=True)
+        )
+
+
+def sheet_room(scene: Mechanism) -> Room:
+    """The room in which a sheet for ``sheet_page`` is to be drafted: ``draft(scene, room=sheet_room(scene))``."""
+    first, *others = (plan.room for plan in _plans(scene))
+    return Room(first.mechanism, first.polygon, others=tuple(others), keeps_wishes=True)
+
+
+def sheet_plan(sheet: Sheet) -> SheetPlan:
+    """The cheapest plan that holds the figures as they are drawn."""
+    plans = sorted(_plans(sheet.scene), key=lambda plan: plan.cost)
+    sizes = drawn_sizes(sheet)
+    return next((plan for plan in plans if plan.holds(sizes)), plans[0])
+
+
+def _plans(scene: Mechanism) -> Iterator[SheetPlan]:
+    """All plans, the usual one first; larger papers where scales are wished for."""
+    wishes = scene.sheet
+    wished = any((wishes.length_scale, wishes.velocity_scale, wishes.acceleration_scale))
+    landscape = wishes.orientation == "landscape"
+    sizes = sorted(PAPERS.values())
+    larger = [size for size in sizes if size[0] > min(wishes.size)] if wished else []
+    for times, (short, long) in enumerate([(min(wishes.size), max(wishes.size)), *larger]):
+        width, height = (long, short) if landscape else (short, long)
+        roomy = times > 0 or len(scene.links) <= FEW
+        cost = LARGER * times
+        if landscape:
+            yield from _landscape(width, height, cost, wished)
+        else:
+            yield from _portrait(width, height, cost, wished, roomy)
+
+
+def _portrait(width: float, height: float, cost: float, wished: bool, roomy: bool) -> Iterator[SheetPlan]:
+    for polygon in (POLYGON, HIGHER) if roomy else (POLYGON,):
+        more = cost + LESS_BELOW * (polygon != POLYGON)
+        for split, tall in product(SPLITS, HEIGHTS):
+            dear = TALL + 0.01 * tall if tall > HEIGHTS[0] else 0.0
+            yield _upright(width, height, split, polygon, tall, more + dear + NARROW * (split != SPLITS[0]))
+        for split in (*SPLITS, SLENDER):
+            yield _upright(width, height, split, polygon, None, more + STRIP + 0.1 * (split != SPLITS[0]))
+    if wished:
+        for step in range(9):
+            split = NARROWEST + (WIDEST - NARROWEST) * step / 8
+            yield _upright(width, height, split, None, None, cost + OVERLEAF)
+
+
+def _upright(
+    width: float, height: float, split: float, polygon: float | None, tall: float | None, cost: float
+) -> SheetPlan:
+    """A page with the polygons below each other beside the mechanism.
+
+    Parameters
+    ----------
+    split : width of the mechanism's panel by that of the page
+    polygon : height of a polygon's panel by that of the page; None: both fill it, and all writing goes overleaf
+    tall : height of the mechanism's panel by that of a polygon's, with the equations below it; None: as tall as both
+        polygons, the equations between the given and the readings
+    """
+    page = Box(MARGIN, MARGIN, width - MARGIN, height - MARGIN)
+    block = Box(page.left, page.bottom - BLOCK, page.right, page.bottom)
+    top = page.top + HEAD + CAPTION
+    middle = page.left + split * page.width
+    high = polygon * page.height if polygon else (block.top - 2 * GUTTER - CAPTION - top) / 2
+    velocity = Box(middle + GUTTER, top, page.right, top + high)
+    acceleration = velocity.moved(complex(0, high + CAPTION + GUTTER))
+    mechanism = Box(page.left, top, middle, top + tall * high if tall else acceleration.bottom)
+    panels = (mechanism, velocity, acceleration)
+    if polygon is None:
+        return SheetPlan(width, height, *panels, None, None, None, block, cost)
+    low, end = acceleration.bottom + GUTTER + CAPTION, block.top - GUTTER
+    third = page.left + 0.27 * page.width
+    given = Box(page.left, low, third, end)
+    readings = Box(third + 2 * GUTTER, low, page.right, end)
+    if tall:
+        equations = Box(page.left, mechanism.bottom + GUTTER + CAPTION, middle, acceleration.bottom)
+    else:
+        half = page.left + 0.56 * page.width
+        given = Box(page.left, low, page.left + 0.2 * page.width, end)
+        equations = Box(given.right + 2 * GUTTER, low, half, end)
+        readings = Box(half + 2 * GUTTER, low, page.right, end)
+    return SheetPlan(width, height, *panels, equations, given, readings, block, cost)
+
+
+def _landscape(width: float, height: float, cost: float, wished: bool) -> Iterator[SheetPlan]:
+    page = Box(MARGIN, MARGIN, width - MARGIN, height - MARGIN)
+    top = page.top + HEAD + CAPTION
+    block = Box(page.left, page.bottom - BLOCK, page.right, page.bottom)
+    third = (page.width - 2 * GUTTER) / 3
+    for share in (1 / 3, 0.22, 0.46):
+        for overleaf in (False, True) if wished else (False,):
+            bottom = block.top - GUTTER if overleaf else top + third * 0.98
+            wide = share * (page.width - 2 * GUTTER)
+            each = (page.width - 2 * GUTTER - wide) / 2
+            first = Box(page.left, top, page.left + wide, bottom)
+            second = Box(first.right + GUTTER, top, first.right + GUTTER + each, bottom)
+            panels = (first, second, second.moved(complex(each + GUTTER, 0)))
+            dear = cost + OVERLEAF * overleaf + NARROW * (share != 1 / 3)
+            if overleaf:
+                yield SheetPlan(width, height, *panels, None, None, None, block, dear)
+                continue
+            low, end = bottom + GUTTER + CAPTION, block.top - GUTTER
+            one, two = page.left + 0.17 * page.width, page.left + 0.53 * page.width
+            given = Box(page.left, low, one, end)
+            equations = Box(one + GUTTER, low, two, end)
+            yield SheetPlan(
+                width, height, *panels, equations, given, Box(two + GUTTER, low, page.right, end), block, dear
+            )
