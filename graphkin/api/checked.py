@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -24,6 +24,7 @@ from graphkin.api.arguments import (
     write_files,
 )
 from graphkin.api.results import Result
+from graphkin.checking.reading_words import deviation, exact, measured, paper
 from graphkin.checking.readings import Advice, Uncertainty, advise, predict, read_off
 from graphkin.checking.report import Compared, Report, compare
 from graphkin.construction import EXACT, Cad, Instrument, Plan, Sheet, execute, pencil, plan
@@ -40,7 +41,7 @@ if TYPE_CHECKING:
     from graphkin.solver import Motion
     from graphkin.table import Table
 
-__all__ = ["Checked", "check", "checked", "hand_of", "reading_row", "solved_here"]
+__all__ = ["Checked", "check", "checked", "hand_of", "reading_row", "reading_words", "solved_here"]
 
 _FORMS = {
     "symbol": "", "unit": "", "on_paper_mm": ".12g", "measured": ".12g", "exact": ".12g", "error": ".3g",
@@ -165,6 +166,17 @@ def in_scene_units(scene: Mechanism, symbol: Symbol, value: float, degrees: bool
     return value / (symbol.per_unit(metres) if degrees else symbol.per_unit_of_programs(metres))
 
 
+def reading_words(checked: Checked) -> Iterator[tuple[str, str, str, str, bool]]:
+    """Each reading in words: symbol, mm on paper, measured with as many figures as the drawing carries, exact, whether
+    the two agree."""
+    scales, metres = checked.report.scales, checked.scene.units.metres
+    for row in checked.report.rows:
+        said = measured(row.reading, scales, metres, row)
+        if said == "0" and row.uncertainty is not None:
+            said = f"0 {deviation(row, metres)}"
+        yield str(row.symbol), paper(row.reading, row), said, exact(row, metres), row.ok
+
+
 def reading_row(scene: Mechanism, row: Compared, degrees: bool = False) -> dict[str, Any]:
     """One reading as in the JSON: vectors by size, others with sign; ``degrees`` for tables that people read."""
 
@@ -177,8 +189,8 @@ def reading_row(scene: Mechanism, row: Compared, degrees: bool = False) -> dict[
     return {
         "symbol": str(row.symbol),
         "on_paper_mm": row.reading.on_paper,
-        "measured": size(row.reading.value),
-        "exact": size(row.exact),
+        "measured": size(row.measured),
+        "exact": size(row.true),
         "error": unit(row.error),
         "tolerance": unit(row.tolerance),
         "direction_error_rad": row.direction_error,
@@ -243,17 +255,17 @@ def checked(what: Plan, motion: Motion, hand: Instrument) -> Checked:
     value = exact_values(motion, what.asked)
     sheet = execute(what, hand)
     readings = read_off(sheet, (), hand)
+    rounding: dict[DiagramName, float] = {
+        "mechanism": float(np.nan_to_num(motion.bound.position[0], posinf=0.0)),
+        "velocity": float(motion.rough[0][0]),
+        "acceleration": float(motion.rough[1][0]),
+    }
     if hand is EXACT:
-        rounding: dict[DiagramName, float] = {
-            "mechanism": float(np.nan_to_num(motion.bound.position[0], posinf=0.0)),
-            "velocity": float(motion.rough[0][0]),
-            "acceleration": float(motion.rough[1][0]),
-        }
         return Checked(sheet, compare(sheet, readings, value, what.asked, rounding=rounding), None, what.asked)
     tools = what.structure.scene.sheet.tools
     predicted = predict(what, hand.name, tools)
     advice = advise(what, hand.name, tools, readings, predicted)
-    return Checked(sheet, compare(sheet, readings, value, what.asked, predicted), advice, what.asked)
+    return Checked(sheet, compare(sheet, readings, value, what.asked, predicted, rounding), advice, what.asked)
 
 
 def hand_of(scene: Mechanism, name: str, seed: int) -> Instrument:

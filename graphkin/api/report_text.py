@@ -8,7 +8,7 @@ import math
 from typing import TYPE_CHECKING
 
 from graphkin.api.arguments import own_unit
-from graphkin.api.checked import Checked, reading_row
+from graphkin.api.checked import Checked, reading_words
 from graphkin.construction.sheet import Equation, Sheet, Term
 from graphkin.construction.steps import Direction
 from graphkin.scene.model import Mechanism
@@ -37,16 +37,16 @@ def show(argument: object) -> str:
 def report_text(checked: Checked, language: str) -> str:
     """The whole report."""
     sheet, scene = checked.sheet, checked.scene
-    title = scene.title_in(language)
+    title, colon = scene.title_in(language), word("colon", language)
     lines = [title, "=" * sum(2 if ord(c) > 0x2E7F else 1 for c in title), ""]
     if scene.source:
-        lines.append(f"{word('source', language)}: {scene.source}")
+        lines.append(f"{word('source', language)}{colon}{scene.source}")
     count = sheet.structure.mobility
     lines.append(f"F = 3·{count.links} - 2·{count.lower} - {count.higher} = {count.value}")
     drivers = [f"{d.key}: {own_unit(scene, d, sheet.drivers[d.key])}" for d in scene.drivers]
-    lines.append(f"{word('driver', language)}: {', '.join(drivers)}")
+    lines.append(f"{word('driver', language)}{colon}{', '.join(drivers)}")
     for links, phrase in sheet.assembly.items():
-        lines.append(f"{word('group', language)} {links}: {say(phrase, language, show)}")
+        lines.append(f"{word('group', language)} {links}{colon}{say(phrase, language, show)}")
     unit, scales = scene.units.length, checked.scales
     lines += [
         "",
@@ -63,11 +63,8 @@ def report_text(checked: Checked, language: str) -> str:
     lines.append(word("readings", language))
     head = (word("quantity", language), word("on paper", language), word("measured", language), word("exact", language))
     lines.append(f"{head[0]:<16}{head[1]:>12}{head[2]:>16}{head[3]:>16}")
-    for row in checked.report.rows:
-        r = reading_row(scene, row, degrees=True)
-        mark = "" if row.ok else "  !"
-        mm = "" if r["on_paper_mm"] is None else f"{r['on_paper_mm']:.3f}"
-        lines.append(f"{r['symbol']:<16}{mm:>12}{r['measured']:>16.6g}{r['exact']:>16.6g}{mark}")
+    for symbol, length, measured, exact, ok in reading_words(checked):
+        lines.append(f"{symbol:<16}{length:>12}{measured:>16}{exact:>16}{'' if ok else '  !'}")
     lines.append("")
     lines += [say(note, language, show) for note in (*sheet.left_out, *sheet.notes)]
     if sheet.stopped:
@@ -128,7 +125,7 @@ MOST_CURVES = 40
 def turn_text(turn: TurnStudy, language: str) -> list[str]:
     """The study of a turn, in lines."""
     scene = turn.scene
-    driver = scene.drivers[0]
+    driver, colon = scene.drivers[0], word("colon", language)
     lines: list[str] = []
     own = turn.ranges[0]
     if own.whole:
@@ -137,7 +134,7 @@ def turn_text(turn: TurnStudy, language: str) -> list[str]:
             said += "; " + say(Phrase("turns to close", (turn.reach.turns,)), language)
     else:
         said = _between(scene, own.low, own.high, own.open_low, own.open_high)
-    lines.append(f"{word('range', language)} {driver.key}: {said}")
+    lines.append(f"{word('range', language)} {driver.key}{colon}{said}")
     for other in turn.ranges[1:]:
         between = _between(scene, other.low, other.high, other.open_low, other.open_high)
         lines.append("  " + say(Phrase("also assembles", (between,)), language))
@@ -146,7 +143,7 @@ def turn_text(turn: TurnStudy, language: str) -> list[str]:
     for loop in turn.loops:
         turning = say(Phrase("turns fully", (", ".join(loop.turns) or "–",)), language)
         names = ", ".join(loop.links)
-        lines.append(f"{word('basic mechanism', language)} {names}: {word(loop.name, language)}; {turning}")
+        lines.append(f"{word('basic mechanism', language)} {names}{colon}{word(loop.name, language)}; {turning}")
     for output in turn.outputs:
         lines += _output(turn, output, language)
     for least in turn.transmission:
@@ -155,9 +152,8 @@ def turn_text(turn: TurnStudy, language: str) -> list[str]:
             where = f"{driver.key} = {own_unit(scene, driver, least.driver)}"
         pressure = say(Phrase("greatest pressure", (f"{math.degrees(least.pressure):.6g}°",)), language)
         names = f"{least.group.kind} {', '.join(least.group.links)}"
-        lines.append(
-            f"{word('least transmission', language)} {names}: {math.degrees(least.angle):.6g}° ({where}); {pressure}"
-        )
+        angle = f"{math.degrees(least.angle):.6g}°"
+        lines.append(f"{word('least transmission', language)} {names}{colon}{angle} ({where}); {pressure}")
     lines += _curves(turn, language)
     return lines
 
@@ -176,12 +172,12 @@ def _at(scene: Mechanism, extreme: Extreme) -> str:
 
 def _output(turn: TurnStudy, output: Output, language: str) -> list[str]:
     scene, quantity = turn.scene, output.quantity
-    unit = quantity.unit(scene, degrees=True).replace("deg", "°")
+    unit, colon = quantity.unit(scene, degrees=True).replace("deg", "°"), word("colon", language)
 
     def amount(value: float) -> str:
         return f"{quantity.in_units(scene, value, degrees=True):.10g} {unit}".replace(" °", "°")
 
-    head = f"{word('output', language)} {quantity.of}: "
+    head = f"{word('output', language)} {quantity.of}{colon}"
     if output.stroke is None:
         key = "does not move" if output.position.constant is not None else "turns on"
         return [head + word(key, language)]
@@ -191,7 +187,7 @@ def _output(turn: TurnStudy, output: Output, language: str) -> list[str]:
     if back is not None:
         said += f", K = {back[0]:.10g} (θ = {math.degrees(back[1]):.8g}°)"
     places = ", ".join(f"{amount(e.value)} @ {_at(scene, e)}" for e in output.position.extremes)
-    return [head + said, f"  {word('limit position', language)}: {places}"]
+    return [head + said, f"  {word('limit position', language)}{colon}{places}"]
 
 
 def _curves(turn: TurnStudy, language: str) -> list[str]:

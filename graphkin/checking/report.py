@@ -9,11 +9,12 @@ from dataclasses import dataclass
 
 from graphkin.checking.readings import Reading, Uncertainty
 from graphkin.construction.sheet import DiagramName, Scales, Sheet
-from graphkin.scene.symbol import Symbol
+from graphkin.scene.symbol import PointRef, Symbol
 
 __all__ = ["Compared", "Report", "compare"]
 
 EXACT_TOLERANCE = 1e-9
+ROUNDING = 1e-14
 
 Exact = Callable[[Symbol], complex | float]
 
@@ -24,7 +25,7 @@ class Compared:
 
     ``error`` is the size of the difference of the two, as vectors where they are vectors; ``tolerance`` what it may be;
     ``direction_error`` the angle from the exact direction to the drawn one (rad; 0 for rates and for vectors too short
-    to have a direction).
+    to have a direction).  A value not above ``floor`` is nothing but rounding.
     """
 
     reading: Reading
@@ -33,6 +34,7 @@ class Compared:
     tolerance: float
     direction_error: float
     uncertainty: Uncertainty | None = None
+    floor: float = 0.0
 
     @property
     def symbol(self) -> Symbol:
@@ -46,6 +48,27 @@ class Compared:
     @property
     def ok(self) -> bool:
         return self.error <= self.tolerance
+
+    @property
+    def bound(self) -> float:
+        """What a reading must exceed to be told from zero."""
+        predicted = self.uncertainty.bound if self.uncertainty else 0.0
+        return max(self.floor, predicted if math.isfinite(predicted) else 0.0)
+
+    @property
+    def measured(self) -> complex | float:
+        """The reading, zero where its size is below its own uncertainty."""
+        return self.reading.value if abs(self.reading.value) > self.bound else 0.0
+
+    @property
+    def true(self) -> complex | float:
+        """The exact value, zero where it is nothing but rounding."""
+        return self.exact if abs(self.exact) > self.floor else 0.0
+
+    @property
+    def relative(self) -> float | None:
+        """The error as a part of the exact value; None where there is nothing to be a part of."""
+        return self.error / abs(self.exact) if self.measured != 0.0 and self.true != 0.0 else None
 
 
 @dataclass(frozen=True)
@@ -78,7 +101,7 @@ def compare(
     predicted : uncertainty of each reading, by which it is judged; without it (exact instrument) a reading may be off
         by 1e-9 of the largest vector of the diagram, a rate by 1e-9 of the largest rate or of that vector over the size
     rounding : how far rounding may have moved the exact places (m) and vectors of a diagram (m/s, m/s2): within a hair
-        of a dead point it exceeds 1e-9, and drawing and solver can agree no better
+        of a dead point it exceeds 1e-9, and drawing and solver can agree no better; what is smaller is zero
     """
     pairs = [(r, exact(r.symbol)) for r in readings]
     # a vector is judged by the largest of its diagram, a rate by the largest rate or by that vector over the size
@@ -108,7 +131,8 @@ def compare(
         expected = (predicted or {}).get(reading.symbol)
         rounded = (rounding or {}).get(reading.diagram, 0.0) / (1.0 if reading.symbol.is_vector else sheet.scene.size)
         tolerance = max(expected.bound if expected else 0.0, EXACT_TOLERANCE * most, rounded)
-        rows.append(Compared(reading, value, error, tolerance, turned, expected))
+        floor = _floor(sheet, reading, rounding or {}, EXACT_TOLERANCE * most)
+        rows.append(Compared(reading, value, error, tolerance, turned, expected, floor))
     have = {r.symbol for r in readings}
     return Report(sheet.instrument, sheet.scales, tuple(rows), tuple(s for s in asked if s not in have))
 
@@ -126,4 +150,26 @@ def _position(
     expected = (predicted or {}).get(reading.symbol)
     rounded = (rounding or {}).get("mechanism", 0.0) / (1.0 if length else size)
     tolerance = max(expected.bound if expected else 0.0, EXACT_TOLERANCE * most, rounded)
-    return Compared(reading, exact, abs(off), tolerance, 0.0, expected)
+    return Compared(reading, exact, abs(off), tolerance, 0.0, expected, max(rounded, ROUNDING * most))
+
+
+_TOLD_APART = (1.0 + math.sqrt(2.0)) ** 2  # v^2 > 2 v d + d^2 from v = (1 + sqrt 2) d on
+
+
+def _floor(sheet: Sheet, reading: Reading, rounding: Mapping[DiagramName, float], unknown: float) -> float:
+    """What rounding alone may amount to in a value (SI), ``unknown`` where nothing is known of it: of a rate by the bar
+    that it is measured at, of a normal component by the velocity whose square it is."""
+    symbol, lost = reading.symbol, rounding.get(reading.diagram, math.inf)
+    slow = rounding.get("velocity", math.inf)
+    if not (math.isfinite(lost) and math.isfinite(slow)):
+        return unknown
+    if symbol.kind == "an" and symbol.of is not None and symbol.to is not None:
+        ends = [sheet.points.get(PointRef(ref.point)) for ref in (symbol.of, symbol.to)]
+        if ends[0] is not None and ends[1] is not None and ends[0] != ends[1]:
+            return min(lost, _TOLD_APART * slow**2 / (abs(ends[0] - ends[1]) * sheet.scales.length))
+    if symbol.is_vector:
+        return lost
+    rate = (sheet.omega if symbol.kind == "omega" else sheet.alpha).get(symbol.link)
+    if rate is None or rate.vector is None:
+        return 0.0  # given
+    return lost / (rate.arm_mm * sheet.scales.length if rate.arm_mm else sheet.scene.size)

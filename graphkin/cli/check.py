@@ -88,19 +88,13 @@ def print_check(checked: Checked, language: str, as_json: bool, quiet: bool) -> 
 
 
 def _print_readings(checked: Checked, language: str) -> None:
-    from graphkin.api.checked import reading_row
+    from graphkin.api.checked import reading_words
     from graphkin.api.report_text import show, verdict
     from graphkin.words import say, word
 
     rows = [
-        [
-            r["symbol"],
-            "" if r["on_paper_mm"] is None else f"{r['on_paper_mm']:.3f}",
-            f"{r['measured']:.6g}",
-            f"{r['exact']:.6g}",
-            "ok" if r["ok"] else "off",
-        ]
-        for r in (reading_row(checked.scene, row, degrees=True) for row in checked.report.rows)
+        [symbol, length, measured, exact, "ok" if ok else "off"]
+        for symbol, length, measured, exact, ok in reading_words(checked)
     ]
     heads = [word(key, language) for key in ("quantity", "on paper", "measured", "exact")]
     print_table([*heads, ""], rows, right=(1, 2, 3))

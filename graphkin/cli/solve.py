@@ -118,14 +118,14 @@ def solve(
 
 
 def _print_solution(solved: Solved, lang: str | None) -> None:
-    from graphkin.words import Phrase, say
+    from graphkin.words import Phrase, class_of, say
 
     data, scene = solved.data, solved.motion.scene
     language = lang or scene.sheet.language
     tell(f"{scene.title_in(language)}   F = {data['mobility']}")
     for group in data["groups"]:
         links = ", ".join(group["links"])
-        args = links, group["kind"], group["class"], group["assembly"]
+        args = links, group["kind"], class_of(group["class"]), group["assembly"]
         tell(say(Phrase("solved group", args), language))
     for position in data["positions"]:
         tell("")

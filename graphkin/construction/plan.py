@@ -19,13 +19,14 @@ from graphkin.construction.limits import limits_asked, limits_on_paper
 from graphkin.construction.plot import Order
 from graphkin.construction.polygons import Polygons
 from graphkin.construction.position import branches_at, draw_position, place
+from graphkin.construction.residues import without_residues
 from graphkin.construction.sheet import DIAGRAMS, DiagramName, Limits, Scales, Sheet, Step, Vector
 from graphkin.construction.slip import NO_SLIP, Slip
 from graphkin.construction.steps import Asked
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Cluster, Driven, Dyad, Element, Structure, analyse, links_of, needed
-from graphkin.words import Phrase
+from graphkin.words import Phrase, class_of
 
 __all__ = ["Extent", "Plan", "Room", "draft", "drawn_sizes", "execute", "fitting_scale", "plan", "scales_for"]
 
@@ -257,7 +258,7 @@ def _stopped(elements: Sequence[Element]) -> Phrase | None:
     """Which group compass and ruler cannot draw, and why."""
     for e in elements:
         if isinstance(e, Cluster):
-            return Phrase("stopped", (", ".join(e.links), e.order))
+            return Phrase("stopped", (", ".join(e.links), class_of(e.order)))
     return None
 
 
@@ -329,7 +330,7 @@ def _finished(
     """What stands on the board as a sheet, with the vectors that only a question asks for."""
     show(polygons, task.asked)
     board = polygons.board
-    return Sheet(
+    sheet = Sheet(
         scene=task.structure.scene,
         structure=task.structure,
         instrument=board.instrument.name,
@@ -354,6 +355,7 @@ def _finished(
             EXACT if task.triangles else board.instrument,
         ),
     )
+    return without_residues(sheet) if board.instrument.faultless else sheet
 
 
 def draft(

@@ -293,11 +293,11 @@ def _remark_arm(board: Board, dyad: Dyad, frame: PlacedLinks) -> None:
         board.notice("mechanism", ShortArm(dyad.links, (one.point, two.point), apart))
 
 
-def _inner_name(dyad: Dyad) -> str:
+def _inner_name(dyad: Dyad) -> str | Phrase:
     """What the loci of a dyad find, for a remark."""
     if isinstance(dyad.inner, Turn):
         return dyad.inner.point
-    return f"links {', '.join(dyad.links)}"
+    return Phrase("these links", (", ".join(dyad.links),))
 
 
 def _assembly_names(dyad: Dyad) -> tuple[object, ...]:

@@ -10,7 +10,6 @@ import math
 from dataclasses import dataclass, replace
 from typing import Self
 
-from graphkin.construction.steps import ZERO_MM
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase
 
@@ -25,7 +24,7 @@ SHORT = 3.0  # mm on paper; a direction drawn through two points nearer than thi
 class SharpCrossing:
     """Two lines cross at so small an angle (its sine) that the place of the crossing is uncertain."""
 
-    of: str
+    of: str | Phrase
     sine: float
 
     @property
@@ -61,14 +60,14 @@ class OffTheSheet:
 
 @dataclass(frozen=True)
 class ZeroVector:
-    """A vector so short that it is none on paper."""
+    """A vector that may be zero."""
 
     symbol: Symbol
     mm: float
 
     @property
     def holds(self) -> bool:
-        return self.mm < ZERO_MM
+        return self.mm == 0.0
 
     @property
     def phrase(self) -> Phrase:

@@ -13,16 +13,16 @@ from typing import Literal, TypeVar
 
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase
+from graphkin.words.written import amount, on_paper
 
 __all__ = [
-    "ZERO_MM", "Act", "ArcOnPath", "Asked", "ByImage", "ByRate", "Carried", "Cause", "CompassArcs", "Direction",
+    "Act", "ArcOnPath", "Asked", "ByImage", "ByRate", "Carried", "Cause", "CompassArcs", "Direction",
     "DirectionLine", "FixedPoints", "FoundVector", "Given", "GuideThrough", "GuideTouching", "HeldStill",
     "LaidOff", "LaidOffAngle", "LaidOffTravel", "LinesMeet", "LinkPoints", "MeasuredRate", "Named", "PathDrawn",
     "PathsCross", "Placing", "PutBack", "RateTimes", "ReadOff", "Resultant", "SamePlace", "Size", "SlidToMeet",
     "Translated", "links_drawn", "phrase_of", "scaled",
 ]  # fmt: skip
 
-ZERO_MM = 1e-7  # a vector shorter than this is no vector on paper
 
 
 @dataclass(frozen=True)
@@ -197,7 +197,7 @@ class LaidOff:
 
     @property
     def is_zero(self) -> bool:
-        return self.mm < ZERO_MM
+        return self.mm == 0.0
 
 
 @dataclass(frozen=True)
@@ -206,6 +206,10 @@ class FoundVector:
 
     symbol: Symbol
     mm: float
+
+    @property
+    def is_zero(self) -> bool:
+        return self.mm == 0.0
 
 
 @dataclass(frozen=True)
@@ -362,17 +366,17 @@ def phrase_of(thing: Cause) -> Phrase:
         case LaidOffAngle(link, angle, hinge):
             return Phrase("lay off angle", (link, f"{math.degrees(angle):.6g}", hinge))
         case LaidOffTravel(pair, mm):
-            return Phrase("lay off travel", (pair, f"{mm:.2f}"))
+            return Phrase("lay off travel", (pair, on_paper(mm)))
         case CompassArcs(about, point, radii):
-            return Phrase("arcs", (*about, point, *(f"{r:.2f}" for r in radii)))
+            return Phrase("arcs", (*about, point, *map(on_paper, radii)))
         case PathDrawn(point, pair):
             return Phrase("path", (point, pair))
         case ArcOnPath(about, point, mm):
-            return Phrase("arc on path", (about, point, f"{mm:.2f}"))
+            return Phrase("arc on path", (about, point, on_paper(mm)))
         case GuideThrough(pivot, through, pair):
             return Phrase("line of guide", (pivot, through, pair))
         case GuideTouching(pivot, through, mm, pair):
-            return Phrase("tangent", (pivot, through, f"{mm:.2f}", pair))
+            return Phrase("tangent", (pivot, through, on_paper(mm), pair))
         case PathsCross(point, pairs):
             return Phrase("paths", (point, *pairs))
         case SlidToMeet(point, along, until):
@@ -396,9 +400,9 @@ def _in_polygon(act: InPolygon) -> Phrase:
             if act.is_zero:
                 return Phrase("zero vector", (symbol,))
             key = {"normal": "lay off normal", "coriolis": "lay off coriolis"}.get(role, "lay off")
-            return Phrase(key, (symbol, size or "", f"{mm:.2f}", direction))
+            return Phrase(key, (symbol, size or "", on_paper(mm), direction))
         case FoundVector(symbol, mm):
-            return Phrase("found", (symbol, f"{mm:.2f}"))
+            return Phrase("zero vector", (symbol,)) if act.is_zero else Phrase("found", (symbol, on_paper(mm)))
         case DirectionLine(symbol, direction):
             return Phrase("direction", (symbol, direction))
         case Carried() | PutBack() | Resultant() | Asked():
@@ -415,5 +419,5 @@ def _in_polygon(act: InPolygon) -> Phrase:
         case Translated(link):
             return Phrase("translates", (link,))
         case MeasuredRate(rate, link, vector, bar, value):
-            turning = "cw" if math.copysign(1.0, value) < 0 else "ccw"
-            return Phrase(f"{rate} {turning}", (link, vector, "".join(bar), f"{abs(value):.6g}"))
+            turning = "cw" if value < 0.0 else "ccw" if value > 0.0 else "zero"
+            return Phrase(f"{rate} {turning}", (link, vector, "".join(bar), amount(abs(value), 4)))

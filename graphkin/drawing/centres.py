@@ -21,7 +21,7 @@ from graphkin.drawing.conventions import Letters, in_counting_order, letters_of,
 from graphkin.drawing.dimensions import check_bar
 from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.font_widths import text_box
-from graphkin.drawing.headings import describe, drivers, facts, figure_title, term, titles
+from graphkin.drawing.headings import describe, drivers, facts, figure_title, punctuation, term, titles
 from graphkin.drawing.mechanism import bare_mechanism
 from graphkin.drawing.obstacles import cross_product
 from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
@@ -173,7 +173,7 @@ def centres_figure(
 
 def _heading(centres: Centres, at: str, language: str, width: float) -> list[tuple[Run, ...]]:
     lines = [line for title in titles(centres.sheet, language) for line in wrapped(title, 4.0, width, bold=True)]
-    return lines + wrapped(f"{term('centres', language)}:  {at}", 3.2, width)
+    return lines + wrapped(term("centres", language) + punctuation("colon", language) + at, 3.2, width)
 
 
 def background(piece: Piece) -> Piece:

@@ -12,7 +12,7 @@ from graphkin.drawing.centres import background
 from graphkin.drawing.conventions import letters_of, scale_statement
 from graphkin.drawing.dimensions import check_bar
 from graphkin.drawing.drawing import Drawing
-from graphkin.drawing.headings import drivers, facts, figure_title, term, titles
+from graphkin.drawing.headings import drivers, facts, figure_title, punctuation, term, titles
 from graphkin.drawing.labels import Label
 from graphkin.drawing.mechanism import bare_mechanism
 from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
@@ -71,7 +71,7 @@ def centrodes_figure(
         content = content.joined(ink_box(lines) or content)
     width = max(130.0, content.width + 2 * (ROOM + MARGIN))
     head = [line for title in titles(sheet, spoken) for line in wrapped(title, 4.0, width - 2 * MARGIN, bold=True)]
-    at = f"{term('centrodes', spoken)} {link}:  {drivers(sheet, letters)}"
+    at = f"{term('centrodes', spoken)} {link}{punctuation('colon', spoken)}{drivers(sheet, letters)}"
     head += wrapped(at, 3.2, width - 2 * MARGIN)
     legend = [(say(Phrase(key, (name,)), each), stroke) for key, _, stroke, branches, name in kinds if branches
               for each in languages(spoken)[:1]]
@@ -99,9 +99,10 @@ def centrodes_figure(
     words.append(Text(complex(MARGIN, height - 6.0), statement))
     words += check_bar(complex(width - MARGIN - 50.0, height - 6.0), rich(term("check bar", spoken), 2.5))
     page = joined((moved_piece(piece, origin), Piece({"labels": tuple(words)})))
+    end = punctuation("full stop", spoken) + punctuation("between sentences", spoken)
     return Drawing(
         width, height, layer_groups(page), figure_title(sheet, "centrodes", spoken),
-        ". ".join(said for said, _ in legend) + ".", languages(spoken)[0], facts(sheet, "centrodes"),
+        "".join(said + end for said, _ in legend).strip(), languages(spoken)[0], facts(sheet, "centrodes"),
     )  # fmt: skip
 
 

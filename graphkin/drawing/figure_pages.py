@@ -8,7 +8,17 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, letters_of, scale_statement
 from graphkin.drawing.dimensions import check_bar
 from graphkin.drawing.drawing import Drawing
-from graphkin.drawing.headings import FIGURE_WORDS, describe, drivers, facts, figure_title, remarks, term, titles
+from graphkin.drawing.headings import (
+    FIGURE_WORDS,
+    describe,
+    drivers,
+    facts,
+    figure_title,
+    punctuation,
+    remarks,
+    term,
+    titles,
+)
 from graphkin.drawing.insets import polygon_with_insets, strip_height
 from graphkin.drawing.mechanism import mechanism_piece
 from graphkin.drawing.piece import Piece, joined, layer_groups, moved_piece, with_labels
@@ -93,7 +103,9 @@ def _heading(
     sheet: Sheet, diagram: DiagramName, letters: Letters, language: str, width: float
 ) -> list[tuple[Run, ...]]:
     lines = [line for title in titles(sheet, language) for line in wrapped(title, 4.0, width, bold=True)]
-    lines += wrapped(f"{term(FIGURE_WORDS[diagram], language)}:  {drivers(sheet, letters)}", 3.2, width)
+    lines += wrapped(
+        term(FIGURE_WORDS[diagram], language) + punctuation("colon", language) + drivers(sheet, letters), 3.2, width
+    )
     return lines
 
 

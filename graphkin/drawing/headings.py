@@ -16,10 +16,11 @@ from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.version import __version__
 from graphkin.words import Phrase, languages, say, word
+from graphkin.words.written import amount, on_paper, product
 
 __all__ = [
-    "FIGURE_WORDS", "describe", "drivers", "facts", "figure_title", "number", "remarks", "spoken_ref", "spoken_vector",
-    "term", "titles",
+    "FIGURE_WORDS", "describe", "drivers", "facts", "figure_title", "number", "punctuation", "remarks",
+    "spoken_ref", "spoken_vector", "term", "titles", "written",
 ]  # fmt: skip
 
 FIGURE_WORDS: Mapping[DiagramName, str] = {
@@ -32,6 +33,11 @@ FIGURE_WORDS: Mapping[DiagramName, str] = {
 def term(key: str, language: str) -> str:
     """A word in a language; both beside each other for "both"."""
     return " ".join(dict.fromkeys(word(key, each) for each in languages(language)))
+
+
+def punctuation(key: str, language: str) -> str:
+    """A mark of punctuation as it stands behind words of ``term``."""
+    return word(key, languages(language)[-1])
 
 
 # Words of a title that tell the scene's own position: "position 7", "crank at 40 deg", "位置 7".
@@ -60,11 +66,13 @@ def number(value: float, digits: int = 6) -> str:
     >>> number(-10.0), number(0.1230)
     ('−10', '0.123')
     """
-    text = f"{value:.{digits}g}"
-    if "e" in text:
-        head, power = text.split("e")
-        return f"{head}·$10^{{{int(power)}}}$".replace("-", "−")
-    return "0" if text == "-0" else text.replace("-", "−")
+    return written(amount(value, digits))
+
+
+def written(plain: str) -> str:
+    """A number of `graphkin.words.written` for people: powers of ten as such, a true minus sign."""
+    head, _, power = plain.replace("-", "−").partition("e")
+    return f"{head}·$10^{{{power}}}$" if power else head
 
 
 def drivers(sheet: Sheet, letters: Letters) -> str:
@@ -155,13 +163,14 @@ def figure_title(sheet: Sheet, figure: str, language: str) -> str:
     """Title of a figure as one line."""
     parts = []
     for each, title in zip(languages(language), titles(sheet, language) * 2, strict=False):
-        parts.append(f"{title.replace('$$', '$')}: {word(figure, each)}")
+        parts.append(title.replace("$$", "$") + word("colon", each) + word(figure, each))
     return " / ".join(parts)
 
 
 def describe(sheet: Sheet, diagrams: tuple[DiagramName, ...], language: str) -> str:
     """Everything that a figure shows, in sentences: the mechanism as it is built, each step, each vector found."""
-    return "\n".join(" ".join(_sentences(sheet, diagrams, each)) for each in languages(language))
+    said = (word("between sentences", each).join(_sentences(sheet, diagrams, each)) for each in languages(language))
+    return "\n".join(said)
 
 
 def _sentences(sheet: Sheet, diagrams: tuple[DiagramName, ...], language: str) -> list[str]:
@@ -220,12 +229,12 @@ def _vectors(sheet: Sheet, diagram: DiagramName, language: str) -> list[str]:
     said = []
     for symbol, vector in sheet.vectors(diagram).items():
         words = _capital(spoken_vector(symbol, language))
-        if abs(vector.span) < 1e-7:
+        if vector.span == 0.0:
             said.append(say(Phrase("vector is zero", (words,)), language))
             continue
         angle = math.degrees(math.atan2(vector.span.imag, vector.span.real))
-        size = abs(vector.span)
-        values = (words, number(size * per_mm, 5), unit, f"{size:.2f}", f"{angle:.1f}".replace("-", "−"))
+        size = on_paper(abs(vector.span))
+        values = (words, product(size, amount(per_mm, 12)), unit, size, f"{angle:.1f}".replace("-", "−"))
         said.append(say(Phrase("vector is", values), language))
     return said
 

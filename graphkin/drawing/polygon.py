@@ -14,7 +14,7 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.headings import spoken_vector
 from graphkin.drawing.labels import Label
 from graphkin.drawing.piece import Piece, joined
-from graphkin.drawing.polygon_on_page import SAME, ZERO, PolygonOnPage, same_place
+from graphkin.drawing.polygon_on_page import SAME, PolygonOnPage, same_place
 from graphkin.drawing.polygon_points import points
 from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Primitive, Segment, Text
 from graphkin.drawing.strokes import colour_of_link, colour_of_vector
@@ -158,9 +158,10 @@ def _vector_names(here: PolygonOnPage) -> Piece:
 
 def _shared(here: PolygonOnPage) -> Iterator[tuple[float, list[Vector]]]:
     """Length, and vectors that share tail and tip, the longest first; not those that are drawn again larger."""
-    groups: dict[tuple[complex, complex], list[Vector]] = {}
+    groups: dict[tuple[complex, complex, bool], list[Vector]] = {}
     for _, vector in here.in_order():
-        groups.setdefault((same_place(vector.tail), same_place(vector.tip)), []).append(vector)
+        key = same_place(vector.tail), same_place(vector.tip), vector.span == 0.0
+        groups.setdefault(key, []).append(vector)
     elsewhere = {v.symbol for detail in here.enlarged for v in detail.vectors}
     for shared in sorted(groups.values(), key=lambda group: -round(abs(group[0].span), 6)):
         if shared[0].symbol not in elsewhere:
@@ -169,15 +170,15 @@ def _shared(here: PolygonOnPage) -> Iterator[tuple[float, list[Vector]]]:
 
 def _name(here: PolygonOnPage, length: float, vectors: Sequence[Vector]) -> Label | None:
     us = here.letters.convention == "us"
-    if length < ZERO:
+    if length == 0.0:
         vectors = [v for v in vectors if v.role != "resultant" or us or abs(v.tip) < SAME]
     if not vectors:
         return None
     first = vectors[0]
-    written = here.letters.vector if length < ZERO else here.letters.arrow
+    written = here.letters.vector if length == 0.0 else here.letters.arrow
     markup = " = ".join(written(v.symbol) for v in vectors)
     id = f"label-{first.symbol.id}"
-    if length < ZERO:
+    if length == 0.0:
         text = Text(0j, symbol(markup + " = 0"), "start", strokes.BLACK, id, ("label",))
         return Label(text, here.at(first.tip), rank=3)
     resultants = all(v.role == "resultant" for v in vectors)

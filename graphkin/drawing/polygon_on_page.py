@@ -3,7 +3,8 @@ are too small for a ruler."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -21,7 +22,8 @@ ZERO = 0.02  # mm: a shorter vector is drawn as a dot
 FAR = 60.0  # mm: construction further outside than this is cut off
 SMALL = 2.0  # mm: shorter vectors are drawn again larger
 TOGETHER = 3.0  # mm: small vectors nearer than this share an inset
-FACTORS = (2, 2.5, 5, 10, 20, 50, 100, 200, 500)
+SERIES = (1.0, 2.0, 2.5, 5.0)
+SEEN = 0.5  # mm: a vector shorter than this is no vector in an inset either
 LONGEST = 13.0  # mm of the largest part in the inset
 
 
@@ -108,21 +110,38 @@ class Detail:
 
 def details(sheet: Sheet, diagram: DiagramName) -> list[Detail]:
     """The places of a polygon that need a larger drawing."""
-    small = [v for v in sheet.vectors(diagram).values() if ZERO < abs(v.span) < SMALL]
+    small = [v for v in sheet.vectors(diagram).values() if 0.0 < abs(v.span) < SMALL]
+    found = [detail for group in _near(small) for detail in _at_their_scales(group)]
+    return sorted(found, key=lambda d: (d.factor, -len(d.vectors), d.centre.real, d.centre.imag))
+
+
+def _near(small: Sequence[Vector]) -> list[list[Vector]]:
+    """Vectors in groups that lie near each other."""
     groups: list[list[Vector]] = []
     for vector in small:
         near = [g for g in groups if any(_apart(vector, other) < TOGETHER for other in g)]
         merged = [vector, *(v for g in near for v in g)]
         groups = [g for g in groups if g not in near] + [merged]
-    found = []
-    for group in groups:
-        ends = [z for v in group for z in (v.tail, v.tip)]
-        box = Box.around(ends)
-        size = max(box.width, box.height, 1e-9)
-        factor = max((f for f in FACTORS if f * size <= LONGEST), default=0)
-        if factor:
-            found.append(Detail(box.centre, max(1.2, 0.75 * size), tuple(group), factor))
-    return sorted(found, key=lambda d: (-len(d.vectors), d.centre.real, d.centre.imag))
+    return groups
+
+
+def _at_their_scales(group: Sequence[Vector]) -> Iterator[Detail]:
+    """A group drawn larger, and again those of it that are too small even there, at a scale of their own."""
+    box = Box.around([z for v in group for z in (v.tail, v.tip)])
+    size = max(box.width, box.height)
+    factor = _factor(LONGEST / size)
+    shown = [v for v in group if abs(v.span) * factor >= SEEN]
+    if factor > 1.0 and shown:
+        yield Detail(box.centre, max(1.2, 0.75 * size), tuple(shown), factor)
+    for smaller in _near([v for v in group if abs(v.span) * factor < SEEN]):
+        if len(smaller) < len(group):
+            yield from _at_their_scales(smaller)
+
+
+def _factor(most: float) -> float:
+    """The largest of the series 1, 2, 2.5, 5, 10 that is not more; 1 where there is none."""
+    decade = 10.0 ** math.floor(math.log10(most))
+    return max(1.0, *(float(f"{step * decade:.12g}") for step in SERIES if step * decade <= most * (1 + 1e-12)))
 
 
 def _apart(a: Vector, b: Vector) -> float:

@@ -12,7 +12,7 @@ from graphkin.drawing.coriolis import CoriolisTerm
 from graphkin.drawing.dimensions import check_bar
 from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.equations import WrittenLine, equations_in_room, written_lines
-from graphkin.drawing.headings import FIGURE_WORDS, describe, facts, figure_title, term, titles
+from graphkin.drawing.headings import FIGURE_WORDS, describe, facts, figure_title, punctuation, term, titles
 from graphkin.drawing.insets import INSET, coriolis_row, per_row, polygon_with_insets
 from graphkin.drawing.mechanism import mechanism_piece
 from graphkin.drawing.overleaf import Remainder, captioned, heading, overleaf
@@ -114,7 +114,8 @@ def _spare(box: Box, written: tuple[Primitive, ...]) -> Box | None:
 
 
 def _caption(sheet: Sheet, letters: Letters, language: str, diagram: DiagramName) -> str:
-    return f"{term(FIGURE_WORDS[diagram], language)},  {scale_statement(sheet, letters.convention, diagram)}"
+    scale = scale_statement(sheet, letters.convention, diagram)
+    return term(FIGURE_WORDS[diagram], language) + punctuation("list comma", language) + scale
 
 
 def _panel(box: Box, caption: str) -> Piece:
@@ -170,7 +171,9 @@ def _title_block(sheet: Sheet, report: Report | None, letters: Letters, language
     for runs in _title_lines(names, one - left - 1.5):
         y += 1.25 * runs[0].size
         words.append(Text(complex(left, y), runs))
-    second = f"{sheet.scene.name},  {term('instrument', language)}: {sheet.instrument}"
+    comma, colon = (punctuation(key, language) for key in ("list comma", "colon"))
+    tools = term("instrument", language) + colon + term(f"instrument {sheet.instrument}", language)
+    second = sheet.scene.name + comma + tools
     words.append(Text(complex(left, box.bottom - 2.0), fitted(second, 2.6, one - left - 1.5)))
     for i, diagram in enumerate(("mechanism", "velocity", "acceleration")):
         text = scale_statement(sheet, letters.convention, diagram)  # type: ignore[arg-type]

@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from graphkin.checking.reading_words import deviation, exact, measured, paper
 from graphkin.checking.readings import Reading, read_off
 from graphkin.checking.report import Compared, Report
 from graphkin.construction.sheet import Sheet
@@ -13,7 +14,7 @@ from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.font_widths import runs_width
-from graphkin.drawing.headings import drivers, number, remarks, term
+from graphkin.drawing.headings import drivers, number, remarks, term, written
 from graphkin.drawing.primitives import Line, Primitive, Run, Text
 from graphkin.drawing.text import rich, wrapped
 from graphkin.plane import degrees
@@ -115,7 +116,7 @@ def _column(
     children.append(Line(complex(edges[0], rule), complex(edges[-1], rule), strokes.OUTLINE))
     for n, one in enumerate(rows):
         y = rule + (n + 0.72) * row
-        for i, runs in enumerate(_texts(sheet, one, letters, size)):
+        for i, runs in enumerate(_texts(sheet, one, letters, language, size)):
             limit = edges[i + 1] - edges[i] - 0.8
             if runs_width(runs) > limit:
                 runs = _shrunk(runs, limit)
@@ -138,37 +139,26 @@ def _shrunk(runs: tuple[Run, ...], width: float) -> tuple[Run, ...]:
     return tuple(Run(r.text, r.x * share, r.y, max(2.0, r.size * share), r.italic, r.bold) for r in runs)
 
 
-def _texts(sheet: Sheet, row: TableRow, letters: Letters, size: float) -> list[tuple[Run, ...]]:
+def _texts(sheet: Sheet, row: TableRow, letters: Letters, language: str, size: float) -> list[tuple[Run, ...]]:
     reading, compared = row.reading, row.compared
-    unit, per = _unit(sheet, reading)
-    value = abs(reading.value) if reading.symbol.is_vector else float(reading.value.real)
+    unit, metres = _unit(sheet, reading), sheet.scene.units.metres
     name = letters.vector(reading.symbol)
     if row.more:
         name = f"{name[0]}_{{{','.join((reading.symbol.link, *row.more))}}}"
     texts = [
         rich(f"${name}$, {unit}" if unit else f"${name}$", size),
-        rich(f"{reading.on_paper:.2f}" if reading.on_paper else "–", size),
-        rich(number(value / per, 5), size),
+        rich(written(paper(reading, compared)), size),
+        rich(written(measured(reading, sheet.scales, metres, compared)), size),
     ]
     if compared is not None:
-        exact = abs(compared.exact) if reading.symbol.is_vector else float(compared.exact.real)
-        scale = max(abs(exact), abs(value))
-        texts.append(rich(number(exact / per, 5), size))
-        texts.append(rich(_difference(compared.error / scale) if scale else "0", size))
+        agrees = compared.uncertainty is None and compared.ok
+        texts.append(rich(written(exact(compared, metres)), size))
+        texts.append(rich(term("agrees", language) if agrees else written(deviation(compared, metres)), size))
     return texts
 
 
-def _difference(share: float) -> str:
-    if share < 1e-12:
-        return "< $10^{−12}$"
-    if share < 1e-4:
-        return f"{share:.0e}".replace("e-0", "e-").replace("e-", " · $10^{−") + "}$"
-    return f"{100 * share:.2g} %"
-
-
-def _unit(sheet: Sheet, reading: Reading) -> tuple[str, float]:
-    units = sheet.scene.units
-    return reading.symbol.written_unit(units.length), reading.symbol.per_unit(units.metres)
+def _unit(sheet: Sheet, reading: Reading) -> str:
+    return reading.symbol.written_unit(sheet.scene.units.length)
 
 
 def given_lines(sheet: Sheet, letters: Letters, language: str, width: float, size: float) -> list[tuple[Run, ...]]:
@@ -182,7 +172,7 @@ def given_lines(sheet: Sheet, letters: Letters, language: str, width: float, siz
         if guide.name:
             angle = number(degrees(guide.direction))
             name = letters.guide(guide.name, scene.frame.name)
-            fixed.append(f"{term('guide', language)} ${name}$: ({_pair(guide.through, scene)}) {unit}, {angle}°")
+            fixed.append(f"{term('guide', language)} ${name}$ ({_pair(guide.through, scene)}) {unit}, {angle}°")
     lines = [line for group in (items, fixed) for line in _flowed(group, size, width)]
     for each in languages(language):
         lines += [line for note in remarks(sheet, each, letters) for line in wrapped(note, size, width)]

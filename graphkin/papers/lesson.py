@@ -18,10 +18,11 @@ from graphkin.checking.report import Compared, Report
 from graphkin.construction.sheet import DiagramName, Equation, Ray, Sheet, Step, Vector
 from graphkin.construction.steps import Direction, DirectionLine, Given, LaidOff, MeasuredRate, RateTimes, Size
 from graphkin.drawing.conventions import Letters, letters_of, pole
-from graphkin.drawing.headings import number
+from graphkin.drawing.headings import number, written
 from graphkin.drawing.text import Atom, parsed
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, say, word
+from graphkin.words.written import MOST, amount, on_paper, product, quotient
 
 __all__ = ["Lesson", "Speaker", "Stage", "plain_words", "stages"]
 
@@ -227,55 +228,67 @@ class Speaker:
     def _rate(self, step: Step, act: MeasuredRate) -> tuple[str, ...]:
         omega = act.rate == "omega"
         rate = (self.sheet.omega if omega else self.sheet.alpha)[act.link]
-        per = self._per(step.diagram)
-        arm = rate.arm_mm * self.sheet.scales.length / self.sheet.scene.units.metres
+        size = amount(rate.mm * self._per(step.diagram), MOST)
+        arm = amount(rate.arm_mm * self.sheet.scales.length / self.sheet.scene.units.metres, MOST)
         unit = "rad/s" if omega else "rad/s²"
         name = f"{'ω' if omega else 'α'}_{{{act.link}}}"
+        if rate.mm == 0.0 or not rate.arm_mm:
+            return (f"${name}$ = {number(abs(rate.value), MOST)} {unit}",)
         return (
-            f"${name}$ = {number(rate.mm * per, 5)} {self._unit(step.diagram)} / "
-            f"{number(arm, 5)} {self.unit} = {number(abs(rate.value), 4)} {unit}",
+            f"${name}$ = {written(size)} {self._unit(step.diagram)} / {written(arm)} {self.unit} = "
+            f"{written(quotient(size, arm, MOST - 1))} {unit}",
         )
 
     def _laid_off(self, step: Step, act: LaidOff) -> tuple[str, ...]:
         vector = next(s for s in step.strokes if isinstance(s, Vector))
-        per = self._per(step.diagram)
-        value = number(abs(vector.span) * per, 5)
-        numbers = self._substituted(act.size)
-        middle = f" = {numbers}" if numbers else ""
+        factors = self._factors(act.size)
+        value = product(*factors, carried=MOST) if factors else amount(abs(vector.span) * self._per(step.diagram), MOST)
+        middle = f" = {self._substituted(act.size, factors)}" if factors else ""
         unit = self._unit(step.diagram)
         return (
-            f"${self.letters.vector(act.symbol)}${middle} = {value} {unit}",
-            f"{value} {unit} ÷ {self._scale(step.diagram)} = {abs(vector.span):.2f} mm",
+            f"${self.letters.vector(act.symbol)}${middle} = {written(value)} {unit}",
+            f"{written(value)} {unit} ÷ {self._scale(step.diagram)} = {written(on_paper(abs(vector.span)))} mm",
         )
 
     def _measured(self, diagram: DiagramName, vector: Vector) -> Iterator[str]:
-        if abs(vector.span) < 1e-7:
+        size = abs(vector.span)
+        if size == 0.0:
             yield f"${self.letters.vector(vector.symbol)}$ = 0"
             return
-        value = number(abs(vector.span) * self._per(diagram), 5)
+        length = on_paper(size)
+        value = product(length, amount(self._per(diagram), 12))
+        finer = amount(size * self._per(diagram), MOST)
         yield (
-            f"${self.letters.vector(vector.symbol)}$ = {abs(vector.span):.2f} mm × {self._scale(diagram)} = "
-            f"{value} {self._unit(diagram)}"
+            f"${self.letters.vector(vector.symbol)}$ = {written(length)} mm × {self._scale(diagram)} = "
+            f"{written(value)} {self._unit(diagram)}{'' if finer == value else f' ({written(finer)})'}"
         )
 
-    def _substituted(self, rule: Size | None) -> str:
-        """A rule of a size with numbers in place of its symbols: ``2 × 2.819 × 575.4`` for 2ω v."""
+    def _factors(self, rule: Size | None) -> tuple[str, ...]:
+        """The numbers whose product a size is, as they are written; none where no such rule is known."""
         if not isinstance(rule, RateTimes) or len(rule.links) > 1:
-            return ""
+            return ()
         factor = self._speed(rule.factor) if isinstance(rule.factor, Symbol) else self._length(*rule.factor)
         if factor is None:
-            return ""
+            return ()
         rates = self.sheet.omega if rule.rate == "omega" else self.sheet.alpha
-        rate = number(abs(rates[rule.links[0]].value), 5) + "²" * rule.square
-        return " × ".join(("2",) * rule.twice + (rate, factor))
+        rate = amount(abs(rates[rule.links[0]].value), MOST)
+        return (*("2",) * rule.twice, *(rate,) * (1 + rule.square), factor)
+
+    def _substituted(self, rule: Size | None, factors: tuple[str, ...]) -> str:
+        """A rule of a size with numbers in place of its symbols: ``2 × 2.819 × 575.4`` for 2ω v."""
+        shown = [written(factor) for factor in factors]
+        if isinstance(rule, RateTimes) and rule.square:
+            del shown[-2]
+            shown[-2] = f"({shown[-2]})²" if "$" in shown[-2] else f"{shown[-2]}²"
+        return " × ".join(shown)
 
     def _length(self, one: str, other: str) -> str:
         arm = abs(self.sheet.points[PointRef(one)] - self.sheet.points[PointRef(other)])
-        return number(arm * self.sheet.scales.length / self.sheet.scene.units.metres, 5)
+        return amount(arm * self.sheet.scales.length / self.sheet.scene.units.metres, MOST)
 
     def _speed(self, symbol: Symbol) -> str | None:
         vector = self.sheet.vectors("velocity").get(symbol)
-        return None if vector is None else number(abs(vector.span) * self._per("velocity"), 5)
+        return None if vector is None else amount(abs(vector.span) * self._per("velocity"), MOST)
 
     def _per(self, diagram: DiagramName) -> float:
         return self.sheet.scales.of(diagram) / self.sheet.scene.units.metres

@@ -13,7 +13,7 @@ from graphkin.drawing.dimensions import check_bar
 from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.equations import write_equation
 from graphkin.drawing.font_widths import runs_width
-from graphkin.drawing.headings import FIGURE_WORDS, describe, term
+from graphkin.drawing.headings import FIGURE_WORDS, describe, punctuation, term
 from graphkin.drawing.insets import polygon_with_insets, strip_height
 from graphkin.drawing.mechanism import mechanism_piece
 from graphkin.drawing.piece import ink_box, joined, layer_groups, moved, moved_piece, with_labels
@@ -168,7 +168,7 @@ def draw_frame(
         *moved((words,), complex(3.0, tall - 3.0)),
         *moved(bar, complex(page.width - 3.0 - BAR, tall - 3.0)),
     ]
-    title = f"{term(FIGURE_WORDS[diagram], language)}: {mark}"
+    title = f"{term(FIGURE_WORDS[diagram], language)}{punctuation('colon', language)}{mark}"
     return Drawing(page.width, tall + 0.2, tuple(children), title, "", languages(language)[0])
 
 

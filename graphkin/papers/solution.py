@@ -11,10 +11,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from graphkin import table
+from graphkin.checking.reading_words import exact, measured, paper
 from graphkin.checking.readings import COVERAGE
 from graphkin.checking.report import Compared
 from graphkin.construction.sheet import Equation
-from graphkin.drawing.headings import FIGURE_WORDS, drivers, number
+from graphkin.drawing.headings import FIGURE_WORDS, drivers, number, written
 from graphkin.papers.blocks import (
     Beside,
     Block,
@@ -80,9 +81,9 @@ def _row(lesson: Lesson, row: Compared) -> KeyRow:
         if spread is None or not math.isfinite(spread.deviation)
         else lesson.in_unit(symbol, COVERAGE * spread.deviation)
     )
-    size = abs(row.exact) if symbol.is_vector else float(row.exact.real)
+    size = abs(row.true) if symbol.is_vector else float(row.true.real)
     angle = math.degrees(math.atan2(complex(row.exact).imag, complex(row.exact).real)) + 0.0
-    has_way = symbol.is_vector and (row.reading.on_paper or 0.0) > 1e-6
+    has_way = symbol.is_vector and size > 0.0
     return KeyRow(
         symbol=str(symbol),
         unit=lesson.unit(symbol),
@@ -112,7 +113,7 @@ def answer_key(lesson: Lesson) -> Document:
             within = (f"± {_fixed(line.tolerance, places)}", f"{_fixed(low, places)} … {_fixed(high, places)}")
         name = f"${lesson.letters.vector(row.symbol)}$"
         shown = number(line.exact if row.symbol.scope == "position" else size, 5)
-        rows.append((name, on_paper(line.on_paper), shown, *within, line.unit, way(row, language)))
+        rows.append((name, written(paper(row.reading, row)), shown, *within, line.unit, way(row, language)))
     tools = lesson.sheet.scene.sheet.tools
     words = said(
         "key words", language, *(f"{x:g}" for x in (tools.line_width / 2, tools.ruler, tools.compass, tools.set_square))
@@ -254,45 +255,35 @@ def _remarks(lesson: Lesson) -> Iterator[Block]:
 def _results(lesson: Lesson) -> TableBlock:
     heads = tuple(said(key, lesson.language) for key in ("quantity", "on paper", "measured", "exact", "unit", "sense"))
     rows, bold = [], set()
+    metres = lesson.sheet.scene.units.metres
     for i, row in enumerate(lesson.results):
         symbol = row.symbol
         if symbol in lesson.questions:
             bold.add(i)
         rows.append((
             f"${lesson.letters.vector(symbol)}$",
-            on_paper(row.reading.on_paper),
-            number(_plain(lesson, row, row.reading.value), 5),
-            number(_plain(lesson, row, row.exact), 5),
+            written(paper(row.reading, row)),
+            _unsigned(row, written(measured(row.reading, lesson.sheet.scales, metres, row))),
+            _unsigned(row, written(exact(row, metres))),
             lesson.unit(symbol),
             way(row, lesson.language),
         ))  # fmt: skip
     return TableBlock(heads, tuple(rows), "lrrrll", frozenset(bold))
 
 
-def _plain(lesson: Lesson, row: Compared, value: complex | float) -> float:
-    size = abs(value) if row.symbol.is_vector else abs(float(value.real))
-    if row.symbol.scope == "position":  # its sign says where it lies
-        size = float(value.real)
-    return lesson.in_unit(row.symbol, size)
-
-
-def on_paper(mm: float | None) -> str:
-    """A length on paper; angles have none."""
-    return "–" if mm is None else f"{mm:.2f}"
+def _unsigned(row: Compared, text: str) -> str:
+    """A value whose sense is said in words; the sign of a place says where it lies."""
+    return text if row.symbol.scope == "position" else text.removeprefix("−")
 
 
 def way(row: Compared, language: str) -> str:
     """Direction of a vector in degrees, or the sense of a rate in words; "" where it is zero."""
-    value = row.exact
-    if row.symbol.scope != "motion":
+    value = row.true
+    if value == 0.0 or row.symbol.scope != "motion":
         return ""
     if row.symbol.is_vector:
-        if (row.reading.on_paper or 0.0) < 1e-6:
-            return ""
         angle = round(math.degrees(cmath.phase(complex(value))), 1) + 0.0
         return f"{180.0 if angle == -180.0 else angle:.1f}°".replace("-", "−")
-    if abs(value) < 1e-9:
-        return ""
     key = "counter-clockwise" if value.real > 0 else "clockwise"
     return " ".join(word(key, each) for each in languages(language))
 

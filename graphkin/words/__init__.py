@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-__all__ = ["BOTH", "LANGUAGES", "Phrase", "languages", "say", "word"]
+__all__ = ["BOTH", "LANGUAGES", "Phrase", "class_of", "languages", "say", "word"]
 
 
 _TABLES = {path.stem: path for path in Path(__file__).parent.glob("*.toml")}
@@ -46,6 +46,11 @@ def say(phrase: Phrase, language: str = "en", show: Callable[[object], str] = st
     """
     parts = (say(a, language, show) if isinstance(a, Phrase) else show(a) for a in phrase.args)
     return _table(language)[phrase.key].format(*parts)
+
+
+def class_of(order: int) -> Phrase | str:
+    """The class of a group as a numeral of each language, Roman as far as the table goes."""
+    return Phrase(f"class {order}") if f"class {order}" in _table("en") else str(order)
 
 
 def word(key: str, language: str = "en") -> str:

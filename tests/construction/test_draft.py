@@ -15,6 +15,7 @@ from graphkin.errors import Unsolvable
 from graphkin.plane import cross, dot
 from graphkin.scene import library, mechanism_of
 from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.words import Phrase
 
 pytestmark = pytest.mark.quick
 
@@ -166,7 +167,7 @@ CLASS_III = {
 def test_a_larger_group_stops_the_drawing_by_name_and_the_rest_is_drawn():
     sheet = draft(mechanism_of(CLASS_III))
     assert sheet.stopped is not None
-    assert ("2, 3, 4, 5", 3) == sheet.stopped.args
+    assert ("2, 3, 4, 5", Phrase("class 3")) == sheet.stopped.args
     assert PointRef("K") in sheet.ends["acceleration"]
     assert PointRef("C") not in sheet.ends["velocity"]
 

@@ -18,7 +18,8 @@ from graphkin.plane import dot
 from graphkin.scene.model import AngleDriver, AnyDriver
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import driver_pair
-from graphkin.words import Phrase
+from graphkin.words import Phrase, written
+from graphkin.words.written import MOST, amount, on_paper
 
 __all__ = ["Turning", "by_centres", "points_asked", "speeds", "velocity_sentences"]
 
@@ -205,12 +206,13 @@ def _of_link(centres: Centres, moving: Mapping[str, Turning], turning: Turning) 
     if common.point is None:
         return Phrase("centre turns alike", (name, known, *pairs))
     if its.point is None:
-        arm = f"{abs(own.point - common.point):.2f}"
-        return Phrase("centre from slider", (name, known, *pairs, arm, f"{abs(turning.omega):.6g}"))
+        arm = on_paper(abs(own.point - common.point))
+        return Phrase("centre from slider", (name, known, *pairs, arm, amount(abs(turning.omega), MOST)))
     far, near = abs(common.point - its.point), abs(common.point - own.point)
     same = dot(its.point - common.point, own.point - common.point) >= 0.0
     key = "centre same sense" if same else "centre opposite sense"
-    return Phrase(key, (name, known, *pairs, f"{far:.2f}", f"{near:.2f}", f"{turning.omega:.6g}".replace("-", "−")))
+    omega = amount(turning.omega, MOST).replace("-", "−")
+    return Phrase(key, (name, known, *pairs, on_paper(far), on_paper(near), omega))
 
 
 def _of_point(centres: Centres, moving: Mapping[str, Turning], symbol: Symbol, speed: float) -> Phrase | None:
@@ -224,8 +226,7 @@ def _of_point(centres: Centres, moving: Mapping[str, Turning], symbol: Symbol, s
     if turning is None:
         return None
     units = links.scene.units
-    per_mm = f"{centres.sheet.scales.length / units.metres:.6g} {units.length}/mm"
-    said = f"{speed / units.metres:.6g} {units.length}/s"
+    per_mm = amount(centres.sheet.scales.length / units.metres)
     own = centres.of(turning.link, frame)
     if own.point is not None:
         arm = abs(links.point(ref.point) - own.point)
@@ -240,6 +241,11 @@ def _of_point(centres: Centres, moving: Mapping[str, Turning], symbol: Symbol, s
             return None
         arm = abs(common.point - its.point)
         centre, end = its.pair, common.pair
+    turning_at, length = amount(abs(rate.omega), MOST), on_paper(arm)
     return Phrase(
-        "centre speed", (symbol, rate.link, centre, end, f"{abs(rate.omega):.6g}", f"{arm:.2f}", per_mm, said)
+        "centre speed",
+        (
+            symbol, rate.link, centre, end, turning_at, length, f"{per_mm} {units.length}/mm",
+            f"{written.product(turning_at, length, per_mm, carried=MOST)} {units.length}/s",
+        ),
     )

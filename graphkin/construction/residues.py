@@ -1,0 +1,97 @@
+"""Vectors that are nothing but rounding are zero, and what was measured from them.
+
+Exact hands lose some 1e-16 of the largest vector, and more where lines cross at a small angle.  A normal component is
+v squared over a length, and so is as certain as the velocity that it comes from, however short.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+
+from graphkin.construction.remarks import SharpCrossing, ZeroVector
+from graphkin.construction.sheet import DiagramName, Rate, Sheet, Step, Stroke, Vector
+from graphkin.construction.steps import Act, FoundVector, LaidOff, MeasuredRate
+from graphkin.scene.symbol import Symbol
+
+__all__ = ["without_residues"]
+
+LOST = 1e-13  # of the largest vector, by rounding, where lines cross square
+MOST_LOST = 1e-9  # what is larger is no residue, however lines cross
+
+
+def without_residues(sheet: Sheet) -> Sheet:
+    """A sheet of exact hands, each vector that is nothing but rounding made zero, with the rates measured from it."""
+    zero = _residues(sheet)
+    if not zero:
+        return sheet
+    return replace(
+        sheet,
+        steps=tuple(_step(step, zero) for step in sheet.steps),
+        omega=_rates(sheet.omega, zero, sheet.scales.velocity / sheet.scales.length),
+        alpha=_rates(sheet.alpha, zero, sheet.scales.acceleration / sheet.scales.length),
+        noticed=tuple(
+            (name, replace(remark, mm=0.0) if isinstance(remark, ZeroVector) and remark.symbol in zero else remark)
+            for name, remark in sheet.noticed
+        ),
+    )
+
+
+def _residues(sheet: Sheet) -> frozenset[Symbol]:
+    scales, size = sheet.scales, sheet.scene.size
+    velocity, acceleration = sheet.vectors("velocity"), sheet.vectors("acceleration")
+    fastest = _largest(velocity.values())
+    # a motion without acceleration still has velocities, whose rounding is carried on as v squared over a length
+    push = max(_largest(acceleration.values()), (fastest * scales.velocity) ** 2 / size / scales.acceleration)
+    lost = _lost(sheet, ("mechanism", "velocity"))
+    zero = {symbol for symbol, vector in velocity.items() if 0.0 < abs(vector.span) <= lost * fastest}
+    lost = _lost(sheet, ("mechanism", "velocity", "acceleration"))
+    still = zero | {symbol for symbol, vector in velocity.items() if vector.span == 0.0}
+    fixed = sheet.scene.frame.points
+    for symbol, vector in acceleration.items():
+        speed = next((s for s in _speeds(symbol, fixed) if s in velocity), None)
+        residue = abs(vector.span) <= lost * push if speed is None else speed in still
+        if residue and vector.span != 0.0:
+            zero.add(symbol)
+    return frozenset(zero)
+
+
+def _largest(vectors: Iterable[Vector]) -> float:
+    return max((abs(vector.span) for vector in vectors), default=0.0)
+
+
+def _lost(sheet: Sheet, diagrams: tuple[DiagramName, ...]) -> float:
+    """What rounding may have cost, as a part of the largest vector."""
+    sines = [r.sine for name, r in sheet.noticed if name in diagrams and isinstance(r, SharpCrossing)]
+    return min(MOST_LOST, LOST / max(min(sines, default=1.0), 1e-9) ** 2)
+
+
+def _speeds(symbol: Symbol, fixed: Mapping[str, complex]) -> tuple[Symbol, ...]:
+    """The velocity whose square a normal component is: relative, or from the pole where its start is fixed."""
+    if symbol.kind != "an" or symbol.to is None:
+        return ()
+    return (Symbol("v", symbol.of, symbol.to), *((Symbol("v", symbol.of),) if symbol.to.point in fixed else ()))
+
+
+def _step(step: Step, zero: frozenset[Symbol]) -> Step:
+    strokes: tuple[Stroke, ...] = tuple(
+        replace(s, tip=s.tail) if isinstance(s, Vector) and s.symbol in zero else s for s in step.strokes
+    )
+    return replace(step, act=_act(step.act, zero), strokes=strokes)
+
+
+def _act(act: Act, zero: frozenset[Symbol]) -> Act:
+    if isinstance(act, LaidOff | FoundVector) and act.symbol in zero:
+        return replace(act, mm=0.0)
+    return replace(act, value=0.0) if isinstance(act, MeasuredRate) and act.vector in zero else act
+
+
+def _rates(rates: Mapping[str, Rate], zero: frozenset[Symbol], per_mm: float) -> dict[str, Rate]:
+    """Rates without what came from residues; a driver's own rate on top of one stays."""
+    found = {}
+    for name, rate in rates.items():
+        if rate.vector in zero:
+            residue = rate.mm / rate.arm_mm * per_mm if rate.arm_mm else 0.0
+            rate = replace(rate, value=0.0 if abs(rate.value) <= 2.0 * residue else rate.value, mm=0.0)
+        found[name] = rate
+    return found

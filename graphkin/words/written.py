@@ -1,0 +1,86 @@
+"""Numbers as they stand on a sheet: lengths as a ruler gives them, and products and quotients that are true as written.
+
+A length on paper is written to 0.01 mm; what is computed from it has the figures that it carries, and is computed from
+what is written, so that whoever does the sum gets the same.
+"""
+
+from __future__ import annotations
+
+from decimal import Decimal, localcontext
+
+__all__ = ["MOST", "amount", "figures", "on_paper", "product", "quotient"]
+
+MOST = 5  # figures of a computed number
+LEAST = 0.05  # mm; what is shorter is read where it is drawn larger
+DIGITS = 40
+
+
+def on_paper(mm: float) -> str:
+    """A length on paper (mm): to 0.01 mm; of one that only a drawing at its own scale shows, three figures.
+
+    >>> on_paper(107.5778), on_paper(0.0612), on_paper(0.0), on_paper(3.21e-7)
+    ('107.58', '0.06', '0', '3.21e-7')
+    """
+    if mm == 0.0:
+        return "0"
+    return f"{mm:.2f}" if abs(mm) >= LEAST else amount(mm, 3)
+
+
+def figures(*written: str) -> int:
+    """How many figures a number carries that is computed from these: as many as the poorest has.
+
+    >>> figures("0.06"), figures("107.58", "3.00")
+    (1, 3)
+    """
+    return min(len(_number(one).as_tuple().digits) for one in written)
+
+
+def product(*factors: str, carried: int | None = None) -> str:
+    """The product of numbers as they are written, exact, or to so many figures.
+
+    >>> product("5.55", "100"), product("0.06", "200"), product("2", "2.8193", "575.4", carried=4)
+    ('555', '12', '3244')
+    """
+    with localcontext(prec=DIGITS):
+        whole = Decimal(1)
+        for factor in factors:
+            whole *= _number(factor)
+    return _plain(_rounded(whole, carried) if carried else whole)
+
+
+def quotient(over: str, under: str, carried: int) -> str:
+    """The quotient of two numbers as they are written, to so many figures."""
+    with localcontext(prec=DIGITS):
+        return _plain(_rounded(_number(over) / _number(under), carried))
+
+
+def amount(value: float, carried: int = 6) -> str:
+    """A number that is given, to at most so many figures, without noise behind them.
+
+    >>> amount(0.1 + 0.2), amount(1e6 / 3), amount(120.0)
+    ('0.3', '333333', '120')
+    """
+    return _plain(Decimal(f"{value:.{carried}g}"))
+
+
+def _number(text: str) -> Decimal:
+    return Decimal(text.replace("−", "-"))
+
+
+def _rounded(value: Decimal, carried: int) -> Decimal:
+    """To so many figures; whole places before the point are never cut."""
+    if not value:
+        return Decimal(0)
+    step = Decimal(1).scaleb(min(value.adjusted() - carried + 1, 0))
+    return value.quantize(step)
+
+
+def _plain(value: Decimal) -> str:
+    """Without an exponent where it can be helped, without zeros that say nothing."""
+    if not value:
+        return "0"
+    value = value.normalize()
+    if -5 <= value.adjusted() < 9:
+        return f"{value:f}"
+    head, power = f"{value:e}".split("e")
+    return f"{head}e{int(power)}"

@@ -1,0 +1,70 @@
+"""What is printed of a reading: zero is zero, what is certain is not, and products are true as written."""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from decimal import Decimal
+
+import pytest
+
+from graphkin import check, draw
+from graphkin.api.checked import reading_words
+from graphkin.words.written import amount
+
+DEAD = [("shaper-scheme-2", 90), ("swinging-block", 180), ("whitworth", 270), ("slider-crank-offset", 0)]
+
+
+@pytest.mark.parametrize(("name", "at"), DEAD)
+def test_what_is_nothing_but_rounding_is_zero_on_both_sides(name, at):
+    rows = check(name, at=at).report.rows
+    largest = {}
+    for row in rows:
+        group = row.reading.diagram, row.symbol.is_vector
+        largest[group] = max(largest.get(group, 0.0), abs(row.reading.value))
+    tiny = [
+        row
+        for row in rows
+        if max(abs(row.measured), abs(row.true)) < 1e-12 * largest[row.reading.diagram, row.symbol.is_vector]
+    ]
+    assert [] == [str(row.symbol) for row in tiny if row.measured != 0.0 or row.true != 0.0]
+
+
+@pytest.mark.parametrize(("name", "at"), DEAD)
+def test_zero_is_never_compared_in_per_cent(name, at):
+    assert {None} >= {row.relative for row in check(name, at=at).report.rows if row.true == 0.0}
+
+
+def test_a_tiny_value_that_is_certain_is_no_zero():
+    row = check("sixbar-420rpm")["an_F/E"]
+    assert abs(row.exact) == pytest.approx(abs(row.measured), rel=1e-9)
+
+
+def test_a_tiny_value_that_is_certain_is_drawn_at_its_own_scale():
+    figure = draw("sixbar-420rpm").figures["acceleration"].content("svg").decode()
+    assert re.search(r'id="detail-acceleration-1"', figure)
+    assert "label-detail-an_F-E" in figure
+
+
+@pytest.mark.parametrize("name", ["shaper-scheme-2", "sixbar-420rpm", "sixbar-guide-40deg", "oldham-coupling"])
+def test_a_vector_printed_is_its_length_on_paper_times_the_scale(name):
+    checked = check(name)
+    scales = {key: Decimal(amount(value, 12)) for key, value in checked.scales.items()}
+    wrong = [
+        symbol
+        for row, (symbol, mm, measured, _, _) in zip(checked.report.rows, reading_words(checked), strict=True)
+        if row.symbol.is_vector and Decimal(measured) != Decimal(mm) * scales[row.reading.diagram]
+    ]
+    assert [] == wrong
+
+
+def test_a_reading_of_a_pencil_below_its_uncertainty_is_zero_with_its_bound():
+    checked = check("shaper-scheme-2", at=90, instrument="pencil", seed=1)
+    said = {symbol: measured for symbol, _, measured, _, _ in reading_words(checked)}
+    assert said["v_C/B"].startswith("0 ± ")
+
+
+def test_the_table_of_readings_has_no_residue():
+    rows = list(csv.DictReader(io.StringIO(check("shaper-scheme-2", at=90).table.csv())))
+    assert [] == [row["symbol"] for row in rows if 0.0 < abs(float(row["measured"])) < 1e-9]
