@@ -18,14 +18,12 @@ from graphkin.api.arguments import (
     driver_values,
     for_paper,
     known_words,
-    may_be_called,
     whole_number,
     write_files,
 )
 from graphkin.api.checked import solved_here
 from graphkin.api.results import Result
-from graphkin.errors import CallError, Problem, as_text, did_you_mean
-from graphkin.files import path_of
+from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.papers.lesson import Lesson
 from graphkin.papers.page import Progress
 from graphkin.papers.paper import paper_plan
@@ -74,7 +72,6 @@ class Handout(Result):
 
     def __getitem__(self, name: str) -> KeyRow:
         """A row of the key by its symbol.  Raises CallError for one that it does not have."""
-        name = as_text("name", name)
         rows = {row.symbol: row for row in self.key}
         if name not in rows:
             raise CallError(Problem(f'"{name}"', "no answer of this name", did_you_mean(str(name), rows)))
@@ -116,7 +113,7 @@ class Handout(Result):
         ------
         CallError : the folder cannot be written
         """
-        return write_files(path_of(folder) if folder is not None else Path(safe_name(self.scene.name)), self.files)
+        return write_files(Path(folder) if folder is not None else Path(safe_name(self.scene.name)), self.files)
 
     def __repr__(self) -> str:
         return f"<Handout {self.scene.name}: {', '.join(self.formats)}>"
@@ -164,7 +161,6 @@ def handout(
     motion = solved_here(given, values)
     what = paper_plan(motion.structure, values, asked)
     lesson = lesson_of(what, motion, language or given.sheet.language, convention or given.sheet.convention)
-    may_be_called("progress", progress)
     made = Handout(lesson, values, tuple(dict.fromkeys(formats)), count, progress)
     if out is not None:
         made.write(out)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,16 +14,18 @@ from numpy.typing import NDArray
 
 from graphkin.api.arguments import At, SceneLike, as_scene, asked_symbols, driver_values, whole_number, write_files
 from graphkin.api.results import Result
-from graphkin.errors import Unsolvable, as_text
-from graphkin.files import path_of
+from graphkin.errors import Unsolvable
 from graphkin.scene.model import SlideDriver
 from graphkin.structure import mobility_of
 
 if TYPE_CHECKING:
-    from graphkin.solver import Motion
-    from graphkin.table import Table
+    from graphkin.solver import Forces, Motion
+    from graphkin.table import Column, Table
 
 __all__ = ["Solved", "refused", "solve"]
+
+
+BALANCE_IDLE = "the balance does no work in this position, so that nothing it could be keeps the forces in equilibrium"
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -31,20 +33,23 @@ class Solved(Result):
     """The motion of every link, point and sliding pair at one position or over a turn.
 
     ``solved["v_C"]`` is a quantity by its name as an array, shape (positions,): complex for vectors, in the scene's
-    length unit, degrees for angles, NaN where there is none.  ``table`` has all of them, ``motion`` more, in SI.
+    length unit, degrees for angles, NaN where there is none; forces (``F_5/6``, ``M_2``) in its force unit.  ``table``
+    has all of them, ``motion`` and ``forces`` more, in SI.
     """
 
     motion: Motion
+    forces: Forces | None = None
 
     def __repr__(self) -> str:
         return f"<Solved {self.motion.scene.name}: {int(self.motion.ok.sum())} of {len(self.motion)} positions>"
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         """A quantity by its name (a symbol, "C", "theta_3", "s_2/3", a column of the table).  Raises CallError."""
-        name = as_text("name", name)
         from graphkin.study.watched import watched_named, watched_symbol
 
         scene = self.motion.scene
+        if self.forces is not None and (found := self.forces.value(str(name))) is not None:
+            return np.asarray(found / scene.units.newtons)
         watched = watched_named(scene, str(name))
         if watched is None and str(name).startswith(("driver_", "position", "status", "why")):
             return self.table[name]
@@ -63,15 +68,31 @@ class Solved(Result):
         columns = [Column("position", np.arange(1, len(motion) + 1)), *driver_columns(scene, motion.values)]
         for watched in everything(motion.structure):
             columns += watched.columns(scene, watched.parts(None, motion))
+        columns += self._force_columns()
         said = [text_column("status", map(str, motion.status)), text_column("why", motion.why)]
         return Table((*columns, *said), ("position",))
+
+    def _force_columns(self) -> list[Column]:
+        """Forces by their components, and moments."""
+        from graphkin.table import Column
+
+        if self.forces is None:
+            return []
+        units = self.motion.scene.units
+        made = []
+        for key, values in self.forces.forces.items():
+            parts = ((".x", values.real), (".y", values.imag))
+            made += [Column(key + end, part / units.newtons, units.force) for end, part in parts]
+        for key, values in self.forces.moments.items():
+            made.append(Column(key, values / units.newtons, f"{units.force} m"))
+        return made
 
     @cached_property
     def data(self) -> dict[str, Any]:
         """The object that ``graphkin solve --json`` prints."""
         from graphkin.solver import to_json
 
-        return to_json(self.motion)
+        return to_json(self.motion, self.forces)
 
     @property
     def ok(self) -> bool:
@@ -81,7 +102,7 @@ class Solved(Result):
     def write(self, folder: str | os.PathLike[str]) -> list[Path]:
         """Write solution.json and solution.csv; returns the paths.  Raises CallError where that cannot be done."""
         text = json.dumps(self.data, ensure_ascii=False, allow_nan=False) + "\n"
-        return write_files(path_of(folder), {"solution.json": text.encode(), "solution.csv": self.table.csv().encode()})
+        return write_files(Path(folder), {"solution.json": text.encode(), "solution.csv": self.table.csv().encode()})
 
 
 def refused(scene: SceneLike, at: At, stop: Unsolvable) -> dict[str, Any]:
@@ -128,4 +149,12 @@ def solve(scene: SceneLike, at: At = None, sweep: int | None = None) -> Solved:
 
     given = as_scene(scene)
     count = None if sweep is None else whole_number("sweep", sweep, 1, 10_000_000, " positions")
-    return Solved(solver.solve(given, at=driver_values(given, at), sweep=count))
+    motion = solver.solve(given, at=driver_values(given, at), sweep=count)
+    if not given.loading:
+        return Solved(motion)
+    forces = solver.forces_of(motion)
+    stuck = motion.ok & ~forces.ok
+    if stuck.any():
+        why = tuple(BALANCE_IDLE if here else said for here, said in zip(stuck, motion.why, strict=True))
+        motion = replace(motion, status=np.where(stuck, "dead point", motion.status), why=why)
+    return Solved(motion, forces)

@@ -98,7 +98,7 @@ def solve(
     from graphkin.api.solved import refused
     from graphkin.api.solved import solve as solving
 
-    known_words(language=lang, convention=convention, instrument=instrument)
+    known_words(None, lang, convention, instrument)
     values = driver_values(at)
     with unsolvable_as_json(as_json, lambda error: refused(scene, values, error)):
         solved = solving(scene, values, sweep)
@@ -135,6 +135,8 @@ def _print_solution(solved: Solved, lang: str | None) -> None:
             tell(f"{position['status']}: {position['why']}")
             continue
         _print_position(position, scene.units.length, language)
+        if "forces" in position:
+            _print_forces(position, scene.units.force, language)
 
 
 def _print_position(position: Mapping[str, Any], unit: str, language: str) -> None:
@@ -156,6 +158,23 @@ def _print_position(position: Mapping[str, Any], unit: str, language: str) -> No
     print_table(heads["links"], links, right=(1, 2, 3))
     print_table(heads["points"], points)
     print_table(heads["slides"], slides, right=(1, 2, 3))
+
+
+def _print_forces(position: Mapping[str, Any], unit: str, language: str) -> None:
+    """Forces by components, size and direction, and moments; what its bound does not tell from 0 is 0."""
+    from graphkin.words import Phrase, say
+
+    force_bound, moment_bound = position["force_bound"].values()
+
+    heads = {k: say(Phrase(f"heads of {k}", (unit,)), language).split("|") for k in ("forces", "moments")}
+    forces = [
+        [key, _pair(force), _number(math.hypot(*force)), _number(math.degrees(math.atan2(force[1], force[0])))]
+        for key, given in position["forces"].items()
+        for force in [[x if abs(x) > force_bound else 0.0 for x in given]]
+    ]
+    moments = [[key, _number(m if abs(m) > moment_bound else 0.0)] for key, m in position["moments"].items()]
+    print_table(heads["forces"], forces, right=(2, 3))
+    print_table(heads["moments"], moments, right=(1,))
 
 
 def _number(value: float) -> str:

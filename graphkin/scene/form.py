@@ -28,6 +28,7 @@ Switch = Annotated[bool, Strict()]
 Number = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=-LARGEST, le=LARGEST)]
 Magnitude = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=SMALLEST, le=LARGEST)]
 Tool = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=0, le=10)]
+NotNegative = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=0, le=LARGEST)]
 Place = Annotated[list[Number], Field(min_length=2, max_length=2, description="[x, y]")]
 PointName = Annotated[str, StringConstraints(strict=True, pattern=r"^[A-Z][A-Za-z0-9]*$", max_length=40)]
 LinkName = Annotated[str, StringConstraints(strict=True, pattern=r"^[A-Za-z0-9]+$", max_length=40)]
@@ -90,6 +91,10 @@ At = Annotated[
     | Annotated[Literal["drawn"], Tag("<name>")],
     _forms('write [x, y], { from = "C", r = 65, angle = -60 }, '
            '{ from = ["B", "C"], r = [60, 80], side = "left" } or "drawn"'),
+]
+NumberOrSquare = Annotated[
+    Annotated[Number, Tag("<number>")] | Annotated[Literal["square"], Tag("<name>")],
+    _forms('write degrees, or "square" for square to the link\'s own axis'),
 ]
 OneDriver = Annotated[
     Annotated[Driver, Tag("<angle>")] | Annotated[DrivenSlide, Tag("<slide>")], Discriminator(_driver_form)

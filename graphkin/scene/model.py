@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 
+from graphkin.scene.loads import Loading
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import SheetWishes, Units
 
@@ -172,9 +173,7 @@ class Mechanism:
     find: tuple[Symbol, ...] = ()
     printed: Mapping[Symbol, float | complex] = field(default_factory=dict)
     sheet: SheetWishes = field(default_factory=SheetWishes)
-
-    def __hash__(self) -> int:
-        return hash((self.name, self.title, tuple(link.name for link in self.links)))
+    loading: Loading = field(default_factory=Loading)
 
     def title_in(self, language: str) -> str:
         """The title in a language: the Chinese one where there is one, else the one there is."""

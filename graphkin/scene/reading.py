@@ -19,10 +19,11 @@ from typing import Any
 from pydantic import ValidationError
 
 from graphkin.errors import Problem, SceneError, did_you_mean
-from graphkin.scene import tables
+from graphkin.scene import load_tables, tables
+from graphkin.scene.file_table import FileTable, entries, key_of, keys_of
 from graphkin.scene.form import SCENE
 from graphkin.scene.names import Flaws, Path
-from graphkin.scene.tables import FileTable, SceneTables, entries, key_of, keys_of
+from graphkin.scene.tables import SceneTables
 
 __all__ = ["checked", "keys_at", "path_name", "plain", "shown"]
 
@@ -127,7 +128,8 @@ def _cut(path: Path) -> Path:
         if path[-1] in ("link", "slide"):  # without it the form of the driver is not known
             return head
         return path[: 3 if len(path) > 1 and isinstance(path[1], int) else 2]
-    return path[:2] if head and head[0] in ("pins", "sketch", "drawn", "printed", "sheet", "units") else head
+    inside = ("pins", "sketch", "drawn", "printed", "sheet", "units", "masses", "loads")
+    return path[:2] if head and head[0] in inside else head
 
 
 def _value_at(raw: Any, path: Path) -> Any:
@@ -175,6 +177,12 @@ _TABLES: tuple[tuple[tuple[str, ...], type[FileTable]], ...] = (
     (("driver", "<one>", "<slide>"), tables.DrivenSlide),
     (("driver", "<list>", "*", "<angle>"), tables.Driver),
     (("driver", "<list>", "*", "<slide>"), tables.DrivenSlide),
+    (("gravity",), load_tables.Gravity),
+    (("masses", "*"), load_tables.Mass),
+    (("loads", "*"), load_tables.Load),
+    (("loads", "*", "when"), load_tables.LoadPhase),
+    (("balance",), load_tables.Balance),
+    (("flywheel",), load_tables.Flywheel),
     (("sheet",), tables.SheetWishes),
 )
 _KINDS = {

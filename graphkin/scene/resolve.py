@@ -10,6 +10,7 @@ from collections.abc import Mapping
 
 from graphkin.errors import Problem, SceneError
 from graphkin.scene.drawn_position import DrawnPosition, find_position, travel_of
+from graphkin.scene.loads import Loading, loading_of
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedGuide, PlacedLink, SlideDriver
 from graphkin.scene.names import Flaws, Names
 from graphkin.scene.pairs import DriverEntry, drives, islands, pins_in_slots, sliding_pairs
@@ -149,6 +150,10 @@ def resolve(file: SceneTables, name: str, problems: list[Problem], flaws: Flaws)
         problems += disagreements(position)
     if not problems:
         problems += _not_found(position)
+    loading = Loading()
+    if file.masses or file.loads or file.balance or file.flywheel:
+        places = {n: b.local for n, b in bodies.items()}
+        loading = loading_of(file, names, places, (*(s.key for s in slidings), *(p.key for p in pins)), problems)
     hopeless = bool(problems) and (bool(drawn) or flaws.under("drawn"))
     drivers = [_driver(d, position, [] if hopeless else problems) for d in driven]
     if problems:
@@ -172,6 +177,7 @@ def resolve(file: SceneTables, name: str, problems: list[Problem], flaws: Flaws)
         find,
         printed,
         file.sheet,
+        loading,
     )
 
 

@@ -7,9 +7,14 @@ scene is made of them (`graphkin.scene.form` has the rules, from which the JSON 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import MISSING, Field, dataclass, field, fields
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, TypeAlias
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Literal, TypeAlias
+
+from graphkin.scene.file_table import FileTable
+from graphkin.scene.file_table import about as _about
+from graphkin.scene.file_table import closed as _closed
+from graphkin.scene.load_tables import Balance, Flywheel, Gravity, Load, Mass
 
 SMALLEST = 1e-15
 """The smallest length, and the smallest rate that is not 0."""
@@ -45,7 +50,6 @@ __all__ = [
     "Convention",
     "DrivenSlide",
     "Driver",
-    "FileTable",
     "Frame",
     "Guide",
     "Link",
@@ -55,26 +59,7 @@ __all__ = [
     "SheetWishes",
     "Tools",
     "Units",
-    "entries",
-    "key_of",
-    "keys_of",
 ]
-
-
-def _about(description: str, **more: Any) -> dict[str, Any]:
-    """What the reader and the schema know of a key beside its type."""
-    return {"description": description, **more}
-
-
-def _closed(description: str) -> dict[str, Any]:
-    """The same of a table whose keys are names."""
-    return _about(description, json_schema_extra={"additionalProperties": False})
-
-
-class FileTable:
-    """A table of a scene file."""
-
-    __pydantic_config__: ClassVar = {"extra": "forbid", "defer_build": True}
 
 
 @dataclass(frozen=True)
@@ -85,10 +70,32 @@ class Units(FileTable):
         default="mm", metadata=_about("The unit of every length; speeds are in it per second.")
     )
 
+    force: Literal["N", "kN", "kgf", "lbf"] = field(
+        default="N", metadata=_about("The unit of every force; moments are in it times metre.")
+    )
+    mass: Literal["kg", "g", "lb"] = field(
+        default="kg", metadata=_about("The unit of every mass; inertias are in it times m2 (ft2 with lb).")
+    )
+
     @property
     def metres(self) -> float:
         """One length unit in m."""
         return {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254, "ft": 0.3048}[self.length]
+
+    @property
+    def newtons(self) -> float:
+        """One force unit in N."""
+        return {"N": 1.0, "kN": 1e3, "kgf": 9.80665, "lbf": 4.4482216152605}[self.force]
+
+    @property
+    def kilograms(self) -> float:
+        """One mass unit in kg."""
+        return {"kg": 1.0, "g": 1e-3, "lb": 0.45359237}[self.mass]
+
+    @property
+    def inertias(self) -> float:
+        """One unit of inertia in kg m2."""
+        return self.kilograms * (0.3048**2 if self.mass == "lb" else 1.0)
 
 
 @dataclass(frozen=True)
@@ -244,6 +251,7 @@ class SheetWishes(FileTable):
     length_scale: Magnitude | None = field(default=None, metadata=_about("mm of mechanism per mm of paper."))
     velocity_scale: Magnitude | None = field(default=None, metadata=_about("(length unit/s) per mm of paper."))
     acceleration_scale: Magnitude | None = field(default=None, metadata=_about("(length unit/s2) per mm of paper."))
+    force_scale: Magnitude | None = field(default=None, metadata=_about("Force units per mm of paper."))
     convention: Convention = "chinese"
     language: Language = "en"
     tools: Tools = field(default=Tools(), metadata=_about("Tools of a pencil drawing.", alias="instrument"))
@@ -283,37 +291,16 @@ class SceneTables(FileTable):
         default_factory=dict,
         metadata=_about("Values that somebody published, by symbol, in scene units, degrees, rad/s and rad/s2."),
     )
+    gravity: Gravity | None = field(default=None, metadata=_about("Weights pull where this table stands."))
+    masses: dict[LinkName, Mass] = field(default_factory=dict, metadata=_closed("Masses of moving links."))
+    loads: dict[LinkName, Load] = field(default_factory=dict, metadata=_closed("Forces and moments by name."))
+    balance: Balance | None = field(
+        default=None, metadata=_about("What is unknown besides the joint forces; a moment on the driver if left out.")
+    )
+    flywheel: Flywheel | None = field(default=None, metadata=_about("A flywheel that evens out the turn."))
     sheet: SheetWishes = SheetWishes()
 
     @property
     def drivers(self) -> tuple[Driver | DrivenSlide, ...]:
         """The drivers, whether written as one table or several."""
         return (self.driver,) if isinstance(self.driver, Driver | DrivenSlide) else tuple(self.driver)
-
-
-def keys_of(table: FileTable | type[FileTable]) -> Iterator[Field[Any]]:
-    """The fields of a table that stand in a file."""
-    for key in fields(table):  # type: ignore[arg-type]  # each table is a dataclass
-        if not key.metadata.get("beside"):
-            yield key
-
-
-def key_of(key: Field[Any]) -> str:
-    """A field's key in the file."""
-    return str(key.metadata.get("alias", key.name))
-
-
-def entries(table: FileTable) -> dict[str, Any]:
-    """The keys of a table as they stand in a file, without those that say what holds anyway.
-
-    >>> entries(Link(points=["A", "B"], length=120))
-    {'points': ['A', 'B'], 'length': 120}
-    """
-    found = {}
-    for key in keys_of(table):
-        value = getattr(table, key.name)
-        usual = key.default_factory() if key.default_factory is not MISSING else key.default
-        empty = usual in ({}, ()) and isinstance(value, Mapping | list | tuple) and not value
-        if not empty and not (type(value) is type(usual) and value == usual):
-            found[key_of(key)] = value
-    return found

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 import os
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from html import escape
 from pathlib import Path
@@ -16,6 +16,7 @@ from typing import Any
 
 from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.plane import degrees
+from graphkin.scene.loads import Phase
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedLink
 from graphkin.scene.tables import SceneTables
 
@@ -126,18 +127,15 @@ class Scene(SceneTables):
         ------
         CallError : a place that cannot be written
         """
-        from graphkin.files import path_of, whole_file
+        from graphkin.files import whole_file
 
-        target = path_of(path)
+        target = Path(path)
         try:
             with whole_file(target) as out:
                 out.write(toml_text(self.to_dict()).encode())
         except OSError as error:
             raise CallError(Problem(str(path), f"cannot be written: {error.strerror or error}")) from None
         return target
-
-    def __hash__(self) -> int:
-        return hash((self.title, tuple(self.links)))
 
     def __repr__(self) -> str:
         return f"<Scene {self.name}: {len(self.links)} moving links>"
@@ -223,13 +221,55 @@ def as_mapping(scene: Mechanism) -> dict[str, Any]:
         pins.setdefault(pin.point, {"of": pin.of, "in": []})["in"].append(_guide_name(pin.on, pin.guide))
     made: dict[str, Any] = {"title": scene.title, "title_zh": scene.title_zh, "source": scene.source}
     made["units"] = {"length": scene.units.length}
+    if scene.loading:
+        made["units"] |= {"force": scene.units.force, "mass": scene.units.mass}
     made["frame"] = {k: v for k, v in frame.items() if v != {}}
     made["links"] = links
     made["pins"] = pins
     made["driver"] = [_driver(scene, d, length) for d in scene.drivers]
+    made |= _loading(scene, place)
     made["sketch"] = {p: place(z) for p, z in {**scene.drawn, **scene.sketch}.items() if _moves(scene, p)}
     made["find"] = [str(s) for s in scene.find]
     return {k: v for k, v in made.items() if v not in ("", {}, [])}
+
+
+def _loading(scene: Mechanism, place: Callable[[complex], list[float]]) -> dict[str, Any]:
+    """Masses, loads, gravity, balance and flywheel."""
+    loading, units = scene.loading, scene.units
+    made: dict[str, Any] = {"masses": {}, "loads": {}}
+    if loading.gravity:
+        made["gravity"] = {"g": _tidy(abs(loading.gravity)), "angle": _tidy(degrees(loading.gravity))}
+    for mass in loading.masses:
+        heavy, inertia = _tidy(mass.mass / units.kilograms), _tidy(mass.inertia / units.inertias)
+        made["masses"][mass.link] = {"at": place(mass.at), "mass": heavy, "inertia": inertia}
+    for load in loading.loads:
+        table: dict[str, Any] = {"on": load.link}
+        if load.is_force:
+            table |= {"at": place(load.at), "force": _tidy(load.size / units.newtons)}
+            table |= {"against": load.against} if load.against else {"angle": _tidy(degrees(load.turn))}
+            table |= {"follows": load.follows} if load.follows else {}
+        else:
+            table["moment"] = _tidy(load.size / units.newtons)
+        if load.phase is not None:
+            table["when"] = _phase(scene, load.phase)
+        made["loads"][load.name] = table
+    if loading.balance is not None:
+        balance = loading.balance
+        made["balance"] = {"on": balance.link}
+        if balance.kind == "force":
+            angle = "square" if balance.square else _tidy(degrees(balance.turn))
+            made["balance"] |= {"at": place(balance.at), "angle": angle}
+    if loading.flywheel is not None:
+        made["flywheel"] = {"on": loading.flywheel.link, "delta": loading.flywheel.delta}
+    return made
+
+
+def _phase(scene: Mechanism, phase: Phase) -> dict[str, Any]:
+    if phase.stroke:
+        return {"stroke": phase.stroke, "sense": phase.sense, "from": phase.start, "to": phase.end}
+    turns = isinstance(scene.drivers[0], AngleDriver)
+    unit = math.radians(1.0) if turns else scene.units.metres
+    return {"driver": [_tidy(phase.start / unit), _tidy(phase.end / unit)]}
 
 
 def _moves(scene: Mechanism, point: str) -> bool:

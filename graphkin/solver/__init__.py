@@ -2,6 +2,7 @@
 
 from graphkin.solver.driver_range import DriverRange, driver_range, whole_range
 from graphkin.solver.findings import structure_of
+from graphkin.solver.forces import Forces, forces_of
 from graphkin.solver.motion import Motion, Sliding
 from graphkin.solver.prepared import PreparedMechanism, prepare
 from graphkin.solver.solve import solve
@@ -10,11 +11,13 @@ from graphkin.solver.whole_turn import exact_values
 
 __all__ = [
     "DriverRange",
+    "Forces",
     "Motion",
     "PreparedMechanism",
     "Sliding",
     "driver_range",
     "exact_values",
+    "forces_of",
     "listed_points",
     "prepare",
     "solve",

@@ -9,6 +9,7 @@ from typing import IO, Any
 import numpy as np
 
 from graphkin.scene.model import Mechanism, SlideDriver
+from graphkin.solver.forces import Forces
 from graphkin.solver.motion import Motion
 from graphkin.solver.pose import Array
 from graphkin.structure import Cluster, Dyad, Slide
@@ -31,15 +32,17 @@ def listed_points(scene: Mechanism, slides: Sequence[Slide]) -> tuple[tuple[str,
     return tuple(sorted(found, key=lambda ref: place[ref[1]]))
 
 
-def to_json(motion: Motion) -> dict[str, Any]:
-    """The object that ``solve --json`` prints: numbers in the scene's length unit, seconds, radians."""
-    return {**_head(motion), "positions": [entry for block in _positions(motion) for entry in block]}
+def to_json(motion: Motion, forces: Forces | None = None) -> dict[str, Any]:
+    """The object that ``solve --json`` prints: numbers in the scene's length unit, seconds, radians; forces, where
+    there are any, in its force unit, moments in that times metre."""
+    entries = [entry for block in _positions(motion, forces) for entry in block]
+    return {**_head(motion), "positions": entries}
 
 
-def write_json(motion: Motion, out: IO[bytes]) -> None:
+def write_json(motion: Motion, out: IO[bytes], forces: Forces | None = None) -> None:
     """Write ``to_json`` as JSON, with a line feed at its end, as it goes: of a long sweep only a block is in memory."""
     out.write(_text(_head(motion))[:-1] + b', "positions": [')
-    for k, block in enumerate(_positions(motion)):
+    for k, block in enumerate(_positions(motion, forces)):
         out.write((b", " if k else b"") + _text(block)[1:-1])
     out.write(b"]}\n")
 
@@ -50,15 +53,16 @@ def _text(data: object) -> bytes:
 
 def _head(motion: Motion) -> dict[str, Any]:
     scene = motion.scene
+    force = {"force": scene.units.force} if scene.loading else {}
     return {
         "title": scene.title,
-        "units": {"length": scene.units.length, "time": "s", "angle": "rad"},
+        "units": {"length": scene.units.length, "time": "s", "angle": "rad", **force},
         "mobility": motion.structure.mobility.value,
         "groups": [_group(g, words) for g, words in zip(motion.structure.groups, motion.assembly, strict=True)],
     }
 
 
-def _positions(motion: Motion) -> Iterator[list[dict[str, Any]]]:
+def _positions(motion: Motion, forces: Forces | None) -> Iterator[list[dict[str, Any]]]:
     """The entries of the positions, some thousand at a time."""
     scene = motion.scene
     metres = scene.units.metres
@@ -94,8 +98,25 @@ def _positions(motion: Motion) -> Iterator[list[dict[str, Any]]]:
             for part, table in cells.items():
                 entry[part] = {key: {what: v[k] for what, v in row.items()} for key, row in table.items()}
             entry["error_bound"] = _bounds(motion, first + k)
+            if forces is not None:
+                entry |= _forces(scene, forces, first + k)
             block.append(entry)
         yield block
+
+
+def _forces(scene: Mechanism, forces: Forces, k: int) -> dict[str, Any]:
+    """Forces and moments at one position; a key with + is the value with the loads that begin or end exactly here."""
+    found: dict[str, dict[str, Any]] = {"forces": {}, "moments": {}}
+    for part, table in (("forces", forces.forces), ("moments", forces.moments)):
+        for key, values in table.items():
+            here = {key: values[k]}
+            if key in forces.beside and not np.isnan(forces.beside[key][k]):
+                here[f"{key}+"] = forces.beside[key][k]
+            for name, value in here.items():
+                shown = value / scene.units.newtons
+                found[part][name] = [float(shown.real), float(shown.imag)] if part == "forces" else float(shown)
+    bound = {name: float(b[k]) / scene.units.newtons for name, b in zip(found, forces.bound, strict=True)}
+    return {**found, "force_bound": bound}
 
 
 def _plain(values: Array) -> list[Any]:

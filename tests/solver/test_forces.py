@@ -1,0 +1,313 @@
+"""Forces in all pairs: against an independent reference, in equilibrium link by link, in balance of powers."""
+
+from __future__ import annotations
+
+import json
+import math
+import random
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import graphkin
+from graphkin.scene import library, mechanism_of
+from tests.command import run
+from tests.mechanisms import KINDS, random_scene
+
+VALIDATION = Path(__file__).parent.parent / "validation"
+CASES = json.loads((VALIDATION / "truth_forces.json").read_text())["cases"]
+PLACES = [(name, at) for name, case in CASES.items() for at in case["positions"]]
+
+
+def scene_of(name):
+    return VALIDATION / CASES[name]["scene"]
+
+
+def number(value):
+    return complex(*value) if isinstance(value, list) else value
+
+
+def opposite(key):
+    letter, _, rest = key.partition("_")
+    plus = "+" if rest.endswith("+") else ""
+    pair, at, point = rest.removesuffix("+").partition("@")
+    return f"{letter}_{'/'.join(reversed(pair.split('/')))}{at}{point}{plus}"
+
+
+@pytest.mark.parametrize(("name", "at"), PLACES)
+def test_forces_are_those_of_the_reference(name, at):
+    true = CASES[name]["positions"][at]
+    here = graphkin.solve(scene_of(name), at=true["driver_deg"]).data["positions"][0]
+    found = {**here["forces"], **here["moments"]}
+    most = max(abs(number(v)) for v in true["forces"].values())
+    for key, exact in {**true["forces"], **true["moments"]}.items():
+        mine = number(found[key]) if key in found else -number(found[opposite(key)])
+        assert abs(number(exact) - mine) <= 1e-11 * most, key
+
+
+def loaded(scene, seed):
+    """A scene with masses on all links, weights and loads of every sort."""
+    rng = random.Random(seed)
+    made = json.loads(json.dumps(scene))
+    made["gravity"] = {"g": 9.8, "angle": rng.uniform(-180, 180)}
+    links = [name for name, link in made["links"].items() if not link.get("redundant")]
+    made["masses"] = {
+        name: {"at": [rng.uniform(-50, 50), rng.uniform(-50, 50)], "mass": rng.uniform(0.1, 5),
+               "inertia": rng.uniform(0, 0.1)}
+        for name in links
+    }  # fmt: skip
+    made["loads"] = {
+        "A": {"on": rng.choice(links), "at": [10, -5], "force": 300, "angle": 30},
+        "B": {"on": rng.choice(links), "at": [0, 20], "force": 200, "follows": rng.choice(links), "angle": -50},
+        "C": {"on": rng.choice(links), "moment": -7},
+    }
+    return made
+
+
+def shares(mechanism, solved, key):
+    """The link on which a force or couple of this symbol acts, the one that it comes from, and where it acts."""
+    motion = solved.motion
+    letter, _, rest = key.partition("_")
+    pair, _, point = rest.partition("@")
+    if "/" not in pair:
+        return pair, None, None
+    first, second = pair.split("/")
+    sliding = next((s for s in mechanism.slidings if (s.link, s.on) == (second, first) and point in ("", s.pin)), None)
+    pin = next((p for p in mechanism.pins if (p.of, p.on) == (second, first) and point in ("", p.point)), None)
+    common = [p for p, holders in mechanism.holders.items() if {first, second} <= set(holders) and point in ("", p)]
+    if sliding is not None and not (letter == "F" and common and point):
+        pose = motion.poses[second]
+        own = mechanism.by_name[second].points[sliding.pin] if sliding.pin else 0j
+        return second, first, pose.z + pose.u * own
+    name = pin.point if pin is not None else common[0]
+    return second, first, motion.point(name).z
+
+
+def residues(scene):
+    """What is left of the forces on each link, of the moments about its origin, and of the powers; with the largest."""
+    mechanism = mechanism_of(scene)
+    solved = graphkin.solve(scene)
+    motion, forces = solved.motion, solved.forces
+    if not forces.ok.all():
+        return None
+    sums = {link.name: [0j, 0.0] for link in mechanism.links}
+    most, power, powers = 0.0, 0.0, []
+    balances = {d.key.split("/")[0] for d in mechanism.drivers}
+
+    def act(link, force, at, moment=0.0, external=True):
+        nonlocal power
+        if link not in sums:
+            return
+        pose = motion.poses[link]
+        arm = at - pose.z if at is not None else 0j
+        sums[link][0] += force
+        sums[link][1] += (np.conj(arm) * force).imag + moment
+        if external:
+            velocity = pose.v + 1j * pose.omega * arm
+            powers.append((np.conj(velocity) * force).real + pose.omega * moment)
+            power += powers[-1]
+
+    for mass in mechanism.loading.masses:
+        centre = motion.poses[mass.link].fixed(mass.at)
+        for key in (f"Fi_{mass.link}", f"G_{mass.link}"):
+            act(mass.link, forces.forces[key], centre.z)
+        act(mass.link, 0j, None, forces.moments[f"Mi_{mass.link}"])
+    for load in mechanism.loading.loads:
+        pose = motion.poses[load.link]
+        if load.is_force:
+            act(load.link, forces.forces[f"P_{load.name}"], pose.z + pose.u * load.at)
+        else:
+            act(load.link, 0j, None, forces.moments[f"P_{load.name}"])
+    for driver in mechanism.drivers:
+        angle = hasattr(driver, "relative_to")
+        link = driver.key.split("/")[0]
+        if angle:
+            moment = forces.moments[f"M_{link}"]
+            act(link, 0j, None, moment)
+            act(driver.relative_to, 0j, None, -moment)
+            continue
+        pin = next((p for p in mechanism.pins if p.key == driver.key), None)
+        slide = next((s for s in mechanism.slidings if s.key == driver.key), None)
+        link, on = (pin.of, pin.on) if pin else (slide.link, slide.on)
+        balances.add(link)
+        own = mechanism.by_name[link].points
+        foot = own[pin.point] if pin else own[slide.pin] if slide.pin else 0
+        at = motion.poses[link].z + motion.poses[link].u * foot
+        act(link, forces.forces[f"F_{link}"], at)
+        act(on, -forces.forces[f"F_{link}"], at)
+    for key in (*forces.forces, *forces.moments):
+        value = forces.value(key)
+        if not key.startswith(("F_", "M_")) or "/" not in key:
+            continue
+        second, first, at = shares(mechanism, solved, key)
+        for link, sign in ((second, 1), (first, -1)):
+            if key.startswith("F_"):
+                act(link, sign * value, at, external=False)
+            else:
+                act(link, 0j, None, sign * value, external=False)
+        most = max(most, float(np.abs(value).max()))
+    worst = max(max(abs(complex(f[0])) if np.ndim(f) else abs(f), abs(float(np.ravel(m)[0])) / mechanism.size)
+                for f, m in sums.values())  # fmt: skip
+    turning = max(abs(float(np.ravel(p)[0])) for p in powers)
+    return worst, most, abs(float(np.ravel(power)[0])), turning
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_every_link_is_in_equilibrium_and_the_powers_balance(seed):
+    rng = random.Random(seed)
+    drive = rng.choice(("crank", "slider", "cylinder", "slot"))
+    scene = loaded(random_scene(seed, tuple(rng.choices(KINDS, k=2)), drive), seed)
+    found = residues(scene)
+    if found is None:
+        pytest.skip("this one stands in a dead point of its balance")
+    worst, most, power, largest = found
+    assert worst <= 1e-10 * max(most, 1.0)
+    assert power <= 1e-9 * max(largest, 1e-3)
+
+
+@pytest.mark.parametrize("name", [n for n in library() if n not in ("double-butterfly", "single-flier")][::3])
+def test_scenes_that_come_along_are_in_equilibrium_under_loads(name):
+    worst, most, power, largest = residues(loaded(graphkin.read(name).to_dict(), 5))
+    assert worst <= 1e-10 * most
+    assert power <= 1e-9 * largest
+
+
+def test_a_larger_group_is_in_equilibrium():
+    worst, most, power, largest = residues(loaded(graphkin.read("double-butterfly").to_dict(), 3))
+    assert worst <= 1e-10 * most
+    assert power <= 1e-9 * largest
+
+
+SHAPER = scene_of("shaper-scheme-2")
+
+
+def test_the_power_balance_holds_over_a_turn():
+    solved = graphkin.solve(SHAPER, sweep=72)
+    motion, forces = solved.motion, solved.forces
+    power = forces.value("M_2") * motion.omega("2")
+    for link in ("4", "6"):
+        mass = next(m for m in motion.scene.loading.masses if m.link == link)
+        velocity = motion.poses[link].fixed(mass.at).v
+        for key in (f"Fi_{link}", f"G_{link}"):
+            power = power + (np.conj(velocity) * forces.value(key)).real
+        power = power + motion.omega(link) * forces.value(f"Mi_{link}")
+    power = power + (np.conj(motion.point("C").v) * forces.value("P_P")).real
+    assert 0 == pytest.approx(np.abs(power).max(), abs=1e-10 * np.abs(forces.value("M_2") * motion.omega("2")).max())
+
+
+@pytest.mark.parametrize("at", [167.3708882, 12.2936947])
+def test_both_values_stand_where_the_cut_begins_and_ends(at):
+    # the edges lie where the ram has done 0.05 and 0.95 of its stroke
+    low, high = sorted(graphkin.solve(SHAPER, at=crank)["s_6/1"][0] for crank in (194.90059668782988, 345.09940331217))
+    wanted = high - (high - low) * (0.05 if at > 90 else 0.95)
+    for _ in range(60):
+        value = graphkin.solve(SHAPER, at=at)
+        rate = value["v_C"][0].real / -math.copysign(64 * math.tau / 60, 1)
+        at += math.degrees(-(value["s_6/1"][0] - wanted) / -rate)
+        if abs(value["s_6/1"][0] - wanted) < 1e-12 * (high - low):
+            break
+    here = graphkin.solve(SHAPER, at=at).data["positions"][0]
+    assert [0.0, 0.0] == here["forces"]["P_P"]
+    assert [-9000.0, 0.0] == pytest.approx(here["forces"]["P_P+"], abs=1e-9)
+    assert "M_2+" in here["moments"]
+    assert "Fi_6+" not in here["forces"]
+
+
+def test_forces_stand_in_the_units_of_the_scene():
+    scene = graphkin.read(SHAPER).to_dict()
+    other = json.loads(json.dumps(scene)) | {"units": {"force": "kN", "mass": "g"}}
+    other["masses"]["4"] |= {"weight": 0.22, "inertia": 1200}
+    other["masses"]["6"] |= {"weight": 0.8}
+    other["loads"]["P"]["force"] = 9
+    one, two = (graphkin.solve(s)["M_2"][0] for s in (scene, other))
+    assert one / 1000 == pytest.approx(two, rel=1e-12)
+
+
+def test_without_gravity_a_weight_gives_its_mass_and_does_not_pull():
+    scene = graphkin.read(SHAPER).to_dict()
+    del scene["gravity"]
+    here = graphkin.solve(scene).data["positions"][0]
+    assert "G_6" not in here["forces"]
+    acceleration = graphkin.solve(scene)["a_C"][0].real / 1000
+    assert -800 / 9.80665 * acceleration == pytest.approx(here["forces"]["Fi_6"][0], rel=1e-12)
+
+
+def test_a_balancing_force_does_the_work_of_the_balancing_moment():
+    scene = graphkin.read(SHAPER).to_dict()
+    moment = graphkin.solve(scene)["M_2"][0]
+    scene["balance"] = {"on": "2", "at": "A", "angle": "square"}
+    force = graphkin.solve(scene)["F_2"][0]
+    assert abs(moment) / 0.09 == pytest.approx(abs(force), rel=1e-11)
+    angle = graphkin.solve(scene)["theta_2"][0]
+    assert 0 == pytest.approx((force * np.exp(-1j * math.radians(angle))).real / abs(force), abs=1e-12)
+
+
+def test_a_balance_that_does_no_work_is_refused_by_name(tmp_path):
+    scene = graphkin.read(SHAPER)
+    scene = scene.replace("driver.angle", 194.90059668782988).replace("balance", {"on": "4"})
+    path = scene.save(tmp_path / "idle.toml")
+    done = run("solve", str(path), "--json")
+    assert 3 == done.returncode
+    assert "balance does no work" in json.loads(done.stdout)["positions"][0]["why"]
+
+
+def test_a_cylinder_carries_what_it_lifts():
+    # a boom of 100 kg held by an upright cylinder: the cylinder carries its share of the weight by the lever's law
+    scene = {
+        "units": {"length": "m"},
+        "frame": {"name": "0", "points": {"A": [0, 0], "B": [1, -1]}},
+        "links": {
+            "1": {"points": ["A", "C"], "length": 1.0, "at": {"S": [2, 0]}},
+            "2": {"points": ["B"], "on": "3"},
+            "3": {"points": ["C"]},
+        },
+        "driver": {"slide": "2/3", "travel": -1.0, "velocity": 0.0},
+        "sketch": {"C": [1, 0]},
+        "gravity": {"g": 10},
+        "masses": {"1": {"at": "S", "mass": 100}},
+    }
+    here = graphkin.solve(scene).data["positions"][0]
+    assert 2000 == pytest.approx(abs(number(here["forces"]["F_2"])), rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"masses": {"9": {"at": "S4", "mass": 1}}}, 'there is no link "9"'),
+        ({"masses": {"4": {"at": "S9", "mass": 1}}}, "S9 is nowhere placed on link 4"),
+        ({"masses": {"4": {"at": "S4"}}}, "neither mass nor weight"),
+        ({"masses": {"1": {"at": "O2", "mass": 1}}}, "is the frame"),
+        ({"masses": {"4": {"at": "S4", "mass": -1}}}, "found -1"),
+        ({"loads": {"P": {"on": "6", "at": "C", "force": 9}}}, "loads.P.angle: is missing"),
+        ({"loads": {"P": {"on": "6", "force": 9, "angle": 0}}}, "loads.P.at: is missing"),
+        ({"loads": {"P": {"on": "6", "at": "C", "force": 9, "against": "6/2"}}}, "no sliding pair"),
+        ({"loads": {"P": {"on": "6", "moment": 9, "angle": 0}}}, "neither place nor direction"),
+        ({"loads": {"P": {"on": "6", "moment": 9, "when": {"stroke": "6/1", "sense": 2}}}}, "1 along the guide"),
+        ({"balance": {"on": "2", "at": "A"}}, "balance.angle: is missing"),
+    ],
+)
+def test_what_is_wrong_with_masses_and_loads_is_told_by_name(change, said):
+    with pytest.raises(graphkin.SceneError, match=said):
+        graphkin.read({**graphkin.read(SHAPER).to_dict(), **change})
+
+
+def test_a_scene_with_loads_is_written_as_it_is_read():
+    mechanism = mechanism_of(SHAPER)
+    from graphkin.scene.written import as_mapping
+
+    again = mechanism_of(as_mapping(mechanism))
+    assert mechanism.loading.loads == again.loading.loads
+    for one, two in zip(mechanism.loading.masses, again.loading.masses, strict=True):
+        assert one.mass == pytest.approx(two.mass, rel=1e-12)
+
+
+def test_bounds_hold_what_a_solution_in_other_axes_differs_by():
+    scene = graphkin.read(SHAPER).to_dict()
+    moved = json.loads(json.dumps(scene))
+    for place in moved["frame"]["points"].values():
+        place[0] += 12345.678
+    moved["frame"]["guides"]["ram"]["through"][0] += 12345.678
+    one, two = graphkin.solve(scene), graphkin.solve(moved)
+    bound = one.forces.bound[0][0] + two.forces.bound[0][0]
+    assert abs(one["F_4/3"][0] - two["F_4/3"][0]) <= bound < 1e-6 * abs(one["F_4/3"][0])
