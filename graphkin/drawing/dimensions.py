@@ -136,14 +136,16 @@ class DimensionClearance:
                  for part in parts if isinstance(part, Text | Polygon)]  # fmt: skip
         if self.panel is not None and not all(self.panel.holds(box) for box in boxes):
             return None
+        middles, halves = _arrays(boxes)
+        if self._covered(middles, halves):
+            return None
         lines = [part for part in parts if isinstance(part, Line)]
         ends = [(line.start, line.end) for line in lines[extensions:]]
         for arc in (part for part in parts if isinstance(part, Arc)):
             course = [arc.at(arc.start + (arc.end - arc.start) * (0.06 + 0.11 * i)) for i in range(9)]
             ends += pairwise(course)
         own = np.array(ends, dtype=complex).reshape(-1, 2)
-        middles, halves = _arrays(boxes)
-        if self._covered(middles, halves) or self._over_areas(own) or len(_crossings(own, self.segments)[0]):
+        if self._over_areas(own) or len(_crossings(own, self.segments)[0]):
             return None
         trimmed = [self._trimmed(line) for line in lines[:extensions]]
         beyond = np.array([(line.start, line.end) for line in trimmed if line is not None], dtype=complex)

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 from graphkin.construction.sheet import Equation, Rate, Sheet, Term
 from graphkin.construction.steps import Given, MeasuredRate
@@ -45,7 +46,7 @@ class _Cell:
     underlines: int = 0
     is_term: bool = True
 
-    @property
+    @cached_property
     def width(self) -> float:
         return max(runs_width(self.runs), runs_width(self.size), runs_width(self.direction), runs_width(self.over))
 
@@ -63,10 +64,11 @@ def equations_in_room(
     for size in SIZES:
         for columns in (1, 2):
             wide = (width - (columns - 1) * COLUMN_GAP) / columns
-            blocks = [_write_line(line, sheet, letters, language, wide, size) for line in lines]
+            # lines are set as they are placed, since those after one that has no room are not wanted
+            blocks = (_write_line(line, sheet, letters, language, wide, size) for line in lines)
             placed = _in_columns(blocks, wide, height, columns)
             fullest = max(fullest, placed, key=len)
-            if len(placed) == len(blocks):
+            if len(placed) == len(lines):
                 return _written(placed), len(placed)
     return _written(fullest), len(fullest)
 
@@ -75,7 +77,7 @@ def _written(blocks: Sequence[tuple[Written, complex]]) -> tuple[Primitive, ...]
     return tuple(p for block, at in blocks for p in moved(block.children, at))
 
 
-def _in_columns(blocks: Sequence[Written], wide: float, height: float, columns: int) -> list[tuple[Written, complex]]:
+def _in_columns(blocks: Iterable[Written], wide: float, height: float, columns: int) -> list[tuple[Written, complex]]:
     """Blocks below each other in columns, with their corners, as far as they fit."""
     placed: list[tuple[Written, complex]] = []
     column, y = 0, 0.0

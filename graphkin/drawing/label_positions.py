@@ -6,9 +6,8 @@ and segment tell what touches.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -40,6 +39,8 @@ from graphkin.plane import cross
 
 __all__ = ["LabelPanel", "LabelPosition", "LabelPositions", "least_cost"]
 
+FEW = 6
+"""Places that a label tries one by one, before all of them are judged together."""
 LEADER_GAP = 0.4  # mm between the end of a leader and the box of its label
 LEADER_SPACE = 0.25  # mm between a leader and the box of any other label
 
@@ -116,10 +117,10 @@ class LabelPositions:
             float(self.costs[index]), leader,
         )  # fmt: skip
 
-    @cached_property
-    def first(self) -> tuple[LabelPosition, ...]:
+    @property
+    def first(self) -> Iterator[LabelPosition]:
         """The few cheapest."""
-        return tuple(self.position(i) for i in range(min(len(self), 6)))
+        return map(self.position, range(min(len(self), FEW)))
 
     def joined(self, other: LabelPositions) -> LabelPositions:
         """These and others, cheapest first."""

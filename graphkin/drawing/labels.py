@@ -18,7 +18,7 @@ from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.label_candidates import RINGS, LabelRequest, Mark, ends
-from graphkin.drawing.label_positions import LabelPanel, LabelPosition, LabelPositions, least_cost
+from graphkin.drawing.label_positions import FEW, LabelPanel, LabelPosition, LabelPositions, least_cost
 from graphkin.drawing.obstacles import Obstacles
 from graphkin.drawing.primitives import Line, Text
 
@@ -142,10 +142,13 @@ class _Placement:
         """Take the cheapest place that no other label holds."""
         positions, others = self.found[i], tuple(self.standing.values())
         for position in positions.first:
-            if not any(position.meets(other, _SPACE) for other in others):
+            for other in others:
+                if position.meets(other, _SPACE):
+                    break
+            else:
                 self.standing[i] = position
                 return True
-        if len(positions) <= len(positions.first):
+        if len(positions) <= FEW:
             return False
         free = np.flatnonzero(~positions.met(others, _SPACE).any(axis=1))
         if free.size:
