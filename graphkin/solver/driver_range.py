@@ -18,7 +18,7 @@ from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
 from graphkin.solver.assemblies import choose_forms, own_values
 from graphkin.solver.engine import positions
 from graphkin.solver.error_bound import ErrorBound
-from graphkin.solver.findings import assembly_words, limit_why, structure_of, without_singular
+from graphkin.solver.findings import assembly_words, limit_why, singular, structure_of, without_singular
 from graphkin.solver.joints import Drive
 from graphkin.solver.motion import Motion
 from graphkin.solver.path import FAR, Path, follow_path
@@ -158,7 +158,7 @@ class DriverRange:
 
     # the motion
 
-    def motion(self, offset: Array, unit: bool = False) -> Motion:
+    def motion(self, offset: Array, unit: bool = False, fine: bool = True) -> Motion:
         """The motion at these offsets, with status and reason at each.
 
         Parameters
@@ -166,6 +166,7 @@ class DriverRange:
         offset : shape (n,); over the range of an angle driver that cannot turn fully an offset may also be meant the
             other way round
         unit : rates by the first driver's own value (rate 1, second rate 0, other drivers held) instead of the scene's
+        fine : False for curves: 16 digits throughout, and no reasons where the status is not ok
         """
         offset = np.asarray(offset, dtype=float)
         low, high = self.ends
@@ -177,7 +178,7 @@ class DriverRange:
             rate = np.zeros_like(drive.value)
             rate[:, 0] = self.sense
             drive = Drive(drive.value, rate, np.zeros_like(rate))
-        return self._motion(within / abs(self.wide), self.values(offset), drive, self.reaches(offset))
+        return self._motion(within / abs(self.wide), self.values(offset), drive, self.reaches(offset), fine)
 
     def sweep(self, n: int) -> Motion:
         """The motion at n positions: over a full turn from the start on, or, by increasing travel, spread evenly inside
@@ -199,9 +200,9 @@ class DriverRange:
         part, used = np.where(good, part, part[fill]), np.where(good[:, None], values, values[fill])
         return self._motion(part, values, Drive.at(self.structure, used), good)
 
-    def _motion(self, part: Array, values: Array, drive: Drive, good: Array) -> Motion:
-        why = "" if good.all() else self.limit_why
-        found = motion_of(self.structure, drive, self.forms(part), self.assembly, good, why)
+    def _motion(self, part: Array, values: Array, drive: Drive, good: Array, fine: bool = True) -> Motion:
+        why = "" if good.all() or not fine else self.limit_why
+        found = motion_of(self.structure, drive, self.forms(part), self.assembly, good, why, fine)
         return replace(found, values=values, turned=self.turned(part))
 
     def angle(self, motion: Motion, link: str) -> Array:
@@ -329,6 +330,7 @@ def motion_of(
     assembly: tuple[str, ...],
     good: Array,
     why: str = "",
+    fine: bool = True,
 ) -> Motion:
     """Positions in one pass over all driver values, their status, redundant links placed and checked.
 
@@ -337,12 +339,17 @@ def motion_of(
     forms : the form of each group at each position, as for ``positions``
     assembly : in words
     good, why : which positions the motion reaches, shape (n,), and why it does not reach the others
+    fine : False leaves 16 digits where they are rough, and the reasons away
     """
     n = len(drive)
-    state = positions(structure, drive, forms)
+    state = positions(structure, drive, forms, fine=fine)
     status = np.where(good, "ok", "not assembled").astype("<U13")
     reasons = ["" if g else why for g in good]
-    status, reasons = without_singular(structure, state, drive.value, forms, status, reasons)
+    if fine:
+        status, reasons = without_singular(structure, state, drive.value, forms, status, reasons)
+    else:
+        for _, dead in singular(structure, state, n):
+            status[dead & good] = "dead point"
     ok = status == "ok"
     assert state.bounds is not None
     bound = ErrorBound(*(np.where(ok, b, np.nan) for b in state.bounds))

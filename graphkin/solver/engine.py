@@ -62,6 +62,7 @@ def positions(
     upto: int | None = None,
     rates: bool = True,
     sure: bool = True,
+    fine: bool = True,
 ) -> State:
     """Solve every element at all positions of the drivers, each position afresh.
 
@@ -73,13 +74,14 @@ def positions(
     upto : solve only the elements before this one
     rates : False leaves out velocity, acceleration and bounds
     sure : False leaves out the bounds; with a larger group they need all elements
+    fine : False leaves 16 digits where they are rough, and the bounds as they are there: for curves, and on the way
 
     Returns
     -------
     State; at a position that cannot be assembled the discriminant of a group is negative and the poses mean nothing
     """
     with np.errstate(all="ignore"):
-        run = _Run(structure, drive, forms, rates, sure and rates)
+        run = _Run(structure, drive, forms, rates, sure and rates, fine)
         return run.state(len(structure.elements) if upto is None else upto)
 
 
@@ -88,7 +90,7 @@ def extended_precision_of(
 ) -> ExtendedPrecision:
     """What computes some formulas of a mechanism of dyads in fifty digits, at any value of its drivers."""
     own = np.array([[d.values[0] for d in structure.scene.drivers]])
-    run = _Run(structure, Drive.at(structure, own), forms, False, False)
+    run = _Run(structure, Drive.at(structure, own), forms, False, False, True)
     program = run.dimensioned.program
     return run._extended(program.code(key, choose(program)))
 
@@ -97,9 +99,16 @@ class _Run:
     """One evaluation: larger groups one after the other, each from what it hangs on, then all formulas together."""
 
     def __init__(
-        self, structure: Structure, drive: Drive, forms: Mapping[int, Array], rates: bool, sure: bool
+        self,
+        structure: Structure,
+        drive: Drive,
+        forms: Mapping[int, Array],
+        rates: bool,
+        sure: bool,
+        fine: bool,
     ) -> None:
-        self.structure, self.drive, self.forms, self.rates, self.sure = structure, drive, forms, rates, sure
+        self.structure, self.drive, self.forms = structure, drive, forms
+        self.rates, self.sure, self.fine = rates, sure, fine
         self.n = len(drive)
         self.rate, self.second = (x[0] if self.n else np.zeros(x.shape[1]) for x in (drive.rate, drive.second))
         self.dimensioned = program_of(structure, tuple(bool(s) for s in self.second))
@@ -149,7 +158,7 @@ class _Run:
         if names and not self.clusters:
             extended = self._extended(program.code((upto, self.rates, followed), ()))
             fine = extended.exact()
-            if followed:
+            if followed and self.fine:
                 extended.refine(asked, columns, len(names))
             elif fine.any():
                 extended.place(asked, columns)

@@ -22,6 +22,8 @@ Array = NDArray[np.float64]
 POINTS = 24
 FIRST_PIECES = 8
 MOST_DEPTH = 12
+LEFT_OUT = 4
+"""A piece in which a value is not finite is halved this often at most."""
 MOST_PIECES = 500
 MOST_ROOTS = 400
 """A curve with more roots over its range is rounding."""
@@ -43,6 +45,7 @@ class Pieces:
     coefficients : shape (pieces, points, curves)
     weight : shape (curves,), the power of sin(parameter) that the curves were multiplied by to stay finite at the ends
     scale : shape (curves,), the largest value of each curve (the usual one, where it grows without bound), or the floor
+    doubt : shape (pieces, curves), how far the values of each piece may be off
     """
 
     low: Array
@@ -51,10 +54,11 @@ class Pieces:
     scale: Array
     periodic: bool
     weight: Array
+    doubt: Array
 
     def zeros(self, curve: int) -> Array:
         """Parameters at which a curve is zero, in increasing order."""
-        return self._roots(self.coefficients[:, :, curve], self.scale[curve])
+        return self._roots(self.coefficients[:, :, curve], self.scale[curve], self.doubt[:, curve])
 
     def extremes(self, curve: int) -> Array:
         """Parameters at which the derivative of a curve is zero, in increasing order."""
@@ -69,7 +73,7 @@ class Pieces:
             dg = slopes @ chebyshev.chebvander(_NODES, POINTS - 2).T / half
             slopes = (half * (dg * np.sin(at) - power * g * np.cos(at))) @ _FIT.T
         # rounding of the values, seen in the derivative of a polynomial of this degree
-        return self._roots(slopes, self.scale[curve] * POINTS)
+        return self._roots(slopes, self.scale[curve] * POINTS, self.doubt[:, curve] * POINTS)
 
     def at(self, parameter: float, curve: int) -> float:
         """The value of a curve, by its polynomial: also at an end where the curve itself cannot be computed."""
@@ -84,13 +88,13 @@ class Pieces:
         level = float(np.max(np.abs(c[:, 0] - c[0, 0])))
         return bool(max(level, float(np.max(np.abs(c[:, 1:])))) <= 1e-12 * self.scale[curve])
 
-    def _roots(self, coefficients: Array, scale: float) -> Array:
+    def _roots(self, coefficients: Array, scale: float, doubt: Array) -> Array:
         found: list[float] = []
         rounding = 1e-15 * scale
-        for low, high, c in zip(self.low, self.high, coefficients, strict=True):
-            rest = float(np.sum(np.abs(c[1:])))
-            if abs(c[0]) > rest or rest <= rounding:
-                continue
+        rest = np.sum(np.abs(coefficients[:, 1:]), axis=1)
+        # a piece that is nothing but rounding has no roots
+        look = ~((np.abs(coefficients[:, 0]) > rest) | (rest <= np.maximum(rounding, doubt)))
+        for low, high, c in zip(self.low[look], self.high[look], coefficients[look], strict=True):
             for x in _real_roots(c, rounding):
                 found.append(float((low + high) / 2 + (high - low) / 2 * x))
         if len(found) > MOST_ROOTS:
@@ -134,7 +138,7 @@ def _crosses(c: Array, x: float, reach: float) -> bool:
 
 
 def resolve(
-    curves: Callable[[Array], Array],
+    curves: Callable[[Array], tuple[Array, Array]],
     low: float,
     high: float,
     periodic: bool = False,
@@ -145,7 +149,8 @@ def resolve(
 
     Parameters
     ----------
-    curves : function of parameters, shape (n,), to values, shape (n, curves); values that are not finite are taken as 0
+    curves : function of parameters, shape (n,), to values and how far each may be off, shape (n, curves); where values
+        are not finite, a short piece is left out: it has no roots
     low, high : range of the parameter
     periodic : whether both ends are the same position
     weight : shape (curves,), powers of sin(parameter) that the curves are multiplied by: over a range 0 .. pi, for
@@ -156,15 +161,20 @@ def resolve(
     waiting = np.stack([edges[:-1], edges[1:]], axis=1)
     power = np.zeros(1) if weight is None else weight
     before = np.full((len(waiting), 1), np.inf)
-    done: list[tuple[Array, Array]] = []
+    done: list[tuple[Array, Array, Array]] = []
     scale = usual = np.zeros(1)
     for depth in range(MOST_DEPTH + 1):
         middle, half = waiting.mean(axis=1), np.diff(waiting, axis=1)[:, 0] / 2
         at = middle[:, None] + half[:, None] * _NODES
-        value = curves(at.ravel())
+        value, off = curves(at.ravel())
         if weight is not None:
-            value = value * np.sin(at.ravel())[:, None] ** power
-        value = np.where(np.isfinite(value), value, 0.0).reshape(len(waiting), POINTS, -1)
+            by = np.sin(at.ravel())[:, None] ** power
+            value, off = value * by, off * by
+        value, off = (x.reshape(len(waiting), POINTS, -1) for x in (value, off))
+        broken = ~np.isfinite(value).all(axis=1)
+        value = np.where(np.isfinite(value), value, 0.0)
+        # a bound that is not known stops nothing, and hides nothing
+        doubt = np.where(np.isfinite(off), off, 0.0).max(axis=1)
         local = np.abs(value).max(axis=1)
         if depth == 0:
             # a curve that grows without bound at an end is represented to the rounding of its values there
@@ -175,10 +185,12 @@ def resolve(
         size = np.maximum(np.maximum(local, usual), 1e-300)
         # what is small and does not shrink when a piece is halved is rounding, which no halving takes away
         rounding = (tail < PLATEAU * size) & (tail > 0.25 * before)
-        rough = np.any((tail > RESOLVED * size) & ~rounding, axis=1)
+        unsure = (tail > np.maximum(RESOLVED * size, doubt)) & ~rounding
+        rough = np.any(np.where(broken, depth < LEFT_OUT, unsure), axis=1)
+        c = np.where(broken[:, None, :], 0.0, c)
         if depth == MOST_DEPTH or len(done) + 2 * int(rough.sum()) > MOST_PIECES:
             rough[:] = False
-        done += [(w, k) for w, k in zip(waiting[~rough], c[~rough], strict=True)]
+        done += list(zip(waiting[~rough], c[~rough], doubt[~rough], strict=True))
         if not rough.any():
             break
         low_, high_, mid = waiting[rough, 0], waiting[rough, 1], middle[rough]
@@ -186,10 +198,11 @@ def resolve(
         before = np.concatenate([tail[rough], tail[rough]])
     done.sort(key=lambda piece: float(piece[0][0]))
     return Pieces(
-        np.array([w[0] for w, _ in done]),
-        np.array([w[1] for w, _ in done]),
-        np.stack([k for _, k in done]),
+        np.array([w[0] for w, _, _ in done]),
+        np.array([w[1] for w, _, _ in done]),
+        np.stack([k for _, k, _ in done]),
         scale,
         periodic,
         np.broadcast_to(power, scale.shape),
+        np.stack([d for _, _, d in done]),
     )

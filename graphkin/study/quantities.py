@@ -106,24 +106,34 @@ class Quantity:
         slide = motion.slide(self.of)
         return {"s": slide.travel, "v": slide.velocity, "a": slide.acceleration}[self.kind]
 
-    def smooth(self, reach: DriverRange, motion: Motion) -> Array:
+    def smooth(self, reach: DriverRange, motion: Motion) -> tuple[Array, Array]:
         """What is smooth where the quantity may not be: the square of a vector's size or of a distance, the cosine of
-        twice an angle that is 90 degrees at most, else the quantity itself.
+        twice an angle that is 90 degrees at most, else the quantity itself; and how far it may be off, 0 where that is
+        not known.
 
         A rate that is nothing but rounding (no larger than the solver's own bound of its error) is 0.
         """
-        value = self.values(reach, motion)
+        value, bound = self.values(reach, motion), self._bound(motion)
         if self.symbol is not None and self.symbol.kind in ("gamma", "pressure"):
-            return np.asarray(np.cos(2 * value))
-        if self.symbol is not None and self.symbol.kind == "d":
-            return value**2
+            return np.asarray(np.cos(2 * value)), 2 * bound
         if not self.is_position:
-            bound = motion.bound.velocity if self.is_speed else motion.bound.acceleration
-            if self.measure.startswith("angular"):
-                lengths = [link.length for link in reach.scene.links if link.length]
-                bound = bound / min(lengths, default=reach.scene.size)
             value = np.where(np.abs(value) <= bound, 0.0, value)
-        return value**2 if self.is_size else value
+        squared = self.is_size or (self.symbol is not None and self.symbol.kind == "d")
+        return (value**2, (2 * np.abs(value) + bound) * bound) if squared else (value, bound)
+
+    def _bound(self, motion: Motion) -> Array:
+        """How far rounding may have moved it; 0 where that is not known."""
+        bound = {
+            "angle": motion.bound.angle,
+            "length": motion.bound.position,
+            "angular rate": motion.bound.omega,
+            "speed": motion.bound.velocity,
+            "angular acceleration": motion.bound.alpha,
+            "acceleration": motion.bound.acceleration,
+        }[self.measure]
+        # of two points that are seen from each other
+        both = 1.0 if self.measure.startswith("ang") else 2.0
+        return np.asarray(np.where(np.isfinite(bound), both * bound, 0.0))
 
     def of_smooth(self, value: float) -> float:
         """A position from what is smooth of it."""

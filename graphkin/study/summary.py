@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from graphkin.scene.model import AngleDriver, Mechanism
@@ -9,6 +10,8 @@ from graphkin.study.trace import Extreme, Traced
 from graphkin.study.turn import Output, TurnStudy
 
 __all__ = ["row", "to_json"]
+
+UNBOUNDED = "it goes away without bound at an end of the motion"
 
 
 def to_json(turn: TurnStudy) -> dict[str, Any]:
@@ -67,11 +70,10 @@ def _driver(scene: Mechanism, value: float) -> float:
 
 
 def _extreme(turn: TurnStudy, traced: Traced, extreme: Extreme) -> dict[str, Any]:
-    return {
-        "kind": extreme.kind,
-        "driver": _driver(turn.scene, extreme.driver),
-        "value": traced.quantity.in_units(turn.scene, extreme.value),
-    }
+    found: dict[str, Any] = {"kind": extreme.kind, "driver": _driver(turn.scene, extreme.driver)}
+    if math.isfinite(extreme.value):
+        return {**found, "value": traced.quantity.in_units(turn.scene, extreme.value)}
+    return {**found, "value": None, "why": UNBOUNDED}
 
 
 def _curve(turn: TurnStudy, traced: Traced) -> dict[str, Any]:
@@ -97,7 +99,9 @@ def _output(turn: TurnStudy, output: Output) -> dict[str, Any]:
     what = "swing" if quantity.kind == "theta" else "stroke"
     data[what] = None if stroke is None else quantity.in_units(scene, stroke)
     data["K"], data["theta"] = back if back else (None, None)
-    if stroke is None:
+    if output.unbounded:
+        data["why"] = UNBOUNDED
+    elif stroke is None:
         data["why"] = "it does not move" if output.position.constant is not None else "it turns on and on"
     elif back is None:
         data["why"] = "K needs a driver that turns fully and a motion that repeats each turn"

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import pairwise
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.scene.model import AngleDriver
-from graphkin.solver import DriverRange
+from graphkin.solver import DriverRange, Motion
 from graphkin.solver.places import transmission
 from graphkin.structure import Dyad
 from graphkin.study.curves import Pieces, resolve
@@ -23,6 +25,8 @@ Array = NDArray[np.float64]
 NEAR_END = 1e-5
 """Of the range: an extreme this near to an end of the motion is the end itself."""
 POLISH = 3
+HAIR = 1e-6
+"""Of the range of the driver: what is left out before an end at which links go away without bound."""
 NOTHING = 5e-11
 """A driver value this small (rad, m) is 0: no extreme of an acceleration is placed better."""
 
@@ -86,33 +90,83 @@ def trace(reach: DriverRange, quantities: Sequence[Quantity]) -> tuple[tuple[Tra
     dyads = [g for g in reach.structure.groups if isinstance(g, Dyad)]
     places = [q for q in quantities if q.is_position]
     rates = [q for q in quantities if not q.is_position]
+    size = reach.scene.size
 
-    def positions(parameter: Array) -> Array:
-        motion = reach.motion(way.offset(parameter))
+    def positions(parameter: Array) -> tuple[Array, Array]:
+        motion = reach.motion(way.offset(parameter), fine=False)
         columns = [q.smooth(reach, motion) for q in places]
-        columns += [transmission(reach.structure, d, motion.poses).cosine for d in dyads]
-        return np.stack(columns, axis=1)
+        bound = motion.bound.angle + motion.bound.position / size
+        off = np.where(np.isfinite(bound), bound, 0.0)
+        columns += [(transmission(reach.structure, d, motion.poses).cosine, off) for d in dyads]
+        return _columns(columns)
 
-    def speeds(parameter: Array) -> Array:
-        motion = reach.motion(way.offset(parameter))
-        return np.stack([q.smooth(reach, motion) for q in rates], axis=1)
+    def speeds(parameter: Array) -> tuple[Array, Array]:
+        motion = reach.motion(way.offset(parameter), fine=False)
+        return _columns([q.smooth(reach, motion) for q in rates])
 
     # apart, because positions stay smooth where rates grow without bound
-    found: dict[Quantity, Traced] = {}
+    curves: list[_Curve] = []
     least: tuple[Least, ...] = ()
     if places or dyads:
-        size = reach.scene.size
         floor = np.array([size if q.measure == "length" else 1.0 for q in places] + [1.0] * len(dyads))
         pieces = resolve(positions, *way.range, periodic=reach.full, floor=floor)
-        found.update({q: _traced(way, pieces, k, q) for k, q in enumerate(places)})
-        least = tuple(_least(way, pieces, len(places) + k, d) for k, d in enumerate(dyads))
+        curves += [_Curve(q, pieces, k) for k, q in enumerate(places)]
+        least = _leasts(way, pieces, len(places), dyads)
     if rates:
         # near the end of a motion, a distance x away, velocities grow as x^-1/2 and accelerations as x^-3/2
         power = np.array([(1.0 if q.is_speed else 3.0) * (2 if q.is_size else 1) for q in rates])
         weight = None if reach.full else power
         pieces = resolve(speeds, *way.range, periodic=reach.full, floor=_floor(reach, rates), weight=weight)
-        found.update({q: _traced(way, pieces, k, q) for k, q in enumerate(rates)})
+        curves += [_Curve(q, pieces, k) for k, q in enumerate(rates)]
+    found = {t.quantity: t for t in _traced(way, curves)}
     return tuple(found[q] for q in quantities), least
+
+
+def _columns(pairs: Sequence[tuple[Array, Array]]) -> tuple[Array, Array]:
+    values, off = zip(*pairs, strict=True)
+    return np.stack(values, axis=1), np.stack(off, axis=1)
+
+
+@dataclass(frozen=True)
+class _Curve:
+    """A quantity, and its place among the curves that represent it."""
+
+    quantity: Quantity
+    pieces: Pieces
+    k: int
+
+
+@dataclass(frozen=True)
+class _Asked:
+    """Quantities at offsets of their own, all from one motion."""
+
+    reach: DriverRange
+    quantities: Sequence[Quantity]
+
+    def values(self, offsets: Sequence[Array], fine: bool = False) -> list[Array]:
+        """Their values, for each as many as it has offsets."""
+        motion, parts = self._motion(offsets, False, fine)
+        return [q.values(self.reach, motion)[part] for q, part in zip(self.quantities, parts, strict=True)]
+
+    def rates(self, offsets: Sequence[Array]) -> tuple[list[Array], list[Array]]:
+        """First and second rates of angles and travels by the driver's own value."""
+        motion, parts = self._motion(offsets, True, False)
+        both = [_rates_of(q) for q in self.quantities]
+        first, second = (
+            [own[k].values(self.reach, motion)[part] for own, part in zip(both, parts, strict=True)] for k in (0, 1)
+        )
+        return first, second
+
+    def _motion(self, offsets: Sequence[Array], unit: bool, fine: bool) -> tuple[Motion, list[slice]]:
+        ends = np.cumsum([0, *map(len, offsets)]).tolist()
+        together = np.concatenate([*offsets, np.zeros(1)])
+        return self.reach.motion(together, unit=unit, fine=fine), [slice(a, b) for a, b in pairwise(ends)]
+
+
+def _rates_of(quantity: Quantity) -> tuple[Quantity, Quantity]:
+    turns = quantity.kind in ("theta", "omega", "alpha")
+    _, rate, bend = (link_quantities if turns else slide_quantities)(quantity.of)
+    return rate, bend
 
 
 def _floor(reach: DriverRange, rates: Sequence[Quantity]) -> Array:
@@ -131,13 +185,46 @@ def _floor(reach: DriverRange, rates: Sequence[Quantity]) -> Array:
 @dataclass(frozen=True)
 class _Way:
     """The parameter of the curves: the offset itself for a driver that turns fully; else an angle whose cosine runs
-    over the range, in which positions stay smooth up to the ends, where their rates are infinite."""
+    over the range, in which positions stay smooth up to the ends, where their rates are infinite.  An end at which
+    links go away without bound, as where two guides become parallel, is left out, a hair of the range before it."""
 
     reach: DriverRange
 
-    @property
+    @cached_property
     def range(self) -> tuple[float, float]:
-        return self.reach.ends if self.reach.full else (0.0, float(np.pi))
+        if self.reach.full:
+            return self.reach.ends
+        hair = 2 * float(np.arcsin(np.sqrt(HAIR)))
+        one, two = (hair if away else 0.0 for away in self._away)
+        return one, float(np.pi) - two
+
+    @cached_property
+    def _away(self) -> tuple[bool, bool]:
+        """At which ends links go away without bound."""
+        low, high = self.reach.ends
+        parts = np.array([1e-6, 1e-4])
+        motion = self.reach.motion(np.append(low + parts * (high - low), high - parts * (high - low)), fine=False)
+        far = np.max([np.abs(p.z) for p in motion.poses.values()], axis=0)
+        # at an end where links only turn they come nearer to a place of theirs
+        return not far[0] < 10 * far[1], not far[2] < 10 * far[3]
+
+    def end(self, curve: _Curve, which: int) -> float:
+        """The value of a position at the lower or upper end of the motion, where the solver refuses it, or loses half
+        of its digits: from the curve, or, where links go away without bound, from values nearer and nearer to it."""
+        if not self._away[which]:
+            return curve.quantity.of_smooth(curve.pieces.at(self.range[which], curve.k))
+        reach, quantity = self.reach, curve.quantity
+        low, high = reach.ends
+        steps = HAIR * 2.0 ** np.arange(2, 8)
+        near = steps * (high - low)
+        values = quantity.values(reach, reach.motion(high - near if which else low + near))
+        if abs(values[0]) > 1.5 * abs(values[1]) > 2.25 * abs(values[2]):
+            return float(np.copysign(np.inf, values[0]))
+        # Neville's scheme to the end itself
+        found = values.tolist()
+        for k in range(1, len(found)):
+            found = [b - (c - b) * x / (y - x) for b, c, x, y in zip(found, found[1:], steps, steps[k:], strict=False)]
+        return float(found[0])
 
     def offset(self, parameter: Array) -> Array:
         low, high = self.reach.ends
@@ -154,103 +241,111 @@ class _Way:
         """Those that are not at an end of the motion."""
         if self.reach.full:
             return parameter
+        margin = NEAR_END * float(np.pi)
         low, high = self.range
-        margin = NEAR_END * (high - low)
         return parameter[(parameter > low + margin) & (parameter < high - margin)]
 
 
-def _traced(way: _Way, pieces: Pieces, k: int, quantity: Quantity) -> Traced:
+def _traced(way: _Way, curves: Sequence[_Curve]) -> list[Traced]:
     reach = way.reach
-    at_start = reach.motion(np.zeros(1))
-    if pieces.is_constant(k) or _is_constant(way, quantity):
-        nothing = quantity.smooth(reach, at_start)[0] == 0.0
-        return Traced(quantity, (), (), 0.0 if nothing else float(quantity.values(reach, at_start)[0]))
-    offset = way.offset(way.inside(pieces.extremes(k)))
-    zeros = way.offset(way.inside(pieces.zeros(k)))
-    if quantity.kind in ("theta", "s"):
-        offset = _polished(reach, quantity, offset)
-    elif quantity.kind in ("omega", "v") and len(reach.scene.drivers) == 1 and reach.driver.values[2] == 0:
-        offset = _at_zero(reach, quantity, offset)
-    extremes = _extremes(way, pieces, k, quantity, offset)
-    if quantity.is_size:
-        most = max((e.value for e in extremes), default=0.0)
-        extremes = tuple(replace(e, value=0.0) if e.value <= 1e-11 * most else e for e in extremes)
-        zeros = np.array([e.offset for e in extremes if e.value == 0.0])
-    elif quantity.kind == "theta":
-        zeros = np.zeros(0)
-    return Traced(quantity, extremes, tuple(driver_value(reach, float(z)) for z in zeros))
+    start = reach.motion(np.zeros(1))
+    constant = _constant(way, curves)
+    found = []
+    for curve in (c for c in curves if c.quantity in constant):
+        quantity = curve.quantity
+        nothing = quantity.smooth(reach, start)[0][0] == 0.0
+        found.append(Traced(quantity, (), (), 0.0 if nothing else float(quantity.values(reach, start)[0])))
+    moving = [c for c in curves if c.quantity not in constant]
+    offsets = [way.offset(way.inside(c.pieces.extremes(c.k))) for c in moving]
+    offsets = _polished(reach, [c.quantity for c in moving], offsets)
+    offsets = _at_zero(reach, [c.quantity for c in moving], offsets)
+    for curve, extremes in zip(moving, _extremes(way, moving, offsets), strict=True):
+        quantity = curve.quantity
+        zeros = way.offset(way.inside(curve.pieces.zeros(curve.k)))
+        if quantity.is_size:
+            most = max((e.value for e in extremes), default=0.0)
+            extremes = tuple(replace(e, value=0.0) if e.value <= 1e-11 * most else e for e in extremes)
+            zeros = np.array([e.offset for e in extremes if e.value == 0.0])
+        elif quantity.kind == "theta":
+            zeros = np.zeros(0)
+        found.append(Traced(quantity, extremes, tuple(driver_value(reach, float(z)) for z in zeros)))
+    return found
 
 
-def _is_constant(way: _Way, quantity: Quantity) -> bool:
-    """Whether a rate is the same wherever it is finite."""
-    if quantity.is_position:
-        return False
+def _constant(way: _Way, curves: Sequence[_Curve]) -> set[Quantity]:
+    """Quantities that do not change; of rates those that are the same wherever they are finite."""
+    found = {c.quantity for c in curves if c.pieces.is_constant(c.k)}
     low, high = way.range
-    motion = way.reach.motion(way.offset(np.linspace(low, high, 34)[1:-1]))
-    values = quantity.smooth(way.reach, motion)
-    values = values[np.isfinite(values)]
-    return bool(len(values) == 0 or np.ptp(values) <= 1e-12 * np.max(np.abs(values)))
+    motion = way.reach.motion(way.offset(np.linspace(low, high, 34)[1:-1]), fine=False)
+    for quantity in (c.quantity for c in curves if not c.quantity.is_position):
+        values = quantity.smooth(way.reach, motion)[0]
+        values = values[np.isfinite(values)]
+        if len(values) == 0 or np.ptp(values) <= 1e-12 * np.max(np.abs(values)):
+            found.add(quantity)
+    return found
 
 
-def _at_zero(reach: DriverRange, quantity: Quantity, offset: Array) -> Array:
+def _polished(reach: DriverRange, quantities: Sequence[Quantity], offsets: Sequence[Array]) -> list[Array]:
+    """Newton's method on the rate by the driver: the places of extreme positions to the last digits."""
+    low, high = reach.ends
+    found = list(offsets)
+    which = [k for k, q in enumerate(quantities) if q.kind in ("theta", "s") and len(offsets[k])]
+    asked = _Asked(reach, [quantities[k] for k in which])
+    for _ in range(POLISH if which else 0):
+        for k, rate, bend in zip(which, *asked.rates([found[k] for k in which]), strict=True):
+            with np.errstate(all="ignore"):
+                step = rate / bend
+            step = np.where(np.abs(step) < 1e-5 * (high - low), step, 0.0)
+            found[k] = np.clip(found[k] - step, low, high)
+    return found
+
+
+def _at_zero(reach: DriverRange, quantities: Sequence[Quantity], offsets: Sequence[Array]) -> list[Array]:
     """Where the driver runs evenly, a velocity is at rest where its acceleration is zero: the secant method on that."""
-    bend = link_quantities(quantity.of)[2] if quantity.kind == "omega" else slide_quantities(quantity.of)[2]
+    found = list(offsets)
+    if len(reach.scene.drivers) != 1 or reach.driver.values[2] != 0:
+        return found
     low, high = reach.ends
-    if not len(offset):
-        return offset
-    before = _wrapped(reach, offset - 1e-6 * (high - low))
-    value = bend.values(reach, reach.motion(before))
-    for _ in range(POLISH):
-        now = bend.values(reach, reach.motion(offset))
-        with np.errstate(all="ignore"):
-            step = now * (offset - before) / (now - value)
-        step = np.where(np.abs(step) < 1e-6 * (high - low), step, 0.0)
-        before, value, offset = offset, now, np.clip(offset - step, low, high)
-    return offset
+    near = 1e-6 * (high - low)
+    which = [k for k, q in enumerate(quantities) if q.kind in ("omega", "v") and len(offsets[k])]
+    asked = _Asked(reach, [_rates_of(quantities[k])[1] for k in which])
+    before = [_wrapped(reach, found[k] - near) for k in which]
+    values = asked.values(before) if which else []
+    for _ in range(POLISH if which else 0):
+        now = asked.values([found[k] for k in which])
+        for n, k in enumerate(which):
+            with np.errstate(all="ignore"):
+                step = now[n] * (found[k] - before[n]) / (now[n] - values[n])
+            step = np.where(np.abs(step) < near, step, 0.0)
+            before[n], found[k] = found[k], np.clip(found[k] - step, low, high)
+        values = now
+    return found
 
 
-def _polished(reach: DriverRange, quantity: Quantity, offset: Array) -> Array:
-    """Newton's method on the rate by the driver: the place of an extreme position to the last digits."""
-    of_position = link_quantities if quantity.kind == "theta" else slide_quantities
-    _, rate, bend = of_position(quantity.of)
-    low, high = reach.ends
-    for _ in range(POLISH if len(offset) else 0):
-        motion = reach.motion(offset, unit=True)
-        with np.errstate(all="ignore"):
-            step = rate.values(reach, motion) / bend.values(reach, motion)
-        step = np.where(np.abs(step) < 1e-5 * (high - low), step, 0.0)
-        offset = np.clip(offset - step, low, high)
-    return offset
-
-
-def _extremes(way: _Way, pieces: Pieces, curve: int, quantity: Quantity, offset: Array) -> tuple[Extreme, ...]:
+def _extremes(way: _Way, curves: Sequence[_Curve], offsets: Sequence[Array]) -> list[tuple[Extreme, ...]]:
     reach = way.reach
     low, high = reach.ends
-    ends = [] if reach.full or not quantity.is_position else [low, high]
-    places = np.sort(np.append(offset, ends))
-    if not len(places):
-        return ()
-    motion = reach.motion(places)
     near = 1e-4 * (high - low)
-    values = quantity.values(reach, motion)
-    before = quantity.values(reach, reach.motion(_wrapped(reach, places - near)))
-    after = quantity.values(reach, reach.motion(_wrapped(reach, places + near)))
-    found: list[Extreme] = []
-    for k, place in enumerate(places):
-        kind: Literal["max", "min", "end"]
-        value = float(values[k])
-        if place in ends:
-            # the solver refuses a position at the end of the motion, or loses half of its digits there
-            kind, value = "end", pieces.at(way.range[0] if place == low else way.range[1], curve)
-            value = quantity.of_smooth(value)
-        elif before[k] < value > after[k]:
-            kind = "max"
-        elif before[k] > value < after[k]:
-            kind = "min"
-        else:
-            continue  # a curve that only stands still for a moment
-        found.append(Extreme(kind, float(place), driver_value(reach, float(place)), value))
-    return tuple(found)
+    asked = _Asked(reach, [c.quantity for c in curves])
+    inner = [np.sort(places) for places in offsets]
+    # only what is printed takes all its digits
+    values = asked.values(inner, fine=True)
+    before = asked.values([_wrapped(reach, places - near) for places in inner])
+    after = asked.values([_wrapped(reach, places + near) for places in inner])
+    found: list[tuple[Extreme, ...]] = []
+    for n, curve in enumerate(curves):
+        own: list[Extreme] = []
+        bounded = not reach.full and curve.quantity.is_position
+        if bounded:
+            own.append(Extreme("end", low, driver_value(reach, low), way.end(curve, 0)))
+        for place, value, one, two in zip(*(x[n].tolist() for x in (inner, values, before, after)), strict=True):
+            # a curve that only stands still for a moment has none
+            if one < value > two or one > value < two:
+                own.append(Extreme("max" if one < value else "min", place, driver_value(reach, place), value))
+        if bounded:
+            own.append(Extreme("end", high, driver_value(reach, high), way.end(curve, 1)))
+        found.append(tuple(own))
+    return found
 
 
 def _wrapped(reach: DriverRange, offset: Array) -> Array:
@@ -258,26 +353,28 @@ def _wrapped(reach: DriverRange, offset: Array) -> Array:
     return np.asarray(offset % (high - low) if reach.full else np.clip(offset, low, high))
 
 
-def _least(way: _Way, pieces: Pieces, k: int, dyad: Dyad) -> Least:
+def _leasts(way: _Way, pieces: Pieces, first: int, dyads: Sequence[Dyad]) -> tuple[Least, ...]:
     reach = way.reach
-
-    def angle(offset: Array) -> Array:
-        return transmission(reach.structure, dyad, reach.motion(offset).poses).angle
-
-    if pieces.is_constant(k):
-        return Least(dyad, float(angle(np.zeros(1))[0]), None)
     low, high = way.range
-    inner = way.inside(np.append(pieces.extremes(k), np.linspace(low, high, 33)))
-    offsets = way.offset(inner)
-    angles = angle(offsets)
-    # where the group stands in line, at a change point or at an end of the motion, the solver refuses
-    refused = ~np.isfinite(angles)
-    angles[refused] = [_from_cosine(pieces.at(at, k)) for at in inner[refused]]
-    places = list(zip(offsets.tolist(), angles.tolist(), strict=True))
-    if not reach.full:
-        places += [(at, _from_cosine(pieces.at(end, k))) for at, end in zip(reach.ends, way.range, strict=True)]
-    offset, best = min((p for p in places if p[1] == p[1]), key=lambda p: p[1])
-    return Least(dyad, best, driver_value(reach, offset))
+    inner = [way.inside(np.append(pieces.extremes(first + n), np.linspace(low, high, 33))) for n in range(len(dyads))]
+    motion = reach.motion(np.concatenate([*map(way.offset, inner), np.zeros(1)]))
+    ends = np.cumsum([0, *map(len, inner)]).tolist()
+    found = []
+    for n, dyad in enumerate(dyads):
+        k, angles = first + n, transmission(reach.structure, dyad, motion.poses).angle
+        if pieces.is_constant(k):
+            found.append(Least(dyad, float(angles[-1]), None))
+            continue
+        angles = angles[ends[n] : ends[n + 1]]
+        # where the group stands in line, at a change point or at an end of the motion, the solver refuses
+        refused = ~np.isfinite(angles)
+        angles[refused] = [_from_cosine(pieces.at(at, k)) for at in inner[n][refused]]
+        places = list(zip(way.offset(inner[n]).tolist(), angles.tolist(), strict=True))
+        if not reach.full:
+            places += [(at, _from_cosine(pieces.at(end, k))) for at, end in zip(reach.ends, way.range, strict=True)]
+        offset, best = min((p for p in places if p[1] == p[1]), key=lambda p: p[1])
+        found.append(Least(dyad, best, driver_value(reach, offset)))
+    return tuple(found)
 
 
 def _from_cosine(cosine: float) -> float:

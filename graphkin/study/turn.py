@@ -41,8 +41,13 @@ class Output:
 
     @property
     def stroke(self) -> float | None:
-        """Stroke (m) or swing (rad); None for a link that turns on and on."""
-        return self.high.value - self.low.value if self.low and self.high else None
+        """Stroke (m) or swing (rad); None for a link that turns on and on, or goes away without bound."""
+        return self.high.value - self.low.value if self.low and self.high and not self.unbounded else None
+
+    @property
+    def unbounded(self) -> bool:
+        """Whether it goes away without bound at an end of the motion."""
+        return any(not np.isfinite(e.value) for e in self.position.extremes)
 
 
 @dataclass(frozen=True)

@@ -13,8 +13,8 @@ pytestmark = pytest.mark.quick
 Array = NDArray[np.float64]
 
 
-def column(values: Array) -> Array:
-    return values[:, None]
+def column(values: Array) -> tuple[Array, Array]:
+    return values[:, None], np.zeros((len(values), 1))
 
 
 def test_zeros_of_a_sine() -> None:
@@ -49,7 +49,7 @@ def test_rounding_about_a_constant_is_constant() -> None:
 def test_noise_about_zero_is_not_looked_into() -> None:
     calls: list[int] = []
 
-    def noise(t: Array) -> Array:
+    def noise(t: Array) -> tuple[Array, Array]:
         calls.append(len(t))
         return column(1e-17 * np.sin(1e9 * t))
 
@@ -65,3 +65,19 @@ def test_extremes_of_a_curve_that_grows_without_bound_at_its_ends() -> None:
 
 def test_value_at_an_end_comes_from_the_polynomial() -> None:
     assert resolve(lambda t: column(np.exp(t)), 0.0, 1.0).at(1.0, 0) == pytest.approx(np.e, rel=1e-14)
+
+
+def test_what_may_be_rounding_is_not_looked_into() -> None:
+    calls: list[int] = []
+
+    def noise(t: Array) -> tuple[Array, Array]:
+        calls.append(len(t))
+        return column(2.0 + 1e-10 * np.sin(1e9 * t))[0], np.full((len(t), 1), 1e-8)
+
+    assert [] == resolve(noise, 0.0, 1.0).extremes(0).tolist()
+    assert len(calls) == 1
+
+
+def test_where_a_curve_has_no_values_it_has_no_zeros() -> None:
+    pieces = resolve(lambda t: column(np.where(np.abs(t - 0.3) < 1e-3, np.nan, t - 0.6)), 0.0, 1.0)
+    assert [0.6] == pytest.approx(pieces.zeros(0).tolist(), abs=1e-12)
