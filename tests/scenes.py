@@ -435,3 +435,42 @@ C = [395, 30]
 E = [245, 110]
 F = [500, 421]
 """
+
+
+# a four-bar with a dyad on its coupler, driven by the dyad: the driver's range is 445 degrees
+WIDE_SWINGING = """
+[frame]
+points = { A = [0, 0], D = [102, -45], G = [41, 151] }
+
+[links.1]
+points = ["A", "B"]
+length = 64.5
+
+[links.2]
+points = ["B", "C"]
+length = 120.6
+at = { E = [37.4, 108.1] }
+
+[links.3]
+points = ["D", "C"]
+length = 84.4
+
+[links.4]
+points = ["E", "F"]
+length = 68.1
+
+[links.5]
+points = ["G", "F"]
+length = 56
+
+[driver]
+link  = "5"
+angle = -92
+omega = 1
+
+[sketch]
+B = [-8, 64]
+C = [110, 39]
+E = [51, 162]
+F = [39, 95]
+"""

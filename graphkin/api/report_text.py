@@ -179,8 +179,7 @@ def _output(turn: TurnStudy, output: Output, language: str) -> list[str]:
 
     head = f"{word('output', language)} {quantity.of}{colon}"
     if output.stroke is None:
-        key = "goes away" if output.unbounded else "does not move" if output.position.constant is not None else "turns on"
-        return [head + word(key, language)]
+        return [head + word(output.without, language)]
     what = "swing is" if quantity.kind == "theta" else "stroke is"
     said = say(Phrase(what, (amount(output.stroke),)), language)
     back = turn.quick_return(output)

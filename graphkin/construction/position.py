@@ -26,6 +26,7 @@ __all__ = ["Branches", "branches_at", "choose", "draw_position", "place", "start
 
 DEAD = 1e-7  # sine of a crossing below which a group is at a dead point
 TURNS = 720  # positions looked at on the way round
+MOST = 12.0  # turns, or as much of another driver's way
 Branches = Mapping[int, int]  # by place of the element: 0 the default assembly, 1 the other
 Placed = dict[float, tuple[int, dict[str, Pose]]]
 
@@ -172,7 +173,7 @@ def _follow(
 ) -> tuple[dict[int, int], float | None]:
     """Branches at the end of a straight path of driver values, or where it is barred (0 .. 1)."""
     turn = max(abs(target[k] - own[k]) for k in own)
-    grid = np.linspace(0.0, 1.0, max(9, math.ceil(TURNS * min(turn / (2 * math.pi), 2.0)) + 1))
+    grid = np.linspace(0.0, 1.0, max(9, math.ceil(TURNS * min(turn / (2 * math.pi), MOST)) + 1))
     signs: dict[int, NDArray[np.float64]] = {}
     placed: Placed = {}
     branches = dict(chosen)

@@ -1,6 +1,6 @@
 """The analytic solver: dyads in closed form, higher groups by Newton, whole sweeps as arrays."""
 
-from graphkin.solver.driver_range import DriverRange, driver_range, whole_range
+from graphkin.solver.driver_range import DriverRange, driver_range
 from graphkin.solver.findings import structure_of
 from graphkin.solver.forces import Forces, forces_of
 from graphkin.solver.motion import Motion, Sliding
@@ -23,6 +23,5 @@ __all__ = [
     "solve",
     "structure_of",
     "to_json",
-    "whole_range",
     "write_json",
 ]

@@ -25,11 +25,10 @@ from graphkin.solver.path import FAR, Path, follow_path
 from graphkin.solver.pose import Array, rest
 from graphkin.solver.redundant import all_slides, place_redundant
 from graphkin.structure import Structure
-from graphkin.structure.assembly import ways
+from graphkin.structure.assembly import MOST_TURNS, ways
 
-__all__ = ["DriverRange", "driver_range", "goal_values", "motion_of", "range_from", "way_to", "whole_range"]
+__all__ = ["DriverRange", "driver_range", "goal_values", "motion_of", "range_from", "stopped_why", "way_to"]
 
-MOST_TURNS = 4
 CLOSED = 1e-7
 """Two positions are the same where links lie closer than this, in the size of the mechanism, and turn closer (rad)."""
 
@@ -42,9 +41,10 @@ class DriverRange:
     offsets divided by ``wide``.
 
     start : values of all drivers at offset 0, shape (drivers,) (rad, m)
-    ahead, behind : the ways in the sense of the driver and against it; the same where it turns fully
+    ahead, behind : the ways in the sense of the driver and against it; the same where the motion closes
     wide : how far each of them goes, if nothing ends it, signed (rad, m)
-    turns : over how many turns of the driver it goes; 0 where the driver cannot turn fully, or slides
+    turns : after how many turns of the driver every link lies where it lay; 0 where the motion does not close, because
+        something ends it, be it beyond a turn, or the driver slides
     """
 
     structure: Structure
@@ -64,7 +64,7 @@ class DriverRange:
 
     @property
     def full(self) -> bool:
-        """Whether the driver can turn fully."""
+        """Whether the driver turns on and on, and the motion closes."""
         return self.turns > 0
 
     @property
@@ -84,8 +84,9 @@ class DriverRange:
     @cached_property
     def limit_why(self) -> str:
         """Why the motion ends."""
-        path, other = (self.ahead, self.behind) if self.ahead.limit is not None else (self.behind, self.ahead)
-        return "" if path.limit is None else limit_why(self.structure, self._own_forms, self.start, path, other)
+        path = self.ahead if self.ahead.limit is not None else self.behind
+        low, high = sorted(self.value(np.array(self.ends)).tolist())
+        return "" if path.limit is None else limit_why(self.structure, path, (low, high))
 
     # offsets and values of the driver
 
@@ -100,13 +101,17 @@ class DriverRange:
         return values
 
     def offsets(self, value: Array) -> Array:
-        """The offsets at which the motion comes to these values of the first driver, or would; of an angle at most a
-        turn ahead, or as far behind as the motion reaches."""
-        offset = self.sense * (value - self.start[0])
-        if isinstance(self.driver, AngleDriver):
-            offset = np.remainder(offset, 2 * np.pi)
-            offset = offset if self.full else np.where(offset <= self.ends[1], offset, offset - 2 * np.pi)
-        return np.asarray(offset)
+        """The offsets at which the motion comes to these values of the first driver, or would: those of the values
+        themselves, of a motion that closes within its turns; of an angle that it does not reach so, at most a turn
+        ahead or as far behind as the motion reaches."""
+        offset = np.asarray(self.sense * (value - self.start[0]))
+        if not isinstance(self.driver, AngleDriver):
+            return offset
+        if self.full:
+            return np.asarray(np.remainder(offset, abs(self.wide)))
+        within = np.remainder(offset, 2 * np.pi)
+        within = np.where(within <= self.ends[1], within, within - 2 * np.pi)
+        return np.asarray(np.where(self.reaches(offset), offset, within))
 
     def reaches(self, offset: Array) -> Array:
         """Whether the motion comes to these offsets, shape (n,)."""
@@ -118,7 +123,7 @@ class DriverRange:
         evenly inside the range of travel."""
         k = np.arange(first, n if last is None else last)
         if isinstance(self.driver, AngleDriver):
-            return np.asarray(k / n * (2 * np.pi))
+            return np.asarray(2 * np.pi * k / n)
         low, high = self.ends
         return np.asarray(low + (k + 0.5) / n * (high - low))
 
@@ -183,22 +188,8 @@ class DriverRange:
     def sweep(self, n: int) -> Motion:
         """The motion at n positions: over a full turn from the start on, or, by increasing travel, spread evenly inside
         the range of a driver that slides."""
-        k, wide = np.arange(n), abs(self.wide)
-        values = np.repeat(self.start[None], n, axis=0)
-        if isinstance(self.driver, AngleDriver):
-            values[:, 0] += self.sense * 2 * np.pi * k / n
-            part = k / n / max(self.turns, 1)
-            part = np.where(part <= self.ahead.reach, part, part - 1)
-            good = -part <= self.behind.reach
-        else:
-            low, high = sorted(self.sense * end for end in self.ends)
-            offset = low + (k + 0.5) / n * (high - low)
-            values[:, 0] += offset
-            part, good = self.sense * offset / wide, np.ones(n, dtype=bool)
-        # positions out of reach are computed at the first one that is not, and thrown away
-        fill = int(np.argmax(good))
-        part, used = np.where(good, part, part[fill]), np.where(good[:, None], values, values[fill])
-        return self._motion(part, values, Drive.at(self.structure, used), good)
+        offset = self.table_offsets(n)
+        return self.motion(offset if isinstance(self.driver, AngleDriver) or self.sense > 0 else offset[::-1])
 
     def _motion(self, part: Array, values: Array, drive: Drive, good: Array, fine: bool = True) -> Motion:
         why = "" if good.all() or not fine else self.limit_why
@@ -217,43 +208,10 @@ class DriverRange:
         poses = self.motion(np.zeros(1)).poses
         return {name: float(np.angle(np.where(np.isfinite(p.u), p.u, 1.0))[0]) for name, p in poses.items()}
 
-    # whole turns
-
-    def until_closed(self) -> DriverRange:
-        """The range over as many turns of the driver as it takes until every link is where it was; this one turn where
-        four do not close it, or where the driver does not turn fully."""
-        if not self.full:
-            return self
-        longer = self
-        for turns in range(1, MOST_TURNS + 1):
-            if turns > 1:
-                end = self.start + turns * self.wide * _first(self.start)
-                path = follow_path(self.structure, self._own_forms, self.start, end)
-                if path.limit is not None:
-                    break
-                longer = DriverRange(self.structure, self.start, path, path, turns * self.wide, turns)
-            if longer._closes():
-                return longer
-        return self
-
-    def _closes(self) -> bool:
-        """Whether every link comes back to where it was at the start."""
-        motion = self.motion(np.array(self.ends))
-        poses = [motion.poses[link.name] for link in self.scene.links]
-        return not motion.ok.all() or all(
-            abs(p.z[1] - p.z[0]) < CLOSED * self.scene.size and abs(p.u[1] - p.u[0]) < CLOSED for p in poses
-        )
-
-
-def _first(like: Array) -> Array:
-    unit = np.zeros_like(like)
-    unit[0] = 1.0
-    return unit
-
 
 def driver_range(scene: Mechanism | Structure, at: Mapping[str, float] | None = None) -> DriverRange:
-    """Follow a mechanism from its own position, or from other driver values, over a turn of its first driver, or as far
-    as this slides.
+    """Follow a mechanism from its own position, or from other driver values, over as many turns of its first driver as
+    it takes until every link lies where it lay; or to both limits of the motion, be they more than a turn apart.
 
     Parameters
     ----------
@@ -270,31 +228,66 @@ def driver_range(scene: Mechanism | Structure, at: Mapping[str, float] | None = 
     if not np.array_equal(own, start):
         path = way_to(structure, forms, start)
         if path.limit is not None:
-            why = limit_why(structure, forms, own, path)
+            why = stopped_why(structure, forms, own, path)
             raise Unsolvable("not assembled", Problem(structure.scene.name or "scene", why))
         forms = path.last_forms
     return range_from(structure, forms, start)
 
 
-def whole_range(scene: Mechanism | Structure, at: Mapping[str, float] | None = None) -> DriverRange:
-    """``driver_range`` over as many turns as it takes until the motion closes."""
-    return driver_range(scene, at).until_closed()
+def range_from(structure: Structure, forms: Mapping[int, Array], start: Array, which: int = 0) -> DriverRange:
+    """The range about driver values, shape (drivers,), at which the groups have these forms; of the first driver, or of
+    another."""
+    driver = structure.scene.drivers[which]
+    turning = isinstance(driver, AngleDriver)
+    wide = float(np.copysign(2 * np.pi if turning else FAR * structure.scene.size, driver.values[1]))
+
+    def followed(turns: int) -> Path:
+        end = start.copy()
+        end[which] += turns * wide
+        return follow_path(structure, forms, start, end)
+
+    ahead = followed(1)
+    if not turning:
+        return DriverRange(structure, start, ahead, followed(-1), wide, 0)
+    if ahead.limit is None:
+        if _closes(ahead):
+            return DriverRange(structure, start, ahead, ahead, wide, 1)
+        ahead = followed(MOST_TURNS)
+        for turns in range(2, MOST_TURNS + 1 if ahead.limit is None else 2):
+            cycle = ahead.rescaled(turns / MOST_TURNS)
+            if _closes(cycle):
+                return DriverRange(structure, start, cycle, cycle, turns * wide, turns)
+    else:
+        ahead = ahead.rescaled(MOST_TURNS)
+    return DriverRange(structure, start, ahead, followed(-MOST_TURNS), MOST_TURNS * wide, 0)
 
 
-def range_from(structure: Structure, forms: Mapping[int, Array], start: Array) -> DriverRange:
-    """The range about driver values, shape (drivers,), at which the groups have these forms."""
-    first = structure.scene.drivers[0]
-    turning = isinstance(first, AngleDriver)
-    wide = float(np.copysign(2 * np.pi if turning else FAR * structure.scene.size, first.values[1]))
-    ahead = follow_path(structure, forms, start, start + wide * _first(start))
-    full = turning and ahead.limit is None
-    behind = ahead if full else follow_path(structure, forms, start, start - wide * _first(start))
-    return DriverRange(structure, start, ahead, behind, wide, 1 if full else 0)
+def _closes(path: Path) -> bool:
+    """Whether every link lies at the end of a path where it lay at its start."""
+    ends = np.array([0.0, 1.0])
+    poses = positions(path.structure, path.drive(ends), path.form(ends), rates=False).poses
+    for pose in (p.spread(2) for p in poses.values()):
+        moved = max(abs(pose.z[1] - pose.z[0]) / path.structure.scene.size, abs(pose.u[1] - pose.u[0]))
+        # of a start in a singular position nothing is known
+        if moved >= CLOSED:
+            return False
+    return True
+
+
+def stopped_why(structure: Structure, forms: Mapping[int, Array], start: Array, path: Path) -> str:
+    """Why a way from the values of ``start`` ends, and between which values the motion runs."""
+    moved = np.flatnonzero(path.end != path.start)
+    if len(moved) > 1:
+        return limit_why(structure, path)
+    which = int(moved[0]) if len(moved) else 0
+    whole = range_from(structure, forms, start, which)
+    low, high = sorted(float(start[which] + end * whole.sense) for end in whole.ends)
+    return limit_why(structure, path, (low, high))
 
 
 def way_to(structure: Structure, forms: Mapping[int, Array], goal: Array) -> Path:
-    """The way from the scene's own position to other driver values: straight, else the other way round for drivers that
-    turn; the straight one if none gets there."""
+    """The way from the scene's own position to other driver values: straight, whole turns included, else the other way
+    round for drivers that turn; the straight one if none gets there."""
     start, first = own_values(structure.scene), None
     for end in ways(structure.scene.drivers, start.tolist(), goal.tolist()):
         path = follow_path(structure, forms, start, np.array(end))

@@ -19,7 +19,7 @@ from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import SINGULAR, State, positions
 from graphkin.solver.joints import Drive, driver_text
 from graphkin.solver.larger_groups import ClusterSolved
-from graphkin.solver.path import Path, follow_path
+from graphkin.solver.path import Path
 from graphkin.solver.pose import Array
 from graphkin.solver.redundant import Fit, fit
 from graphkin.structure import Cluster, Dyad, Slide, Structure, Turn, analyse, mobility_of
@@ -90,31 +90,21 @@ def _apart(structure: Structure, i: int, values: Array, forms: Mapping[int, Arra
     return ""
 
 
-def limit_why(
-    structure: Structure, forms: Mapping[int, Array], start: Array, path: Path, back: Path | None = None
-) -> str:
-    """Why a path ends, at which driver value, and between which values the motion runs."""
+def limit_why(structure: Structure, path: Path, between: tuple[float, float] | None = None) -> str:
+    """Why a path ends, at which driver value, and between which values the motion runs; None where more than one driver
+    moves."""
     scene = structure.scene
     by = structure.elements[path.by if path.by is not None else 0]
     assert isinstance(by, Dyad | Cluster)
     moved = np.flatnonzero(path.end != path.start)
-    driver = scene.drivers[int(moved[0])] if len(moved) else scene.drivers[0]
-    column = scene.drivers.index(driver)
-    ends = path.values(np.array([path.reach]))[0]
-    if back is None:
-        back = follow_path(structure, forms, start, start - (path.end - path.start))
-        if isinstance(driver, AngleDriver):
-            full = np.copysign(2 * np.pi, path.start[column] - path.end[column])
-            other = start.copy()
-            other[column] += full
-            back = follow_path(structure, forms, start, other) if len(moved) == 1 else back
-    low, high = sorted((float(ends[column]), float(back.values(np.array([back.reach]))[0][column])))
-    said = (
-        f"links {', '.join(by.links)} {_ending(by)} at {driver.key} = {driver_text(scene, driver, float(ends[column]))}"
-    )
-    if len(moved) > 1:
+    column = int(moved[0]) if len(moved) else 0
+    driver = scene.drivers[column]
+    end = float(path.values(np.array([path.reach]))[0][column])
+    said = f"links {', '.join(by.links)} {_ending(by)} at {driver.key} = {driver_text(scene, driver, end)}"
+    if between is None:
         return said + " on the straight way there"
-    return f"{said}; the motion reaches from {driver_text(scene, driver, low)} to {driver_text(scene, driver, high)}"
+    low, high = (driver_text(scene, driver, value) for value in between)
+    return f"{said}; the motion reaches from {low} to {high}"
 
 
 def _ending(group: Dyad | Cluster) -> str:

@@ -19,7 +19,7 @@ from graphkin.plane import cross
 from graphkin.scene.loads import BalanceAt, LoadOn, Phase
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol
-from graphkin.solver.driver_range import DriverRange, whole_range
+from graphkin.solver.driver_range import DriverRange, driver_range
 from graphkin.solver.motion import Motion
 from graphkin.solver.pose import Array
 from graphkin.solver.whole_turn import extremes
@@ -264,7 +264,7 @@ class _Statics:
 
     @cached_property
     def _reach(self) -> DriverRange:
-        return whole_range(self.structure)
+        return driver_range(self.structure)
 
     def _acts(self, phase: Phase | None) -> tuple[Array, Array]:
         """Where a load acts, and where it begins or ends exactly; shape (n,) each."""

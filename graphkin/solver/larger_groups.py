@@ -73,8 +73,7 @@ class System:
         poses = {**self.known, **members}
         rows: list[tuple[Array, Array, Array]] = []
         for pair in self.group.pairs:
-            one = poses[pair.a].fixed(*joint_place(self.structure, pair, pair.a))
-            two = poses[pair.b].fixed(*joint_place(self.structure, pair, pair.b))
+            one, two = self._joints(pair, poses)
             if isinstance(pair, Turn):
                 gap = ((one.z - two.z) / size, (one.v - two.v) / size, (one.a - two.a) / size)
                 rows += [(gap[0].real, gap[1].real, gap[2].real), (gap[0].imag, gap[1].imag, gap[2].imag)]
@@ -90,13 +89,19 @@ class System:
                 turn = seen.u * np.conj(turned(value))
                 rows.append((np.angle(turn), seen.omega - rate, seen.alpha - second))
             else:
-                pair = self.structure.slide(driver.key)
-                one = poses[pair.a].fixed(*joint_place(self.structure, pair, pair.a))
-                two = poses[pair.b].fixed(*joint_place(self.structure, pair, pair.b))
+                one, two = self._joints(self.structure.slide(driver.key), poses)
                 seen = two.inverse().of(one)
                 rows.append(((seen.z.real - value) / size, (seen.v.real - rate) / size, (seen.a.real - second) / size))
-        open_, first, second_ = (np.stack([np.broadcast_to(r[k], (n,)) for r in rows], axis=1) for k in range(3))
-        return open_, first, second_
+        found = np.empty((3, n, len(rows)))
+        for k, row in enumerate(rows):
+            for order in range(3):
+                found[order, :, k] = row[order]
+        return found[0], found[1], found[2]
+
+    def _joints(self, pair: Pair, poses: Mapping[str, Pose]) -> tuple[Pose, Pose]:
+        """The two frames of a joint, in the world."""
+        one, two = (poses[link].fixed(*joint_place(self.structure, pair, link)) for link in (pair.a, pair.b))
+        return one, two
 
     def matrix(self, members: Mapping[str, Pose]) -> Array:
         """Derivative of the constraints by (x / size, y / size, angle) of each member, shape (n, rows, columns)."""
@@ -111,8 +116,7 @@ class System:
             return rows[-1]
 
         def sliding(pair: Slide, part: str) -> None:
-            one = poses[pair.a].fixed(*joint_place(self.structure, pair, pair.a))
-            two = poses[pair.b].fixed(*joint_place(self.structure, pair, pair.b))
+            one, two = self._joints(pair, poses)
             back = np.conj(two.u)
             gap = one.z - two.z
             line = row()

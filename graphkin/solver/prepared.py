@@ -172,7 +172,7 @@ class PreparedMechanism:
             if not everywhere:
                 # what the range says of arrays (``reaches``), in plain floats
                 offset = sense * (value - start)
-                if turns:
+                if turns and not low <= offset <= high:
                     offset %= 2 * math.pi
                     offset -= 2 * math.pi if offset > high else 0.0
                 if not low <= offset <= high:

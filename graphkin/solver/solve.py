@@ -9,9 +9,9 @@ import numpy as np
 from graphkin.errors import CallError, Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.solver.assemblies import choose_forms, own_values
-from graphkin.solver.driver_range import goal_values, motion_of, range_from, way_to
+from graphkin.solver.driver_range import goal_values, motion_of, range_from, stopped_why, way_to
 from graphkin.solver.error_bound import ErrorBound
-from graphkin.solver.findings import assembly_words, limit_why, structure_of
+from graphkin.solver.findings import assembly_words, structure_of
 from graphkin.solver.joints import Drive
 from graphkin.solver.motion import Motion
 from graphkin.solver.pose import Array, rest
@@ -59,7 +59,7 @@ def solve(
     if not np.array_equal(own, goal):
         path = way_to(structure, forms, goal)
         if path.limit is not None:
-            return _nowhere(structure, goal, sweep, "not assembled", limit_why(structure, forms, own, path))
+            return _nowhere(structure, goal, sweep, "not assembled", stopped_why(structure, forms, own, path))
         forms = path.last_forms
     if sweep is not None:
         return range_from(structure, forms, goal).sweep(sweep)

@@ -11,7 +11,7 @@ import numpy as np
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import Symbol
-from graphkin.solver.driver_range import DriverRange, whole_range
+from graphkin.solver.driver_range import DriverRange, driver_range
 from graphkin.solver.motion import Motion
 from graphkin.solver.pose import Array
 from graphkin.solver.solve import solve
@@ -136,7 +136,7 @@ def exact_values(motion: Motion, asked: Sequence[Symbol] = ()) -> Callable[[Symb
     values = {d.key: float(v) for d, v in zip(scene.drivers, motion.values[0], strict=True)}
     of_turn: Mapping[Symbol, float] = {}
     if any(s.scope == "turn" for s in asked):
-        reach = whole_range(motion.structure, values)
+        reach = driver_range(motion.structure, values)
         of_turn = {s: _of_turn(reach, s) for s in asked if s.scope == "turn"}
 
     def value(symbol: Symbol) -> Value:

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from graphkin.errors import Problem, SceneError
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
 
-__all__ = ["TOUCH", "Choice", "Passage", "follow", "last_true", "pick", "ways"]
+__all__ = ["MOST_TURNS", "TOUCH", "Choice", "Passage", "follow", "last_true", "pick", "ways"]
 
 
 @dataclass(frozen=True)
@@ -97,17 +97,29 @@ def _place(scene: Mechanism, z: complex) -> str:
     return f"[{z.real / scene.units.metres:.7g}, {z.imag / scene.units.metres:.7g}]"
 
 
+MOST_TURNS = 4
+"""A driver that turns is followed this many turns to either side, until its motion closes or ends."""
+FOLD = 12 * 2 * math.pi
+"""After so much every motion that closes within the most turns stands where it stood."""
+
+
 def ways(drivers: Sequence[AnyDriver], start: Sequence[float], goal: Sequence[float]) -> Iterator[tuple[float, ...]]:
-    """Driver values (rad, m) at which the mechanism stands as at the goal: straight on, whole turns left out, then with
-    drivers that turn the other way round."""
+    """Driver values (rad, m) to which the motion may be followed to come to a goal: straight on to the goal itself,
+    whole turns included; then, for drivers that turn, to where they stand the same way within a turn, the nearer first.
+    """
     choices: list[tuple[float, ...]] = []
     for driver, a, b in zip(drivers, start, goal, strict=True):
-        if isinstance(driver, AngleDriver) and a != b:
-            direct = a + math.remainder(b - a, 2 * math.pi) if abs(b - a) > 2 * math.pi else b
-            choices.append((direct, direct - math.copysign(2 * math.pi, direct - a)))
-        else:
+        if not isinstance(driver, AngleDriver) or a == b:
             choices.append((b,))
+            continue
+        here = b if abs(b - a) <= FOLD else a + math.fmod(b - a, FOLD)
+        near = math.remainder(b - a, 2 * math.pi)
+        around = (a + near, a + near - math.copysign(2 * math.pi, near)) if abs(near) > SAME_ANGLE else (a,)
+        choices.append((here, *(x for x in around if abs(x - here) > SAME_ANGLE)))
     return product(*choices)
+
+
+SAME_ANGLE = 1e-9
 
 
 Reals = NDArray[np.float64]

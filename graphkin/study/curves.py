@@ -171,7 +171,7 @@ def resolve(
             by = np.sin(at.ravel())[:, None] ** power
             value, off = value * by, off * by
         value, off = (x.reshape(len(waiting), POINTS, -1) for x in (value, off))
-        broken = ~np.isfinite(value).all(axis=1)
+        broken: NDArray[np.bool_] = np.asarray(~np.isfinite(value).all(axis=1))
         value = np.where(np.isfinite(value), value, 0.0)
         # a bound that is not known stops nothing, and hides nothing
         doubt = np.where(np.isfinite(off), off, 0.0).max(axis=1)
@@ -186,7 +186,7 @@ def resolve(
         # what is small and does not shrink when a piece is halved is rounding, which no halving takes away
         rounding = (tail < PLATEAU * size) & (tail > 0.25 * before)
         unsure = (tail > np.maximum(RESOLVED * size, doubt)) & ~rounding
-        rough = np.any(np.where(broken, depth < LEFT_OUT, unsure), axis=1)
+        rough = ((broken & (depth < LEFT_OUT)) | (unsure & ~broken)).any(axis=1)
         c = np.where(broken[:, None, :], 0.0, c)
         if depth == MOST_DEPTH or len(done) + 2 * int(rough.sum()) > MOST_PIECES:
             rough[:] = False

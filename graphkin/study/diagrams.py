@@ -163,8 +163,7 @@ def _facts(turn: TurnStudy, output: Output, language: str) -> list[str]:
     """Stroke, K and limit positions in words."""
     scene, quantity, stroke = turn.scene, output.quantity, output.stroke
     if stroke is None:
-        key = "goes away" if output.unbounded else "does not move" if output.position.constant is not None else "turns on"
-        return [word(key, language)]
+        return [word(output.without, language)]
     unit = quantity.unit(scene, degrees=True)
     key = "swing is" if quantity.kind == "theta" else "stroke is"
     facts = [say(Phrase(key, (_with_unit(quantity.in_units(scene, stroke, degrees=True), unit),)), language)]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import cmath
-import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -34,9 +33,9 @@ def measured(
     if not asked:
         return found
     low, high = reach.ends
-    wide = min(high - low, 2 * math.pi) if reach.full else high - low
+    count *= max(reach.turns, 1)
     for k in range(count):
-        offset = low + wide * (k / count if reach.full else (k + 0.5) / count)
+        offset = low + (high - low) * (k / count if reach.full else (k + 0.5) / count)
         values = {d.key: float(v) for d, v in zip(scene.drivers, reach.start, strict=True)}
         values[scene.drivers[0].key] = float(reach.value(np.array(offset)))
         try:

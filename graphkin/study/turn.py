@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
@@ -43,6 +44,11 @@ class Output:
     def stroke(self) -> float | None:
         """Stroke (m) or swing (rad); None for a link that turns on and on, or goes away without bound."""
         return self.high.value - self.low.value if self.low and self.high and not self.unbounded else None
+
+    @property
+    def without(self) -> Literal["goes away", "does not move", "turns on"]:
+        """What it does, where it has no stroke."""
+        return "goes away" if self.unbounded else "does not move" if self.position.constant is not None else "turns on"
 
     @property
     def unbounded(self) -> bool:

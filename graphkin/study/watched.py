@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from graphkin.errors import CallError
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.solver import DriverRange, Motion, listed_points, prepare, structure_of, whole_range
+from graphkin.solver import DriverRange, Motion, driver_range, listed_points, prepare, structure_of
 from graphkin.solver.prepared import PreparedMechanism
 from graphkin.solver.redundant import all_slides
 from graphkin.structure import Cluster, Structure
@@ -193,7 +193,7 @@ class Design:
     @cached_property
     def reach(self) -> DriverRange:
         """The range of its first driver.  Raises Unsolvable."""
-        return whole_range(self.structure, dict(self.at))
+        return driver_range(self.structure, dict(self.at))
 
     @cached_property
     def engine(self) -> PreparedMechanism | None:

@@ -45,7 +45,7 @@ def test_solve_and_prepare_come_to_the_same_positions_over_the_range(text: str) 
 
 
 def test_a_range_in_one_turn_closes_there() -> None:
-    assert 1 == range_of(scenes.FOUR_BAR).until_closed().turns
+    assert 1 == range_of(scenes.FOUR_BAR).turns
 
 
 def test_a_structure_serves_as_well_as_its_scene() -> None:
@@ -80,14 +80,51 @@ def test_a_redundant_link_is_not_refused_for_what_rounding_makes_of_it_beside_a_
     [
         (1.0, [1.0, 1.0 - 2 * math.pi]),
         (-1.0, [-1.0, 2 * math.pi - 1.0]),
-        (1.0 + 4 * math.pi, [1.0, 1.0 - 2 * math.pi]),
+        (1.0 + 4 * math.pi, [1.0 + 4 * math.pi, 1.0, 1.0 - 2 * math.pi]),
+        (1.0 + 26 * math.pi, [1.0 + 2 * math.pi, 1.0, 1.0 - 2 * math.pi]),
+        (4.0, [4.0, 4.0 - 2 * math.pi]),
+        (4 * math.pi, [4 * math.pi, 0.0]),
         (0.0, [0.0]),
     ],
 )
-def test_a_turning_driver_has_two_ways_to_a_goal(goal: float, found: list[float]) -> None:
+def test_a_turning_driver_goes_straight_to_a_goal_or_where_it_stands_the_same_way(
+    goal: float, found: list[float]
+) -> None:
     turning = [d for d in scene_of(scenes.FOUR_BAR).drivers if isinstance(d, AngleDriver)]
     assert [pytest.approx((x,), abs=1e-14) for x in found] == list(ways(turning, [0.0], [goal]))
 
 
 def test_a_sliding_driver_has_one_way_to_a_goal() -> None:
     assert [(0.3,)] == list(ways(scene_of(scenes.PISTON).drivers, [0.1], [0.3]))
+
+
+@pytest.fixture(scope="module")
+def wide() -> DriverRange:
+    return range_of(scenes.WIDE_SWINGING)
+
+
+def test_a_range_wider_than_a_turn_is_followed_to_both_limits(wide: DriverRange) -> None:
+    low, high = np.degrees(wide.value(np.array(wide.ends)))
+    assert (True, True, 0) == (*wide.limited, wide.turns)
+    # found by following the four-bar over its circuit and closing the dyad at each of its positions
+    assert [-517.4023, -71.9625] == pytest.approx([low, high], abs=1e-4)
+
+
+def test_the_same_range_is_found_whichever_way_the_driver_runs(wide: DriverRange) -> None:
+    other = range_of(scenes.WIDE_SWINGING.replace("omega = 1", "omega = -1"))
+    ends = sorted(float(other.value(np.array(end))) for end in other.ends)
+    assert sorted(float(wide.value(np.array(end))) for end in wide.ends) == pytest.approx(ends, abs=1e-9)
+
+
+def test_beyond_a_turn_stands_what_the_way_there_leads_to(wide: DriverRange) -> None:
+    # 360 degrees apart the driver stands the same way and the links do not
+    here, beyond = wide.motion(np.array([-0.1, -0.1 - 2 * math.pi])).position("C")
+    asked = solve(wide.scene, {"5": float(wide.start[0]) - 0.1 - 2 * math.pi}).position("C")[0]
+    assert beyond == pytest.approx(asked, abs=1e-12)
+    assert abs(beyond - here) > 0.01
+    steps = wide.motion(-np.linspace(0.0, 0.1 + 2 * math.pi, 2000)).position("C")
+    assert np.abs(np.diff(steps)).max() < 0.003
+
+
+def test_a_sweep_over_a_turn_of_a_wide_range_finds_every_position(wide: DriverRange) -> None:
+    assert {"ok"} == set(wide.sweep(36).status)

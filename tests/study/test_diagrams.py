@@ -13,7 +13,7 @@ from graphkin.drawing import Box, ChartPage, Drawing, Group, Line, Polyline, Tex
 from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.primitives import walk
 from graphkin.scene import mechanism_of, mechanism_of_text
-from graphkin.solver import whole_range
+from graphkin.solver import driver_range
 from graphkin.study.coupler import coupler_points
 from graphkin.study.diagrams import diagrams
 from graphkin.study.driver_axis import next_step
@@ -26,7 +26,7 @@ from tests.drawing.chart_words import off_the_page, overlapping
 
 @cache
 def turn_of(name: str) -> TurnStudy:
-    return study_turn(whole_range(mechanism_of(name)))
+    return study_turn(driver_range(mechanism_of(name)))
 
 
 @cache
@@ -36,7 +36,7 @@ def pages(name: str, language: str = "en", positions: int = 12) -> dict[str, Cha
 
 @pytest.mark.parametrize("name", ["sixbar-420rpm", "shaper-scheme-2"])
 def test_values_measured_off_the_polygons_are_those_of_the_solver(name: str) -> None:
-    reach = whole_range(mechanism_of(name))
+    reach = driver_range(mechanism_of(name))
     quantities = [o.quantity for o in study_turn(reach, everything=False).outputs]
     for quantity, rows in measured(reach, quantities, 4).items():
         motion = reach.motion(np.array([r[0] for r in rows]))
@@ -98,7 +98,7 @@ def test_twelve_measured_points_lie_on_each_curve() -> None:
 
 
 def test_the_curve_shows_the_values_of_the_solver() -> None:
-    reach = whole_range(mechanism_of("shaper-scheme-2"))
+    reach = driver_range(mechanism_of("shaper-scheme-2"))
     figure = pages("shaper-scheme-2", positions=0)["motion-slide-6-1"].figure()
     for quantity in slide_quantities("6/1"):
         curve = lines(figure, quantity.name.replace("/", "-"))["curve"]
@@ -121,7 +121,7 @@ def test_extremes_are_marked_where_they_are_and_say_how_much() -> None:
 
 
 def test_limit_positions_are_lines_through_all_panels() -> None:
-    turn = study_turn(whole_range(mechanism_of("shaper-scheme-2")))
+    turn = study_turn(driver_range(mechanism_of("shaper-scheme-2")))
     output = next(o for o in turn.outputs if o.quantity.of == "6/1")
     page = diagrams(turn, positions=0)["motion-slide-6-1"]
     right = sorted(np.degrees([output.low.driver, output.high.driver]))
@@ -157,7 +157,7 @@ def test_the_zero_line_is_heavier_than_the_grid() -> None:
 
 def test_the_coupler_curve_is_drawn_in_its_scale() -> None:
     page = pages("four-bar-coupler-point", positions=0)["curve-P"]
-    reach = whole_range(mechanism_of("four-bar-coupler-point"))
+    reach = driver_range(mechanism_of("four-bar-coupler-point"))
     path = reach.motion(np.linspace(*reach.ends, 721)).position("P")
     scale = json.loads(json.dumps(page.metadata))["scales"]["length"]
     curve = next(g for g in page.children if isinstance(g, Group) and g.id == "curve-P")
@@ -169,7 +169,7 @@ def test_the_coupler_curve_is_drawn_in_its_scale() -> None:
 @pytest.mark.parametrize("angle", ["33", "0"])
 def test_a_change_point_at_the_end_of_the_axis_is_a_gap_in_the_curve_only(angle: str) -> None:
     scene = mechanism_of_text(scenes.PARALLELOGRAM.replace("angle = 60", f"angle = {angle}"), "p")
-    figure = diagrams(study_turn(whole_range(scene)), positions=12)["motion-link-3"].figure()
+    figure = diagrams(study_turn(driver_range(scene)), positions=12)["motion-link-3"].figure()
     assert all(np.isfinite(lines(figure, panel)["dots"]).all() for panel in ("theta_3", "omega_3", "alpha_3"))
 
 

@@ -12,7 +12,7 @@ import pytest
 
 from graphkin.errors import Unsolvable
 from graphkin.scene import library, mechanism_of, mechanism_of_text
-from graphkin.solver import whole_range
+from graphkin.solver import driver_range
 from graphkin.study.summary import to_json
 from graphkin.study.turn import Output, TurnStudy, study_turn
 from tests import scenes
@@ -31,7 +31,7 @@ LIMITS = {
 
 @lru_cache
 def turn_of(name: str) -> TurnStudy:
-    return study_turn(whole_range(mechanism_of(name)))
+    return study_turn(driver_range(mechanism_of(name)))
 
 
 def slider(turn: TurnStudy) -> Output:
@@ -66,7 +66,7 @@ def test_slider_crank_gives_back_the_stroke_it_was_made_for() -> None:
 
 def test_K_of_a_driver_that_turns_clockwise_is_that_of_one_that_turns_the_other_way() -> None:
     scene = dict(FOUR_BAR, driver={"link": "1", "angle": 60, "omega": -3})
-    both = [study_turn(whole_range(mechanism_of(s))) for s in (FOUR_BAR, scene)]
+    both = [study_turn(driver_range(mechanism_of(s))) for s in (FOUR_BAR, scene)]
     one, other = (t.quick_return(t.outputs[0]) for t in both)
     assert one == pytest.approx(other, rel=1e-12)
 
@@ -79,7 +79,7 @@ def test_least_transmission_angle_of_the_four_bar() -> None:
 
 
 def test_in_a_change_point_the_transmission_angle_is_zero() -> None:
-    assert study_turn(whole_range(mechanism_of_text(scenes.PARALLELOGRAM, "p"))).transmission[0].angle == 0.0
+    assert study_turn(driver_range(mechanism_of_text(scenes.PARALLELOGRAM, "p"))).transmission[0].angle == 0.0
 
 
 def test_least_transmission_angle_of_the_slider_crank() -> None:
@@ -136,7 +136,7 @@ FOUR_BAR = scenes.four_bar(150, 500, 300, 400)
     ],
 )
 def test_class_of_a_four_bar(lengths: tuple[float, ...], name: str, turning: tuple[str, ...]) -> None:
-    loop = study_turn(whole_range(mechanism_of(scenes.four_bar(*lengths))), everything=False).loops[0]
+    loop = study_turn(driver_range(mechanism_of(scenes.four_bar(*lengths))), everything=False).loops[0]
     assert (loop.name, loop.turns) == (name, turning)
 
 
@@ -172,7 +172,7 @@ def test_extremes_of_acceleration_are_found_off_the_grid() -> None:
 
 @pytest.mark.parametrize("name", library())
 def test_no_value_of_a_fine_grid_exceeds_the_extremes(name: str) -> None:
-    turn = study_turn(whole_range(mechanism_of(name)), everything=False)
+    turn = study_turn(driver_range(mechanism_of(name)), everything=False)
     low, high = turn.reach.ends
     motion = turn.reach.motion(np.linspace(low, high, 401)[1:-1])
     for output in turn.outputs:
@@ -190,7 +190,7 @@ def test_json_holds_no_nan(name: str) -> None:
 
 
 def test_parallelogram_repeats_after_one_turn_and_its_antiparallel_form_is_not_reached() -> None:
-    turn = study_turn(whole_range(mechanism_of(scenes.four_bar(150, 400, 150, 400))), everything=False)
+    turn = study_turn(driver_range(mechanism_of(scenes.four_bar(150, 400, 150, 400))), everything=False)
     assert (turn.reach.turns, turn.outputs[0].swings) == (1, False)
 
 
@@ -198,14 +198,14 @@ def test_wrong_mobility_is_refused_by_name() -> None:
     scene = scenes.four_bar(150, 500, 300, 400)
     scene["links"]["5"] = {"points": ["A", "C"], "length": 450}
     with pytest.raises(Unsolvable):
-        whole_range(mechanism_of(scene))
+        driver_range(mechanism_of(scene))
 
 
 def test_a_driven_slide_has_its_other_range() -> None:
-    other = study_turn(whole_range(mechanism_of_text(scenes.CYLINDER, "c"))).ranges[1]
+    other = study_turn(driver_range(mechanism_of_text(scenes.CYLINDER, "c"))).ranges[1]
     assert (other.low, other.high) == pytest.approx((-0.5, -0.1), abs=1e-9)
 
 
 def test_a_larger_group_whose_other_ranges_are_unknown_is_named() -> None:
-    turn = study_turn(whole_range(mechanism_of_text(scenes.MOVED_PARALLELOGRAM, "p")), everything=False)
+    turn = study_turn(driver_range(mechanism_of_text(scenes.MOVED_PARALLELOGRAM, "p")), everything=False)
     assert turn.not_searched == ("1", "2", "3", "5")
