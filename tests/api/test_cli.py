@@ -42,11 +42,8 @@ def test_importing_graphkin_imports_no_numpy():
 @pytest.mark.parametrize(
     "args",
     [
-        ("scenes", "--json"),
         ("draw", SIXBAR, "-o", "out"),
-        ("check", SIXBAR, "--find", "a_D"),
         ("solve", "sixbar-AE70", "--at", "80", "--json"),
-        ("centres", SIXBAR, "--json"),
         ("audit", "shaper-scheme-2"),
         ("sweep", "sine-mechanism", "--positions", "4", "--json", "-o", "out"),
         ("handout", "no-such-scene"),
