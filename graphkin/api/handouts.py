@@ -24,11 +24,12 @@ from graphkin.api.arguments import (
 from graphkin.api.checked import solved_here
 from graphkin.api.results import Result
 from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.papers.exports import PLATFORMS, Question, files_for, question_of
 from graphkin.papers.lesson import Lesson
 from graphkin.papers.page import Progress
 from graphkin.papers.paper import paper_plan
 from graphkin.papers.pdf import can_typeset
-from graphkin.papers.prepare import FORMATS, Papers, handout_files, lesson_of, usual_count, views_of
+from graphkin.papers.prepare import FORMATS, Papers, evidence_of, handout_files, lesson_of, usual_count, views_of
 from graphkin.papers.solution import KeyRow, key_rows
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
@@ -50,6 +51,8 @@ class Handout(Result):
     formats: tuple[str, ...]
     count: int
     progress: Progress | None = field(default=None, compare=False)
+    question: Question | None = None
+    exports: tuple[str, ...] = ()
 
     @property
     def scene(self) -> Mechanism:
@@ -91,7 +94,12 @@ class Handout(Result):
 
     @cached_property
     def files(self) -> Mapping[str, bytes]:
-        """Content of each file: problem.html, handout.html, problem.pdf, solution.pdf, key.html, key.pdf, key.csv."""
+        """Content of each file: problem.html, handout.html, problem.pdf, solution.pdf, key.html, key.pdf, key.csv, and
+        those for learning platforms."""
+        return {**self._papers, **(files_for(self.question, self.exports) if self.question is not None else {})}
+
+    @property
+    def _papers(self) -> Mapping[str, bytes]:
         if "html" not in self.formats:
             return handout_files(self.lesson, formats=self.formats)
         lesson, scales = self.lesson, self.lesson.sheet.scales
@@ -135,6 +143,7 @@ def handout(
     convention: str | None = None,
     positions: int | None = None,
     progress: Progress | None = None,
+    exports: Sequence[str] = (),
 ) -> Handout:
     """Problem sheet, worked solution and answer key of a scene.
 
@@ -147,6 +156,7 @@ def handout(
     convention : "chinese", "us", "british" or "russian"; the scene's own if None
     positions : of the driver, for the second slider of the page; 24 if None, 12 with more than 10 moving links
     progress : called with the parts of the page done and the number of all, while its files are made
+    exports : "moodle", "gift", "prairielearn": questions with tolerances and feedback for learning platforms
 
     Raises
     ------
@@ -154,6 +164,7 @@ def handout(
     Unsolvable : wrong mobility, a position that cannot be assembled or reached, a dead point
     """
     known_words(formats, language, convention, known_formats=FORMATS, known_languages=ON_SHEETS)
+    platforms = known_platforms(exports)
     given = for_paper(scene)
     count = usual_count(given) if positions is None else whole_number("positions", positions, 1, 72)
     asked = asked_symbols(given, find)
@@ -161,15 +172,17 @@ def handout(
     motion = solved_here(given, values)
     what = paper_plan(motion.structure, values, asked)
     lesson = lesson_of(what, motion, language or given.sheet.language, convention or given.sheet.convention)
-    made = Handout(lesson, values, tuple(dict.fromkeys(formats)), count, progress)
+    question = question_of(lesson, evidence_of(what, motion, lesson), given.name) if platforms else None
+    made = Handout(lesson, values, tuple(dict.fromkeys(formats)), count, progress, question, platforms)
     if out is not None:
         made.write(out)
     return made
 
 
 def papers_of(
-    scene: SceneLike, formats: Sequence[str] = FORMATS, language: str | None = None, convention: str | None = None
-) -> Papers:
+    scene: SceneLike, formats: Sequence[str] = FORMATS, language: str | None = None, convention: str | None = None,
+    exports: Sequence[str] = (),
+) -> Papers:  # fmt: skip
     """What writes the papers of each variant of a set: ``problem_set(scene, 30, render=papers_of(scene))``.
 
     Raises
@@ -178,4 +191,15 @@ def papers_of(
     """
     known_words(formats, language, convention, known_formats=FORMATS, known_languages=ON_SHEETS)
     wishes = as_scene(scene).sheet
-    return Papers(language or wishes.language, convention or wishes.convention, tuple(dict.fromkeys(formats)))
+    kinds = tuple(dict.fromkeys(formats)), known_platforms(exports)
+    return Papers(language or wishes.language, convention or wishes.convention, *kinds)
+
+
+def known_platforms(exports: Sequence[str]) -> tuple[str, ...]:
+    """Names of learning platforms, each once.  Raises CallError for an unknown one."""
+    if isinstance(exports, str):
+        raise CallError(Problem("export", f'"{exports}" is a text', f'give a list: ["{exports}"]'))
+    wrong = [Problem("export", f'"{e}"', did_you_mean(str(e), PLATFORMS)) for e in exports if e not in PLATFORMS]
+    if wrong:
+        raise CallError(*wrong)
+    return tuple(dict.fromkeys(exports))

@@ -19,6 +19,7 @@ from graphkin.errors import CallError, GraphkinError, Problem, did_you_mean
 from graphkin.files import folder_alone
 from graphkin.jobs import Progress, Workers
 from graphkin.papers.data_rows import Columns, columns_of, replaced
+from graphkin.papers.exports import BANKED, bank
 from graphkin.papers.problem_set import Job, MadeSet, Render, jobs_of_rows, jobs_of_seed, make
 from graphkin.papers.variants import Answer, Spread, Variant, asked_of, varied_keys
 from graphkin.scene.model import Mechanism
@@ -142,12 +143,17 @@ def problem_set(
             return []
         stem = f"{name}-{variant.name}"
         scene_file = {f"{stem}.toml": toml_text(variant.source).encode()}
-        paths = write_files(folder, {**scene_file, **{f"{stem}-{safe_name(n)}": f for n, f in files.items()}})
-        return [path.name for path in paths]
+        # what a platform reads as a folder has the variant in its name
+        own = {n if "/" in n else f"{stem}-{safe_name(n)}": f for n, f in files.items()}
+        return [str(path.relative_to(folder)) for path in write_files(folder, {**scene_file, **own})]
 
     def finish(made: MadeSet) -> None:
         if folder is not None:
             ProblemSet(given, made, unused).write(folder)
+            names = [[f"{name}-{variant}-{file}" for file in BANKED] for variant in made.names]
+            here = [{n[-len(f) :]: (folder / n).read_bytes() for n, f in zip(own, BANKED, strict=True)
+                     if (folder / n).is_file()} for own in names]  # fmt: skip
+            write_files(folder, bank(name, here))
             for path in left:
                 path.unlink(missing_ok=True)
 

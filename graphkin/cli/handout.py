@@ -52,6 +52,9 @@ def handout(
     workers: Annotated[
         int | None, typer.Option("--workers", metavar="N", help="Processes for a set; as many as there are cores.")
     ] = None,
+    export: Annotated[
+        str, typer.Option("--export", metavar="moodle,gift,prairielearn", help="Questions for learning platforms.")
+    ] = "",
     as_json: JsonOption = False,
     quiet: QuietOption = False,
 ) -> None:
@@ -65,10 +68,15 @@ def handout(
             raise CallError(
                 Problem("variants", "with --at or --positions", "a set draws positions of its own, one each")
             )
-        _problem_set(scene, out, wanted, find, lang, convention, variants, seed, rows, workers, as_json, quiet)
+        _problem_set(
+            scene, out, wanted, find, lang, convention, variants, seed, rows, workers, listed(export), as_json, quiet
+        )
         return
     with short_bar(not as_json and not quiet) as progress:
-        made = handing(scene, None, driver_values(at), find or None, wanted, lang, convention, positions, progress)
+        values = driver_values(at)
+        made = handing(
+            scene, None, values, find or None, wanted, lang, convention, positions, progress, listed(export)
+        )
         paths = made.write(out)
     if as_json:
         print_json(made.data | {"files": [str(p) for p in paths]})
@@ -83,14 +91,14 @@ def handout(
 def _problem_set(
     scene: str, out: Path | None, formats: list[str], find: list[str] | None, lang: str | None,
     convention: str | None, variants: int | None,
-    seed: int, rows: Path | None, workers: int | None, as_json: bool, quiet: bool,
+    seed: int, rows: Path | None, workers: int | None, exports: list[str], as_json: bool, quiet: bool,
 ) -> None:  # fmt: skip
     from graphkin.api.handouts import papers_of
     from graphkin.api.problem_sets import problem_set
     from graphkin.scene import mechanism_of
 
     target = out if out is not None else Path(mechanism_of(scene).name)
-    papers = papers_of(scene, formats, lang, convention)
+    papers = papers_of(scene, formats, lang, convention, exports)
     with progress_bar(not as_json and not quiet, target) as progress:
         made = problem_set(
             scene,

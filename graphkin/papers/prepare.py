@@ -14,11 +14,13 @@ import numpy as np
 from graphkin import solver
 from graphkin.checking.readings import predict, read_off
 from graphkin.checking.report import Report, compare
+from graphkin.checking.slips import Evidence
 from graphkin.construction import Plan, execute, plan
 from graphkin.construction.centres import Centres, find_centres
 from graphkin.construction.sheet import Scales, Sheet
 from graphkin.drawing import figures
 from graphkin.errors import Unsolvable
+from graphkin.papers.exports import files_for, question_of
 from graphkin.papers.lesson import Lesson
 from graphkin.papers.page import POSITIONS, Progress, View, common_scales, document_page, handout_page
 from graphkin.papers.paper import paper_plan
@@ -31,7 +33,7 @@ from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion
 from graphkin.structure import Structure
 
-__all__ = ["FORMATS", "Papers", "handout_files", "lesson_of", "positions", "usual_count", "views_of"]
+__all__ = ["FORMATS", "Papers", "evidence_of", "handout_files", "lesson_of", "positions", "usual_count", "views_of"]
 
 MANY_LINKS = 10
 
@@ -43,6 +45,13 @@ def lesson_of(what: Plan, motion: Motion, language: str, convention: str) -> Les
     report = compare(sheet, read_off(sheet), solver.exact_values(motion, what.asked), what.asked)
     tolerance = predict(what, "pencil", sheet.scene.sheet.tools)
     return Lesson(sheet, report, tolerance, language, convention, what.asked)
+
+
+def evidence_of(what: Plan, motion: Motion, lesson: Lesson) -> Evidence:
+    """What the slips of a lesson are looked for in: everything drawn, so that one in what leads to the asked counts."""
+    whole = plan(what.structure, what.values, ())
+    drawn = what if set(what.elements) == set(whole.elements) else whole
+    return Evidence(drawn, solver.exact_values(motion, what.asked), lesson.tolerance, lambda symbol: ())
 
 
 def usual_count(scene: Mechanism) -> int:
@@ -190,16 +199,21 @@ class Papers:
     language: str
     convention: str
     formats: tuple[str, ...]
+    exports: tuple[str, ...] = ()
 
     def __call__(self, variant: Variant) -> Mapping[str, bytes]:
         scene = variant.scene
         asked = asked_of(scene)
         motion = solver.solve(scene)
-        lesson = lesson_of(paper_plan(motion.structure, None, asked), motion, self.language, self.convention)
+        what = paper_plan(motion.structure, None, asked)
+        lesson = lesson_of(what, motion, self.language, self.convention)
         made = {"key.csv": key_table(lesson).csv().encode()}
         if "html" in self.formats:
             made["problem.html"] = document_page(problem(lesson)).encode()
             made["key.html"] = document_page(answer_key(lesson)).encode()
         if "pdf" in self.formats:
             made |= _typeset(lesson)
+        if self.exports:
+            question = question_of(lesson, evidence_of(what, motion, lesson), f"{scene.name}-{variant.name}")
+            made |= files_for(question, self.exports)
         return made

@@ -1,0 +1,308 @@
+"""Questions for learning platforms: pictures, tolerances from the key, feedback for the usual slips.
+
+Moodle XML (numerical and cloze questions, docs.moodle.org "Moodle XML format"), GIFT (docs.moodle.org "GIFT format"),
+and the folder of a PrairieLearn question (prairielearn.readthedocs.io "Question writing").
+"""
+
+from __future__ import annotations
+
+import base64
+import json
+import re
+import uuid
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from xml.sax.saxutils import escape
+
+from graphkin.checking.slips import Evidence, suspects
+from graphkin.errors import GraphkinError
+from graphkin.papers.blocks import clean
+from graphkin.papers.html import said_html, words_html
+from graphkin.papers.lesson import Lesson, plain_words
+from graphkin.papers.pictures import mechanism_picture, parts
+from graphkin.papers.problem import given, scene_title
+from graphkin.papers.solution import key_rows
+from graphkin.scene.symbol import Symbol
+from graphkin.words import languages, say, word
+
+__all__ = ["BANKED", "PLATFORMS", "Asked", "KnownSlip", "Question", "bank", "files_for", "question_of"]
+
+PLATFORMS = ("moodle", "gift", "prairielearn")
+BANKED = ("moodle.xml", "questions.gift")
+"""Files of single questions that are put together for a set."""
+MOST_SLIPS = 6
+PICTURE = "mechanism.png"
+DPI = 96.0
+_NOTHING = re.compile(r"[^A-Za-z0-9]+")
+
+
+@dataclass(frozen=True)
+class KnownSlip:
+    """A wrong value and what was done to get it, in words."""
+
+    value: float
+    words: str
+
+
+@dataclass(frozen=True)
+class Asked:
+    """One number that is asked for: its symbol, how it is written (HTML and plain), unit, right value, tolerance."""
+
+    symbol: str
+    html: str
+    plain: str
+    unit: str
+    value: float
+    tolerance: float
+    slips: tuple[KnownSlip, ...] = ()
+
+
+@dataclass(frozen=True)
+class Question:
+    """A problem as a platform asks it: title, the given data as HTML and as plain lines, the figure (PNG)."""
+
+    name: str
+    title: str
+    html: str
+    plain: tuple[str, ...]
+    picture: bytes
+    asked: tuple[Asked, ...]
+    sign_rule: str
+    number: str
+
+    @property
+    def key(self) -> str:
+        """A name that can be a file's."""
+        return _NOTHING.sub("-", self.name).strip("-") or "question"
+
+
+def question_of(lesson: Lesson, evidence: Evidence, name: str) -> Question:
+    """The question of a lesson; quantities for which a drawing promises nothing are left out."""
+    first = languages(lesson.language)[0]
+    scene = lesson.sheet.scene
+    paragraphs = [p.words for p in given(lesson)]
+    drawing = mechanism_picture(
+        lesson.sheet, parts(lesson.sheet, "mechanism", lesson.letters, lesson.language), lesson.letters, lesson.language
+    )
+    asked = []
+    for row in key_rows(lesson):
+        if not row.asked or not row.tolerance or row.tolerance >= abs(row.exact):
+            continue
+        symbol = Symbol.parse(row.symbol)
+        markup = f"${lesson.letters.vector(symbol)}$"
+        slips = tuple(_slips(lesson, evidence, symbol, row.exact, row.tolerance, first))
+        names = row.symbol, words_html(markup), plain_words(markup), row.unit
+        asked.append(Asked(*names, row.exact, row.tolerance, slips))
+    return Question(
+        name,
+        clean(plain_words(scene_title(lesson)[0][1])),
+        "".join(said_html(words, "p") for words in paragraphs),
+        tuple(clean(plain_words(text)) for words in paragraphs for _, text in words),
+        drawing.content("png", DPI),
+        tuple(asked),
+        word("sign of answers", first),
+        scene.name,
+    )
+
+
+def _slips(
+    lesson: Lesson, evidence: Evidence, symbol: Symbol, right: float, tolerance: float, language: str
+) -> Iterator[KnownSlip]:
+    """The commonest slips whose values can be told from the right one and from each other."""
+    taken = [right]
+    try:
+        found = sorted(suspects(evidence, symbol), key=lambda s: -s.share)
+    except GraphkinError:
+        return
+    for suspect in found:
+        value = abs(suspect.value) if symbol.is_vector else float(complex(suspect.value).real)
+        value = lesson.in_unit(symbol, value)
+        if any(abs(value - other) <= 2 * tolerance for other in taken):
+            continue
+        taken.append(value)
+        said = say(suspect.phrase, language, lambda thing: str(thing).replace("{", "").replace("}", ""))
+        yield KnownSlip(value, clean(said[:1].upper() + said[1:]))
+        if len(taken) > MOST_SLIPS:
+            return
+
+
+def files_for(question: Question, platforms: Sequence[str]) -> dict[str, bytes]:
+    """The files of one question by name, for each of the platforms."""
+    made: dict[str, bytes] = {}
+    if "moodle" in platforms:
+        made["moodle.xml"] = moodle_bank(question.number, [moodle_entries(question)])
+    if "gift" in platforms:
+        made["questions.gift"] = gift(question).encode()
+    if "prairielearn" in platforms:
+        made |= {f"prairielearn/{question.key}/{name}": data for name, data in prairielearn(question).items()}
+    return made
+
+
+def bank(category: str, files: Iterable[Mapping[str, bytes]]) -> dict[str, bytes]:
+    """One bank of the questions of many variants, from the files of each."""
+    moodle: list[str] = []
+    gifts: list[str] = []
+    for made in files:
+        if "moodle.xml" in made:
+            text = made["moodle.xml"].decode()
+            moodle.append(text[text.index(_CUT) + len(_CUT) : text.rindex("</quiz>")])
+        if "questions.gift" in made:
+            gifts.append(made["questions.gift"].decode())
+    found: dict[str, bytes] = {}
+    if moodle:
+        found["moodle.xml"] = moodle_bank(category, moodle)
+    if gifts:
+        found["questions.gift"] = (f"$CATEGORY: {category}\n\n" + "\n".join(gifts)).encode()
+    return found
+
+
+# -- Moodle ------------------------------------------------------------------------------------------------------------
+
+_CUT = "<!-- questions -->\n"
+
+
+def moodle_bank(category: str, entries: Sequence[str]) -> bytes:
+    """A file of questions under one category."""
+    head = f"<question type=\"category\"><category><text>$course$/top/{escape(category)}</text></category></question>\n"
+    return f'<?xml version="1.0" encoding="UTF-8"?>\n<quiz>\n{head}{_CUT}{"".join(entries)}</quiz>\n'.encode()
+
+
+def moodle_entries(question: Question) -> str:
+    """A cloze question with all that is asked, and a numerical one for each quantity."""
+    return _cloze(question) + "".join(_numerical(question, one) for one in question.asked)
+
+
+def _question_text(question: Question, more: str) -> str:
+    picture = f'<p><img src="@@PLUGINFILE@@/{PICTURE}" alt="{escape(question.title, {chr(34): "&quot;"})}"></p>'
+    data = base64.b64encode(question.picture).decode()
+    body = f"{question.html}{picture}<p>{escape(question.sign_rule)}</p>{more}"
+    return (
+        f'<questiontext format="html"><text>{_cdata(body)}</text>'
+        f'<file name="{PICTURE}" path="/" encoding="base64">{data}</file></questiontext>'
+    )
+
+
+def _cdata(text: str) -> str:
+    return "<![CDATA[" + text.replace("]]>", "]]]]><![CDATA[>") + "]]>"
+
+
+def _named(text: str) -> str:
+    return f"<name><text>{escape(text)}</text></name>"
+
+
+def _numerical(question: Question, one: Asked) -> str:
+    answers = [_answer(100, one.value, one.tolerance, "")]
+    answers += [_answer(0, slip.value, one.tolerance / 2, slip.words) for slip in one.slips]
+    ask = f"<p>{one.html} = ? ({escape(one.unit)})</p>"
+    return (
+        f'<question type="numerical">{_named(f"{question.title}: {one.plain}")}{_question_text(question, ask)}'
+        "<defaultgrade>1</defaultgrade><penalty>0.3333333</penalty><hidden>0</hidden>"
+        f"{''.join(answers)}<unitgradingtype>0</unitgradingtype><unitpenalty>0.1</unitpenalty>"
+        "<showunits>3</showunits><unitsleft>0</unitsleft></question>\n"
+    )
+
+
+def _answer(fraction: int, value: float, tolerance: float, words: str) -> str:
+    feedback = f'<feedback format="html"><text>{_cdata(escape(words)) if words else ""}</text></feedback>'
+    return (
+        f'<answer fraction="{fraction}" format="moodle_auto_format"><text>{value:.10g}</text>'
+        f"<tolerance>{tolerance:.3g}</tolerance>{feedback}</answer>"
+    )
+
+
+def _cloze(question: Question) -> str:
+    rows = "".join(f"<p>{one.html} = {_cloze_field(one)} {escape(one.unit)}</p>" for one in question.asked)
+    return (
+        f'<question type="cloze">{_named(question.title)}{_question_text(question, rows)}'
+        "<penalty>0.3333333</penalty><hidden>0</hidden></question>\n"
+    )
+
+
+def _cloze_field(one: Asked) -> str:
+    answers = [f"={one.value:.10g}:{one.tolerance:.3g}"]
+    answers += [f"%0%{slip.value:.10g}:{one.tolerance / 2:.3g}#{_cloze_words(slip.words)}" for slip in one.slips]
+    return "{1:NUMERICAL:" + "~".join(answers) + "}"
+
+
+def _cloze_words(words: str) -> str:
+    return re.sub(r"([}#~/\"\\])", r"\\\1", escape(words))
+
+
+# -- GIFT --------------------------------------------------------------------------------------------------------------
+
+
+def gift(question: Question) -> str:
+    """The same in plain text, without the figure: a numerical question for each quantity."""
+    made = []
+    for one in question.asked:
+        title = _gift_words(f"{question.title}: {one.plain}")
+        lines = " ".join((*question.plain, question.sign_rule))
+        ask = _gift_words(f"{lines} {one.plain} = ? ({one.unit})")
+        answers = [f"=%100%{one.value:.10g}:{one.tolerance:.3g}#"]
+        answers += [f"=%0%{slip.value:.10g}:{one.tolerance / 2:.3g}#{_gift_words(slip.words)}" for slip in one.slips]
+        made.append(f"::{title}::{ask} {{#\n" + "\n".join(answers) + "\n}\n")
+    return "\n".join(made)
+
+
+def _gift_words(words: str) -> str:
+    return re.sub(r"([~=#{}:\\])", r"\\\1", words).replace("\n", " ")
+
+
+# -- PrairieLearn ------------------------------------------------------------------------------------------------------
+
+
+def prairielearn(question: Question) -> dict[str, bytes]:
+    """The files of a question's folder by name."""
+    info = {
+        "uuid": str(uuid.uuid5(uuid.NAMESPACE_URL, f"graphkin/{question.name}/{question.title}")),
+        "title": question.title,
+        "topic": "Mechanisms",
+        "tags": ["graphical"],
+        "type": "v3",
+    }
+    rows = [
+        f'<p>{one.html} <pl-number-input answers-name="{_variable(one.symbol)}" comparison="relabs" rtol="0" '
+        f'atol="{one.tolerance:.3g}" label="=" suffix="{escape(one.unit)}"></pl-number-input></p>'
+        for one in question.asked
+    ]
+    page = (
+        f"<pl-question-panel>\n{question.html}\n<pl-figure file-name=\"{PICTURE}\"></pl-figure>\n"
+        f"<p>{escape(question.sign_rule)}</p>\n</pl-question-panel>\n" + "\n".join(rows) + "\n"
+    )
+    right = {_variable(one.symbol): float(f"{one.value:.10g}") for one in question.asked}
+    slips = {
+        _variable(one.symbol): [
+            [float(f"{slip.value:.10g}"), float(f"{one.tolerance / 2:.3g}"), slip.words] for slip in one.slips
+        ]
+        for one in question.asked
+    }
+    return {
+        "info.json": (json.dumps(info, ensure_ascii=False, indent=2) + "\n").encode(),
+        "question.html": page.encode(),
+        "server.py": _SERVER.format(right=repr(right), slips=repr(slips)).encode(),
+        f"clientFilesQuestion/{PICTURE}": question.picture,
+    }
+
+
+def _variable(symbol: str) -> str:
+    return _NOTHING.sub("_", symbol).strip("_")
+
+
+_SERVER = '''RIGHT = {right}
+SLIPS = {slips}
+
+
+def generate(data):
+    data["correct_answers"].update(RIGHT)
+
+
+def grade(data):
+    for name, known in SLIPS.items():
+        given = data["submitted_answers"].get(name)
+        if given is None or data["partial_scores"].get(name, {{}}).get("score"):
+            continue
+        for value, tolerance, words in known:
+            if abs(given - value) <= tolerance:
+                data["partial_scores"].setdefault(name, {{}})["feedback"] = words
+                break
+'''

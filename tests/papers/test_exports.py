@@ -1,0 +1,137 @@
+"""Questions for learning platforms say what the key says, and their files are read by outside readers' rules."""
+
+from __future__ import annotations
+
+import base64
+import json
+import re
+import runpy
+import xml.etree.ElementTree as ElementTree
+from html.parser import HTMLParser
+
+import pytest
+
+import graphkin
+from tests.command import run
+
+SCENE = "sixbar-guide-40deg"
+PLATFORMS = ("moodle", "gift", "prairielearn")
+
+
+@pytest.fixture(scope="module")
+def made():
+    return graphkin.handout(SCENE, formats=("html",), positions=1, exports=PLATFORMS)
+
+
+@pytest.fixture(scope="module")
+def files(made):
+    from graphkin.papers.exports import files_for
+
+    return files_for(made.question, PLATFORMS)
+
+
+def asked(made):
+    return [row for row in made.key if row.asked]
+
+
+def test_moodle_has_a_cloze_question_and_a_numerical_one_for_each_quantity(made, files):
+    quiz = ElementTree.fromstring(files["moodle.xml"])
+    kinds = [question.get("type") for question in quiz]
+    assert ["category", "cloze", *["numerical"] * len(asked(made))] == kinds
+
+
+def test_moodle_accepts_what_the_key_accepts(made, files):
+    quiz = ElementTree.fromstring(files["moodle.xml"])
+    for question, row in zip(quiz.findall("question[@type='numerical']"), asked(made), strict=True):
+        right = [answer for answer in question.findall("answer") if answer.get("fraction") == "100"]
+        assert 1 == len(right)
+        assert row.exact == pytest.approx(float(right[0].find("text").text), rel=1e-9)
+        assert row.tolerance == pytest.approx(float(right[0].find("tolerance").text), rel=5e-3)
+
+
+def test_no_slip_is_within_the_tolerance_of_the_right_answer(made):
+    assert any(one.slips for one in made.question.asked)
+    for one in made.question.asked:
+        assert all(abs(slip.value - one.value) > one.tolerance for slip in one.slips)
+        assert all(slip.words for slip in one.slips)
+
+
+def test_the_coriolis_slip_is_answered_by_name(made):
+    words = [slip.words.lower() for one in made.question.asked for slip in one.slips]
+    assert any("coriolis" in said for said in words)
+
+
+def test_the_figure_comes_along_as_a_picture(files):
+    quiz = ElementTree.fromstring(files["moodle.xml"])
+    for question in quiz.findall("question")[1:]:
+        picture = base64.b64decode(question.find("questiontext/file").text)
+        assert picture.startswith(b"\x89PNG")
+        assert "@@PLUGINFILE@@/mechanism.png" in question.find("questiontext/text").text
+
+
+def test_cloze_fields_have_the_form_that_moodle_reads(made, files):
+    quiz = ElementTree.fromstring(files["moodle.xml"])
+    text = quiz.find("question[@type='cloze']/questiontext/text").text
+    fields = re.findall(r"\{1:NUMERICAL:((?:[^}\\]|\\.)*)\}", text)
+    assert len(asked(made)) == len(fields)
+    number = r"-?\d[\d.e+-]*"
+    for field in fields:
+        first, *others = re.split(r"(?<!\\)~", field)
+        assert re.fullmatch(rf"={number}:{number}", first)
+        assert all(re.fullmatch(rf"%0%{number}:{number}#(?:[^#~}}\\]|\\.)+", other) for other in others)
+
+
+def test_gift_questions_have_the_form_that_is_published(made, files):
+    text = files["questions.gift"].decode()
+    blocks = re.findall(r"::((?:[^:\\]|\\.)+)::((?:[^{\\]|\\.)+)\{#\n(.*?)\n\}\n", text, re.DOTALL)
+    assert len(asked(made)) == len(blocks)
+    for (_, _, answers), row in zip(blocks, asked(made), strict=True):
+        first = re.match(r"=%100%(-?[\d.e+-]+):([\d.e+-]+)#", answers)
+        assert row.exact == pytest.approx(float(first[1]), rel=1e-9)
+        assert all(line.startswith("=%") for line in answers.splitlines())
+
+
+class Inputs(HTMLParser):
+    def __init__(self):
+        super().__init__()
+        self.found = {}
+
+    def handle_starttag(self, tag, attrs):
+        if tag == "pl-number-input":
+            values = dict(attrs)
+            self.found[values["answers-name"]] = float(values["atol"])
+
+
+def test_a_prairielearn_folder_asks_grades_and_answers_slips(made, files, tmp_path):
+    folder = f"prairielearn/{SCENE}"
+    info = json.loads(files[f"{folder}/info.json"])
+    assert {"uuid", "title", "topic", "type"} <= set(info)
+    inputs = Inputs()
+    inputs.feed(files[f"{folder}/question.html"].decode())
+    (tmp_path / "server.py").write_bytes(files[f"{folder}/server.py"])
+    server = runpy.run_path(str(tmp_path / "server.py"))
+    data = {"correct_answers": {}, "submitted_answers": {}, "partial_scores": {}}
+    server["generate"](data)
+    assert set(inputs.found) == set(data["correct_answers"])
+    one = next(one for one in made.question.asked if one.slips)
+    name = re.sub(r"[^A-Za-z0-9]+", "_", one.symbol)
+    data["submitted_answers"][name] = one.slips[0].value
+    server["grade"](data)
+    assert one.slips[0].words == data["partial_scores"][name]["feedback"]
+
+
+def test_a_set_of_variants_becomes_one_bank(tmp_path):
+    done = run("handout", "slider-crank-offset", "--variants", "2", "--seed", "4", "--format", "html", "--lang", "zh",
+               "--export", "moodle,gift", "--workers", "1", "-o", str(tmp_path / "set"))  # fmt: skip
+    assert 0 == done.returncode, done.stderr
+    quiz = ElementTree.parse(tmp_path / "set" / "moodle.xml").getroot()
+    assert 2 == len(quiz.findall("question[@type='cloze']"))
+    answers = {q.find("answer/text").text for q in quiz.findall("question[@type='numerical']")}
+    assert len(answers) > len(quiz.findall("question[@type='numerical']")) // 2
+    assert (tmp_path / "set" / "questions.gift").read_text().startswith("$CATEGORY")
+
+
+def test_an_unknown_platform_is_told_by_name():
+    done = run("handout", SCENE, "--export", "moodel")
+    assert 2 == done.returncode
+    assert 'did you mean "moodle"' in done.stderr
