@@ -10,7 +10,7 @@ import math
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from html import escape
+from html import escape, unescape
 from io import BytesIO
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, Literal
@@ -20,7 +20,8 @@ from numpy.typing import ArrayLike
 
 from graphkin.drawing.box import Box
 from graphkin.drawing.drawing import Kept
-from graphkin.drawing.font_widths import has_cjk
+from graphkin.drawing.embedded import face_rules, families
+from graphkin.drawing.font import FAMILY, Style, holds
 from graphkin.drawing.labels import Label, Mark, place
 from graphkin.drawing.obstacles import Obstacles
 from graphkin.drawing.page import (
@@ -35,7 +36,6 @@ from graphkin.drawing.page import (
     whole_pixels,
 )
 from graphkin.drawing.primitives import Primitive, Stroke, Text
-from graphkin.drawing.svg import FONTS
 from graphkin.drawing.text import rich
 
 if TYPE_CHECKING:
@@ -81,7 +81,7 @@ _SMALLER = {"up": 0.9, "down": 0.9, "diamond": 0.8, "square": 0.9}  # of the sid
 
 _SETTINGS = {
     "text.parse_math": True,  # powers at ticks; words never are
-    "font.family": ["STIXGeneral"],
+    "font.family": [FAMILY],
     "font.size": NUMBER * POINTS_PER_MM,
     "mathtext.fontset": "stix",
     "svg.fonttype": "none",
@@ -102,7 +102,9 @@ _SETTINGS = {
     "ytick.major.pad": 1.2 * POINTS_PER_MM,
     **{f"{axis}tick.minor.size": 0.0 for axis in "xy"},
 }
-_FAMILY = re.compile("; font-family: 'STIXGeneral'(?:, '[^']*')*")
+_FAMILY = re.compile(f"; font-family: '(?:{FAMILY}|STIXGeneral)'(?:, '[^']*')*")
+_TEXT = re.compile("<text([^>]*)>(.*?)</text>", re.DOTALL)
+_TAG = re.compile("<[^>]*>")
 
 
 @dataclass(frozen=True)
@@ -123,14 +125,16 @@ class ChartPage(Kept):
 
     def figure(self, dpi: float = 72.0) -> Figure:
         """The page as a matplotlib figure of its own, to be changed at will."""
+        faces(self._more, warn=False)
         with own_settings(**_SETTINGS):
             figure = self._painted(self.width, self.height, dpi)
             figure.draw_without_rendering()  # ticks are made where they are first drawn, with the settings of then
             return figure
 
     @property
-    def _chinese(self) -> bool:
-        return has_cjk(self.title) or self.lang.startswith("zh")
+    def _more(self) -> bool:
+        """Whether its title holds Chinese that the family lacks."""
+        return not holds(self.title)
 
     def _painted(self, width: float, height: float, dpi: float = 72.0) -> Figure:
         figure: Figure = empty_page(width, height, dpi)
@@ -138,30 +142,45 @@ class ChartPage(Kept):
         return figure
 
     def _png(self, dpi: float) -> bytes:
-        faces(self._chinese)  # warns
+        faces(self._more)  # warns
         with own_settings(**_SETTINGS):
             return figure_png(self._painted(whole_pixels(self.width, dpi), whole_pixels(self.height, dpi), dpi))
 
     def _pdf(self) -> bytes:
-        faces(self._chinese)
+        faces(self._more)
         with own_settings(**_SETTINGS):
-            return figure_pdf(self._painted(self.width, self.height), self.title, self._chinese)
+            return figure_pdf(self._painted(self.width, self.height), self.title, self._more)
 
     def _svg(self) -> bytes:
         """With the head and the faces that all figures have."""
         from matplotlib.backends.backend_svg import FigureCanvasSVG
 
         buffer = BytesIO()
+        faces(self._more, warn=False)
         with own_settings(**_SETTINGS):
             nothing = dict.fromkeys(("Date", "Creator", "Format", "Type"))
             FigureCanvasSVG(self._painted(self.width, self.height)).print_svg(buffer, metadata=nothing)
         text = _FAMILY.sub("", buffer.getvalue().decode())
         start, rest = text[text.index("<svg ") :].split(">", 1)
-        facing = f'role="img" lang="{self.lang}" xml:lang="{self.lang}" font-family="{FONTS}"'
+        name, rules = face_rules(_used(rest))
+        facing = f'role="img" lang="{self.lang}" xml:lang="{self.lang}" font-family="{families(name)}"'
         facts = json.dumps(self.metadata, ensure_ascii=False, sort_keys=True, allow_nan=False, separators=(",", ":"))
         words = {"title": self.title, "desc": self.desc, "metadata": facts}
         head = "".join(f"<{tag}>{escape(text)}</{tag}>" for tag, text in words.items() if text)
+        head += f"<style>{rules}</style>"
         return f'<?xml version="1.0" encoding="utf-8"?>\n{start} {facing}>{head}{rest}'.encode()
+
+
+def _used(svg: str) -> dict[Style, set[str]]:
+    """The characters of each face in the texts of an SVG of matplotlib."""
+    used: dict[Style, set[str]] = {"regular": set(), "italic": set(), "bold": set()}
+    for look, inner in _TEXT.findall(svg):
+        characters = set(unescape(_TAG.sub("", inner)))
+        used["regular"] |= characters
+        for style in ("italic", "bold"):
+            if style in look + inner or (style == "bold" and "700" in look):
+                used[style] |= characters
+    return used
 
 
 def add_panel(figure: Figure, box: Box, id: str, title: str = "", x_title: str = "") -> Axes:
@@ -180,8 +199,8 @@ def add_panel(figure: Figure, box: Box, id: str, title: str = "", x_title: str =
 def add_words(figure: Figure, *things: Primitive) -> None:
     """Texts, and strokes that belong to them, in mm of the page."""
     for thing in things:
-        chinese = isinstance(thing, Text) and has_cjk(thing.string)
-        ink(figure, (thing,), faces(chinese, warn=False), IN_FRONT)
+        more = isinstance(thing, Text) and not holds(thing.string)
+        ink(figure, (thing,), faces(more, warn=False), IN_FRONT)
 
 
 def add_legend(figure: Figure, at: complex, entries: Sequence[tuple[Look, str]]) -> None:
@@ -189,11 +208,12 @@ def add_legend(figure: Figure, at: complex, entries: Sequence[tuple[Look, str]])
     from matplotlib.lines import Line2D
 
     width, height = _size(figure)
+    family = faces(not all(holds(words) for _, words in entries), warn=False)
     legend = figure.legend(
         [Line2D([], [], **style) for style, _ in entries], [words for _, words in entries],
         loc="center left", bbox_to_anchor=(at.real / width, 1 - at.imag / height), ncols=len(entries), frameon=False,
         borderpad=0.0, borderaxespad=0.0, handlelength=8.0 / TITLE, handletextpad=0.5, columnspacing=2.0,
-        prop={"family": faces(any(has_cjk(words) for _, words in entries), warn=False), "size": TITLE * POINTS_PER_MM},
+        prop={"family": family, "size": TITLE * POINTS_PER_MM},
     )  # fmt: skip
     legend.set_zorder(IN_FRONT)
 

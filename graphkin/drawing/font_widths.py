@@ -1,8 +1,4 @@
-"""How wide a text is, without a font file: the advance widths of a Times-like face, and boxes of texts.
-
-The widths are the larger of STIX General's and Times', in hundredths of the size, so that a box holds its text in
-either; for the signs of arithmetic, whose width differs most, they are the mean, so that the gaps look even in both.
-"""
+"""How wide a text is, and how far its ink reaches: boxes of texts, from the glyphs in which they are set."""
 
 from __future__ import annotations
 
@@ -10,49 +6,14 @@ import unicodedata
 from functools import lru_cache
 
 from graphkin.drawing.box import Box
+from graphkin.drawing.font import EM, Style, glyph
 from graphkin.drawing.primitives import Run, Text
 
-__all__ = ["CAP_HEIGHT", "has_cjk", "is_cjk", "run_box", "runs_width", "start_runs", "text_box", "width"]
+__all__ = ["CAP_HEIGHT", "has_cjk", "is_cjk", "run_box", "runs_width", "start_runs", "style_of", "text_box", "width"]
 
-ASCENT, DESCENT = 0.70, 0.22  # of the size; accents and CJK reach further
-CJK_ASCENT = 0.86
+ASCENT, DESCENT = 0.70, 0.22  # of the size, at least; accents, roots and CJK reach further
 CAP_HEIGHT = 0.66
-_TALL = {"∥": 0.83, "√": 0.83}  # signs that reach higher
-_ROMAN = {
-    18: "'", 20: "|", 25: " ,.·", 28: "/:;\\ijltιîï", 29: "′", 33: "!()-I[]`fr‘’", 39: "Js", 40: "°", 41: '"', 43: "″",
-    44: "?acezεζàâäéèêëçå“”", 45: "ξ", 46: "ν", 47: "^γ", 48: "{}τ",
-    50: "#$*0123456789_bdghknopquvxyπθδλρκχ–ôöùûüßñø§", 51: "β", 52: "ηυ‖•", 54: "~αμ", 55: "σ", 56: "FPS÷", 58: "µ",
-    59: "Γ", 61: "ELTZ", 62: "φΣ", 60: "∥×", 63: "+<=>−", 66: "ω", 67: "BCRæ", 68: "≈≤≥±∠≠", 69: "ψ",
-    72: "ADGHKNOQUVXYwΔΠΘΛ", 74: "Ω", 75: "Ψ½", 76: "Φ", 78: "&m", 83: "%", 86: "⊥", 89: "M", 91: "∑", 92: "@",
-    93: "√∞", 94: "W", 100: "→←…—",
-}  # fmt: skip
-_ITALIC = {
-    21: "'", 25: " ,.·", 28: "/\\fijlt|ιîï", 33: "!()-:;I`‘’", 39: "[]rsz", 40: "{}°", 41: "τγ", 42: '"^″',
-    44: "Jcekvxyεéèêëç", 45: "ξζ", 46: "δλχ", 47: "ν", 48: "κυ", 49: "θ",
-    50: "#$*0123456789?S_abdghnopquπρση–àâäôöùûüßñåø§", 51: "β", 52: "•", 53: "μ", 54: "~", 55: "α",
-    56: "LTYZ“”", 58: "µ", 61: "ABEFPRVXΔΛΓ", 62: "φψΣ", 67: "CKNwæ", 68: "±÷", 70: "Ψ", 71: "ω∞∑",
-    72: "DGHOQUmΠΘ", 75: "½", 76: "ΩΦ", 78: "&", 83: "%MW", 89: "…—", 92: "@", 100: "→←",
-}  # fmt: skip
-_BOLD = {
-    22: "|", 25: " ,.·", 28: "'/\\ilîï", 31: "′", 33: "!()-:;[]`fjtι‘’", 39: "Is{}", 40: "°", 44: "cerzεéèêëç",
-    46: "ζ", 47: "ξ", 49: "τ", 50: "#$*0123456789?J_agovxy–àâäôöåø§“”", 52: "~θγδν", 55: "λρ″",
-    56: '"Sbdhknpquβùûüßñ•', 57: "σ÷", 58: "^ηκυµ", 61: "FPμχ", 63: "π", 64: "αΓ", 65: "φ", 67: "BELTZΣ",
-    72: "ACDNRUVXYwΔΛæ", 73: "ω", 75: "≈≤≥½≠", 76: "ψ", 77: "±", 78: "GHKOQΠΘ", 79: "∠", 80: "Ω", 81: "Ψ",
-    83: "&m", 84: "Φ", 91: "∑", 93: "@", 94: "M", 96: "√∞", 100: "%W→←…—",
-}  # fmt: skip
-# How far the ink of some letters reaches beyond their advance, to the left and to the right, in hundredths of the size.
-_OVER_LEFT = {15: "f", 12: "j", 8: "y", 7: "p/", 6: "A", 5: ")", 3: "xμX"}
-_OVER_RIGHT = {
-    15: "f", 11: "/", 10: "V", 9: "Y", 8: "TW", 6: "KN", 5: "HIJMUZ(", 4: "X7[", 3: "dEFτπ'",
-}  # fmt: skip
-
-
-def _by_character(table: dict[int, str]) -> dict[str, float]:
-    return {character: hundredths / 100 for hundredths, held in table.items() for character in held}
-
-
-_WIDTHS = (_by_character(_ROMAN), _by_character(_ITALIC), _by_character(_BOLD))
-_LEFT, _RIGHT = _by_character(_OVER_LEFT), _by_character(_OVER_RIGHT)
+UNKNOWN = 0.72  # of the size: the advance of a sign that no face at hand has
 
 
 def is_cjk(character: str) -> bool:
@@ -68,38 +29,48 @@ def has_cjk(text: str) -> bool:
 @lru_cache(maxsize=4096)
 def width(text: str, size: float, italic: bool = False, bold: bool = False) -> float:
     """Advance width (mm) of a text set at a size (mm)."""
-    widths = _WIDTHS[2 if bold else 1 if italic else 0]
-    roman = _WIDTHS[0]
-    total = 0.0
-    for character in text:
-        if character in widths:
-            total += widths[character]
-        elif character in roman:
-            total += roman[character]
-        elif is_cjk(character):
-            total += 1.0
-        elif not unicodedata.combining(character):
-            total += 0.72
-    return total * size
+    style = style_of(italic, bold)
+    return sum(_advance(character, style) for character in text) * size
+
+
+def style_of(italic: bool, bold: bool) -> Style:
+    """The face of a run; bold wins, for there is no bold italic."""
+    return "bold" if bold else "italic" if italic else "regular"
+
+
+@lru_cache(maxsize=8192)
+def _advance(character: str, style: Style) -> float:
+    found = glyph(character, style)
+    if found is not None:
+        return found.advance / EM
+    return 1.0 if is_cjk(character) else 0.0 if unicodedata.combining(character) else UNKNOWN
 
 
 def run_box(run: Run) -> Box:
     """Box of one run about its text's own point: from ascender to descender, from start to advance, and further where
     slanted letters reach further."""
-    before, ascent, after = _reach(run.text, run.italic)
+    before, ascent, after, descent = _reach(run.text, style_of(run.italic, run.bold))
     return Box(
         run.x - before * run.size,
         run.y - ascent * run.size,
         run.x + width(run.text, run.size, run.italic, run.bold) + after * run.size,
-        run.y + DESCENT * run.size,
+        run.y + descent * run.size,
     )
 
 
 @lru_cache(maxsize=4096)
-def _reach(text: str, italic: bool) -> tuple[float, float, float]:
-    """How far ink reaches beyond the start, above the baseline and beyond the advance, in sizes."""
-    ascent = max((CJK_ASCENT if has_cjk(text) else ASCENT, *(_TALL[sign] for sign in _TALL if sign in text)))
-    return (_LEFT.get(text[:1], 0.0), ascent, _RIGHT.get(text[-1:], 0.0)) if italic else (0.0, ascent, 0.0)
+def _reach(text: str, style: Style) -> tuple[float, float, float, float]:
+    """How far ink reaches beyond the start, above the baseline, beyond the advance and below the baseline, in sizes."""
+    found = [g for c in text if (g := glyph(c, style)) is not None]
+    if not found:
+        return 0.0, ASCENT, 0.0, DESCENT
+    first, last = found[0], found[-1]
+    return (
+        max(0, -first.box[0]) / EM,
+        max(ASCENT, *(g.box[3] / EM for g in found)),
+        max(0, last.box[2] - last.advance) / EM,
+        max(DESCENT, *(-g.box[1] / EM for g in found)),
+    )
 
 
 def runs_width(runs: tuple[Run, ...]) -> float:

@@ -1,7 +1,7 @@
 """Drawings as PDF and PNG at true size, from the same primitives as the SVG, the same bytes every time.
 
-Only this module and the charts know matplotlib.  Latin and Greek are set in STIX General, which comes with matplotlib;
-Chinese in the first known Chinese face of the machine.
+Only this module and the charts know matplotlib.  Letters are those of the SVG; Chinese beyond them is set in the first
+known Chinese face of the machine.
 """
 
 from __future__ import annotations
@@ -16,7 +16,8 @@ from io import BytesIO
 from threading import RLock, local
 from typing import TYPE_CHECKING
 
-from graphkin.drawing.font_widths import has_cjk, start_runs
+from graphkin.drawing.font import FAMILY, FOLDER, holds
+from graphkin.drawing.font_widths import start_runs
 from graphkin.drawing.primitives import Arc, Circle, Group, Line, Page, Polygon, Polyline, Primitive, Text, walk
 
 if TYPE_CHECKING:
@@ -129,15 +130,15 @@ def pdf_bytes(drawing: Page, *further: Page) -> bytes:
     MissingFont : once, where one holds Chinese and the machine has no face for it
     """
     pages = drawing, *further
-    chinese = any(map(_holds_cjk, pages))
-    family = faces(chinese)
+    more = any(map(_needs_more, pages))
+    family = faces(more)
     with own_settings():
         inked = []
         for page in pages:
             figure = empty_page(page.width, page.height)
             ink(figure, page.children, family)
             inked.append(figure)
-        return figure_pdf(inked[0], drawing.title, chinese, *inked[1:])
+        return figure_pdf(inked[0], drawing.title, more, *inked[1:])
 
 
 def png_bytes(drawing: Page, dpi: float = 200.0) -> bytes:
@@ -147,7 +148,7 @@ def png_bytes(drawing: Page, dpi: float = 200.0) -> bytes:
     -----
     MissingFont : as ``pdf_bytes``
     """
-    family = faces(_holds_cjk(drawing))
+    family = faces(_needs_more(drawing))
     with own_settings():
         figure = empty_page(whole_pixels(drawing.width, dpi), whole_pixels(drawing.height, dpi), dpi)
         ink(figure, drawing.children, family)
@@ -181,7 +182,7 @@ def ink(figure: Figure, children: tuple[Primitive, ...], family: list[str], orde
             _add_shape(figure, thing, page, place)
 
 
-def figure_pdf(figure: Figure, title: str, chinese: bool, *further: Figure) -> bytes:
+def figure_pdf(figure: Figure, title: str, more: bool, *further: Figure) -> bytes:
     """Figures as a PDF without a date, a page each."""
     from matplotlib.backends.backend_pdf import FigureCanvasPdf, PdfPages
 
@@ -189,7 +190,7 @@ def figure_pdf(figure: Figure, title: str, chinese: bool, *further: Figure) -> b
     facts = {"Title": title or None, "CreationDate": None, "Producer": None, "Creator": "graphkin"}
     # Chinese faces mostly hold PostScript outlines, which do not fit into a TrueType (42) font of a PDF; as Type 3 any
     # outlines do.  TrueType is what printers ask for, so it is used wherever it can be.
-    with own_settings(**{"pdf.fonttype": 3 if chinese else 42}), PdfPages(buffer, metadata=facts) as pages:
+    with own_settings(**{"pdf.fonttype": 3 if more else 42}), PdfPages(buffer, metadata=facts) as pages:
         for page in (figure, *further):
             page.patch.set_visible(False)
             FigureCanvasPdf(page).print_pdf(pages)
@@ -275,25 +276,45 @@ def _add_text(figure: Figure, text: Text, page: Transform, order: int, family: l
         )
 
 
-def _holds_cjk(drawing: Page) -> bool:
-    return any(isinstance(thing, Text) and has_cjk(thing.string) for thing in walk(drawing.children))
+def _needs_more(drawing: Page) -> bool:
+    """Whether a drawing holds Chinese that the family lacks."""
+    return not all(holds(thing.string) for thing in walk(drawing.children) if isinstance(thing, Text))
 
 
-def faces(chinese: bool, warn: bool = True) -> list[str]:
-    """Faces in the order in which a glyph is looked for.  Warns MissingFont."""
-    if not chinese:
-        return ["STIXGeneral"]
+def faces(more: bool, warn: bool = True) -> list[str]:
+    """Faces in the order in which a glyph is looked for; ``more`` where Chinese is wanted that the family lacks.  Warns
+    MissingFont."""
+    _register()
+    if not more:
+        return [FAMILY, _UPRIGHT]
     face = _chinese_face()
     if face is not None:
-        return ["STIXGeneral", face]
+        return [FAMILY, _UPRIGHT, face]
     if warn:
         warnings.warn(
-            "no Chinese font is installed, so Chinese words in PDF and PNG are empty boxes; "
-            "install one (Debian: fonts-noto-cjk) or take the SVG",
+            "no Chinese font is installed, so Chinese words in PDF and PNG that graphkin's own font lacks are empty "
+            "boxes; install one (Debian: fonts-noto-cjk)",
             MissingFont,
             stacklevel=3,
         )
-    return ["STIXGeneral"]
+    return [FAMILY, _UPRIGHT]
+
+
+_UPRIGHT = f"{FAMILY} Upright"  # so that what a bold or italic face lacks is found there, as in an SVG
+
+
+@lru_cache(maxsize=1)
+def _register() -> None:
+    """Make the family known to matplotlib, in this process."""
+    from matplotlib.font_manager import FontEntry, fontManager
+
+    looks = {"regular": ("normal", 400), "italic": ("italic", 400), "bold": ("normal", 700)}
+    for name, (style, weight) in looks.items():
+        path = str(FOLDER / f"{name}.ttf")
+        fontManager.ttflist.append(FontEntry(path, name=FAMILY, style=style, weight=weight, size="scalable"))
+    for style, weight in looks.values():
+        path = str(FOLDER / "regular.ttf")
+        fontManager.ttflist.append(FontEntry(path, name=_UPRIGHT, style=style, weight=weight, size="scalable"))
 
 
 @lru_cache(maxsize=1)

@@ -14,7 +14,9 @@ from itertools import chain, count
 from typing import Any
 from zlib import crc32
 
-from graphkin.drawing.font_widths import has_cjk, runs_width, start_runs
+from graphkin.drawing.embedded import face_rules, families
+from graphkin.drawing.font import Style
+from graphkin.drawing.font_widths import has_cjk, runs_width, start_runs, style_of, width
 from graphkin.drawing.primitives import (
     Arc,
     Circle,
@@ -29,13 +31,8 @@ from graphkin.drawing.primitives import (
     class_names,
 )
 
-__all__ = ["FONTS", "number", "svg_bytes"]
+__all__ = ["number", "svg_bytes"]
 
-# Times and its twins, then faces that have the signs of mathematics, then Chinese serif faces of Linux, macOS, Windows.
-FONTS = (
-    "'Times New Roman', 'Liberation Serif', Times, 'STIX Two Text', STIXGeneral, 'Cambria Math', 'DejaVu Serif', "
-    "'Noto Serif CJK SC', 'Source Han Serif SC', 'Songti SC', SimSun, serif"
-)
 # What XML 1.0 cannot hold, and other control characters.
 _UNFIT = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\ud800-\udfff\ufffe\uffff]")
 _MARKUP = re.compile('[&<>"\\r\\n\\t]')
@@ -58,13 +55,14 @@ def number(value: float) -> str:
     return "0" if text == "-0" else text
 
 
-def svg_bytes(drawing: Page, debug: bool = False) -> bytes:
+def svg_bytes(drawing: Page, debug: bool = False, embed: bool = True) -> bytes:
     """The drawing as an SVG file, UTF-8.
 
     Parameters
     ----------
     drawing : sizes and places in mm
     debug : have svgwrite check every element and attribute against the SVG standard (slow; for tests)
+    embed : whether the used glyphs come with it; not where a page holds them for all its figures
 
     Raises
     ------
@@ -79,7 +77,6 @@ def svg_bytes(drawing: Page, debug: bool = False) -> bytes:
     page["xmlns:inkscape"] = _INKSCAPE
     page["role"] = "img"
     page["lang"] = page["xml:lang"] = drawing.lang
-    page["font-family"] = FONTS
     page["stroke-linejoin"] = "round"
     page["text-rendering"] = "geometricPrecision"
     page.elements.remove(page.defs)  # empty; the title comes first
@@ -88,11 +85,17 @@ def svg_bytes(drawing: Page, debug: bool = False) -> bytes:
     for tag, words in (("title", drawing.title), ("desc", drawing.desc), ("metadata", facts)):
         if words:
             page.elements.append(ink.made(tag, {}, _clean(words)))
+    places = len(page.elements)
     # white paper, so that black lines show on a dark screen too
     whole = {"x": "0", "y": "0", "width": "100%", "height": "100%"}
     page.add(ink.made("rect", {**whole, "fill": "#ffffff", "class": "paper"}))
     for child in drawing.children:
         ink.draw(page, child)
+    if embed:
+        name, rules = face_rules(ink.used)
+        page["font-family"] = families(name)
+        if rules:
+            page.elements.insert(places, ink.made("style", {}, rules))
     text: str = page.tostring() if debug else _written(page)
     return f'<?xml version="1.0" encoding="utf-8"?>\n{text}\n'.encode()
 
@@ -105,6 +108,7 @@ class _Ink:
         self.made = partial(_element_class(), page)
         self.clips: set[str] = set()
         self.ids: set[str] = set()
+        self.used: dict[Style, set[str]] = {"regular": set(), "italic": set(), "bold": set()}
 
     def draw(self, parent: Any, thing: Primitive) -> None:
         element = parent.add(self._element(thing))
@@ -163,12 +167,16 @@ class _Ink:
             look["xml:lang"] = "zh"
         element = self.made("text", look)
         for run, (x, y) in zip(runs, places, strict=True):
-            face = {"x": x, "y": y, "font-size": number(run.size)}
+            words = _clean(run.text)
+            self.used[style_of(run.italic, run.bold)].update(words)
+            long = number(width(words, run.size, run.italic, run.bold))
+            face = {"x": x, "y": y, "font-size": number(run.size), "textLength": long}
+            face["lengthAdjust"] = "spacingAndGlyphs"
             if run.italic:
                 face["font-style"] = "italic"
             if run.bold:
                 face["font-weight"] = "bold"
-            element.add(self.made("tspan", face, _clean(run.text)))
+            element.add(self.made("tspan", face, words))
         return element
 
     def _named(self, id: str, classes: tuple[str, ...]) -> dict[str, str]:

@@ -5,9 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 from dataclasses import replace
-from html import escape
+from html import escape, unescape
 
 from graphkin.drawing.drawing import Drawing
+from graphkin.drawing.font import Style
 from graphkin.drawing.primitives import Group, Line, Primitive, Stroke
 from graphkin.drawing.svg import svg_bytes
 from graphkin.drawing.text import Atom, is_italic, parsed
@@ -26,13 +27,14 @@ from graphkin.papers.blocks import (
 )
 from graphkin.words import word
 
-__all__ = ["blocks_html", "figure_svg", "said_html", "words_html"]
+__all__ = ["blocks_html", "figure_svg", "said_html", "used_characters", "words_html"]
 
 HIT = 3.0  # mm
 _PROLOG = re.compile(r"^<\?xml[^>]*\?>\s*")
 _LAYER = re.compile(r' inkscape:(?:groupmode|label)="[^"]*"| xmlns:(?:inkscape|ev|xlink)="[^"]*"| baseProfile="[^"]*"')
 _ID = re.compile(r' id="[^"]*"')
 _LAYER_ID = re.compile(r' id="(?:construction|mechanism|velocity|acceleration|centres|answers|labels)"')
+_LENGTH = re.compile(' (?:lengthAdjust|textLength)="[^"]*"')  # the page has the faces, and many thousands of runs
 _DATA = re.compile(r"<(metadata|title|desc)>.*?</\1>", re.DOTALL)
 
 
@@ -67,14 +69,34 @@ def figure_svg(drawing: Drawing, named: bool = False) -> str:
     """
     children = tuple(map(_dashed, drawing.children))
     bare = replace(drawing, metadata={}, children=tuple(map(_wide, children)) if named else children)
-    text = _PROLOG.sub("", svg_bytes(bare).decode()).strip()
+    text = _PROLOG.sub("", svg_bytes(bare, embed=False).decode()).strip()
     head, body = text.split(">", 1)
-    head = _LAYER.sub("", re.sub(r' font-family="[^"]*"', "", head))  # the page's style names the faces
-    body = _LAYER.sub("", _DATA.sub("", body))
+    head = _LAYER.sub("", head)
+    body = _LENGTH.sub("", _LAYER.sub("", _DATA.sub("", body)))
     body = (_LAYER_ID if named else _ID).sub("", body)
     body = body.replace(" />", "/>")
     label = escape(clean(re.sub(r"\s+", " ", f"{drawing.title}. {drawing.desc}".strip(". "))))
     return f'{head} aria-label="{label}" focusable="false">{body}'
+
+
+_BOLD = re.compile(
+    r'<(h[1-6]|th)\b.*?</\1>|<tr class="asked">.*?</tr>|<tspan[^>]*font-weight="bold".*?</tspan>', re.DOTALL
+)
+_ITALIC = re.compile(r'<(i)>.*?</\1>|<tspan[^>]*font-style="italic".*?</tspan>', re.DOTALL)
+_TAG = re.compile("<[^>]*>")
+_UNSEEN = re.compile(r"<(style|title|desc)\b.*?</\1>", re.DOTALL)
+
+
+def used_characters(body: str) -> dict[Style, set[str]]:
+    """The characters of a page in each face in which it shows them; the same for figures that a script holds."""
+    plain = _UNSEEN.sub("", unescape(body.replace("\\u003c", "<").replace("\\u003e", ">").replace('\\"', '"')))
+    found = {
+        style: {c for match in pattern.finditer(plain) for c in _TAG.sub("", match[0])}
+        for style, pattern in (("italic", _ITALIC), ("bold", _BOLD))
+    }
+    seen = set(_TAG.sub("", plain))
+    letters = {c for c in seen if c.isalpha() and ord(c) < 0x400}
+    return {"regular": seen, "italic": found["italic"] | letters, "bold": found["bold"]}
 
 
 def _dashed(thing: Primitive) -> Primitive:

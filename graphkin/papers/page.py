@@ -23,6 +23,7 @@ from graphkin.drawing.centre_marks import centre_marks, near_box
 from graphkin.drawing.centres import background
 from graphkin.drawing.conventions import scale_statement
 from graphkin.drawing.drawing import Drawing
+from graphkin.drawing.embedded import face_rules, families
 from graphkin.drawing.headings import FIGURE_WORDS, drivers, term
 from graphkin.drawing.insets import polygon_with_insets, strip_height
 from graphkin.drawing.mechanism import mechanism_piece
@@ -30,7 +31,7 @@ from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_p
 from graphkin.drawing.polygon_on_page import extent
 from graphkin.drawing.stepwise import births, stepped
 from graphkin.papers.blocks import Document, Heading, Said, clean, said
-from graphkin.papers.html import blocks_html, figure_svg, said_html, words_html
+from graphkin.papers.html import blocks_html, figure_svg, said_html, used_characters, words_html
 from graphkin.papers.lesson import Lesson, Stage, plain_words
 from graphkin.papers.pictures import ROOM, equation_picture
 from graphkin.papers.problem import given, scene_title
@@ -270,11 +271,13 @@ def handout_page(lesson: Lesson, views: Sequence[View], start: int = 0, progress
 def _page(document: Document, body: str, script: str = "") -> str:
     paper = document.paper
     # in millimetres, since CSS has no names for papers larger than A3
-    style = _file("page.css") + f"@page {{ size: {paper.width:g}mm {paper.height:g}mm }}\n"
+    name, rules = face_rules(used_characters(body))
+    style = rules + _file("page.css").replace("FAMILIES", families(name).replace("'", '"'))
+    style += f"@page {{ size: {paper.width:g}mm {paper.height:g}mm }}\n"
     allowed = f"'{_hash(script)}'" if script else "'none'"
     policy = (
         f"default-src 'none'; style-src '{_hash(style)}'; script-src {allowed}; "
-        "img-src data:; base-uri 'none'; form-action 'none'"
+        "font-src data:; img-src data:; base-uri 'none'; form-action 'none'"
     )
     tail = f"\n<script>{script}</script>" if script else ""
     return f"""<!DOCTYPE html>

@@ -14,10 +14,10 @@ import warnings
 from functools import lru_cache
 from importlib.resources import files
 from importlib.util import find_spec
-from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
 from graphkin.drawing.drawing import Drawing
+from graphkin.drawing.font import FAMILY, FOLDER
 from graphkin.drawing.font_widths import start_runs
 from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Primitive, Stroke, Text, walk
 from graphkin.drawing.text import Atom, is_italic, parsed
@@ -45,7 +45,6 @@ Data: TypeAlias = dict[str, object]
 """What the template reads, as JSON holds it."""
 
 SAG = 0.002  # mm: how far a chord may lie off its arc
-LATIN = "STIXGeneral"  # comes with matplotlib, so that every machine sets the same letters
 CHINESE = (
     "Noto Serif CJK SC", "Noto Serif SC", "Source Han Serif SC", "Source Han Serif CN", "Songti SC", "SimSun", "STSong",
     "Noto Serif CJK JP", "Noto Sans CJK SC", "Source Han Sans SC", "Noto Sans SC", "PingFang SC", "Microsoft YaHei",
@@ -94,12 +93,11 @@ def pdf(document: Document) -> bytes:
 @lru_cache(maxsize=1)
 def _fonts() -> tuple[list[str], typst.Fonts]:
     """Names of the faces in the order of liking, and the faces found, read once."""
-    import matplotlib
     import typst
 
-    fonts = typst.Fonts(font_paths=[str(Path(matplotlib.get_data_path()) / "fonts" / "ttf")])
+    fonts = typst.Fonts(font_paths=[str(FOLDER)])
     known = set(fonts.families())
-    return [name for name in (LATIN, *CHINESE, *SIGNS) if name in known], fonts
+    return [name for name in (FAMILY, *CHINESE, *SIGNS) if name in known], fonts
 
 
 def _block(block: Block) -> Data:

@@ -161,7 +161,7 @@ def test_a_missing_chinese_font_is_one_warning_and_no_failure(monkeypatch):
     monkeypatch.setattr(page, "_chinese_face", lambda: None)
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
-        pdf_bytes(CHINESE)
+        pdf_bytes(Drawing(60.0, 30.0, (Text(5 + 15j, rich("鑫")),), lang="zh"))
     assert [MissingFont] == [warning.category for warning in caught]
 
 

@@ -1,0 +1,174 @@
+"""The one family in which figures are set, read from its files: glyphs, advances, and parts of it to be embedded.
+
+``fonts`` holds it as three TrueType files (made by figures/make_fonts.py).  What a figure needs of a face is put
+together here from its finished glyphs, since the subsetter of fontTools takes twenty times as long and a drawing wants
+a dozen of such parts (The OpenType specification: glyf, loca, cmap 12, head).
+"""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache, cached_property, lru_cache
+from pathlib import Path
+from typing import Literal
+
+__all__ = ["EM", "FAMILY", "FOLDER", "Glyph", "Style", "glyph", "holds", "part"]
+
+FAMILY = "Graphkin Serif"
+FOLDER = Path(__file__).parent / "fonts"
+EM = 1000
+Style = Literal["regular", "italic", "bold"]
+
+
+@dataclass(frozen=True)
+class Glyph:
+    """A glyph: how far the next stands from it, and its outline, in thousandths of the size.
+
+    ``outline`` is a simple glyph of a glyf table, empty for a blank.
+    """
+
+    advance: int
+    outline: bytes
+
+    @property
+    def box(self) -> tuple[int, int, int, int]:
+        """xMin, yMin, xMax, yMax."""
+        left, low, right, high = struct.unpack(">4h", self.outline[2:10]) if self.outline else (0, 0, 0, 0)
+        return left, low, right, high
+
+
+class _Face:
+    """One file of the family."""
+
+    def __init__(self, style: Style) -> None:
+        self.data = (FOLDER / f"{style}.ttf").read_bytes()
+        (count,) = struct.unpack(">H", self.data[4:6])
+        records = struct.iter_unpack(">4s3I", self.data[12 : 12 + 16 * count])
+        self.places = {tag.decode(): (offset, length) for tag, _, offset, length in records}
+
+    def table(self, tag: str) -> bytes:
+        offset, length = self.places[tag]
+        return self.data[offset : offset + length]
+
+    @cached_property
+    def codes(self) -> Mapping[int, int]:
+        """Number of the glyph of each character: the files hold their characters in order, without gaps."""
+        cmap = self.table("cmap")
+        (start,) = struct.unpack(">I", cmap[8:12])
+        count = struct.unpack(">H", cmap[start + 6 : start + 8])[0] // 2
+        ends = struct.unpack(f">{count}H", cmap[start + 14 : start + 14 + 2 * count])
+        starts = struct.unpack(f">{count}H", cmap[start + 16 + 2 * count : start + 16 + 4 * count])
+        held = [code for low, high in zip(starts, ends, strict=True) if low < 0xFFFF for code in range(low, high + 1)]
+        return {code: number for number, code in enumerate(held, 1)}
+
+    @cached_property
+    def advances(self) -> tuple[int, ...]:
+        count = int.from_bytes(self.table("hhea")[34:36], "big")
+        pairs = struct.iter_unpack(">Hh", self.table("hmtx")[: 4 * count])
+        wide = tuple(int(advance) for advance, _ in pairs)
+        return wide + wide[-1:] * (len(self.codes) + 1 - count)
+
+    @cached_property
+    def offsets(self) -> tuple[int, ...]:
+        loca = self.table("loca")
+        if struct.unpack(">h", self.table("head")[50:52])[0]:
+            return tuple(int(place) for (place,) in struct.iter_unpack(">I", loca))
+        return tuple(2 * half for half in struct.unpack(f">{len(loca) // 2}H", loca))
+
+    def glyph(self, code: int) -> Glyph | None:
+        number = self.codes.get(code)
+        if number is None:
+            return None
+        start = self.places["glyf"][0]
+        outline = self.data[start + self.offsets[number] : start + self.offsets[number + 1]]
+        return Glyph(self.advances[number], outline)
+
+
+@cache
+def _face(style: Style) -> _Face:
+    return _Face(style)
+
+
+@lru_cache(maxsize=4096)
+def holds(text: str) -> bool:
+    """Whether the family has all Chinese characters of a text."""
+    return all(ord(c) <= 0x2E7F or ord(c) in _face("regular").codes for c in text)
+
+
+@lru_cache(maxsize=8192)
+def glyph(character: str, style: Style = "regular") -> Glyph | None:
+    """A glyph of the family; of a face of this machine where the family has none of a Chinese character, and None
+    where no face is at hand."""
+    own = _face(style).glyph(ord(character))
+    if own is None and style != "regular":
+        own = _face("regular").glyph(ord(character))
+    if own is None and ord(character) > 0x2E7F:
+        from graphkin.drawing.machine_font import machine_glyph
+
+        found = machine_glyph(character, EM)
+        return Glyph(*found) if found is not None else None
+    return own
+
+
+@lru_cache(maxsize=256)
+def part(style: Style, characters: str) -> bytes:
+    """A TrueType file of a face with only these characters; the same bytes every time."""
+    held = [(ord(c), g) for c in sorted(set(characters)) if (g := glyph(c, style)) is not None]
+    glyphs = [Glyph(500, b""), *(g for _, g in held)]
+    outlines = [g.outline + b"\0" * (-len(g.outline) % 4) for g in glyphs]
+    ends = [0]
+    for outline in outlines:
+        ends.append(ends[-1] + len(outline))
+    base = _face(style)
+    head, hhea, maxp = bytearray(base.table("head")), bytearray(base.table("hhea")), bytearray(base.table("maxp"))
+    head[8:12], head[50:52] = b"\0\0\0\0", b"\0\1"
+    hhea[34:36] = maxp[4:6] = struct.pack(">H", len(glyphs))
+    sides = (g.box[0] for g in glyphs)
+    return _packed({
+        "OS/2": base.table("OS/2"),
+        "cmap": _cmap([code for code, _ in held]),
+        "glyf": b"".join(outlines),
+        "head": bytes(head),
+        "hhea": bytes(hhea),
+        "hmtx": b"".join(struct.pack(">Hh", g.advance, side) for g, side in zip(glyphs, sides, strict=True)),
+        "loca": struct.pack(f">{len(ends)}I", *ends),
+        "maxp": bytes(maxp),
+        "name": base.table("name"),
+        "post": base.table("post"),
+    })  # fmt: skip
+
+
+def _cmap(codes: list[int]) -> bytes:
+    """Characters to glyphs 1, 2, 3 ... in their order."""
+    groups: list[list[int]] = []
+    for number, code in enumerate(codes, 1):
+        if groups and groups[-1][1] == code - 1:
+            groups[-1][1] = code
+        else:
+            groups.append([code, code, number])
+    body = b"".join(struct.pack(">3I", *group) for group in groups)
+    return struct.pack(">HHHHIHHIII", 0, 1, 3, 10, 12, 12, 0, 16 + len(body), 0, len(groups)) + body
+
+
+def _packed(tables: Mapping[str, bytes]) -> bytes:
+    """Tables as one file, with their sums."""
+    count = len(tables)
+    power = count.bit_length() - 1
+    directory = struct.pack(">I4H", 0x00010000, count, 16 << power, power, 16 * count - (16 << power))
+    offset = 12 + 16 * count
+    records, bodies = [], []
+    for tag, table in tables.items():
+        body = table + b"\0" * (-len(table) % 4)
+        records.append(struct.pack(">4s3I", tag.encode(), _sum(body), offset, len(table)))
+        bodies.append(body)
+        offset += len(body)
+    whole = directory + b"".join((*records, *bodies))
+    place = struct.unpack(">I", records[list(tables).index("head")][8:12])[0] + 8
+    return whole[:place] + struct.pack(">I", (0xB1B0AFBA - _sum(whole)) & 0xFFFFFFFF) + whole[place + 4 :]
+
+
+def _sum(data: bytes) -> int:
+    words: tuple[int, ...] = struct.unpack(f">{len(data) // 4}I", data)
+    return sum(words) & 0xFFFFFFFF
