@@ -94,18 +94,30 @@ class Plot:
                     grown = True
         return still
 
-    def measured(self, arm: complex, between: Sequence[str]) -> float:
-        """A length of the mechanism (m) between two points, read off the drawing.
+    def length(self, arm: complex, between: Sequence[str]) -> float:
+        """The length (m) between two points of the mechanism that lie ``arm`` apart on paper: given where one link has
+        both, else read off the drawing.
 
         Raises
         ------
         Unsolvable : "not drawn": the two lie so near to each other that the instrument reads nothing
         """
+        given = self._given_arm(*between)
+        if given is not None:
+            return abs(given)
         read = self.board.instrument.read(abs(arm))
         if read == 0.0:
             found = f"{abs(arm):.2g} mm on paper are too short to be read"
             raise Unsolvable("not drawn", Problem("".join(between), found, "draw the mechanism larger"))
         return read * self.scales.length
+
+    def _given_arm(self, start: str, end: str) -> complex | None:
+        """From one point to another of the same link, in its own axes (m); None where no link has both, or they are
+        one point."""
+        for link in self.links.values():
+            if start in link.points and end in link.points and link.points[start] != link.points[end]:
+                return link.points[end] - link.points[start]
+        return None
 
     def end(self, order: Order, ref: PointRef) -> complex:
         """The end point of a node, found by image if it does not stand there yet; the pole for a fixed point."""
@@ -163,10 +175,14 @@ class Plot:
         bar = self.places[b.point] - self.places[a.point]
         if abs(bar) <= self.tiny or (order, name) in self.believed:
             start = refs[0]  # a fixed point, if the link has one
-            at = self._by_rates(order, ends[start], here - self.places[start.point], name)
+            at = self._by_rates(order, ends[start], (start.point, ref.point), name)
             self._reach_by(order, ref, at, ByRate(self.label(ref), self.label(start), name))
             return
-        ratio = (here - self.places[a.point]) / bar
+        own = self.links[name].points
+        if {a.point, b.point, ref.point} <= own.keys():  # the shape of the link is given
+            ratio = (own[ref.point] - own[a.point]) / (own[b.point] - own[a.point])
+        else:
+            ratio = (here - self.places[a.point]) / bar
         at = self.board.instrument.point(ends[a] + (ends[b] - ends[a]) * ratio)
         on_line = abs(ratio.imag) < 1e-9
         stroke = Bar(ends[a], at, name) if on_line else Image(name, (ends[a], ends[b], at))
@@ -183,13 +199,16 @@ class Plot:
     def _on(self, ref: PointRef, name: str) -> bool:
         return ref.link == name or (not ref.link and ref.point in self.links[name].points)
 
-    def _by_rates(self, order: Order, start: complex, arm: complex, name: str) -> complex:
+    def _by_rates(self, order: Order, end: complex, between: tuple[str, str], name: str) -> complex:
         """From one end point to another of the same link by its measured rates."""
+        drawn = self.places[between[1]] - self.places[between[0]]
+        given = self._given_arm(*between)
+        arm = drawn * self.scales.length if given is None else drawn / abs(drawn) * abs(given)  # m
         omega = self.rates["velocity"][name].value
         if order == "velocity":
-            return start + 1j * omega * arm * (self.scales.length / self.scales.velocity)
+            return end + 1j * omega * arm / self.scales.velocity
         alpha = self.rates["acceleration"][name].value
-        return start + (1j * alpha - omega**2) * arm * (self.scales.length / self.scales.acceleration)
+        return end + (1j * alpha - omega**2) * arm / self.scales.acceleration
 
 
 def letter(order: Order) -> str:

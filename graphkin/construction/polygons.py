@@ -262,7 +262,7 @@ class Polygons(Plot):
         vector = self.drawn[order][symbol]
         arm = self.places[edge.end.point] - self.places[edge.start.point]
         read = self.board.instrument.read(abs(vector.span))
-        size = abs(read) * self.scales.of(order) / self.measured(arm, bar(edge))
+        size = abs(read) * self.scales.of(order) / self.length(arm, bar(edge))
         sense = 1.0 if cross(arm, vector.span) >= 0 else -1.0
         rate = RATE[order]
         own = self.slip.rate(Symbol(rate, link=edge.link), sense * size)

@@ -41,12 +41,12 @@ def _rigid_parts(plot: Plot, order: Order, edge: Edge) -> list[Component]:
     rate = None if edge.unknown else plot.rates[order].get(edge.link)
     role: Literal["resultant", "relative"] = "resultant" if plot.fixed(edge.start) else "relative"
     if order == "velocity":
-        span = None if rate is None else square * (rate.value * plot.measured(arm, name) / plot.scales.velocity)
+        span = None if rate is None else square * (rate.value * plot.length(arm, name) / plot.scales.velocity)
         size = RateTimes("omega", (edge.link,), name) if span is not None else None
         return [Component(symbol_of(plot, "v", edge), role, square, span, edge.direction, size)]
     slip = plot.end("velocity", edge.end) - plot.end("velocity", edge.start)
     speed = plot.board.instrument.read(abs(slip)) * plot.scales.velocity
-    arm_m = plot.measured(arm, name)
+    arm_m = plot.length(arm, name)
     inward = -unit(arm)
     normal = Component(
         symbol_of(plot, "an", edge),
@@ -108,7 +108,7 @@ def _weld_parts(plot: Plot, order: Order, edge: Edge, weld: Weld) -> list[Compon
     speed, rate = plot.given[weld.driver.key]
     omega, alpha = way * turn_sign(weld) * speed, way * turn_sign(weld) * rate
     name = (hinge, edge.end.point)
-    arm_m = plot.measured(arm, name)
+    arm_m = plot.length(arm, name)
     square = 1j * unit(arm)
     if order == "velocity":
         span = square * (omega * arm_m / plot.scales.velocity)

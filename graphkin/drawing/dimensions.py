@@ -224,6 +224,7 @@ LENGTHS = "dimensions"  # id of their group
 OFFSETS = (6.0, -6.0, 9.0, -9.0, 12.5, -12.5, 17.0, -17.0, 22.0, -22.0)  # mm from the bar
 LEAST, SHORTEST = 9.0, 5.0  # mm: a shorter bar, or distance in the frame, gets no dimension
 BESIDE = 6.5  # mm from the mechanism to the dimensions of the frame
+NEAR = 0.5  # mm: so near to its given place a hand has drawn what is fixed
 SIZE = 2.8
 ANGLE_RADII = (10.0, 13.0, 16.0)
 
@@ -299,6 +300,9 @@ def _frame(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts]:
                 level.append(slider.at.conjugate() - GUIDE_LENGTH / 2 + 4.0)
             elif abs(slider.along.real) < 1e-9:
                 plumb.append(slider.at.conjugate() + 1j * (GUIDE_LENGTH / 2 - 4.0))
+    fixed = [*scene.frame.points.values(), *(guide.through for guide in scene.frame.guides.values())]
+    mm = 1.0 / sheet.scales.length
+    given = [z.real * mm for z in fixed], [-z.imag * mm for z in fixed]
     xs = _levels([*spots, *plumb], lambda z: z.real)
     ys = _levels([*spots, *level], lambda z: z.imag)
     content = room.content
@@ -315,7 +319,8 @@ def _frame(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts]:
                 _extension(z, foot + beyond) for (_, z), foot in zip(levels, feet, strict=True)
             ]
             for (a, p), (b, q) in pairwise(zip((level for level, _ in levels), feet, strict=True)):
-                parts += dimension(p, q, 0.0, rich(number((b - a) * per_mm, 5), SIZE))
+                value = (_given(b, given[upright]) - _given(a, given[upright])) * per_mm
+                parts += dimension(p, q, 0.0, rich(number(value, 5), SIZE))
             choices.append(tuple(parts))
         return _drawn(room, choices, len(levels))
 
@@ -326,6 +331,12 @@ def _frame(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts]:
             yield whole
         else:
             yield from (parts for pair in wide for parts in (chain(pair, upright),) if parts is not None)
+
+
+def _given(level: float, given: Sequence[float]) -> float:
+    """What the problem gives for a level (mm on paper) that a hand has drawn."""
+    near = min(given, key=lambda own: abs(own - level), default=level)
+    return near if abs(near - level) < NEAR else level
 
 
 def _angles(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts]:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from graphkin.construction.sheet import Equation, Rate, Sheet, Term
-from graphkin.construction.steps import Given, MeasuredRate
+from graphkin.construction.steps import Given, LaidOff, MeasuredRate
 from graphkin.drawing import strokes
 from graphkin.drawing.conventions import Letters, rows_of
 from graphkin.drawing.font_widths import run_box, runs_width
@@ -190,7 +190,9 @@ def _short(sheet: Sheet, equation: Equation, letters: Letters) -> str | None:
     if only.size and not isinstance(only.size, Given):
         parts.append(f"${letters.size(only.size)}$")
     unit = sheet.scene.units.length + ("/s" if equation.diagram == "velocity" else "/s²")
-    value = abs(vector.span) * sheet.scales.of(equation.diagram) / sheet.scene.units.metres
+    laid_off = (s.act.mm for s in sheet.steps if isinstance(s.act, LaidOff) and s.act.symbol == only.symbol)
+    # what is given is not what a hand has made of it
+    value = next(laid_off, abs(vector.span)) * sheet.scales.of(equation.diagram) / sheet.scene.units.metres
     parts.append(f"{number(value, 5)} {unit}")
     way = letters.direction(only.direction, sheet.scene.frame.name)
     return " = ".join(parts) + (f",  ${way}$" if way else "")

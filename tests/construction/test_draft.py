@@ -228,7 +228,10 @@ def test_a_sheet_drawn_by_hands_that_err_is_not_had_at_another_scale():
         sheet.at(Scales(1.0, 1.0, 1.0))
 
 
-def test_a_bar_that_a_drafting_program_reads_as_nothing_is_refused_by_name():
+V_B = Symbol.parse("v_B")
+
+
+def test_a_given_length_is_taken_as_given_however_short_it_is_on_paper():
     mapping = {
         "frame": {"points": {"A": [0, 0], "D": [400, 0]}},
         "links": {
@@ -238,6 +241,21 @@ def test_a_bar_that_a_drafting_program_reads_as_nothing_is_refused_by_name():
         },
         "driver": {"link": "1", "angle": 60, "omega": 3},
         "sketch": {"C": [400, 150]},
+    }
+    sheet = draft(mechanism_of(mapping), instrument=Cad())
+    assert 3e-6 == pytest.approx(abs(sheet.vectors("velocity")[V_B].span) * sheet.scales.velocity, rel=1e-12)
+
+
+def test_a_found_arm_that_a_drafting_program_reads_as_nothing_is_refused_by_name():
+    mapping = {
+        "frame": {"points": {"A": [0, 0], "C": [100, 0]}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 100.001},
+            "2": {"points": ["B"], "on": "3.s"},
+            "3": {"points": ["C"], "guides": {"s": {"through": "C", "angle": 0}}},
+        },
+        "driver": {"link": "1", "angle": 0, "omega": 3},
+        "sketch": {"B": [100.001, 0]},
     }
     with pytest.raises(Unsolvable, match="too short to be read"):
         draft(mechanism_of(mapping), instrument=Cad())
