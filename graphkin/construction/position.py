@@ -24,6 +24,7 @@ from graphkin.words import Phrase
 
 __all__ = ["Branches", "branches_at", "choose", "draw_position", "place", "start_board"]
 
+TOUCH = 2e-14  # loci that miss each other by less, in their own size, touch
 DEAD = 1e-7  # sine of a crossing below which a group is at a dead point
 TURNS = 720  # positions looked at on the way round
 MOST = 12.0  # turns, or as much of another driver's way
@@ -189,7 +190,10 @@ def _follow(
         start = gaps(np.zeros(1))[0]
         lines = element.is_two_lines
         way = math.copysign(1.0, start) if lines else 1.0
-        passage = follow(lambda t, way=way, gaps=gaps: way * gaps(t), grid, flips=not lines)  # type: ignore[misc]
+        passage = follow(
+            lambda t, way=way, gaps=gaps: way * gaps(t),  # type: ignore[misc]
+            grid, flips=not lines, touch=TOUCH,
+        )
         if passage.limit is not None:
             return branches, passage.limit
         signs[i] = passage.flips

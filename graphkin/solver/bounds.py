@@ -92,7 +92,7 @@ class ErrorFormulas:
         assert isinstance(element, Driven | Dyad)  # larger groups: graphkin.solver.group_errors
         bases = _bases(element)
         inherited = self._driven_error(element) if isinstance(element, Driven) else self._dyad_errors(i, element)
-        rounding = Rounding(self.graph, self._error, self.unit, self._given(bases))
+        rounding = Rounding(self.graph, self.error_of, self.unit, self._given(bases))
         return {name: error + self._own(self.program.poses[name], rounding) for name, error in inherited.items()}
 
     def _given(self, links: Iterable[str]) -> set[int]:
@@ -147,7 +147,8 @@ class ErrorFormulas:
             found |= {name: carried(error, pose, within(self._rest, inner)) for name, inner in shape.items()}
         return found
 
-    def _error(self, x: Real) -> Real:
+    def error_of(self, x: Real) -> Real:
+        """How far a number that is given may be off."""
         name = x.line[1]
         if name[0] in ("size", "sign", "unit", "reach"):
             return self.graph.const(0)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from itertools import product
@@ -11,11 +11,12 @@ from itertools import product
 import numpy as np
 
 from graphkin.errors import GraphkinError, Problem, Unsolvable
-from graphkin.scene.model import AngleDriver
+from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.solver.assemblies import choose_forms
+from graphkin.solver.closing import Discriminant, newton, touch
 from graphkin.solver.decimals import PI, meant_value, working
 from graphkin.solver.dyads import DyadSolution
-from graphkin.solver.engine import extended_precision_of, positions
+from graphkin.solver.engine import positions
 from graphkin.solver.joints import Drive, driver_text
 from graphkin.solver.pose import Array
 from graphkin.structure import Cluster, Dyad, Structure, analyse
@@ -26,9 +27,9 @@ __all__ = ["DeadPoint", "dead_points", "from_dead_point", "nearest_dead_point"]
 GRID = 1440
 FAR = 4.0
 MOST_GROUPS = 6
-SMALL = Decimal(10) ** -20
-LAST_DIGITS = Decimal(10) ** -48
 TOUCH = 1e-9
+NOTHING = Decimal(10) ** -36
+STEP = Decimal(10) ** -12
 BESIDE = 0.01
 SAME = 1e-9
 
@@ -66,9 +67,15 @@ def dead_points(structure: Structure, near: float = 0.0) -> list[DeadPoint]:
         for chosen in product((1.0, -1.0), repeat=k):
             signs = dict(zip(dyads, chosen, strict=False))
             for point in _of_group(structure, i, signs, _grid(structure, near)):
-                if not any(p.element == i and p.signs == signs and abs(p.value - point.value) < SAME for p in found):
+                if not any(p.element == i and p.signs == signs and _same(structure, p, point) for p in found):
                     found.append(point)
     return found
+
+
+def _same(structure: Structure, one: DeadPoint, two: DeadPoint) -> bool:
+    off = float(one.value - two.value)
+    turning = isinstance(structure.scene.drivers[0], AngleDriver)
+    return abs(math.remainder(off, 2 * math.pi) if turning else off) < SAME
 
 
 def not_searched(structure: Structure) -> tuple[str, ...]:
@@ -90,7 +97,8 @@ def nearest_dead_point(structure: Structure, i: int, signs: Mapping[int, float],
 def _grid(structure: Structure, near: float) -> Array:
     turning = isinstance(structure.scene.drivers[0], AngleDriver)
     wide = math.pi if turning else FAR * structure.scene.size
-    return np.asarray(near + wide * np.linspace(-1, 1, GRID + 1))
+    # a step more on both sides, for what lies at the ends
+    return np.asarray(near + wide * np.arange(-GRID // 2 - 1, GRID // 2 + 2) / (GRID // 2))
 
 
 def _of_group(structure: Structure, i: int, signs: Mapping[int, float], grid: Array) -> Iterator[DeadPoint]:
@@ -108,27 +116,52 @@ def _of_group(structure: Structure, i: int, signs: Mapping[int, float], grid: Ar
     value = gap(grid)
     group = structure.elements[i]
     two_sided = isinstance(group, Dyad) and group.is_two_lines
+    touched: set[int] = set()
+    for k in range(1, len(grid) - 1):
+        before, here, after = value[k - 1], value[k], value[k + 1]
+        if np.isfinite(before + here + after) and abs(here) <= min(before, after) and here < max(before, after):
+            about, least = _least(gap, float(grid[k - 1]), float(grid[k + 1]))
+            if abs(least) < TOUCH:
+                touched |= {k - 1, k}
+                yield from _touching(structure, i, signs, about)
     for k in range(len(grid) - 1):
         one, two = value[k], value[k + 1]
-        if not (np.isfinite(one) and np.isfinite(two)):
+        if k in touched or not (np.isfinite(one) and np.isfinite(two)) or (one > 0) == (two > 0):
             continue
-        if (one > 0) != (two > 0):
-            low, high = (k, k + 1) if one > 0 else (k + 1, k)
-            about = last_true(lambda x: gap(x) > 0, float(grid[low]), float(grid[high]))
-            sides = (-1, 1) if two_sided else ((-1,) if low < high else (1,))
-            exact = _root(structure, i, signs, about)
-        elif k > 0 and 0 <= one <= min(value[k - 1], two) and one < max(value[k - 1], two):
-            about, least = _least(gap, float(grid[k - 1]), float(grid[k + 1]))
-            if not abs(least) < TOUCH:
-                continue
-            sides, exact = (-1, 1), _touch(structure, i, signs, about)
-        else:
-            continue
+        low, high = (k, k + 1) if one > 0 else (k + 1, k)
+        about = last_true(lambda x: gap(x) > 0, float(grid[low]), float(grid[high]))
+        sides = (-1, 1) if two_sided else ((-1,) if low < high else (1,))
+        exact = newton(_gap(structure, i, signs), about)
         if exact is not None:
             yield DeadPoint(exact, i, signs, sides)
 
 
+def _touching(structure: Structure, i: int, signs: Mapping[int, float], about: float) -> Iterator[DeadPoint]:
+    """Where the discriminant of a group comes to zero without sixteen digits telling whether it goes below: one change
+    point, or two ends of the motion close to each other, or none."""
+    gap = _gap(structure, i, signs)
+    place = touch(gap, about)
+    if place is None:
+        return
+    with working():
+        least, doubt = gap.with_doubt([place])
+        if abs(least) <= max(doubt, NOTHING):
+            yield DeadPoint(place, i, signs, (-1, 1))
+        elif least < 0:
+            step = STEP
+            bend = (gap(place + step) + gap(place - step) - 2 * least) / (step * step)
+            away = (-2 * least / bend).sqrt() if bend > 0 else Decimal(0)
+            for side in (-1, 1) if away else ():
+                exact = newton(gap, place + side * away)
+                if exact is not None:
+                    yield DeadPoint(exact, i, signs, (side,))
+
+
 _ONE = np.asarray(1.0)
+
+
+def _gap(structure: Structure, i: int, signs: Mapping[int, float]) -> Discriminant:
+    return Discriminant(structure, i, {j: np.asarray(s) for j, s in signs.items()})
 
 
 def _least(function: Callable[[Array], Array], low: float, high: float) -> tuple[float, float]:
@@ -138,47 +171,6 @@ def _least(function: Callable[[Array], Array], low: float, high: float) -> tuple
         k = int(np.nanargmin(value))
         low, high = float(at[max(k - 1, 0)]), float(at[min(k + 1, 8)])
     return float(at[k]), float(value[k])
-
-
-class _Gap:
-    """The discriminant of a group in fifty digits."""
-
-    def __init__(self, structure: Structure, i: int, signs: Mapping[int, float]) -> None:
-        forms = {**{j: np.asarray(s) for j, s in signs.items()}, i: _ONE}
-        self.extended = extended_precision_of(
-            structure, forms, ("discriminant", i), lambda program: [program.groups[i].discriminant]
-        )
-
-    def __call__(self, value: Decimal) -> Decimal:
-        return self.extended.row(0, {0: value})[0]
-
-
-def _root(structure: Structure, i: int, signs: Mapping[int, float], about: float) -> Decimal | None:
-    """Newton's method on the discriminant, its derivative by differences."""
-    gap = _Gap(structure, i, signs)
-    return _newton(lambda x: gap(x), about)
-
-
-def _touch(structure: Structure, i: int, signs: Mapping[int, float], about: float) -> Decimal | None:
-    """Where the discriminant is least: its derivative is zero."""
-    gap = _Gap(structure, i, signs)
-    step = SMALL.sqrt()
-    return _newton(lambda x: (gap(x + step) - gap(x - step)) / (2 * step), about)
-
-
-def _newton(function: Callable[[Decimal], Decimal], about: float) -> Decimal | None:
-    with working():
-        x = Decimal(about)
-        try:
-            for _ in range(60):
-                slope = (function(x + SMALL) - function(x - SMALL)) / (2 * SMALL)
-                move = function(x) / slope
-                x = x - move
-                if abs(move) < LAST_DIGITS * (1 + abs(x)):
-                    return x if abs(x) > 100 * LAST_DIGITS else Decimal(0)
-        except ArithmeticError:
-            return None
-    return None
 
 
 def from_dead_point(structure: Structure) -> Structure:
@@ -195,28 +187,31 @@ def from_dead_point(structure: Structure) -> Structure:
     with working():
         distance = meant_value(driver, dead.distance)
     side = 1 if distance > 0 else -1
+    known: list[tuple[DeadPoint, int]] = []
     found: list[tuple[DeadPoint, Structure]] = []
     for point in dead_points(structure, dead.near or 0.0):
-        if side in point.sides:
+        for way in point.sides:
             with working():
-                value = point.value + distance
+                value = point.value + way * abs(distance)
             here = _at(structure, value)
             try:
                 forms = choose_forms(here)
             except GraphkinError:
                 continue
             if all(float(forms[j]) == s for j, s in point.signs.items()):
-                found.append((point, here))
-    names = ", ".join(driver_text(scene, driver, float(p.value)) for p, _ in found)
+                known.append((point, way))
+                found += [(point, here)] if way == side else []
     what = f'driver "{driver.key}"'
+    listed = _listed(scene, known)
     if not found:
         how = "begins" if side > 0 else "ends"
-        wanted = "change the sign of the distance, or give the value itself"
+        wanted = "change the sign of the distance, or give the value itself" + listed
         missing = not_searched(structure)
         if missing:
             wanted += f"; links {', '.join(missing)} were not looked at, they stand behind {MOST_GROUPS} other groups"
         raise Unsolvable("dead point", Problem(what, f"there is no dead point at which the motion {how}", wanted))
     if dead.near is None and len(found) > 1:
+        names = ", ".join(driver_text(scene, driver, float(p.value)) for p, _ in found)
         raise Unsolvable("dead point", Problem(what, f"there are dead points at {names}",
                                                "write near = ... to tell which one"))
     turn = float(2 * PI) if isinstance(driver, AngleDriver) else math.inf
@@ -225,7 +220,27 @@ def from_dead_point(structure: Structure) -> Structure:
         off = abs(float(point.value) - (dead.near or 0.0))
         return min(off, abs(turn - off))
 
-    return min(found, key=lambda pair: away(pair[0]))[1]
+    taken = min(found, key=lambda pair: away(pair[0]))
+    nearest, way = min(known, key=lambda pair: (away(pair[0]), pair[1] != side))
+    if dead.near is not None and away(nearest) < away(taken[0]) - SAME:
+        wish, at = (driver_text(scene, driver, x) for x in (dead.near, float(nearest.value)))
+        how = "begins" if way > 0 else "ends"
+        raise Unsolvable("dead point", Problem(
+            what, f"the dead point nearest to near = {wish} is at {at}, where the motion {how}: there is nothing on "
+            "this side of it", "change the sign of the distance, or near" + listed))
+    return taken[1]
+
+
+def _listed(scene: Mechanism, known: Sequence[tuple[DeadPoint, int]]) -> str:
+    """The dead points of a scene in words, and what the motion does there."""
+    ends: dict[str, list[int]] = {}
+    for point, way in known:
+        ends.setdefault(driver_text(scene, scene.drivers[0], float(point.value)), []).append(way)
+    said = [
+        f"{at} (the motion passes)" if len(set(ways)) > 1 else f"{at} (it {'begins' if ways[0] > 0 else 'ends'} there)"
+        for at, ways in ends.items()
+    ]
+    return f"; dead points: {', '.join(said)}" if said else ""
 
 
 def _at(structure: Structure, value: Decimal) -> Structure:

@@ -86,11 +86,16 @@ def positions(
 
 
 def extended_precision_of(
-    structure: Structure, forms: Mapping[int, Array], key: Hashable, choose: Callable[[Program], list[Real]]
+    structure: Structure,
+    forms: Mapping[int, Array],
+    key: Hashable,
+    choose: Callable[[Program], list[Real]],
+    drive: Drive | None = None,
 ) -> ExtendedPrecision:
-    """What computes some formulas of a mechanism of dyads in fifty digits, at any value of its drivers."""
+    """What computes some formulas of a mechanism of dyads in fifty digits, at positions of its drivers (its own), or at
+    any values of them."""
     own = np.array([[d.values[0] for d in structure.scene.drivers]])
-    run = _Run(structure, Drive.at(structure, own), forms, False, False, True)
+    run = _Run(structure, drive or Drive.at(structure, own), forms, False, False)
     program = run.dimensioned.program
     return run._extended(program.code(key, choose(program)))
 
@@ -105,7 +110,7 @@ class _Run:
         forms: Mapping[int, Array],
         rates: bool,
         sure: bool,
-        fine: bool,
+        fine: bool = True,
     ) -> None:
         self.structure, self.drive, self.forms = structure, drive, forms
         self.rates, self.sure, self.fine = rates, sure, fine

@@ -13,6 +13,7 @@ import numpy as np
 from graphkin.errors import GraphkinError, Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.solver.assemblies import choose_forms, own_values
+from graphkin.solver.closing import closes
 from graphkin.solver.dead_points import from_dead_point, nearest_dead_point
 from graphkin.solver.decimals import meant_value
 from graphkin.solver.dyads import DyadSolution
@@ -28,6 +29,8 @@ __all__ = ["assembly_words", "limit_why", "singular", "structure_of", "without_s
 
 OPEN = 1e-9
 CERTIFIED = 0.5
+CLOSE = 1e-9
+"""Where a discriminant is less, sixteen digits may not tell on which side of a limit a position lies."""
 WEAK = 1e-3
 """Sine below which a group is near its dead point."""
 HAIR, FAR_OFF = 1e-7, 1e2
@@ -63,6 +66,7 @@ def without_singular(
     status, why : as far as known
     """
     status, reasons = status.copy(), list(why)
+    _beyond_limits(structure, state, values, forms, status, reasons)
     for i, dead in singular(structure, state, len(status)):
         for k in np.flatnonzero(dead & (status == "ok")):
             own = {j: f[k : k + 1] for j, f in forms.items()}
@@ -70,6 +74,40 @@ def without_singular(
             status[k] = "not assembled" if apart else "dead point"
             reasons[k] = apart or _dead_why(structure, i, values[k], own)
     return status, reasons
+
+
+def _beyond_limits(
+    structure: Structure, state: State, values: Array, forms: Mapping[int, Array], status: Array, reasons: list[str]
+) -> None:
+    """Positions so near to a limit of the motion that sixteen digits do not tell on which side: refused where fifty
+    digits say that the links do not reach each other, put on the limit where the file leaves it open.
+
+    ``status`` and ``reasons`` are changed.
+    """
+    n = len(status)
+    for i, solved in state.groups.items():
+        group = structure.elements[i]
+        if not isinstance(solved, DyadSolution) or not isinstance(group, Dyad) or group.is_two_lines:
+            continue
+        discriminant = np.broadcast_to(solved.discriminant, (n,))
+        near = np.flatnonzero((np.abs(discriminant) < CLOSE) & (status == "ok"))
+        if not len(near):
+            continue
+        own = {j: np.broadcast_to(f, (n, *np.shape(f)[1:]))[near] for j, f in forms.items() if j <= i}
+        if any(isinstance(e, Cluster) for e in structure.elements[:i]):
+            side, left_open = np.where(discriminant[near] < 0, -1, 1), np.zeros(len(near), dtype=bool)
+        else:
+            one = np.ones((len(near), values.shape[1]))
+            side, left_open = closes(structure, i, own, Drive(values[near], one, 0 * one))
+        for k, s, either in zip(near.tolist(), side.tolist(), left_open.tolist(), strict=True):
+            here = {j: f[k : k + 1] for j, f in forms.items() if j <= i}
+            if s < 0:
+                names = ", ".join(group.links)
+                said = f"links {names} do not reach each other here, just beyond the end of their motion"
+                status[k], reasons[k] = "not assembled", said + _where(structure, i, values[k], here)
+            elif either:
+                said = ", as far as the digits of the file tell"
+                status[k], reasons[k] = "dead point", _dead_why(structure, i, values[k], here) + said
 
 
 def _apart(structure: Structure, i: int, values: Array, forms: Mapping[int, Array]) -> str:

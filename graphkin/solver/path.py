@@ -13,6 +13,7 @@ from functools import cached_property
 import numpy as np
 
 from graphkin.scene.model import SlideDriver
+from graphkin.solver.closing import least_closes
 from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import positions
 from graphkin.solver.joints import Drive
@@ -277,7 +278,13 @@ def _follow_dyad(path: Path, i: int, dyad: Dyad, sign: float, grid: Array) -> Pa
         assert isinstance(solved, DyadSolution)
         return np.broadcast_to(solved.discriminant, t.shape)
 
-    passage = follow(discriminant, grid, flips=not dyad.is_two_lines)
+    def least(t: float) -> tuple[float, int] | None:
+        if any(isinstance(e, Cluster) for e in path.structure.elements[:i]):
+            return None
+        forms = path.form(_off_flips(path.flips, np.array([t])))
+        return least_closes(path.structure, i, forms, path.start.tolist(), path.end.tolist(), t)
+
+    passage = follow(discriminant, grid, flips=not dyad.is_two_lines, least_closes=least)
     limit, by = (path.limit, path.by) if passage.limit is None else (passage.limit, i)
     flips = np.sort(np.append(path.flips, passage.flips))
     return replace(path, forms={**path.forms, i: _signed(sign, passage)}, flips=flips, limit=limit, by=by)

@@ -144,7 +144,13 @@ class Passage:
         return np.where(np.searchsorted(self.flips, t) % 2, -1.0, 1.0)
 
 
-def follow(discriminant: Callable[[Reals], Reals], grid: Reals, flips: bool = True) -> Passage:
+def follow(
+    discriminant: Callable[[Reals], Reals],
+    grid: Reals,
+    flips: bool = True,
+    touch: float = TOUCH,
+    least_closes: Callable[[float], tuple[float, int] | None] | None = None,
+) -> Passage:
     """Follow one discriminant along a path.
 
     Parameters
@@ -152,21 +158,26 @@ def follow(discriminant: Callable[[Reals], Reals], grid: Reals, flips: bool = Tr
     discriminant : function of path parameters, shape (n,), to values, shape (n,), scaled to have no unit
     grid : increasing parameters, fine enough that the discriminant has at most one least value between three of them
     flips : False where a touch of zero ends the motion too (two lines that become parallel)
+    touch : a least value within this of zero may be a touch
+    least_closes : what tells more exactly where the discriminant is least near a parameter, and whether it is positive
+        (1), zero (0) or negative (-1) there; None where it cannot
     """
     value = discriminant(grid)
     touches: list[float] = []
     for i in range(len(grid)):
-        if value[i] < -TOUCH:
+        if value[i] < -touch:
             return Passage(_end(discriminant, 0.0, grid[max(i - 1, 0)], grid[i]), np.array(touches))
         before, after = max(i - 1, 0), min(i + 1, len(grid) - 1)
         change = max(abs(value[before] - value[i]), abs(value[after] - value[i]))
         if value[before] < value[i] or value[after] < value[i] or value[i] > change:
             continue
         where, least = _least(discriminant, grid[before], grid[after])
-        if least > TOUCH or where <= grid[0] + START or where >= grid[-1]:
+        exact = least_closes(where) if least_closes and flips and abs(least) <= touch else None
+        where, sign = exact or (where, None)
+        if least > touch or where <= grid[0] + START or where >= grid[-1] or sign == 1:
             continue
-        if least < -TOUCH or not flips:
-            floor = 0.0 if least < -TOUCH else TOUCH
+        if least < -touch or not flips or sign == -1:
+            floor = touch if not flips and least >= -touch else 0.0
             return Passage(_end(discriminant, floor, grid[before], where), np.array(touches))
         if not touches or where > touches[-1] + 1e-6:
             touches.append(where)

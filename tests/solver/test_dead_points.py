@@ -10,7 +10,7 @@ import pytest
 
 import graphkin
 from graphkin.errors import Unsolvable
-from graphkin.scene import mechanism_of_text
+from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.solver import Motion, solve, structure_of
 from graphkin.solver.dead_points import dead_points
 from tests import scenes
@@ -118,3 +118,43 @@ def test_every_public_function_takes_such_a_scene() -> None:
     given = graphkin.solve(mechanism_of_text(text, "scene")).motion
     assert np.degrees(given.scene.drivers[0].values[0]) == pytest.approx(85.0)
     assert graphkin.check(mechanism_of_text(text, "scene")).ok
+
+
+NEAR = """
+[frame]
+points = { A = [0, 0] }
+guides = { h = { through = [0, -35.712], angle = 0 } }
+[links.1]
+points = ["A", "B"]
+length = 154.5
+[links.2]
+points = ["B", "C"]
+length = 76.571073
+[links.3]
+points = ["C"]
+on     = "0.h"
+[driver]
+link  = "1"
+from  = "dead point"
+near  = -46.6
+angle = -1
+omega = 10
+"""
+
+
+def test_the_nearest_dead_point_is_refused_with_the_list_where_the_motion_lies_on_its_other_side() -> None:
+    with pytest.raises(Unsolvable, match=r"nearest to near = -46.6 deg is at -46.6147.* begins.*dead points: .*15.33"):
+        structure_of(mechanism_of_text(NEAR, "near"))
+
+
+def test_the_dead_point_nearest_to_the_wish_is_taken() -> None:
+    driver = structure_of(mechanism_of_text(NEAR.replace("angle = -1", "angle = 1"), "near")).scene.drivers[0]
+    # the pin is as far below the guide's foot as the rod reaches: asin((-35.712 - 76.571073) / 154.5), one degree on
+    assert math.asin((-35.712 - 76.571073) / 154.5) + math.radians(1) == pytest.approx(driver.values[0], abs=1e-14)
+
+
+@pytest.mark.parametrize("near", [0, 180])
+def test_a_change_point_is_a_dead_point_to_start_from(near: float) -> None:
+    driver = {"link": "1", "from": "dead point", "near": near, "angle": -1, "omega": 10}
+    found = structure_of(mechanism_of(scenes.four_bar(50, 100, 50, 100, driver=driver))).scene.drivers[0]
+    assert math.radians(near - 1) == pytest.approx(found.values[0], abs=1e-14)
