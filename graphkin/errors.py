@@ -29,8 +29,9 @@ class Problem:
     wanted: str = ""
 
     def __str__(self) -> str:
-        tail = f"; {self.wanted}" if self.wanted else ""
-        return printable(f"{self.where}: {self.found}{tail}")
+        text = printable(f"{self.where}: {self.found}")
+        # what would be right may be several lines, to be pasted
+        return "; ".join([text, "\n".join(map(printable, self.wanted.split("\n")))] if self.wanted else [text])
 
 
 class GraphkinError(Exception):

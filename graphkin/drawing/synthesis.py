@@ -325,7 +325,7 @@ def choice_chart(
     def paint(figure: Figure) -> None:
         add_words(figure, Text(complex(8.0, 10.0), rich(title, 4.0, bold=True)))
         box = Box(20.0, 22.0, CHART_WIDTH - 8.0, CHART_HEIGHT - 16.0)
-        axes = add_panel(figure, box, "choice", f"{word('least transmission', language)} (°)",
+        axes = add_panel(figure, box, "choice", f"{word('least angle', language)} (°)",
                          f"{word(f'datum {key}', language)} ({design.units.length})")  # fmt: skip
         axes.set_xlim(low, high)
         top = 5.0 * math.ceil((float(np.nanmax(y)) + 3.0) / 5.0)
