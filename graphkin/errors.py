@@ -9,8 +9,12 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 from difflib import get_close_matches
+from typing import Any
 
-__all__ = ["CallError", "GraphkinError", "Problem", "SceneError", "Unsolvable", "did_you_mean", "printable"]
+__all__ = [
+    "CallError", "GraphkinError", "Problem", "SceneError", "Unsolvable", "as_list", "as_text", "did_you_mean",
+    "printable",
+]  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -87,6 +91,29 @@ def printable(text: str) -> str:
     'a title \\\\x1b[2J'
     """
     return _CONTROL.sub(lambda found: found[0].encode("unicode_escape", "surrogatepass").decode(), text)
+
+
+def as_text(where: str, value: object) -> str:
+    """What a caller gives as a name: a text, or what stands for one.  Raises CallError for numbers, lists and nothing.
+
+    >>> as_text("link", "2")
+    '2'
+    """
+    if not isinstance(value, str) and not type(value).__module__.startswith("graphkin."):  # a symbol
+        raise CallError(Problem(where, f"found {value!r:.60}", "give a name as a text"))
+    return str(value)
+
+
+def as_list(where: str, value: object, wanted: str) -> list[Any]:
+    """What a caller gives one after the other; a text stands for itself alone.  Raises CallError for what is no list.
+
+    >>> as_list("find", ("v_B", "v_C"), "give symbols"), as_list("find", "v_B", "give symbols")
+    (['v_B', 'v_C'], ['v_B'])
+    """
+    try:
+        return [value] if isinstance(value, str) else list(value)  # type: ignore[call-overload]
+    except TypeError:
+        raise CallError(Problem(where, f"found {value!r:.60}", wanted)) from None
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import platform
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -11,9 +10,19 @@ from typing import IO
 
 from graphkin.errors import CallError, Problem
 
-__all__ = ["folder_alone", "whole_file"]
+__all__ = ["folder_alone", "path_of", "whole_file"]
 
 _LOCK = ".graphkin-writes-here"
+
+
+def path_of(place: str | os.PathLike[str]) -> Path:
+    """A path as callers give it.  Raises CallError for what is none."""
+    path: object = None
+    with suppress(TypeError):
+        path = os.fspath(place)
+    if not isinstance(path, str) or "\0" in path:
+        raise CallError(Problem("path", f"found {place!r:.60}", "give the name of a file or folder as a text"))
+    return Path(path)
 
 
 @contextmanager
@@ -52,6 +61,8 @@ def folder_alone(folder: Path) -> Iterator[None]:
         found = f"another graphkin is writing into it{f' ({who})' if who else ''}"
         raise CallError(Problem(str(folder), found, "wait until it has done, or give another folder with -o"))
     try:
+        import platform
+
         with suppress(OSError):  # a full disk: then nobody is named
             os.write(handle, f"process {os.getpid()} on {platform.node()}\n".encode())
         yield

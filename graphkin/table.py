@@ -28,7 +28,7 @@ from typing import IO, TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.errors import CallError, Problem, as_text, did_you_mean
 
 if TYPE_CHECKING:
     import pandas
@@ -78,7 +78,8 @@ class Column:
         said = all(getattr(self, k) == getattr(other, k) for k in ("name", "unit", "symbol", "form"))
         return said and np.array_equal(one, two, equal_nan=floats)
 
-    __hash__ = None  # type: ignore[assignment]
+    def __hash__(self) -> int:
+        return hash((self.name, self.unit, len(self.values)))
 
     @property
     def head(self) -> str:
@@ -147,6 +148,7 @@ class Table:
 
     def __getitem__(self, name: str) -> Array:
         """The values of a column by its name, or by its head.  Raises CallError for an unknown one."""
+        name = as_text("name", name)
         return self.column(name).values
 
     def column(self, name: str) -> Column:
@@ -307,9 +309,9 @@ class Table:
         ------
         CallError : another ending, pyarrow is missing for .parquet, or a place that cannot be written
         """
-        from graphkin.files import whole_file
+        from graphkin.files import path_of, whole_file
 
-        target = Path(path)
+        target = path_of(path)
         kind = target.suffix.lower()
         if kind not in (".csv", ".parquet", ".json", ".html"):
             raise CallError(Problem(str(path), f'"{kind}" is no table', "known here: .csv, .parquet, .json, .html"))

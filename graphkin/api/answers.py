@@ -8,11 +8,11 @@ import os
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 
 from graphkin.api.arguments import asked_symbols
 from graphkin.checking.printed import Printed, stated
 from graphkin.errors import CallError, Problem
+from graphkin.files import path_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import KINDS, Symbol
 
@@ -67,6 +67,10 @@ def as_answers(scene: Mechanism, given: AnswersLike) -> tuple[tuple[Answers, ...
     CallError : everything that is wrong with the table, by line and column
     """
     if isinstance(given, Mapping):
+        strange = [name for name, values in given.items() if not isinstance(values, Mapping)]
+        if strange:
+            found = f"found {given[strange[0]]!r:.60}"
+            raise CallError(Problem(f"answers of {strange[0]}", found, 'give {"v_D": 480}'))
         heads = list(dict.fromkeys(s for values in given.values() for s in values))
         rows = [(i, (name, *(_text(v.get(h, "")) for h in heads))) for i, (name, v) in enumerate(given.items(), 1)]
         return _answers(scene, Rows(("person", *heads), tuple(rows)), "answers")
@@ -80,7 +84,7 @@ def table_of(path: str | os.PathLike[str]) -> Rows:
     """
     shown = str(path)[:200]
     try:
-        with Path(path).open("rb") as stream:
+        with path_of(path).open("rb") as stream:
             data = stream.read(LARGEST + 1)
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)

@@ -12,7 +12,7 @@ from numbers import Integral, Real
 from pathlib import Path
 from typing import get_args
 
-from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.errors import CallError, Problem, as_list, did_you_mean
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
 from graphkin.scene.source import SceneLike, mechanism_of
 from graphkin.scene.symbol import Symbol, missing_names
@@ -31,6 +31,7 @@ __all__ = [
     "driver_values",
     "for_paper",
     "known_words",
+    "may_be_called",
     "own_unit",
     "whole_number",
     "write_files",
@@ -44,7 +45,7 @@ ON_SHEETS = (*LANGUAGES, BOTH)
 
 
 def known_words(
-    formats: Sequence[str] | None = None,
+    formats: Sequence[str] = FORMATS[:1],
     language: str | None = None,
     convention: str | None = None,
     instrument: str | None = None,
@@ -60,9 +61,8 @@ def known_words(
     """
     if isinstance(formats, str):
         raise CallError(Problem("format", f'"{formats}" is a text', f'give a list: ["{formats}"]'))
-    if formats is not None and not isinstance(formats, Iterable):
-        raise CallError(Problem("format", f"found {formats!r:.60}", f"give a list: {', '.join(known_formats)}"))
-    wishes = [("format", word, known_formats) for word in formats or ()]
+    formats = as_list("format", formats, f"give a list: {', '.join(known_formats)}")
+    wishes: list[tuple[str, object, Sequence[str]]] = [("format", word, known_formats) for word in formats]
     wishes += [
         (where, word, known)
         for where, word, known in (
@@ -72,8 +72,12 @@ def known_words(
         )
         if word is not None
     ]
-    wrong = [Problem(where, f'"{w}"', did_you_mean(str(w), known)) for where, w, known in wishes if w not in known]
-    if formats is not None and not formats:
+    wrong = [
+        Problem(where, f'"{w!s:.60}"', did_you_mean(str(w)[:60], known))
+        for where, w, known in wishes
+        if not isinstance(w, str) or w not in known
+    ]
+    if not formats:
         wrong.append(Problem("format", "none given", f"known here: {', '.join(known_formats)}"))
     if wrong:
         raise CallError(*wrong)
@@ -91,6 +95,12 @@ def whole_number(where: str, value: object, least: int, most: int, what: str = "
 At = float | Mapping[str, float] | None
 MOST_DRAWN = 20
 MOST_SEED = 10**18
+
+
+def may_be_called(where: str, function: object) -> None:
+    """Refuse what cannot be called, where a function is wanted or None.  Raises CallError."""
+    if function is not None and not callable(function):
+        raise CallError(Problem(where, f"found {function!r:.60}", "give a function, or leave it out"))
 
 
 def as_scene(scene: SceneLike) -> Mechanism:
@@ -159,10 +169,8 @@ def asked_symbols(scene: Mechanism, find: str | Symbol | Iterable[str | Symbol] 
     """
     if find is None:
         return scene.find
-    if not isinstance(find, Iterable):
-        raise CallError(Problem("find", f"found {find!r:.60}", 'give symbols: ["v_B", "omega_3"]'))
     found, problems = [], []
-    for text in [find] if isinstance(find, str | Symbol) else find:
+    for text in [find] if isinstance(find, Symbol) else as_list("find", find, 'give symbols: ["v_B", "omega_3"]'):
         try:
             symbol = text if isinstance(text, Symbol) else Symbol.parse(str(text))
         except ValueError as error:

@@ -18,7 +18,8 @@ from graphkin.checking.printed import printed_values
 from graphkin.checking.readings import predict
 from graphkin.checking.slips import Evidence, ValuesElsewhere
 from graphkin.construction import plan
-from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.errors import CallError, Problem, as_text, did_you_mean
+from graphkin.files import path_of
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.words import say, word
@@ -89,6 +90,7 @@ class Audited(Result):
 
     def __getitem__(self, name: str) -> tuple[Judged, ...]:
         """What was judged of a symbol, one for each person who gave it.  Raises CallError for one that nobody gave."""
+        name = as_text("name", name)
         judged = [j for _, own in self.people for j in own]
         found = tuple(j for j in judged if str(j.printed.symbol) == name)
         if not found:
@@ -105,7 +107,7 @@ class Audited(Result):
 
     def write(self, folder: str | os.PathLike[str]) -> list[Path]:
         """Write audit.csv into a folder.  Raises CallError where it cannot be written."""
-        return write_files(Path(folder), {"audit.csv": self.table.csv().encode("utf-8-sig")})
+        return write_files(path_of(folder), {"audit.csv": self.table.csv().encode("utf-8-sig")})
 
     def __repr__(self) -> str:
         return (

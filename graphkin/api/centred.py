@@ -25,7 +25,8 @@ from graphkin.api.results import Result
 from graphkin.construction import Room
 from graphkin.construction.centres import Centre, Centres, Turning, by_centres, find_centres, speeds, velocity_sentences
 from graphkin.construction.centres.pairs import LinkPair, normal, wedge
-from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.errors import CallError, Problem, as_text, did_you_mean
+from graphkin.files import path_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Structure
@@ -189,6 +190,7 @@ class Centred(Result):
 
     def __getitem__(self, name: str) -> Centre | Velocity:
         """A centre by its links ("1-3"), or a velocity by its symbol ("v_D", "omega_3").  Raises CallError."""
+        name = as_text("name", name)
         links = tuple(name.split("-"))
         found = next((c for p, c in self.centres.table.items() if links in (p, p[::-1])), None)
         taken = {str(v.symbol): v for v in self.velocities}
@@ -226,9 +228,10 @@ class Centred(Result):
         ------
         CallError : an unknown format, a folder that cannot be written
         """
+        known_words(formats)
         files = {f"centres.{kind}": self.figure.content(kind) for kind in formats}
         files["centres.csv"] = self.table.csv().encode()
-        return write_files(Path(folder) if folder is not None else Path(self.scene.name), files)
+        return write_files(path_of(folder) if folder is not None else Path(self.scene.name), files)
 
     def __repr__(self) -> str:
         return f"<Centred {self.scene.name}: {len(self.centres.table)} centres>"

@@ -17,7 +17,8 @@ from graphkin.api.centred import found_centres
 from graphkin.api.checked import solved_here
 from graphkin.api.results import Result
 from graphkin.construction.centres import Centres
-from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.errors import CallError, Problem, as_text, did_you_mean
+from graphkin.files import path_of
 from graphkin.scene.model import Mechanism
 
 if TYPE_CHECKING:
@@ -106,9 +107,10 @@ class Centroded(Result):
         ------
         CallError : an unknown format, a folder that cannot be written
         """
+        known_words(formats)
         files = {f"centrode.{kind}": self.figure.content(kind) for kind in formats}
         files["centrode.csv"] = self.table.csv().encode()
-        return write_files(Path(folder) if folder is not None else Path(self.scene.name), files)
+        return write_files(path_of(folder) if folder is not None else Path(self.scene.name), files)
 
     def __repr__(self) -> str:
         return f"<Centroded {self.scene.name}: link {self.link}>"
@@ -185,8 +187,9 @@ def centrodes(
 
 
 def _check_names(scene: Mechanism, link: str, point: str) -> None:
+    as_text("point", point)
     names = [n.name for n in scene.links if not n.redundant]
-    if link not in names:
+    if as_text("link", link) not in names:
         raise CallError(Problem(f"centrode {link}", f'there is no moving link "{link}"', did_you_mean(link, names)))
     points = scene.by_name[link].points
     if point and point not in points:

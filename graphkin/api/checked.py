@@ -30,7 +30,8 @@ from graphkin.checking.report import Compared, Report, compare
 from graphkin.construction import EXACT, Cad, Instrument, Plan, Sheet, execute, pencil, plan
 from graphkin.construction.sheet import DiagramName
 from graphkin.construction.steps import phrase_of
-from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
+from graphkin.errors import CallError, Problem, Unsolvable, as_text, did_you_mean
+from graphkin.files import path_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Structure, part_of
@@ -89,6 +90,7 @@ class Checked(Result):
 
     def __getitem__(self, name: str) -> Compared:
         """A reading by its symbol, with the exact value.  Raises CallError for one that was not drawn."""
+        name = as_text("name", name)
         rows = {str(row.symbol): row for row in self.report.rows}
         if name not in rows:
             raise CallError(Problem(f'"{name}"', "no reading of this name", did_you_mean(str(name), rows)))
@@ -107,7 +109,7 @@ class Checked(Result):
 
     def write(self, folder: str | os.PathLike[str]) -> list[Path]:
         """Write readings.csv; returns its path.  Raises CallError where it cannot be written."""
-        return write_files(Path(folder), {"readings.csv": self.table.csv().encode()})
+        return write_files(path_of(folder), {"readings.csv": self.table.csv().encode()})
 
     @cached_property
     def data(self) -> dict[str, Any]:
@@ -270,6 +272,8 @@ def checked(what: Plan, motion: Motion, hand: Instrument) -> Checked:
 
 def hand_of(scene: Mechanism, name: str, seed: int) -> Instrument:
     """The instrument of a name.  Raises CallError for another name."""
+    if not isinstance(name, str):
+        raise CallError(Problem("instrument", f"found {name!r:.60}", f"known here: {', '.join(INSTRUMENTS)}"))
     if name == "exact":
         return EXACT
     if name == "cad":

@@ -16,7 +16,8 @@ from graphkin.checking.synthesis import FoundLength, compare_lengths
 from graphkin.construction import EXACT, Cad, Instrument, pencil
 from graphkin.construction.design_sheet import DesignSheet
 from graphkin.construction.synthesis import construct
-from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
+from graphkin.errors import CallError, Problem, Unsolvable, as_text, did_you_mean
+from graphkin.files import path_of
 from graphkin.plane import degrees, direction
 from graphkin.scene.design_file import DesignLike, design_of
 from graphkin.scene.synthesis import (
@@ -66,6 +67,7 @@ class Designed(Result):
 
     def __getitem__(self, name: str) -> FoundLength:
         """A length by its name.  Raises CallError for one that there is not."""
+        name = as_text("name", name)
         known = {row.symbol: row for row in self.rows}
         if name not in known:
             raise CallError(Problem("length", f'"{name}"', did_you_mean(str(name), known)))
@@ -264,7 +266,7 @@ class Designed(Result):
         known_words(formats)
         files = {f"{name}.{kind}": page.content(kind) for name, page in self.figures.items() for kind in formats}
         files["scene.toml"] = toml_text(self.scene.to_dict()).encode()
-        return write_files(Path(folder) if folder is not None else Path(self.given.name), files)
+        return write_files(path_of(folder) if folder is not None else Path(self.given.name), files)
 
     def __repr__(self) -> str:
         told = ", ".join(f"{name} {length:.6g}" for name, length in self.found.lengths.items())

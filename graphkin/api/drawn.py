@@ -23,7 +23,8 @@ from graphkin.api.checked import Checked, checked, hand_of, solved_here
 from graphkin.api.report_text import report_text
 from graphkin.api.results import Result
 from graphkin.construction import EXACT, Plan, plan
-from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.errors import CallError, Problem, as_text, did_you_mean
+from graphkin.files import path_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.table import Table
@@ -81,6 +82,7 @@ class Drawn(Result):
 
     def __getitem__(self, name: str) -> Compared:
         """A reading by its symbol, with the exact value.  Raises CallError for one that was not drawn."""
+        name = as_text("name", name)
         return self.checked[name]
 
     @cached_property
@@ -103,7 +105,7 @@ class Drawn(Result):
         CallError : an unknown format, a folder that cannot be written
         """
         known_words(formats)
-        target = Path(folder) if folder is not None else Path(self.checked.scene.name)
+        target = path_of(folder) if folder is not None else Path(self.checked.scene.name)
         files: dict[str, bytes] = {}
         figures = self.figures
         overleaf = {id(page) for figure in figures.values() for page in figure.further}

@@ -18,12 +18,14 @@ from graphkin.api.arguments import (
     driver_values,
     for_paper,
     known_words,
+    may_be_called,
     whole_number,
     write_files,
 )
 from graphkin.api.checked import solved_here
 from graphkin.api.results import Result
-from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.errors import CallError, Problem, as_text, did_you_mean
+from graphkin.files import path_of
 from graphkin.papers.exports import PLATFORMS, Question, files_for, question_of
 from graphkin.papers.lesson import Lesson
 from graphkin.papers.page import Progress
@@ -75,6 +77,7 @@ class Handout(Result):
 
     def __getitem__(self, name: str) -> KeyRow:
         """A row of the key by its symbol.  Raises CallError for one that it does not have."""
+        name = as_text("name", name)
         rows = {row.symbol: row for row in self.key}
         if name not in rows:
             raise CallError(Problem(f'"{name}"', "no answer of this name", did_you_mean(str(name), rows)))
@@ -121,7 +124,7 @@ class Handout(Result):
         ------
         CallError : the folder cannot be written
         """
-        return write_files(Path(folder) if folder is not None else Path(safe_name(self.scene.name)), self.files)
+        return write_files(path_of(folder) if folder is not None else Path(safe_name(self.scene.name)), self.files)
 
     def __repr__(self) -> str:
         return f"<Handout {self.scene.name}: {', '.join(self.formats)}>"
@@ -172,6 +175,7 @@ def handout(
     motion = solved_here(given, values)
     what = paper_plan(motion.structure, values, asked)
     lesson = lesson_of(what, motion, language or given.sheet.language, convention or given.sheet.convention)
+    may_be_called("progress", progress)
     question = question_of(lesson, evidence_of(what, motion, lesson), given.name) if platforms else None
     made = Handout(lesson, values, tuple(dict.fromkeys(formats)), count, progress, question, platforms)
     if out is not None:

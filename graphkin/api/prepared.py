@@ -7,15 +7,15 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from importlib.util import find_spec
-from numbers import Integral
-from typing import TYPE_CHECKING
+from numbers import Integral, Real
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from graphkin.api.arguments import SceneLike, as_scene
 from graphkin.api.samples import Quantities, Samples
-from graphkin.errors import CallError, Problem
+from graphkin.errors import CallError, Problem, as_list, as_text
 from graphkin.scene.model import Mechanism
 from graphkin.scene.source import written
 from graphkin.scene.symbol import Symbol
@@ -34,11 +34,18 @@ MANY = 500_000
 MOST = 1_000_000_000
 
 
+def driver_value(value: object) -> float:
+    """A value of a driver as a caller gives it.  Raises CallError for what is no number."""
+    if isinstance(value, Real) and not isinstance(value, bool) and abs(number := float(value)) <= 1e9:
+        return number
+    raise CallError(Problem("at", f"{value!r:.60} is no driver value", "give a finite number below 1e9"))
+
+
 def _have_numba() -> bool:
     return find_spec("numba") is not None
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, eq=False)
 class Prepared:
     """A mechanism with its assembly followed over the whole range of its first driver, and the code for what is asked.
 
@@ -94,12 +101,17 @@ class Prepared:
         -------
         In the order of ``names``; None where the motion does not come, and at a dead point
         """
+        if type(value) is not float:
+            value = driver_value(value)
         found = self.ready.at(math.radians(value) if self.ready.turns else value * self.own_unit)
         return found if found is None or not self.ready.bounded else found[: len(self.names)]
 
     def columns(self, values: ArrayLike) -> Samples:
         """The quantities at given values of the first driver, shape (n,), in its own unit."""
-        own = np.atleast_1d(np.asarray(values, dtype=float))
+        try:
+            own = np.atleast_1d(np.asarray(values, dtype=float)).reshape(-1)
+        except (TypeError, ValueError):
+            raise CallError(Problem("values", f"found {values!r:.60}", "give numbers, one for each position")) from None
         given = np.radians(own) if self.ready.turns else own * self.own_unit
         return self.samples(*self.ready.columns(given, fast=self.compiled(len(own))), own)
 
@@ -128,6 +140,8 @@ class Prepared:
 
     def _fitting(self, n: int, out: Reals) -> None:
         shape = len(self.ready.asked), n
+        if not isinstance(out, np.ndarray):
+            raise CallError(Problem("out", f"found {out!r:.60}", f"give an array of floats of the shape {shape}"))
         if out.shape != shape or out.dtype != float or not out.flags.c_contiguous:
             wanted = f"give an array of floats of the shape {shape}, in the order of C"
             raise CallError(Problem("out", f"{out.dtype} of the shape {out.shape}", wanted))
@@ -140,8 +154,8 @@ class Prepared:
     @staticmethod
     def allowed(n: int) -> None:
         """Raises CallError where n is no number of positions."""
-        if (type(n) is not int and not isinstance(n, Integral)) or not 1 <= n <= MOST:
-            raise CallError(Problem("sweep", f"{n} positions", f"give a whole number from 1 to {MOST}"))
+        if isinstance(n, bool) or not isinstance(n, Integral) or not 1 <= n <= MOST:
+            raise CallError(Problem("sweep", f"{n!r:.60} positions", f"give a whole number from 1 to {MOST}"))
 
     def over(self, designs: Mapping[str, ArrayLike]) -> PreparedDesigns:
         """The same mechanism with other dimensions, nothing read or analysed again: for an optimiser's inner loop.
@@ -162,12 +176,12 @@ class Prepared:
 
         try:
             values = np.broadcast_arrays(*(np.asarray(v, dtype=float) for v in designs.values()))
-        except ValueError:
+        except (AttributeError, TypeError, ValueError):
             values = ()
         if not values or values[0].ndim > 1 or not values[0].size:
             wanted = 'give one number or a list for each key: {"links.1.length": [50, 60]}'
             raise CallError(Problem("designs", "are no numbers for each key", wanted))
-        keys = tuple(designs)
+        keys = tuple(as_text("designs", key) for key in designs)
         if keys not in self._keys:
             self._keys[keys] = design_keys(written(self.source)[0], self.scene, keys)
         given = {key: np.atleast_1d(own) for key, own in zip(keys, values, strict=True)}
@@ -192,11 +206,25 @@ class Prepared:
         bounds = np.where(ok, np.nan_to_num(columns[count:], nan=np.inf, posinf=np.inf), np.nan)
         return Samples(self.quantities, columns[:count], ok, driver, bounds)
 
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Prepared) and self._said == other._said
+
+    def __hash__(self) -> int:
+        return hash(self.asked)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # what was asked is pickled, the code for it is made anew
+        return prepare, self._said
+
+    @property
+    def _said(self) -> tuple[SceneLike, tuple[str, ...], bool, bool | None]:
+        return self.scene, self.asked, self.ready.bounded, self.fast
+
     def __repr__(self) -> str:
         return f"<Prepared {self.scene.name}: {', '.join(self.asked)}>"
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, eq=False)
 class PreparedDesigns:
     """Many designs of a prepared mechanism.
 
@@ -214,6 +242,7 @@ class PreparedDesigns:
 
     def at(self, value: float) -> Samples:
         """All designs at one value of the first driver, in its own unit: arrays of shape (designs,)."""
+        value = driver_value(value)
         given = math.radians(value) if self.prepared.ready.turns else value * self.prepared.scene.units.metres
         return self._samples(*self._designs.at(given), np.asarray(float(value)))
 
@@ -234,8 +263,25 @@ class PreparedDesigns:
         found.designs = {key: x.reshape(()) if self.single else x for key, x in self.values.items()}
         return found
 
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, PreparedDesigns):
+            return NotImplemented
+        same = self.prepared == other.prepared and self.single == other.single and [*self.values] == [*other.values]
+        return same and all(np.array_equal(self.values[key], other.values[key]) for key in self.values)
+
+    def __hash__(self) -> int:
+        return hash((self.prepared, tuple(self.values)))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        given = {key: float(own[0]) if self.single else own for key, own in self.values.items()}
+        return _over, (self.prepared, given)
+
     def __repr__(self) -> str:
         return f"<PreparedDesigns {self.prepared.scene.name}: {len(self)} of {', '.join(self.values)}>"
+
+
+def _over(prepared: Prepared, designs: Mapping[str, ArrayLike]) -> PreparedDesigns:
+    return prepared.over(designs)
 
 
 def prepare(
@@ -290,7 +336,10 @@ def prepare(
     from graphkin import solver
 
     given = as_scene(scene)
-    asked = tuple(str(name) for name in ([find] if isinstance(find, str | Symbol) else find))
+    wanted = 'name quantities, for example ["v_C", "omega_3"]'
+    asked = tuple(str(name) for name in ([find] if isinstance(find, Symbol) else as_list("find", find, wanted)))
+    if not isinstance(bounds, bool) or not (fast is None or isinstance(fast, bool)):
+        raise CallError(Problem("bounds, fast", f"found {bounds!r:.40}, {fast!r:.40}", "give True or False"))
     if not asked:
         raise CallError(Problem("find", "asks for nothing", 'name quantities, for example ["v_C", "omega_3"]'))
     units = 1.0 / given.units.metres, math.degrees(1.0)

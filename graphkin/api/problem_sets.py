@@ -13,10 +13,18 @@ from pathlib import Path
 from typing import Any
 
 from graphkin.api.answers import table_of, with_points
-from graphkin.api.arguments import MOST_SEED, SceneLike, as_scene, asked_symbols, whole_number, write_files
+from graphkin.api.arguments import (
+    MOST_SEED,
+    SceneLike,
+    as_scene,
+    asked_symbols,
+    may_be_called,
+    whole_number,
+    write_files,
+)
 from graphkin.api.results import Result
-from graphkin.errors import CallError, GraphkinError, Problem, did_you_mean
-from graphkin.files import folder_alone
+from graphkin.errors import CallError, GraphkinError, Problem, as_text, did_you_mean
+from graphkin.files import folder_alone, path_of
 from graphkin.jobs import Progress, Workers
 from graphkin.papers.data_rows import Columns, columns_of, replaced
 from graphkin.papers.exports import BANKED, bank
@@ -76,6 +84,7 @@ class ProblemSet(Result):
 
     def __getitem__(self, name: str) -> tuple[Answer, ...]:
         """The answers of a variant by its name.  Raises CallError for one that was not made."""
+        name = as_text("name", name)
         answers = self.made.answers
         if name not in answers:
             raise CallError(Problem(f'"{name}"', "no variant of this name", did_you_mean(str(name), answers)))
@@ -83,7 +92,7 @@ class ProblemSet(Result):
 
     def write(self, folder: str | os.PathLike[str]) -> list[Path]:
         """Write answers.csv; returns its path.  Raises CallError where it cannot be written."""
-        return write_files(Path(folder), {"answers.csv": self.table.csv().encode("utf-8-sig")})
+        return write_files(path_of(folder), {"answers.csv": self.table.csv().encode("utf-8-sig")})
 
     def __repr__(self) -> str:
         return f"<ProblemSet {self.scene.name}>"
@@ -127,12 +136,19 @@ def problem_set(
     """
     if (variants is None) == (rows is None):
         raise CallError(Problem("variants", "neither or both of variants and rows", "give one of them"))
+    may_be_called("render", render)
+    may_be_called("progress", progress)
+    workers = None if workers is None else whole_number("workers", workers, 1, 1024)
+    if spread is not None and not isinstance(spread, Spread):
+        raise CallError(Problem("spread", f"found {spread!r:.60}", "give a Spread"))
+    if executor is not None and not hasattr(executor, "submit"):
+        raise CallError(Problem("executor", f"found {executor!r:.60}", "give one that has submit, as those of Python"))
     source, name = _source(scene)
     if find is not None:
         source["find"] = [str(s) for s in asked_symbols(as_scene(source), find)]
     given = as_scene(source)
     jobs, unused = _jobs(source, variants, seed, rows, spread or Spread())
-    folder = Path(out) if out is not None else None
+    folder = path_of(out) if out is not None else None
     left: list[Path] = []
     if folder is not None:
         write_files(folder, {})

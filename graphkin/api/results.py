@@ -9,6 +9,8 @@ from dataclasses import fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from graphkin.errors import as_text
+
 if TYPE_CHECKING:
     import pandas
     import xarray
@@ -49,6 +51,7 @@ class Result(ABC):
 
     def __getitem__(self, name: str) -> Any:
         """A column of the table by its name.  Raises CallError for an unknown one."""
+        name = as_text("name", name)
         return self.table[name]
 
     def to_pandas(self) -> pandas.DataFrame:
@@ -68,7 +71,9 @@ class Result(ABC):
         assert isinstance(other, Result)
         return bool(self.data == other.data and self.table == other.table)
 
-    __hash__ = None  # type: ignore[assignment]
+    def __hash__(self) -> int:
+        # equal results have equal tables
+        return hash((type(self), self.table))
 
     def __getstate__(self) -> dict[str, Any]:
         return {field.name: getattr(self, field.name) for field in fields(self)}  # type: ignore[arg-type]

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.errors import CallError, Problem, as_text, did_you_mean
 from graphkin.table import Column, Table
 
 if TYPE_CHECKING:
@@ -71,6 +71,7 @@ class Samples:
 
     def __getitem__(self, name: str) -> NDArray[np.float64] | NDArray[np.complex128]:
         """A quantity or a column by its name.  Raises CallError for one that was not asked for."""
+        name = as_text("name", name)
         names = self.quantities.names
         if name in names:
             return np.asarray(self.values[names.index(name)])
@@ -125,6 +126,16 @@ class Samples:
     def write(self, path: str | Path) -> Path:
         """Write the table: .csv, .parquet, .json or .html by the name.  Raises CallError as ``Table.write``."""
         return self.table.write(path)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Samples):
+            return NotImplemented
+        return (self.quantities.units, self._bounds is None) == (other.quantities.units, other._bounds is None) and (
+            self.table == other.table
+        )
+
+    def __hash__(self) -> int:
+        return hash((tuple(self.quantities.units), self.ok.shape))
 
     def __repr__(self) -> str:
         return f"<Samples of {', '.join(self.quantities.units)}: {int(self.ok.sum())} of {self.ok.size} positions>"

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 from graphkin.api.arguments import write_files
 from graphkin.api.results import Result
-from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.errors import CallError, Problem, as_text, did_you_mean
+from graphkin.files import path_of
 from graphkin.scene.source import library, library_text, mechanism_of, read
 from graphkin.structure import analyse
 
@@ -36,6 +37,7 @@ class Listed(Result):
         return [{"name": n, "title": t, "title_zh": z, "mobility": f} for n, t, z, f in self.rows]
 
     def __getitem__(self, name: str) -> Scene:
+        name = as_text("name", name)
         names = [row[0] for row in self.rows]
         if name not in names:
             raise CallError(Problem(f'"{name}"', "no scene of this name comes along", did_you_mean(str(name), names)))
@@ -50,7 +52,7 @@ class Listed(Result):
 
     def write(self, folder: str | os.PathLike[str]) -> list[Path]:
         """Write each scene as a file, as it comes along; returns the paths.  Raises CallError."""
-        return write_files(Path(folder), {f"{row[0]}.toml": library_text(row[0]).encode() for row in self.rows})
+        return write_files(path_of(folder), {f"{row[0]}.toml": library_text(row[0]).encode() for row in self.rows})
 
     def __repr__(self) -> str:
         return f"<Listed: {len(self.rows)} scenes>"

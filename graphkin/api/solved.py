@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 
 from graphkin.api.arguments import At, SceneLike, as_scene, asked_symbols, driver_values, whole_number, write_files
 from graphkin.api.results import Result
-from graphkin.errors import Unsolvable
+from graphkin.errors import Unsolvable, as_text
+from graphkin.files import path_of
 from graphkin.scene.model import SlideDriver
 from graphkin.structure import mobility_of
 
@@ -45,6 +46,7 @@ class Solved(Result):
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         """A quantity by its name (a symbol, "C", "theta_3", "s_2/3", a column of the table).  Raises CallError."""
+        name = as_text("name", name)
         from graphkin.study.watched import watched_named, watched_symbol
 
         scene = self.motion.scene
@@ -102,7 +104,7 @@ class Solved(Result):
     def write(self, folder: str | os.PathLike[str]) -> list[Path]:
         """Write solution.json and solution.csv; returns the paths.  Raises CallError where that cannot be done."""
         text = json.dumps(self.data, ensure_ascii=False, allow_nan=False) + "\n"
-        return write_files(Path(folder), {"solution.json": text.encode(), "solution.csv": self.table.csv().encode()})
+        return write_files(path_of(folder), {"solution.json": text.encode(), "solution.csv": self.table.csv().encode()})
 
 
 def refused(scene: SceneLike, at: At, stop: Unsolvable) -> dict[str, Any]:

@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from graphkin.api.arguments import SceneLike, as_scene, known_words, whole_number, write_files
 from graphkin.api.results import Result
-from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.errors import CallError, Problem, as_text, did_you_mean
+from graphkin.files import path_of
 
 if TYPE_CHECKING:
     from graphkin.drawing import ChartPage
@@ -43,7 +44,7 @@ class _Charted(Result):
         """
         known_words(formats)
         files = {f"{n}.{kind}": f.content(kind) for n, f in self.figures.items() for kind in formats}
-        return write_files(Path(folder or self.name), {**files, f"{self.name}.csv": self.table.csv().encode()})
+        return write_files(path_of(folder or self.name), {**files, f"{self.name}.csv": self.table.csv().encode()})
 
     def _repr_html_(self) -> str:
         return "".join(f"<figure>{f._repr_svg_()}<figcaption>{html.escape(f.title)}</figcaption></figure>"
@@ -67,6 +68,7 @@ class SpeedAccuracy(_Charted):
 
     def __getitem__(self, method: str) -> tuple[Entry, ...]:
         """What a method gives, by its name in the table: several entries where it has steps, scales or sizes."""
+        method = as_text("method", method)
         entries = self.race.entries
         return _named("method", method, {e.key: tuple(o for o in entries if o.key == e.key) for e in entries})
 
@@ -141,6 +143,7 @@ class Stability(_Charted):
 
     def __getitem__(self, kind: str) -> Singularity:
         """One kind of singular position, by its name."""
+        kind = as_text("kind", kind)
         return _named("kind", kind, {one.key: one for one in self.singularities})
 
     @cached_property

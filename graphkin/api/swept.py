@@ -22,11 +22,13 @@ from graphkin.api.arguments import (
     asked_symbols,
     driver_values,
     known_words,
+    may_be_called,
     whole_number,
     write_files,
 )
 from graphkin.api.results import Result
-from graphkin.errors import CallError, Problem
+from graphkin.errors import CallError, Problem, as_list, as_text
+from graphkin.files import path_of
 from graphkin.jobs import Progress, Workers, cluster
 from graphkin.scene.model import Mechanism
 from graphkin.scene.source import written
@@ -87,6 +89,7 @@ class Swept(Result):
     def __getitem__(self, name: str) -> NDArray[Any]:
         """A quantity by its name, as far as it was asked for, or any column of the table: NaN where there is none.
         Raises CallError for an unknown one."""
+        name = as_text("name", name)
         watched = self.over.base.watched
         k = next((k for k, w in enumerate(watched) if w.name == name), None)
         if k is not None and self.arrays is not None:
@@ -159,7 +162,7 @@ class Swept(Result):
         ------
         CallError : an unknown format, a folder that cannot be written
         """
-        target = Path(folder)
+        target = path_of(folder)
         known_words(formats)
         write_files(target, {})
         tables = {"table.csv": self.table} | ({"designs.csv": self.designs} if self.designs is not None else {})
@@ -172,7 +175,7 @@ class Swept(Result):
         written."""
         known_words(formats)
         files = {f"{n}.{kind}": f.content(kind) for n, f in self.figures.items() for kind in formats}
-        return write_files(Path(folder), files)
+        return write_files(path_of(folder), files)
 
     @property
     def text(self) -> str:
@@ -253,10 +256,13 @@ def sweep(
     from graphkin.study.sweeps import Found, Sweep, collect, write_tables
 
     known_words(formats, language)
+    may_be_called("progress", progress)
     positions = whole_number("positions", positions, 1, MOST_POSITIONS)
     workers = None if workers is None else whole_number("workers", workers, 1, 1024)
     if executor is not None and scheduler is not None:
         raise CallError(Problem("executor", "is given beside a scheduler", "give one of them"))
+    if executor is not None and not hasattr(executor, "submit"):
+        raise CallError(Problem("executor", f"found {executor!r:.60}", "give one that has submit, as those of Python"))
     made = designs_of(designs, designs_file)
     source, name = written(scene) if made.keys else (as_scene(scene), "")
     given = as_scene(source)
@@ -275,14 +281,14 @@ def sweep(
             return Swept(over, Found(over.rows, arrays.good), spoken, arrays)
     if not made.keys and over.base.engine is None:
         _ = over.base.reach  # a start that cannot be assembled
-    through = cluster(scheduler) if scheduler else executor
+    through = cluster(as_text("scheduler", scheduler)) if scheduler is not None else executor
     try:
         with Workers(through, workers if over.long else None) as working:
             if out is None:
                 return Swept(over, collect(over, working, progress), spoken)
-            found = write_tables(over, Path(out), working, have("pyarrow"), progress)
+            found = write_tables(over, path_of(out), working, have("pyarrow"), progress)
     finally:
-        if scheduler and through is not None:
+        if scheduler is not None and through is not None:
             through.shutdown()
     swept = Swept(over, found, spoken)
     if not made.keys:
@@ -298,9 +304,7 @@ def _asked(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tuple[Watch
         return tuple(watched_symbol(s) for s in scene.find if s.scope != "turn" and not s.at)
     found: list[Watched] = []
     problems: list[Problem] = []
-    if not isinstance(find, Iterable | Symbol):
-        raise CallError(Problem("find", f"found {find!r:.60}", 'give symbols: ["v_B", "omega_3"]'))
-    for name in [find] if isinstance(find, str | Symbol) else find:
+    for name in [find] if isinstance(find, Symbol) else as_list("find", find, 'give symbols: ["v_B", "omega_3"]'):
         named = watched_named(scene, name) if isinstance(name, str) else None
         if isinstance(name, str) and name.startswith(OF_TURN):
             problems.append(Problem(f"find {name}", "is of the whole turn, no column", "it stands in the summary"))

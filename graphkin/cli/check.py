@@ -56,7 +56,7 @@ def check(
     from graphkin.api.arguments import known_words
     from graphkin.api.checked import check as checking
 
-    known_words(None, lang, convention, instrument)
+    known_words(language=lang, convention=convention, instrument=instrument)
     with unsolvable_as_json(as_json, unchecked):
         checked = checking(scene, driver_values(at), find or None, instrument, seed)
     language = lang or checked.scene.sheet.language

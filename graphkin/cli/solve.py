@@ -98,7 +98,7 @@ def solve(
     from graphkin.api.solved import refused
     from graphkin.api.solved import solve as solving
 
-    known_words(None, lang, convention, instrument)
+    known_words(language=lang, convention=convention, instrument=instrument)
     values = driver_values(at)
     with unsolvable_as_json(as_json, lambda error: refused(scene, values, error)):
         solved = solving(scene, values, sweep)

@@ -37,6 +37,7 @@ from graphkin.drawing.page import (
 )
 from graphkin.drawing.primitives import Primitive, Stroke, Text
 from graphkin.drawing.text import rich
+from graphkin.errors import CallError, Problem
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes as Axes  # also for those who paint charts
@@ -122,6 +123,13 @@ class ChartPage(Kept):
     desc: str = ""
     lang: str = "en"
     metadata: Mapping[str, object] = field(default_factory=dict)
+
+    def __hash__(self) -> int:
+        return hash((self.width, self.height, self.title, self.desc))
+
+    def __reduce__(self) -> tuple[object, ...]:
+        wanted = "pickle the result that it belongs to, or save it as a file"
+        raise CallError(Problem("a chart", "is drawn by a function and cannot be pickled", wanted))
 
     def figure(self, dpi: float = 72.0) -> Figure:
         """The page as a matplotlib figure of its own, to be changed at will."""

@@ -9,7 +9,7 @@ from pathlib import Path
 from graphkin.drawing.primitives import Page
 from graphkin.drawing.svg import svg_bytes
 from graphkin.errors import CallError, Problem
-from graphkin.files import whole_file
+from graphkin.files import path_of, whole_file
 
 __all__ = ["FORMATS", "Drawing", "Kept", "save"]
 
@@ -30,8 +30,8 @@ class Kept:
         -----
         MissingFont : of PDF and PNG, where it holds Chinese and the machine has no face for it
         """
-        if format not in FORMATS:
-            raise CallError(Problem("format", f'"{format}"', f"known here: {', '.join(FORMATS)}"))
+        if not isinstance(format, str) or format not in FORMATS:
+            raise CallError(Problem("format", f'"{format!s:.60}"', f"known here: {', '.join(FORMATS)}"))
         return self._svg() if format == "svg" else self._pdf() if format == "pdf" else self._png(dpi)
 
     def save(self, path: str | os.PathLike[str], dpi: float = 200.0) -> Path:
@@ -59,6 +59,9 @@ class Drawing(Page, Kept):
     Two types, because the writers, which a drawing calls, know nothing but what is on a page.
     """
 
+    def __hash__(self) -> int:
+        return hash((self.width, self.height, self.title, len(self.children)))
+
     further: tuple[Drawing, ...] = ()
 
     def _svg(self) -> bytes:
@@ -85,7 +88,7 @@ def save(drawing: Kept, path: str | os.PathLike[str], dpi: float = 200.0) -> Pat
     CallError : the ending is none of the three
     OSError : the place cannot be written
     """
-    target = Path(path)
+    target = path_of(path)
     content = drawing.content(target.suffix.lower().removeprefix("."), dpi)
     with whole_file(target) as out:
         out.write(content)

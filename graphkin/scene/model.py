@@ -175,6 +175,9 @@ class Mechanism:
     sheet: SheetWishes = field(default_factory=SheetWishes)
     loading: Loading = field(default_factory=Loading)
 
+    def __hash__(self) -> int:
+        return hash((self.name, self.title, tuple(link.name for link in self.links)))
+
     def title_in(self, language: str) -> str:
         """The title in a language: the Chinese one where there is one, else the one there is."""
         return self.title_zh if language == "zh" and self.title_zh else self.title

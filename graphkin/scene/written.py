@@ -127,15 +127,18 @@ class Scene(SceneTables):
         ------
         CallError : a place that cannot be written
         """
-        from graphkin.files import whole_file
+        from graphkin.files import path_of, whole_file
 
-        target = Path(path)
+        target = path_of(path)
         try:
             with whole_file(target) as out:
                 out.write(toml_text(self.to_dict()).encode())
         except OSError as error:
             raise CallError(Problem(str(path), f"cannot be written: {error.strerror or error}")) from None
         return target
+
+    def __hash__(self) -> int:
+        return hash((self.title, tuple(self.links)))
 
     def __repr__(self) -> str:
         return f"<Scene {self.name}: {len(self.links)} moving links>"

@@ -10,9 +10,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import islice
+from numbers import Real
 from typing import Any
 
-from graphkin.errors import CallError, Problem
+from graphkin.errors import CallError, Problem, as_text
+from graphkin.files import path_of
 from graphkin.scene.written import put
 
 __all__ = ["Designs", "Value", "applied", "designs_of", "read_designs"]
@@ -69,11 +71,15 @@ def designs_of(
     ------
     CallError : naming every value, key and row that is wrong
     """
+    if given is not None and not isinstance(given, Mapping):
+        raise CallError(Problem("designs", f"found {given!r:.60}", 'give values by keys: {"links.1.length": [40, 50]}'))
     problems: list[Problem] = []
     grid: dict[str, tuple[Value, ...]] = {}
-    for key, values in (given or {}).items():
+    for key, values in ((as_text("designs", key), values) for key, values in (given or {}).items()):
         try:
             grid[key] = _values(values)
+        except TypeError:
+            problems.append(Problem(f"--set {key}", f"found {values!r:.60}", "give a number, or several"))
         except ValueError as error:
             problems.append(Problem(f"--set {key}", str(error), "write KEY=40:60:21, KEY=40,50,60 or KEY=50"))
     rows: tuple[tuple[Value, ...], ...] | None = None
@@ -81,7 +87,7 @@ def designs_of(
     if table is not None:
         keys, rows = read_designs(table)
         twice = [key for key in grid if key in keys]
-        problems += [Problem(f"--set {key}", f"is a column of {os.fspath(table)} too", "give it once") for key in twice]
+        problems += [Problem(f"--set {key}", f"is a column of {table} too", "give it once") for key in twice]
     if problems:
         raise CallError(*problems)
     made = Designs((*keys, *grid), tuple(grid.values()), rows)
@@ -93,10 +99,10 @@ def designs_of(
 def _values(given: str | Sequence[Value] | Value) -> tuple[Value, ...]:
     if isinstance(given, bool):
         raise ValueError(f"found {given}")
-    if isinstance(given, int | float):
+    if isinstance(given, Real):  # those of NumPy too
         return (_finite(float(given)),)
     if not isinstance(given, str):
-        values = tuple(v if isinstance(v, str) else _finite(float(v)) for v in given)
+        values = tuple(v if isinstance(v, str) else _finite(float(v)) for v in list(given))  # type: ignore[arg-type]
         if not values:
             raise ValueError("there are no values")
         return values
@@ -138,7 +144,7 @@ def _finite(value: float) -> float:
 
 def read_designs(path: str | os.PathLike[str]) -> tuple[tuple[str, ...], tuple[tuple[Value, ...], ...]]:
     """Keys and rows of a CSV file of designs.  Raises CallError, naming the row."""
-    shown = os.fspath(path)
+    shown = path_of(path)
     try:
         with open(path, newline="", encoding="utf-8-sig") as stream:
             lines = list(islice(csv.reader(stream), MOST_ROWS + 2))

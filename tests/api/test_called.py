@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pickle
+
 import numpy as np
 import pytest
 
@@ -28,12 +30,29 @@ def test_one_symbol_may_stand_without_a_list():
         (lambda: graphkin.check(SIXBAR, instrument="pencil", seed="x"), "seed: found 'x'; give a whole number"),
         (lambda: graphkin.check(SIXBAR, find=3), 'find: found 3; give symbols: ["v_B", "omega_3"]'),
         (lambda: graphkin.check(SIXBAR, find=[None]), 'find: "None" is no quantity'),
-        (lambda: graphkin.check(SIXBAR, instrument=3), 'instrument: "3"'),
+        (lambda: graphkin.check(SIXBAR, instrument=3), "instrument: found 3"),
         (lambda: graphkin.draw(SIXBAR, language=3), 'lang: "3"'),
         (lambda: graphkin.draw(SIXBAR, formats=3), "format: found 3; give a list: svg, pdf, png"),
         (lambda: graphkin.problem_set(SIXBAR, variants=True), "variants: found True; give a whole number"),
         (lambda: graphkin.draw(SIXBAR, formats="svg"), 'format: "svg" is a text; give a list: ["svg"]'),
         (lambda: graphkin.draw(SIXBAR, formats=()), "format: none given; known here: svg, pdf, png"),
+        (lambda: graphkin.draw(SIXBAR, formats=None), "format: found None; give a list: svg, pdf, png"),
+        (lambda: graphkin.check(SIXBAR, find=np.array(5)), 'find: found array(5); give symbols: ["v_B", "omega_3"]'),
+        (lambda: graphkin.check(SIXBAR, instrument=None), "instrument: found None; known here: exact, cad"),
+        (lambda: graphkin.sweep(SIXBAR, progress=5), "progress: found 5; give a function, or leave it out"),
+        (lambda: graphkin.sweep(SIXBAR, designs=[1]), "designs: found [1]; give values by keys"),
+        (lambda: graphkin.sweep(SIXBAR, designs={"links.1.length": None}), "--set links.1.length: found None; give"),
+        (lambda: graphkin.sweep(SIXBAR, designs_file=3), "path: found 3; give the name of a file or folder as a text"),
+        (lambda: graphkin.sweep(SIXBAR, executor=3), "executor: found 3; give one that has submit"),
+        (lambda: graphkin.prepare(SIXBAR, 5), "find: found 5; name quantities"),
+        (lambda: graphkin.prepare(SIXBAR, "v_D").at("50"), "at: '50' is no driver value"),
+        (lambda: graphkin.prepare(SIXBAR, "v_D").over([1]), "designs: are no numbers for each key"),
+        (lambda: graphkin.centrodes(SIXBAR, 2), "link: found 2; give a name as a text"),
+        (lambda: graphkin.check(SIXBAR)[5], "name: found 5; give a name as a text"),
+        (lambda: graphkin.solve(SIXBAR).table[None], "name: found None; give a name as a text"),
+        (lambda: graphkin.solve(SIXBAR).write(5), "path: found 5; give the name of a file or folder as a text"),
+        (lambda: graphkin.read(SIXBAR).save([]), "path: found []; give the name of a file or folder as a text"),
+        (lambda: graphkin.audit(SIXBAR, {"a": 1}), 'answers of a: found 1; give {"v_D": 480}'),
     ],
 )
 def test_a_wrong_argument_is_told_in_a_sentence(call, said):
@@ -46,3 +65,29 @@ def test_whole_numbers_may_be_those_of_numpy():
     one, two = (graphkin.check(SIXBAR, instrument="pencil", seed=seed) for seed in (np.int64(3), 3))
     assert one.data == two.data
     assert 4 == len(graphkin.solve(SIXBAR, sweep=np.uint8(4)).motion)
+
+
+RESULTS = {
+    "Checked": lambda: graphkin.check(SIXBAR),
+    "Solved": lambda: graphkin.solve(SIXBAR, sweep=3),
+    "Prepared": lambda: graphkin.prepare(SIXBAR, ["v_D"], bounds=True),
+    "PreparedDesigns": lambda: graphkin.prepare(SIXBAR, ["v_D"]).over({"links.1.length": [120, 121]}),
+    "Samples": lambda: graphkin.prepare(SIXBAR, ["v_D"]).sweep(4),
+    "Scene": lambda: graphkin.read(SIXBAR),
+    "Mechanism": lambda: graphkin.read(SIXBAR).mechanism,
+    "Table": lambda: graphkin.solve(SIXBAR).table,
+    "Drawing": lambda: graphkin.draw(SIXBAR).figures["velocity"],
+}
+
+
+@pytest.mark.parametrize("kind", RESULTS)
+def test_what_is_pickled_is_equal_and_of_one_hash(kind):
+    one = RESULTS[kind]()
+    other = pickle.loads(pickle.dumps(one))
+    assert (kind, True, hash(one)) == (type(other).__name__, one == other, hash(other))
+
+
+def test_a_chart_says_that_it_cannot_be_pickled():
+    chart = next(iter(graphkin.sweep("slider-crank-s50-e16-K1.2", positions=4).figures.values()))
+    with pytest.raises(graphkin.CallError, match="a chart: is drawn by a function and cannot be pickled; pick"):
+        pickle.dumps(chart)
