@@ -43,11 +43,13 @@ class Rows:
 
 @dataclass(frozen=True)
 class Answers:
-    """What one person states, and at which driver value (None: the scene's, or that of the call)."""
+    """What one person states, at which driver value or named position (None: the scene's, or that of the call), and how
+    it was found."""
 
     person: str
-    at: float | None
+    at: float | str | None
     values: tuple[Printed, ...]
+    by: str = "drawing"
 
 
 def as_answers(scene: Mechanism, given: AnswersLike) -> tuple[tuple[Answers, ...], tuple[str, ...]]:
@@ -141,6 +143,9 @@ def _answers(scene: Mechanism, sheet: Rows, name: str) -> tuple[tuple[Answers, .
         problems.append(Problem(name, f"no column is a quantity: {', '.join(sheet.heads)[:200]}", known))
     who = next((i for i, h in enumerate(sheet.heads) if i not in symbols and h != PLACE), None)
     where = sheet.heads.index(PLACE) if PLACE in sheet.heads else None
+    places = [cells[where] for _, cells in sheet.rows if where is not None and where < len(cells) and cells[where]]
+    # numbers are driver values, unless all of them are names of positions
+    by_name = scene.positions is not None and bool(places) and set(places) <= set(scene.positions.names)
     found = []
     for line, cells in sheet.rows:
         values = []
@@ -154,10 +159,10 @@ def _answers(scene: Mechanism, sheet: Rows, name: str) -> tuple[tuple[Answers, .
                     values.append(stated(symbol, numbers, scene.units.metres))
                 except ValueError as error:
                     problems.append(Problem(f"{name}, line {line}, {symbol}", str(error), "write a number alone"))
-        at = None
+        at: float | str | None = None
         if where is not None and where < len(cells) and cells[where]:
             try:
-                at = float(numbers_in(cells[where], "", sheet.sign)[0])
+                at = cells[where] if by_name else float(numbers_in(cells[where], "", sheet.sign)[0])
             except ValueError:
                 problems.append(Problem(f"{name}, line {line}, at", f'"{cells[where][:40]}" is no driver value'))
         person = cells[who] if who is not None and who < len(cells) else ""

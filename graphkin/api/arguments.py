@@ -33,6 +33,7 @@ __all__ = [
     "known_words",
     "may_be_called",
     "own_unit",
+    "value_at",
     "whole_number",
     "write_files",
 ]
@@ -92,7 +93,8 @@ def whole_number(where: str, value: object, least: int, most: int, what: str = "
     raise CallError(Problem(where, found, f"give a whole number from {least} to {most}"))
 
 
-At = float | Mapping[str, float] | None
+At = float | str | Mapping[str, float] | None
+"""A value of the first driver in its own unit, the name of a position, or values by driver."""
 MOST_DRAWN = 20
 MOST_SEED = 10**18
 
@@ -107,6 +109,10 @@ def as_scene(scene: SceneLike) -> Mechanism:
     """A scene from a file, a name of one that comes along, a mapping, or a scene itself; a value of its driver that is
     given from a dead point is found."""
     given = mechanism_of(scene)
+    if any(isinstance(d, AngleDriver) and d.position for d in given.drivers):
+        from graphkin.solver.named_positions import standing
+
+        given = standing(given)
     if any(d.dead_point and not d.dead_point.exact for d in given.drivers):
         from graphkin.solver import structure_of
 
@@ -126,7 +132,8 @@ def for_paper(scene: SceneLike) -> Mechanism:
 def driver_values(scene: Mechanism, at: At) -> dict[str, float] | None:
     """Driver values in SI from values in each driver's own unit (degrees, or travel in the scene's unit).
 
-    A bare number moves the first driver; a mapping names the drivers by link or by slide.
+    A bare number moves the first driver, a text to the position of that name; a mapping names the drivers by link or by
+    slide.
 
     Raises
     ------
@@ -136,6 +143,8 @@ def driver_values(scene: Mechanism, at: At) -> dict[str, float] | None:
         return None
     if not scene.drivers:
         raise CallError(Problem("at", "the scene has no driver", "give one in the file"))
+    if isinstance(at, str):
+        return {scene.drivers[0].key: value_at(scene, at)}
     given = dict(at) if isinstance(at, Mapping) else {scene.drivers[0].key: at}
     values: dict[str, float] = {}
     for name, value in given.items():
@@ -144,6 +153,25 @@ def driver_values(scene: Mechanism, at: At) -> dict[str, float] | None:
             raise CallError(Problem(f"at {name}", f"{value!r} is no driver value", "give a finite number below 1e9"))
         values[driver.key] = math.radians(value) if isinstance(driver, AngleDriver) else value * scene.units.metres
     return values
+
+
+def value_at(scene: Mechanism, name: str) -> float:
+    """The value of the first driver (rad, m) at a position by its name.
+
+    Raises
+    ------
+    CallError : the scene names no such position
+    Unsolvable : it lies on the stroke of a slide, but the driver makes no whole turn
+    """
+    from graphkin.solver.named_positions import named_positions
+
+    known = scene.positions.names if scene.positions else ()
+    if name not in known:
+        wanted = did_you_mean(name, known) if known else "name positions in [positions]"
+        raise CallError(Problem(f"position {name}", "there is no position of that name", wanted))
+    places = named_positions(scene)
+    assert places is not None
+    return places.values[name]
 
 
 def _driver(scene: Mechanism, name: str) -> AnyDriver:
@@ -176,6 +204,10 @@ def asked_symbols(scene: Mechanism, find: str | Symbol | Iterable[str | Symbol] 
         except ValueError as error:
             problems.append(Problem("find", str(error)))
             continue
+        known = scene.positions.names if scene.positions else ()
+        if symbol.at and symbol.at not in known:
+            wanted = did_you_mean(symbol.at, known) if known else "name positions in [positions]"
+            problems.append(Problem(f"find {symbol}", f'there is no position "{symbol.at}"', wanted))
         problems += _unknown_names(scene, symbol)
         found.append(symbol)
     if problems:

@@ -2,23 +2,27 @@
 
 from __future__ import annotations
 
+import math
 import os
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from graphkin.api.answers import Answers, AnswersLike, as_answers
 from graphkin.api.arguments import At, SceneLike, as_scene, driver_values, known_words, own_unit, write_files
 from graphkin.api.checked import in_scene_units, solved_here
 from graphkin.api.results import Result
-from graphkin.checking.audit import Judged, judge
-from graphkin.checking.printed import printed_values
+from graphkin.checking.audit import Judged, explained, judge
+from graphkin.checking.printed import printed_values, stated
 from graphkin.checking.readings import predict
 from graphkin.checking.slips import Evidence, ValuesElsewhere
+from graphkin.checking.table_audit import exact_rows, judged_by_digits
 from graphkin.construction import plan
-from graphkin.errors import CallError, Problem, as_text, did_you_mean
+from graphkin.errors import CallError, Problem, Unsolvable, as_text, did_you_mean
 from graphkin.files import path_of
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol
@@ -31,6 +35,9 @@ if TYPE_CHECKING:
 __all__ = ["Audited", "audit"]
 
 POSITIONS = 72
+MOST_DRAWN = 6  # rows of a table that are drawn each
+MOST_PREDICTED = 4  # positions of a longer one that are
+MOST_EXPLAINED = 3  # rows of which is told what their wrong values look like
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -77,7 +84,7 @@ class Audited(Result):
                 rows.append(
                     [
                         *([who.person] if named else []),
-                        *(["" if who.at is None else f"{who.at:g}"] if placed else []),
+                        *(["" if who.at is None else _place(who.at)] if placed else []),
                         row["symbol"],
                         ", ".join(j.printed.texts),
                         _shown(row["exact"]),
@@ -140,6 +147,10 @@ def _value(scene: Mechanism, who: Answers, judged: Judged, language: str) -> dic
     return {**person, **({"at": who.at} if who.at is not None else {}), **row}
 
 
+def _place(at: float | str) -> str:
+    return at if isinstance(at, str) else f"{at:g}"
+
+
 def _plain(value: float) -> float:
     return float(f"{value:.12g}")
 
@@ -175,21 +186,100 @@ def audit(scene: SceneLike, answers: AnswersLike | None = None, at: At = None, l
     """
     given = as_scene(scene)
     known_words(language=language)
-    if answers is None and not given.printed:
+    if answers is None and not given.printed and not given.stated:
         raise CallError(
             Problem("printed", "the scene has no printed values", "write them in [printed], or give answers as CSV")
         )
-    people, unused = (
-        ((Answers("", None, printed_values(given)),), ()) if answers is None else as_answers(given, answers)
-    )
-    asked = list(dict.fromkeys(p.symbol for who in people for p in who.values))
+    people, unused = (_stated(given), ()) if answers is None else as_answers(given, answers)
+    asked = list(dict.fromkeys(p.symbol for who in people for p in who.values if not p.symbol.at))
 
     @cache
-    def case(place: float | None) -> Evidence:
+    def case(place: float | str | None) -> Evidence:
         return _case(given, asked, at if place is None else place)
 
-    judged = tuple((who, judge(case(who.at), who.values)) for who in people)
+    table = [who for who in people if who.by == "computation" or who.at is not None]
+    if len(table) <= MOST_DRAWN and all(who.by == "drawing" for who in table):
+        judged = tuple((who, judge(case(who.at), who.values)) for who in people)
+    else:
+        rows = _judged_table(given, table, at, case)
+        judged = tuple((who, rows.get(id(who)) or judge(case(who.at), who.values)) for who in people)
     return Audited(given, judged, language or given.sheet.language, unused)
+
+
+def _stated(scene: Mechanism) -> tuple[Answers, ...]:
+    """What a scene's own tables state, a row for each position."""
+    found: list[Answers] = []
+    metres = scene.units.metres
+    for own in scene.stated:
+        if own.file:
+            rows, _ = as_answers(scene, own.file)
+            found += [replace(row, person="", by=own.by) for row in rows]
+            continue
+        values = (
+            printed_values(scene) if own.at is None
+            else tuple(stated(symbol, texts, metres) for symbol, texts in own.values.items())
+        )  # fmt: skip
+        for place in dict.fromkeys(p.symbol.at for p in values):
+            there = tuple(replace(p, symbol=p.symbol.here) for p in values if p.symbol.at == place)
+            found.append(Answers("", place or own.at, there, own.by))
+    if not scene.stated:
+        found.append(Answers("", None, printed_values(scene)))
+    return tuple(found)
+
+
+def _judged_table(
+    scene: Mechanism, table: Sequence[Answers], at: At, case: Callable[[float | str | None], Evidence]
+) -> dict[int, tuple[Judged, ...]]:
+    """Rows of a table: all positions solved at once, judged by their digits; only what is wrong is looked into, and of
+    a table that was drawn some positions are drawn to see what a pencil keeps within."""
+    from graphkin.solver import driver_range, exact_values, structure_of
+
+    symbols = list(dict.fromkeys(p.symbol for who in table for p in who.values))
+    reach = driver_range(structure_of(scene))
+    key = scene.drivers[0].key
+    places = [(driver_values(scene, at if who.at is None else who.at) or {}).get(key) for who in table]
+    own = scene.drivers[0].values[0]
+    motion = reach.motion(reach.offsets(np.array([own if place is None else place for place in places])))
+    if not motion.ok.all():
+        k = int(np.argmin(motion.ok))
+        where = own_unit(scene, scene.drivers[0], float(motion.values[k, 0]))
+        status = str(motion.status[k])
+        raise Unsolvable(status, Problem(f"driver {key} at {where}", f"{status}: {motion.why[k]}"))
+    turning = [s for s in symbols if s.scope == "turn"]
+    value = exact_values(solved_here(scene, None), turning)
+    exact = exact_rows(motion, symbols, {s: float(value(s).real) for s in turning})
+    drawn = _Bounds(table, case)
+    made: dict[int, tuple[Judged, ...]] = {}
+    looked_into = 0
+    for row, who in enumerate(table):
+        judged = []
+        for printed in who.values:
+            right = exact(row, printed)
+            one = judged_by_digits(printed, right, who.by, 0.0)
+            if one.verdict != "right" and who.by == "drawing":
+                one = judged_by_digits(printed, right, who.by, drawn.bound(row, printed.symbol))
+            judged.append(one)
+        if any(one.verdict == "wrong" for one in judged) and looked_into < MOST_EXPLAINED:
+            looked_into += 1
+            evidence, values = case(who.at), {p.symbol: p.value for p in who.values}
+            wrong = [one.printed.symbol for one in judged if one.verdict == "wrong"]
+            judged = [explained(evidence, j, values, wrong) if j.verdict == "wrong" else j for j in judged]
+        made[id(who)] = tuple(judged)
+    return made
+
+
+@dataclass
+class _Bounds:
+    """What a pencil keeps within at the rows of a long table: predicted at some of them, the nearest is taken."""
+
+    table: Sequence[Answers]
+    case: Callable[[float | str | None], Evidence]
+
+    def bound(self, row: int, symbol: Symbol) -> float:
+        step = max(1, math.ceil(len(self.table) / MOST_PREDICTED))
+        near = min(len(self.table) - 1, step * round(row / step))
+        uncertainty = self.case(self.table[near].at).predicted.get(symbol)
+        return uncertainty.bound if uncertainty and math.isfinite(uncertainty.bound) else 0.0
 
 
 def _case(scene: Mechanism, asked: Sequence[Symbol], at: At) -> Evidence:

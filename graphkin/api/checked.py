@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -20,6 +20,7 @@ from graphkin.api.arguments import (
     asked_symbols,
     driver_values,
     own_unit,
+    value_at,
     whole_number,
     write_files,
 )
@@ -42,7 +43,9 @@ if TYPE_CHECKING:
     from graphkin.solver import Motion
     from graphkin.table import Table
 
-__all__ = ["Checked", "check", "checked", "hand_of", "reading_row", "reading_words", "solved_here"]
+__all__ = [
+    "Checked", "check", "checked", "hand_of", "here", "reading_row", "reading_words", "solved_here", "with_elsewhere",
+]  # fmt: skip
 
 _FORMS = {
     "symbol": "", "unit": "", "on_paper_mm": ".12g", "measured": ".12g", "exact": ".12g", "error": ".3g",
@@ -150,7 +153,8 @@ class Checked(Result):
         """A velocity by centres, in scene units; nothing for accelerations."""
         from graphkin.construction.centres import by_centres
 
-        value = by_centres(self.centres, self._turning, row.symbol) if row.symbol.kind in ("v", "omega") else None
+        known = row.symbol.kind in ("v", "omega") and not row.symbol.at
+        value = by_centres(self.centres, self._turning, row.symbol) if known else None
         if value is None:
             return {}
         plain = abs(value) if row.symbol.is_vector else float(value.real)
@@ -245,8 +249,9 @@ def check(
     values = driver_values(given, at)
     hand = hand_of(given, instrument, seed)
     structure = solver.structure_of(given)
-    motion = solved_here(structure, values, asked)
-    return checked(plan(structure, values, asked), motion, hand)
+    motion = solved_here(structure, values, here(asked))
+    made = checked(plan(structure, values, here(asked)), motion, hand)
+    return with_elsewhere(made, asked, seed)
 
 
 def checked(what: Plan, motion: Motion, hand: Instrument) -> Checked:
@@ -268,6 +273,36 @@ def checked(what: Plan, motion: Motion, hand: Instrument) -> Checked:
     predicted = predict(what, hand.name, tools)
     advice = advise(what, hand.name, tools, readings, predicted)
     return Checked(sheet, compare(sheet, readings, value, what.asked, predicted, rounding), advice, what.asked)
+
+
+def here(asked: Sequence[Symbol]) -> tuple[Symbol, ...]:
+    """What is asked of the position itself; where all is asked of others, the same quantities here."""
+    return tuple(s for s in asked if not s.at) or tuple(dict.fromkeys(s.here for s in asked))
+
+
+def with_elsewhere(made: Checked, asked: Sequence[Symbol], seed: int = 0) -> Checked:
+    """A check with what is asked of other positions ("v_C at 10"), each drawn by the same hands at the same scales.
+
+    Raises
+    ------
+    Unsolvable : a position that cannot be assembled or reached, or that lies on a stroke without a whole turn
+    """
+    names = dict.fromkeys(s.at for s in asked if s.at)
+    if not names:
+        return made
+    structure, scene = made.sheet.structure, made.scene
+    rows: list[Compared] = list(made.report.rows) if any(not s.at for s in asked) else []
+    missing: list[Symbol] = [s for s in made.report.missing if any(not a.at for a in asked)]
+    for name in names:
+        wanted = tuple(s.here for s in asked if s.at == name)
+        values = {**made.sheet.drivers, scene.drivers[0].key: value_at(scene, name)}
+        what = replace(plan(structure, values, wanted), scales=made.sheet.scales)
+        hand = hand_of(scene, made.sheet.instrument, seed)
+        there = checked(what, solved_here(structure, values, wanted), hand).report
+        kept = [row for row in there.rows if row.symbol in wanted]
+        rows += [replace(row, reading=replace(row.reading, symbol=replace(row.symbol, at=name))) for row in kept]
+        missing += [replace(s, at=name) for s in there.missing]
+    return replace(made, report=replace(made.report, rows=tuple(rows), missing=tuple(missing)))
 
 
 def hand_of(scene: Mechanism, name: str, seed: int) -> Instrument:

@@ -19,7 +19,7 @@ from graphkin.api.arguments import (
     known_words,
     write_files,
 )
-from graphkin.api.checked import Checked, checked, hand_of, solved_here
+from graphkin.api.checked import Checked, checked, hand_of, here, solved_here, with_elsewhere
 from graphkin.api.report_text import report_text
 from graphkin.api.results import Result
 from graphkin.construction import EXACT, Plan, plan
@@ -249,9 +249,10 @@ def draw(
     values = driver_values(given, at)
     hand = hand_of(given, instrument, seed)
     structure = solver.structure_of(given)
-    motion = solved_here(structure, values, asked)
-    what = plan(structure, values, asked)
-    drawn = Drawn(checked(what, motion, hand), what, motion, wanted, seed, language, convention)
+    motion = solved_here(structure, values, here(asked))
+    what = plan(structure, values, here(asked))
+    whole = with_elsewhere(checked(what, motion, hand), asked, seed)
+    drawn = Drawn(whole, what, motion, wanted, seed, language, convention)
     if out is not None:
         drawn.write(out, formats)
     return drawn

@@ -93,8 +93,16 @@ class Solved(Result):
     def data(self) -> dict[str, Any]:
         """The object that ``graphkin solve --json`` prints."""
         from graphkin.solver import to_json
+        from graphkin.solver.named_positions import named_positions
 
-        return to_json(self.motion, self.forces)
+        data = to_json(self.motion, self.forces)
+        places = named_positions(self.motion.scene) if self.motion.ok.any() else None
+        if places is not None:
+            for entry, value in zip(data["positions"], self.motion.values[:, 0].tolist(), strict=True):
+                name = places.name_of(value)
+                if name:
+                    entry["name"] = name
+        return data
 
     @property
     def ok(self) -> bool:

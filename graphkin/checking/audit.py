@@ -18,7 +18,7 @@ from graphkin.checking.slips import Evidence, Suspect, line_of, suspects
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase
 
-__all__ = ["Judged", "judge"]
+__all__ = ["COMPUTED_SHARE", "Judged", "Value", "comparable", "deviation", "difference", "explained", "judge"]
 
 Verdict = Literal["right", "within drafting accuracy", "wrong"]
 Value = complex | float
@@ -27,6 +27,7 @@ RIGHT_SHARE = 0.7  # drawn values that are right but for drafting errors
 CHANCE = 0.15  # a wrong value lies anywhere, within its own size
 SURER = 10.0  # so much likelier must a slip be than drafting errors, to call a value in their reach wrong
 DIGITS = 5  # fewer digits than this tell no slip from an error of drafting
+COMPUTED_SHARE = 1e-4  # a computed value may be off by so much of itself, for inputs that were rounded
 COMPUTED = 1e-5  # relative error of values worked out with rounded ones
 
 
@@ -54,22 +55,22 @@ def judge(case: Evidence, stated: Sequence[Printed]) -> tuple[Judged, ...]:
     first = [_judged(case, p) for p in stated]
     wrong = [j.printed.symbol for j in first if j.verdict == "wrong"]
     own = {p.symbol: p.value for p in stated}
-    return tuple(_explained(case, j, own, wrong) if j.verdict == "wrong" else j for j in first)
+    return tuple(explained(case, j, own, wrong) if j.verdict == "wrong" else j for j in first)
 
 
 def _judged(case: Evidence, printed: Printed) -> Judged:
     symbol = printed.symbol
     right = case.exact(symbol)
     line = line_of(case.sheet, symbol)
-    exact = _comparable(printed, right, line)
-    off = abs(_difference(printed, exact))
+    exact = comparable(printed, right, line)
+    off = abs(difference(printed, exact))
     uncertainty = case.predicted.get(symbol)
     bound = uncertainty.bound if uncertainty and math.isfinite(uncertainty.bound) else 0.0
-    deviation = _deviation(printed, exact)
+    share = deviation(printed, exact)
     if off <= printed.rounding + 1e-9 * abs(exact):
-        return Judged(printed, exact, deviation, "right", bound)
+        return Judged(printed, exact, share, "right", bound)
     verdict: Verdict = "within drafting accuracy" if off <= bound + printed.coarse else "wrong"
-    judged = Judged(printed, exact, deviation, verdict, bound)
+    judged = Judged(printed, exact, share, verdict, bound)
     if verdict == "wrong":
         return judged
     if printed.digits >= DIGITS:
@@ -80,21 +81,21 @@ def _judged(case: Evidence, printed: Printed) -> Judged:
     return judged
 
 
-def _difference(printed: Printed, exact: Value) -> Value:
+def difference(printed: Printed, exact: Value) -> Value:
     """A printed value less the exact one; of an angle without whole turns."""
     off = printed.value - exact
     return math.remainder(off.real, math.tau) if printed.symbol.measure == "angle" else off
 
 
-def _deviation(printed: Printed, exact: Value) -> float | None:
+def deviation(printed: Printed, exact: Value) -> float | None:
     if exact == 0:
         return None
     if isinstance(exact, complex):
         return abs(printed.value - exact) / abs(exact)
-    return _difference(printed, exact).real / exact
+    return difference(printed, exact).real / exact
 
 
-def _comparable(printed: Printed, value: Value, line: complex | None) -> Value:
+def comparable(printed: Printed, value: Value, line: complex | None) -> Value:
     """A value as it would be stated in the form of the printed one."""
     if not printed.symbol.is_vector:
         return float(value.real)
@@ -107,7 +108,7 @@ def _comparable(printed: Printed, value: Value, line: complex | None) -> Value:
     return signed if isinstance(value, complex) else float(value)
 
 
-def _explained(case: Evidence, judged: Judged, own: Mapping[Symbol, Value], wrong: Iterable[Symbol]) -> Judged:
+def explained(case: Evidence, judged: Judged, own: Mapping[Symbol, Value], wrong: Iterable[Symbol]) -> Judged:
     symbol = judged.printed.symbol
     others = [s for s in wrong if s != symbol]
     chance = CHANCE / max(abs(judged.printed.value), abs(judged.exact), judged.printed.step)
@@ -115,7 +116,7 @@ def _explained(case: Evidence, judged: Judged, own: Mapping[Symbol, Value], wron
     line = line_of(case.sheet, symbol)
     if others:
         for value in consequential_values(case.plan, case.sheet, own, symbol):
-            exact = _comparable(judged.printed, value, line)
+            exact = comparable(judged.printed, value, line)
             if abs(exact - judged.exact) > judged.bound / 3:
                 names = tuple(s for s in others if _moves(case, own, s, symbol, judged))
                 phrase = Phrase("slip follows", (", ".join(str(s) for s in names),))
@@ -131,7 +132,7 @@ def _moves(case: Evidence, own: Mapping[Symbol, Value], one: Symbol, symbol: Sym
     """Whether one wrong value, taken for granted, moves another by more than drafting errors do."""
     line = line_of(case.sheet, symbol)
     moved = consequential_values(case.plan, case.sheet, {one: own[one]}, symbol)
-    return any(abs(_comparable(judged.printed, v, line) - judged.exact) > judged.bound / 3 for v in moved)
+    return any(abs(comparable(judged.printed, v, line) - judged.exact) > judged.bound / 3 for v in moved)
 
 
 def _weighed(case: Evidence, judged: Judged) -> Iterator[tuple[Suspect, float]]:
@@ -147,7 +148,7 @@ def _weighed(case: Evidence, judged: Judged) -> Iterator[tuple[Suspect, float]]:
 
 def _weight(judged: Judged, suspect: Suspect, line: complex | None) -> tuple[Suspect, float]:
     printed = judged.printed
-    value = _comparable(printed, suspect.value, line)
+    value = comparable(printed, suspect.value, line)
     relative = judged.bound / 3 / abs(judged.exact) if judged.exact else 0.0
     spread = relative * abs(value) if suspect.drawn else 0.0
     return suspect, suspect.share * _likelihood(printed, abs(printed.value - value), spread, value)
@@ -166,5 +167,5 @@ def _likelihood(printed: Printed, off: float, spread: float, value: Value) -> fl
 def _fits_to_the_digit(judged: Judged, suspect: Suspect, case: Evidence) -> bool:
     if suspect.copied:
         return True
-    value = _comparable(judged.printed, suspect.value, line_of(case.sheet, judged.printed.symbol))
+    value = comparable(judged.printed, suspect.value, line_of(case.sheet, judged.printed.symbol))
     return abs(judged.printed.value - value) <= judged.printed.rounding + COMPUTED * abs(value)

@@ -80,7 +80,11 @@ def _number(text: str) -> Decimal:
 
 
 def printed_values(scene: Mechanism) -> tuple[Printed, ...]:
-    """The ``[printed]`` values of a scene, as they stand in the file but for zeros at the end of decimals."""
+    """The ``[printed]`` values of a scene as they stand in the file; of numbers that are no texts the zeros at the end
+    of decimals are lost."""
+    own = next((s for s in scene.stated if s.at is None and not s.file), None)
+    if own is not None and list(own.values) == list(scene.printed):
+        return tuple(stated(symbol, texts, scene.units.metres) for symbol, texts in own.values.items())
     found = []
     for symbol, value in scene.printed.items():
         unit = symbol.per_unit(scene.units.metres)

@@ -12,6 +12,7 @@ from graphkin.cli.options import (
     ConventionOption,
     FormatOption,
     JsonOption,
+    PositionOption,
     QuietOption,
     SceneArgument,
     SheetLangOption,
@@ -32,6 +33,7 @@ def centres(
     ] = None,
     formats: FormatOption = "svg",
     at: AtOption = None,
+    position: PositionOption = None,
     centrode: Annotated[
         str | None, typer.Option("--centrode", metavar="LINK", help="The centrodes of a link over a turn instead.")
     ] = None,
@@ -45,7 +47,7 @@ def centres(
     from graphkin.api.centred import centres as finding
     from graphkin.api.centred import centres_text
 
-    wanted, values = listed(formats), driver_values(at)
+    wanted, values = listed(formats), driver_values(at, position)
     if point and centrode is None:
         raise CallError(Problem("--point", "without --centrode", "write --centrode LINK --point P"))
     if centrode is not None:
@@ -70,8 +72,8 @@ def _none_found(error: Unsolvable) -> dict[str, object]:
 
 
 def _roll(
-    scene: str, link: str, point: str, values: float | dict[str, float] | None, out: Path | None, formats: list[str],
-    lang: str | None, convention: str | None, as_json: bool, quiet: bool,
+    scene: str, link: str, point: str, values: float | str | dict[str, float] | None, out: Path | None,
+    formats: list[str], lang: str | None, convention: str | None, as_json: bool, quiet: bool,
 ) -> None:  # fmt: skip
     from graphkin.api.centroded import centrodes
 

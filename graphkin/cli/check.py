@@ -21,6 +21,7 @@ from graphkin.cli.options import (
     JsonOption,
     LangOption,
     OutOption,
+    PositionOption,
     QuietOption,
     SceneArgument,
     SeedOption,
@@ -41,6 +42,7 @@ __all__ = ["audit", "check", "draw", "print_check", "unchecked"]
 def check(
     scene: SceneArgument,
     at: AtOption = None,
+    position: PositionOption = None,
     find: FindOption = None,
     out: Annotated[
         Path | None, typer.Option("-o", "--out", metavar="DIR", help="Folder for readings.csv and report.txt.")
@@ -58,7 +60,7 @@ def check(
 
     known_words(language=lang, convention=convention, instrument=instrument)
     with unsolvable_as_json(as_json, unchecked):
-        checked = checking(scene, driver_values(at), find or None, instrument, seed)
+        checked = checking(scene, driver_values(at, position), find or None, instrument, seed)
     language = lang or checked.scene.sheet.language
     if out is not None:
         _write(out, checked, language)
@@ -119,6 +121,7 @@ def draw(
     out: OutOption = None,
     formats: FormatOption = "svg",
     at: AtOption = None,
+    position: PositionOption = None,
     find: FindOption = None,
     lang: SheetLangOption = None,
     convention: ConventionOption = None,
@@ -137,8 +140,9 @@ def draw(
     wanted = listed(formats)
     with unsolvable_as_json(as_json, unchecked):
         drawn = drawing(
-            scene, None, driver_values(at), find or None, wanted, lang, convention, instrument, seed, figure or None
-        )
+            scene, None, driver_values(at, position), find or None, wanted, lang, convention, instrument, seed,
+            figure or None,
+        )  # fmt: skip
         paths = drawn.write(out, wanted)
     if not as_json and not quiet:
         print_paths(paths)
@@ -154,6 +158,7 @@ def audit(
         ),
     ] = None,
     at: AtOption = None,
+    position: PositionOption = None,
     out: Annotated[Path | None, typer.Option("-o", "--out", metavar="DIR", help="Folder for audit.csv.")] = None,
     lang: LangOption = None,
     as_json: JsonOption = False,
@@ -162,7 +167,7 @@ def audit(
     """Judge the scene's printed values, or people's answers: right, within drafting accuracy, or wrong and why."""
     from graphkin.api.audited import audit as auditing
 
-    audited = auditing(scene, answers, driver_values(at), lang)
+    audited = auditing(scene, answers, driver_values(at, position), lang)
     paths = audited.write(out) if out is not None else []
     if as_json:
         print_json(audited.data)

@@ -13,6 +13,7 @@ from graphkin.cli.options import (
     FindOption,
     JsonOption,
     OutOption,
+    PositionOption,
     QuietOption,
     SceneArgument,
     SheetLangOption,
@@ -31,6 +32,7 @@ def handout(
     out: OutOption = None,
     formats: Annotated[str, typer.Option("--format", metavar="html,pdf", help="Formats of the papers.")] = "html,pdf",
     at: AtOption = None,
+    position: PositionOption = None,
     find: FindOption = None,
     lang: SheetLangOption = None,
     convention: ConventionOption = None,
@@ -73,7 +75,7 @@ def handout(
         )
         return
     with short_bar(not as_json and not quiet) as progress:
-        values = driver_values(at)
+        values = driver_values(at, position)
         made = handing(
             scene, None, values, find or None, wanted, lang, convention, positions, progress, listed(export)
         )

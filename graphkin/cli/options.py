@@ -19,6 +19,7 @@ __all__ = [
     "JsonOption",
     "LangOption",
     "OutOption",
+    "PositionOption",
     "QuietOption",
     "SceneArgument",
     "SeedOption",
@@ -42,6 +43,10 @@ AtOption = Annotated[
         metavar="DEG",
         help="Driver value instead of the scene's, in the driver's unit; LINK=VALUE names the driver.",
     ),
+]
+PositionOption = Annotated[
+    str | None,
+    typer.Option("--position", metavar="NAME", help="The position of this name, of [positions], instead of --at."),
 ]
 FindOption = Annotated[
     list[str] | None,
@@ -74,12 +79,16 @@ def listed(words: str) -> list[str]:
     return [word.strip().lower() for word in words.split(",") if word.strip()]
 
 
-def driver_values(at: list[str] | None) -> float | dict[str, float] | None:
-    """Driver values as given on the command line: DEG, or LINK=DEG.
+def driver_values(at: list[str] | None, position: str | None = None) -> float | str | dict[str, float] | None:
+    """Driver values as given on the command line: DEG, or LINK=DEG; or the name of a position.
 
     >>> driver_values(["50"]), driver_values(["1=50", "2=30"])
     (50.0, {'1': 50.0, '2': 30.0})
     """
+    if position is not None:
+        if at:
+            raise CallError(Problem("--position", "stands beside --at", "write one of the two"))
+        return position
     if not at:
         return None
     named: dict[str, float] = {}

@@ -19,6 +19,7 @@ from graphkin.cli.options import (
     InstrumentOption,
     JsonOption,
     LangOption,
+    PositionOption,
     QuietOption,
     SceneArgument,
     driver_values,
@@ -83,6 +84,7 @@ def _write_new(path: Path, text: str) -> None:
 def solve(
     scene: SceneArgument,
     at: AtOption = None,
+    position: PositionOption = None,
     sweep: Annotated[
         int | None, typer.Option("--sweep", metavar="N", help="N positions over a turn of the driver.")
     ] = None,
@@ -99,7 +101,7 @@ def solve(
     from graphkin.api.solved import solve as solving
 
     known_words(language=lang, convention=convention, instrument=instrument)
-    values = driver_values(at)
+    values = driver_values(at, position)
     with unsolvable_as_json(as_json, lambda error: refused(scene, values, error)):
         solved = solving(scene, values, sweep)
     if out is not None:

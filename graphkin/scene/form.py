@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Strict, StringConstraints, Tag, TypeAdapter
 
-from graphkin.scene.tables import SMALLEST, Compass, DrivenSlide, Driver, Link, Polar, SceneTables
+from graphkin.scene.tables import SMALLEST, Compass, DrivenSlide, Driver, Link, Polar, SceneTables, StrokeStart
 from graphkin.words import LANGUAGES
 
 __all__ = ["SCENE", "schema"]
@@ -37,6 +37,10 @@ GuideRef = Annotated[
 ]
 SlideRef = Annotated[str, StringConstraints(strict=True, pattern=r"^[A-Za-z0-9]+(/[A-Za-z0-9]+)?$", max_length=81)]
 Text = Annotated[str, Field(strict=True, max_length=LONGEST_TEXT)]
+Count = Annotated[int, Field(strict=True, ge=1, le=720)]
+Share = Annotated[float, Field(strict=True, ge=0, le=1)]
+PositionName = Annotated[str, StringConstraints(strict=True, pattern=r"^[A-Za-z0-9'*._-]+$", max_length=20)]
+ShownName = Annotated[str, StringConstraints(strict=True, max_length=20)] | Annotated[int, Field(strict=True, ge=0)]
 Symbols = list[Annotated[str, Strict()]]
 PointNames = list[PointName]
 TwoPoints = Annotated[list[PointName], Field(min_length=2, max_length=2)]
@@ -83,6 +87,17 @@ Numbers = Annotated[
 NumberOrPair = Annotated[
     Annotated[Number, Tag("<number>")] | Annotated[Place, Tag("<list>")],
     _forms("write a number, or [x, y] for a vector by its components"),
+]
+Stated = Annotated[
+    Annotated[Number, Tag("<number>")]
+    | Annotated[Place, Tag("<list>")]
+    | Annotated[str, StringConstraints(strict=True, max_length=40), Tag("<name>")],
+    _forms('write a number, "1.0" for its digits as printed, or [x, y] for a vector by its components'),
+]
+StatedRow = dict[str, Stated]
+Start = Annotated[
+    Annotated[Number, Tag("<number>")] | Annotated[StrokeStart, Tag("<polar>")],
+    _forms('write a driver value, or { stroke = "5/6", at = 0, sense = 1 }'),
 ]
 At = Annotated[
     Annotated[Place, Tag("<list>")]

@@ -6,9 +6,11 @@ A scene is a value: nothing stores results in it.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Literal
 
 from graphkin.scene.loads import Loading
 from graphkin.scene.symbol import Symbol
@@ -19,11 +21,14 @@ __all__ = [
     "AnyDriver",
     "FromDeadPoint",
     "Mechanism",
+    "NamedPositions",
+    "OnStroke",
     "PinInSlot",
     "PlacedGuide",
     "PlacedLink",
     "SlideDriver",
     "SlidingPair",
+    "StatedValues",
 ]
 
 
@@ -111,7 +116,10 @@ class FromDeadPoint:
 
 @dataclass(frozen=True)
 class AngleDriver:
-    """The angle of ``link``'s own x axis from that of ``relative_to`` (the frame's name by default)."""
+    """The angle of ``link``'s own x axis from that of ``relative_to`` (the frame's name by default).
+
+    ``position`` names the position that is meant, where its angle follows from a stroke that is not known yet.
+    """
 
     link: str
     relative_to: str
@@ -119,6 +127,7 @@ class AngleDriver:
     omega: float
     alpha: float
     dead_point: FromDeadPoint | None = None
+    position: str = ""
 
     @property
     def key(self) -> str:
@@ -150,12 +159,68 @@ AnyDriver = AngleDriver | SlideDriver
 
 
 @dataclass(frozen=True)
+class StatedValues:
+    """Values that somebody states of one position, each as the texts of its number or of its two components.
+
+    ``at`` is the driver's value in its own unit, the name of a position, or None for the scene's own; ``file`` is a CSV
+    file that holds them instead; ``by`` says how they were found.
+    """
+
+    at: float | str | None
+    values: Mapping[Symbol, tuple[str, ...]]
+    by: Literal["drawing", "computation"] = "drawing"
+    file: str = ""
+
+
+@dataclass(frozen=True)
+class OnStroke:
+    """A place on the stroke of a sliding pair: ``at`` of it is done, along the guide's sense or (-1) against it."""
+
+    pair: str
+    at: float
+    sense: int
+
+
+@dataclass(frozen=True)
+class NamedPositions:
+    """Positions with names: ``count`` over a turn of the driver from ``first`` on, numbered from 1, and ``also``.
+
+    A place is a driver value (rad, m) or a place on a stroke; ``first`` is None for the driver's own value.  ``show``
+    and ``marks`` say what stands on their figure.
+    """
+
+    count: int
+    first: float | OnStroke | None
+    also: Mapping[str, float | OnStroke]
+    show: tuple[str, ...]
+    marks: tuple[str, ...]
+
+    def place(self, name: str, first: float | None, sense: float) -> float | OnStroke | None:
+        """Where a position lies; of a numbered one (rad) from ``first``, the value of position 1, None if that is not
+        known.  ``sense`` is that of the driver (1 or -1)."""
+        if name in self.also:
+            return self.also[name]
+        return None if first is None else first + sense * 2 * math.pi * (int(name) - 1) / self.count
+
+    def placed(self, driver: AngleDriver) -> AngleDriver:
+        """A driver at the position that it names, if its value does not follow from a stroke."""
+        first = self.first if isinstance(self.first, float) else None
+        place = self.place(driver.position, first, -1.0 if driver.omega < 0 else 1.0)
+        return replace(driver, angle=place, position="") if isinstance(place, float) else driver
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        return *(str(k) for k in range(1, self.count + 1)), *self.also
+
+
+@dataclass(frozen=True)
 class Mechanism:
     """A mechanism at one position, with what is asked of it.
 
     ``links`` are the moving links in the order of the file (redundant ones included, see ``PlacedLink.redundant``);
     ``sketch`` and ``drawn`` give places of points in world axes (m); ``printed`` maps symbols to values in SI
-    (a float, or a complex number for a vector given by two components).
+    (a float, or a complex number for a vector given by two components); ``stated`` holds all that is printed, digit by
+    digit, first that of this position; ``loops`` are vector loops by name, each through its points.
     """
 
     name: str
@@ -174,6 +239,9 @@ class Mechanism:
     printed: Mapping[Symbol, float | complex] = field(default_factory=dict)
     sheet: SheetWishes = field(default_factory=SheetWishes)
     loading: Loading = field(default_factory=Loading)
+    stated: tuple[StatedValues, ...] = ()
+    positions: NamedPositions | None = None
+    loops: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     def __hash__(self) -> int:
         return hash((self.name, self.title, tuple(link.name for link in self.links)))

@@ -164,6 +164,7 @@ class DriverEntry:
     rate: float
     second: float
     dead_point: FromDeadPoint | None = None
+    position: str = ""
 
 
 def drives(
@@ -182,7 +183,7 @@ def drives(
         where = f"driver.{i + 1}" if several else "driver"
         lost = {str(p[-1]) for p in flaws.paths if p[0] == "driver" and (not several or p[1:2] == (i,))}
         if isinstance(table, Driver):
-            reasons = list(_angle_problems(where, table, file, names, lost))
+            reasons = [*_angle_problems(where, table, file, names, lost), *_position_problems(where, i, table, file)]
             key, base = table.link, table.relative_to or names.frame
         else:
             reasons, key = _slide_problems(where, table, file, names, slidings, pins, lost)
@@ -197,7 +198,9 @@ def drives(
             omega = table.omega if table.omega is not None else (table.rpm or 0.0) * math.pi / 30
             angle = None if table.angle is None else math.radians(table.angle)
             unit = math.pi / 180
-            found.append(DriverEntry(where, key, base, angle, omega, table.alpha, _from_dead_point(table, angle, unit)))
+            dead = _from_dead_point(table, angle, unit)
+            named = "" if table.position is None else str(table.position)
+            found.append(DriverEntry(where, key, base, angle, omega, table.alpha, dead, named))
         else:
             travel = None if table.travel is None else table.travel * metres
             dead = _from_dead_point(table, travel, metres)
@@ -262,6 +265,25 @@ def _angle_problems(
                       "write one of the two")
     if table.omega is None and table.rpm is None and not lost & {"omega", "rpm"}:
         yield Problem(f"{where}.omega", "is missing", "write omega = ... in rad/s or rpm = ...; it may be 0")
+
+
+def _position_problems(where: str, i: int, table: Driver, file: SceneTables) -> Iterator[Problem]:
+    if table.position is None:
+        return
+    known = [str(k) for k in range(1, ((file.positions and file.positions.count) or 0) + 1)]
+    known += list(file.positions.also) if file.positions else []
+    if i > 0:
+        yield Problem(f"{where}.position", "positions are those of the first driver", "give the angle")
+    elif str(table.position) not in known:
+        wanted = did_you_mean(str(table.position), known) if known else "name it in [positions]"
+        yield Problem(f"{where}.position", f'there is no position "{table.position}"', wanted)
+    elif file.positions and file.positions.first is None and str(table.position) not in file.positions.also:
+        wanted = "write positions.first, or the angle"
+        yield Problem(f"{where}.position", "the numbered positions count from the driver's own value", wanted)
+    if table.angle is not None:
+        yield Problem(f"{where}.position", f"found angle = {table.angle:g} too", "write one of the two")
+    if table.origin is not None or file.drawn:
+        yield Problem(f"{where}.position", "what gives the driver's value stands here twice", "leave one of them out")
 
 
 def _slide_problems(

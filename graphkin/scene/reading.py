@@ -128,7 +128,7 @@ def _cut(path: Path) -> Path:
         if path[-1] in ("link", "slide"):  # without it the form of the driver is not known
             return head
         return path[: 3 if len(path) > 1 and isinstance(path[1], int) else 2]
-    inside = ("pins", "sketch", "drawn", "printed", "sheet", "units", "masses", "loads")
+    inside = ("pins", "sketch", "drawn", "printed", "sheet", "units", "masses", "loads", "positions", "loops")
     return path[:2] if head and head[0] in inside else head
 
 
@@ -184,6 +184,10 @@ _TABLES: tuple[tuple[tuple[str, ...], type[FileTable]], ...] = (
     (("balance",), load_tables.Balance),
     (("flywheel",), load_tables.Flywheel),
     (("sheet",), tables.SheetWishes),
+    (("positions",), tables.Positions),
+    (("positions", "first", "<polar>"), tables.StrokeStart),
+    (("positions", "also", "*", "<polar>"), tables.StrokeStart),
+    (("printed_table",), tables.PrintedTable),
 )
 _KINDS = {
     "string_type": "a text is wanted",

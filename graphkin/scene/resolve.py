@@ -15,7 +15,6 @@ from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedGuide,
 from graphkin.scene.names import Flaws, Names
 from graphkin.scene.pairs import DriverEntry, drives, islands, pins_in_slots, sliding_pairs
 from graphkin.scene.placing import Placement
-from graphkin.scene.reading import path_name
 from graphkin.scene.rules import (
     disagreements,
     not_held,
@@ -24,59 +23,10 @@ from graphkin.scene.rules import (
     unwritable_texts,
     wrong_own_points,
 )
-from graphkin.scene.symbol import Symbol, missing_names
+from graphkin.scene.stating import asked, loops_named, positions_named, published, stated_values
 from graphkin.scene.tables import Link, SceneTables
 
-__all__ = ["asked", "published", "resolve", "unknown_places"]
-
-
-def _symbol(where: str, text: str, names: Names) -> Symbol | Problem:
-    """A symbol whose point and links exist, or what is wrong with it."""
-    try:
-        symbol = Symbol.parse(text[:120])
-    except ValueError as error:
-        return Problem(where, str(error))
-    missing = missing_names(
-        symbol, lambda link: names.no_link(where, link), lambda point: names.no_point(where, point), names.points
-    )
-    if missing:
-        return missing[0]
-    if symbol.of is None:
-        return symbol
-    if symbol.to == symbol.of:
-        return Problem(where, f'"{text}" is relative to itself', "name two different points")
-    if symbol.kind in ("ak", "ar") and symbol.to and symbol.to.point != symbol.of.point:
-        return Problem(
-            where,
-            f'"{text}" names two different points',
-            f"it is between coincident points of two links, for example {symbol.kind}_B@3/B@2",
-        )
-    return symbol
-
-
-def asked(file: SceneTables, names: Names, problems: list[Problem]) -> tuple[Symbol, ...]:
-    """The symbols of ``find``, each once, in its order."""
-    found = [_symbol(path_name(("find", text)), text, names) for text in file.find or ()]
-    problems += [s for s in found if isinstance(s, Problem)]
-    return tuple(dict.fromkeys(s for s in found if isinstance(s, Symbol)))
-
-
-def published(file: SceneTables, names: Names, metres: float, problems: list[Problem]) -> dict[Symbol, float | complex]:
-    """The values of ``[printed]`` in SI: vectors times ``metres``, angular rates as they are."""
-    values: dict[Symbol, float | complex] = {}
-    for text, value in file.printed.items():
-        where = path_name(("printed", text))
-        symbol = _symbol(where, text, names)
-        if isinstance(symbol, Problem):
-            problems.append(symbol)
-        elif not isinstance(value, int | float):
-            if symbol.is_vector:
-                values[symbol] = complex(*value) * metres
-            else:
-                problems.append(Problem(where, "found two numbers", "it is one number, no vector"))
-        else:
-            values[symbol] = float(value) * symbol.per_unit(metres)
-    return values
+__all__ = ["resolve", "unknown_places"]
 
 
 def unknown_places(file: SceneTables, names: Names) -> list[Problem]:
@@ -120,7 +70,9 @@ def resolve(file: SceneTables, name: str, problems: list[Problem], flaws: Flaws)
     driven = drives(file, names, flaws, slidings, pins, metres, problems)
     problems += unknown_places(file, names)
     find = asked(file, names, problems)
-    printed = published(file, names, metres, problems)
+    stated = stated_values(file, names, problems)
+    positions = positions_named(file, slidings, pins, metres, problems)
+    loops = loops_named(file, names, problems)
     problems += nowhere_placed(file, names, flaws)
     if not names.unsure and not flaws.under("pins") and not any(p[2:] == ("on",) for p in flaws.paths):
         bare = {p.where for p in problems}
@@ -156,6 +108,8 @@ def resolve(file: SceneTables, name: str, problems: list[Problem], flaws: Flaws)
         loading = loading_of(file, names, places, (*(s.key for s in slidings), *(p.key for p in pins)), problems)
     hopeless = bool(problems) and (bool(drawn) or flaws.under("drawn"))
     drivers = [_driver(d, position, [] if hopeless else problems) for d in driven]
+    if positions is not None and drivers and isinstance(drivers[0], AngleDriver) and drivers[0].position:
+        drivers[0] = positions.placed(drivers[0])
     if problems:
         raise SceneError(*dict.fromkeys(problems))
     links = tuple(_link(n, t, bodies[n]) for n, t in file.links.items())
@@ -175,9 +129,12 @@ def resolve(file: SceneTables, name: str, problems: list[Problem], flaws: Flaws)
         {p: complex(*xy) * metres for p, xy in file.sketch.items()},
         drawn,
         find,
-        printed,
+        published(stated, metres),
         file.sheet,
         loading,
+        stated,
+        positions,
+        loops,
     )
 
 
@@ -268,6 +225,8 @@ def _driver(drive: DriverEntry, position: DrawnPosition, problems: list[Problem]
             )
         )
         return None
+    if drive.position:  # its value is found where the positions are known
+        return AngleDriver(drive.key, drive.base, 0.0, drive.rate, drive.second, None, drive.position)
     angle = drive.value
     driven, base = position.bodies.get(drive.key), position.bodies.get(drive.base)
     if angle is None and driven and base and driven.turn is not None and base.turn is not None:

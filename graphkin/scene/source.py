@@ -106,9 +106,17 @@ def written(source: SceneLike) -> tuple[dict[str, Any], str]:
                                          "save it as a file, or give tomllib.loads(text)"))
             if isinstance(source, str) and text in library() and not _is_file(text):
                 return parsed(library_text(text)), text
-            return parsed(file_text(text)), Path(text).stem
+            return _beside(parsed(file_text(text)), Path(text)), Path(text).stem
     raise SceneError(Problem("the scene", f"found a {type(source).__name__}",
                              "give a file, the name of a scene that comes along, or a mapping"))
+
+
+def _beside(made: dict[str, Any], path: Path) -> dict[str, Any]:
+    """The mapping of a file, with the place of the table that stands beside it."""
+    table = made.get("printed_table")
+    if isinstance(table, dict) and isinstance(table.get("file"), str):
+        table["file"] = str(path.parent / table["file"])
+    return made
 
 
 def parsed(text: str) -> dict[str, Any]:

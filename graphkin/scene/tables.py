@@ -41,6 +41,13 @@ if TYPE_CHECKING:
     GuideRefs = str | Sequence[str]
     Numbers = float | Sequence[float]
     NumberOrPair = float | Sequence[float]
+    Stated = float | str | Sequence[float]
+    StatedRow = Mapping[str, float | str | Sequence[float]]
+    Count = int
+    Share = float
+    PositionName = str
+    ShownName = str | int
+    Start: TypeAlias = "float | StrokeStart"
     At: TypeAlias = "Sequence[float] | Polar | Compass | Literal['drawn']"
     Links: TypeAlias = "Mapping[str, Link]"
     Drivers: TypeAlias = "Driver | DrivenSlide | Sequence[Driver | DrivenSlide]"
@@ -55,8 +62,11 @@ __all__ = [
     "Link",
     "Pin",
     "Polar",
+    "Positions",
+    "PrintedTable",
     "SceneTables",
     "SheetWishes",
+    "StrokeStart",
     "Tools",
     "Units",
 ]
@@ -195,6 +205,9 @@ class Driver(FileTable):
     near: Number | None = field(
         default=None, metadata=_about("Degrees: which dead point, where there are several.")
     )
+    position: ShownName | None = field(
+        default=None, metadata=_about("Instead of angle: the name of a position of [positions].")
+    )
 
 
 @dataclass(frozen=True)
@@ -263,6 +276,48 @@ class SheetWishes(FileTable):
         return (long, short) if self.orientation == "landscape" else (short, long)
 
 
+@dataclass(frozen=True)
+class StrokeStart(FileTable):
+    """A place on the stroke of a slide."""
+
+    stroke: SlideRef = field(metadata=_about('The sliding pair: "5/6".'))
+    at: Share = field(default=0.0, metadata=_about("Part of the stroke that is done, 0 to 1."))
+    sense: Literal[1, -1] = field(
+        default=1, metadata=_about("1: of the stroke that goes along the guide's sense, -1: against it.")
+    )
+
+
+@dataclass(frozen=True)
+class Positions(FileTable):
+    """Positions with names."""
+
+    count: Count | None = field(
+        default=None, metadata=_about("So many positions over a turn, numbered from 1 in the sense of the driver.")
+    )
+    first: Start | None = field(
+        default=None, metadata=_about("Position 1: a driver value, or the start of a stroke; the driver's own value.")
+    )
+    also: dict[PositionName, Start] = field(
+        default_factory=dict, metadata=_closed("Further positions by name, each a driver value or a place of a stroke.")
+    )
+    show: tuple[ShownName, ...] = field(
+        default=("limits", "all"), metadata=_about('On the figure: "limits", "all", or names of positions.')
+    )
+    marks: tuple[Literal["theta", "stroke", "K", "gamma"], ...] = field(
+        default=("theta", "stroke", "K", "gamma"), metadata=_about("What is drawn and dimensioned there.")
+    )
+
+
+@dataclass(frozen=True)
+class PrintedTable(FileTable):
+    """A table of published values in a file beside the scene."""
+
+    file: Text = field(metadata=_about("A CSV file: heads are symbols, one column is called at."))
+    by: Literal["drawing", "computation"] = field(
+        default="drawing", metadata=_about("How the values were found; computed ones are judged by their digits.")
+    )
+
+
 @dataclass(frozen=True, kw_only=True)
 class SceneTables(FileTable):
     """A mechanism at one position, with what is asked of it: the whole file."""
@@ -287,9 +342,20 @@ class SceneTables(FileTable):
     drawn: dict[PointName, Place] = field(
         default_factory=dict, metadata=_closed("Exact places of points of moving links in this position.")
     )
-    printed: dict[str, NumberOrPair] = field(
+    printed: dict[str, Stated] = field(
         default_factory=dict,
-        metadata=_about("Values that somebody published, by symbol, in scene units, degrees, rad/s and rad/s2."),
+        metadata=_about(
+            'Values that somebody published, by symbol, in scene units, degrees, rad/s and rad/s2, as numbers or (with '
+            'their digits) texts; by = "drawing" or "computation".'
+        ),
+    )
+    printed_rows: tuple[StatedRow, ...] = field(
+        default=(), metadata=_about("The same over a turn: tables with at (driver value or name of a position).")
+    )
+    printed_table: PrintedTable | None = field(default=None, metadata=_about("The same from a CSV file."))
+    positions: Positions | None = field(default=None, metadata=_about("Positions with names, and their figure."))
+    loops: dict[LinkName, PointNames] = field(
+        default_factory=dict, metadata=_closed("Vector loops by name, each the points that it goes through.")
     )
     gravity: Gravity | None = field(default=None, metadata=_about("Weights pull where this table stands."))
     masses: dict[LinkName, Mass] = field(default_factory=dict, metadata=_closed("Masses of moving links."))

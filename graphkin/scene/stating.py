@@ -1,0 +1,210 @@
+"""What a scene asks for, what was published about it, and the positions and loops that it names."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from decimal import Decimal, InvalidOperation
+from typing import Any, Literal
+
+from graphkin.errors import Problem, did_you_mean
+from graphkin.scene.model import NamedPositions, OnStroke, PinInSlot, SlidingPair, StatedValues
+from graphkin.scene.names import Names
+from graphkin.scene.reading import path_name
+from graphkin.scene.symbol import Symbol, missing_names
+from graphkin.scene.tables import DrivenSlide, Positions, SceneTables, StrokeStart
+
+__all__ = ["asked", "loops_named", "position_name", "positions_named", "published", "stated_values"]
+
+BY = ("drawing", "computation")
+Stated = float | str | Sequence[float]
+
+
+def position_name(name: str | int) -> str:
+    """The name of a position, which a file may write as a number."""
+    return str(name)
+
+
+def _symbol(where: str, text: str, names: Names, known: Sequence[str]) -> Symbol | Problem:
+    """A symbol whose points, links and position exist, or what is wrong with it."""
+    try:
+        symbol = Symbol.parse(text[:120])
+    except ValueError as error:
+        return Problem(where, str(error))
+    missing = missing_names(
+        symbol, lambda link: names.no_link(where, link), lambda point: names.no_point(where, point), names.points
+    )
+    if missing:
+        return missing[0]
+    if symbol.at and symbol.at not in known:
+        wanted = did_you_mean(symbol.at, known) if known else "name positions in [positions]"
+        return Problem(where, f'there is no position "{symbol.at}"', wanted)
+    if symbol.of is None:
+        return symbol
+    if symbol.to == symbol.of:
+        return Problem(where, f'"{text}" is relative to itself', "name two different points")
+    if symbol.kind in ("ak", "ar") and symbol.to and symbol.to.point != symbol.of.point:
+        return Problem(
+            where,
+            f'"{text}" names two different points',
+            f"it is between coincident points of two links, for example {symbol.kind}_B@3/B@2",
+        )
+    return symbol
+
+
+def asked(file: SceneTables, names: Names, problems: list[Problem]) -> tuple[Symbol, ...]:
+    """The symbols of ``find``, each once, in its order."""
+    known = _names_of(file.positions)
+    found = [_symbol(path_name(("find", text)), text, names, known) for text in file.find or ()]
+    problems += [s for s in found if isinstance(s, Problem)]
+    return tuple(dict.fromkeys(s for s in found if isinstance(s, Symbol)))
+
+
+def published(stated: Iterable[StatedValues], metres: float) -> dict[Symbol, float | complex]:
+    """The values of ``[printed]`` in SI."""
+    values: dict[Symbol, float | complex] = {}
+    for own in stated:
+        if own.at is None and not own.file:
+            for symbol, texts in own.values.items():
+                parts = [float(text) * symbol.per_unit(metres) for text in texts]
+                values[symbol] = complex(*parts) if len(parts) == 2 else parts[0]
+    return values
+
+
+def stated_values(file: SceneTables, names: Names, problems: list[Problem]) -> tuple[StatedValues, ...]:
+    """All values that somebody states: ``[printed]``, ``[[printed_rows]]``, and the file of ``[printed_table]``."""
+    known = _names_of(file.positions)
+    by = file.printed.get("by", "drawing")
+    if by not in BY:
+        problems.append(Problem("printed.by", f"found {by!r:.40}", 'one of "drawing", "computation" is possible'))
+        by = "drawing"
+    found = []
+    own = _texts("printed", file.printed, names, known, problems)
+    if own:
+        found.append(StatedValues(None, own, _how(by)))
+    for number, row in enumerate(file.printed_rows, 1):
+        where = f"printed_rows.{number}"
+        at, how = row.get("at"), row.get("by", by)
+        if not isinstance(at, int | float | str):
+            problems.append(Problem(f"{where}.at", "is missing" if at is None else "is two numbers",
+                                    "write the driver's value, or the name of a position"))  # fmt: skip
+            continue
+        if isinstance(at, str) and at not in known:
+            wanted = did_you_mean(at, known) if known else "name positions in [positions], or write a driver value"
+            problems.append(Problem(f"{where}.at", f'there is no position "{at}"', wanted))
+            continue
+        if how not in BY:
+            problems.append(Problem(f"{where}.by", f"found {how!r:.40}", 'one of "drawing", "computation" is possible'))
+            continue
+        found.append(StatedValues(at, _texts(where, row, names, known, problems), _how(how)))
+    if file.printed_table is not None:
+        found.append(StatedValues(None, {}, file.printed_table.by, file.printed_table.file))
+    return tuple(found)
+
+
+def _how(by: Any) -> Literal["drawing", "computation"]:
+    return "computation" if by == "computation" else "drawing"
+
+
+def _texts(
+    table: str, values: Mapping[str, Stated], names: Names, known: Sequence[str], problems: list[Problem]
+) -> dict[Symbol, tuple[str, ...]]:
+    found: dict[Symbol, tuple[str, ...]] = {}
+    for text, value in values.items():
+        if text in ("by", "at"):
+            continue
+        where = path_name((*table.split("."), text))
+        symbol = _symbol(where, text, names, known)
+        if isinstance(symbol, Problem):
+            problems.append(symbol)
+        elif not isinstance(value, int | float | str):
+            if symbol.is_vector:
+                found[symbol] = tuple(map(_shortest, value))
+            else:
+                problems.append(Problem(where, "found two numbers", "it is one number, no vector"))
+        elif isinstance(value, str):
+            plain = value.strip().replace("\u2212", "-")
+            if _is_number(plain):
+                found[symbol] = (plain,)
+            else:
+                problems.append(Problem(where, f'"{value[:40]}" is no number', 'write "1.0", the digits as printed'))
+        else:
+            found[symbol] = (_shortest(value),)
+    return found
+
+
+def _is_number(text: str) -> bool:
+    try:
+        number = Decimal(text)
+    except InvalidOperation:
+        return False
+    return number.is_finite() and abs(number) < Decimal("1e15") and int(number.as_tuple().exponent) > -300
+
+
+def _shortest(number: float) -> str:
+    # a number of a file lost its last zeros; nobody prints more than twelve digits
+    text = f"{number:.12g}"
+    return text if "e" not in text or not math.isfinite(number) else format(Decimal(text), "f")
+
+
+# -- positions and loops -----------------------------------------------------------------------------------------------
+
+
+def _names_of(table: Positions | None) -> tuple[str, ...]:
+    if table is None:
+        return ()
+    return *(str(k) for k in range(1, (table.count or 0) + 1)), *table.also
+
+
+def positions_named(
+    file: SceneTables, slidings: Sequence[SlidingPair], pins: Sequence[PinInSlot], metres: float,
+    problems: list[Problem],
+) -> NamedPositions | None:  # fmt: skip
+    """The positions that a scene names; what is wrong with them is added to ``problems``."""
+    table = file.positions
+    if table is None:
+        return None
+    first_driver = file.drivers[0] if file.drivers else None
+    slides = isinstance(first_driver, DrivenSlide)
+    pairs = [*(p.key for p in slidings), *(p.key for p in pins)]
+    if slides and (table.count or table.first is not None):
+        key = "count" if table.count else "first"
+        problems.append(Problem(f"positions.{key}", "the driver slides, it makes no turn",
+                                "name its positions in positions.also, by travel"))  # fmt: skip
+
+    def place(where: str, value: float | StrokeStart) -> float | OnStroke:
+        if not isinstance(value, StrokeStart):
+            return value * metres if slides else math.radians(value)
+        if value.stroke not in pairs:
+            wanted = did_you_mean(value.stroke, pairs)
+            problems.append(Problem(f"{where}.stroke", f'there is no sliding pair "{value.stroke}"', wanted))
+        if slides:
+            problems.append(Problem(where, "the driver slides, there is no stroke of a whole turn", "give a travel"))
+        return OnStroke(value.stroke, value.at, value.sense)
+
+    count = table.count or 0
+    first = None if table.first is None else place("positions.first", table.first)
+    also = {name: place(f"positions.also.{name}", value) for name, value in table.also.items()}
+    names = _names_of(table)
+    for name in table.also:
+        if name in names[:count]:
+            problems.append(Problem(f"positions.also.{name}", f"is one of the {count} numbered ones",
+                                    "give it another name"))  # fmt: skip
+    show = tuple(map(position_name, table.show))
+    for name in show:
+        if name not in ("limits", "all", *names):
+            problems.append(Problem("positions.show", f'there is no position "{name}"',
+                                    did_you_mean(name, ("limits", "all", *names))))  # fmt: skip
+    return NamedPositions(count, first, also, show, tuple(table.marks))
+
+
+def loops_named(file: SceneTables, names: Names, problems: list[Problem]) -> dict[str, tuple[str, ...]]:
+    """The vector loops that a scene names, whose points exist."""
+    for name, points in file.loops.items():
+        where = f"loops.{name}"
+        problems += [p for point in points if (p := names.no_point(where, point))]
+        if len(points) < 3:
+            problems.append(Problem(where, f"has {len(points)} points", "a loop goes through three points or more"))
+        elif len(set(points)) < len(points):
+            problems.append(Problem(where, "comes twice to one point", "name each point once; it closes by itself"))
+    return {name: tuple(points) for name, points in file.loops.items()}

@@ -1,0 +1,142 @@
+"""Positions by name: numbered over a turn, at a driver's value, or at a place of a stroke."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from graphkin.errors import GraphkinError, Problem, SceneError, Unsolvable
+from graphkin.scene.model import AngleDriver, Mechanism, NamedPositions, OnStroke
+from graphkin.scene.symbol import Symbol
+from graphkin.solver.driver_range import DriverRange, whole_range
+from graphkin.solver.findings import structure_of
+from graphkin.solver.whole_turn import Extremes, extremes
+
+__all__ = ["PlacesByName", "named_positions", "standing"]
+
+ROUNDS = 80
+TRIES = 24
+SAME = 1e-9
+
+
+@dataclass(frozen=True)
+class PlacesByName:
+    """The positions that a scene names, and where they lie on the way of its first driver."""
+
+    names: NamedPositions
+    reach: DriverRange
+
+    @cached_property
+    def values(self) -> Mapping[str, float]:
+        """The value of the first driver at each position (rad, m), an angle within half a turn of the driver's own.
+
+        Raises
+        ------
+        Unsolvable : a position lies on the stroke of a slide, but there is no whole turn
+        """
+        sense = -1.0 if self.reach.driver.values[1] < 0 else 1.0
+        own = self.reach.scene.drivers[0].values[0]
+        found = {name: self._value(self.names.place(name, self.first, sense)) for name in self.names.names}
+        if isinstance(self.reach.driver, AngleDriver):
+            return {name: own + math.remainder(value - own, math.tau) for name, value in found.items()}
+        return found
+
+    @cached_property
+    def first(self) -> float:
+        """The value at position 1: the driver's own where nothing else is said."""
+        first = self.names.first
+        return self.reach.scene.drivers[0].values[0] if first is None else self._value(first)
+
+    def _value(self, place: float | OnStroke | None) -> float:
+        assert place is not None
+        return self._on_stroke(place) if isinstance(place, OnStroke) else place
+
+    def _on_stroke(self, place: OnStroke) -> float:
+        """The driver's value where so much of a stroke is done."""
+        sliding, guiding = place.pair.split("/")
+        symbol = Symbol("stroke", link=sliding, other=guiding)
+        found = self._extremes(symbol)
+        begin, end = (found.low_offset, found.high_offset) if place.sense > 0 else (found.high_offset, found.low_offset)
+        span = (end - begin) % math.tau
+        start = found.low if place.sense > 0 else found.high
+        goal = start + place.sense * place.at * found.stroke
+        a, b = 0.0, span
+        if place.at in (0.0, 1.0):
+            a = b = span * place.at
+        for _ in range(ROUNDS):  # halving: the slide may stand still on its way, but goes through every place
+            c = (a + b) / 2
+            if b - a <= 4e-16 * math.tau:
+                break
+            motion = self.reach.motion(np.array([(begin + c) % math.tau]))
+            if place.sense * (float(motion.slide(place.pair).travel[0]) - goal) < 0.0:
+                a = c
+            else:
+                b = c
+        return float(self.reach.value(np.array((begin + (a + b) / 2) % math.tau)))
+
+    def _extremes(self, symbol: Symbol) -> Extremes:
+        if symbol.pair not in self._found:
+            self._found[symbol.pair] = extremes(self.reach, symbol)
+        return self._found[symbol.pair]
+
+    @cached_property
+    def _found(self) -> dict[str, Extremes]:
+        return {}
+
+    def name_of(self, value: float) -> str:
+        """The name of the position at a driver's value (rad, m), whole turns aside; "" where it has none."""
+        turning = isinstance(self.reach.driver, AngleDriver)
+        for name, own in self.values.items():
+            off = math.remainder(value - own, math.tau) if turning else (value - own) / self.reach.scene.size
+            if abs(off) < SAME:
+                return name
+        return ""
+
+
+def named_positions(scene: Mechanism) -> PlacesByName | None:
+    """The positions that a scene names; None where it names none.  Raises Unsolvable."""
+    if scene.positions is None:
+        return None
+    return PlacesByName(scene.positions, whole_range(structure_of(scene)))
+
+
+def standing(scene: Mechanism) -> Mechanism:
+    """A scene whose driver stands at a named position, its value found.
+
+    The assembly is that of the position itself: the value is looked for from positions round the turn, and taken where
+    it leads to itself.
+
+    Raises
+    ------
+    Unsolvable : no position of the driver leads to the stroke that is named
+    """
+    first = scene.drivers[0] if scene.drivers else None
+    if not isinstance(first, AngleDriver) or not first.position:
+        return scene
+    stop: GraphkinError | None = None
+    for k in range(TRIES):
+        guess = math.tau * k / TRIES
+        for _ in range(3):
+            try:
+                here = _at(scene, first, guess)
+                places = named_positions(here)
+                assert places is not None
+                value = places.values[first.position]
+            except (Unsolvable, SceneError) as error:
+                stop = stop or error
+                break
+            if abs(math.remainder(value - guess, math.tau)) < 1e-12:
+                return here
+            guess = value
+        else:
+            return _at(scene, first, guess)
+    raise stop or Unsolvable("not assembled", Problem("driver.position", f'"{first.position}" is not found'))
+
+
+def _at(scene: Mechanism, driver: AngleDriver, value: float) -> Mechanism:
+    turned = math.remainder(value, math.tau)
+    return replace(scene, drivers=(replace(driver, angle=turned, position=""), *scene.drivers[1:]))
