@@ -14,11 +14,11 @@ from graphkin.scene.model import AngleDriver, Mechanism, NamedPositions, OnStrok
 from graphkin.scene.symbol import Symbol
 from graphkin.solver.driver_range import DriverRange, whole_range
 from graphkin.solver.findings import structure_of
-from graphkin.solver.whole_turn import Extremes, extremes
+from graphkin.solver.pose import Array
+from graphkin.solver.whole_turn import Extremes, extremes, where_true
 
 __all__ = ["PlacesByName", "named_positions", "standing"]
 
-ROUNDS = 80
 TRIES = 24
 SAME = 1e-9
 
@@ -64,19 +64,13 @@ class PlacesByName:
         span = (end - begin) % math.tau
         start = found.low if place.sense > 0 else found.high
         goal = start + place.sense * place.at * found.stroke
-        a, b = 0.0, span
-        if place.at in (0.0, 1.0):
-            a = b = span * place.at
-        for _ in range(ROUNDS):  # halving: the slide may stand still on its way, but goes through every place
-            c = (a + b) / 2
-            if b - a <= 4e-16 * math.tau:
-                break
-            motion = self.reach.motion(np.array([(begin + c) % math.tau]))
-            if place.sense * (float(motion.slide(place.pair).travel[0]) - goal) < 0.0:
-                a = c
-            else:
-                b = c
-        return float(self.reach.value(np.array((begin + (a + b) / 2) % math.tau)))
+
+        def done(part: Array) -> Array:
+            travel = self.reach.motion((begin + part) % math.tau).slide(place.pair).travel
+            return np.asarray(place.sense * (travel - goal) >= 0.0)
+
+        part = span * place.at if place.at in (0.0, 1.0) else where_true(done, 0.0, span)
+        return float(self.reach.value(np.array((begin + part) % math.tau)))
 
     def _extremes(self, symbol: Symbol) -> Extremes:
         if symbol.pair not in self._found:

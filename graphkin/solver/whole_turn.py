@@ -17,10 +17,10 @@ from graphkin.solver.pose import Array
 from graphkin.solver.solve import solve
 from graphkin.structure.transmitting import sliding_pair
 
-__all__ = ["Extremes", "exact_values", "extremes"]
+__all__ = ["Extremes", "exact_values", "extremes", "where_true"]
 
 SAMPLES = 720
-ROUNDS = 60
+PARTS = 64
 EQUAL = 1e-9  # of two extremes that differ by less, the one at the smaller angle of the crank is meant
 WHERE_ELSE = "ask for s_, theta_ or d_ at single positions"
 
@@ -91,6 +91,17 @@ def extremes(reach: DriverRange, symbol: Symbol) -> Extremes:
     return Extremes(low, high, low_at, high_at)
 
 
+def where_true(holds: Callable[[Array], Array], low: float, high: float) -> float:
+    """The first place of a range (to the last digit) from which on something holds, which holds at its end."""
+    while True:
+        places = np.linspace(low, high, PARTS + 1)
+        k = int(np.argmax(np.append(holds(places[:-1]), True)))
+        a, b = float(places[max(k - 1, 0)]), float(places[k])
+        if b - a <= 4e-16 * max(abs(a), abs(b), 1.0) or (a, b) == (low, high):
+            return (a + b) / 2
+        low, high = a, b
+
+
 def _without(symbol: Symbol, found: str, wanted: str) -> Unsolvable:
     return Unsolvable("no whole turn", Problem(str(symbol), found, wanted))
 
@@ -99,8 +110,8 @@ def _best(
     course: Callable[[Array], tuple[Array, Array]], grid: Array, values: Array, rates: Array, sign: float,
     angle: Callable[[float], float],
 ) -> tuple[float, float]:
-    """Where the greatest (or for sign -1 the least) value stands, and how much it is: the rate changes its sign there,
-    which is found by halving and proportional division in turn.  ``angle`` is the crank's at an offset."""
+    """Where the greatest (or for sign -1 the least) value stands, and how much it is: the rate changes its sign there.
+    ``angle`` is the crank's at an offset."""
     n = len(grid) - 1
     step = float(grid[1])
     tops = [k for k in range(n) if sign * rates[k] >= 0.0 > sign * rates[k + 1]]
@@ -109,17 +120,7 @@ def _best(
     for k in tops:
         if max(sign * values[k], sign * values[k + 1]) < best - 0.05 * float(np.ptp(values)):
             continue
-        a, b, one, two = float(grid[k]), float(grid[k]) + step, float(rates[k]), float(rates[k + 1])
-        for turn in range(ROUNDS):
-            c = (a + b) / 2 if turn % 3 == 2 or one == two else (one * b - two * a) / (one - two)
-            c = c if a < c < b else (a + b) / 2
-            rate = float(course(np.array([c]))[1][0])
-            if rate == 0.0 or b - a <= 4e-16 * math.tau:
-                break
-            if sign * rate > 0.0:
-                a, one = c, rate
-            else:
-                b, two = c, rate
+        c = where_true(lambda offset: sign * course(offset)[1] < 0.0, float(grid[k]), float(grid[k]) + step)
         found.append((c, float(course(np.array([c]))[0][0])))
     most = max(sign * value for _, value in found)
     equal = [one for one in found if sign * one[1] > most - EQUAL * float(np.ptp(values))]

@@ -81,7 +81,7 @@ def test_rows_of_a_table_are_judged_each_at_its_own_position() -> None:
 def test_a_table_beside_the_scene_is_found_and_its_one_wrong_value_named(tmp_path: Path) -> None:
     turn = graphkin.sweep(SHAPER, positions=36, find=["x_C", "omega_4"], at=0).table
     lines = [f"{d:.0f},{x:.3f},{w:.4f}" for d, x, w in zip(turn["driver_2"], turn["x_C"], turn["omega_4"], strict=True)]
-    lines[7] = lines[7].replace(",", ",1", 1)
+    lines[7] = f"-70,100,{turn['omega_4'][7]:.4f}"
     (tmp_path / "t.csv").write_text("\n".join(["at,x_C,omega_4", *lines]))
     scene = graphkin.read(SHAPER | {"printed_table": {"file": "t.csv", "by": "computation"}})
     scene.save(tmp_path / "s.toml")
