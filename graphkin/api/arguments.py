@@ -143,7 +143,7 @@ def driver_values(scene: Mechanism, at: At) -> dict[str, float] | None:
         return None
     if not scene.drivers:
         raise CallError(Problem("at", "the scene has no driver", "give one in the file"))
-    if isinstance(at, str):
+    if isinstance(at, str) and scene.positions is not None:
         return {scene.drivers[0].key: value_at(scene, at)}
     given = dict(at) if isinstance(at, Mapping) else {scene.drivers[0].key: at}
     values: dict[str, float] = {}
