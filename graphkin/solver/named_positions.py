@@ -12,7 +12,7 @@ import numpy as np
 from graphkin.errors import GraphkinError, Problem, SceneError, Unsolvable
 from graphkin.scene.model import AngleDriver, Mechanism, NamedPositions, OnStroke
 from graphkin.scene.symbol import Symbol
-from graphkin.solver.driver_range import DriverRange, whole_range
+from graphkin.solver.driver_range import DriverRange, driver_range
 from graphkin.solver.findings import structure_of
 from graphkin.solver.pose import Array
 from graphkin.solver.whole_turn import Extremes, extremes, where_true
@@ -95,7 +95,7 @@ def named_positions(scene: Mechanism) -> PlacesByName | None:
     """The positions that a scene names; None where it names none.  Raises Unsolvable."""
     if scene.positions is None:
         return None
-    return PlacesByName(scene.positions, whole_range(structure_of(scene)))
+    return PlacesByName(scene.positions, driver_range(structure_of(scene)))
 
 
 def standing(scene: Mechanism) -> Mechanism:
