@@ -185,12 +185,19 @@ def _centres(drawn: Drawn) -> Drawing:
     return centres_figure(found, speeds(found), language=drawn.language, convention=drawn.convention)
 
 
+def _loops(drawn: Drawn) -> Drawing | None:
+    from graphkin.drawing.loops import loops_figure
+
+    return loops_figure(drawn.checked.sheet, language=drawn.language, convention=drawn.convention)
+
+
 FIGURES: Mapping[str, FigureKind] = {
     "mechanism": FigureKind(_always, _mechanism),
     "velocity": FigureKind(_always, _velocity),
     "acceleration": FigureKind(_always, _acceleration),
     "sheet": FigureKind(_always, _sheet),
     "centres": FigureKind(_always, _centres),
+    "loops": FigureKind(lambda scene: bool(scene.loops), _loops),
 }
 """Every figure of `draw` by its name: the one place where a further figure is entered."""
 

@@ -20,6 +20,7 @@ from graphkin.scene.model import SlideDriver
 from graphkin.structure import mobility_of
 
 if TYPE_CHECKING:
+    from graphkin.api.loops_text import LoopText
     from graphkin.solver import Forces, Motion
     from graphkin.table import Column, Table
 
@@ -103,6 +104,17 @@ class Solved(Result):
                 if name:
                     entry["name"] = name
         return data
+
+    def loops(self, language: str | None = None) -> LoopText:
+        """The vector loops of the first position that is solved, with their equations in numbers.
+
+        Raises
+        ------
+        CallError : a chosen loop goes from a point to another that nothing joins, or no position is solved
+        """
+        from graphkin.api.loops_text import loops_text
+
+        return loops_text(self.motion, language or self.motion.scene.sheet.language)
 
     @property
     def ok(self) -> bool:

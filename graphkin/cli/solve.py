@@ -88,6 +88,9 @@ def solve(
     sweep: Annotated[
         int | None, typer.Option("--sweep", metavar="N", help="N positions over a turn of the driver.")
     ] = None,
+    loops: Annotated[
+        bool, typer.Option("--loops", help="Print the vector loops: projections and matrix equations, LaTeX too.")
+    ] = False,
     out: Annotated[Path | None, typer.Option("-o", "--out", metavar="DIR", help="Folder for solution.json.")] = None,
     lang: LangOption = None,
     convention: ConventionOption = None,
@@ -109,8 +112,11 @@ def solve(
 
         text = json.dumps(solved.data, ensure_ascii=False, allow_nan=False) + "\n"
         write_files(out, {"solution.json": text.encode()})
+    drawn = solved.loops(lang) if loops and solved.motion.ok.any() else None
     if as_json:
-        print_json(solved.data)
+        print_json({**solved.data, "loops": drawn.data} if drawn else solved.data)
+    elif not quiet and drawn:
+        tell(f"{drawn.plain}\n\n{drawn.latex}")
     elif not quiet:
         _print_solution(solved, lang)
     if not solved.ok:

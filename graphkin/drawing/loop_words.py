@@ -1,0 +1,188 @@
+"""Vector loops in words: the equation of each, its projections, its root, and the two matrix equations of its rates.
+
+Lines stand in the notation of `graphkin.drawing.text` (symbols between dollar signs); `as_plain` and `as_latex` give
+them to terminals and to papers.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from graphkin.drawing.headings import number
+from graphkin.scene.model import Mechanism
+from graphkin.structure.loop_values import ArrowValue, LoopBlock, LoopValue, Root
+from graphkin.structure.loops import Unknown
+from graphkin.words import Phrase, say
+
+__all__ = [
+    "MatrixEquation", "as_latex", "as_plain", "equation", "matrices", "matrix_latex", "matrix_lines", "projections",
+    "root", "size_name",
+]  # fmt: skip
+
+STRAIGHT = 1e-9  # rad
+
+
+def size_name(arrow: ArrowValue) -> str:
+    """The size of an arrow: ``l_{AB}``, or ``s_{34}`` of a travel."""
+    if arrow.arrow.slide:
+        return f"s_{{{arrow.arrow.slide.replace('/', '')}}}"
+    return f"l_{{{''.join(arrow.arrow.names)}}}" if all(arrow.arrow.names) else f"l_{{{arrow.arrow.link}}}"
+
+
+def equation(loop: LoopValue) -> str:
+    """The vector equation: ``AB + BC + CD + DA = 0``."""
+    terms = " + ".join(rf"$\mathbf{{{size_name(a)[0]}}}{size_name(a)[1:]}$" for a in loop.arrows)
+    return f"{terms} = 0"
+
+
+def projections(loop: LoopValue, block: LoopBlock, scene: Mechanism) -> tuple[str, str]:
+    """The sums of the arrows' components along x and y, in numbers and unknowns (scene units)."""
+    return _projection(loop, block, scene, "cos"), _projection(loop, block, scene, "sin")
+
+
+def _projection(loop: LoopValue, block: LoopBlock, scene: Mechanism, function: str) -> str:
+    terms, known = [], 0.0
+    open_slides = {u.of for u in block.unknowns if u.kind == "s"}
+    open_angles = {u.of for u in block.unknowns if u.kind == "theta"}
+    metres = scene.units.metres
+    for arrow in loop.arrows:
+        first = loop.loop.ties[arrow.arrow.link]
+        turns, slides = first in open_angles, arrow.arrow.slide in open_slides
+        part = arrow.vector.real if function == "cos" else arrow.vector.imag
+        if not turns and not slides:
+            known += part / metres
+            continue
+        size = "" if slides else f"{number(abs(arrow.arrow.vector) * (arrow.travel or 1.0) / metres, 5)} "
+        name = f"${size_name(arrow)}$ " if slides else ""
+        if turns:
+            sign, angle = _angle(arrow, first)
+            terms.append((sign, f"{size}{name}{function} {angle}"))
+        else:
+            share = arrow.along.real if function == "cos" else arrow.along.imag
+            if abs(share) > 1e-12:
+                scale = "" if abs(abs(share) - 1.0) < 1e-12 else f"{number(abs(share), 5)} "
+                terms.append(("−" if share < 0 else "+", f"{scale}{name.strip()}"))
+    if abs(known) > 1e-12 * scene.size / metres or not terms:
+        terms.append(("−" if known < 0 else "+", number(abs(known), 6)))
+    text = " ".join(f"{sign} {term}" for sign, term in terms)
+    return ("" if text.startswith("+") else "−") + text[2:] + " = 0"
+
+
+def _angle(arrow: ArrowValue, first: str) -> tuple[str, str]:
+    """The angle of an arrow by that of the link that it turns with, and the sign of its size."""
+    own = arrow.arrow.vector
+    offset = cmath.phase(own) if arrow.arrow.link == first else cmath.phase(arrow.vector)
+    name = f"$θ_{{{arrow.arrow.link}}}$"
+    if abs(math.remainder(offset, math.tau)) < STRAIGHT and arrow.arrow.link == first:
+        return "+", name
+    offset = cmath.phase(own)
+    if abs(math.remainder(offset, math.tau)) < STRAIGHT:
+        return "+", name
+    if abs(math.remainder(offset - math.pi, math.tau)) < STRAIGHT:
+        return "−", name
+    degrees = math.degrees(offset)
+    return "+", f"({name} {'−' if degrees < 0 else '+'} {number(abs(degrees), 6)}°)"
+
+
+def root(found: Root, loop: LoopValue, scene: Mechanism, language: str) -> str:
+    """The closed-form root with the sign of its assembly."""
+    metres = scene.units.metres
+    sign = "+" if found.sign >= 0 else "−"
+    name = _unknown(found.unknown)
+    if found.key == "loop root angle":
+        a, b, c = (number(x / metres**2, 6) for x in found.numbers)
+        return say(Phrase(found.key, (name, a, b, c, sign, number(math.degrees(found.value), 7))), language)
+    value = number(found.value / metres, 7)
+    if found.key == "loop root lines":
+        return say(Phrase(found.key, (name, value, scene.units.length)), language)
+    middle, rest = number(found.numbers[0] / metres, 6), number(found.numbers[1] / metres**2, 6)
+    return say(Phrase(found.key, (name, middle, sign, rest, value, scene.units.length)), language)
+
+
+def _unknown(unknown: Unknown) -> str:
+    return f"$θ_{{{unknown.of}}}$" if unknown.kind == "theta" else f"$s_{{{unknown.of.replace('/', '')}}}$"
+
+
+@dataclass(frozen=True)
+class MatrixEquation:
+    """A matrix times unknowns is a column; and what comes out, in words (scene units)."""
+
+    key: str
+    rows: tuple[tuple[str, ...], ...]
+    unknowns: tuple[str, ...]
+    right: tuple[str, ...]
+    solution: tuple[str, ...]
+
+
+def matrices(block: LoopBlock, scene: Mechanism) -> Iterator[MatrixEquation]:
+    """The velocity and the acceleration equation of loops that are solved together, with this position's numbers."""
+    metres, length = scene.units.metres, scene.units.length
+    for key, right, found, letters, after in (
+        ("loop velocities", block.velocity, block.rates, ("ω", "v"), ("rad/s", f"{length}/s")),
+        ("loop accelerations", block.acceleration, block.second_rates, ("α", "a"), ("rad/s²", f"{length}/s²")),
+    ):
+        rows = tuple(
+            tuple(number(float(x) / (metres if u.kind == "theta" else 1.0), 6)
+                  for x, u in zip(row, block.unknowns, strict=True))
+            for row in _clean(block.matrix.tolist())
+        )  # fmt: skip
+        names = tuple(f"{letters[u.kind == 's']}_{{{u.of.replace('/', '')}}}" for u in block.unknowns)
+        column = tuple(number(x / metres, 6) for x in _clean([right.tolist()])[0])
+        solution = tuple(
+            f"${name}$ = {number(x / (metres if u.kind == 's' else 1.0), 7)} {after[u.kind == 's']}"
+            for name, u, x in zip(names, block.unknowns, found, strict=True)
+        )
+        yield MatrixEquation(key, rows, names, column, solution)
+
+
+def _clean(rows: Sequence[Sequence[float]]) -> list[list[float]]:
+    """Numbers without what rounding left of zero."""
+    most = max((abs(x) for row in rows for x in row), default=0.0)
+    return [[0.0 if abs(x) < 1e-14 * most else x for x in row] for row in rows]
+
+
+# -- for terminals and for papers --------------------------------------------------------------------------------------
+
+_GREEK = {"θ": r"\theta", "ω": r"\omega", "α": r"\alpha", "−": "-", "·": r"\cdot ", "°": r"^{\circ}", "±": r"\pm "}
+
+
+def as_plain(markup: str) -> str:
+    """A line for a terminal."""
+    text = re.sub(r"\\mathbf\{(\w)\}", r"\1", markup.replace("$", ""))
+    return re.sub(r"[_^]\{([^{}]*)\}", r"_\1", text)
+
+
+def as_latex(markup: str) -> str:
+    """A line as LaTeX, symbols and functions in mathematics."""
+    text = markup.replace("$", "").replace("√", r"\sqrt ")
+    for sign, command in _GREEK.items():
+        text = text.replace(sign, command + (" " if command[-1].isalpha() else ""))
+    text = re.sub(r"\\(theta|omega|alpha) _", r"\\\1_", text)
+    text = text.replace("atan2", r"\operatorname{atan2}")
+    return re.sub(r"\b(cos|sin)\b", r"\\\1", text)
+
+
+def matrix_lines(one: MatrixEquation) -> list[str]:
+    """A matrix equation in lines for a terminal."""
+    wide = [max(len(row[k]) for row in one.rows) for k in range(len(one.unknowns))]
+    names = [as_plain(n) for n in one.unknowns]
+    high = max(map(len, names))
+    right = max(map(len, one.right))
+    lines = []
+    for k, row in enumerate(one.rows):
+        cells = "  ".join(cell.rjust(w) for cell, w in zip(row, wide, strict=True))
+        equals = "=" if k == (len(one.rows) - 1) // 2 else " "
+        lines.append(f"  | {cells} |  | {names[k].ljust(high)} |  {equals}  | {one.right[k].rjust(right)} |")
+    return lines
+
+
+def matrix_latex(one: MatrixEquation) -> str:
+    """A matrix equation as LaTeX."""
+    rows = r" \\ ".join(" & ".join(map(as_latex, row)) for row in one.rows)
+    names, right = (r" \\ ".join(map(as_latex, column)) for column in (one.unknowns, one.right))
+    return " ".join(rf"\begin{{bmatrix}} {part} \end{{bmatrix}}" if part != "=" else "="
+                    for part in (rows, names, "=", right))  # fmt: skip
