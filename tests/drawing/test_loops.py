@@ -20,7 +20,7 @@ DRAWN = ("shaper-scheme-2", "sixbar-guide-40deg")
 @pytest.mark.parametrize("name", SCENES)
 def test_every_loop_closes(name: str) -> None:
     loops = [loop for block in graphkin.solve(name).loops().data for loop in block["loops"]]
-    assert loops and max(loop["gap"] for loop in loops) < 1e-12
+    assert [] == [loop["name"] for loop in loops if loop["gap"] > 1e-12]
 
 
 @pytest.mark.parametrize("name", SCENES)
