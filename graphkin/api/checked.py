@@ -83,7 +83,7 @@ class Checked(Result):
     @property
     def complete(self) -> bool:
         """Whether all that is asked was drawn."""
-        return not self.report.missing and (self.sheet.stopped is None or bool(self.report.rows and self.scene.find))
+        return not self.report.missing
 
     def __repr__(self) -> str:
         return (
@@ -123,8 +123,18 @@ class Checked(Result):
             "scales": self.scales,
             "readings": [{**reading_row(self.scene, row), **self._by_centres(row)} for row in self.report.rows],
             **({"advice": say(self.advice.phrase())} if self.advice else {}),
-            **({"stopped": say(self.sheet.stopped)} if self.sheet.stopped else {}),
+            **self._construction,
         }
+
+    @property
+    def _construction(self) -> dict[str, Any]:
+        """How groups larger than a dyad were drawn: one word for all of them, and each by itself."""
+        groups = self.sheet.groups
+        if not groups:
+            return {}
+        ways = ", ".join(dict.fromkeys(g.way for g in groups))
+        rows = [{"links": list(g.group.links), "class": g.group.order, "construction": g.way} for g in groups]
+        return {"construction": ways, "groups": rows}
 
     @property
     def scales(self) -> dict[str, float]:

@@ -67,8 +67,6 @@ def report_text(checked: Checked, language: str) -> str:
         lines.append(f"{symbol:<16}{length:>12}{measured:>16}{exact:>16}{'' if ok else '  !'}")
     lines.append("")
     lines += [say(note, language, show) for note in (*sheet.left_out, *sheet.notes)]
-    if sheet.stopped:
-        lines.append(say(sheet.stopped, language, show))
     lines.append(verdict(checked, language))
     return "\n".join(lines) + "\n"
 

@@ -74,17 +74,10 @@ def unchecked(error: Unsolvable) -> dict[str, object]:
 
 def print_check(checked: Checked, language: str, as_json: bool, quiet: bool) -> None:
     """Print a check, and leave with the status that belongs to it."""
-    from graphkin.api.report_text import show
-    from graphkin.words import say
-
     if as_json:
         print_json(checked.data)
     elif not quiet:
         _print_readings(checked, language)
-    if checked.sheet.stopped is not None:
-        tell(f"graphkin: {say(checked.sheet.stopped, language, show)}", err=True)
-        if checked.report.missing or not checked.report.rows:
-            raise typer.Exit(3)
     if not checked.ok:
         raise typer.Exit(1)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from graphkin.construction.equations import node
+from graphkin.construction.net import node
 from graphkin.construction.plot import Order, Plot
 from graphkin.construction.sheet import Vector
 from graphkin.construction.steps import Asked

@@ -28,7 +28,7 @@ from graphkin.plane import cross, cross_arcs, cross_line_arc, cross_lines, direc
 from graphkin.scene.model import AngleDriver
 from graphkin.structure import Driven, Dyad, Slide, Turn
 
-__all__ = ["Meeting", "drive", "meet"]
+__all__ = ["Meeting", "Story", "drive", "meet"]
 
 Story = tuple[tuple[Act, tuple[Stroke, ...]], ...]
 

@@ -16,16 +16,16 @@ from numpy.polynomial import chebyshev
 
 from graphkin.construction.board import Instrument
 from graphkin.construction.dyads import meet
-from graphkin.construction.follow import found_near
+from graphkin.construction.follow import Choices, best_reduced, found_near
+from graphkin.construction.group_position import GroupTrial
 from graphkin.construction.position import place
-from graphkin.construction.reduced_mechanism import ReducedMechanism, clusters, reduced_mechanisms
 from graphkin.construction.rigid import PlacedLinks, Poses
 from graphkin.construction.sheet import LimitPosition, Limits, Pose, Scales
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import Symbol
-from graphkin.structure import Driven, Dyad, Element, Slide, Structure, links_of
+from graphkin.structure import Cluster, Dyad, Element, Slide, Structure, links_of
 from graphkin.structure.transmitting import sliding_pair
 
 __all__ = ["TurnOfCrank", "Turned", "limits_asked", "limits_on_paper"]
@@ -61,7 +61,7 @@ class TurnOfCrank:
     structure: Structure
     elements: Sequence[Element]
     values: Mapping[str, float]
-    table: Mapping[tuple[str, ...], Sequence[ReducedMechanism]]
+    choices: Choices
     positions: tuple[Turned, ...]
 
     @classmethod
@@ -82,9 +82,9 @@ class TurnOfCrank:
         if not isinstance(driver, AngleDriver):
             raise Unsolvable("no whole turn", Problem(why, "belongs to a whole turn, but the driver slides",
                                                       "ask for s_, theta_ or d_ at single positions"))  # fmt: skip
-        table = {c.members: reduced_mechanisms(structure.scene, c) for c in clusters(structure) if c in elements}
+        choices = Choices(structure, elements)
         placed = {structure.scene.frame.name, *(n for e in elements for n in links_of(e))}
-        turn = cls(structure, elements, values, table, ())
+        turn = cls(structure, elements, values, choices, ())
         start = {name: pose for name, pose in poses.items() if name in placed}
         before = at = Turned(values[driver.key], start)
         found = [at]
@@ -105,13 +105,13 @@ class TurnOfCrank:
             step = min(2 * step, STEP)
         if _moved(start, at.poses) > CLOSED:
             raise Unsolvable("no whole turn", Problem(why, "the motion does not repeat after one turn of the driver"))
-        return cls(structure, elements, values, table, tuple(found))
+        return cls(structure, elements, values, choices, tuple(found))
 
     def near(self, value: float, guess: Poses) -> Turned | None:
         """The position at a crank's value, near to where it is expected; None where nothing fits there."""
         driver = self.structure.scene.drivers[0]
         values = {**self.values, driver.key: value}
-        poses = found_near(self.structure, self.elements, self.table, values, guess)
+        poses = found_near(self.choices, self.elements, values, guess)
         return None if poses is None else Turned(value, poses)
 
     def limits(self, output: Slide | str, why: str) -> tuple[Turned, Turned, float]:
@@ -201,7 +201,7 @@ def limits_asked(
 
 
 def limits_on_paper(
-    found: Mapping[str, Limits], structure: Structure, elements: Sequence[Driven | Dyad], values: Mapping[str, float],
+    found: Mapping[str, Limits], structure: Structure, elements: Sequence[Element], values: Mapping[str, float],
     scales: Scales, hand: Instrument,
 ) -> dict[str, Limits]:  # fmt: skip
     """Limit positions that exact hands found on paper of the mechanism's size, drawn at a scale by any hands."""
@@ -212,7 +212,7 @@ def limits_on_paper(
 
 
 def _drawn_again(
-    limits: Limits, structure: Structure, elements: Sequence[Driven | Dyad], values: Mapping[str, float], mm: float,
+    limits: Limits, structure: Structure, elements: Sequence[Element], values: Mapping[str, float], mm: float,
     hand: Instrument,
 ) -> Limits:  # fmt: skip
     key = structure.scene.drivers[0].key
@@ -220,12 +220,17 @@ def _drawn_again(
     def drawn(limit: LimitPosition) -> LimitPosition:
         there = {**values, key: limit.value}
         frame = PlacedLinks(structure.links, 1.0 / structure.scene.size, there, dict(limit.poses))
-        branches = {}
+        branches, trials = {}, {}
+        choices = Choices(structure, elements)
         for i, element in enumerate(elements):
             if isinstance(element, Dyad):
                 ways = meet(frame, element).poses
                 branches[i] = min(range(len(ways)), key=lambda k: _moved(ways[k], limit.poses))
-        return LimitPosition(limit.value, place(structure, elements, mm, there, branches, hand).frame.poses)
+            elif isinstance(element, Cluster):
+                reduced = best_reduced(choices, element, frame, limit.poses)
+                if reduced is not None:
+                    trials[element] = GroupTrial(reduced, limit.poses)
+        return LimitPosition(limit.value, place(structure, elements, mm, there, branches, hand, trials).frame.poses)
 
     return Limits(drawn(limits.low), drawn(limits.high), limits.swing)
 

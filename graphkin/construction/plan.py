@@ -13,20 +13,37 @@ from functools import cached_property
 
 from graphkin.construction.asked import show
 from graphkin.construction.board import EXACT, Board, Instrument
-from graphkin.construction.equations import Chain
+from graphkin.construction.dyads import meet
+from graphkin.construction.follow import Choices, best_reduced
+from graphkin.construction.group_plan import GroupPlan
+from graphkin.construction.group_polygons import GroupPolygons
+from graphkin.construction.group_position import GroupTrial
 from graphkin.construction.held_still import Inversion, TriangleDrawn, inversions_of, opened_at_triangles, own_assembly
 from graphkin.construction.limits import limits_asked, limits_on_paper
+from graphkin.construction.net import Chain
 from graphkin.construction.plot import Order
-from graphkin.construction.polygons import Polygons
 from graphkin.construction.position import branches_at, draw_position, place
 from graphkin.construction.residues import without_residues
-from graphkin.construction.sheet import DIAGRAMS, DiagramName, Limits, Scales, Sheet, Step, Vector
+from graphkin.construction.rigid import PlacedLinks, Poses
+from graphkin.construction.sheet import (
+    DIAGRAMS,
+    DiagramName,
+    DrawnGroup,
+    Limits,
+    Pose,
+    Scales,
+    Sheet,
+    Step,
+    Vector,
+)
 from graphkin.construction.slip import NO_SLIP, Slip
 from graphkin.construction.steps import Asked
-from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.construction.trial import Known, found_by_trial
+from graphkin.errors import Problem, Unsolvable
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Cluster, Driven, Dyad, Element, Structure, analyse, links_of, needed
-from graphkin.words import Phrase, class_of
+from graphkin.words import Phrase
 
 __all__ = ["Extent", "Plan", "Room", "draft", "drawn_sizes", "execute", "fitting_scale", "plan", "scales_for"]
 
@@ -163,16 +180,17 @@ class Task:
     structure: Structure
     opened: Structure
     asked: tuple[Symbol, ...]
-    elements: tuple[Driven | Dyad, ...]
+    elements: tuple[Element, ...]
     values: Mapping[str, float]
     branches: Mapping[int, int]
-    stopped: Phrase | None
+    trials: Mapping[Cluster, GroupTrial]
     chains: Mapping[Dyad, Chain]
+    plans: Mapping[Cluster, GroupPlan]
     triangles: tuple[tuple[Inversion, int], ...]
     limits: Mapping[str, Limits]
 
     @cached_property
-    def drawn(self) -> Mapping[Order, tuple[Driven | Dyad, ...]]:
+    def drawn(self) -> Mapping[Order, tuple[Element, ...]]:
         """What each polygon needs for what is asked: accelerations only of what leads to accelerations."""
         pushes = [s for s in self.asked if s.measure in ("acceleration", "angular acceleration")]
         wanted = needed(self.opened, pushes) if pushes else []
@@ -210,7 +228,7 @@ class Plan(Task):
 
     def with_branches(self, branches: Mapping[int, int]) -> Plan:
         """The same task in another assembly, at the same scales.  Raises Unsolvable where it cannot be drawn."""
-        return replace(_planned(replace(self, branches=branches, chains={}), None), scales=self.scales)
+        return replace(_planned(replace(self, branches=branches, chains={}, plans={}), None), scales=self.scales)
 
 
 def plan(
@@ -218,28 +236,67 @@ def plan(
     at: Mapping[str, float] | None = None,
     find: Iterable[Symbol] | None = None,
     room: Room | None = None,
+    near: Sheet | None = None,
 ) -> Plan:
     """Decide what to draw, and carry it out exactly; parameters and errors as for `draft`."""
     structure = analyse(scene)
     scene = structure.scene
     asked = tuple(scene.find if find is None else find)
     opened = opened_at_triangles(structure)
-    wanted = needed(opened, asked)
-    elements = tuple(_drawable(wanted))
+    if any(isinstance(e, Cluster) for e in needed(opened, asked)):
+        opened = structure  # groups that remain are found by trial, driven triangles with them
+    elements = tuple(needed(opened, asked))
     own = {d.key: d.values[0] for d in scene.drivers}
     values = own | dict(at or {})
+    if any(isinstance(e, Cluster) for e in elements):
+        branches, trials = _by_trial(structure, elements, values, near)
+        return _planned(Task(structure, structure, asked, elements, values, branches, trials, {}, {}, (), {}), room)
+    dyads = [e for e in elements if isinstance(e, Driven | Dyad)]
     inversions = inversions_of(structure)
     triangles: tuple[tuple[Inversion, int], ...] = ()
     chosen = None
     if inversions:
-        taken, own, chosen = own_assembly(structure, opened, elements, inversions, own)
+        taken, own, chosen = own_assembly(structure, opened, dyads, inversions, own)
         triangles = tuple((v, v.branch(own, values, taken[v.key])) for v in inversions if v.key in taken)
         values |= {v.key: v.near(own[v.key], v.value(values, branch)) for v, branch in triangles}
     keys = [d.key for d in opened.scene.drivers]
     branches = branches_at(opened, elements, {k: values[k] for k in keys}, {k: own[k] for k in keys}, chosen)
-    return _planned(
-        Task(structure, opened, asked, elements, values, branches, _stopped(wanted), {}, triangles, {}), room
-    )
+    return _planned(Task(structure, opened, asked, elements, values, branches, {}, {}, {}, triangles, {}), room)
+
+
+def _by_trial(
+    structure: Structure, elements: Sequence[Element], values: Mapping[str, float], near: Sheet | None
+) -> tuple[dict[int, int], dict[Cluster, GroupTrial]]:
+    """The assembly of each dyad, and by what trial positions each larger group is placed."""
+    choices = Choices(structure, elements)
+    poses = found_by_trial(choices, elements, values, None if near is None else _known(near))
+    scene = structure.scene
+    branches: dict[int, int] = {}
+    trials: dict[Cluster, GroupTrial] = {}
+    frame = PlacedLinks(structure.links, 1.0 / scene.size, values, {scene.frame.name: Pose(0j, 1 + 0j)})
+    for i, element in enumerate(elements):
+        if isinstance(element, Dyad):
+            found = meet(frame, element).poses
+            branches[i] = min(range(len(found)), key=lambda k, found=found: _off(found[k], poses))  # type: ignore[misc]
+        elif isinstance(element, Cluster):
+            reduced = best_reduced(choices, element, frame, poses)
+            if reduced is None:
+                names = ", ".join(element.links)
+                raise Unsolvable("dead point", Problem(f"links {names}", "every trial drawing is at a dead point here"))
+            trials[element] = GroupTrial(reduced, poses)
+        for name in links_of(element):
+            frame.poses[name] = poses[name]
+    return branches, trials
+
+
+def _off(one: Poses, other: Poses) -> float:
+    return sum(abs(p.origin - other[n].origin) + abs(p.axis - other[n].axis) for n, p in one.items())
+
+
+def _known(sheet: Sheet) -> Known:
+    """A sheet as a position to start from."""
+    size = sheet.scales.length / sheet.scene.size
+    return sheet.drivers, {name: pose.scaled(size) for name, pose in sheet.poses.items()}
 
 
 def _planned(task: Task, room: Room | None) -> Plan:
@@ -248,41 +305,11 @@ def _planned(task: Task, room: Room | None) -> Plan:
     poses = {name: pose.scaled(size) for name, pose in polygons.frame.poses.items()}
     found = limits_asked(task.structure, needed(task.structure, task.asked), task.asked, task.values, poses)
     task = replace(task, limits=found)
-    extents = _extents(polygons.places.values(), lambda order: polygons.drawn[order].values(), NATURAL)
-    own = {f.name: getattr(task, f.name) for f in fields(Task)} | {"chains": polygons.chains}
+    places = [z for p, z in polygons.places.items() if p not in polygons.special]
+    extents = _extents(places, polygons.shown_of, NATURAL)
+    own = {f.name: getattr(task, f.name) for f in fields(Task)} | {"chains": polygons.chains, "plans": polygons.plans}
     scales = _chosen_scales(task.structure.scene, extents, room)
     return Plan(**own, scales=scales, exact=_finished(task, polygons, assembly, held), extents=extents)
-
-
-def _stopped(elements: Sequence[Element]) -> Phrase | None:
-    """Which group compass and ruler cannot draw, and why."""
-    for e in elements:
-        if isinstance(e, Cluster):
-            return Phrase("stopped", (", ".join(e.links), class_of(e.order)))
-    return None
-
-
-def _drawable(elements: Sequence[Element]) -> list[Driven | Dyad]:
-    """The elements that need no larger group."""
-    lost: set[str] = set()
-    kept: list[Driven | Dyad] = []
-    for element in elements:
-        if isinstance(element, Cluster):
-            lost.update(element.members)
-        elif lost & _leans_on(element):
-            lost.update(links_of(element))
-        else:
-            kept.append(element)
-    return kept
-
-
-def _leans_on(element: Driven | Dyad) -> set[str]:
-    if isinstance(element, Driven):
-        names = {element.pair.a, element.pair.b}
-        if isinstance(element.driver, AngleDriver):
-            names |= {element.driver.link, element.driver.relative_to}
-        return names
-    return {n for pair in (element.outer_first, element.outer_second) for n in (pair.a, pair.b)}
 
 
 def execute(what: Plan, instrument: Instrument = EXACT, slip: Slip = NO_SLIP) -> Sheet:
@@ -297,7 +324,7 @@ def execute(what: Plan, instrument: Instrument = EXACT, slip: Slip = NO_SLIP) ->
 
 def _carried_out(
     task: Task, scales: Scales, instrument: Instrument, slip: Slip
-) -> tuple[Polygons, Mapping[str, Phrase], tuple[Step, ...]]:
+) -> tuple[GroupPolygons, Mapping[str, Phrase], tuple[Step, ...]]:
     """Position and both polygons on a board, the words for each assembly, and what was drawn with a link held still."""
     board = Board(instrument)
     found: list[TriangleDrawn] = []
@@ -310,12 +337,13 @@ def _carried_out(
     board.causes += [cause for carried in found for cause in carried.causes]
     before = list(board.causes)
     told = [part for carried in found for part in carried.told()]
-    position = place(task.opened, task.elements, 1.0 / scales.length, values, task.branches, instrument)
-    assembly = draw_position(board, task.opened, task.elements, position, task.branches)
+    position = place(task.opened, task.elements, 1.0 / scales.length, values, task.branches, instrument, task.trials)
+    assembly = draw_position(board, task.opened, task.elements, position, task.branches, task.trials)
     board.causes[:] = [*before, *position.causes]
-    polygons = Polygons(board, task.opened, position.frame, scales, slip)
+    polygons = GroupPolygons(board, task.opened, position.frame, scales, slip)
     polygons.given.update(rates)
     polygons.chains.update(task.chains)
+    polygons.plans.update(task.plans)
     for name, act in told:
         board.do(name, act)
     for order in ORDERS:
@@ -325,7 +353,7 @@ def _carried_out(
 
 
 def _finished(
-    task: Task, polygons: Polygons, assembly: Mapping[str, Phrase], held: tuple[Step, ...]
+    task: Task, polygons: GroupPolygons, assembly: Mapping[str, Phrase], held: tuple[Step, ...]
 ) -> Sheet:
     """What stands on the board as a sheet, with the vectors that only a question asks for."""
     show(polygons, task.asked)
@@ -346,8 +374,8 @@ def _finished(
         equations=tuple(board.equations),
         assembly=assembly,
         noticed=tuple(board.noticed),
-        stopped=task.stopped,
         left_out=task.left_out,
+        groups=tuple(_drawn_groups(task, polygons)),
         causes=tuple(board.causes) if board.instrument.acts else (),
         asked=task.asked,
         limits=limits_on_paper(
@@ -358,12 +386,22 @@ def _finished(
     return without_residues(sheet) if board.instrument.faultless else sheet
 
 
+def _drawn_groups(task: Task, polygons: GroupPolygons) -> Iterator[DrawnGroup]:
+    for group in needed(task.structure, task.asked):
+        if group in task.trials and isinstance(group, Cluster):
+            yield polygons.drawn_group(group, task.trials[group].reduced.left_out)
+        elif isinstance(group, Cluster):
+            # with one link held still its motion relative to that link is found, and laid over that link's motion
+            yield DrawnGroup(group, "superposition", (), (), (), ())
+
+
 def draft(
     scene: Mechanism | Structure,
     at: Mapping[str, float] | None = None,
     find: Iterable[Symbol] | None = None,
     instrument: Instrument = EXACT,
     room: Room | None = None,
+    near: Sheet | None = None,
 ) -> Sheet:
     """Draw a scene, or its structure: the position, both polygons, all angular rates measured.
 
@@ -374,11 +412,12 @@ def draft(
     instrument : what draws and reads
     room : paper to fill, with scales chosen from the 1-2-2.5-5 series; None takes the scene's own scales where it
         gives them
+    near : everything drawn at other driver values already, from where a mechanism with larger groups is followed;
+        without it from the scene's own
 
     Raises
     ------
     Unsolvable
-        wrong mobility, a position that cannot be assembled or reached, a dead point.  A group larger than a dyad is no
-        error: ``Sheet.stopped`` says which it is, and what stands before it is drawn.
+        wrong mobility, a position that cannot be assembled or reached, a dead point
     """
-    return execute(plan(scene, at, find, room), instrument)
+    return execute(plan(scene, at, find, room, near), instrument)

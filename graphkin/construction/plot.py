@@ -9,9 +9,9 @@ from collections.abc import Sequence
 from typing import Literal
 
 from graphkin.construction.board import Board
-from graphkin.construction.equations import node
+from graphkin.construction.net import node
 from graphkin.construction.rigid import PlacedLinks
-from graphkin.construction.sheet import Bar, Image, Mark, Rate, Scales, Stroke, Vector
+from graphkin.construction.sheet import Aid, Bar, Image, Mark, Rate, Scales, Stroke, Vector
 from graphkin.construction.slip import NO_SLIP, Slip
 from graphkin.construction.steps import (
     Act,
@@ -41,7 +41,10 @@ class Plot:
         self.board, self.structure, self.frame, self.scales, self.slip = board, structure, frame, scales, slip
         self.given = {d.key: d.values[1:] for d in structure.scene.drivers}  # rates of the drivers
         self.believed: set[tuple[Order, str]] = set()  # rates of links that a slip has put in place of the measured
-        self.links = structure.links
+        self.links = dict(structure.links)  # with the special points that larger groups get
+        self.special: set[str] = set()
+        self.trial = 0  # number of the trial polygon that this is; 0: it is none
+        self.tried: dict[tuple[Order, str], float] = {}  # rates of sliding pairs moved at a trial speed
         self.ground = structure.scene.frame.name
         fixed = {PointRef(p): 0j for p in self.links[self.ground].points}
         self.ends: dict[Order, dict[PointRef, complex]] = {"velocity": dict(fixed), "acceleration": dict(fixed)}
@@ -130,7 +133,17 @@ class Plot:
     def record(self, order: Order, vector: Vector, act: Act, equation: int | None, *more: Stroke) -> None:
         """Put a vector into a polygon, with the step that drew it."""
         self.drawn[order][vector.symbol] = vector
-        self.board.do(order, act, vector, *more, equation=equation)
+        self.board.do(order, act, self.shown(vector), *more, equation=equation)
+
+    def shown(self, vector: Vector) -> Vector | Aid:
+        """A vector as it is drawn: one of a trial polygon or to a special point only leads on."""
+        if self.trial or self.is_aid(vector.symbol):
+            return Aid(vector.symbol, vector.tail, vector.tip, self.trial)
+        return vector
+
+    def is_aid(self, symbol: Symbol) -> bool:
+        """Whether a vector belongs to a special point."""
+        return any(ref is not None and ref.point in self.special for ref in (symbol.of, symbol.to))
 
     def reach(self, order: Order, ref: PointRef, at: complex, equation: int | None) -> None:
         """Name an end point, and draw the vector to it from the pole."""
@@ -158,7 +171,7 @@ class Plot:
         if ref in ends or self.fixed(ref):
             return
         owners = [ref.link] if ref.link else [n for n, k in self.links.items() if ref.point in k.points]
-        name = next(n for n in owners if n in self.rates[order])
+        name = next(n for n in owners if n in self.rates[order] and any(self._on(r, n) for r in ends))
         here = self.places[ref.point]
         refs = [r for r in ends if self._on(r, name)]
         if name in self.still:

@@ -11,7 +11,8 @@ from collections.abc import Mapping
 from typing import Literal
 
 from graphkin.construction.board import Board
-from graphkin.construction.equations import Chain, Edge, equation_of, node
+from graphkin.construction.equations import equation_of
+from graphkin.construction.net import Chain, Edge, node
 from graphkin.construction.plot import Order, Plot, letter
 from graphkin.construction.remarks import ZeroVector
 from graphkin.construction.rigid import PlacedLinks
@@ -32,9 +33,9 @@ from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Driven, Dyad, Slide, Structure, Turn, links_of
+from graphkin.structure import Cluster, Driven, Dyad, Slide, Structure, Turn, links_of
 
-__all__ = ["Polygons"]
+__all__ = ["Polygons", "same_turn"]
 
 _Side = list[tuple[Edge, list[Component]]]
 RATE: Mapping[Order, Literal["omega", "alpha"]] = {"velocity": "omega", "acceleration": "alpha"}
@@ -123,7 +124,7 @@ class Polygons(Plot):
             self.places,
             {s.key: self.guide_names(s) for s in slides},
             self.ends["velocity"],
-            _same_turn(dyad),
+            same_turn(dyad),
             self.tiny,
         )
         if chain is None:
@@ -135,26 +136,19 @@ class Polygons(Plot):
             )
         return chain
 
-    def _known_turns(self, order: Order, dyad: Dyad) -> None:
+    def _known_turns(self, order: Order, group: Dyad | Cluster) -> None:
         """Links that share their rotation with one already known."""
-        for name, other in _same_turn(dyad).items():
+        for name, other in same_turn(group).items():
             if other in self.rates[order] and name not in self.rates[order]:
-                self._spread(order, other, dyad)
+                self._spread(order, other, group)
 
     def _share_rate(self, order: Order, known: str, name: str, add: float = 0.0) -> None:
         rate = self.rates[order][known]
         self.rates[order][name] = Rate(name, rate.value + add, rate.vector, rate.mm, rate.arm_mm, rate.same_as or known)
 
-    def _spread(self, order: Order, start: str, dyad: Dyad) -> None:
+    def _spread(self, order: Order, start: str, group: Dyad | Cluster) -> None:
         """From one known rotation to those of all links that slide on each other or are held by drivers."""
-        which = 0 if order == "velocity" else 1
-        pairs: list[tuple[str, str, float]] = []
-        for pair in (dyad.outer_first, dyad.inner, dyad.outer_second):
-            if isinstance(pair, Slide):
-                pairs.append((pair.a, pair.b, 0.0))
-        for w in (w for body in dyad.bodies for w in body.welds):
-            turns = not isinstance(w.pair, Slide)
-            pairs.append((w.a, w.b, turn_sign(w) * self.given[w.driver.key][which] if turns else 0.0))
+        pairs = _turned_alike(group, order, self.given)
         queue = [start]
         while queue:
             at = queue.pop(0)
@@ -190,7 +184,7 @@ class Polygons(Plot):
             at = self._vector(order, part, at, number)
         self.reach(order, middle, at, number)
 
-    def _vector(self, order: Order, part: Component, at: complex, equation: int) -> complex:
+    def _vector(self, order: Order, part: Component, at: complex, equation: int | None) -> complex:
         """Lay off a known vector."""
         assert part.span is not None
         size = abs(part.span)
@@ -204,7 +198,10 @@ class Polygons(Plot):
         return tip
 
     def _cross(self, order: Order, chain: Chain, sides: list[_Side], equation: int) -> None:
-        """Draw both sides of an equation up to their unknowns, and let these meet."""
+        """Draw both sides of an equation up to their unknowns, and let these meet.
+
+        A side may have several unknowns along one direction, as those of a special point have: their sum is found.
+        """
         starts, lines = [], []
         for side in sides:
             parts = [p for _, found in side for p in found]
@@ -214,8 +211,9 @@ class Polygons(Plot):
                 at = self._vector(order, part, at, equation)
             carried = 0j
             for part in parts[open_at + 1 :]:
+                if part.span is None:
+                    continue
                 # known terms behind the unknown one are added first, and put in their place afterwards
-                assert part.span is not None
                 self.board.do(order, Carried(part.symbol), Bar(at, at + part.span, ""), equation=equation)
                 at += part.span
                 carried += part.span
@@ -223,19 +221,20 @@ class Polygons(Plot):
             lines.append(parts[open_at])
         what = f"{letter(order)}_{self.label(chain.middle)}"
         (p, _), (q, _) = starts
-        left, right = lines
-        meeting = self.board.cross(order, p, left.along, q, right.along, what)
+        left, right = (self.slip.line(part.symbol, part.along) for part in lines)
+        meeting = self.board.cross(order, p, left, q, right, what)
         meeting = self.slip.found(Symbol(letter(order), self.label(chain.middle)), 0j, meeting)
-        for start, part in ((p, left), (q, right)):
+        for start, part in zip((p, q), lines, strict=True):
             ray = Ray(start, part.along, meeting, part.written, part.symbol)
             self.board.do(order, DirectionLine(part.symbol, part.written), ray, equation=equation)
         mark = Mark(self.label(chain.middle), meeting)
         self.board.do(order, LinesMeet(mark.ref), mark, equation=equation)
         for side, (start, carried) in zip(sides, starts, strict=True):
-            self._fill(order, side, meeting - carried, start - carried, equation)
+            if sum(part.span is None for _, found in side for part in found) == 1:
+                self._fill(order, side, meeting - carried, start - carried, equation)
         self.reach(order, chain.middle, meeting, equation)
 
-    def _fill(self, order: Order, side: _Side, tip: complex, tail: complex, equation: int) -> None:
+    def _fill(self, order: Order, side: _Side, tip: complex, tail: complex, equation: int | None) -> None:
         """Draw the unknown vector of a side, now found, and the end points along the side."""
         at = self.end(order, side[0][0].start)
         for edge, parts in side:
@@ -253,7 +252,7 @@ class Polygons(Plot):
             if edge is not side[-1][0]:
                 self.reach(order, edge.end, at, equation)
 
-    def _measure(self, order: Order, edge: Edge, dyad: Dyad) -> None:
+    def _measure(self, order: Order, edge: Edge, group: Dyad | Cluster) -> None:
         """Angular velocity or acceleration from the vector just found."""
         if not edge.link or not edge.unknown or edge.link in self.rates[order]:
             return
@@ -261,7 +260,9 @@ class Polygons(Plot):
         symbol = symbol_of(self, kind, edge)
         vector = self.drawn[order][symbol]
         arm = self.places[edge.end.point] - self.places[edge.start.point]
-        read = self.board.instrument.read(abs(vector.span))
+        # in a trial the ends need not meet: only the part square to the bar turns it
+        drawn = cross(arm, vector.span) / abs(arm) if self.trial else abs(vector.span)
+        read = self.board.instrument.read(abs(drawn))
         size = abs(read) * self.scales.of(order) / self.length(arm, bar(edge))
         sense = 1.0 if cross(arm, vector.span) >= 0 else -1.0
         rate = RATE[order]
@@ -272,17 +273,36 @@ class Polygons(Plot):
             edge.link, sense * size if own is None else own, symbol, abs(read), abs(arm)
         )
         self.board.do(order, MeasuredRate(rate, edge.link, symbol, bar(edge), sense * size))
-        self._spread(order, edge.link, dyad)
+        self._spread(order, edge.link, group)
 
 
-def _same_turn(dyad: Dyad) -> dict[str, str]:
-    """For each link of a dyad one link with the same rotation but for given ones: a known one if there is any."""
-    inside = [n for body in dyad.bodies for n in body.links]
-    groups = {n: {n} for n in inside}
-    joins = [(p.a, p.b) for p in (dyad.outer_first, dyad.inner, dyad.outer_second) if isinstance(p, Slide)]
-    joins += [(w.a, w.b) for body in dyad.bodies for w in body.welds]
-    for a, b in joins:
-        merged = groups.get(a, {a}) | groups.get(b, {b})
+def _turned_alike(
+    group: Dyad | Cluster, order: Order, rates: Mapping[str, tuple[float, float]]
+) -> list[tuple[str, str, float]]:
+    """Links a and b of a group that turn alike but for a given rate: (a, b, that of b from a)."""
+    which = 0 if order == "velocity" else 1
+    if isinstance(group, Cluster):
+        slides = [p for p in group.pairs if isinstance(p, Slide)]
+        given = [
+            (d.relative_to, d.link, rates[d.key][which] if rates else 0.0)
+            for d in group.drivers if isinstance(d, AngleDriver)
+        ]  # fmt: skip
+        return [*((s.a, s.b, 0.0) for s in slides), *given]
+    slides = [p for p in (group.outer_first, group.inner, group.outer_second) if isinstance(p, Slide)]
+    welds = [w for body in group.bodies for w in body.welds]
+    held = [
+        (w.a, w.b, turn_sign(w) * rates[w.driver.key][which] if rates and isinstance(w.pair, Turn) else 0.0)
+        for w in welds
+    ]
+    return [*((s.a, s.b, 0.0) for s in slides), *held]
+
+
+def same_turn(group: Dyad | Cluster) -> dict[str, str]:
+    """For each link of a group one link with the same rotation but for given ones: a known one if there is any."""
+    inside = links_of(group)
+    alike = {n: {n} for n in inside}
+    for a, b, _ in _turned_alike(group, "velocity", {}):
+        merged = alike.get(a, {a}) | alike.get(b, {b})
         for n in merged:
-            groups[n] = merged
-    return {n: next((m for m in sorted(groups[n]) if m not in inside), min(groups[n])) for n in inside}
+            alike[n] = merged
+    return {n: next((m for m in sorted(alike[n]) if m not in inside), min(alike[n])) for n in inside}

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from graphkin.construction.board import EXACT, Board, Instrument
 from graphkin.construction.dyads import Meeting, drive, meet
+from graphkin.construction.group_position import GroupTrial, placed_by_trial, trial_story
 from graphkin.construction.remarks import SharpCrossing, ShortArm
 from graphkin.construction.rigid import PlacedLinks
 from graphkin.construction.sheet import Mark, Pose
@@ -18,7 +19,7 @@ from graphkin.construction.steps import Cause, FixedPoints, LinkPoints, Placing
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import PointRef
-from graphkin.structure import Driven, Dyad, Element, Structure, Turn, links_of, pick
+from graphkin.structure import Cluster, Driven, Dyad, Element, Structure, Turn, links_of, pick
 from graphkin.structure.assembly import follow, ways
 from graphkin.words import Phrase
 
@@ -48,6 +49,7 @@ def place(
     values: Mapping[str, float],
     branches: Branches,
     instrument: Instrument = EXACT,
+    trials: Mapping[Cluster, GroupTrial] | None = None,
 ) -> Position:
     """Place the links of the elements at some driver values.
 
@@ -57,6 +59,7 @@ def place(
     values : driver values (rad, m)
     branches : which of its assemblies each dyad takes
     instrument : what draws
+    trials : by what trial positions each larger group is placed
 
     Raises
     ------
@@ -78,6 +81,9 @@ def place(
             poses = meeting.poses[branches.get(i, 0) % len(meeting.poses)]
             frame.poses.update(poses)
             frame.settle(list(poses))
+            causes.append((instrument.acts, Placing(element.links)))
+        else:
+            placed_by_trial(frame, (trials or {})[element])
             causes.append((instrument.acts, Placing(element.links)))
     return Position(frame, meetings, causes)
 
@@ -253,9 +259,10 @@ def _out_of_reach(scene: Mechanism, values: Mapping[str, float], limits: Sequenc
 def draw_position(
     board: Board,
     structure: Structure,
-    elements: Sequence[Driven | Dyad],
+    elements: Sequence[Element],
     position: Position,
     branches: Mapping[int, int],
+    trials: Mapping[Cluster, GroupTrial] | None = None,
 ) -> dict[str, Phrase]:
     """Record how each link was placed; returns the words for each assembly, by the group's links."""
     frame = position.frame
@@ -268,6 +275,8 @@ def draw_position(
     for i, element in enumerate(elements):
         if isinstance(element, Driven):
             _, story = drive(so_far, element)
+        elif isinstance(element, Cluster):
+            story = trial_story(frame, so_far, (trials or {})[element])
         else:
             meeting = position.meetings[i]
             board.notice("mechanism", SharpCrossing(_inner_name(element), min(meeting.sine, 1.0)))

@@ -13,7 +13,7 @@ from typing import Self
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase
 
-__all__ = ["OffTheSheet", "Remark", "SharpCrossing", "ShortArm", "ZeroVector"]
+__all__ = ["OffTheSheet", "ParallelLegs", "Remark", "SharpCrossing", "ShortArm", "ZeroVector"]
 
 REACH = 2000.0  # mm to either side: how far a construction line is drawn
 SHARP = math.sin(math.radians(15.0))
@@ -97,4 +97,22 @@ class ShortArm:
         return replace(self, mm=self.mm * times)
 
 
-Remark = SharpCrossing | OffTheSheet | ZeroVector | ShortArm
+@dataclass(frozen=True)
+class ParallelLegs:
+    """Two legs of a link leave it free along one direction: their special point lies at infinity."""
+
+    joints: tuple[str, str]
+
+    @property
+    def holds(self) -> bool:
+        return True
+
+    @property
+    def phrase(self) -> Phrase:
+        return Phrase("parallel legs", self.joints)
+
+    def scaled(self, times: float) -> Self:
+        return self
+
+
+Remark = ParallelLegs | SharpCrossing | OffTheSheet | ZeroVector | ShortArm

@@ -14,14 +14,16 @@ from graphkin.construction.remarks import Remark
 from graphkin.construction.steps import Act, Cause, Direction, Size, phrase_of, scaled
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure.model import Element, Structure
+from graphkin.structure.model import Cluster, Element, Structure
 from graphkin.words import Phrase
 
 __all__ = [
     "DIAGRAMS",
+    "Aid",
     "Bar",
     "CompassArc",
     "DiagramName",
+    "DrawnGroup",
     "Equation",
     "Image",
     "LimitPosition",
@@ -36,6 +38,7 @@ __all__ = [
     "Step",
     "Stroke",
     "Term",
+    "TrialCurve",
     "Vector",
 ]
 
@@ -72,6 +75,19 @@ class Vector:
 
     def scaled(self, times: float) -> Vector:
         return Vector(self.symbol, self.tail * times, self.tip * times, self.role)
+
+
+@dataclass(frozen=True)
+class Aid:
+    """A vector that only leads on: of a ``trial`` polygon by its number, or of a special point (0)."""
+
+    symbol: Symbol
+    tail: complex
+    tip: complex
+    trial: int
+
+    def scaled(self, times: float) -> Aid:
+        return Aid(self.symbol, self.tail * times, self.tip * times, self.trial)
 
 
 @dataclass(frozen=True)
@@ -114,6 +130,18 @@ class Bar:
 
 
 @dataclass(frozen=True)
+class TrialCurve:
+    """Where the free ``point`` of a group comes to lie in trial positions, ``at``, and the curve through them."""
+
+    curve: tuple[complex, ...]
+    at: tuple[complex, ...]
+    point: str
+
+    def scaled(self, times: float) -> TrialCurve:
+        return TrialCurve(tuple(z * times for z in self.curve), tuple(z * times for z in self.at), self.point)
+
+
+@dataclass(frozen=True)
 class Mark:
     """A named point of a figure.  ``ref`` without a point name is the pole."""
 
@@ -135,7 +163,7 @@ class Image:
         return Image(self.link, tuple(z * times for z in self.corners))
 
 
-Stroke = Vector | Ray | CompassArc | Bar | Mark | Image
+Stroke = Vector | Aid | TrialCurve | Ray | CompassArc | Bar | Mark | Image
 """Each is had so many times as large by ``scaled(times)``."""
 
 
@@ -248,16 +276,31 @@ class Limits:
 
 
 @dataclass(frozen=True)
+class DrawnGroup:
+    """How a group larger than a dyad was drawn: ``kept`` names the links (or drivers) left out for its trial positions,
+    ``assumed`` what was assumed in trial polygons and ``closing`` what had to fit in them (links, or sliding pairs),
+    ``points`` its special points with their links."""
+
+    group: Cluster
+    way: Literal["special points", "superposition"]
+    kept: tuple[str, ...]
+    assumed: tuple[str, ...]
+    closing: tuple[str, ...]
+    points: tuple[tuple[str, str], ...]
+
+
+@dataclass(frozen=True)
 class Sheet:
     """Everything drawn, in order.
 
     ``ends`` gives the end points in each polygon: ends["velocity"][PointRef("B", "3")] is b3.
-    ``omega`` and ``alpha`` hold the measured rates by link.  ``stopped`` names the group that could not be drawn and
-    why; everything before it stands.  ``noticed`` are what may have to be said of the construction, by diagram.
+    ``omega`` and ``alpha`` hold the measured rates by link.
+    ``noticed`` are what may have to be said of the construction, by diagram.
     ``causes`` tells to what the acts of the hand belong: (acts made when it was done, what).
     ``left_out`` says what nothing asked for needs; ``held_still`` are steps drawn apart, with one link for a frame.
     ``asked`` is what is asked for, if the drawing is limited to it; ``limits`` are the limit positions drawn for it, by
     sliding pair or link.
+    ``groups`` tells how each group larger than a dyad was drawn.
     """
 
     scene: Mechanism
@@ -274,12 +317,12 @@ class Sheet:
     equations: tuple[Equation, ...]
     assembly: Mapping[str, Phrase]
     noticed: tuple[tuple[DiagramName, Remark], ...] = ()
-    stopped: Phrase | None = None
     causes: tuple[tuple[int, Cause], ...] = ()
     left_out: tuple[Phrase, ...] = ()
     held_still: tuple[Step, ...] = ()
     asked: tuple[Symbol, ...] = ()
     limits: Mapping[str, Limits] = field(default_factory=dict)
+    groups: tuple[DrawnGroup, ...] = ()
 
     def at(self, scales: Scales) -> Sheet:
         """The same construction at other scales: every length on paper so many times as large.

@@ -36,22 +36,27 @@ def _same_vector(_: Symbol, tail: complex, tip: complex) -> complex:
     return tip
 
 
+def _same_line(_: Symbol, along: complex) -> complex:
+    return along
+
+
 def _same_rate(_: Symbol, value: float) -> float | None:
     return None
 
 
 @dataclass(frozen=True)
 class Slip:
-    """Three places where a value may be another than the drawn one.
+    """Four places where a value may be another than the drawn one.
 
     ``term`` gets each term of an equation before it is laid off; ``found`` each vector found (end points by image
     included) by tail and tip, mm on paper, and returns its tip; ``rate`` each angular rate measured (rad/s, rad/s2),
-    and returns None where it stays.
+    and returns None where it stays; ``line`` the direction of each line along which a vector of unknown size is drawn.
     """
 
     term: Callable[[Component], Component] = _same_term
     found: Callable[[Symbol, complex, complex], complex] = _same_vector
     rate: Callable[[Symbol, float], float | None] = _same_rate
+    line: Callable[[Symbol, complex], complex] = _same_line
 
 
 NO_SLIP = Slip()

@@ -8,6 +8,7 @@ sentence to be; who wants to know more than the sentence looks at the type and t
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, TypeVar
 
@@ -20,7 +21,7 @@ __all__ = [
     "DirectionLine", "FixedPoints", "FoundVector", "Given", "GuideThrough", "GuideTouching", "HeldStill",
     "LaidOff", "LaidOffAngle", "LaidOffTravel", "LinesMeet", "LinkPoints", "MeasuredRate", "Named", "PathDrawn",
     "PathsCross", "Placing", "PutBack", "RateTimes", "ReadOff", "Resultant", "SamePlace", "Size", "SlidToMeet",
-    "Translated", "links_drawn", "phrase_of", "scaled",
+    "SpecialPoint", "Superposed", "Translated", "TrialDrawn", "TrialPositions", "links_drawn", "phrase_of", "scaled",
 ]  # fmt: skip
 
 
@@ -182,6 +183,18 @@ class HeldStill:
     value: float
 
 
+@dataclass(frozen=True)
+class TrialPositions:
+    """A group placed by trial: ``driven`` names what is moved, ``left_out`` the link (or driver) left out until it
+    fits, ``point`` the free point whose trial curve is drawn ("" for none), in ``count`` trial positions."""
+
+    links: tuple[str, ...]
+    driven: tuple[str, ...]
+    left_out: tuple[str, ...]
+    point: str
+    count: int
+
+
 # -- acts in a polygon -------------------------------------------------------------------------------------------------
 
 
@@ -299,13 +312,39 @@ class MeasuredRate:
     value: float
 
 
+@dataclass(frozen=True)
+class SpecialPoint:
+    """The special point of a link, where the lines of two legs with these joints cross (Assur)."""
+
+    point: str
+    link: str
+    joints: tuple[str, str]
+
+
+@dataclass(frozen=True)
+class TrialDrawn:
+    """A trial polygon by its number, with what was assumed (rad/s, or the scene's units)."""
+
+    number: int
+    assumed: tuple[tuple[Symbol, float], ...]
+
+
+@dataclass(frozen=True)
+class Superposed:
+    """The true rates by proportional division; ``apart`` (mm) is what is left open in each trial at ``closing``."""
+
+    found: tuple[tuple[Symbol, float], ...]
+    closing: tuple[str, ...]
+    apart: tuple[tuple[float, ...], ...]
+
+
 OnMechanism = (
     FixedPoints | LaidOffAngle | LaidOffTravel | CompassArcs | PathDrawn | ArcOnPath | GuideThrough | GuideTouching
-    | PathsCross | SlidToMeet | LinkPoints | HeldStill
+    | PathsCross | SlidToMeet | LinkPoints | HeldStill | SpecialPoint | TrialPositions
 )  # fmt: skip
 InPolygon = (
     LaidOff | FoundVector | DirectionLine | Carried | PutBack | Resultant | Asked | LinesMeet | Named | SamePlace
-    | ByRate | ByImage | Translated | MeasuredRate
+    | ByRate | ByImage | Translated | MeasuredRate | TrialDrawn | Superposed
 )  # fmt: skip
 Act = OnMechanism | InPolygon
 
@@ -337,6 +376,8 @@ def scaled(thing: _Scalable, times: float) -> _Scalable:
     """The same act with its lengths so many times as large."""
     if isinstance(thing, CompassArcs):
         return replace(thing, radii=(thing.radii[0] * times, thing.radii[1] * times))
+    if isinstance(thing, Superposed):
+        return replace(thing, apart=tuple(tuple(mm * times for mm in row) for row in thing.apart))
     return replace(thing, mm=thing.mm * times) if isinstance(thing, _WITH_LENGTH) else thing
 
 
@@ -353,6 +394,8 @@ def links_drawn(act: Act) -> tuple[str, ...]:
             pairs = act.pairs
         case SlidToMeet():
             pairs = act.along, act.until
+        case TrialPositions():
+            return act.links
         case _:
             pairs = ()
     return tuple(name for pair in pairs for name in pair.split("/"))
@@ -386,6 +429,11 @@ def phrase_of(thing: Cause) -> Phrase:
         case HeldStill(held, link, slide, gives, value):
             shown = math.degrees(value) if gives == "angle" else value
             return Phrase(f"held still {gives}", (held, link, slide, f"{shown:.6g}"))
+        case SpecialPoint(point, link, joints):
+            return Phrase("special point", (point, link, *joints))
+        case TrialPositions(links, driven, left_out, point, count):
+            key = "trial positions" if point else "trial positions without curve"
+            return Phrase(key, (", ".join(links), ", ".join(driven), ", ".join(left_out), point, count))
         case Placing(links):
             return Phrase("placing", (", ".join(links),))
         case ReadOff(symbol):
@@ -418,6 +466,20 @@ def _in_polygon(act: InPolygon) -> Phrase:
             return Phrase("division" if on_line else "image", (point, *between, link))
         case Translated(link):
             return Phrase("translates", (link,))
+        case TrialDrawn(number, assumed):
+            if not any(value for _, value in assumed):
+                return Phrase("trial polygon at rest", (number, assumed[0][0]))
+            return Phrase("trial polygon", (number, *_assumed([one for one in assumed if one[1]])))
+        case Superposed(found, closing, apart):
+            rows = "; ".join(", ".join(f"{mm:.2f}" for mm in row) for row in apart).replace("-", "−")
+            return Phrase("superposed", (", ".join(closing), rows, *_assumed(found)))
         case MeasuredRate(rate, link, vector, bar, value):
             turning = "cw" if value < 0.0 else "ccw" if value > 0.0 else "zero"
             return Phrase(f"{rate} {turning}", (link, vector, "".join(bar), amount(abs(value), 4)))
+
+
+def _assumed(rates: Sequence[tuple[Symbol, float]]) -> tuple[object, str]:
+    """The first of some rates as a symbol, and its value with those that follow."""
+    (first, value), *rest = rates
+    more = "".join(f", {symbol} = {amount(v, 5)}" for symbol, v in rest)
+    return first, f"{amount(value, 5)}{more}".replace("-", "−")

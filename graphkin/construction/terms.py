@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Literal
 
-from graphkin.construction.equations import Edge
+from graphkin.construction.net import Edge
 from graphkin.construction.plot import Order, Plot
 from graphkin.construction.slip import Component
 from graphkin.construction.steps import Direction, Given, RateTimes
@@ -95,7 +95,9 @@ def _slide_parts(plot: Plot, order: Order, edge: Edge, slide: Slide) -> list[Com
 
 
 def _given(plot: Plot, key: str, order: Order) -> float | None:
-    """Rate of a driven slide."""
+    """Rate of a driven slide, or of one that is moved at a trial speed."""
+    if (order, key) in plot.tried:
+        return plot.tried[order, key]
     rates = plot.given.get(key)
     return None if rates is None else rates[0 if order == "velocity" else 1]
 

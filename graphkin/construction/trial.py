@@ -1,54 +1,46 @@
-"""Position and velocity of mechanisms with larger groups, by trial drawings.
+"""Where the links of a mechanism with larger groups lie, by trial drawings (method of trial positions).
 
-Position: the trial driver of a reduced mechanism is moved until what was left out fits; from one position of the real
-driver to the next the trial starts where the last one ended.  Velocity: everything is linear in the trial driver's
-speed, so two trial drawings with two arbitrary speeds give the true one by proportional division: the two motions are
-superposed so that what was left out keeps fitting.
+The trial driver of a reduced mechanism is moved until what was left out fits; from one position of the real driver to
+the next the trial starts where the last one ended.
 """
 
 from __future__ import annotations
 
+import cmath
 import math
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache
 from itertools import pairwise, product
 
 from graphkin.construction.dyads import drive, meet
-from graphkin.construction.follow import best_reduced, moved_to, trial_value
-from graphkin.construction.reduced_mechanism import ReducedMechanism, RemovedConstraint, clusters, reduced_mechanisms
+from graphkin.construction.follow import Choices, fitted, moved_to
+from graphkin.construction.reduced_mechanism import ReducedMechanism
 from graphkin.construction.rigid import PlacedLinks, Poses
 from graphkin.construction.sheet import Pose
 from graphkin.errors import Problem, Unsolvable
-from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
-from graphkin.structure import Cluster, Driven, Dyad, Structure, analyse, links_of, pick
+from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.structure import Cluster, Driven, Dyad, Element, Structure, pick
 
-__all__ = ["Known", "trial_position"]
+__all__ = ["Known", "found_by_trial"]
 
 GRID = 360  # trial values looked at over a turn
 TRIALS = 3  # trial drivers used, one after the other, to find all assemblies
+# to either side of a sketch, looked at one after the other
+WINDOWS = (*map(math.radians, (3.0, 10.0, 30.0, 90.0)), math.pi)
+COARSE = 12  # values of each of several trial drivers
 
 Branches = tuple[int, ...]  # which assembly each dyad of a reduced mechanism takes, in the order of drawing
 Known = tuple[Mapping[str, float], Poses]  # driver values, and every link there with the mechanism of size 1
 
 
-@dataclass(frozen=True)
-class TrialPosition:
-    """A scene of dyads only that choices where the given one does: trial drivers at their right values.
-
-    ``removed`` are what was left out, in order, each with the key of its trial driver.
-    """
-
-    scene: Mechanism
-    removed: tuple[tuple[RemovedConstraint, str], ...]
-
-
-def trial_position(scene: Mechanism, values: Mapping[str, float], near: Known | None = None) -> TrialPosition:
-    """Find by trial the position of a scene with larger groups.
+def found_by_trial(
+    choices: Choices, elements: Sequence[Element], values: Mapping[str, float], near: Known | None = None
+) -> dict[str, Pose]:
+    """Where every link of some elements lies at driver values, with the mechanism of size 1.
 
     Parameters
     ----------
-    near : a position known already, from which the motion is moved_to; without one the scene's own is found first
+    near : a position known already, from which the motion is followed; without one the scene's own is found first
 
     Raises
     ------
@@ -57,29 +49,29 @@ def trial_position(scene: Mechanism, values: Mapping[str, float], near: Known | 
     SceneError : a group has several assemblies and no sketch says which is meant
     """
     if near is None:
-        own: Mapping[str, float] = {d.key: d.values[0] for d in scene.drivers}
-        poses: Poses = _own_position(scene, own)
+        own: Mapping[str, float] = {d.key: d.values[0] for d in choices.structure.scene.drivers}
+        poses: Poses = _own_position(choices, elements, own)
     else:
         own, poses = near
-    moving = {k: v for k, v in values.items() if v != own[k]}
-    if moving:
-        poses = moved_to(scene, own, values, poses)
-    return _reduced_here(scene, values, poses)
+    if any(v != own[k] for k, v in values.items()):
+        return moved_to(choices, elements, own, values, poses)
+    return dict(poses)
 
 
 # -- the scene's own position: all the places at which the groups close -----------------------------------------------
 
 
-def _own_position(scene: Mechanism, own: Mapping[str, float]) -> dict[str, Pose]:
-    structure = analyse(scene)
+def _own_position(choices: Choices, elements: Sequence[Element], own: Mapping[str, float]) -> dict[str, Pose]:
+    structure = choices.structure
+    scene = structure.scene
     frame = PlacedLinks(structure.links, 1.0 / scene.size, own, {scene.frame.name: Pose(0j, 1 + 0j)})
-    for element in structure.elements:
+    for element in elements:
         if isinstance(element, Driven):
             frame.poses[element.link], _ = drive(frame, element)
         elif isinstance(element, Dyad):
             _dyad_by_sketch(scene, structure, frame, element)
         else:
-            _cluster_by_sketch(scene, structure, frame, element)
+            _cluster_by_sketch(choices, frame, element)
     return dict(frame.poses)
 
 
@@ -98,36 +90,126 @@ def _fresh(structure: Structure, frame: PlacedLinks, poses: Poses) -> dict[str, 
     return {p: there.point(n, p) / frame.mm for n in poses for p in structure.links[n].points if p not in known}
 
 
-def _cluster_by_sketch(scene: Mechanism, structure: Structure, frame: PlacedLinks, cluster: Cluster) -> None:
+def _cluster_by_sketch(choices: Choices, frame: PlacedLinks, cluster: Cluster) -> None:
     found: list[dict[str, Pose]] = []
     # by several trial drivers: what one passes over at its dead point another sees
-    by_driver: dict[str, ReducedMechanism] = {}
-    for reduced in reduced_mechanisms(scene, cluster):
-        by_driver.setdefault(reduced.driver, reduced)
-    for reduced in list(by_driver.values())[:TRIALS]:
-        for fit in _fits(reduced, frame):  # a fit at a value of the grid is met from both sides
+    by_driver: dict[tuple[str, ...], ReducedMechanism] = {}
+    for reduced in choices.of[cluster]:
+        by_driver.setdefault(tuple(d.key for d in reduced.trial), reduced)
+    structure = choices.structure
+    # where a sketch tells where to look, it is looked there
+    ways = sorted(by_driver.values(), key=lambda reduced: _sketched(reduced, frame) is None)
+    for reduced in ways[:TRIALS]:
+        for fit in _nearest_fits(reduced, frame, found):  # a fit at a value of the grid is met from both sides
             if not any(_near(fit, other) for other in found):
                 found.append(fit)
     if not found:
         names = ", ".join(cluster.links)
         raise Unsolvable("not assembled", Problem(f"links {names}", "no trial position closes this group here"))
     candidates = [_fresh(structure, frame, poses) for poses in found]
-    frame.poses.update(found[pick(scene, cluster.links, candidates, None).index])
+    frame.poses.update(found[pick(structure.scene, cluster.links, candidates, None).index])
+
+
+def _nearest_fits(
+    reduced: ReducedMechanism, known: PlacedLinks, before: Sequence[Poses]
+) -> Iterator[dict[str, Pose]]:
+    """The positions at which a group fits: all of them, or where a point of the trial link is sketched those that can
+    be nearest to the sketch, for an assembly that is nearer has that point nearer too."""
+    sketched = _sketched(reduced, known)
+    if sketched is None:
+        yield from _fits(reduced, known)
+        return
+    middle, away, distance = sketched
+    found = list(before)
+    nearest = min((distance(poses) for poses in before), default=0.0)
+    least = math.asin(nearest / away) if nearest < away else math.pi
+    for half in WINDOWS:
+        if half < least and half != WINDOWS[-1]:
+            continue
+        fresh = list(_on_a_line(reduced, known, middle - half, middle + half))
+        nearest = min((distance(poses) for poses in (*found, *fresh)), default=math.inf)
+        wide = math.asin(nearest / away) if nearest < away else math.pi
+        if wide <= half or half == WINDOWS[-1]:
+            yield from fresh
+            return
+
+
+def _sketched(
+    reduced: ReducedMechanism, known: PlacedLinks
+) -> tuple[float, float, Callable[[Poses], float]] | None:
+    """The trial value of a turned link at which a point of it lies in the direction of its sketch, how far from the
+    hinge it is sketched, and how far an assembly lies from the sketch; None where nothing tells."""
+    scene, structure = reduced.structure.scene, reduced.structure
+    places = {p: z * known.mm for p, z in {**scene.sketch, **scene.drawn}.items()}
+    driver = reduced.trial[0]
+    if len(reduced.trial) > 1 or not isinstance(driver, AngleDriver) or not places:
+        return None
+    held, link = known.poses.get(driver.relative_to), structure.links[driver.link]
+    hinge = next((p for p in link.points if p in structure.links[driver.relative_to].points), "")
+    far = max((p for p in link.points if p in places and p != hinge),
+              key=lambda p: abs(link.points[p] - link.points[hinge]) if hinge else 0.0, default="")  # fmt: skip
+    if held is None or not hinge or not far:
+        return None
+    way = places[far] - known.point(driver.relative_to, hinge)
+    own = link.points[far] - link.points[hinge]
+    if abs(way) == 0.0 or abs(own) == 0.0:
+        return None
+    axis = way / own
+    fresh = {p for n in reduced.cluster.members for p in structure.links[n].points if p in places}
+    fresh -= {p for n in known.poses for p in structure.links[n].points}
+
+    def distance(poses: Poses) -> float:
+        there = _fresh(structure, known, {n: poses[n] for n in reduced.cluster.members if n in poses})
+        return math.sqrt(sum(abs(there[p] * known.mm - places[p]) ** 2 for p in fresh if p in there))
+
+    return cmath.phase(axis / held.axis), abs(way), distance
 
 
 def _near(one: Poses, other: Poses) -> bool:
     return all(abs(p.origin - other[n].origin) + abs(p.axis - other[n].axis) < 1e-6 for n, p in one.items())
 
 
-def _fits(reduced: ReducedMechanism, known: PlacedLinks) -> list[dict[str, Pose]]:
-    """Every position of the trial driver and every assembly of the trial dyads at which what was left out fits."""
-    driver = next(d for d in reduced.scene.drivers if d.key == reduced.driver)
-    turns = isinstance(driver, AngleDriver)
-    span, start = (2 * math.pi, 0.0) if turns else (4.0 * reduced.scene.size, -2.0 * reduced.scene.size)
-    grid = [start + span * i / GRID for i in range(GRID + 1)]
+def _fits(reduced: ReducedMechanism, known: PlacedLinks) -> Iterator[dict[str, Pose]]:
+    """Every position of the trial drivers and every assembly of the trial dyads at which what was left out fits."""
+    if len(reduced.trial) == 1:
+        yield from _on_a_line(reduced, known, *_span(reduced, 0))
+    else:
+        yield from _on_a_grid(reduced, known)
+
+
+def _span(reduced: ReducedMechanism, i: int) -> tuple[float, float]:
+    """Where a trial driver may stand: a turn, or four sizes of the mechanism."""
+    return (-math.pi, math.pi) if isinstance(reduced.trial[i], AngleDriver) else (-2.0, 2.0)
+
+
+def _on_a_grid(reduced: ReducedMechanism, known: PlacedLinks) -> Iterator[dict[str, Pose]]:
+    """Several trial drivers: each place of a grid improved."""
+    axes = []
+    for i in range(len(reduced.trial)):
+        start, end = _span(reduced, i)
+        axes.append([start + (end - start) * (n + 0.5) / COARSE for n in range(COARSE)])
+    trials = []
+    for values in product(*axes):
+        for branches, gaps in _gaps(reduced, known, values).items():
+            trials.append((max(abs(g) for g in gaps), values, branches))
+    trials.sort(key=lambda one: one[0])
+    for _, values, branches in trials[:200]:
+        frame = _drawn(reduced, known, values, branches)
+        if frame is None:
+            continue
+        found = fitted(reduced, known, frame.poses, values)
+        if found is not None:
+            yield found
+
+
+def _on_a_line(
+    reduced: ReducedMechanism, known: PlacedLinks, start: float, end: float
+) -> Iterator[dict[str, Pose]]:
+    low, high = _span(reduced, 0)
+    parts = max(1, round(GRID * (end - start) / (high - low)))
+    grid = [start + (end - start) * i / parts for i in range(parts + 1)]
     # a value is drawn once for all assemblies: where one cannot be drawn on, others often cannot either
-    gaps_at = cache(lambda value: _gaps(reduced, known, value))
-    found: list[dict[str, Pose]] = []
+    gaps_at = cache(lambda value: {b: gaps[0] for b, gaps in _gaps(reduced, known, (value,)).items()})
     for branches in product((0, 1), repeat=sum(isinstance(e, Dyad) for e in reduced.elements)):
 
         def gap(value: float, branches: Branches = branches) -> float:
@@ -138,23 +220,22 @@ def _fits(reduced: ReducedMechanism, known: PlacedLinks) -> list[dict[str, Pose]
             # nan compares false; a gap that leaps has passed half a turn, not zero
             if not one * two <= 0.0 or abs(one - two) > 1.0:
                 continue
-            frame = _drawn(reduced, known, _root(gap, a, b, one, two), branches)
-            if frame is not None and abs(reduced.gap(frame)) < 1e-9:
-                found.append(reduced.put_back(frame))
-    return found
+            frame = _drawn(reduced, known, (_root(gap, a, b, one, two),), branches)
+            if frame is not None and abs(reduced.gaps(frame)[0]) < 1e-9:
+                yield reduced.put_back(frame)
 
 
-def _gaps(reduced: ReducedMechanism, known: PlacedLinks, value: float) -> dict[Branches, float]:
-    """The gap in every assembly of the trial dyads at one value; those that cannot be drawn are left out.
+def _gaps(reduced: ReducedMechanism, known: PlacedLinks, values: Sequence[float]) -> dict[Branches, list[float]]:
+    """The gaps in every assembly of the trial dyads at some values; those that cannot be drawn are left out.
 
     A dyad is drawn once for all assemblies of those after it.
     """
-    frame = reduced.opened(known, value)
-    found: dict[Branches, float] = {}
+    frame = reduced.opened(known, values)
+    found: dict[Branches, list[float]] = {}
 
     def draw(elements: Sequence[Driven | Dyad], branches: Branches) -> None:
         if not elements:
-            found[branches] = reduced.gap(frame)
+            found[branches] = reduced.gaps(frame)
             return
         element = elements[0]
         if isinstance(element, Driven):
@@ -169,9 +250,11 @@ def _gaps(reduced: ReducedMechanism, known: PlacedLinks, value: float) -> dict[B
     return found
 
 
-def _drawn(reduced: ReducedMechanism, known: PlacedLinks, value: float, branches: Branches) -> PlacedLinks | None:
+def _drawn(
+    reduced: ReducedMechanism, known: PlacedLinks, values: Sequence[float], branches: Branches
+) -> PlacedLinks | None:
     """A trial drawing of the group; None where two loci do not meet."""
-    frame = reduced.opened(known, value)
+    frame = reduced.opened(known, values)
     wanted = iter(branches)
     for element in reduced.elements:
         if isinstance(element, Driven):
@@ -222,34 +305,3 @@ def _root(gap: Callable[[float], float], a: float, b: float, fa: float, fb: floa
             fb = fb / 2 if side == 1 else fb
             side = 1
     return c
-
-
-def _reduced_here(scene: Mechanism, values: Mapping[str, float], poses: Poses) -> TrialPosition:
-    """The reduced mechanism of each larger group at the position found, with a sketch by which each dyad takes its
-    assembly."""
-    here: Mechanism = replace(scene, drivers=tuple(_at(d, values[d.key]) for d in scene.drivers), drawn={}, find=())
-    mm = 1.0 / scene.size
-    links = analyse(scene).links
-    removed: list[tuple[RemovedConstraint, str]] = []
-    while larger := clusters(structure := analyse(here)):
-        before = structure.elements[: structure.elements.index(larger[0])]
-        placed = {scene.frame.name, *(n for element in before for n in links_of(element))}
-        now = {d.key: d.values[0] for d in here.drivers}
-        frame = PlacedLinks(links, mm, now, {n: pose for n, pose in poses.items() if n in placed})
-        reduced = best_reduced(reduced_mechanisms(here, larger[0]), frame, poses)
-        if reduced is None:
-            names = ", ".join(larger[0].links)
-            raise Unsolvable("dead point", Problem(f"links {names}", "every trial drawing is at a dead point here"))
-        value = trial_value(reduced, poses, mm)
-        drivers = tuple(_at(d, value) if d.key == reduced.driver else d for d in reduced.scene.drivers)
-        here = replace(reduced.scene, drivers=drivers)
-        removed.append((reduced.removed, reduced.driver))
-    whole = PlacedLinks(links, mm, {}, dict(poses))
-    places = {p: whole.point(n, p) / mm for n in poses for p in links[n].points if n != scene.frame.name}
-    return TrialPosition(replace(here, sketch=places), tuple(removed))
-
-
-def _at(driver: AnyDriver, value: float) -> AnyDriver:
-    if isinstance(driver, AngleDriver):
-        return replace(driver, angle=value)
-    return replace(driver, travel=value)

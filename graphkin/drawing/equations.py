@@ -7,8 +7,16 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from graphkin.construction.sheet import Equation, Rate, Sheet, Term
-from graphkin.construction.steps import Given, LaidOff, MeasuredRate
+from graphkin.construction.sheet import Equation, Rate, Sheet, Step, Term
+from graphkin.construction.steps import (
+    Given,
+    LaidOff,
+    MeasuredRate,
+    SpecialPoint,
+    Superposed,
+    TrialDrawn,
+    TrialPositions,
+)
 from graphkin.drawing import strokes
 from graphkin.drawing.conventions import Letters, rows_of
 from graphkin.drawing.font_widths import run_box, runs_width
@@ -16,6 +24,8 @@ from graphkin.drawing.headings import number, term
 from graphkin.drawing.piece import moved
 from graphkin.drawing.primitives import Line, Primitive, Run, Text
 from graphkin.drawing.text import rich, symbol
+from graphkin.scene.symbol import Symbol
+from graphkin.words import Phrase, languages, say
 
 __all__ = ["Written", "equations_in_room", "write_equation", "written_lines"]
 
@@ -95,6 +105,7 @@ def written_lines(sheet: Sheet, letters: Letters, language: str) -> list[Written
     """Everything that is written to repeat a construction, in its order: each vector equation, and the angular rates
     where they are known."""
     lines: list[WrittenLine] = []
+    spoken = languages(language)[0]
     written: set[int] = set()
     for step in sheet.steps:
         if step.equation is not None and step.equation not in written:
@@ -105,7 +116,41 @@ def written_lines(sheet: Sheet, letters: Letters, language: str) -> list[Written
             lines.append(equation)
         if isinstance(step.act, MeasuredRate):
             lines.append(_measured(sheet, step.act, letters, language))
+        elif isinstance(step.act, SpecialPoint):
+            act = step.act
+            lines.append(say(Phrase("written special", _in_dollars(act.point, *act.joints)), spoken))
+        elif isinstance(step.act, TrialPositions):
+            names = ", ".join(step.act.left_out), ", ".join(step.act.driven)
+            lines.append(say(Phrase("written trial", names), spoken))
+        elif isinstance(step.act, Superposed):
+            lines += _trials(sheet, step, letters, spoken)
     return lines
+
+
+def _in_dollars(*letters: str) -> tuple[str, ...]:
+    return tuple(f"${name}$" for name in letters)
+
+
+def _trials(sheet: Sheet, last: Step, letters: Letters, language: str) -> Iterator[str]:
+    """``I: ω_3 = 0.2 rad/s; left open at 8: 3.21 mm``, a line for each trial, and what follows."""
+    act = last.act
+    assert isinstance(act, Superposed)
+    units = {"omega": "rad/s", "alpha": "rad/s²", "v": f"{sheet.scene.units.length}/s"}
+
+    def rates(found: Sequence[tuple[Symbol, float]]) -> str:
+        push = f"{sheet.scene.units.length}/s²"
+        return ", ".join(
+            f"${letters.vector(s)}$ = {number(value, 5)} {units.get(s.kind, push)}" for s, value in found
+        )
+
+    drawn = [s.act for s in sheet.steps if s.diagram == last.diagram and s.number < last.number]
+    trials = [a for a in drawn if isinstance(a, TrialDrawn)][-len(act.apart):]
+    for trial, row in zip(trials, act.apart, strict=True):
+        apart = ", ".join(number(mm, 4) for mm in row)
+        numeral = "I" * trial.number if trial.number < 4 else str(trial.number)
+        args = numeral, rates(trial.assumed), ", ".join(act.closing), apart
+        yield say(Phrase("written trial polygon", args), language)
+    yield say(Phrase("written superposed", (rates(act.found),)), language)
 
 
 def _measured(sheet: Sheet, act: MeasuredRate, letters: Letters, language: str) -> str:

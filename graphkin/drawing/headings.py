@@ -188,10 +188,9 @@ def _sentences(sheet: Sheet, diagrams: tuple[DiagramName, ...], language: str) -
 
 
 def remarks(sheet: Sheet, language: str, letters: Letters | None = None) -> list[str]:
-    """What is to be said of the drawing as a whole: badly conditioned crossings, a group that stopped it; with
+    """What is to be said of the drawing as a whole: badly conditioned crossings, legs that are parallel; with
     ``letters``, symbols stand between dollar signs as a convention writes them."""
     notes = list(dict.fromkeys(r.phrase for r in sheet.remarks if not isinstance(r, ZeroVector)))
-    notes += [sheet.stopped] if sheet.stopped else []
     if letters is None:
         return [_sentence(say(n, language, _plain_symbol), language) for n in notes]
 

@@ -13,6 +13,7 @@ from graphkin.drawing import strokes, symbols
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.dimensions import LENGTHS, drawn_lengths
+from graphkin.drawing.group_aids import aids_in_mechanism
 from graphkin.drawing.labels import Label
 from graphkin.drawing.mechanism_on_paper import GUIDE_LENGTH, LinkShape, MechanismOnPaper, Slider, page
 from graphkin.drawing.piece import Piece, cut_to, ink_box, joined, middle_of
@@ -259,7 +260,8 @@ def _marks(here: MechanismOnPaper) -> Piece:
 
 def _piece(here: MechanismOnPaper, panel: Box | None) -> Piece:
     clear = clearance(here)
-    whole = joined((_construction(here), links(here), joints(here), drivers(here, clear), found_rates(here, clear)))
+    placed = joined((_construction(here), links(here), aids_in_mechanism(here.sheet)))
+    whole = joined((placed, joints(here), drivers(here, clear), found_rates(here, clear)))
     drawn = [thing for layer in ("construction", "mechanism", "answers") for thing in whole.layers[layer]]
     lengths = Piece({"mechanism": (drawn_lengths(here.sheet, drawn, panel),)})
     return joined((whole, lengths, link_names(here), _marks(here)))

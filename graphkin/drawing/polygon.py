@@ -11,6 +11,7 @@ from graphkin.construction.sheet import Bar, Image, Ray, Vector
 from graphkin.construction.steps import Carried
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
+from graphkin.drawing.group_aids import aids_in_polygon
 from graphkin.drawing.headings import spoken_vector
 from graphkin.drawing.labels import Label
 from graphkin.drawing.piece import Piece, joined
@@ -35,7 +36,8 @@ def polygon_piece(here: PolygonOnPage) -> Piece:
 
 def _construction(here: PolygonOnPage) -> Piece:
     """Everything thin, with its names."""
-    return joined((Piece({"construction": (*_rings(here), *_images(here))}), *_bars(here), *_rays(here)))
+    shapes = Piece({"construction": (*_rings(here), *_images(here))})
+    return joined((shapes, *aids_in_polygon(here), *_bars(here), *_rays(here)))
 
 
 def _rings(here: PolygonOnPage) -> Iterator[Primitive]:

@@ -45,7 +45,7 @@ def _spots(here: PolygonOnPage) -> list[_Place]:
     fixed = [PointRef(p) for p in here.sheet.scene.frame.points]
     places = [_Place(0j, list(fixed))]
     seen: set[PointRef] = set(fixed)
-    of_vectors = {symbol.of for symbol in here.vectors if symbol.to is None}
+    of_vectors = {symbol.of for symbol in here.vectors if symbol.to is None} | set(_special(here))
     for mark in (stroke for step in here.steps for stroke in step.strokes if isinstance(stroke, Mark)):
         if mark.ref in seen or mark.ref not in of_vectors:
             continue
@@ -56,6 +56,14 @@ def _spots(here: PolygonOnPage) -> list[_Place]:
         else:
             places.append(_Place(mark.at, [mark.ref]))
     return places
+
+
+def _special(here: PolygonOnPage) -> Iterator[PointRef]:
+    """End points of special points, those that lie on the panel."""
+    points = {point for group in here.sheet.groups for point, _ in group.points}
+    for mark in (stroke for step in here.steps for stroke in step.strokes if isinstance(stroke, Mark)):
+        if mark.ref.point in points and here.panel.distance(here.at(mark.at)) == 0.0:
+            yield mark.ref
 
 
 def _ends(here: PolygonOnPage, places: Sequence[_Place]) -> Iterator[Piece]:

@@ -28,6 +28,8 @@ __all__ = [
     "REDUNDANT",
     "RELATIVE",
     "RESULTANT",
+    "TRIALS",
+    "TRIAL_CURVE",
     "WHITE",
     "colour_of_link",
     "colour_of_vector",
@@ -45,6 +47,8 @@ OUTLINE = Stroke(0.35)  # blocks, turning pairs, panels that carry weight
 FRAME = Stroke(0.5)
 DIRECTION = Stroke(0.18, (2.4, 0.9))
 CONSTRUCTION = Stroke(0.18)
+TRIALS = (Stroke(0.18, (4.0, 0.8, 0.6, 0.8)), Stroke(0.25, (0.6, 0.9)), Stroke(0.18, (4.0, 0.8, 0.6, 0.8, 0.6, 0.8)))
+TRIAL_CURVE = Stroke(0.25)
 HATCHING = Stroke(0.18)
 DIMENSION = Stroke(0.18)
 LEADER = Stroke(0.18)

@@ -116,12 +116,8 @@ def _guide(lesson: Lesson, guide: PlacedGuide, language: str) -> str:
 
 
 def reach(lesson: Lesson) -> Iterator[Paragraph]:
-    """That only a part of the mechanism is on the paper, where compass and ruler do not reach the rest, or nothing
-    asked for needs it."""
-    sheet = lesson.sheet
-    missing = ", ".join(link.name for link in sheet.scene.links if link.name not in sheet.poses)
-    phrases = (*((Phrase("part only", (missing,)),) if sheet.stopped and missing else ()), *sheet.left_out)
-    for phrase in phrases:
+    """That only a part of the mechanism is on the paper, where nothing asked for needs the rest."""
+    for phrase in lesson.sheet.left_out:
         yield Paragraph(tuple((each, lesson.speaker.sentence(phrase, each)) for each in languages(lesson.language)))
 
 

@@ -245,7 +245,7 @@ def _stage(
 
 def _remarks(lesson: Lesson) -> Iterator[Block]:
     sheet = lesson.sheet
-    notes = [*sheet.notes, *((sheet.stopped,) if sheet.stopped else ())]
+    notes = [*sheet.notes]
     if notes:
         yield Heading(said("remarks", lesson.language), 3)
     for note in notes:

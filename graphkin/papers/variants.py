@@ -233,8 +233,6 @@ def _sketch(scene: Mechanism, motion: Motion) -> dict[str, list[float]]:
 
 def _remarks(sheet: Sheet, asked: tuple[Symbol, ...]) -> Iterator[str]:
     """What makes a sheet hard to draw or to read."""
-    if sheet.stopped is not None:
-        yield "it cannot be drawn with ruler and compass alone"
     for equation in sheet.equations:
         rays = [s for step in sheet.steps if step.equation == equation.number for s in step.strokes]
         lines = [r for r in rays if isinstance(r, Ray)]

@@ -141,19 +141,22 @@ def _assemblies(structure: Structure, group: Cluster, drive: Drive, known: Mappi
     many = Drive(*(np.repeat(x, len(start), axis=0) for x in (drive.value, drive.rate, drive.second)))
     system = System(structure, group, known, many)
     place, damping = start, np.ones(len(start))
-    open_ = system.open(system.poses(place))
+    members = system.poses(place)
+    open_ = system.constraints(members)[0]
     for _ in range(ROUNDS):
         # Levenberg-Marquardt: singular starts need no care
-        matrix = system.matrix(system.poses(place))
+        matrix = system.matrix(members)
         turned = np.swapaxes(matrix, 1, 2)
         normal = turned @ matrix + damping[:, None, None] * 1e-3 * np.eye(matrix.shape[2])
         step = solve_all(normal, (turned @ open_[..., None])[..., 0])
         trial = place - system.scaled(step)
-        new_open = system.open(system.poses(trial))
+        new_members = system.poses(trial)
+        new_open = system.constraints(new_members)[0]
         better = np.sum(new_open**2, axis=1) < np.sum(open_**2, axis=1)
         place = np.where(better[:, None, None], trial, place)
-        open_ = np.where(better[:, None], new_open, open_)
         damping = np.clip(np.where(better, damping / 5, damping * 4), 1e-12, 1e8)
+        members = system.poses(place)
+        open_ = system.constraints(members)[0]
     near = np.abs(open_).max(axis=1) < 1e-4
     if not near.any():
         return np.zeros((0, len(group.members), 3))

@@ -98,42 +98,6 @@ class System:
                 found[order, :, k] = row[order]
         return found[0], found[1], found[2]
 
-    def open(self, members: Mapping[str, Pose]) -> Array:
-        """Each constraint alone, to the last bit as `constraints` has it, in a third of the time."""
-        size = self.structure.scene.size
-        poses = {**self.known, **members}
-        made = np.empty((len(self.drive), 2 * len(self.group.pairs) + len(self.group.drivers)))
-        k = 0
-        for pair in self.group.pairs:
-            if isinstance(pair, Turn):
-                gap = (self._place(poses, pair, pair.a)[0] - self._place(poses, pair, pair.b)[0]) / size
-                made[:, k], made[:, k + 1] = gap.real, gap.imag
-            else:
-                place, direction = self._slid(poses, pair)
-                made[:, k], made[:, k + 1] = np.angle(direction), place.imag / size
-            k += 2
-        for driver in self.group.drivers:
-            value = self.drive.value[:, self.structure.scene.drivers.index(driver)]
-            if isinstance(driver, AngleDriver):
-                seen = poses[driver.relative_to].u.conjugate() * poses[driver.link].u
-                made[:, k] = np.angle(seen * np.conj(turned(value)))
-            else:
-                made[:, k] = (self._slid(poses, self.structure.slide(driver.key))[0].real - value) / size
-            k += 1
-        return made
-
-    def _place(self, poses: Mapping[str, Pose], pair: Pair, link: str) -> tuple[Array, Array]:
-        """Place and direction of a joint of a link."""
-        place, direction = joint_place(self.structure, pair, link)
-        pose = poses[link]
-        return pose.z if place == 0 else pose.z + pose.u * place, pose.u if direction == 1 else pose.u * direction
-
-    def _slid(self, poses: Mapping[str, Pose], pair: Slide) -> tuple[Array, Array]:
-        """Place and direction of what slides, in the axes of its guide."""
-        (one, along), (two, guide) = self._place(poses, pair, pair.a), self._place(poses, pair, pair.b)
-        back = guide.conjugate()
-        return -back * two + back * one, back * along
-
     def _joints(self, pair: Pair, poses: Mapping[str, Pose]) -> tuple[Pose, Pose]:
         """The two frames of a joint, in the world."""
         one, two = (poses[link].fixed(*joint_place(self.structure, pair, link)) for link in (pair.a, pair.b))
@@ -144,15 +108,22 @@ class System:
         size, n = self.structure.scene.size, len(self.drive)
         poses = {**self.known, **members}
         column = {name: 3 * k for k, name in enumerate(self.group.members)}
-        made = np.zeros((n, 2 * len(self.group.pairs) + len(self.group.drivers), 3 * len(column)))
-        rows = iter(made.transpose(1, 0, 2))
+        count = 3 * len(column)
+        rows: list[Array] = []
+
+        def row() -> Array:
+            rows.append(np.zeros((n, count)))
+            return rows[-1]
 
         def sliding(pair: Slide, part: str) -> None:
-            one, (two, guide) = self._place(poses, pair, pair.a)[0], self._place(poses, pair, pair.b)
-            back = np.conj(guide)
-            gap = one - two
-            line = next(rows)
-            for name, sense, arm in ((pair.a, 1.0, one - poses[pair.a].z), (pair.b, -1.0, two - poses[pair.b].z + gap)):
+            one, two = self._joints(pair, poses)
+            back = np.conj(two.u)
+            gap = one.z - two.z
+            line = row()
+            for name, sense, arm in (
+                (pair.a, 1.0, one.z - poses[pair.a].z),
+                (pair.b, -1.0, two.z - poses[pair.b].z + gap),
+            ):
                 if name in column:
                     at = column[name]
                     line[:, at] = getattr(sense * back, part)
@@ -160,7 +131,7 @@ class System:
                     line[:, at + 2] = getattr(sense * 1j * back * arm / size, part)
 
         def turning(one: str, two: str) -> None:
-            line = next(rows)
+            line = row()
             for name, sense in ((one, 1.0), (two, -1.0)):
                 if name in column:
                     line[:, column[name] + 2] += sense
@@ -170,7 +141,7 @@ class System:
                 turning(pair.a, pair.b)
                 sliding(pair, "imag")
                 continue
-            horizontal, vertical = next(rows), next(rows)
+            horizontal, vertical = row(), row()
             for name, sense in ((pair.a, 1.0), (pair.b, -1.0)):
                 if name in column:
                     at = column[name]
@@ -183,7 +154,7 @@ class System:
                 turning(driver.link, driver.relative_to)
             else:
                 sliding(self.structure.slide(driver.key), "real")
-        return made
+        return np.stack(rows, axis=1)
 
     def scaled(self, step: Array) -> Array:
         """Columns (n, 3 members) back to (n, members, 3) in m and rad."""
@@ -230,7 +201,7 @@ def solve_cluster(
     best = place
     for _ in range(ROUNDS):
         members = system.poses(place)
-        open_ = system.open(members)
+        open_, _, _ = system.constraints(members)
         now = np.abs(open_).max(axis=1)
         better = now < missed
         best = np.where(better[:, None, None], place, best)

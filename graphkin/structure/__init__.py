@@ -1,6 +1,6 @@
 """Mobility and its traps, Assur groups, order of solution."""
 
-from graphkin.structure.analysis import analyse, mobility_of
+from graphkin.structure.analysis import analyse, mobility_of, regrouped
 from graphkin.structure.assembly import Choice, pick
 from graphkin.structure.model import (
     Body,
@@ -40,4 +40,5 @@ __all__ = [
     "needed",
     "part_of",
     "pick",
+    "regrouped",
 ]

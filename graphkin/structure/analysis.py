@@ -5,6 +5,7 @@ A scene has none with too many or too few drivers, and where parts are held too 
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 from graphkin.errors import Problem, Unsolvable
@@ -15,7 +16,7 @@ from graphkin.structure.model import Cluster, Driven, DrivenTriangle, Dyad, Elem
 from graphkin.structure.part import links_of
 from graphkin.structure.triangles import triangles_of
 
-__all__ = ["analyse", "mobility_of"]
+__all__ = ["analyse", "mobility_of", "regrouped"]
 
 
 def _wrong_count(system: Constraints, mobility: Mobility) -> Problem:
@@ -122,12 +123,23 @@ def analyse(scene: Mechanism | Structure) -> Structure:
     given = match(unknowns)
     if len(given) < len(equations):
         raise Unsolvable("mobility", _wrong_part(system, unknowns, given))
-    needs: dict[Node, list[Node]] = {node: [] for node in system.nodes()}
+    elements = _in_order(system, system.nodes(), unknowns, given, {scene.frame.name})
+    return _in_parts(Structure(scene, system.links, system.slides, system.hinges, mobility, elements))
+
+
+def _in_order(
+    system: Constraints,
+    nodes: Sequence[Node],
+    unknowns: Sequence[Sequence[Unknown]],
+    given: Mapping[int, Unknown],
+    known: set[str],
+) -> tuple[Element, ...]:
+    """The elements that place some nodes, each after those it needs."""
+    needs: dict[Node, list[Node]] = {node: [] for node in nodes}
     for i, (node, _) in given.items():
         others = sorted({n for n, _ in unknowns[i]} - {node}, key=system.place)
         needs[node] += [n for n in others if n not in needs[node]]
     elements: list[Element] = []
-    known = {scene.frame.name}
     for component in components(needs):
         members = [name for kind, name in component if kind == "link"]
         if not members:
@@ -135,7 +147,7 @@ def analyse(scene: Mechanism | Structure) -> Structure:
         members.sort(key=lambda name: system.place(("link", name)))
         elements.append(element_of(system, members, known))
         known.update(members)
-    return _in_parts(Structure(scene, system.links, system.slides, system.hinges, mobility, tuple(elements)))
+    return tuple(elements)
 
 
 def _in_parts(structure: Structure) -> Structure:
@@ -161,6 +173,38 @@ def _in_parts(structure: Structure) -> Structure:
                 e = replace(e, order=2, triangles=found[e], parts=parts)
         elements.append(e)
     return replace(structure, elements=tuple(elements))
+
+
+def regrouped(scene: Mechanism, known: Iterable[str], members: Iterable[str]) -> tuple[Element, ...] | None:
+    """The elements that place some links of a scene, others being known; None where what holds them does not place
+    them, neither more nor less."""
+    system = Constraints(scene)
+    placed, wanted = set(known), set(members)
+    nodes = [n for n in system.nodes() if _open(system, n, placed, wanted)]
+    free = set(nodes)
+    rows = []
+    for equation in system.equations():
+        inside = [u for u in sorted(equation) if u[0] in free]
+        outside = {n for n, _ in equation} - free
+        if inside and all(_settled(system, n, placed) for n in outside):
+            rows.append(inside)
+    given = match(rows)
+    if len(given) < len(rows) or len(rows) != sum(3 if kind == "link" else 2 for kind, _ in nodes):
+        return None
+    return _in_order(system, nodes, rows, given, placed)
+
+
+def _settled(system: Constraints, node: Node, placed: set[str]) -> bool:
+    kind, name = node
+    return name in placed if kind == "link" else bool(placed.intersection(system.hinges[name]))
+
+
+def _open(system: Constraints, node: Node, placed: set[str], wanted: set[str]) -> bool:
+    """Whether a node is to be placed: a wanted link, or a hinge of one that no known link has."""
+    kind, name = node
+    if kind == "link":
+        return name in wanted
+    return bool(wanted.intersection(system.hinges[name])) and not _settled(system, node, placed)
 
 
 def mobility_of(scene: Mechanism) -> Mobility:

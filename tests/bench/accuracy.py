@@ -177,7 +177,7 @@ class _Exact:
 
 def _exact_rows(structure: Structure, drive: Drive, forms: dict[int, Any], degrees: np.ndarray) -> Any:
     """Function of the number of a position to its links in 50 digits, with the driver at just these degrees."""
-    run = engine._Run(structure, drive, forms, True, True, True)
+    run = engine._Run(structure, drive, forms, True, True)
     program = run.dimensioned.program
     names = [n for n in structure.links if n != structure.scene.frame.name]
     asked = [getattr(program.poses[n], f) for n in names for f in FIELDS]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
 from functools import cache
 
@@ -12,12 +11,10 @@ from tests.bench.accuracy import measure
 from tests.bench.larger import measure_larger
 from tests.bench.tally import KINDS, Tally
 
-# GRAPHKIN_ALL_POSITIONS asks for twice as many positions.
-SHARE = 1 if os.environ.get("GRAPHKIN_ALL_POSITIONS") else 2
 RUNS: dict[str, Callable[[], Tally]] = {
-    "16 digits throughout": lambda: measure(600 // SHARE, 7, False, each=3),
-    "as given out": lambda: measure(600 // SHARE, 7, True, each=3),
-    "larger groups": lambda: measure_larger(120 // SHARE, 3, each=16),
+    "16 digits throughout": lambda: measure(600, 7, False, each=3),
+    "as given out": lambda: measure(600, 7, True, each=3),
+    "larger groups": lambda: measure_larger(120, 3, each=16),
 }
 
 

@@ -8,7 +8,7 @@ from typing import Literal
 
 from graphkin.construction.board import EXACT, Instrument
 from graphkin.construction.centres.kennedy import CrossedCentre, Known, Relation, Search, closure
-from graphkin.construction.centres.motion import Way, Worked, measured, relative_centre, work
+from graphkin.construction.centres.motion import Way, relative_centre, work, worked
 from graphkin.construction.centres.pairs import (
     LinkPair,
     Links,
@@ -117,13 +117,13 @@ def find_centres(
     scene = of.scene if isinstance(of, Structure) else of
     moving = _moving(scene)
     if sheet is not None and moving is scene and set(sheet.structure.links) <= set(sheet.poses):
-        worked = Worked(sheet, measured(sheet))
+        found = worked(sheet)
     else:
-        worked = work(of if moving is scene else moving, at, instrument, near.sheet if near is not None else None)
-    links = links_on_paper(scene, 1.0 / worked.sheet.scales.length, worked.sheet.poses)
+        found = work(of if moving is scene else moving, at, instrument, near.sheet if near is not None else None)
+    links = links_on_paper(scene, 1.0 / found.sheet.scales.length, found.sheet.poses)
     chart = links.chart()
-    table, slots = _search(links, chart, worked.motions, instrument, worked.way)
-    return Centres(worked.sheet, links, chart, table, slots, worked.motions, worked.kept)
+    table, slots = _search(links, chart, found.motions, instrument, found.way)
+    return Centres(found.sheet, links, chart, table, slots, found.motions, found.kept)
 
 
 def centres_on(sheet: Sheet, asked: Sequence[Symbol], instrument: Instrument = EXACT) -> Centres:

@@ -1,0 +1,202 @@
+"""What is drawn of a group larger than a dyad in a polygon, move by move: equations, closings, special points."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+from graphkin.construction.group_plan import Closed, Crossed, Move, OneLine, Path, Special
+from graphkin.construction.net import Chain, Edge, Joined, Net
+from graphkin.construction.plot import Order, letter
+from graphkin.construction.polygons import Polygons, same_turn
+from graphkin.construction.sheet import Aid, Bar, Equation, Mark, Rate, Ray, Term
+from graphkin.construction.steps import Carried, DirectionLine, FoundVector, MeasuredRate, SpecialPoint
+from graphkin.plane import cross, unit
+from graphkin.scene.model import AngleDriver, SlideDriver
+from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.structure import Cluster, Slide, Weld, driver_pair, links_of
+
+__all__ = ["GroupMoves"]
+
+LETTERS = tuple("SQTUVWXYZ") + tuple(f"S{i}" for i in range(1, 30))
+
+
+class GroupMoves(Polygons):
+    """Polygons with the moves by which a group is drawn."""
+
+    def _free_letters(self) -> Sequence[str]:
+        taken = {p for link in self.links.values() for p in link.points}
+        return [name for name in LETTERS if name not in taken]
+
+    def _net(self, group: Cluster) -> Net:
+        slides = [p for p in group.pairs if isinstance(p, Slide)]
+        welds = []
+        for driver in group.drivers:
+            pair = driver_pair(driver, self.links, self.structure.slides)
+            if pair is not None and isinstance(driver, AngleDriver):
+                welds.append(Weld(pair, driver, pair.b, pair.a))
+        driven = frozenset(d.key for d in group.drivers if isinstance(d, SlideDriver))
+        joined = Joined(group.members, group.pairs, welds, driven, near=True)
+        names = {s.key: self.guide_names(s) for s in slides}
+        return Net(self.links, self.ground, joined, self.places, names, same_turn(group), self.tiny)
+
+    def _way(self, edge: Edge, places: Mapping[str, complex]) -> complex:
+        if edge.slide is not None:
+            return self.frame.poses[edge.slide.b].axis * edge.slide.guide.direction
+        return 1j * unit(places[edge.end.point] - places[edge.start.point])
+
+    def _move(self, order: Order, group: Cluster, move: Move) -> None:
+        match move:
+            case Crossed(chain):
+                self._equation(order, group, chain)
+            case Closed(path):
+                self._close(order, path, group)
+            case Special():
+                self._special(order, group, move)
+            case OneLine(link, path):
+                self._one_line(order, group, link, path)
+        self._complete(order, group)
+
+    def _complete(self, order: Order, group: Cluster) -> None:
+        """All points of links that turn at known rates and of which one point is known, by images."""
+        ends = self.ends[order]
+        left = [n for n in links_of(group) if n in self.rates[order]]
+        while ready := [n for n in left if any(self._on(ref, n) for ref in ends)]:
+            for name in ready:
+                self.complete(order, name)
+                left.remove(name)
+
+    def _left(self, order: Order, net: Net) -> list[Edge]:
+        """What moves along the guides of a group and has not been drawn."""
+        found = []
+        for ref in net.nodes:
+            for edge in net.edges[ref]:
+                s = edge.slide
+                if s is None or edge.start.point != s.pin or not edge.forward:
+                    continue
+                symbol = Symbol(letter(order), self.label(edge.labels[1]), self.label(edge.labels[0]))
+                if symbol not in self.drawn[order] and not self.fixed(edge.start):
+                    found.append(replace(edge, unknown=edge.unknown))
+        return found
+
+    def _equation(self, order: Order, group: Cluster, chain: Chain) -> None:
+        number = len(self.board.equations) + 1
+        sides = [self._side(order, chain.left), self._side(order, chain.right)]
+        terms = [self._terms(order, side) for side in sides]
+        if len(terms[0]) != 1 or terms[0][0].symbol != Symbol(letter(order), self.label(chain.middle)):
+            terms.insert(0, (Term(Symbol(letter(order), self.label(chain.middle)), False, False),))
+        self.board.equations.append(Equation(number, order, tuple(terms), group))
+        self._cross(order, chain, sides, number)
+        for edges in (chain.left, chain.right):
+            if sum(bool(edge.unknown) for edge in edges) == 1:  # of several along one line only the sum is known
+                for edge in edges:
+                    self._measure(order, edge, group)
+
+    def _close(self, order: Order, path: Path, group: Cluster) -> None:
+        """A way between two points whose end points stand already, or from one such with nothing unknown."""
+        number: int | None = len(self.board.equations) + 1
+        side = self._side(order, path)
+        last = path[-1].end
+        stands = self.fixed(last) or last in self.ends[order] or self._placeable(order, last)
+        parts = [p for _, found in side for p in found]
+        head = Term(Symbol(letter(order), self.label(last)), stands, stands)
+        terms = self._terms(order, side)
+        if len(terms) != 1 or terms[0].symbol != head.symbol:
+            self.board.equations.append(Equation(len(self.board.equations) + 1, order, ((head,), terms), group))
+        else:
+            number = None
+        at = self.end(order, path[0].start)
+        open_at = next((i for i, p in enumerate(parts) if p.span is None), None)
+        if open_at is None:
+            for part in parts:
+                at = self._vector(order, part, at, number)
+            self.reach(order, last, at, number)
+            return
+        for part in parts[:open_at]:
+            known = self.drawn[order].get(part.symbol)
+            at = known.tip if known is not None else self._vector(order, part, at, number)
+        after = sum((p.span for p in parts[open_at + 1 :] if p.span is not None), 0j)
+        self._fill(order, side, self.end(order, last) - after, at, number)
+        for edge in path:
+            self._measure(order, edge, group)
+
+    def _placeable(self, order: Order, ref: PointRef) -> bool:
+        owners = [ref.link] if ref.link else [n for n, k in self.links.items() if ref.point in k.points]
+        return any(n in self.rates[order] and any(self._on(r, n) for r in self.ends[order]) for n in owners)
+
+    # -- special points ------------------------------------------------------------------------------------------------
+
+    def _special(self, order: Order, group: Cluster, move: Special) -> None:
+        link, name = move.link, move.letter
+        if name not in self.places:
+            self._mark_special(move)
+        ref = PointRef(name)
+        ways = []
+        for leg in move.legs:
+            joint = leg[-1].end
+            if abs(self.places[joint.point] - self.places[name]) > self.tiny:
+                unknown = f"omega {same_turn(group).get(link, link)}"
+                # written as the leg's own direction, for the two lie along one line
+                free = next(e for e in leg if e.unknown)
+                square = Edge(joint, ref, (joint, ref), free.direction, link=link, unknown=unknown)
+                leg = (*leg, square if link not in self.rates[order] else replace(square, unknown=""))
+            ways.append(leg)
+        right, left = ways
+        self._equation(order, group, Chain(ref, left, right))
+
+    def _mark_special(self, move: Special) -> None:
+        """The special point on the mechanism: where the lines of two legs cross."""
+        (p, d), (q, e) = (self._leg_line(leg) for leg in move.legs)
+        d = self.slip.line(Symbol("v", PointRef(move.letter)), d)
+        at = self.board.cross("mechanism", p, d, q, e, move.letter)
+        self.special.add(move.letter)
+        self.places[move.letter] = at
+        pose = self.frame.poses[move.link]
+        points = {**self.links[move.link].points, move.letter: (at - pose.origin) / pose.axis / self.frame.mm}
+        self.links[move.link] = replace(self.links[move.link], points=points)
+        joints = tuple(leg[-1].end.point for leg in move.legs)
+        act = SpecialPoint(move.letter, move.link, (joints[0], joints[1]))
+        self.board.do("mechanism", act, Bar(p, at, ""), Bar(q, at, ""), Mark(PointRef(move.letter), at))
+
+    def _leg_line(self, leg: Path) -> tuple[complex, complex]:
+        free = next(e for e in leg if e.unknown)
+        return self.places[leg[-1].end.point], 1j * self._way(free, self.places)
+
+    def _one_line(self, order: Order, group: Cluster, link: str, path: Path) -> None:
+        """The rate of a link whose two legs are parallel: from one leg's known end square to the bar between the
+        joints, from the other's along the direction that both leave free."""
+        number = len(self.board.equations) + 1
+        side = self._side(order, path)
+        terms = self._terms(order, side)
+        head = Term(Symbol(letter(order), self.label(path[-1].end)), True, True)
+        self.board.equations.append(Equation(number, order, ((head,), terms), group))
+        start, goal = self.end(order, path[0].start), self.end(order, path[-1].end)
+        mine = free = None
+        for edge, parts in side:
+            for part in parts:
+                if part.span is not None:
+                    self.board.do(order, Carried(part.symbol), Bar(start, start + part.span, ""), equation=number)
+                    start += part.span
+                elif edge.link == link and edge.unknown.endswith(same_turn(group).get(link, link)):
+                    mine = edge, part
+                else:
+                    free = part
+        assert mine is not None
+        assert free is not None
+        edge, part = mine
+        what = str(part.symbol)
+        meeting = self.board.cross(order, start, part.along, goal, self.slip.line(free.symbol, free.along), what)
+        for through, one in ((start, part), (goal, free)):
+            ray = Ray(through, one.along, meeting, one.written, one.symbol)
+            self.board.do(order, DirectionLine(one.symbol, one.written), ray, equation=number)
+        span = meeting - start
+        self.board.do(order, FoundVector(part.symbol, abs(span)), Aid(part.symbol, start, meeting, 0), equation=number)
+        arm = self.places[edge.end.point] - self.places[edge.start.point]
+        read = self.board.instrument.read(abs(span))
+        value = abs(read) * self.scales.of(order) / self.length(arm, (edge.start.point, edge.end.point))
+        value *= 1.0 if cross(arm, span) >= 0 else -1.0
+        kind = "omega" if order == "velocity" else "alpha"
+        self.rates[order][link] = Rate(link, value, None, abs(read), abs(arm))
+        act = MeasuredRate(kind, link, part.symbol, (edge.start.point, edge.end.point), value)  # type: ignore[arg-type]
+        self.board.do(order, act)
+        self._spread(order, link, group)

@@ -1,0 +1,355 @@
+"""In which order a group larger than a dyad is drawn in a polygon, found before it is drawn.
+
+A vector equation with two unknown sizes is drawn where there is one.  Where there is none, a link held by two legs has
+a special point: each leg leaves its joint on the link free along one direction, and where the lines square to these
+through the joints cross, the point of the link moves along both at once (Assur; Artobolevsky, Theory of mechanisms).
+Where no special point serves either, a rate is assumed, and trial polygons with two rates are superposed: once for
+every degree of freedom that is left; the fewest that do are looked for.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import combinations
+from typing import Literal
+
+from graphkin.construction.net import Chain, Edge, Net
+from graphkin.plane import cross, cross_lines, unit
+from graphkin.scene.symbol import PointRef
+
+__all__ = ["Closed", "Crossed", "GroupPlan", "Move", "OneLine", "Special", "plan_group"]
+
+Path = tuple[Edge, ...]
+FLAT = 1e-9  # sine below which the legs of a special point are parallel
+MOST_TRIALS = 4
+LONGEST = 5  # edges of an equation
+
+
+@dataclass(frozen=True)
+class Crossed:
+    """An equation with two unknown sizes."""
+
+    chain: Chain
+
+
+@dataclass(frozen=True)
+class Closed:
+    """What is left of a way between two points known already: one vector at most is measured."""
+
+    path: Path
+
+
+@dataclass(frozen=True)
+class Special:
+    """The special point ``letter`` of a link and the legs that give it: ways from known points to points of the link,
+    each with one unknown.  ``others`` are further legs by whose unknowns lines through the joints are parallel."""
+
+    link: str
+    letter: str
+    legs: tuple[Path, Path]
+
+
+@dataclass(frozen=True)
+class OneLine:
+    """Two parallel legs, their special point at infinity: the way from one to the other gives the link's rate."""
+
+    link: str
+    path: Path
+
+
+Move = Crossed | Closed | Special | OneLine
+
+
+@dataclass(frozen=True)
+class GroupPlan:
+    """The order of drawing.
+
+    ``tried`` are the unknowns that are assumed ("omega 4"); ``open_ends`` as many edges whose ends do not meet for a
+    wrong assumption, along them or (True) square to them; ``assumed`` the rates of each trial polygon, by the kind
+    of polygon (SI).  ``parallel`` names links and two legs of theirs that are
+    parallel.
+    """
+
+    moves: tuple[Move, ...]
+    tried: tuple[str, ...]
+    net: Net
+    parallel: tuple[tuple[str, str, str], ...] = ()
+    open_ends: tuple[tuple[Edge, bool], ...] = ()
+    assumed: Mapping[str, tuple[tuple[float, ...], ...]] = field(default_factory=dict)
+
+    @property
+    def way(self) -> Literal["special points", "superposition"]:
+        return "superposition" if self.tried else "special points"
+
+
+@dataclass
+class _Search:
+    """What is known so far, and how it came to be known."""
+
+    net: Net
+    turn: Mapping[str, str]
+    along: Callable[[Edge, Mapping[str, complex]], complex]
+    letters: Iterator[str]
+    nodes: set[PointRef]
+    known: set[str]
+    moves: list[Move] = field(default_factory=list)
+    parallel: list[tuple[str, str, str]] = field(default_factory=list)
+
+    def copy(self, tried: Sequence[str]) -> _Search:
+        net = replace_net(self.net)
+        return _Search(net, self.turn, self.along, self.letters, set(self.nodes), {*self.known, *tried})
+
+    # -- what is known -------------------------------------------------------------------------------------------------
+
+    def open(self, edge: Edge) -> str:
+        return "" if edge.unknown in self.known else edge.unknown
+
+    def seen(self, edge: Edge) -> Edge:
+        """An edge with what is unknown of it now."""
+        return replace(edge, unknown=self.open(edge))
+
+    def of(self, link: str) -> list[PointRef]:
+        return [n for n in self.net.nodes if link in self.net.owners[n]]
+
+    def turns(self, link: str) -> bool:
+        """Whether the rate of a link is known."""
+        one = self.turn.get(link, link)
+        return one not in self.net.inside or f"omega {one}" in self.known
+
+    def settle(self) -> None:
+        """All points of a link that turns at a known rate about a known point."""
+        grown = True
+        while grown:
+            grown = False
+            for link in self.net.inside:
+                mine = self.of(link)
+                if self.turns(link) and not self.nodes.issuperset(mine) and self.nodes.intersection(mine):
+                    self.nodes.update(mine)
+                    grown = True
+
+    def learn(self, path: Sequence[Edge]) -> None:
+        for edge in path:
+            if edge.link and edge.unknown:
+                self.known.add(edge.unknown)
+            self.nodes |= {edge.start, edge.end}
+        self.settle()
+
+    # -- ways ----------------------------------------------------------------------------------------------------------
+
+    def ways(self, start: PointRef, most: int, stop: Callable[[PointRef], bool]) -> Iterator[Path]:
+        """Ways from a known point through unknown ones to where they stop, with so many unknowns at most."""
+        stack: list[Path] = [(self.seen(e),) for e in self.net.edges[start]]
+        while stack:
+            path = stack.pop()
+            at = path[-1].end
+            open_ = [e.unknown for e in path if e.unknown]
+            if len(open_) > most or len(set(open_)) < len(open_):
+                continue
+            if stop(at):
+                yield path
+                continue
+            if at in self.nodes or len(path) >= LONGEST:
+                continue
+            visited = {start, *(e.end for e in path)}
+            stack += [(*path, self.seen(e)) for e in self.net.edges[at] if e.end not in visited or (
+                e.end == start and len(path) > 1)]
+
+    def _strange(self, path: Path) -> int:
+        return len({n for e in path for n in (e.start, e.end)} - self.net.natural)
+
+    # -- moves, each tried in turn -------------------------------------------------------------------------------------
+
+    def close(self) -> bool:
+        """A rate that two known points of a link give."""
+        for link in self.net.inside:
+            if self.turns(link):
+                continue
+            pairs = [
+                e for n in self.of(link) if n in self.nodes for e in self.net.edges[n]
+                if e.link == link and e.end in self.nodes
+            ]  # fmt: skip
+            if pairs:
+                # from what was known before to what was found: from the frame where it can be
+                best = max(pairs, key=lambda e: (
+                    -self._strange((e,)), self.net.fixed(e.start), self.net.known(e.start), abs(self.arm(e)), e.forward
+                ))  # fmt: skip
+                self.moves.append(Closed((self.seen(best),)))
+                self.learn((best,))
+                return True
+        return False
+
+    def arm(self, edge: Edge) -> complex:
+        return self.net.places[edge.end.point] - self.net.places[edge.start.point]
+
+    def way(self, edge: Edge) -> complex:
+        """Direction of the relative motion of an edge."""
+        return self.along(edge, self.net.places)
+
+    def reach(self) -> bool:
+        """A way from a known point with nothing unknown to a link of which no point is known; or one with one unknown
+        between two known points."""
+        for start in list(self.nodes):
+            for path in self.ways(start, 1, lambda n: n in self.nodes):
+                fresh = {e.end for e in path} - self.nodes
+                if fresh and len(path) > 1:
+                    self.moves.append(Closed(path))
+                    self.learn(path)
+                    return True
+            for path in self.ways(start, 0, lambda n: n not in self.nodes):
+                link = [name for name in self.net.owners[path[-1].end] if name in self.net.inside]
+                if all(not self.nodes.intersection(self.of(name)) for name in link):
+                    self.moves.append(Closed(path))
+                    self.learn(path)
+                    return True
+        return False
+
+    def cross(self) -> bool:
+        """The best equation with two unknown sizes."""
+        best: tuple[tuple[float, ...], Path] | None = None
+        for start in sorted(self.nodes, key=self.net.order.__getitem__):
+            for path in self.ways(start, 2, lambda n: n in self.nodes):
+                two = [e for e in path if e.unknown]
+                if len(two) != 2:
+                    continue
+                sine = abs(cross(self.way(two[0]), self.way(two[1])))
+                if sine < FLAT:
+                    continue
+                cost = (float(sine < 0.05), len(path) + 0.6 * self._strange(path) - sine,
+                        float(self.net.order[path[0].start]))  # fmt: skip
+                if best is None or cost < best[0]:
+                    best = cost, path
+        if best is None:
+            return False
+        path = best[1]
+        second = [i for i, e in enumerate(path) if e.unknown][1]
+        chain = Chain(path[second].start, tuple(e.reversed() for e in reversed(path[second:])), path[:second])
+        self.moves.append(Crossed(chain))
+        self.learn(path)
+        return True
+
+    def legs(self, link: str) -> list[Path]:
+        """Ways from known points to a link, each with one unknown that is not the link's own rate."""
+        own = f"omega {self.turn.get(link, link)}"
+        mine = set(self.of(link))
+        best: dict[str, Path] = {}
+        for start in sorted(self.nodes, key=self.net.order.__getitem__):
+            for path in self.ways(start, 1, lambda n: n in mine):
+                names = [e.unknown for e in path if e.unknown]
+                if len(names) != 1 or names[0] == own:
+                    continue
+                old = best.get(names[0])
+                if old is None or (len(path), self._strange(path)) < (len(old), self._strange(old)):
+                    best[names[0]] = path
+        return list(best.values())
+
+    def special(self) -> bool:
+        """The special point that gives the best crossings, of any link that has one."""
+        best: tuple[float, str, tuple[Path, Path], complex] | None = None
+        flat: tuple[str, tuple[Path, Path]] | None = None
+        found: list[tuple[str, str, str]] = []
+        size = max((abs(z) for z in self.net.places.values()), default=1.0) or 1.0
+        for link in self.net.inside:
+            if self.turns(link) or self.nodes.intersection(self.of(link)):
+                continue
+            legs = self.legs(link)
+            for one, two in combinations(legs, 2):
+                (p, d), (q, e) = self.line(one), self.line(two)
+                at = cross_lines(p, d, q, e)
+                if at is None or abs(cross(d, e)) < FLAT:
+                    flat = flat or (link, (one, two))
+                    found.append((link, _named(one), _named(two)))
+                    continue
+                quality = abs(cross(d, e)) / (1.0 + abs(at - (p + q) / 2) / size)
+                third = [self._third(leg, at) for leg in legs if leg not in (one, two)]
+                quality *= max(third, default=0.5)
+                if best is None or quality > best[0]:
+                    best = quality, link, (one, two), at
+        self.parallel += [f for f in found if f not in self.parallel]
+        if best is not None:
+            _, link, legs2, at = best
+            letter = next(self.letters)
+            self.nodes.add(self.net.add(link, letter, at, self.turn.get(link, link)))
+            self.moves.append(Special(link, letter, legs2))
+            self.settle()
+            return True
+        if flat is None:
+            return False
+        link, (one, two) = flat
+        bar = next((self.seen(e) for e in self.net.edges[one[-1].end] if e.link == link and e.end == two[-1].end), None)
+        if bar is None or abs(cross(self.way(bar), self.line(one)[1] * 1j)) < FLAT:
+            return False
+        self.moves.append(OneLine(link, (*one, bar, *(e.reversed() for e in reversed(two)))))
+        self.known.add(bar.unknown)
+        self.settle()
+        return True
+
+    def line(self, leg: Path) -> tuple[complex, complex]:
+        """The line of a leg: through its joint on the link, square to the direction in which it leaves that free."""
+        free = next(e for e in leg if e.unknown)
+        return self.net.places[leg[-1].end.point], 1j * self.way(free)
+
+    def _third(self, leg: Path, at: complex) -> float:
+        p, d = self.line(leg)
+        return abs(cross(unit(p - at), d)) if abs(p - at) > self.net.tiny else 0.0
+
+    # -- the whole -----------------------------------------------------------------------------------------------------
+
+    def run(self) -> bool:
+        """Go on as long as something can be drawn; whether all is drawn then."""
+        self.settle()
+        while not self.done():
+            if not (self.close() or self.cross() or self.reach() or self.special()):
+                return False
+        return True
+
+    def done(self) -> bool:
+        return all(self.turns(link) and self.nodes.intersection(self.of(link)) for link in self.net.inside)
+
+    def unknowns(self) -> list[str]:
+        """What can be assumed: rates of links, those next to known links first; then those of sliding pairs."""
+        edges = [e for n in self.net.nodes for e in self.net.edges[n] if self.open(e)]
+        near = [e.unknown for e in edges if e.link and (e.start in self.nodes or e.end in self.nodes)]
+        turning = [e.unknown for e in edges if e.link]
+        sliding = [e.unknown for e in edges if e.slide is not None]
+        return list(dict.fromkeys((*near, *turning, *sliding)))
+
+
+def replace_net(net: Net) -> Net:
+    """The same net, to which special points may be added."""
+    made = object.__new__(Net)
+    made.__dict__.update(net.__dict__)
+    made.owners = dict(net.owners)
+    made.nodes = list(net.nodes)
+    made.order = dict(net.order)
+    made.edges = {n: list(edges) for n, edges in net.edges.items()}
+    return made
+
+
+def _named(leg: Path) -> str:
+    return leg[-1].end.point
+
+
+def plan_group(
+    net: Net, turn: Mapping[str, str], along: Callable[[Edge, Mapping[str, complex]], complex], letters: Sequence[str]
+) -> Iterator[GroupPlan]:
+    """The ways in which a group can be drawn, those with the fewest trials first.
+
+    Parameters
+    ----------
+    turn : for each link of the group the one link whose angular velocity it shares
+    along : direction of the relative motion of an edge
+    letters : free letters for special points
+    """
+    known = {n for n in net.nodes if net.known(n)}
+    start = _Search(net, turn, along, iter(letters), known, set())
+    for trials in range(MOST_TRIALS + 1):
+        served = False
+        for tried in combinations(start.unknowns(), trials):
+            search = start.copy(tried)
+            search.letters = iter(letters)
+            if search.run():
+                served = True
+                yield GroupPlan(tuple(search.moves), tried, search.net, tuple(search.parallel))
+        if served:
+            return

@@ -1,0 +1,258 @@
+"""Groups larger than a dyad in the polygons: special points, and trial polygons that are superposed.
+
+Everything is linear in a rate that is assumed.  So two polygons with two assumed rates give the true one by
+proportional division of what each leaves open; with k rates left open it takes k + 1 polygons (method of superposition:
+Hain, Applied Kinematics; Artobolevsky, Theory of mechanisms).
+"""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from graphkin.construction.board import Board
+from graphkin.construction.group_moves import GroupMoves
+from graphkin.construction.group_plan import GroupPlan, Special, plan_group
+from graphkin.construction.net import Edge
+from graphkin.construction.plot import Order
+from graphkin.construction.polygons import same_turn
+from graphkin.construction.remarks import ParallelLegs
+from graphkin.construction.rigid import PlacedLinks
+from graphkin.construction.sheet import Aid, DrawnGroup, Rate, Scales, Vector
+from graphkin.construction.slip import NO_SLIP, Slip
+from graphkin.construction.steps import Superposed, TrialDrawn
+from graphkin.construction.terms import parts_of
+from graphkin.errors import Problem, Unsolvable
+from graphkin.plane import dot
+from graphkin.scene.model import AngleDriver
+from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.structure import Cluster, Driven, Dyad, Structure
+
+__all__ = ["GroupPolygons"]
+
+NAUGHT = 1e-9  # part of the largest vector that an end that meets may be off in a trial polygon
+
+
+class GroupPolygons(GroupMoves):
+    """Both polygons of one position, larger groups among their elements."""
+
+    def __init__(
+        self, board: Board, structure: Structure, frame: PlacedLinks, scales: Scales, slip: Slip = NO_SLIP
+    ) -> None:
+        super().__init__(board, structure, frame, scales, slip)
+        self.plans: dict[Cluster, GroupPlan] = {}
+
+    def draw(self, order: Order, element: Driven | Dyad | Cluster) -> None:
+        """Draw what an element adds to a polygon."""
+        if not isinstance(element, Cluster):
+            super().draw(order, element)
+            return
+        self._known_turns(order, element)
+        if element in self.plans:
+            self._by_plan(order, element, self.plans[element])
+        else:
+            self._first(order, element)
+
+    def shown_of(self, order: Order) -> list[Vector]:
+        """The vectors of a polygon, those that only lead to special points left out."""
+        return [v for symbol, v in self.drawn[order].items() if not self.is_aid(symbol)]
+
+    def drawn_group(self, group: Cluster, kept: Sequence[str]) -> DrawnGroup:
+        """How a group was drawn, said."""
+        plan = self.plans[group]
+        points = tuple((m.letter, m.link) for m in plan.moves if isinstance(m, Special))
+        closing = tuple(e.link or (e.slide.key if e.slide else "") for e, _ in plan.open_ends)
+        return DrawnGroup(group, plan.way, tuple(kept), plan.tried, closing, points)
+
+    def _first(self, order: Order, group: Cluster) -> None:
+        """Find how a group is drawn, and draw it so."""
+        best: tuple[float, GroupPlan] | None = None
+        for found in plan_group(self._net(group), same_turn(group), self._way, self._free_letters()):
+            if not found.tried:
+                best = 1.0, found
+                break
+            quality, made = self._judged(order, group, found)
+            if best is None or quality > 2.0 * best[0]:
+                best = quality, made
+        if best is None or not best[0]:
+            names = ", ".join(group.links)
+            raise Unsolvable("dead point", Problem(f"links {names}", "no drawing tells how this group moves here"))
+        self.plans[group] = best[1]
+        self._by_plan(order, group, best[1])
+
+    # -- one drawing of a group ----------------------------------------------------------------------------------------
+
+    def _by_plan(self, order: Order, group: Cluster, plan: GroupPlan) -> None:
+        if order == "velocity":
+            for _, one, two in plan.parallel:
+                self.board.notice("mechanism", ParallelLegs((one, two)))
+        if plan.tried:
+            plan = self.plans[group] = self._with_assumptions(order, group, plan)
+            self._assume(order, group, plan, self._true_rates(order, group, plan))
+        for move in plan.moves:
+            self._move(order, group, move)
+        for edge in self._left(order, plan.net):
+            self._close(order, (edge,), group)
+
+    # -- superposition -------------------------------------------------------------------------------------------------
+
+    def _assume(self, order: Order, group: Cluster, plan: GroupPlan, rates: Sequence[float]) -> None:
+        """Let links turn, or pairs slide, at assumed rates (rad/s, m/s; per second)."""
+        for unknown, value in zip(plan.tried, rates, strict=True):
+            kind, name = unknown.split(" ", 1)
+            if kind == "omega":
+                self.rates[order][name] = Rate(name, value)
+                self._spread(order, name, group)
+            else:
+                self.tried[order, name] = value
+
+    def _fork(self, number: int) -> GroupPolygons:
+        """The same polygons, for a trial of their own with the same hands."""
+        made = copy.copy(self)
+        made.board, made.trial = Board(self.board.instrument), number
+        made.ends = {name: dict(found) for name, found in self.ends.items()}
+        made.rates = {name: dict(found) for name, found in self.rates.items()}
+        made.drawn = {name: dict(found) for name, found in self.drawn.items()}
+        made.tried = dict(self.tried)
+        made.special, made.places, made.links = set(self.special), dict(self.places), dict(self.links)
+        return made
+
+    def _tried(
+        self, order: Order, group: Cluster, plan: GroupPlan, number: int, rates: Sequence[float]
+    ) -> GroupPolygons:
+        trial = self._fork(number)
+        trial._assume(order, group, plan, rates)
+        for move in plan.moves:
+            trial._move(order, group, move)
+        return trial
+
+    def _trial_rates(self, order: Order, plan: GroupPlan) -> list[list[float]]:
+        """The assumptions of each trial polygon: none moves in the first, then each in turn."""
+        drivers = self.structure.scene.drivers
+        fastest = max((abs(d.values[1]) for d in drivers if isinstance(d, AngleDriver)), default=0.0)
+        if not fastest:
+            travel = max((abs(d.values[1]) for d in drivers), default=0.0)
+            fastest = travel / self.structure.scene.size or 1.0
+        base = fastest if order == "velocity" else fastest**2
+        once = [base * (1.0 if t.startswith("omega") else self.structure.scene.size) for t in plan.tried]
+        return [[0.0] * len(once), *([x if i == j else 0.0 for j, x in enumerate(once)] for i in range(len(once)))]
+
+    def _ends_apart(self, order: Order, plan: GroupPlan) -> dict[tuple[Edge, bool], float]:
+        """How far ends that should meet lie apart (mm) after a trial: along each edge, and square to it."""
+        found: dict[tuple[Edge, bool], float] = {}
+        for ref in plan.net.nodes:
+            for edge in plan.net.edges[ref]:
+                if edge.forward and plan.net.natural >= {edge.start, edge.end}:
+                    for across in (False, True):
+                        value = self._apart(order, edge, across)
+                        if value is not None:
+                            found[edge, across] = value
+        return found
+
+    def _apart(self, order: Order, edge: Edge, across: bool) -> float | None:
+        whole = replace(edge, unknown="")
+        parts = parts_of(self, order, whole)
+        missing = self.end(order, edge.end) - self.end(order, edge.start)
+        missing -= sum((p.span for p in parts if p.span is not None), 0j)
+        way = -1j * self._way(edge, self.places) if edge.slide is None else self._way(edge, self.places)
+        if not across:
+            return dot(missing, way) if all(p.span is not None for p in parts) else None
+        return dot(missing, 1j * way)
+
+    def _judged(self, order: Order, group: Cluster, plan: GroupPlan) -> tuple[float, GroupPlan]:
+        """How well a group is found by some trials (0: not at all), and the ends by which the true rates are known."""
+        try:
+            rows = [
+                self._tried(order, group, plan, i + 1, rates)._ends_apart(order, plan)
+                for i, rates in enumerate(self._trial_rates(order, plan))
+            ]
+        except Unsolvable:
+            return 0.0, plan
+        keys = [k for k in rows[0] if all(k in row for row in rows)]
+        slopes = np.array([[row[k] - rows[0][k] for row in rows[1:]] for k in keys])
+        scale = max((abs(v) for order_ in self.ends.values() for v in order_.values()), default=0.0)
+        scale = max(scale, float(np.abs(slopes).max(initial=0.0)))
+        chosen: list[int] = []
+        left = slopes.copy()
+        quality = 1.0
+        for _ in plan.tried:
+            sizes = np.hypot.reduce(left, axis=1) if len(left) else np.zeros(1)
+            best = int(np.argmax(sizes))
+            if not len(left) or sizes[best] <= NAUGHT * scale:
+                return 0.0, plan
+            quality = min(quality, float(sizes[best]) / scale)
+            chosen.append(best)
+            e = left[best] / sizes[best]
+            left = left - np.outer(left @ e, e)
+        return quality, replace(plan, open_ends=tuple(keys[i] for i in chosen))
+
+    def _with_assumptions(self, order: Order, group: Cluster, plan: GroupPlan) -> GroupPlan:
+        """A plan with rates to assume that make the trial polygons about as large as the true one: round ones on either
+        side of it, all on the one side in the first trial, each in its turn on the other in those that follow."""
+        if order in plan.assumed:
+            return plan
+        rates = self._trial_rates(order, plan)
+        apart = [self._open(order, plan, self._tried(order, group, plan, 1, assumed)) for assumed in rates]
+        around = []
+        for x, once in zip(_divided(rates, apart), (rates[i + 1][i] for i in range(len(plan.tried))), strict=True):
+            small = abs(x) <= 0.05 * abs(once)
+            around.append((_round(-0.3 * once), _round(0.3 * once)) if small else (_round(0.6 * x), _round(1.4 * x)))
+        first = [low for low, _ in around]
+        fair = [first, *([high if i == j else low for j, (low, high) in enumerate(around)] for i in range(len(first)))]
+        return replace(plan, assumed={**plan.assumed, order: tuple(tuple(row) for row in fair)})
+
+    def _open(self, order: Order, plan: GroupPlan, trial: GroupPolygons) -> list[float]:
+        """What a trial leaves open (mm, or as read)."""
+        return [trial._apart(order, *one) or 0.0 for one in plan.open_ends]
+
+    def _true_rates(self, order: Order, group: Cluster, plan: GroupPlan) -> list[float]:
+        """The true rates by proportional division of what trial polygons leave open."""
+        rates = plan.assumed[order]
+        apart: list[list[float]] = []
+        for number, assumed in enumerate(rates, 1):
+            trial = self._tried(order, group, plan, number, assumed)
+            apart.append([self.board.instrument.read(mm) for mm in self._open(order, plan, trial)])
+            # special points are marked on the mechanism by the trial that meets them first
+            self.special, self.places, self.links = trial.special, trial.places, trial.links
+            for step in trial.board.steps:
+                if step.diagram == "mechanism":
+                    self.board.do("mechanism", step.act, *step.strokes)
+            steps = [step for step in trial.board.steps if step.diagram == order]
+            strokes = [replace(s, trial=number) for step in steps for s in step.strokes if isinstance(s, Aid)]
+            self.board.do(order, TrialDrawn(number, self._named(order, plan, assumed)), *strokes)
+        found = _divided(rates, apart)
+        closing = tuple(e.link or (e.slide.key if e.slide else "") for e, _ in plan.open_ends)
+        self.board.do(order, Superposed(self._named(order, plan, found), closing, tuple(tuple(row) for row in apart)))
+        return found
+
+    def _named(self, order: Order, plan: GroupPlan, values: Sequence[float]) -> tuple[tuple[Symbol, float], ...]:
+        """Rates by their symbols, in scene units."""
+        named = []
+        metres = self.structure.scene.units.metres
+        for unknown, value in zip(plan.tried, values, strict=True):
+            kind, name = unknown.split(" ", 1)
+            if kind == "omega":
+                named.append((Symbol("omega" if order == "velocity" else "alpha", link=name), value))
+                continue
+            slide = self.structure.slide(name)
+            point = slide.pin or next(iter(self.links[slide.a].points), "")
+            of, to = self.label(PointRef(point, slide.a)), self.label(PointRef(point, slide.b))
+            named.append((Symbol("v" if order == "velocity" else "ar", of, to), value / metres))
+        return tuple(named)
+
+
+def _divided(rates: Sequence[Sequence[float]], apart: Sequence[Sequence[float]]) -> list[float]:
+    """The rates at which nothing is left open, from trials that each differ from the first in one rate: proportional
+    division."""
+    first = np.array(apart[0])
+    slopes = np.array([np.array(row) - first for row in apart[1:]]).T
+    part = np.linalg.solve(slopes, -first)
+    return [float(rates[0][i] + x * (rates[i + 1][i] - rates[0][i])) for i, x in enumerate(part)]
+
+
+def _round(value: float) -> float:
+    """A value with one figure, easy to lay off."""
+    return float(f"{value:.1g}")

@@ -1,0 +1,186 @@
+"""A group larger than a dyad placed on paper by trial positions.
+
+Something of the group is left out, and a link of it moved in steps; the free end that should fit describes a curve,
+which the arc or the line on which it must lie cuts at the place sought.  Between the two trials next to it what is left
+open is divided proportionally, until what was left out fits.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from graphkin.construction.board import EXACT
+from graphkin.construction.dyads import Story, drive, meet
+from graphkin.construction.follow import drawn_near, fitted
+from graphkin.construction.reduced_mechanism import ReducedMechanism
+from graphkin.construction.removed_constraint import RemovedConstraint
+from graphkin.construction.rigid import PlacedLinks, Poses
+from graphkin.construction.sheet import Bar, CompassArc, Pose, Stroke, TrialCurve
+from graphkin.construction.steps import Act, TrialPositions
+from graphkin.errors import Problem, Unsolvable
+from graphkin.structure import Driven, links_of
+
+__all__ = ["GroupTrial", "placed_by_trial", "trial_story"]
+
+POINTS = 7  # trial positions drawn
+BETWEEN = 6  # parts into which the curve between two of them is divided
+AWAY = 0.35  # of the trial driver (rad, or the mechanism's size): how far the first trial is from the last
+BEFORE = 0.45  # part of the trial positions that lie before the place sought; so that none falls on it
+
+
+@dataclass(frozen=True)
+class GroupTrial:
+    """By which reduced mechanism a group is placed, and where every link lies then with the mechanism of size 1."""
+
+    reduced: ReducedMechanism
+    poses: Poses
+
+    def on(self, frame: PlacedLinks) -> dict[str, Pose]:
+        """Where the links lie, at the scale of a sheet."""
+        mm = frame.mm * self.reduced.structure.scene.size
+        return {name: pose.scaled(mm) for name, pose in self.poses.items()}
+
+
+def placed_by_trial(frame: PlacedLinks, trial: GroupTrial) -> None:
+    """Place a group among the links known already.
+
+    Raises
+    ------
+    Unsolvable : "not assembled": what was left out fits nowhere near
+    """
+    reduced, names = trial.reduced, ", ".join(trial.reduced.cluster.links)
+    exact = replace(frame, instrument=EXACT, poses=dict(frame.poses), pricked=dict(frame.pricked))
+    poses = fitted(reduced, exact, trial.on(frame))
+    if poses is None:
+        raise Unsolvable("not assembled", Problem(f"links {names}", "no trial position closes this group here"))
+    if frame.instrument.faultless:
+        frame.poses.update(poses)
+        return
+    poses = {**frame.poses, **poses}
+    # the last trial by hands that err, what it leaves open, and the drawing that this asks for
+    values = np.array(reduced.values(poses, frame.mm))
+    at, slopes = _by_hand(frame, reduced, poses, values)
+    values = values - np.linalg.solve(slopes, at)
+    last = drawn_near(reduced, frame, poses, values)
+    if last is None:
+        raise Unsolvable("not assembled", Problem(f"links {names}", "the last trial drawing does not close"))
+    frame.pricked.update(last.pricked)
+    frame.poses.update(reduced.put_back(last))
+    frame.settle([r.left_out for r in reduced.removed if r.left_out])
+
+
+def _by_hand(
+    frame: PlacedLinks, reduced: ReducedMechanism, poses: Poses, values: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """What a trial drawing leaves open as hands find and read it, and how that changes with the trial values."""
+    drawn = drawn_near(reduced, frame, poses, values)
+    if drawn is None:
+        names = ", ".join(reduced.cluster.links)
+        raise Unsolvable("not assembled", Problem(f"links {names}", "a trial drawing does not close"))
+    size = frame.mm * reduced.structure.scene.size
+    gaps = np.array([
+        gap if one.is_angle else frame.instrument.read(gap * size) / size
+        for gap, one in zip(reduced.gaps(drawn), reduced.removed, strict=True)
+    ])  # fmt: skip
+    exact = replace(frame, instrument=EXACT, poses=dict(frame.poses), pricked={})
+    step = 1e-6
+    rows = []
+    for i in range(len(values)):
+        sides = [drawn_near(reduced, exact, poses, values + s * step * np.eye(len(values))[i]) for s in (-1, 1)]
+        if sides[0] is None or sides[1] is None:
+            raise Unsolvable("dead point", Problem("trial", "the trial drawing is at a dead point"))
+        rows.append((np.array(reduced.gaps(sides[1])) - np.array(reduced.gaps(sides[0]))) / (2 * step))
+    return gaps, np.array(rows).T
+
+
+def trial_story(frame: PlacedLinks, so_far: PlacedLinks, trial: GroupTrial) -> Story:
+    """What is drawn to place a group: the trial curve with what it must meet, then each part of it in its place."""
+    reduced = trial.reduced
+    poses = {**so_far.poses, **{n: frame.poses[n] for n in reduced.cluster.members}}
+    values = np.array(reduced.values(poses, frame.mm))
+    driven = tuple(d.key for d in reduced.trial)
+    strokes: tuple[Stroke, ...] = ()
+    point = ""
+    if len(values) == 1:
+        point, strokes = _curve(so_far, reduced, poses, values)
+    told = TrialPositions(reduced.cluster.links, driven, reduced.left_out, point, POINTS)
+    story: list[tuple[Act, tuple[Stroke, ...]]] = [(told, strokes)]
+    board = reduced.opened(so_far, [float(v) for v in values])
+    board = replace(board, instrument=EXACT)
+    for element in reduced.elements:
+        if isinstance(element, Driven):
+            _, told_here = drive(board, element)
+        else:
+            meeting = meet(board, element)
+            best = min(range(len(meeting.poses)), key=lambda k: _off(meeting.poses[k], poses), default=None)
+            told_here = meeting.tell(best) if best is not None else ()
+        story += told_here
+        for name in links_of(element):
+            board.poses[name] = poses[name]
+    return tuple(story)
+
+
+def _off(one: Poses, other: Poses) -> float:
+    return sum(abs(p.origin - other[n].origin) + abs(p.axis - other[n].axis) for n, p in one.items())
+
+
+def _curve(
+    known: PlacedLinks, reduced: ReducedMechanism, poses: Poses, values: np.ndarray
+) -> tuple[str, tuple[Stroke, ...]]:
+    """The free end in some trial positions, and the arc or the line that it must meet; nothing where what is left out
+    is an angle or a driver."""
+    removed = reduced.removed[0]
+    if not removed.ends:
+        return "", ()
+    known = replace(known, instrument=EXACT)
+    if removed.slide is None and removed.ends[0][1] not in reduced.cluster.members:
+        removed = replace(removed, ends=removed.ends[::-1])  # the free end is the one that moves
+    away = AWAY
+    for _ in range(6):
+        parts = (POINTS - 1) * BETWEEN
+        places: list[complex] = []
+        guess = poses
+        steps = sorted(range(parts + 1), key=lambda i: abs(i - BEFORE * parts))
+        found: dict[int, complex] = {}
+        near: dict[int, Mapping[str, Pose]] = {}
+        for i in steps:
+            beside = next((near[j] for j in (i - 1, i + 1) if j in near), guess)
+            drawn = drawn_near(reduced, known, beside, values + away * (i / parts - BEFORE))
+            if drawn is None:
+                break
+            near[i] = drawn.poses
+            found[i] = _seen(drawn, removed, poses)
+        else:
+            places = [found[i] for i in range(parts + 1)]
+            curve = TrialCurve(tuple(places), tuple(places[::BETWEEN]), removed.ends[0][0])
+            return removed.ends[0][0], (curve, *_goal(known, removed, poses))
+        away /= 2.0
+    return "", ()
+
+
+def _seen(drawn: PlacedLinks, removed: RemovedConstraint, poses: Poses) -> complex:
+    """The free end as seen from what it must meet: from the bar's other end, or from the link with the guide."""
+    free = _at(drawn, drawn.poses, *removed.ends[0])
+    if removed.slide is None:
+        return free - _at(drawn, drawn.poses, *removed.ends[1]) + _at(drawn, poses, *removed.ends[1])
+    base = removed.other_side
+    was, lies = drawn.poses[base], poses[base]
+    return lies.origin + lies.axis * ((free - was.origin) / was.axis)
+
+
+def _at(frame: PlacedLinks, poses: Poses, point: str, link: str) -> complex:
+    pose = poses[link]
+    return pose.origin + pose.axis * frame.links[link].points[point] * frame.mm
+
+
+def _goal(frame: PlacedLinks, removed: RemovedConstraint, poses: Poses) -> tuple[Stroke, ...]:
+    free = _at(frame, poses, *removed.ends[0])
+    if removed.slide is None:
+        centre = _at(frame, poses, *removed.ends[1])
+        return (CompassArc(centre, abs(free - centre), free),)
+    along = removed.along(poses)
+    reach = 0.2 * frame.mm * max((abs(z) for link in frame.links.values() for z in link.points.values()), default=0.0)
+    return (Bar(free - along * reach, free + along * reach, ""),)

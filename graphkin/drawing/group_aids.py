@@ -1,0 +1,91 @@
+"""What only leads on where a group is larger than a dyad: trial positions with the curve of the free end, lines to
+special points, trial polygons in line kinds of their own.
+"""
+
+from __future__ import annotations
+
+from cmath import phase
+from collections.abc import Iterator
+
+from graphkin.construction.sheet import Aid, Bar, Sheet, TrialCurve
+from graphkin.construction.steps import SpecialPoint, TrialPositions
+from graphkin.drawing import strokes
+from graphkin.drawing.labels import Label
+from graphkin.drawing.mechanism_on_paper import page
+from graphkin.drawing.piece import Piece
+from graphkin.drawing.polygon_on_page import SAME, PolygonOnPage, same_place
+from graphkin.drawing.primitives import Group, Line, Polyline, Primitive, Text
+from graphkin.drawing.symbols import arrowhead
+from graphkin.drawing.text import symbol
+
+__all__ = ["aids_in_mechanism", "aids_in_polygon"]
+
+CROSS = 0.9  # mm: half a cross that marks a trial position
+NUMERALS = ("I", "II", "III", "IV", "V")
+
+
+def aids_in_mechanism(sheet: Sheet) -> Piece:
+    """Trial curves with their positions numbered, and the lines of legs drawn on to special points."""
+    drawn: list[Primitive] = []
+    over: list[Primitive] = []  # lines that run over the areas of links
+    labels: list[Label] = []
+    curves = 0
+    for step in sheet.steps:
+        if step.diagram != "mechanism":
+            continue
+        if isinstance(step.act, SpecialPoint):
+            lines = tuple(
+                Line(page(s.a), page(s.b), strokes.DIRECTION)
+                for s in step.strokes if isinstance(s, Bar) and abs(s.b - s.a) > SAME
+            )  # fmt: skip
+            over.append(Group(lines, id=f"special-{step.act.point}", classes=("special",), step=step.number))
+        for curve in (s for s in step.strokes if isinstance(s, TrialCurve)):
+            curves += 1
+            parts: list[Primitive] = [Polyline(tuple(map(page, curve.curve)), strokes.TRIAL_CURVE)]
+            for number, z in enumerate(curve.at, 1):
+                parts += [Line(page(z + w), page(z - w), strokes.CONSTRUCTION) for w in (CROSS, 1j * CROSS)]
+                name = f"label-trial-{curves}-{number}"
+                text = Text(0j, symbol(str(number), 2.0), "start", strokes.GREY, name, ("label", "trial"))
+                labels.append(Label(text, page(z), rank=4))
+            id = f"trial-curve-{curve.point}" + (f"-{curves}" if curves > 1 else "")
+            drawn.append(Group(tuple(parts), id=id, classes=("trial",), step=step.number))
+        if isinstance(step.act, TrialPositions):
+            goals = [s for s in step.strokes if isinstance(s, Bar)]
+            drawn += [Group((Line(page(s.a), page(s.b), strokes.DIRECTION),), classes=("trial",), step=step.number)
+                      for s in goals]  # fmt: skip
+    return Piece({"construction": tuple(drawn), "mechanism": tuple(over)}, tuple(labels))
+
+
+def aids_in_polygon(here: PolygonOnPage) -> Iterator[Piece]:
+    """Trial polygons, each in its own kind of line and with its number at its letters; vectors to special points."""
+    for step in here.steps:
+        aids = [s for s in step.strokes if isinstance(s, Aid) and abs(s.tip - s.tail) > SAME]
+        if not aids:
+            continue
+        trial = aids[0].trial
+        stroke = strokes.TRIALS[(trial - 1) % len(strokes.TRIALS)] if trial else strokes.CONSTRUCTION
+        parts: list[Primitive] = []
+        labels: list[Label] = []
+        named: set[complex] = set()
+        for aid in aids:
+            clipped = here.panel.clip(here.at(aid.tail), here.at(aid.tip))
+            if clipped is None or (not trial and here.covered(aid.tail, aid.tip)):
+                continue
+            parts.append(Line(*clipped, stroke))
+            whole = abs(clipped[1] - here.at(aid.tip)) < SAME
+            if whole and abs(aid.tip - aid.tail) > 2.5:
+                parts.append(arrowhead(here.at(aid.tip), clipped[1] - clipped[0], 1.6, 0.6, strokes.GREY))
+            if trial and whole and aid.symbol.to is None and aid.symbol.of is not None and (
+                same_place(aid.tip) not in named
+            ):  # fmt: skip
+                named.add(same_place(aid.tip))
+                letter = here.letters.end(here.diagram, aid.symbol.of)
+                if letter:
+                    numeral = NUMERALS[(trial - 1) % len(NUMERALS)]
+                    name = f"label-trial-{here.diagram}-{trial}-{aid.symbol.id}"
+                    text = Text(0j, symbol(f"{letter}^{{{numeral}}}", 2.5), "start", strokes.GREY, name,
+                                ("label", "trial"))  # fmt: skip
+                    labels.append(Label(text, here.at(aid.tip), (phase(clipped[1] - clipped[0]),), rank=4))
+        classes = (f"trial-{trial}",) if trial else ("special",)
+        drawn = Group(tuple(parts), classes=classes, step=step.number)
+        yield Piece({"construction": (drawn,)}, tuple(labels))
