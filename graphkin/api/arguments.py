@@ -17,9 +17,11 @@ from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
 from graphkin.scene.source import SceneLike, mechanism_of
 from graphkin.scene.symbol import Symbol, missing_names
 from graphkin.scene.tables import Convention
+from graphkin.table import have
 from graphkin.words import BOTH, LANGUAGES
 
 __all__ = [
+    "CHART_FORMATS",
     "FORMATS",
     "INSTRUMENTS",
     "MOST_SEED",
@@ -38,7 +40,9 @@ __all__ = [
     "write_files",
 ]
 
-FORMATS = ("svg", "pdf", "png")
+FORMATS = ("svg", "pdf", "png", "dxf")
+CHART_FORMATS = ("svg", "pdf", "png")
+TEXTS = ("glyphs", "outlines")
 INSTRUMENTS = ("exact", "cad", "pencil")
 CONVENTIONS: tuple[str, ...] = get_args(Convention)
 ON_SHEETS = (*LANGUAGES, BOTH)
@@ -51,6 +55,7 @@ def known_words(
     convention: str | None = None,
     instrument: str | None = None,
     *,
+    text: str | None = None,
     known_formats: Sequence[str] = FORMATS,
     known_languages: Sequence[str] = LANGUAGES,
 ) -> None:
@@ -70,6 +75,7 @@ def known_words(
             ("lang", language, known_languages),
             ("convention", convention, CONVENTIONS),
             ("instrument", instrument, INSTRUMENTS),
+            ("text", text, TEXTS),
         )
         if word is not None
     ]
@@ -80,6 +86,8 @@ def known_words(
     ]
     if not formats:
         wrong.append(Problem("format", "none given", f"known here: {', '.join(known_formats)}"))
+    if "dxf" in (formats or ()) and not have("ezdxf"):
+        wrong.append(Problem("format", '"dxf"', 'it needs the extra cad: pip install "graphkin[cad]"'))
     if wrong:
         raise CallError(*wrong)
 

@@ -221,15 +221,19 @@ class Centred(Result):
         for_paper(self.scene)
         return centres_figure(self.centres, self.turning, language=self.language, convention=self.convention)
 
-    def write(self, folder: str | os.PathLike[str] | None = None, formats: Sequence[str] = ("svg",)) -> list[Path]:
+    def write(
+        self, folder: str | os.PathLike[str] | None = None, formats: Sequence[str] = ("svg",), text: str = "glyphs"
+    ) -> list[Path]:
         """Write centres.svg (or other formats) and centres.csv; returns the paths.  Files appear whole or not at all.
+
+        ``text`` says how the letters of an SVG come along: as text with its "glyphs", or as "outlines".
 
         Raises
         ------
         CallError : an unknown format, a folder that cannot be written
         """
-        known_words(formats)
-        files = {f"centres.{kind}": self.figure.content(kind) for kind in formats}
+        known_words(formats, text=text)
+        files = {f"centres.{kind}": self.figure.content(kind, text=text) for kind in formats}
         files["centres.csv"] = self.table.csv().encode()
         return write_files(path_of(folder) if folder is not None else Path(self.scene.name), files)
 

@@ -100,15 +100,19 @@ class Centroded(Result):
             convention=self.convention,
         )
 
-    def write(self, folder: str | os.PathLike[str] | None = None, formats: Sequence[str] = ("svg",)) -> list[Path]:
+    def write(
+        self, folder: str | os.PathLike[str] | None = None, formats: Sequence[str] = ("svg",), text: str = "glyphs"
+    ) -> list[Path]:
         """Write centrode.svg (or other formats) and centrode.csv; returns the paths.
+
+        ``text`` says how the letters of an SVG come along: as text with its "glyphs", or as "outlines".
 
         Raises
         ------
         CallError : an unknown format, a folder that cannot be written
         """
-        known_words(formats)
-        files = {f"centrode.{kind}": self.figure.content(kind) for kind in formats}
+        known_words(formats, text=text)
+        files = {f"centrode.{kind}": self.figure.content(kind, text=text) for kind in formats}
         files["centrode.csv"] = self.table.csv().encode()
         return write_files(path_of(folder) if folder is not None else Path(self.scene.name), files)
 

@@ -97,14 +97,18 @@ class Drawn(Result):
                 made.update({f"{name}-{number}": page for number, page in enumerate(figure.further, 2)})
         return made
 
-    def write(self, folder: str | os.PathLike[str] | None = None, formats: Sequence[str] = ("svg",)) -> list[Path]:
+    def write(
+        self, folder: str | os.PathLike[str] | None = None, formats: Sequence[str] = ("svg",), text: str = "glyphs"
+    ) -> list[Path]:
         """Write figures, readings.csv and report.txt; returns the paths.  Files appear whole or not at all.
+
+        ``text`` says how the letters of an SVG come along: as text with its "glyphs", or as "outlines".
 
         Raises
         ------
         CallError : an unknown format, a folder that cannot be written
         """
-        known_words(formats)
+        known_words(formats, text=text)
         target = path_of(folder) if folder is not None else Path(self.checked.scene.name)
         files: dict[str, bytes] = {}
         figures = self.figures
@@ -113,7 +117,7 @@ class Drawn(Result):
             for kind in formats:
                 if kind == "pdf" and id(figure) in overleaf:
                     continue  # a page of the PDF that it goes on
-                files[f"{name}.{kind}"] = figure.content(kind)
+                files[f"{name}.{kind}"] = figure.content(kind, text=text)
         files["readings.csv"] = self.table.csv().encode()
         spoken = languages(self.language or self.checked.scene.sheet.language)[0]
         files["report.txt"] = report_text(self.checked, spoken).encode()

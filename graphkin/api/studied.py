@@ -10,7 +10,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
-from graphkin.api.arguments import SceneLike, as_scene, known_words, whole_number, write_files
+from graphkin.api.arguments import CHART_FORMATS, SceneLike, as_scene, known_words, whole_number, write_files
 from graphkin.api.results import Result
 from graphkin.errors import CallError, Problem, as_text, did_you_mean
 from graphkin.files import path_of
@@ -42,7 +42,7 @@ class _Charted(Result):
         ------
         CallError : an unknown format, a folder that cannot be written
         """
-        known_words(formats)
+        known_words(formats, known_formats=CHART_FORMATS)
         files = {f"{n}.{kind}": f.content(kind) for n, f in self.figures.items() for kind in formats}
         return write_files(path_of(folder or self.name), {**files, f"{self.name}.csv": self.table.csv().encode()})
 

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.api.arguments import (
+    CHART_FORMATS,
     At,
     SceneLike,
     as_scene,
@@ -154,7 +155,9 @@ class Swept(Result):
         data = self.table.to_xarray()
         return data.assign_coords({key: ("design", data[key].values[:, 0]) for key in self.over.designs.keys})
 
-    def write(self, folder: str | os.PathLike[str], formats: Sequence[str] = ("svg",)) -> list[Path]:
+    def write(
+        self, folder: str | os.PathLike[str], formats: Sequence[str] = ("svg",), text: str = "glyphs"
+    ) -> list[Path]:
         """Write table.csv (and table.parquet where pyarrow is installed), designs.csv and the figures; returns the
         paths.
 
@@ -163,18 +166,21 @@ class Swept(Result):
         CallError : an unknown format, a folder that cannot be written
         """
         target = path_of(folder)
-        known_words(formats)
+        known_words(formats, text=text, known_formats=CHART_FORMATS)
         write_files(target, {})
         tables = {"table.csv": self.table} | ({"designs.csv": self.designs} if self.designs is not None else {})
         if have("pyarrow"):
             tables["table.parquet"] = self.table
-        return [table.write(target / name) for name, table in tables.items()] + self.write_figures(target, formats)
+        paths = [table.write(target / name) for name, table in tables.items()]
+        return paths + self.write_figures(target, formats, text)
 
-    def write_figures(self, folder: str | os.PathLike[str], formats: Sequence[str] = ("svg",)) -> list[Path]:
-        """Write the figures; returns the paths.  Raises CallError for an unknown format or a folder that cannot be
-        written."""
-        known_words(formats)
-        files = {f"{n}.{kind}": f.content(kind) for n, f in self.figures.items() for kind in formats}
+    def write_figures(
+        self, folder: str | os.PathLike[str], formats: Sequence[str] = ("svg",), text: str = "glyphs"
+    ) -> list[Path]:
+        """Write the figures, letters of an SVG as text with its "glyphs" or as "outlines"; returns the paths.  Raises
+        CallError for an unknown format or a folder that cannot be written."""
+        known_words(formats, text=text, known_formats=CHART_FORMATS)
+        files = {f"{n}.{kind}": f.content(kind, text=text) for n, f in self.figures.items() for kind in formats}
         return write_files(path_of(folder), files)
 
     @property
@@ -215,6 +221,7 @@ def sweep(
     formats: Sequence[str] = ("svg",),
     language: str | None = None,
     progress: Progress | None = None,
+    text: str = "glyphs",
 ) -> Swept:
     """Follow a scene over the whole turn of its driver, alone or as many designs.
 
@@ -236,6 +243,7 @@ def sweep(
     workers : number of processes instead, for a sweep that takes some seconds; scheduler: address of a Dask cluster
         instead
     progress : called with the rows done and all rows
+    text : letters of an SVG as text with its "glyphs", or as "outlines"
 
     Raises
     ------
@@ -255,7 +263,7 @@ def sweep(
     from graphkin.study.designs import designs_of
     from graphkin.study.sweeps import Found, Sweep, collect, write_tables
 
-    known_words(formats, language)
+    known_words(formats, language, text=text, known_formats=CHART_FORMATS)
     may_be_called("progress", progress)
     positions = whole_number("positions", positions, 1, MOST_POSITIONS)
     workers = None if workers is None else whole_number("workers", workers, 1, 1024)
@@ -292,7 +300,7 @@ def sweep(
             through.shutdown()
     swept = Swept(over, found, spoken)
     if not made.keys:
-        swept.write_figures(out, formats)
+        swept.write_figures(out, formats, text)
     return swept
 
 

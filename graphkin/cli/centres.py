@@ -16,6 +16,7 @@ from graphkin.cli.options import (
     QuietOption,
     SceneArgument,
     SheetLangOption,
+    TextOption,
     driver_values,
     listed,
 )
@@ -32,6 +33,7 @@ def centres(
         typer.Option("-o", "--out", metavar="DIR", help="Folder for the files; ./NAME if not given, none with --json."),
     ] = None,
     formats: FormatOption = "svg",
+    text: TextOption = "glyphs",
     at: AtOption = None,
     position: PositionOption = None,
     centrode: Annotated[
@@ -44,18 +46,20 @@ def centres(
     quiet: QuietOption = False,
 ) -> None:
     """All instant centres, how each was found, and the velocities by centres."""
+    from graphkin.api.arguments import known_words
     from graphkin.api.centred import centres as finding
     from graphkin.api.centred import centres_text
 
     wanted, values = listed(formats), driver_values(at, position)
+    known_words(wanted, text=text)
     if point and centrode is None:
         raise CallError(Problem("--point", "without --centrode", "write --centrode LINK --point P"))
     if centrode is not None:
-        _roll(scene, centrode, point, values, out, wanted, lang, convention, as_json, quiet)
+        _roll(scene, centrode, point, values, out, wanted, text, lang, convention, as_json, quiet)
         return
     with unsolvable_as_json(as_json, _none_found):
         found = finding(scene, values, None, wanted, lang, convention)
-    paths = [] if as_json and out is None else found.write(out, wanted)
+    paths = [] if as_json and out is None else found.write(out, wanted, text)
     if as_json:
         print_json(found.data)
     elif not quiet:
@@ -73,12 +77,12 @@ def _none_found(error: Unsolvable) -> dict[str, object]:
 
 def _roll(
     scene: str, link: str, point: str, values: float | str | dict[str, float] | None, out: Path | None,
-    formats: list[str], lang: str | None, convention: str | None, as_json: bool, quiet: bool,
+    formats: list[str], text: str, lang: str | None, convention: str | None, as_json: bool, quiet: bool,
 ) -> None:  # fmt: skip
     from graphkin.api.centroded import centrodes
 
     rolled = centrodes(scene, link, point, values, None, formats, lang, convention)
-    paths = rolled.write(out, formats)
+    paths = rolled.write(out, formats, text)
     if as_json:
         print_json(rolled.data | {"files": [str(path) for path in paths]})
     elif not quiet:

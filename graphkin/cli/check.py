@@ -26,6 +26,7 @@ from graphkin.cli.options import (
     SceneArgument,
     SeedOption,
     SheetLangOption,
+    TextOption,
     driver_values,
     listed,
 )
@@ -124,19 +125,22 @@ def draw(
         list[str] | None,
         typer.Option("--figure", metavar="NAME", help="Draw this figure only (velocity, sheet, ...); may be repeated."),
     ] = None,
+    text: TextOption = "glyphs",
     as_json: JsonOption = False,
     quiet: QuietOption = False,
 ) -> None:
     """Draw the mechanism, the velocity and the acceleration polygon; measure and check them."""
+    from graphkin.api.arguments import known_words
     from graphkin.api.drawn import draw as drawing
 
     wanted = listed(formats)
+    known_words(wanted, text=text)
     with unsolvable_as_json(as_json, unchecked):
         drawn = drawing(
             scene, None, driver_values(at, position), find or None, wanted, lang, convention, instrument, seed,
             figure or None,
         )  # fmt: skip
-        paths = drawn.write(out, wanted)
+        paths = drawn.write(out, wanted, text)
     if not as_json and not quiet:
         print_paths(paths)
     print_check(drawn.checked, languages(lang or drawn.checked.scene.sheet.language)[0], as_json, quiet)

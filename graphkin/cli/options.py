@@ -24,6 +24,7 @@ __all__ = [
     "SceneArgument",
     "SeedOption",
     "SheetLangOption",
+    "TextOption",
     "driver_values",
     "listed",
     "processes",
@@ -35,7 +36,13 @@ SceneArgument = Annotated[
 OutOption = Annotated[
     Path | None, typer.Option("-o", "--out", metavar="DIR", help="Folder for the files; ./NAME if not given.")
 ]
-FormatOption = Annotated[str, typer.Option("--format", metavar="svg,pdf,png", help="Formats of the figures.")]
+FormatOption = Annotated[str, typer.Option("--format", metavar="svg,pdf,png,dxf", help="Formats of the figures.")]
+TextOption = Annotated[
+    str,
+    typer.Option(
+        "--text", metavar="glyphs|outlines", help="Letters of an SVG: with their glyphs, or as paths (Inkscape, CAD)."
+    ),
+]
 AtOption = Annotated[
     list[str] | None,
     typer.Option(

@@ -16,6 +16,7 @@ from graphkin.cli.options import (
     OutOption,
     QuietOption,
     SceneArgument,
+    TextOption,
     driver_values,
     listed,
     processes,
@@ -50,6 +51,7 @@ def sweep(
         str | None, typer.Option("--scheduler", metavar="ADDRESS", help="Run on a Dask cluster (extra cluster).")
     ] = None,
     formats: FormatOption = "svg",
+    text: TextOption = "glyphs",
     at: AtOption = None,
     find: FindOption = None,
     lang: LangOption = None,
@@ -67,7 +69,7 @@ def sweep(
     ):
         swept = sweeping(
             scene, target, positions, find or None, driver_values(at), _replaced(replace), designs, None,
-            None if scheduler else processes(workers), scheduler, listed(formats), lang, progress,
+            None if scheduler else processes(workers), scheduler, listed(formats), lang, progress, text,
         )  # fmt: skip
     if as_json:
         print_json(swept.data)

@@ -159,13 +159,13 @@ class ChartPage(Kept):
         with own_settings(**_SETTINGS):
             return figure_pdf(self._painted(self.width, self.height), self.title, self._more)
 
-    def _svg(self) -> bytes:
+    def _svg(self, outlines: bool = False) -> bytes:
         """With the head and the faces that all figures have."""
         from matplotlib.backends.backend_svg import FigureCanvasSVG
 
         buffer = BytesIO()
         faces(self._more, warn=False)
-        with own_settings(**_SETTINGS):
+        with own_settings(**{**_SETTINGS, "svg.fonttype": "path" if outlines else "none"}):
             nothing = dict.fromkeys(("Date", "Creator", "Format", "Type"))
             FigureCanvasSVG(self._painted(self.width, self.height)).print_svg(buffer, metadata=nothing)
         text = _FAMILY.sub("", buffer.getvalue().decode())

@@ -11,20 +11,22 @@ from graphkin.drawing.svg import svg_bytes
 from graphkin.errors import CallError, Problem
 from graphkin.files import path_of, whole_file
 
-__all__ = ["FORMATS", "Drawing", "Kept", "save"]
+__all__ = ["FORMATS", "TEXTS", "Drawing", "Kept", "save"]
 
-FORMATS = ("svg", "pdf", "png")
+FORMATS = ("svg", "pdf", "png", "dxf")
+TEXTS = ("glyphs", "outlines")
 
 
 class Kept:
     """What can be kept: in a file, or shown in a notebook.  A drawing or a chart, which say how it is written."""
 
-    def content(self, format: str, dpi: float = 200.0) -> bytes:
-        """The page as a file of a format, "svg", "pdf" or "png" (``dpi`` for png only).
+    def content(self, format: str, dpi: float = 200.0, text: str = "glyphs") -> bytes:
+        """The page as a file of a format, "svg", "pdf", "png" (at ``dpi``) or "dxf"; the letters of an SVG as text with
+        its ``glyphs``, or as ``outlines``, for programs without fonts.
 
         Raises
         ------
-        CallError : another format
+        CallError : another format, or one that this cannot be written in
 
         Warns
         -----
@@ -32,17 +34,24 @@ class Kept:
         """
         if not isinstance(format, str) or format not in FORMATS:
             raise CallError(Problem("format", f'"{format!s:.60}"', f"known here: {', '.join(FORMATS)}"))
-        return self._svg() if format == "svg" else self._pdf() if format == "pdf" else self._png(dpi)
+        if not isinstance(text, str) or text not in TEXTS:
+            raise CallError(Problem("text", f'"{text!s:.60}"', f"known here: {', '.join(TEXTS)}"))
+        if format == "svg":
+            return self._svg(text == "outlines")
+        return self._pdf() if format == "pdf" else self._png(dpi) if format == "png" else self._dxf()
 
     def save(self, path: str | os.PathLike[str], dpi: float = 200.0) -> Path:
-        """Write the page to a file, as SVG, PDF or PNG by the ending of its name; returns the path."""
+        """Write the page to a file, as SVG, PDF, PNG or DXF by the ending of its name; returns the path."""
         return save(self, path, dpi)
 
     def _repr_svg_(self) -> str:
         return self._svg().decode()
 
-    def _svg(self) -> bytes:
+    def _svg(self, outlines: bool = False) -> bytes:
         raise NotImplementedError
+
+    def _dxf(self) -> bytes:
+        raise CallError(Problem("format", '"dxf"', "charts are written as svg, pdf or png"))
 
     def _pdf(self) -> bytes:
         raise NotImplementedError
@@ -64,8 +73,13 @@ class Drawing(Page, Kept):
 
     further: tuple[Drawing, ...] = ()
 
-    def _svg(self) -> bytes:
-        return svg_bytes(self)
+    def _svg(self, outlines: bool = False) -> bytes:
+        return svg_bytes(self, outlines=outlines)
+
+    def _dxf(self) -> bytes:
+        from graphkin.drawing.dxf import dxf_bytes
+
+        return dxf_bytes(self)
 
     def _pdf(self) -> bytes:
         from graphkin.drawing.page import pdf_bytes

@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 import math
 import re
+from dataclasses import replace
 from functools import cache, lru_cache, partial
 from html import escape
 from itertools import chain, count
@@ -17,6 +18,7 @@ from zlib import crc32
 from graphkin.drawing.embedded import face_rules, families
 from graphkin.drawing.font import Style
 from graphkin.drawing.font_widths import has_cjk, runs_width, start_runs, style_of, width
+from graphkin.drawing.outlines import outline
 from graphkin.drawing.primitives import (
     Arc,
     Circle,
@@ -26,6 +28,7 @@ from graphkin.drawing.primitives import (
     Polygon,
     Polyline,
     Primitive,
+    Run,
     Stroke,
     Text,
     class_names,
@@ -55,7 +58,7 @@ def number(value: float) -> str:
     return "0" if text == "-0" else text
 
 
-def svg_bytes(drawing: Page, debug: bool = False, embed: bool = True) -> bytes:
+def svg_bytes(drawing: Page, debug: bool = False, embed: bool = True, outlines: bool = False) -> bytes:
     """The drawing as an SVG file, UTF-8.
 
     Parameters
@@ -63,6 +66,8 @@ def svg_bytes(drawing: Page, debug: bool = False, embed: bool = True) -> bytes:
     drawing : sizes and places in mm
     debug : have svgwrite check every element and attribute against the SVG standard (slow; for tests)
     embed : whether the used glyphs come with it; not where a page holds them for all its figures
+    outlines : letters as paths, for programs without fonts; the text lies over them without colour, for search and for
+        readers of screens
 
     Raises
     ------
@@ -80,7 +85,7 @@ def svg_bytes(drawing: Page, debug: bool = False, embed: bool = True) -> bytes:
     page["stroke-linejoin"] = "round"
     page["text-rendering"] = "geometricPrecision"
     page.elements.remove(page.defs)  # empty; the title comes first
-    ink = _Ink(page, drawing.lang)
+    ink = _Ink(page, drawing.lang, outlines)
     facts = json.dumps(drawing.metadata, ensure_ascii=False, sort_keys=True, allow_nan=False, separators=(",", ":"))
     for tag, words in (("title", drawing.title), ("desc", drawing.desc), ("metadata", facts)):
         if words:
@@ -92,7 +97,7 @@ def svg_bytes(drawing: Page, debug: bool = False, embed: bool = True) -> bytes:
     for child in drawing.children:
         ink.draw(page, child)
     if embed:
-        name, rules = face_rules(ink.used)
+        name, rules = face_rules({} if outlines else ink.used)
         page["font-family"] = families(name)
         if rules:
             page.elements.insert(places, ink.made("style", {}, rules))
@@ -103,8 +108,8 @@ def svg_bytes(drawing: Page, debug: bool = False, embed: bool = True) -> bytes:
 class _Ink:
     """Turns primitives into elements of one page; knows the clips and names that it has already given."""
 
-    def __init__(self, page: Any, lang: str) -> None:
-        self.page, self.lang = page, lang
+    def __init__(self, page: Any, lang: str, outlines: bool = False) -> None:
+        self.page, self.lang, self.outlines = page, lang, outlines
         self.made = partial(_element_class(), page)
         self.clips: set[str] = set()
         self.ids: set[str] = set()
@@ -177,7 +182,18 @@ class _Ink:
             if run.bold:
                 face["font-weight"] = "bold"
             element.add(self.made("tspan", face, words))
-        return element
+        return self._outlined(element, runs) if self.outlines else element
+
+    def _outlined(self, element: Any, runs: tuple[Run, ...]) -> Any:
+        """A text as paths, with itself unseen over them."""
+        own = {key: element.attribs.pop(key) for key in ("id", "class") if key in element.attribs}
+        group = self.made("g", own)
+        letters = "".join(outline(replace(run, text=_clean(run.text))) for run in runs)
+        if letters:
+            group.add(self.made("path", {"d": letters, "fill": element.attribs["fill"], "aria-hidden": "true"}))
+            element.attribs["fill"] = "none"
+        group.add(element)
+        return group
 
     def _named(self, id: str, classes: tuple[str, ...]) -> dict[str, str]:
         """Id and classes; an id that is taken (B1 of link 2 and B12 are written alike) is told apart by a number."""

@@ -30,29 +30,26 @@ class Figure:
     joints: list[shapely.Geometry] = field(default_factory=list)
 
 
+FILES = {"": "regular", "Italic": "italic", "Bol": "bold"}
+
+
 @lru_cache(maxsize=4)
 def _face(style: str):
-    import matplotlib
-    from matplotlib.ft2font import FT2Font
+    from fontTools.ttLib import TTFont
 
-    face = FT2Font(f"{matplotlib.get_data_path()}/fonts/ttf/STIXGeneral{style}.ttf")
-    face.set_size(100, 72)
-    return face
+    from graphkin.drawing.font import FOLDER
+
+    font = TTFont(FOLDER / f"{FILES[style]}.ttf")
+    return font.getBestCmap(), font["hmtx"]
 
 
 @lru_cache(maxsize=4096)
 def advance(text: str, style: str = "") -> float:
-    """Width of a text of size 1 in STIX General itself, Chinese one em each."""
-    from matplotlib.ft2font import LoadFlags
-
+    """Width of a text of size 1 in the family of the figures, as fontTools reads it."""
     total = 0.0
     for character in text:
-        if ord(character) > 0x2E7F:
-            total += 1.0
-            continue
-        own = _face(style)
-        face = own if ord(character) in own.get_charmap() else _face("")
-        total += face.load_char(ord(character), flags=LoadFlags.NO_HINTING).linearHoriAdvance / 6553600
+        cmap, advances = _face(style if ord(character) in _face(style)[0] else "")
+        total += advances[cmap[ord(character)]][0] / 1000
     return total
 
 

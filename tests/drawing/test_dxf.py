@@ -1,0 +1,109 @@
+"""A DXF opened again: true to size, real entities on the layers of the SVG, the same bytes every time."""
+
+from __future__ import annotations
+
+import io
+import json
+import sys
+import xml.etree.ElementTree as ET
+
+import pytest
+
+from graphkin import draw
+from graphkin.drawing import Drawing, Text
+from graphkin.drawing.font_widths import width
+from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Stroke
+from graphkin.drawing.text import rich
+from graphkin.errors import CallError
+
+ezdxf = pytest.importorskip("ezdxf")
+SVG = "{http://www.w3.org/2000/svg}"
+THIN = Stroke(0.18)
+
+
+def opened(content: bytes):
+    return ezdxf.read(io.StringIO(content.decode()))
+
+
+@pytest.fixture(scope="module")
+def velocity():
+    drawn = draw("sixbar-guide-40deg", figures=["velocity"])
+    figure = drawn.figures["velocity"]
+    return drawn, opened(figure.content("dxf")), ET.fromstring(figure.content("svg"))
+
+
+def test_it_opens_without_a_fault(velocity):
+    assert [] == velocity[1].audit().errors
+
+
+def test_its_unit_is_the_millimetre(velocity):
+    assert ezdxf.units.MM == velocity[1].units
+
+
+def test_a_vector_measured_times_the_scale_is_its_value(velocity):
+    drawn, document, svg = velocity
+    scale = json.loads(svg.find(f"{SVG}metadata").text)["scales"]["velocity"]
+    line = next(e for e in document.groups.get("v_B3") if e.dxftype() == "LINE")
+    measured = 1e-3 * scale * complex(*(line.dxf.end - line.dxf.start).vec2)
+    assert drawn["v_B@3"].exact == pytest.approx(measured, rel=1e-5)
+
+
+def test_its_layers_are_those_of_the_svg(velocity):
+    _, document, svg = velocity
+    label = "{http://www.inkscape.org/namespaces/inkscape}label"
+    layers = {g.get(label) for g in svg.iter(f"{SVG}g") if g.get(label) and len(g)}
+    assert layers == {e.dxf.layer for e in document.modelspace()} - {"paper"}
+
+
+def test_every_primitive_is_an_entity_of_its_kind():
+    things = (
+        Line(1 + 1j, 4 + 5j, THIN),
+        Circle(5 + 5j, 2.0, stroke=THIN),
+        Arc(5 + 5j, 3.0, 0.0, 1.0, THIN),
+        Polygon((1 + 1j, 2 + 1j, 2 + 2j)),
+        Polygon((1 + 1j, 2 + 1j, 2 + 2j, 1 + 2j, 0.5 + 1.5j)),
+        Polygon((1 + 1j, 9 + 1j, 9 + 9j), "", THIN),
+    )
+    space = opened(Drawing(10.0, 10.0, (Group(things, layer="mechanism"),)).content("dxf")).modelspace()
+    assert ["LINE", "CIRCLE", "ARC", "SOLID", "HATCH", "LWPOLYLINE"] == [e.dxftype() for e in space]
+
+
+def test_an_arc_lies_where_it_lies_on_paper():
+    arc = Arc(5 + 5j, 3.0, 0.3, 1.2, THIN)
+    space = opened(Drawing(10.0, 12.0, (arc,)).content("dxf")).modelspace()
+    ends = [complex(*p.vec2) for p in (space[0].start_point, space[0].end_point)]
+    on_paper = [arc.at(arc.start), arc.at(arc.end)]
+    assert pytest.approx(sorted(on_paper, key=lambda z: z.real)) == sorted(
+        (complex(z.real, 12.0 - z.imag) for z in ends), key=lambda z: z.real
+    )
+
+
+def test_a_chinese_text_is_as_long_as_in_the_svg():
+    entity = opened(Drawing(60.0, 20.0, (Text(5 + 8j, rich("速度多边形")),), lang="zh").content("dxf")).modelspace()[0]
+    assert ("速度多边形", "chinese") == (entity.dxf.text, entity.dxf.style)
+    assert width("速度多边形", 3.5) == pytest.approx(entity.dxf.align_point.x - entity.dxf.insert.x)
+
+
+def test_the_same_drawing_has_the_same_bytes():
+    page = Drawing(10.0, 10.0, (Line(1 + 1j, 4 + 5j, Stroke(0.2, (3.0, 1.0))),))
+    assert page.content("dxf") == Drawing(10.0, 10.0, page.children).content("dxf")
+
+
+def test_without_the_extra_it_is_said_how_to_have_it(monkeypatch):
+    monkeypatch.setitem(sys.modules, "ezdxf", None)
+    with pytest.raises(CallError, match=r"graphkin\[cad\]"):
+        Drawing(10.0, 10.0, ()).content("dxf")
+
+
+def test_letters_as_outlines_are_paths_and_can_still_be_found():
+    page = Drawing(30.0, 20.0, (Text(5 + 8j, rich("ram $v_B$"), id="x"),))
+    root = ET.fromstring(page.content("svg", text="outlines"))
+    group = root.find(f".//{SVG}g[@id='x']")
+    path, text = group
+    assert (f"{SVG}path", f"{SVG}text", "none") == (path.tag, text.tag, text.get("fill"))
+    assert "ramvB" == "".join(span.text for span in text)
+
+
+def test_letters_as_outlines_need_no_font():
+    svg = draw("four-bar-coupler-point", figures=["velocity"]).figures["velocity"].content("svg", text="outlines")
+    assert b"@font-face" not in svg
