@@ -23,7 +23,16 @@ from graphkin.api.arguments import (
 from graphkin.api.checked import solved_here
 from graphkin.api.results import Result
 from graphkin.construction import Room
-from graphkin.construction.centres import Centre, Centres, Turning, by_centres, find_centres, speeds, velocity_sentences
+from graphkin.construction.centres import (
+    Centre,
+    Centres,
+    Turning,
+    by_centres,
+    error_by_centres,
+    find_centres,
+    speeds,
+    velocity_sentences,
+)
 from graphkin.construction.centres.pairs import LinkPair, normal, wedge
 from graphkin.errors import CallError, Problem, as_text, did_you_mean
 from graphkin.files import path_of
@@ -74,8 +83,11 @@ def centres_text(centred: Centred) -> CentresText:
     sentences.append(word("velocities by centres", language))
     for phrase in velocity_sentences(centred.centres, centred.turning):
         sentences.append(say(phrase, language, name).replace("_{", "").replace("}", ""))
-    off = [name(p) for p, e in centred.errors.items() if e is not None and e > 1e-9]
-    off += [str(v.symbol) for v in centred.velocities if not v.ok]
+    off = [name(p) for p, found in centred.compared.items() if found is not None and found[0] > found[1]]
+    off += [str(v.symbol) for v in centred.velocities if v.ok is False]
+    sentences += [
+        say(Phrase("centres too near", (str(v.symbol),)), language) for v in centred.velocities if v.ok is None
+    ]
     count = sum(e is not None for e in centred.errors.values())
     verdict = Phrase("check failed", (", ".join(off),)) if off else Phrase("centres checked", (count,))
     sentences.append(say(verdict, language))
@@ -100,19 +112,28 @@ def _line(through: tuple[LinkPair, LinkPair] | tuple[str], name: Callable[[objec
 
 
 TOLERANCE = 1e-9
+FAIR = 1e-3  # of the largest: a value that may be off by more is not determined by the centres
 NO_MOTION = 1e-9
+SAFETY = 4.0  # the bound of a velocity by centres over its error of first order
 ROOM = Room(mechanism=(90.0, 75.0))  # mm: the mechanism is drawn small, so that its centres find room around it
 
 
 @dataclass(frozen=True)
 class Velocity:
-    """A velocity or angular velocity by centres beside the exact one (SI)."""
+    """A velocity or angular velocity by centres beside the exact one (SI).
+
+    ``tolerance`` is how far the two may be apart: 1e-9 of the largest velocity of the mechanism (of the largest rate,
+    or that velocity over the size), or what rounding does to the centres and to the position where that is more.  Where
+    it exceeds a thousandth of the largest, or where centres are missing, they do not determine the value: ``ok`` is
+    None, and ``by_centres`` is None where there is none at all.
+    """
 
     symbol: Symbol
-    by_centres: complex | float
+    by_centres: complex | float | None
     exact: complex | float
     chain: tuple[str, ...]
-    ok: bool
+    tolerance: float
+    ok: bool | None
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -136,10 +157,10 @@ class Centred(Result):
 
     @cached_property
     def errors(self) -> dict[LinkPair, float | None]:
-        return {pair: found and found[0] for pair, found in self._compared.items()}
+        return {pair: found and found[0] for pair, found in self.compared.items()}
 
     @cached_property
-    def _compared(self) -> dict[LinkPair, tuple[float, float] | None]:
+    def compared(self) -> dict[LinkPair, tuple[float, float] | None]:
         """For each centre its error and what it may be."""
         return {pair: _error(self.centres, self.motion, centre) for pair, centre in self.centres.table.items()}
 
@@ -151,8 +172,8 @@ class Centred(Result):
     @property
     def ok(self) -> bool:
         """Whether all centres and all velocities through them agree with the analytic solver."""
-        near = all(found is None or found[0] <= found[1] for found in self._compared.values())
-        return near and all(v.ok for v in self.velocities)
+        near = all(found is None or found[0] <= found[1] for found in self.compared.values())
+        return near and all(v.ok is not False for v in self.velocities)
 
     @cached_property
     def data(self) -> dict[str, Any]:
@@ -185,8 +206,16 @@ class Centred(Result):
 
     def _velocity(self, v: Velocity) -> dict[str, Any]:
         unit = self.scene.units.metres if v.symbol.is_vector else 1.0
-        values = (abs(x) / unit if v.symbol.is_vector else float(x.real) for x in (v.by_centres, v.exact))
-        return dict(zip(("by_centres", "exact"), values, strict=True)) | {"chain": list(v.chain), "ok": v.ok}
+        values = (
+            None if x is None else abs(x) / unit if v.symbol.is_vector else float(x.real)
+            for x in (v.by_centres, v.exact)
+        )
+        row: dict[str, Any] = dict(zip(("by_centres", "exact"), values, strict=True))
+        row |= {"tolerance": v.tolerance / unit if v.ok is not None else None, "chain": list(v.chain), "ok": v.ok}
+        if v.ok is None:
+            language = languages(self.language or self.scene.sheet.language)[0]
+            row |= {"by_centres": None, "why": say(Phrase("centres too near", (str(v.symbol),)), language)}
+        return row
 
     def __getitem__(self, name: str) -> Centre | Velocity:
         """A centre by its links ("1-3"), or a velocity by its symbol ("v_D", "omega_3").  Raises CallError."""
@@ -285,15 +314,23 @@ def velocities_by_centres(centres: Centres, turning: Mapping[str, Turning], moti
     asked = [s for s in scene.find if s.kind in ("v", "omega")]
     symbols = asked if scene.find else _all(centres)
     found = []
-    exact = {s: complex(motion.value(s)[0]) for s in symbols}
+    # what is asked may be nought beside the rest: it is judged by the whole mechanism
+    exact = {s: complex(motion.value(s)[0]) for s in dict.fromkeys((*symbols, *_all(centres)))}
     largest = {kind: max((abs(x) for s, x in exact.items() if s.kind == kind), default=0.0) for kind in ("v", "omega")}
+    size = scene.size
+    largest["omega"] = max(largest["omega"], largest["v"] / size)
+    rounded = float(motion.rough[0][0])
     for symbol in symbols:
         value = by_centres(centres, turning, symbol)
-        if value is None:
-            continue
         wanted = exact[symbol] if symbol.is_vector else exact[symbol].real
-        close = abs(value - wanted) <= TOLERANCE * max(largest[symbol.kind], 1e-300)
-        found.append(Velocity(symbol, value, wanted, _chain(centres, turning, symbol), close))
+        if value is None:
+            found.append(Velocity(symbol, None, wanted, (), math.inf, None))
+            continue
+        most = max(largest[symbol.kind], 1e-300)
+        own = rounded / (1.0 if symbol.is_vector else size)
+        tolerance = max(TOLERANCE * most, own, SAFETY * error_by_centres(centres, turning, symbol))
+        close = None if tolerance > FAIR * most else abs(value - wanted) <= tolerance
+        found.append(Velocity(symbol, value, wanted, _chain(centres, turning, symbol), tolerance, close))
     return tuple(found)
 
 

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import json
 import subprocess
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 import graphkin
+from graphkin.scene.symbol import Symbol
 from tests import command
 
 
@@ -91,3 +94,31 @@ def test_the_exit_status_tells_what_went_wrong(args: tuple[str, ...], status: in
 def test_a_position_out_of_reach_is_still_json(tmp_path: Path) -> None:
     printed = json.loads(run("sixbar-AE70", "--at", "120", "--json", cwd=tmp_path).stdout)
     assert "not assembled" == printed["status"]
+
+
+@pytest.mark.parametrize("angle", [30, 45, 60, 90, 180, 270])
+def test_a_single_rate_is_judged_by_the_whole_mechanism(angle: float) -> None:
+    scene = graphkin.read("slider-crank-s50-e16-K1.2").mechanism
+    assert graphkin.centres(replace(scene, find=(Symbol.parse("omega_2"),)), at=angle).ok
+
+
+def slider_crank(crank: float, rod: float, angle: float) -> dict[str, Any]:
+    return {
+        "frame": {"points": {"A": [0, 0]}, "guides": {"h": {"through": [0, 0], "angle": 0}}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": crank},
+            "2": {"points": ["B", "C"], "length": rod},
+            "3": {"points": ["C"], "on": "0.h"},
+        },
+        "driver": {"link": "1", "angle": angle, "omega": 10},
+    }
+
+
+@pytest.mark.parametrize("angle", [0.01, 90, 179.99])
+def test_velocities_by_centres_hold_near_a_dead_centre(angle: float) -> None:
+    assert [True] * 5 == [v.ok for v in graphkin.centres(slider_crank(50, 120, angle)).velocities]
+
+
+def test_a_rate_that_the_centres_of_a_tiny_crank_do_not_give_is_said_by_name() -> None:
+    found = graphkin.centres(slider_crank(1e-6, 1e3, 40))
+    assert (True, None) == (found.ok, found.data["velocities"]["omega_2"]["by_centres"])

@@ -1,9 +1,24 @@
 """Instant centres: permanent ones, Kennedy's theorem with its circle diagram, velocities by centres, centrodes."""
 
 from graphkin.construction.centres.find import Centre, Centres, centres_on, find_centres
-from graphkin.construction.centres.speeds import Turning, by_centres, points_asked, speeds, velocity_sentences
+from graphkin.construction.centres.speeds import (
+    Turning,
+    by_centres,
+    error_by_centres,
+    points_asked,
+    speeds,
+    velocity_sentences,
+)
 
 __all__ = [
-    "Centre", "Centres", "Turning", "by_centres", "centres_on", "find_centres", "points_asked", "speeds",
+    "Centre",
+    "Centres",
+    "Turning",
+    "by_centres",
+    "centres_on",
+    "error_by_centres",
+    "find_centres",
+    "points_asked",
+    "speeds",
     "velocity_sentences",
-]  # fmt: skip
+]

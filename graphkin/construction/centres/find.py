@@ -226,16 +226,17 @@ def _otherwise(
 ) -> Centre:
     """A centre that Kennedy's theorem does not give now."""
     why = _why(search, pair)
-    place = None
+    found = None
     if pair[0] in motions and pair[1] in motions:
-        place = relative_centre(motions, pair, chart)
-        if place is None:
+        found = relative_centre(motions, pair, chart)
+        if found is None:
             return Centre(pair, "undetermined", number=number, why=Phrase("centre no motion", pair))
-    if place is None:
+    if found is None:
         return Centre(pair, "undetermined", number=number, why=why)
+    place, error = found
     point = chart.point(place)
     direction = chart.direction(place) if point is None else None
-    return Centre(pair, "found", place, point, direction, number, way=way, why=why, error=1e-15)
+    return Centre(pair, "found", place, point, direction, number, way=way, why=why, error=error)
 
 
 def _why(search: Search, pair: LinkPair) -> Phrase:

@@ -15,7 +15,7 @@ from heapq import heappop, heappush
 
 from graphkin.construction.centres.pairs import Line, LinkPair, Normal, Place, wedge
 
-__all__ = ["CrossedCentre", "Known", "Relation", "Search", "closure"]
+__all__ = ["ROUNDING", "CrossedCentre", "Known", "Relation", "Search", "closure"]
 
 ROUNDING = 2e-16
 SURE = 1e-10

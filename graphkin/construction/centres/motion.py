@@ -24,6 +24,10 @@ AT_REST = 1e-9
 """Two links whose relative motion is smaller than this part of the largest do not move relative to each other."""
 
 
+MEASURED = 1e-15  # so far off a measured centre may be (on the unit sphere)
+SLOW = 1e-3  # part of the largest motion below which a relative one is measured worse than that
+
+
 def measured(sheet: Sheet) -> dict[str, LinkMotion]:
     """Every link in the velocity polygon: one end point of it, and its angular velocity."""
     per_mm = sheet.scales.velocity / sheet.scales.length
@@ -39,8 +43,11 @@ def measured(sheet: Sheet) -> dict[str, LinkMotion]:
     return found
 
 
-def relative_centre(motions: Mapping[str, LinkMotion], pair: LinkPair, chart: ProjectiveChart) -> Place | None:
-    """Where two links have the same velocity; None where they do not move relative to each other.
+def relative_centre(
+    motions: Mapping[str, LinkMotion], pair: LinkPair, chart: ProjectiveChart
+) -> tuple[Place, float] | None:
+    """Where two links have the same velocity, and how far the place may be off on the unit sphere; None where they do
+    not move relative to each other.
 
     Raises
     ------
@@ -50,7 +57,7 @@ def relative_centre(motions: Mapping[str, LinkMotion], pair: LinkPair, chart: Pr
     at = chart.middle
     place, strength = chart.pole(at, one.of(at) - two.of(at), one.omega - two.omega)
     largest = max((abs(chart.pole(at, m.of(at), m.omega)[1]) for m in motions.values()), default=0.0)
-    return None if abs(strength) <= AT_REST * largest else place
+    return None if abs(strength) <= AT_REST * largest else (place, MEASURED * max(1.0, SLOW * largest / abs(strength)))
 
 
 Way = Literal["velocity polygon", "superposition"]

@@ -9,10 +9,12 @@ of homogeneous coordinates, so that a centre at infinity needs no rule of its ow
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
 from graphkin.construction.centres.find import Centres
+from graphkin.construction.centres.kennedy import ROUNDING
 from graphkin.construction.centres.pairs import LinkPair, Place, product, wedge
 from graphkin.plane import dot
 from graphkin.scene.model import AngleDriver, AnyDriver
@@ -21,9 +23,9 @@ from graphkin.structure import driver_pair
 from graphkin.words import Phrase, written
 from graphkin.words.written import MOST, amount, on_paper
 
-__all__ = ["Turning", "by_centres", "points_asked", "speeds", "velocity_sentences"]
+__all__ = ["Turning", "by_centres", "error_by_centres", "points_asked", "speeds", "velocity_sentences"]
 
-APART = 1e-6  # sine below which the distance of two centres cannot be measured well
+SURE = 1e-6  # of the driver's own: a link whose motion may err by more waits for a longer chain that gives it better
 
 
 @dataclass(frozen=True)
@@ -31,13 +33,15 @@ class Turning:
     """The motion of a link by centres.
 
     ``strength`` (1/s) belongs to the centre's homogeneous coordinates (`ProjectiveChart.velocity`), ``omega`` is the
-    angular velocity (rad/s).  ``chain`` names the links from the driver to this one, each measured from the one before.
+    angular velocity (rad/s).  ``chain`` names the links from the driver to this one, each measured from the one before;
+    ``error`` (1/s) is how far the strength may be off, since centres near each other measure badly.
     """
 
     link: str
     strength: float
     omega: float
     chain: tuple[str, ...]
+    error: float = 0.0
 
 
 def speeds(centres: Centres) -> dict[str, Turning]:
@@ -54,17 +58,19 @@ def speeds(centres: Centres) -> dict[str, Turning]:
         return {name: Turning(name, 0.0, 0.0, (name,)) for name in centres.links.names}
     found.update(_driven(centres, moving[0]))
     steps = max(len(t.chain) for t in found.values())
+    largest = SURE * max(abs(t.strength) for t in found.values())
     while len(found) < len(centres.links.names):
         fresh: dict[str, Turning] = {}
+        last = steps > len(centres.links.names)  # no further chain gives anything better
         for name in centres.links.names:
             if name in found:
                 continue
-            ways = [(s, t) for t in found.values() if t.link != frame and (s := _step(centres, t, name)) is not None]
-            near = [(apart, turning) for (turning, apart), t in ways if len(t.chain) == steps]
-            good = [(apart, turning) for apart, turning in near if apart > APART]
-            if good:
-                fresh[name] = max(good, key=lambda pair: pair[0])[1]
-        if not fresh and steps > len(centres.links.names):
+            from_here = [t for t in found.values() if t.link != frame and (last or len(t.chain) == steps)]
+            ways = [turning for t in from_here if (turning := _step(centres, t, name)) is not None]
+            best = min(ways, key=lambda turning: turning.error, default=None)
+            if best is not None and (last or best.error <= max(largest, SURE * abs(best.strength))):
+                fresh[name] = best
+        if not fresh and last:
             break
         found.update(fresh)
         steps += 1
@@ -83,6 +89,7 @@ def _driven(centres: Centres, driver: AnyDriver) -> dict[str, Turning]:
         if place is None or place[2] == 0.0:
             return {}
         strength = rate / place[2]
+        error = abs(strength / place[2]) * _error(centres, a, b)
     else:
         pair = driver_pair(driver, structure.links, structure.slides)
         slide = structure.slide(driver.key)
@@ -98,19 +105,22 @@ def _driven(centres: Centres, driver: AnyDriver) -> dict[str, Turning]:
         if once == 0.0:
             return {}
         strength = rate * centres.links.mm / once
+        error = abs(strength / once) * _error(centres, a, b) * (abs(at - chart.middle) + chart.unit)
     if b == frame:
-        return {a: Turning(a, strength, strength * place[2], (a,))}
+        return {a: Turning(a, strength, strength * place[2], (a,), error)}
     if a == frame:
-        return {b: Turning(b, -strength, -strength * place[2], (b,))}
+        return {b: Turning(b, -strength, -strength * place[2], (b,), error)}
     # two moving links: T_a - T_b is known, and the three centres a-b, a-0, b-0 lie on one line
     found = {}
     for name, other, sign in ((a, b, 1.0), (b, a, -1.0)):
         own, its = _place(centres, name, frame), _place(centres, other, frame)
         if own is None or its is None:
             continue
-        ratio, apart = _ratio(place, its, own)
-        if apart > APART:
-            found[name] = Turning(name, sign * strength * ratio, sign * strength * ratio * own[2], (name,))
+        errors = _error(centres, a, b), _error(centres, other, frame), _error(centres, name, frame)
+        ratio, off = _ratio(place, its, own, errors)
+        if math.isfinite(off):
+            turned = sign * strength * ratio
+            found[name] = Turning(name, turned, turned * own[2], (name,), error * abs(ratio) + abs(strength) * off)
     return found
 
 
@@ -118,27 +128,43 @@ def _place(centres: Centres, a: str, b: str) -> Place | None:
     return centres.of(a, b).place
 
 
-def _ratio(known: Place, common: Place, wanted: Place) -> tuple[float, float]:
+def _error(centres: Centres, a: str, b: str) -> float:
+    """How far the centre of two links may be off, on the unit sphere."""
+    return max(centres.of(a, b).error, ROUNDING)
+
+
+def _ratio(
+    known: Place, common: Place, wanted: Place, errors: tuple[float, float, float]
+) -> tuple[float, float]:
     """From strength about ``known`` to strength about ``wanted``, three places on a line, the motion about ``common``
-    being the difference; and how far ``wanted`` lies from ``common``.
+    being the difference; and how far it may be off, by the ``errors`` of the three.
 
     k * known - m * wanted is a multiple of common: k (known x common) = m (wanted x common).
     """
     line, apart = wedge(wanted, common)
     over, sine = wedge(known, common)
-    return (0.0 if apart == 0.0 else product(over, line) * sine / apart), apart
+    if apart == 0.0:
+        return 0.0, math.inf
+    of_known, of_common, of_wanted = errors
+    off = (of_known + of_common + 2 * (sine / apart) * (of_wanted + of_common)) / apart
+    return product(over, line) * sine / apart, off
 
 
-def _step(centres: Centres, turning: Turning, name: str) -> tuple[Turning, float] | None:
-    """From one link to the next by their common centre; None where a centre is missing."""
+def _step(centres: Centres, turning: Turning, name: str) -> Turning | None:
+    """From one link to the next by their common centre; None where a centre is missing, or falls together with that of
+    the link."""
     frame = centres.links.scene.frame.name
     own, its = _place(centres, name, frame), _place(centres, turning.link, frame)
     common = _place(centres, name, turning.link)
     if own is None or its is None or common is None:
         return None
-    ratio, apart = _ratio(its, common, own)
+    errors = _error(centres, turning.link, frame), _error(centres, name, turning.link), _error(centres, name, frame)
+    ratio, off = _ratio(its, common, own, errors)
+    if not math.isfinite(off):
+        return None
     strength = turning.strength * ratio
-    return Turning(name, strength, strength * own[2], (*turning.chain, name)), apart
+    error = turning.error * abs(ratio) + abs(turning.strength) * off
+    return Turning(name, strength, strength * own[2], (*turning.chain, name), error)
 
 
 def by_centres(centres: Centres, moving: Mapping[str, Turning], symbol: Symbol) -> complex | float | None:
@@ -152,6 +178,24 @@ def by_centres(centres: Centres, moving: Mapping[str, Turning], symbol: Symbol) 
     of = _velocity(centres, moving, symbol.of)
     to = _velocity(centres, moving, symbol.to) if symbol.to else 0j
     return None if of is None or to is None else of - to
+
+
+def error_by_centres(centres: Centres, moving: Mapping[str, Turning], symbol: Symbol) -> float:
+    """How far a velocity by centres (m/s, rad/s) may be off by the rounding of the centres' places."""
+    links, chart = centres.links, centres.chart
+    names = [symbol.link] if symbol.link else []
+    spots = [chart.middle + chart.unit]
+    for ref in (symbol.of, symbol.to):
+        if ref is not None:
+            names += [ref.link] if ref.link else [n for n in links.scene.holders[ref.point] if n in moving][:1]
+            spots.append(links.point(ref.point))
+    reach = 1.0 + max(abs(z - chart.middle) for z in spots) / chart.unit
+    whole = 0.0
+    for name in names:
+        turning = moving.get(name)
+        if turning is not None and turning.strength != 0.0:
+            whole += turning.error + abs(turning.strength) * _error(centres, name, links.scene.frame.name)
+    return whole * reach * (1.0 if symbol.link else chart.unit / links.mm)
 
 
 def _velocity(centres: Centres, moving: Mapping[str, Turning], ref: PointRef) -> complex | None:
