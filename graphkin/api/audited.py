@@ -26,7 +26,7 @@ from graphkin.errors import CallError, Problem, Unsolvable, as_text, did_you_mea
 from graphkin.files import path_of
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol
-from graphkin.words import say, word
+from graphkin.words import Phrase, say, word
 
 if TYPE_CHECKING:
     from graphkin.solver import Motion
@@ -137,8 +137,10 @@ def _value(scene: Mechanism, who: Answers, judged: Judged, language: str) -> dic
     row["deviation_pct"] = None if judged.deviation is None else 100 * judged.deviation
     if judged.deviation is None:
         row["why"] = "the exact value is zero"
-    row["verdict"] = judged.verdict
-    row["bound"] = unit(judged.bound)
+    row["verdict"] = judged.verdict if judged.verdict != "not judged" else None
+    row["bound"] = unit(judged.bound) if math.isfinite(judged.bound) else None
+    if judged.verdict == "not judged":
+        row["why"] = say(Phrase("nothing to judge by"), language)
     if judged.looks_like is not None:
         row["looks_like"] = say(judged.looks_like, language)
     if judged.follows_from:
@@ -172,7 +174,8 @@ def audit(scene: SceneLike, answers: AnswersLike | None = None, at: At = None, l
     Returns
     -------
     Audited; each value is "right" (to the digits stated), "within drafting accuracy" (of a pencil drawing with the
-    scene's scales and tools) or "wrong", then with what it looks like where a common slip explains it
+    scene's scales and tools) or "wrong", then with what it looks like where a common slip explains it; "not judged"
+    (None in the JSON, with why) where a pencil may be off by anything, beside a dead point
 
     Raises
     ------

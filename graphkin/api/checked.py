@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -36,7 +37,7 @@ from graphkin.files import path_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Structure, part_of
-from graphkin.words import say
+from graphkin.words import Phrase, say
 
 if TYPE_CHECKING:
     from graphkin.construction.centres import Centres, Turning
@@ -77,8 +78,9 @@ class Checked(Result):
 
     @property
     def ok(self) -> bool:
-        """Whether every reading lies within its tolerance."""
-        return self.report.ok
+        """Whether the drawing is whole and every reading lies within its tolerance; readings that are not determined
+        at this position count for nothing, and a drawing of such alone agrees with nothing."""
+        return self.report.ok and self.complete
 
     @property
     def complete(self) -> bool:
@@ -88,7 +90,7 @@ class Checked(Result):
     def __repr__(self) -> str:
         return (
             f"<Checked {self.scene.name}: {len(self.report.rows)} readings, "
-            f"{sum(not row.ok for row in self.report.rows)} out of tolerance>"
+            f"{sum(row.ok is False for row in self.report.rows)} out of tolerance>"
         )
 
     def __getitem__(self, name: str) -> Compared:
@@ -182,7 +184,7 @@ def in_scene_units(scene: Mechanism, symbol: Symbol, value: float, degrees: bool
     return value / (symbol.per_unit(metres) if degrees else symbol.per_unit_of_programs(metres))
 
 
-def reading_words(checked: Checked) -> Iterator[tuple[str, str, str, str, bool]]:
+def reading_words(checked: Checked) -> Iterator[tuple[str, str, str, str, bool | None]]:
     """Each reading in words: symbol, mm on paper, measured with as many figures as the drawing carries, exact, whether
     the two agree."""
     scales, metres = checked.report.scales, checked.scene.units.metres
@@ -208,14 +210,20 @@ def reading_row(scene: Mechanism, row: Compared, degrees: bool = False) -> dict[
         "measured": size(row.measured),
         "exact": size(row.true),
         "error": unit(row.error),
-        "tolerance": unit(row.tolerance),
+        "tolerance": finite(unit(row.tolerance)),
         "direction_error_rad": row.direction_error,
         "ok": row.ok,
-        **(_predicted(unit(row.uncertainty.deviation), row.uncertainty) if row.uncertainty else {}),
+        **({"why": say(Phrase("not determined", (str(row.symbol),)))} if row.ok is None else {}),
+        **(_predicted(finite(unit(row.uncertainty.deviation)), row.uncertainty) if row.uncertainty else {}),
     }
 
 
-def _predicted(deviation: float, uncertainty: Uncertainty) -> dict[str, Any]:
+def finite(value: float) -> float | None:
+    """A number as JSON has it: none where there is no bound."""
+    return value if math.isfinite(value) else None
+
+
+def _predicted(deviation: float | None, uncertainty: Uncertainty) -> dict[str, Any]:
     """Standard deviation of a reading in its unit, and the step that adds most to it."""
     return {
         "uncertainty": deviation,

@@ -64,7 +64,8 @@ def report_text(checked: Checked, language: str) -> str:
     head = (word("quantity", language), word("on paper", language), word("measured", language), word("exact", language))
     lines.append(f"{head[0]:<16}{head[1]:>12}{head[2]:>16}{head[3]:>16}")
     for symbol, length, measured, exact, ok in reading_words(checked):
-        lines.append(f"{symbol:<16}{length:>12}{measured:>16}{exact:>16}{'' if ok else '  !'}")
+        mark = {True: "", False: "  !", None: "  ?"}[ok]
+        lines.append(f"{symbol:<16}{length:>12}{measured:>16}{exact:>16}{mark}")
     lines.append("")
     lines += [say(note, language, show) for note in (*sheet.left_out, *sheet.notes)]
     lines.append(verdict(checked, language))
@@ -80,13 +81,22 @@ def _held_still(sheet: Sheet, language: str) -> list[str]:
 
 
 def verdict(checked: Checked, language: str) -> str:
-    """One sentence: does the drawing agree with the solver."""
-    off = [str(r.symbol) for r in checked.report.rows if not r.ok]
+    """Does the drawing agree with the solver; what is missing is said first."""
+    report = checked.report
+    said = []
+    if report.missing:
+        said.append(Phrase("not drawn", (", ".join(map(str, report.missing)),)))
+    off = [str(r.symbol) for r in report.rows if r.ok is False]
+    if report.undetermined:
+        said.append(Phrase("not determined", (", ".join(map(str, report.undetermined)),)))
     if off:
-        return say(Phrase("check failed", (", ".join(off),)), language)
-    if not checked.report.rows:
-        return say(Phrase("nothing checked"), language)
-    return say(Phrase("check passed", (len(checked.report.rows),)), language)
+        said.append(Phrase("check failed", (", ".join(off),)))
+    elif agree := sum(r.ok is True for r in report.rows):
+        whole = not said
+        said.append(Phrase("check passed" if whole else "rest agrees", (agree,)))
+    elif not report.rows:
+        said.append(Phrase("nothing checked"))
+    return " ".join(say(phrase, language) for phrase in said)
 
 
 def _rows(equation: Equation, language: str) -> list[str]:

@@ -14,18 +14,21 @@ from typing import Literal
 
 from graphkin.checking.consequential_errors import consequential_values
 from graphkin.checking.printed import Printed, transcription_errors
-from graphkin.checking.slips import Evidence, Suspect, line_of, suspects
+from graphkin.checking.slips import Evidence, Suspect, dimension, line_of, suspects
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase
 
 __all__ = ["COMPUTED_SHARE", "Judged", "Value", "comparable", "deviation", "difference", "explained", "judge"]
 
-Verdict = Literal["right", "within drafting accuracy", "wrong"]
+Verdict = Literal["right", "within drafting accuracy", "wrong", "not judged"]
 Value = complex | float
 
 RIGHT_SHARE = 0.7  # drawn values that are right but for drafting errors
 CHANCE = 0.15  # a wrong value lies anywhere, within its own size
 SURER = 10.0  # so much likelier must a slip be than drafting errors, to call a value in their reach wrong
+BAD = 3.0  # bounds of drafting: so far off a drawn value may lie that still shows what it was meant for
+CLUMSY = 0.08  # part of it, for a drawing that is worse than it should be
+SURE = 3.0  # so much commoner must a slip be than chance, where only its neighbourhood fits
 DIGITS = 5  # fewer digits than this tell no slip from an error of drafting
 COMPUTED_SHARE = 1e-4  # a computed value may be off by so much of itself, for inputs that were rounded
 COMPUTED = 1e-5  # relative error of values worked out with rounded ones
@@ -37,8 +40,9 @@ class Judged:
 
     ``exact`` is what it is held against: signed where it has a sense, a complex number against two components, else
     the size of the vector (SI).  ``deviation`` is the relative one, None where the exact value is zero; ``bound`` what
-    a pencil drawing keeps within (0 where nothing can be predicted).  ``follows_from`` are earlier wrong values of the
-    same person from which it follows.
+    a pencil drawing keeps within (0 where nothing can be predicted, infinite where it keeps within nothing: then a
+    value that is not right is "not judged", unless a slip explains it to the digit).  ``follows_from`` are earlier
+    wrong values of the same person from which it follows.
     """
 
     printed: Printed
@@ -65,10 +69,18 @@ def _judged(case: Evidence, printed: Printed) -> Judged:
     exact = comparable(printed, right, line)
     off = abs(difference(printed, exact))
     uncertainty = case.predicted.get(symbol)
-    bound = uncertainty.bound if uncertainty and math.isfinite(uncertainty.bound) else 0.0
+    bound = uncertainty.bound if uncertainty else 0.0
+    if symbol.scope == "motion" and bound > _largest(case, symbol):
+        bound = math.inf
     share = deviation(printed, exact)
     if off <= printed.rounding + 1e-9 * abs(exact):
         return Judged(printed, exact, share, "right", bound)
+    if math.isinf(bound):
+        judged = Judged(printed, exact, share, "not judged", bound)
+        fits = [s for s, _ in _weighed(case, judged) if not s.copied and _fits_to_the_digit(judged, s, case)]
+        if printed.digits < DIGITS or not fits:
+            return judged
+        return replace(judged, verdict="wrong", looks_like=max(fits, key=lambda s: s.share).phrase)
     verdict: Verdict = "within drafting accuracy" if off <= bound + printed.coarse else "wrong"
     judged = Judged(printed, exact, share, verdict, bound)
     if verdict == "wrong":
@@ -79,6 +91,12 @@ def _judged(case: Evidence, printed: Printed) -> Judged:
         if best and best[1] > SURER * drawn and _fits_to_the_digit(judged, best[0], case):
             return replace(judged, verdict="wrong", looks_like=best[0].phrase)
     return judged
+
+
+def _largest(case: Evidence, symbol: Symbol) -> float:
+    """The greatest exact value that is drawn of a sort: a pencil that may be off by more tells nothing."""
+    alike = [abs(v) for s, v in case.others.items() if dimension(s) == dimension(symbol)]
+    return max([abs(case.exact(symbol)), *alike]) or math.inf
 
 
 def difference(printed: Printed, exact: Value) -> Value:
@@ -124,8 +142,25 @@ def explained(case: Evidence, judged: Judged, own: Mapping[Symbol, Value], wrong
                     found.append(_weight(judged, Suspect(phrase, value, 0.5, follows_from=names), line))
     best = max(found, key=lambda w: w[1], default=None)
     if best is None or best[1] <= chance:
+        best = _drawn_badly(judged, [s for s, _ in found], line)
+    if best is None:
         return replace(judged, looks_like=None) if judged.looks_like is None else judged
     return replace(judged, looks_like=best[0].phrase, follows_from=best[0].follows_from)
+
+
+def _drawn_badly(judged: Judged, found: Sequence[Suspect], line: complex | None) -> tuple[Suspect, float] | None:
+    """A slip in a drawing worse than it should be: the likeliest of those that are much commoner than a value there by
+    chance."""
+    near: list[tuple[Suspect, float]] = []
+    for suspect in found:
+        value = comparable(judged.printed, suspect.value, line)
+        bound = judged.bound / abs(judged.exact) if judged.exact else 0.0
+        reach = max(CLUMSY, min(BAD * bound, 2 * CLUMSY)) * abs(value)
+        by_chance = CHANCE * 2 * reach / max(abs(judged.printed.value), abs(judged.exact))
+        off = abs(judged.printed.value - value)
+        if suspect.drawn and not suspect.copied and off <= reach and suspect.share > SURE * by_chance:
+            near.append((suspect, suspect.share / max(off, reach / 3)))
+    return max(near, key=lambda w: w[1], default=None)
 
 
 def _moves(case: Evidence, own: Mapping[Symbol, Value], one: Symbol, symbol: Symbol, judged: Judged) -> bool:
@@ -142,14 +177,15 @@ def _weighed(case: Evidence, judged: Judged) -> Iterator[tuple[Suspect, float]]:
         yield _weight(judged, suspect, line)
     for text, share, other in transcription_errors(judged.printed):
         off = abs(other - judged.exact)
-        weight = share * _likelihood(judged.printed, off, judged.bound / 3, judged.exact)
+        spread = judged.bound / 3 if math.isfinite(judged.bound) else 0.0
+        weight = share * _likelihood(judged.printed, off, spread, judged.exact)
         yield Suspect(Phrase("slip pen", (text,)), judged.exact, share, copied=True), weight
 
 
 def _weight(judged: Judged, suspect: Suspect, line: complex | None) -> tuple[Suspect, float]:
     printed = judged.printed
     value = comparable(printed, suspect.value, line)
-    relative = judged.bound / 3 / abs(judged.exact) if judged.exact else 0.0
+    relative = judged.bound / 3 / abs(judged.exact) if judged.exact and math.isfinite(judged.bound) else 0.0
     spread = relative * abs(value) if suspect.drawn else 0.0
     return suspect, suspect.share * _likelihood(printed, abs(printed.value - value), spread, value)
 

@@ -4,7 +4,8 @@ Readings are lengths on paper times scale factors, and angles from the drawn end
 every act that leads to a reading: each (a point pricked, a direction set, a length laid off or read) is made wrong once
 by one standard deviation, the rest exactly; what that does to a reading is its sensitivity times the deviation, and the
 squares add up (Guide to the expression of uncertainty in measurement, 5.1).  Crossing angles, lengths and scales come
-in by the construction itself.
+in by the construction itself.  What acts do together, where each alone does little (the square of a speed that is
+nought, a product of two such: a mechanism at rest), is seen on some drawings in which all err at once.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from bisect import bisect_left
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from graphkin.construction import Plan, Scales, execute, nudged
+from graphkin.construction import Plan, Scales, erring, execute, nudged
 from graphkin.construction.board import EXACT, Instrument
 from graphkin.construction.centres import Centres, centres_on
 from graphkin.construction.measures import measured
@@ -106,6 +107,9 @@ def _vector(sheet: Sheet, diagram: DiagramName, vector: Vector, instrument: Inst
 
 
 COVERAGE = 3.0  # a stated bound is this many standard deviations
+SAMPLES = 24  # drawings in which every act errs at random
+BEYOND = 1.6  # times the deviation of first order: more than that in the samples is no accident (one in 10 000)
+CURVED = 1.5  # so many times the deviation of the samples is stated then: squares of errors have long tails
 
 
 @dataclass(frozen=True)
@@ -125,8 +129,9 @@ class Uncertainty:
         return COVERAGE * self.deviation
 
 
-def predict(what: Plan, name: str, tools: Tools) -> Mapping[Symbol, Uncertainty]:
-    """Uncertainty of every reading of a plan drawn with an instrument ("pencil" or "cad")."""
+def predict(what: Plan, name: str, tools: Tools, together: bool = True) -> Mapping[Symbol, Uncertainty]:
+    """Uncertainty of every reading of a plan drawn with an instrument ("pencil" or "cad"); what acts do only
+    ``together`` may be left out."""
     still = nudged(name, tools, 0)
     sheet = execute(what, still)
     drawn = still.acts
@@ -138,15 +143,38 @@ def predict(what: Plan, name: str, tools: Tools) -> Mapping[Symbol, Uncertainty]
         hand = nudged(name, tools, act)
         try:
             values = {r.symbol: r.value for r in read_off(execute(what, hand), (), hand)}
-        except Unsolvable:
+        except (Unsolvable, ArithmeticError):
             # so near a dead point that this act alone makes the arcs miss: nothing can be promised
             values = dict.fromkeys(base, complex(math.inf))
         cause = bisect_left(marks, act) if act <= drawn else reading
         for symbol, value in base.items():
-            off = abs(values[symbol] - value) ** 2
+            off = abs(values.get(symbol, math.inf) - value) ** 2
             if off:
                 parts[symbol][cause] = parts[symbol].get(cause, 0.0) + off
-    return {symbol: _summed(symbol, shares, sheet.causes) for symbol, shares in parts.items()}
+    samples = _samples(what, name, tools) if together else ()
+    found = {}
+    for symbol, shares in parts.items():
+        first = _summed(symbol, shares, sheet.causes)
+        seen = _spread(base[symbol], [values[symbol] for values in samples if symbol in values])
+        found[symbol] = replace(first, deviation=CURVED * seen) if seen > BEYOND * first.deviation else first
+    return found
+
+
+def _samples(what: Plan, name: str, tools: Tools) -> Sequence[Mapping[Symbol, complex | float]]:
+    """The readings of some drawings in which every act errs at random; those that cannot be drawn are left out."""
+    found = []
+    for seed in range(SAMPLES):
+        hand = erring(name, tools, seed)
+        try:
+            found.append({r.symbol: r.value for r in read_off(execute(what, hand), (), hand)})
+        except (Unsolvable, ArithmeticError):
+            continue
+    return found
+
+
+def _spread(value: complex | float, values: Sequence[complex | float]) -> float:
+    """Root of the mean square deviation from a value."""
+    return math.sqrt(sum(abs(v - value) ** 2 for v in values) / len(values)) if values else 0.0
 
 
 def _summed(symbol: Symbol, shares: Mapping[int, float], causes: tuple[tuple[int, Cause], ...]) -> Uncertainty:
@@ -207,11 +235,13 @@ def advise(
         largest[_sort(r.symbol)] = max(largest.get(_sort(r.symbol), 0.0), abs(r.value))
     worst: tuple[float, Symbol] | None = None
     for r in readings:
-        expected = predicted[r.symbol]
-        if r.value == 0 or abs(r.value) < SMALL * largest[_sort(r.symbol)] or not expected.deviation:
+        expected = predicted.get(r.symbol)
+        if expected is None or not 0.0 < expected.deviation < math.inf:
             continue
+        if abs(r.value) < max(SMALL * largest[_sort(r.symbol)], expected.deviation):
+            continue  # too small, or no value but noise, such as velocities at rest
         part = expected.deviation / abs(r.value)
-        if math.isfinite(part) and (worst is None or part > worst[0]):
+        if worst is None or part > worst[0]:
             worst = part, r.symbol
     if worst is None:
         return None
@@ -219,8 +249,8 @@ def advise(
     gains = {}
     for figure in ("length", "velocity", "acceleration"):
         scales: Scales = replace(what.scales, **{figure: getattr(what.scales, figure) / 2})
-        again = predict(replace(what, scales=scales), name, tools)[symbol].deviation
-        gains[figure] = again / predicted[symbol].deviation
+        again = predict(replace(what, scales=scales), name, tools, together=False)
+        gains[figure] = again[symbol].deviation / predicted[symbol].deviation if symbol in again else math.inf
     best = min(gains, key=gains.__getitem__)
     expected = predicted[symbol]
     return Advice(symbol, relative, expected.cause, expected.share, best, gains[best])

@@ -15,6 +15,11 @@ __all__ = ["Compared", "Report", "compare"]
 
 EXACT_TOLERANCE = 1e-9
 ROUNDING = 1e-14
+GRAIN = 2e-15  # rounding of places, of the farthest
+FAIR = 1e-3  # of the largest of its diagram: a tolerance that is greater accepts anything (exact hands, programs)
+COARSE = 1.0  # the same for hands that err
+ON_PAPER = {"exact": 0.0, "cad": 0.1}  # mm that may be read off a figure in which nothing moves
+HAND = 5.0
 
 Exact = Callable[[Symbol], complex | float]
 
@@ -25,7 +30,8 @@ class Compared:
 
     ``error`` is the size of the difference of the two, as vectors where they are vectors; ``tolerance`` what it may be;
     ``direction_error`` the angle from the exact direction to the drawn one (rad; 0 for rates and for vectors too short
-    to have a direction).  A value not above ``floor`` is nothing but rounding.
+    to have a direction).  A value not above ``floor`` is nothing but rounding; a reading is not ``determined`` here
+    where its tolerance accepts anything.
     """
 
     reading: Reading
@@ -35,6 +41,7 @@ class Compared:
     direction_error: float
     uncertainty: Uncertainty | None = None
     floor: float = 0.0
+    determined: bool = True
 
     @property
     def symbol(self) -> Symbol:
@@ -46,8 +53,11 @@ class Compared:
         return self.reading.on_paper
 
     @property
-    def ok(self) -> bool:
-        return self.error <= self.tolerance
+    def ok(self) -> bool | None:
+        """Whether the two agree; None where agreement would mean nothing."""
+        if self.error > self.tolerance:
+            return False
+        return True if self.determined else None
 
     @property
     def bound(self) -> float:
@@ -82,7 +92,13 @@ class Report:
 
     @property
     def ok(self) -> bool:
-        return all(row.ok for row in self.rows)
+        """Whether no reading is out of tolerance, and not every one is undetermined."""
+        return all(row.ok is not False for row in self.rows) and (not self.rows or any(row.ok for row in self.rows))
+
+    @property
+    def undetermined(self) -> tuple[Symbol, ...]:
+        """Readings of which nothing can be said at this position."""
+        return tuple(row.symbol for row in self.rows if row.ok is None)
 
 
 def compare(
@@ -99,7 +115,8 @@ def compare(
     ----------
     exact : gives the exact value of a symbol at the drawn position (SI; a complex number for a vector)
     predicted : uncertainty of each reading, by which it is judged; without it (exact instrument) a reading may be off
-        by 1e-9 of the largest vector of the diagram, a rate by 1e-9 of the largest rate or of that vector over the size
+        by 1e-9 of the largest vector of the diagram, a rate by 1e-9 of the largest rate or of that vector over the
+        size; where what is allowed exceeds a thousandth of that (of a pencil: the whole of it) nothing is determined
     rounding : how far rounding may have moved the exact places (m) and vectors of a diagram (m/s, m/s2): within a hair
         of a dead point it exceeds 1e-9, and drawing and solver can agree no better; what is smaller is zero
     """
@@ -118,6 +135,7 @@ def compare(
         largest[order, True] = whole * sheet.scales.of("velocity" if order == "velocity" else "acceleration")
         # a rate that is zero comes from a vector divided by a length
         largest[order, False] = max(largest.get((order, False), 0.0), largest[order, True] / sheet.scene.size)
+    grain = _grain(sheet)
     rows = []
     for reading, value in pairs:
         if reading.symbol.scope != "motion":
@@ -129,12 +147,41 @@ def compare(
         if reading.symbol.is_vector and min(abs(reading.value), abs(value)) > 1e-7 * most:
             turned = cmath.phase(complex(reading.value) / complex(value))
         expected = (predicted or {}).get(reading.symbol)
-        rounded = (rounding or {}).get(reading.diagram, 0.0) / (1.0 if reading.symbol.is_vector else sheet.scene.size)
-        tolerance = max(expected.bound if expected else 0.0, EXACT_TOLERANCE * most, rounded)
+        by = 1.0 if reading.symbol.is_vector else sheet.scene.size
+        rounded = (rounding or {}).get(reading.diagram, 0.0) / by
+        tolerance = max(_allowed(predicted, expected), max(EXACT_TOLERANCE, grain) * most, rounded)
+        least = ON_PAPER.get(sheet.instrument, HAND) * sheet.scales.of(reading.diagram) / by
         floor = _floor(sheet, reading, rounding or {}, EXACT_TOLERANCE * most)
-        rows.append(Compared(reading, value, error, tolerance, turned, expected, floor))
+        fair = _fair(sheet, tolerance, most, least)
+        rows.append(Compared(reading, value, error, tolerance, turned, expected, floor, fair))
     have = {r.symbol for r in readings}
     return Report(sheet.instrument, sheet.scales, tuple(rows), tuple(s for s in asked if s not in have))
+
+
+def _grain(sheet: Sheet) -> float:
+    """By what part a drawn direction may be off: rounding of places, over the shortest bar between two hinges."""
+    structure = sheet.structure
+    bars = [
+        abs(z - w)
+        for name, link in structure.links.items() if name != structure.scene.frame.name
+        for p, z in link.points.items() if p in structure.hinges
+        for q, w in link.points.items() if q in structure.hinges and p < q and z != w
+    ]  # fmt: skip
+    far = max((abs(z) for z in sheet.points.values()), default=0.0) * sheet.scales.length
+    return GRAIN * far / min(bars, default=math.inf)
+
+
+def _allowed(predicted: Mapping[Symbol, Uncertainty] | None, expected: Uncertainty | None) -> float:
+    """What an instrument may be off; anything, where it draws and nothing is predicted of this reading."""
+    if expected is None:
+        return 0.0 if predicted is None else math.inf
+    return expected.bound
+
+
+def _fair(sheet: Sheet, tolerance: float, most: float, least: float) -> bool:
+    """Whether a tolerance leaves something to agree with."""
+    part = FAIR if sheet.instrument in ON_PAPER else COARSE
+    return most == 0.0 == least or tolerance <= max(part * most, least)
 
 
 def _position(
@@ -149,8 +196,9 @@ def _position(
     most = max(size if length else 1.0, abs(exact))
     expected = (predicted or {}).get(reading.symbol)
     rounded = (rounding or {}).get("mechanism", 0.0) / (1.0 if length else size)
-    tolerance = max(expected.bound if expected else 0.0, EXACT_TOLERANCE * most, rounded)
-    return Compared(reading, exact, abs(off), tolerance, 0.0, expected, max(rounded, ROUNDING * most))
+    tolerance = max(_allowed(predicted, expected), EXACT_TOLERANCE * most, rounded)
+    floor, fair = max(rounded, ROUNDING * most), _fair(sheet, tolerance, most, 0.0)
+    return Compared(reading, exact, abs(off), tolerance, 0.0, expected, floor, fair)
 
 
 _TOLD_APART = (1.0 + math.sqrt(2.0)) ** 2  # v^2 > 2 v d + d^2 from v = (1 + sqrt 2) d on

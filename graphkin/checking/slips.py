@@ -21,7 +21,7 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Slide
 from graphkin.words import Phrase
 
-__all__ = ["Evidence", "Suspect", "ValuesElsewhere", "line_of", "suspects"]
+__all__ = ["Evidence", "Suspect", "ValuesElsewhere", "dimension", "line_of", "suspects"]
 
 
 def line_of(sheet: Sheet, symbol: Symbol) -> complex | None:
@@ -225,7 +225,7 @@ def _about_pivots(case: Evidence, symbol: Symbol) -> Iterator[Symbol]:
 
 
 def _others(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
-    alike = [(o, v) for o, v in case.others.items() if o != symbol and _dimension(o) == _dimension(symbol)]
+    alike = [(o, v) for o, v in case.others.items() if o != symbol and dimension(o) == dimension(symbol)]
     for other, value in alike:
         relative = symbol.to is None and other.to is not None and other.of is not None and symbol.of is not None
         if relative and other.of and symbol.of and other.of.point == symbol.of.point and other.kind == symbol.kind:
@@ -242,7 +242,8 @@ def _others(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
                 yield Suspect(Phrase(key, (axis, str(other))), part, 0.05 if own else 0.05 / len(alike))
 
 
-def _dimension(symbol: Symbol) -> str:
+def dimension(symbol: Symbol) -> str:
+    """Quantities of one dimension bear one name."""
     if symbol.scope != "motion":
         return symbol.measure
     if not symbol.is_vector:

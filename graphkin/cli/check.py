@@ -80,7 +80,8 @@ def print_check(checked: Checked, language: str, as_json: bool, quiet: bool) -> 
     elif not quiet:
         _print_readings(checked, language)
     if not checked.ok:
-        raise typer.Exit(1)
+        wrong = any(row.ok is False for row in checked.report.rows)
+        raise typer.Exit(1 if wrong and checked.complete else 3)
 
 
 def _print_readings(checked: Checked, language: str) -> None:
@@ -89,7 +90,7 @@ def _print_readings(checked: Checked, language: str) -> None:
     from graphkin.words import say, word
 
     rows = [
-        [symbol, length, measured, exact, "ok" if ok else "off"]
+        [symbol, length, measured, exact, {True: "ok", False: "off", None: "?"}[ok]]
         for symbol, length, measured, exact, ok in reading_words(checked)
     ]
     heads = [word(key, language) for key in ("quantity", "on paper", "measured", "exact")]

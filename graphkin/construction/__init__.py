@@ -4,7 +4,7 @@ It starts from the scene and takes every later length and angle from what is alr
 analytic solver.
 """
 
-from graphkin.construction.board import EXACT, Cad, Exact, Instrument, nudged, pencil
+from graphkin.construction.board import EXACT, Cad, Exact, Instrument, erring, nudged, pencil
 from graphkin.construction.plan import Plan, Room, draft, drawn_sizes, execute, plan
 from graphkin.construction.sheet import Scales, Sheet
 from graphkin.construction.slip import NO_SLIP, Slip
@@ -22,6 +22,7 @@ __all__ = [
     "Slip",
     "draft",
     "drawn_sizes",
+    "erring",
     "execute",
     "nudged",
     "pencil",

@@ -10,7 +10,7 @@ import cmath
 import math
 import random
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Protocol
 
 from graphkin.construction.remarks import OffTheSheet, Remark, SharpCrossing
@@ -20,7 +20,7 @@ from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, cross_lines
 from graphkin.scene.tables import Tools
 
-__all__ = ["EXACT", "Board", "Cad", "Exact", "Instrument", "nudged", "pencil"]
+__all__ = ["EXACT", "Board", "Cad", "Exact", "Instrument", "erring", "nudged", "pencil"]
 
 
 class Instrument(Protocol):
@@ -176,6 +176,13 @@ def nudged(name: str, tools: Tools, act: int) -> Hand:
     """The hands of an instrument that err in one act only, by one standard deviation (act 0: never)."""
     screen = name == "cad"
     return Hand(_SCREEN if screen else tools, lambda n: float(n == act), name, screen)
+
+
+def erring(name: str, tools: Tools, seed: int) -> Hand:
+    """The hands of an instrument that err in every act at random, the same way for the same seed."""
+    hand = nudged(name, tools, 0)
+    dice = random.Random(f"together {seed}")
+    return replace(hand, errs=lambda _: dice.gauss(0.0, 1.0))
 
 
 def _turned(along: complex, deg: float) -> complex:

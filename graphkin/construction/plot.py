@@ -56,7 +56,7 @@ class Plot:
         self.drawn: dict[Order, dict[Symbol, Vector]] = {"velocity": {}, "acceleration": {}}
         self.places = {point: frame.point(name, point) for name in frame.poses for point in self.links[name].points}
         size = max((abs(z - w) for z in self.places.values() for w in self.places.values()), default=1.0)
-        self.tiny = 1e-9 * size
+        self.tiny = 1e-11 * size
         self.block_of = {p.key: p.of for p in structure.scene.pins}
 
     def label(self, ref: PointRef) -> PointRef:

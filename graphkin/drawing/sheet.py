@@ -181,8 +181,8 @@ def _title_block(sheet: Sheet, report: Report | None, letters: Letters, language
     words += check_bar(complex(box.right - 53.0, box.bottom - 2.2), fitted(term("check bar", language), 2.4, 50.0))
     answers: tuple[Primitive, ...] = ()
     if report is not None:
-        wrong = sum(not row.ok for row in report.rows)
-        whole = len(report.rows)
+        wrong = sum(row.ok is False for row in report.rows)
+        whole = sum(row.ok is not None for row in report.rows)
         phrase = Phrase("not all agree", (wrong, whole)) if wrong else Phrase("all agree", (whole,))
         answers = tuple(
             Text(complex(two + 2.0, box.top + 4.2 + 3.6 * i), fitted(say(phrase, each), 2.6, box.right - two - 4.0))

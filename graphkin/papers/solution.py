@@ -290,6 +290,6 @@ def way(row: Compared, language: str) -> str:
 
 def _verdict(lesson: Lesson) -> Said:
     rows = lesson.report.rows
-    wrong = [row for row in rows if not row.ok]
+    wrong = [row for row in rows if row.ok is False]
     phrase = Phrase("not all agree", (len(wrong), len(rows))) if wrong else Phrase("all agree", (len(rows),))
     return tuple((each, lesson.speaker.sentence(phrase, each)) for each in languages(lesson.language))

@@ -39,7 +39,7 @@ def test_every_scene_that_comes_along_passes_at_12_positions(name):
             assert str(refusal)
             continue
         reached += 1
-        assert result.ok, [str(r.symbol) for r in result.report.rows if not r.ok]
+        assert result.report.ok, [str(r.symbol) for r in result.report.rows if not r.ok]
         assert all(abs(r.direction_error) < 1e-6 for r in result.report.rows)
     assert reached >= 4
 
