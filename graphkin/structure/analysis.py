@@ -12,6 +12,7 @@ from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import AnyDriver, Mechanism
 from graphkin.structure.constraints import Constraints, Node, Unknown
 from graphkin.structure.groups import components, element_of, match
+from graphkin.structure.loose_ends import loose_ends
 from graphkin.structure.model import Cluster, Driven, DrivenTriangle, Dyad, Element, Mobility, Structure
 from graphkin.structure.part import links_of
 from graphkin.structure.triangles import triangles_of
@@ -117,12 +118,13 @@ def analyse(scene: Mechanism | Structure) -> Structure:
     system = Constraints(scene)
     mobility = system.mobility()
     if mobility.value != len(scene.drivers):
-        raise Unsolvable("mobility", _wrong_count(system, mobility))
+        loose = loose_ends(system) if mobility.value > len(scene.drivers) else ()
+        raise Unsolvable("mobility", _wrong_count(system, mobility), *loose)
     equations = system.equations()
     unknowns = [sorted(e) for e in equations]
     given = match(unknowns)
     if len(given) < len(equations):
-        raise Unsolvable("mobility", _wrong_part(system, unknowns, given))
+        raise Unsolvable("mobility", _wrong_part(system, unknowns, given), *loose_ends(system))
     elements = _in_order(system, system.nodes(), unknowns, given, {scene.frame.name})
     return _in_parts(Structure(scene, system.links, system.slides, system.hinges, mobility, elements))
 

@@ -1,0 +1,57 @@
+"""Too much freedom is told by the names that cause it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from graphkin.errors import Unsolvable
+from graphkin.scene import mechanism_of
+from graphkin.structure import analyse
+
+pytestmark = pytest.mark.quick
+
+
+def four_bar(**changed: Any) -> dict[str, Any]:
+    links = {
+        "1": {"points": ["A", "B"], "length": 150},
+        "2": {"points": ["B", "C"], "length": 500},
+        "3": {"points": ["D", "C"], "length": 300},
+    }
+    frame = {"points": {"A": [0, 0], "D": [400, 0]}}
+    scene = {"frame": frame, "links": links, "driver": {"link": "1", "angle": 60, "omega": 10}}
+    links.update(changed.pop("links", {}))
+    return scene | changed
+
+
+def said(scene: dict[str, Any]) -> list[str]:
+    with pytest.raises(Unsolvable) as refusal:
+        analyse(mechanism_of(scene))
+    assert refusal.value.status == "mobility"
+    return [str(problem) for problem in refusal.value.problems[1:]]
+
+
+def test_a_misspelt_pivot_is_named_with_the_frame_point_that_resembles_it() -> None:
+    assert [
+        "links.3: no other link has its point D, so that it hangs on C alone; did you mean D2, a point of the frame "
+        "that no link has?"
+    ] == said(four_bar(frame={"points": {"A": [0, 0], "D2": [400, 0]}}))
+
+
+def test_a_joint_spelt_in_two_ways_is_named_in_both_links() -> None:
+    found = said(four_bar(links={"3": {"points": ["D", "C1"], "length": 300}}))
+    assert [("links.2", "did you mean C1?"), ("links.3", "did you mean C?")] == [
+        (text.partition(":")[0], text.rpartition("; ")[2]) for text in found
+    ]
+
+
+def test_the_own_turning_of_a_roller_is_named() -> None:
+    (text,) = said(four_bar(links={"4": {"points": ["C"]}}))
+    assert text.startswith("links.4: it hangs on C alone and turns there freely")
+    assert "roller" in text
+
+
+def test_a_link_that_hangs_on_one_pin_is_named() -> None:
+    (text,) = said(four_bar(links={"4": {"points": ["B", "E"], "length": 40}}))
+    assert text.startswith("links.4: no other link has its point E, so that it hangs on B alone")
