@@ -133,6 +133,7 @@ class Velocity:
     exact: complex | float
     chain: tuple[str, ...]
     tolerance: float
+    largest: float
     ok: bool | None
 
 
@@ -211,7 +212,9 @@ class Centred(Result):
             for x in (v.by_centres, v.exact)
         )
         row: dict[str, Any] = dict(zip(("by_centres", "exact"), values, strict=True))
-        row |= {"tolerance": v.tolerance / unit if v.ok is not None else None, "chain": list(v.chain), "ok": v.ok}
+        row |= {"chain": list(v.chain), "ok": v.ok}
+        if v.ok and v.tolerance > 1.01 * TOLERANCE * v.largest:
+            row["tolerance"] = v.tolerance / unit  # worse than everywhere else
         if v.ok is None:
             language = languages(self.language or self.scene.sheet.language)[0]
             row |= {"by_centres": None, "why": say(Phrase("centres too near", (str(v.symbol),)), language)}
@@ -324,13 +327,13 @@ def velocities_by_centres(centres: Centres, turning: Mapping[str, Turning], moti
         value = by_centres(centres, turning, symbol)
         wanted = exact[symbol] if symbol.is_vector else exact[symbol].real
         if value is None:
-            found.append(Velocity(symbol, None, wanted, (), math.inf, None))
+            found.append(Velocity(symbol, None, wanted, (), math.inf, largest[symbol.kind], None))
             continue
         most = max(largest[symbol.kind], 1e-300)
         own = rounded / (1.0 if symbol.is_vector else size)
         tolerance = max(TOLERANCE * most, own, SAFETY * error_by_centres(centres, turning, symbol))
         close = None if tolerance > FAIR * most else abs(value - wanted) <= tolerance
-        found.append(Velocity(symbol, value, wanted, _chain(centres, turning, symbol), tolerance, close))
+        found.append(Velocity(symbol, value, wanted, _chain(centres, turning, symbol), tolerance, most, close))
     return tuple(found)
 
 

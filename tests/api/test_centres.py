@@ -119,6 +119,10 @@ def test_velocities_by_centres_hold_near_a_dead_centre(angle: float) -> None:
     assert [True] * 5 == [v.ok for v in graphkin.centres(slider_crank(50, 120, angle)).velocities]
 
 
-def test_a_rate_that_the_centres_of_a_tiny_crank_do_not_give_is_said_by_name() -> None:
-    found = graphkin.centres(slider_crank(1e-6, 1e3, 40))
-    assert (True, None) == (found.ok, found.data["velocities"]["omega_2"]["by_centres"])
+def test_a_tiny_crank_before_a_long_rod_has_its_rate_by_centres_too() -> None:
+    assert {True} == {v.ok for v in graphkin.centres(slider_crank(1e-6, 1e3, 40)).velocities}
+
+
+def test_a_rate_that_no_centre_gives_is_none_with_the_reason() -> None:
+    row = replace(graphkin.centres(slider_crank(50, 120, 40)), turning={}).data["velocities"]["omega_2"]
+    assert (None, None, True) == (row["by_centres"], row["ok"], "why" in row)
