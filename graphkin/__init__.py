@@ -51,6 +51,7 @@ if TYPE_CHECKING:
     from graphkin.api.centred import Centred, centres
     from graphkin.api.centroded import Centroded, centrodes
     from graphkin.api.checked import Checked, check
+    from graphkin.api.converted import Converted, convert
     from graphkin.api.designed import Designed, design
     from graphkin.api.drawn import Drawn, draw
     from graphkin.api.handouts import Handout, handout
@@ -84,6 +85,7 @@ __all__ = [
     "Centroded",
     "Checked",
     "Compass",
+    "Converted",
     "Designed",
     "Drawn",
     "DrivenSlide",
@@ -115,6 +117,7 @@ __all__ = [
     "centres",
     "centrodes",
     "check",
+    "convert",
     "design",
     "draw",
     "handout",
@@ -133,6 +136,7 @@ _PLACES = {
     "api.centred": "Centred centres",
     "api.centroded": "Centroded centrodes",
     "api.checked": "Checked check",
+    "api.converted": "Converted convert",
     "api.designed": "Designed design",
     "api.drawn": "Drawn draw",
     "api.handouts": "Handout handout",

@@ -15,6 +15,7 @@ import typer
 from graphkin import __version__
 from graphkin.cli.centres import centres
 from graphkin.cli.check import audit, check, draw
+from graphkin.cli.convert import convert
 from graphkin.cli.design import design
 from graphkin.cli.handout import handout
 from graphkin.cli.output import tell
@@ -35,7 +36,7 @@ app = typer.Typer(
     rich_markup_mode=None,
     help="Velocity and acceleration polygons of mechanisms: constructed, measured, checked, drawn.",
 )
-for command in (scenes, draw, check, solve, centres, audit, sweep, handout, design):
+for command in (scenes, draw, check, solve, centres, audit, sweep, handout, design, convert):
     app.command()(command)
 app.add_typer(study, name="study")
 

@@ -1,0 +1,172 @@
+"""``graphkin convert``: mechanisms of other programs as scenes, and scenes for them."""
+
+from __future__ import annotations
+
+import cmath
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from graphkin.api.arguments import SceneLike, as_scene, write_files
+from graphkin.api.results import Result
+from graphkin.convert import FRAME, READ, Bodies, Drive, Slide, is_address, read_bodies, write_bodies
+from graphkin.errors import Problem, Unsolvable
+from graphkin.files import path_of
+from graphkin.scene.model import AngleDriver, Mechanism, PlacedLink
+from graphkin.scene.written import Scene, safe_name, toml_text
+from graphkin.table import Table
+
+__all__ = ["Converted", "convert"]
+
+
+@dataclass(frozen=True, repr=False, eq=False)
+class Converted(Result):
+    """A mechanism in another form: ``files`` by name, the ``scene``, and what could not be carried over (``left``)."""
+
+    scene: Scene
+    ending: str
+    text: str
+    left: tuple[str, ...]
+
+    @property
+    def ok(self) -> bool:
+        """Whether everything was carried over."""
+        return not self.left
+
+    @property
+    def files(self) -> Mapping[str, bytes]:
+        """The converted file by its name."""
+        return {f"{safe_name(self.scene.name)}{self.ending}": self.text.encode()}
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """The scene as a mapping, and what was left out."""
+        return {"scene": self.scene.to_dict(), "left": list(self.left)}
+
+    @cached_property
+    def table(self) -> Table:
+        """A row for each moving link: its points, its length, what it slides on."""
+        rows = []
+        for name, link in self.scene.links.items():
+            on = [link.on] if isinstance(link.on, str) else list(link.on or ())
+            rows.append((name, " ".join((*link.points, *link.at)), link.length, " ".join(on)))
+        return Table.of(("link", "points", "length", "on"), rows)
+
+    def write(self, folder: str | os.PathLike[str]) -> list[Path]:
+        """Write the converted file into a folder; returns its path.  Raises CallError where it cannot be written."""
+        return write_files(path_of(folder), self.files)
+
+    def __repr__(self) -> str:
+        return f"<Converted {self.scene.name}: {len(self.scene.links)} moving links, {len(self.left)} left out>"
+
+
+def convert(source: SceneLike, out: str | os.PathLike[str] | None = None) -> Converted:
+    """Make a scene of another program's mechanism, or give a scene to another program.
+
+    Read are PMKS (its table of joints), PMKS+ (a shared link), Linkage (.linkage2), pyslvs (an expression, .pyslvs),
+    pylinkage (.json) and GeoGebra (.ggb); written Linkage, pyslvs and pylinkage, at the scene's own position.
+
+    Parameters
+    ----------
+    source : a file of another program, a shared link, or a scene in any of its forms
+    out : the file to write, its form by the ending of its name: .toml, .linkage2, .pyslvs or .json
+
+    Raises
+    ------
+    CallError : the file is of no program known here, holds no mechanism, or ``out`` cannot be written
+    SceneError : what it holds is no mechanism
+    Unsolvable : a scene that cannot be assembled has no position to write
+
+    Examples
+    --------
+    >>> four_bar = convert("fourbar-150-500-300-400", None)
+    >>> four_bar.left
+    ()
+    """
+    target = None if out is None else path_of(out)
+    ending = ".toml" if target is None else target.suffix.lower()
+    shown = os.fspath(source) if isinstance(source, str | os.PathLike) else ""
+    kind = Path(shown[:200]).suffix.lower()
+    foreign = kind in READ or "://" in shown or is_address(shown) or (kind != ".toml" and _is_file(shown))
+    if foreign:
+        bodies = read_bodies(shown)
+        scene = Scene.of(bodies.scene(), safe_name(bodies.title))
+    else:
+        given = as_scene(source)
+        scene = source if isinstance(source, Scene) else Scene.of(_written(source, given), given.name)
+        bodies = Bodies(given.title) if ending == ".toml" else _bodies(given)
+    text = toml_text(scene.to_dict()) if ending == ".toml" else write_bodies(bodies, ending)
+    made = Converted(scene, ending, text, tuple(bodies.left))
+    if target is not None:
+        write_files(target.parent, {target.name: text.encode()})
+    return made
+
+
+def _is_file(path: str) -> bool:
+    try:
+        return Path(path).is_file()
+    except (OSError, ValueError):
+        return False
+
+
+def _written(source: SceneLike, given: Mechanism) -> Mapping[str, Any]:
+    from graphkin.scene.source import written
+
+    return written(source)[0] if source is not given else written(given)[0]
+
+
+def _bodies(scene: Mechanism) -> Bodies:
+    """The bodies of a scene at its own position, in its length unit."""
+    from graphkin import solver
+
+    data = solver.to_json(solver.solve(scene))
+    at = data["positions"][0]
+    if at["status"] != "ok":
+        raise Unsolvable(at["status"], Problem(scene.title, at["why"]))
+    unit = scene.units.metres
+    made = Bodies(scene.title, unit=scene.units.length)
+    for point, place in scene.frame.points.items():
+        made.point(point, place / unit)
+    for name, facts in at["points"].items():
+        own, _, link = name.partition("@")
+        if own in scene.by_name[link].points and own not in made.places:
+            made.point(own, complex(*facts["position"]))
+    made.body(FRAME, scene.frame.points)
+    for link in scene.links:
+        if not link.redundant:
+            made.body(link.name, link.points)
+    poses = {scene.frame.name: (0j, 1 + 0j)}
+    for link in scene.links:
+        poses[link.name] = _pose(link, made, at["links"][link.name]["angle"])
+    pairs: list[tuple[str, str | None, str, str, bool]]
+    pairs = [(s.link, s.pin, s.on, s.guide, False) for s in scene.slidings]
+    pairs += [(p.of, p.point, p.on, p.guide, True) for p in scene.pins]
+    for body, pin, on, guide, turns in pairs:
+        if pin is None:
+            made.left.append(f"slide of {body} on {on} (link {body} has no point)")
+            continue
+        line = scene.by_name[on].guides[guide]
+        origin, turn = poses[on]
+        made.slides.append(
+            Slide(_name(scene, body), pin, _name(scene, on), origin + turn * line.through / unit,
+                  cmath.phase(turn * line.direction), turns)
+        )  # fmt: skip
+    for driver in scene.drivers:
+        if isinstance(driver, AngleDriver) and driver.relative_to == scene.frame.name:
+            made.drives.append(Drive(driver.link, driver.omega))
+        else:
+            made.left.append(f"driver {driver.key}")
+    return made
+
+
+def _name(scene: Mechanism, link: str) -> str:
+    return FRAME if link == scene.frame.name else link
+
+
+def _pose(link: PlacedLink, made: Bodies, angle: float) -> tuple[complex, complex]:
+    turn = cmath.rect(1.0, angle)
+    first = next(iter(link.points), None)
+    return (made.places[first] if first is not None else 0j), turn

@@ -1,0 +1,9 @@
+"""Other people's mechanisms: files of PMKS and PMKS+, Linkage, pyslvs, pylinkage and GeoGebra, read and written."""
+
+from __future__ import annotations
+
+from graphkin.convert.bodies import FRAME, Bodies, Drive, Slide
+from graphkin.convert.files import READ, WRITTEN, read_bodies, write_bodies
+from graphkin.convert.pmks import is_address
+
+__all__ = ["FRAME", "READ", "WRITTEN", "Bodies", "Drive", "Slide", "is_address", "read_bodies", "write_bodies"]

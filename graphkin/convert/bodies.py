@@ -1,0 +1,248 @@
+"""A mechanism as other programs keep it: bodies with points at places, joined by pins and slides; and the scene that it
+makes."""
+
+from __future__ import annotations
+
+import cmath
+import math
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from graphkin.errors import CallError, Problem
+
+__all__ = ["FRAME", "Bodies", "Drive", "Slide", "number"]
+
+FRAME = "0"
+SAME = 1e-9
+"""Share of the size within which two places are one."""
+
+
+@dataclass
+class Slide:
+    """``body`` slides by its point on a line of body ``on``: through a place, in a direction (rad), both in the world.
+
+    turns : a pin in a slot, which turns in it; else the body keeps its angle to the line
+    """
+
+    body: str
+    point: str
+    on: str
+    through: complex
+    angle: float
+    turns: bool = False
+
+
+@dataclass
+class Drive:
+    """What drives: a body that turns (rate in rad/s), or a slide by its body and point (rate in the length unit/s)."""
+
+    body: str
+    rate: float
+    point: str = ""
+
+
+@dataclass
+class Bodies:
+    """Points at places in the world (length unit), bodies with the points that they have, the fixed one by the name
+    ``FRAME``; ``left`` are things that cannot be carried over, each by its name."""
+
+    title: str
+    places: dict[str, complex] = field(default_factory=dict)
+    bodies: dict[str, list[str]] = field(default_factory=dict)
+    slides: list[Slide] = field(default_factory=list)
+    drives: list[Drive] = field(default_factory=list)
+    unit: str = "mm"
+    left: list[str] = field(default_factory=list)
+
+    def point(self, name: str, place: complex) -> str:
+        """A point by a name that a scene may have, which is returned."""
+        made = _fresh(_point_name(name), self.places)
+        self.places[made] = place
+        return made
+
+    def body(self, name: str, points: Iterable[str]) -> str:
+        """A body by a name that a scene may have, which is returned; of the frame all points come together."""
+        made = FRAME if name == FRAME else _fresh(_link_name(name), {*self.bodies, FRAME})
+        own = self.bodies.setdefault(made, [])
+        own += [p for p in points if p not in own]
+        return made
+
+    def scene(self) -> dict[str, Any]:
+        """The mapping of a scene file at this position.
+
+        Raises
+        ------
+        CallError : nothing moves, nothing is fixed, or nothing drives
+        """
+        self._tidy()
+        moving = [name for name in self.bodies if name != FRAME]
+        if not moving:
+            raise CallError(Problem(self.title, "holds no moving link", "draw one link at least"))
+        shift, tables = self._lines()
+        frame: dict[str, Any] = {"name": FRAME}
+        frame["points"] = {p: _pair(self.places[p]) for p in self.bodies.get(FRAME, ())}
+        if shift.get(FRAME):
+            frame["guides"] = {
+                name: {"through": _pair(line.through), "angle": _degrees(line.angle)}
+                for name, line in shift[FRAME].items()
+            }
+        links = {name: self._link(name, shift.get(name, {})) for name in moving}
+        pins: dict[str, Any] = {}
+        for line, ref in tables:
+            if line.turns:
+                pins[line.point] = {"of": line.body, "in": ref}
+            else:
+                links[line.body] |= self._on(line, ref, links[line.body])
+        joints = {p for p in self.places if sum(p in own for own in self.bodies.values()) > 1}
+        joints |= {line.point for line in self.slides}
+        fixed = self.bodies.get(FRAME, [])
+        sketch = {p: _pair(z) for p, z in self.places.items() if p in joints and p not in fixed}
+        made: dict[str, Any] = {"title": self.title, "units": {"length": self.unit}, "frame": frame, "links": links}
+        if pins:
+            made["pins"] = pins
+        drivers = [self._driver(drive) for drive in self.drives]
+        if drivers:
+            made["driver"] = drivers[0] if len(drivers) == 1 else drivers
+        if sketch:
+            made["sketch"] = sketch
+        return made
+
+    def with_pins(self) -> Bodies:
+        """The same with pins in slots instead of blocks that only have one pin, and two points of its body on every
+        line that bodies slide on: for programs that know no others."""
+        made = Bodies(self.title, dict(self.places), {n: list(own) for n, own in self.bodies.items()}, [],
+                      list(self.drives), self.unit, self.left)  # fmt: skip
+        guides, driven = {s.on for s in self.slides}, {d.body for d in self.drives if d.point}
+        for slide in self.slides:
+            block = slide.body
+            alone = [s for s in self.slides if s.body == block] == [slide] and len(self.bodies[block]) == 1
+            others = [n for n, own in made.bodies.items() if n not in (block, slide.on) and slide.point in own]
+            if slide.turns:
+                made.slides.append(slide)
+            elif alone and others and block not in guides | driven:
+                made.slides.append(replace(slide, body=others[0], turns=True))
+                del made.bodies[block]
+            else:
+                self.left.append(f"slide of {block} on {slide.on} (it keeps its angle)")
+        size = max((abs(a - b) for a in self.places.values() for b in self.places.values()), default=0.0) or 1.0
+        for k, slide in enumerate(made.slides):
+            way, own = cmath.rect(size, slide.angle), made.bodies.setdefault(slide.on, [])
+            foot = slide.through + way * ((self.places[slide.point] - slide.through) / way).real
+            own += [made.point(f"Slot{k}a", foot - way), made.point(f"Slot{k}b", foot + way)]
+        return made
+
+    def _tidy(self) -> None:
+        """A body of one point that only hangs on another is that other's pin; one with none is nothing."""
+        for name in [n for n, own in self.bodies.items() if not own and n != FRAME]:
+            del self.bodies[name]
+            self.slides = [s for s in self.slides if name not in (s.body, s.on)]
+        sliding = {s.body for s in self.slides} | {s.on for s in self.slides}
+        for name, own in list(self.bodies.items()):
+            if name != FRAME and len(own) == 1 and name not in sliding:
+                del self.bodies[name]
+                self.left.append(f"link {name} (it has one point only)")
+
+    def _lines(self) -> tuple[dict[str, dict[str, Slide]], list[tuple[Slide, str]]]:
+        """The lines of each body by their names, and with each slide the name of its line."""
+        lines: dict[str, dict[str, Slide]] = {}
+        refs = []
+        for slide in self.slides:
+            own = lines.setdefault(slide.on, {})
+            name = f"s{len(own) + 1}"
+            own[name] = slide
+            refs.append((slide, f"{slide.on}.{name}"))
+        return lines, refs
+
+    def _axis(self, name: str) -> tuple[complex, complex]:
+        """Origin and direction of a body's own axes."""
+        own, _ = self._ordered(name)
+        origin = self.places[own[0]] if own else 0j
+        if len(own) > 1:
+            way = self.places[own[1]] - origin
+            return origin, way / abs(way)
+        line = next((s for s in self.slides if s.body == name and not s.turns), None)
+        return origin, cmath.rect(1.0, line.angle) if line is not None else 1 + 0j
+
+    def _ordered(self, name: str) -> tuple[list[str], list[str]]:
+        """The points of a body that give its own axes (first the one that slides, then one that lies elsewhere, if
+        there is one), and the others."""
+        own = list(self.bodies[name])
+        first = next((s.point for s in self.slides if s.body == name and not s.turns), own[0] if own else "")
+        rest = [p for p in own if p != first]
+        size = max((abs(self.places[p] - self.places[first]) for p in rest), default=0.0)
+        second = next((p for p in rest if abs(self.places[p] - self.places[first]) > SAME * size), None)
+        if second is None:
+            return [p for p in (first,) if p], rest
+        return [first, second], [p for p in rest if p != second]
+
+    def _link(self, name: str, lines: dict[str, Slide]) -> dict[str, Any]:
+        own, further = self._ordered(name)
+        origin, axis = self._axis(name)
+        table: dict[str, Any] = {"points": own}
+        if len(own) > 1:
+            table["length"] = number(abs(self.places[own[1]] - origin))
+        if further:
+            table["at"] = {p: _pair((self.places[p] - origin) / axis) for p in further}
+        if lines:
+            table["guides"] = {
+                line: {
+                    "through": _pair((slide.through - origin) / axis),
+                    "angle": _degrees(slide.angle - cmath.phase(axis)),
+                }
+                for line, slide in lines.items()
+            }
+        return table
+
+    def _on(self, slide: Slide, ref: str, table: dict[str, Any]) -> dict[str, Any]:
+        """What a link says of a line that it slides on, beside what it says already."""
+        angle = _degrees(cmath.phase(self._axis(slide.body)[1]) - slide.angle)
+        before, angles = table.get("on"), table.get("angle_on", 0)
+        if before is None:
+            return {"on": ref} | ({"angle_on": angle} if angle else {})
+        if isinstance(before, list):
+            raise CallError(Problem(f"link {slide.body}", "slides on more than two others", "a scene has two at most"))
+        return {"on": [before, ref], "angle_on": [angles, angle]}
+
+    def _driver(self, drive: Drive) -> dict[str, Any]:
+        if drive.point:
+            slide = next(s for s in self.slides if s.body == drive.body and s.point == drive.point)
+            at = (self.places[slide.point] - slide.through) / cmath.rect(1.0, slide.angle)
+            name = slide.point if slide.turns else slide.body
+            return {"slide": f"{name}/{slide.on}", "travel": number(at.real), "velocity": number(drive.rate)}
+        angle = _degrees(cmath.phase(self._axis(drive.body)[1]))
+        return {"link": drive.body, "angle": angle, "omega": number(drive.rate)}
+
+
+def number(value: float) -> float:
+    """A number without the noise of its last digits, such as people write."""
+    near = float(f"{value:.15g}")
+    return int(near) if near == int(near) and abs(near) < 1e15 else near
+
+
+def _pair(place: complex) -> list[float]:
+    return [number(place.real), number(place.imag)]
+
+
+def _degrees(angle: float) -> float:
+    turned = math.degrees(math.remainder(angle, math.tau))
+    near = round(turned)
+    return float(near) if abs(turned - near) < 1e-12 * max(1.0, abs(turned)) else number(turned)
+
+
+def _point_name(name: str) -> str:
+    kept = re.sub(r"[^A-Za-z0-9]", "", name)[:30]
+    kept = kept[:1].upper() + kept[1:]
+    return kept if kept[:1].isalpha() else f"P{kept}"
+
+
+def _link_name(name: str) -> str:
+    return re.sub(r"[^A-Za-z0-9]", "", name)[:30] or "L"
+
+
+def _fresh(name: str, taken: Iterable[str]) -> str:
+    used = set(taken)
+    if name not in used:
+        return name
+    return next(made for k in range(2, len(used) + 3) if (made := f"{name}x{k}") not in used)

@@ -1,0 +1,173 @@
+"""PMKS and PMKS+: the table of joints, and the links that PMKS+ shares.
+
+A row of the table names the links of a joint, its kind (R, P or RP), x, y and, of a slide, the angle of its line in
+degrees; rows are lines, or parted by "|" in an address.  The link called ``ground`` is fixed, one called ``input``
+drives.  The address of PMKS+ holds, parted by points, its settings, joints, links and forces in a numeral system of
+base 64, lengths in thousandths (``string-transcoder.ts``).
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+import re
+from urllib.parse import parse_qs, unquote, urlparse
+
+from graphkin.convert.bodies import FRAME, Bodies, Drive, Slide
+from graphkin.convert.joints import Joint, bodies_of
+from graphkin.errors import CallError, Problem
+
+__all__ = ["is_address", "read_address", "read_table"]
+
+DIGITS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_-"
+UNITS = ("in", "cm", "m")
+INPUT_SPEED = 1.0
+"""rad/s, where a table says none."""
+
+
+def is_address(text: str) -> bool:
+    """Whether a text is a shared link of PMKS+, or what stands behind its question mark."""
+    body = _payload(text)
+    return body.count(".") > 6 and re.fullmatch(r"[0-9A-Za-z_\-.,# %+]+", body) is not None and ".." in body
+
+
+def _payload(text: str) -> str:
+    text = unquote(text.strip())
+    return text.partition("?")[2] if "?" in text else text
+
+
+def read_table(text: str, title: str) -> Bodies:
+    """The bodies of a table of joints.  Raises CallError naming every row that is none."""
+    query = parse_qs(urlparse(text.strip()).query)
+    rows = query["mech"][0].split("|") if "mech" in query else text.replace("|", "\n").splitlines()
+    joints, problems = [], []
+    for number, row in enumerate(rows, 1):
+        cells = [c for c in re.split(r"[,\t; ]+", row.strip()) if c]
+        if not cells or row.lstrip().startswith("#"):
+            continue
+        at = next((k for k, c in enumerate(cells) if c.upper() in ("R", "P", "RP")), None)
+        numbers = [float(c) for c in cells[at + 1 :] if _is_number(c)] if at is not None else []
+        if at is None and not any(map(_is_number, cells)):
+            continue  # the head
+        if not at or len(numbers) < 2 or (cells[at].upper() != "R" and len(numbers) < 3):
+            wanted = "write links, R, P or RP, x, y, and of a slide its angle: ground,1 R 0 0"
+            problems.append(Problem(f"{title}, row {number}", f'"{row.strip()[:60]}" is no joint', wanted))
+            continue
+        angle = math.radians(numbers[2]) if cells[at].upper() != "R" else 0.0
+        joints.append(Joint("", cells[at].upper(), complex(*numbers[:2]), tuple(cells[:at]), angle))
+    if problems:
+        raise CallError(*problems)
+    made = bodies_of(title, joints)
+    moved = next((n for n in made.bodies if n.lower() == "input"), None)
+    if moved is not None:
+        made.drives.append(Drive(moved, INPUT_SPEED))
+    return made
+
+
+def _is_number(text: str) -> bool:
+    try:
+        return math.isfinite(float(text))
+    except ValueError:
+        return False
+
+
+def _whole(text: str, title: str) -> int:
+    """A whole number of the address: a leading 0 is its minus sign."""
+    value = 0
+    for sign in text:
+        if sign not in DIGITS:
+            raise CallError(Problem(title, f'"{text[:20]}" is no number of PMKS+', "copy the whole link"))
+        value = value * 64 + DIGITS.index(sign)
+    return -value if text.startswith("0") else value
+
+
+def read_address(text: str, title: str) -> Bodies:
+    """The bodies of a shared link of PMKS+.  Raises CallError where it is none."""
+    body = _payload(text)
+    parts = body.split(".")
+    heads, rest = parts[:4], parts[4:]
+    sections: list[list[str]] = [[]]
+    for part in rest:
+        if part:
+            sections[-1].append(part)
+        else:
+            sections.append([])
+    if len(sections) < 3 or not sections[0] or not sections[1]:
+        raise CallError(Problem(title, "is no link of PMKS+ with joints and links", "copy the whole link"))
+    flags, speeds = _whole(heads[0], title), heads[2].split(",")
+    decimals = heads[1].split(",")
+    made = Bodies(title, unit=UNITS[min(_whole(heads[3][:1], title), 2)] if heads[3] else "cm")
+    turning = (-1.0 if flags & 1 else 1.0) * _whole(speeds[0], title) * math.tau / 60
+    sliding = _whole(decimals[1], title) / 1000 if len(decimals) > 1 else 1.0
+    joints = {j.id: j for j in (_SharedJoint(text, title) for text in sections[0])}
+    names = {key: made.point(j.name or key, j.place) for key, j in joints.items() if not j.slides}
+    made.body(FRAME, [names[k] for k, j in joints.items() if j.grounded and not j.slides])
+    links: dict[str, str] = {}
+    blocks: list[list[str]] = []
+    for piece in sections[1]:
+        cells = piece.split(",")
+        own = cells[7:]
+        ends = own[: own.index("")] if "" in own else own
+        if piece[:2] == "NR":
+            continue  # a part of a welded link, which is there as a whole
+        if piece[1] == "P":
+            blocks.append(ends)
+        else:
+            links[cells[0][2:]] = made.body(cells[1] or cells[0][2:], [names[k] for k in ends if k in names])
+    made.left += [f"force {piece.split(',')[2]}" for piece in sections[2] if piece.count(",") > 5]
+    for ends in blocks:
+        _block(made, ends, joints, names, links, sliding)
+    for key, joint in joints.items():
+        if joint.driven and not joint.slides:
+            turned = [n for n, own in made.bodies.items() if n != FRAME and names[key] in own]
+            if turned and joint.grounded:
+                made.drives.append(Drive(turned[0], turning))
+            else:
+                made.left.append(f"input at {joint.name or key} (it is no pivot of the frame)")
+    return made
+
+
+class _SharedJoint:
+    """A joint of the address: flags (slides, driven, grounded, welded), name, place, angle of its line and what carries
+    it."""
+
+    def __init__(self, text: str, title: str) -> None:
+        cells = text[1:].split(",")
+        if len(cells) < 5:
+            raise CallError(Problem(title, f'"{text[:30]}" is no joint of PMKS+', "copy the whole link"))
+        flags = _whole(text[:1], title)
+        self.slides, self.driven, self.grounded, self.welded = (bool(flags >> k & 1) for k in range(4))
+        self.id, self.name = cells[0], cells[1]
+        self.place = complex(_whole(cells[2], title), _whole(cells[3], title)) / 1000
+        self.angle = _whole(cells[4], title) / 1000
+        self.carrier, self.ends = (cells[5], cells[6:8]) if len(cells) > 7 else ("", [])
+
+
+def _block(
+    made: Bodies, ends: list[str], joints: dict[str, _SharedJoint], names: dict[str, str], links: dict[str, str],
+    rate: float,
+) -> None:  # fmt: skip
+    """A block that slides on a line of the frame or of its carrier; welded to a link it is part of that."""
+    line = next((joints[k] for k in ends if k in joints and joints[k].slides), None)
+    pin = next((joints[k] for k in ends if k in joints and not joints[k].slides), None)
+    if line is None or pin is None or not (line.grounded or line.carrier in links):
+        made.left.append(f"block {''.join(ends)} (it slides on nothing)")
+        return
+    angle, through, on = line.angle, line.place, FRAME
+    if not line.grounded:
+        one, two = (made.places[names[k]] for k in line.ends)
+        angle, through, on = cmath.phase(two - one), one, links[line.carrier]
+    else:
+        angle = _exact(angle)
+    point = names[pin.id]
+    holders = [n for n, own in made.bodies.items() if n not in (FRAME, on) and point in own]
+    block = holders[0] if pin.welded and holders else made.body("".join(ends), [point])
+    made.slides.append(Slide(block, point, on, through, angle))
+    if line.driven:
+        made.drives.append(Drive(block, rate, point))
+
+
+def _exact(angle: float) -> float:
+    """An angle that was rounded to a thousandth of a radian, of which whole degrees are meant."""
+    near = math.radians(round(math.degrees(angle)))
+    return near if abs(near - angle) <= 6e-4 else angle

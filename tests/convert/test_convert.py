@@ -1,0 +1,308 @@
+"""Mechanisms of other programs: the files say one crank-rocker and one slider-crank, and all of them move alike."""
+
+from __future__ import annotations
+
+import io
+import json
+import math
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import graphkin
+from graphkin.api.converted import convert
+
+from ..command import run
+
+pytestmark = pytest.mark.quick
+
+# a crank-rocker A B C D with the coupler point E, drawn by hand at a crank of 60 degrees
+A, D, B = 0j, 400 + 0j, 150 * np.exp(1j * math.pi / 3)
+C = complex(470.0, 300.0)
+E = complex(260.0, 330.0)
+PLACES = {"A": A, "B": B, "C": C, "D": D, "E": E}
+RATES = {"omega_3": 1.0}
+DIGITS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_-"
+
+
+def in_base_64(value: float) -> str:
+    """A number as PMKS+ writes it: thousandths, the minus sign is a leading 0."""
+    whole, text = abs(round(value * 1000)), ""
+    while whole or not text:
+        whole, digit = divmod(whole, 64)
+        text = DIGITS[digit] + text
+    return f"0{text}" if value < 0 and text != "0" else text
+
+
+def address(joints: list[str], links: list[str], flags: int = 0) -> str:
+    head = f"{DIGITS[flags >> 6 & 63]}{DIGITS[flags & 63]}.Fe,{in_base_64(5)}.{in_base_64(0.02)},0.1011"
+    return f"https://app.pmksplus.com/?{head}.{'.'.join(joints)}..{'.'.join(links)}...N_0"
+
+
+def shared_joint(name: str, flags: int, place: complex, more: str = "0") -> str:
+    return f"{DIGITS[flags]}{name},{name},{in_base_64(place.real)},{in_base_64(place.imag)},{more}"
+
+
+def shared_link(points: str, kind: str = "R") -> str:
+    return f"Y{kind}{points},{points},0,0,0,0,c5cae9,{','.join(points)},,"
+
+
+PMKS_PLUS = address(
+    [shared_joint("A", 6, A), shared_joint("B", 0, B), shared_joint("C", 0, C), shared_joint("D", 4, D),
+     shared_joint("E", 16, E)],
+    [shared_link("AB"), shared_link("BCE"), shared_link("CD")],
+)  # fmt: skip
+TABLE = f"""link ids, type, x, y
+ground,input R {A.real} {A.imag}
+input,coupler R {float(B.real)!r} {float(B.imag)!r}
+coupler,rocker R {C.real} {C.imag}
+ground,rocker R {D.real} {D.imag}
+coupler R {E.real} {E.imag}
+"""
+LINKAGE = f"""<linkage2>
+\t<program zoom="1.0" units="Millimeters" scalefactor="1"/>
+\t<connector id="0" name="A" layer="4" x="0" y="0" anchor="true" input="true" rpm="{60 / math.tau!r}"/>
+\t<connector id="1" name="B" layer="4" x="{float(B.real)!r}" y="{float(B.imag)!r}"/>
+\t<connector id="2" name="C" layer="4" x="470" y="300"/>
+\t<connector id="3" name="D" layer="4" x="400" y="0" anchor="true"/>
+\t<connector id="4" name="E" layer="4" x="260" y="330" draw="true"/>
+\t<connector id="5" name="F" layer="4" x="1" y="1"/>
+\t<element id="0" layer="4"><connector id="0"/><connector id="1"/></element>
+\t<element id="1" layer="4" solid="true"><connector id="1"/><connector id="2"/><connector id="4"/></element>
+\t<element id="2" layer="4"><connector id="2"/><connector id="3"/></element>
+</linkage2>
+"""
+PYSLVS = f"""pyslvs_ver: '21.12.0'
+mechanism: "M[J[R, color[green], P[0, 0], L[ground, crank]], # the pivot
+ J[R, color[(1, 2, 3)], P[{float(B.real)!r}, {float(B.imag)!r}], L[crank, coupler]],
+ J[R, P[470.0, 300.0], L[coupler, rocker]], J[R, P[400.0, 0.0], L[ground, rocker]], J[R, P[260, 330], L[coupler]]]"
+input:
+- base: 0
+  drive: 1
+"""
+PYLINKAGE = {
+    "name": "crank-rocker",
+    "joints": [
+        {"id": "A", "type": "ground", "position": [0.0, 0.0]},
+        {"id": "B", "type": "revolute", "position": [B.real, B.imag]},
+        {"id": "C", "type": "revolute", "position": [C.real, C.imag]},
+        {"id": "D", "type": "ground", "position": [400.0, 0.0]},
+        {"id": "E", "type": "tracker", "position": [E.real, E.imag], "ref_joint1_id": "B", "ref_joint2_id": "C",
+         "distance": 1.0, "angle": 0.0},
+    ],
+    "links": [
+        {"id": "ground", "type": "ground", "joints": ["A", "D"]},
+        {"id": "crank", "type": "driver", "joints": ["A", "B"], "motor_joint": "A", "angular_velocity": 1.0,
+         "initial_angle": 1.0},
+        {"id": "coupler", "type": "link", "joints": ["B", "C"]},
+        {"id": "rocker", "type": "link", "joints": ["C", "D"]},
+    ],
+    "ground": "ground",
+}  # fmt: skip
+OLDER = {
+    "name": "crank-rocker",
+    "joints": [
+        {"type": "Static", "name": "A", "x": 0.0, "y": 0.0},
+        {"type": "Static", "name": "D", "x": 400.0, "y": 0.0},
+        {"type": "Crank", "name": "B", "x": B.real, "y": B.imag, "joint0": {"ref": "A"}, "distance": 150.0,
+         "angle": 1.0},
+        {"type": "Revolute", "name": "C", "x": C.real, "y": C.imag, "joint0": "B", "joint1": "D",
+         "distance0": abs(C - B), "distance1": abs(C - D)},
+        {"type": "Fixed", "name": "E", "joint0": "B", "joint1": "C", "distance": abs(E - B),
+         "angle": float(np.angle((E - B) / (C - B)))},
+    ],
+}  # fmt: skip
+GEOGEBRA = """<?xml version="1.0"?><geogebra format="5.0"><construction title="">
+{points}
+<command name="Circle"><input a0="A" a1="150"/><output a0="c"/></command>
+<command name="Point"><input a0="c"/><output a0="B"/></command>
+<command name="Circle"><input a0="B" a1="r"/><output a0="d"/></command>
+<command name="Circle"><input a0="D" a1="s"/><output a0="e"/></command>
+<command name="Intersect"><input a0="d" a1="e" a2="1"/><output a0="C"/></command>
+<command name="Segment"><input a0="A" a1="B"/><output a0="f"/></command>
+<command name="Segment"><input a0="B" a1="C"/><output a0="g"/></command>
+<command name="Circle"><input a0="B" a1="t"/><output a0="h"/></command>
+<command name="Circle"><input a0="C" a1="u"/><output a0="k"/></command>
+<command name="Intersect"><input a0="h" a1="k"/><output a0="E"/></command>
+<command name="Bezier"><input a0="A"/><output a0="q"/></command>
+</construction></geogebra>"""
+
+
+def coordinates(name: str, place: complex) -> str:
+    at = f'x="{2 * place.real!r}" y="{2 * place.imag!r}" z="2"'
+    return f'<element type="point" label="{name}"><coords {at}/></element>'
+
+
+def geogebra() -> bytes:
+    packed = io.BytesIO()
+    text = GEOGEBRA.format(points="\n".join(coordinates(n, complex(z)) for n, z in PLACES.items()))
+    with zipfile.ZipFile(packed, "w") as archive:
+        archive.writestr("geogebra.xml", text)
+    return packed.getvalue()
+
+
+FILES: dict[str, str | bytes] = {
+    "a.txt": PMKS_PLUS, "b.csv": TABLE, "c.linkage2": LINKAGE, "d.pyslvs": PYSLVS, "e.json": json.dumps(PYLINKAGE),
+    "f.json": json.dumps(OLDER), "g.ggb": geogebra(),
+}  # fmt: skip
+LEFT = {"c.linkage2": ("connector F (no link has it)",), "g.ggb": ("Bezier q",)}
+RATE = {"a.txt": math.tau / 3}
+
+
+@pytest.fixture(params=FILES)
+def file(request: pytest.FixtureRequest, tmp_path: Path) -> Path:
+    content, path = FILES[request.param], tmp_path / request.param
+    path.write_bytes(content if isinstance(content, bytes) else content.encode())
+    return path
+
+
+@pytest.fixture(scope="module")
+def turned() -> dict[str, np.ndarray]:
+    """Where the coupler point goes, and how fast the rocker turns, at the same mechanism written as a scene."""
+    local = (E - B) / ((C - B) / abs(C - B))
+    scene = {
+        "frame": {"name": "0", "points": {"A": [0, 0], "D": [400, 0]}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 150},
+            "2": {"points": ["B", "C"], "length": abs(C - B), "at": {"E": [local.real, local.imag]}},
+            "3": {"points": ["C", "D"], "length": abs(C - D)},
+        },
+        "driver": {"link": "1", "angle": 60, "omega": 1},
+        "sketch": {"C": [470, 300]},
+    }
+    found = graphkin.solve(scene, sweep=24)
+    return {"E": found["E"], "omega": found["omega_3"]}
+
+
+def points_of(scene: graphkin.Scene) -> list[str]:
+    """The points of a crank-rocker in the order A, B, C, D, E, whatever a program calls them."""
+    places = {p: complex(*xy) for p, xy in scene.frame.points.items()}
+    solved = graphkin.solve(scene)
+    for name in {p for link in scene.links.values() for p in (*link.points, *link.at)} - set(places):
+        places[name] = complex(solved[name][0])
+    scale = 1 / max(abs(z) for z in PLACES.values())
+    return [min(places, key=lambda p: abs(places[p] - z) * scale) for z in PLACES.values()]
+
+
+def test_every_point_lies_where_the_file_has_it(file: Path) -> None:
+    scene = convert(file).scene
+    solved = graphkin.solve(scene)
+    found = [complex(solved[p][0]) if p not in scene.frame.points else complex(*scene.frame.points[p])
+             for p in points_of(scene)]  # fmt: skip
+    close = 1e-3 if file.name == "a.txt" else 1e-9
+    assert [pytest.approx(z, abs=close) for z in PLACES.values()] == found
+
+
+def test_the_mechanism_moves_as_there(file: Path, turned: dict[str, np.ndarray]) -> None:
+    scene = convert(file).scene
+    solved = graphkin.solve(scene, sweep=24)
+    ends = set(points_of(scene)[2:4])
+    rocker = next(name for name, link in scene.links.items() if ends == set(link.points))
+    close = 1e-4 if file.name == "a.txt" else 1e-9
+    assert turned["E"] == pytest.approx(solved[points_of(scene)[4]], abs=close * 1000)
+    assert turned["omega"] * RATE.get(file.name, 1.0) == pytest.approx(solved[f"omega_{rocker}"], abs=close)
+
+
+def test_what_is_not_carried_over_is_named(file: Path) -> None:
+    assert LEFT.get(file.name, ()) == convert(file).left
+
+
+def moving(solved: graphkin.Solved) -> list[complex]:
+    """Where the points lie that move and are no ends of slots, from left to right, in mm to a millionth."""
+    scene = solved.motion.scene
+    names = [p for p in scene.holders if p not in scene.frame.points and not p.startswith("Slot")]
+    places = {complex(*np.round([z.real, z.imag], 6)) for z in (solved[p][0] * scene.units.metres * 1e3 for p in names)}
+    return sorted(places, key=lambda z: (round(z.real, 3), z.imag))
+
+
+@pytest.mark.parametrize("ending", [".linkage2", ".pyslvs", ".json"])
+@pytest.mark.parametrize("name", ["fourbar-150-500-300-400", "four-bar-coupler-point", "sixbar-coupler-1A"])
+def test_a_scene_comes_back_from_another_program(name: str, ending: str, tmp_path: Path) -> None:
+    path = tmp_path / f"there{ending}"
+    convert(name, path)
+    back = convert(path).scene
+    there, here = graphkin.solve(name), graphkin.solve(back)
+    assert moving(there) == pytest.approx(moving(here), abs=1e-6)
+    assert here.data["mobility"] == there.data["mobility"]
+
+
+SLIDER = address(
+    [shared_joint("A", 6, 0j), shared_joint("B", 0, 3 + 4j), shared_joint("C", 0, 15 + 1j),
+     shared_joint("D", 21, 15 + 1j, in_base_64(0))],
+    [shared_link("AB"), shared_link("BC"), shared_link("CD", "P")],
+)  # fmt: skip
+SLOT = address(
+    [shared_joint("A", 6, 0j), shared_joint("B", 0, 3 + 4j), shared_joint("C", 4, 10 + 0j),
+     shared_joint("D", 0, -4 + 8j), shared_joint("P", 17, 3 + 4j, "0,CD,C,D")],
+    [shared_link("AB"), shared_link("CD"), shared_link("BP", "P")],
+)  # fmt: skip
+RAM = address(
+    [shared_joint("O", 4, 0j), shared_joint("C", 0, 4j), shared_joint("G", 4, 3 + 0j), shared_joint("N", 0, 2 + 1.5j),
+     shared_joint("P", 8, 1.5 + 2j), shared_joint("S", 51, 1.5 + 2j, "0,GN,G,N")],
+    [shared_link("OC"), shared_link("GN"), shared_link("PC"), shared_link("PS", "P")],
+)  # fmt: skip
+
+
+@pytest.mark.parametrize(("shared", "kinds"), [(SLIDER, ["RRP"]), (SLOT, ["RPR"]), (RAM, ["RPR"])])
+def test_slides_slots_and_cylinders_of_pmks_are_sliding_pairs(shared: str, kinds: list[str]) -> None:
+    solved = graphkin.solve(convert(shared).scene)
+    assert (1, "ok") == (solved.data["mobility"], solved.data["positions"][0]["status"])
+    assert len(solved.data["positions"][0]["slides"]) == 1
+    assert kinds == [g["kind"] for g in solved.data["groups"]] or solved.data["groups"][0]["class"] == 2
+
+
+def test_a_slider_of_pyslvs_keeps_its_angle_and_a_pin_turns_in_its_slot(tmp_path: Path) -> None:
+    path = tmp_path / "a.pyslvs"
+    path.write_text(
+        "M[J[R, P[0, 0], L[ground, 1]], J[R, P[3, 4], L[1, 2]], J[P, A[0], P[15, 1], L[ground, 3]],"
+        "J[R, P[15, 1], L[2, 3]], J[RP, A[90], P[3, 4], L[4, 1]], J[R, P[3, -2], L[ground, 4]]]"
+    )
+    slides = graphkin.solve(convert(path).scene).data["positions"][0]["slides"]
+    assert ["3/0", "P4/4"] == list(slides)
+
+
+def test_a_connector_of_linkage_slides_between_two_anchors(tmp_path: Path) -> None:
+    (tmp_path / "a.linkage2").write_text(
+        '<linkage2><connector id="0" x="0" y="0" anchor="true" input="true" rpm="30"/><connector id="1" x="3" y="4"/>'
+        '<connector id="2" x="15" y="1" slider="true"><slidelimit id="3"/><slidelimit id="4"/></connector>'
+        '<connector id="3" x="5" y="1" anchor="true"/><connector id="4" x="25" y="1" anchor="true"/>'
+        '<element id="0"><connector id="0"/><connector id="1"/></element>'
+        '<element id="1"><connector id="1"/><connector id="2"/></element>'
+        '<element id="2"><connector id="3"/><connector id="4"/></element></linkage2>'
+    )
+    solved = graphkin.solve(convert(tmp_path / "a.linkage2").scene)
+    own = solved.data["positions"][0]
+    assert {"C2/0": pytest.approx(10.0)} == {k: s["travel"] for k, s in own["slides"].items()}
+    assert [pytest.approx(math.pi)] == [k["omega"] for n, k in own["links"].items() if n == "L0"]
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "said"),
+    [
+        ("a.linkage2", "<linkage2>", "a: is not XML"),
+        ("a.linkage2", "<svg/>", "a: begins with <svg>"),
+        ("a.json", "[1]", "a: has no list of joints"),
+        ("a.json", '{"joints": [{"type": "Crank"}]}', "a: is no mechanism of pylinkage"),
+        ("a.pyslvs", "M[J[R, P[0, 0], L[ground]", "a: a bracket is not closed"),
+        ("a.pyslvs", "M[J[Q, P[0, 0], L[ground]]]", 'a: "J[Q, P[0, 0], L[ground]]" is no joint'),
+        ("a.csv", "ground,input R 0\n", 'a, row 1: "ground,input R 0" is no joint'),
+        ("a.ggb", "PK", "a: is no file of GeoGebra"),
+        ("a.dwg", "", 'a.dwg: ".dwg" is of no program known here'),
+        ("a.json", '{"joints": [], "links": []}', "a: holds no moving link"),
+    ],
+)
+def test_a_file_that_is_none_is_told_in_a_sentence(name: str, text: str, said: str, tmp_path: Path) -> None:
+    (tmp_path / name).write_text(text)
+    answer = run("convert", str(tmp_path / name))
+    assert 2 == answer.returncode
+    assert f"graphkin: {said}" in answer.stderr
+
+
+def test_the_command_writes_the_scene_and_names_what_is_left(tmp_path: Path) -> None:
+    (tmp_path / "c.linkage2").write_text(LINKAGE)
+    answer = run("convert", str(tmp_path / "c.linkage2"), "-o", str(tmp_path / "scene.toml"))
+    assert 0 == answer.returncode
+    assert "graphkin: not carried over: connector F (no link has it)\n" == answer.stderr
+    assert graphkin.read(tmp_path / "scene.toml") == convert(tmp_path / "c.linkage2").scene
