@@ -12,8 +12,8 @@ from typing import Any
 
 from graphkin.api.arguments import SceneLike, as_scene, write_files
 from graphkin.api.results import Result
-from graphkin.convert import FRAME, READ, Bodies, Drive, Slide, is_address, read_bodies, write_bodies
 from graphkin.errors import Problem, Unsolvable
+from graphkin.exchange import FRAME, READ, Bodies, Drive, Slide, is_address, read_bodies, write_bodies
 from graphkin.files import path_of
 from graphkin.scene.model import AngleDriver, Mechanism, PlacedLink
 from graphkin.scene.written import Scene, safe_name, toml_text

@@ -13,8 +13,8 @@ import json
 import math
 from typing import Any
 
-from graphkin.convert.bodies import FRAME, Bodies, Drive, Slide, number
 from graphkin.errors import CallError, Problem
+from graphkin.exchange.bodies import FRAME, Bodies, Drive, Slide, number
 from graphkin.plane import cross_arcs
 
 __all__ = ["read_pylinkage", "write_pylinkage"]

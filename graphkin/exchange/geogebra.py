@@ -9,18 +9,20 @@ from __future__ import annotations
 
 import cmath
 import re
+import zlib
 from io import BytesIO
 from xml.etree import ElementTree
 from zipfile import BadZipFile, ZipFile
 
-from graphkin.convert.bodies import FRAME, Bodies, Drive, Slide
 from graphkin.errors import CallError, Problem
+from graphkin.exchange.bodies import FRAME, Bodies, Drive, Slide
 
 __all__ = ["read_geogebra"]
 
 INPUT_SPEED = 1.0
 """rad/s: a construction says no speed."""
 LARGEST = 20_000_000
+DAMAGED = (BadZipFile, LookupError, ElementTree.ParseError, OSError, ValueError, RuntimeError, EOFError, zlib.error)
 
 
 def read_geogebra(data: bytes, title: str) -> Bodies:
@@ -30,10 +32,10 @@ def read_geogebra(data: bytes, title: str) -> Bodies:
             entry = archive.getinfo("geogebra.xml")
             if entry.file_size > LARGEST:
                 raise CallError(Problem(title, "is too large to be a linkage", "save the construction alone"))
-            root = ElementTree.fromstring(archive.read(entry))
-    except (BadZipFile, KeyError, ElementTree.ParseError, OSError, NotImplementedError) as error:
+            construction = _Construction(title, ElementTree.fromstring(archive.read(entry)))
+    except DAMAGED as error:
         raise CallError(Problem(title, f"is no file of GeoGebra: {error}", "save it as .ggb")) from None
-    return _Construction(title, root).bodies()
+    return construction.bodies()
 
 
 class _Construction:
@@ -52,12 +54,12 @@ class _Construction:
         self.points: dict[str, str] = {}
         self.slid: list[tuple[str, str]] = []  # a point, and the line it runs on
         self.driven: list[tuple[str, str]] = []  # pivot and end of a crank
-
-    def bodies(self) -> Bodies:
-        """All of it."""
         for label, element in self.elements.items():
             if element.get("type") == "point":
                 self.points[label] = self.made.point(label, _place(element))
+
+    def bodies(self) -> Bodies:
+        """All of it."""
         for command in self.commands:
             given, got = (_arguments(command, tag) for tag in ("input", "output"))
             self._command(command.get("name", ""), given, got)

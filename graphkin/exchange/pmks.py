@@ -13,9 +13,9 @@ import math
 import re
 from urllib.parse import parse_qs, unquote, urlparse
 
-from graphkin.convert.bodies import FRAME, Bodies, Drive, Slide
-from graphkin.convert.joints import Joint, bodies_of
 from graphkin.errors import CallError, Problem
+from graphkin.exchange.bodies import FRAME, Bodies, Drive, Slide
+from graphkin.exchange.joints import Joint, bodies_of
 
 __all__ = ["is_address", "read_address", "read_table"]
 
@@ -38,7 +38,10 @@ def _payload(text: str) -> str:
 
 def read_table(text: str, title: str) -> Bodies:
     """The bodies of a table of joints.  Raises CallError naming every row that is none."""
-    query = parse_qs(urlparse(text.strip()).query)
+    try:
+        query = parse_qs(urlparse(text.strip()).query)
+    except ValueError:
+        query = {}
     rows = query["mech"][0].split("|") if "mech" in query else text.replace("|", "\n").splitlines()
     joints, problems = [], []
     for number, row in enumerate(rows, 1):
@@ -107,6 +110,8 @@ def read_address(text: str, title: str) -> Bodies:
     for piece in sections[1]:
         cells = piece.split(",")
         own = cells[7:]
+        if len(own) < 1 or len(piece) < 2:
+            raise CallError(Problem(title, f'"{piece[:30]}" is no link of PMKS+', "copy the whole address"))
         ends = own[: own.index("")] if "" in own else own
         if piece[:2] == "NR":
             continue  # a part of a welded link, which is there as a whole

@@ -15,6 +15,7 @@ from graphkin.errors import CallError, Problem
 __all__ = ["FRAME", "Bodies", "Drive", "Slide", "number"]
 
 FRAME = "0"
+FARTHEST = 1e12
 SAME = 1e-9
 """Share of the size within which two places are one."""
 
@@ -59,6 +60,8 @@ class Bodies:
     def point(self, name: str, place: complex) -> str:
         """A point by a name that a scene may have, which is returned."""
         made = _fresh(_point_name(name), self.places)
+        if not abs(place) <= FARTHEST:
+            raise CallError(Problem(f"point {made}", f"lies at {place}", "its coordinates are finite numbers"))
         self.places[made] = place
         return made
 
@@ -143,6 +146,8 @@ class Bodies:
             if name != FRAME and len(own) == 1 and name not in sliding:
                 del self.bodies[name]
                 self.left.append(f"link {name} (it has one point only)")
+        self.left += [f"driver of {d.body}" for d in self.drives if d.body not in self.bodies]
+        self.drives = [d for d in self.drives if d.body in self.bodies]
 
     def _lines(self) -> tuple[dict[str, dict[str, Slide]], list[tuple[Slide, str]]]:
         """The lines of each body by their names, and with each slide the name of its line."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from graphkin.convert.bodies import FRAME, Bodies, Slide
+from graphkin.exchange.bodies import FRAME, Bodies, Slide
 
 __all__ = ["Joint", "bodies_of"]
 

@@ -11,9 +11,9 @@ import math
 import re
 from collections.abc import Iterable
 
-from graphkin.convert.bodies import FRAME, Bodies, Drive, number
-from graphkin.convert.joints import Joint, bodies_of
 from graphkin.errors import CallError, Problem
+from graphkin.exchange.bodies import FRAME, Bodies, Drive, number
+from graphkin.exchange.joints import Joint, bodies_of
 
 __all__ = ["INPUT_SPEED", "read_pyslvs", "write_pyslvs"]
 

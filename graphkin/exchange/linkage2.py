@@ -12,8 +12,8 @@ import cmath
 import math
 from xml.etree import ElementTree
 
-from graphkin.convert.bodies import FRAME, Bodies, Drive, Slide
 from graphkin.errors import CallError, Problem
+from graphkin.exchange.bodies import FRAME, Bodies, Drive, Slide
 
 __all__ = ["read_linkage2", "write_linkage2"]
 

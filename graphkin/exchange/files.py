@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
-from graphkin.convert.bodies import Bodies
-from graphkin.convert.geogebra import read_geogebra
-from graphkin.convert.linkage2 import read_linkage2, write_linkage2
-from graphkin.convert.pmks import is_address, read_address, read_table
-from graphkin.convert.pylinkage import read_pylinkage, write_pylinkage
-from graphkin.convert.pyslvs import read_pyslvs, write_pyslvs
 from graphkin.errors import CallError, Problem
+from graphkin.exchange.bodies import Bodies
+from graphkin.exchange.geogebra import read_geogebra
+from graphkin.exchange.linkage2 import read_linkage2, write_linkage2
+from graphkin.exchange.pmks import is_address, read_address, read_table
+from graphkin.exchange.pylinkage import read_pylinkage, write_pylinkage
+from graphkin.exchange.pyslvs import read_pyslvs, write_pyslvs
 
 __all__ = ["READ", "WRITTEN", "read_bodies", "write_bodies"]
 
