@@ -256,7 +256,11 @@ def _length(source: Source, what: str | tuple[str, str], value: float) -> Iterab
                 where = f"links.{name}.at.{one}"
                 return [(f"{where}.{axis}", c / size * value) for axis, c in zip("xy", entry, strict=True)]
     fixed = source.get("frame", {}).get("points", {})
-    if p in fixed and q in fixed and fixed[p] != fixed[q]:
+    for one, other in ((p, q), (q, p)):
+        entry = fixed.get(one)
+        if isinstance(entry, Mapping) and entry.get("from") == other:
+            return [(f"frame.points.{one}.r", value)]
+    if isinstance(fixed.get(p), list) and isinstance(fixed.get(q), list) and fixed[p] != fixed[q]:
         if not any(fixed[q]):
             p, q = q, p  # the point at the origin stays there
         way = [b - a for a, b in zip(fixed[p], fixed[q], strict=True)]

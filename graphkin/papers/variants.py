@@ -95,6 +95,9 @@ def varied_keys(source: Source) -> tuple[tuple[Path, str], ...]:
             found.append((("links", name, "length"), "length"))
     frame = source.get("frame", {})
     for point, xy in frame.get("points", {}).items():
+        if isinstance(xy, dict):
+            found.append((("frame", "points", point, "r"), "length"))
+            continue
         found += [(("frame", "points", point, i), "place") for i in (0, 1) if xy[i]]
     for guide, table in frame.get("guides", {}).items():
         if isinstance(table.get("through"), list):

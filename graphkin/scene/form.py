@@ -99,6 +99,10 @@ Start = Annotated[
     Annotated[Number, Tag("<number>")] | Annotated[StrokeStart, Tag("<polar>")],
     _forms('write a driver value, or { stroke = "5/6", at = 0, sense = 1 }'),
 ]
+FramePlace = Annotated[
+    Annotated[Place, Tag("<list>")] | Annotated[Polar, Tag("<polar>")],
+    _forms('write [x, y] or { from = "A", r = 400, angle = -30 }'),
+]
 At = Annotated[
     Annotated[Place, Tag("<list>")]
     | Annotated[Polar, Tag("<polar>")]

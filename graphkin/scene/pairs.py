@@ -195,12 +195,13 @@ def drives(
         if reasons or lost & {"angle", "travel"}:
             continue
         if isinstance(table, Driver):
-            omega = table.omega if table.omega is not None else (table.rpm or 0.0) * math.pi / 30
+            sign = -1.0 if table.sense == "clockwise" else 1.0
+            omega = sign * (table.omega if table.omega is not None else (table.rpm or 0.0) * math.pi / 30)
             angle = None if table.angle is None else math.radians(table.angle)
             unit = math.pi / 180
             dead = _from_dead_point(table, angle, unit)
             named = "" if table.position is None else str(table.position)
-            found.append(DriverEntry(where, key, base, angle, omega, table.alpha, dead, named))
+            found.append(DriverEntry(where, key, base, angle, omega + 0.0, sign * table.alpha + 0.0, dead, named))
         else:
             travel = None if table.travel is None else table.travel * metres
             dead = _from_dead_point(table, travel, metres)
@@ -263,6 +264,10 @@ def _angle_problems(
     if table.omega is not None and table.rpm is not None:
         yield Problem(f"{where}.omega", f"found omega = {table.omega:g} and rpm = {table.rpm:g}",
                       "write one of the two")
+    for key, rate in (("omega", table.omega), ("rpm", table.rpm)):
+        if table.sense is not None and rate is not None and rate < 0:
+            yield Problem(f"{where}.{key}", f"found {rate:g} beside the sense {table.sense}",
+                          "with sense write the size, or leave sense out")
     if table.omega is None and table.rpm is None and not lost & {"omega", "rpm"}:
         yield Problem(f"{where}.omega", "is missing", "write omega = ... in rad/s or rpm = ...; it may be 0")
 

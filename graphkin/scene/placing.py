@@ -15,7 +15,7 @@ from graphkin.plane import cross_arcs, degrees, direction
 from graphkin.scene.model import PlacedGuide
 from graphkin.scene.tables import Compass, Guide, Link, Polar
 
-__all__ = ["Placement", "circle_of_references", "guide_of", "place_of"]
+__all__ = ["Placement", "circle_of_references", "guide_of", "place_of", "place_polar"]
 
 Places = Mapping[str, complex]
 

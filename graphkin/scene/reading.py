@@ -167,6 +167,7 @@ _TABLES: tuple[tuple[tuple[str, ...], type[FileTable]], ...] = (
     ((), tables.SceneTables),
     (("units",), tables.Units),
     (("frame",), tables.Frame),
+    (("frame", "points", "*", "<polar>"), tables.Polar),
     (("frame", "guides", "*"), tables.Guide),
     (("links", "*"), tables.Link),
     (("links", "*", "guides", "*"), tables.Guide),

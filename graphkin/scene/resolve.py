@@ -8,13 +8,13 @@ from __future__ import annotations
 import cmath
 from collections.abc import Mapping
 
-from graphkin.errors import Problem, SceneError
+from graphkin.errors import Problem, SceneError, did_you_mean
 from graphkin.scene.drawn_position import DrawnPosition, find_position, travel_of
 from graphkin.scene.loads import Loading, loading_of
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedGuide, PlacedLink, SlideDriver
 from graphkin.scene.names import Flaws, Names
 from graphkin.scene.pairs import DriverEntry, drives, islands, pins_in_slots, sliding_pairs
-from graphkin.scene.placing import Placement
+from graphkin.scene.placing import Placement, place_polar
 from graphkin.scene.rules import (
     disagreements,
     not_held,
@@ -24,7 +24,7 @@ from graphkin.scene.rules import (
     wrong_own_points,
 )
 from graphkin.scene.stating import asked, loops_named, positions_named, published, stated_values
-from graphkin.scene.tables import Link, SceneTables
+from graphkin.scene.tables import Link, Polar, SceneTables
 
 __all__ = ["resolve", "unknown_places"]
 
@@ -142,7 +142,7 @@ def _bodies(
     file: SceneTables, names: Names, drawn: Mapping[str, complex], metres: float, flaws: Flaws, problems: list[Problem]
 ) -> dict[str, Placement]:
     """Every link with its own points placed, where its length is known."""
-    fixed = {p: complex(*xy) * metres for p, xy in file.frame.points.items()}
+    fixed = _fixed(file, metres, problems)
     given = {**drawn, **fixed}
     bodies: dict[str, Placement] = {}
     for name, table in file.links.items():
@@ -171,6 +171,27 @@ def _bodies(
     frame.local, frame.turn, frame.origin = dict(fixed), 1 + 0j, 0j
     frame.guides[""] = PlacedGuide("", 0j, 1 + 0j)
     return {**bodies, names.frame: frame}
+
+
+def _fixed(file: SceneTables, metres: float, problems: list[Problem]) -> dict[str, complex]:
+    """The places of the frame's points (m), those given polar from others too."""
+    given = file.frame.points
+    found = {p: complex(*xy) * metres for p, xy in given.items() if not isinstance(xy, Polar)}
+    left = {p: entry for p, entry in given.items() if isinstance(entry, Polar)}
+    while left:
+        where = {p: place_polar(f"frame.points.{p}", entry, metres, found) for p, entry in left.items()}
+        placed = {p: z for p, z in where.items() if z is not None}
+        problems += [z for z in placed.values() if isinstance(z, Problem)]
+        if not placed:
+            for point, entry in left.items():
+                missing = next(p for p in (entry.origin, entry.toward) if p is not None and p not in found)
+                known = "the points are placed from one another" if missing in given else did_you_mean(missing, given)
+                said = f"{missing} has no place yet" if missing in given else f"the frame has no point {missing}"
+                problems.append(Problem(f"frame.points.{point}", said, known))
+            placed = dict.fromkeys(left, 0j)
+        found |= {p: 0j if isinstance(z, Problem) else z for p, z in placed.items()}
+        left = {p: entry for p, entry in left.items() if p not in placed}
+    return {p: found[p] for p in given}
 
 
 def _no_length(name: str, own: tuple[str, ...], given: Mapping[str, complex]) -> Problem:

@@ -48,6 +48,7 @@ if TYPE_CHECKING:
     PositionName = str
     ShownName = str | int
     Start: TypeAlias = "float | StrokeStart"
+    FramePlace: TypeAlias = "Sequence[float] | Polar"
     At: TypeAlias = "Sequence[float] | Polar | Compass | Literal['drawn']"
     Links: TypeAlias = "Mapping[str, Link]"
     Drivers: TypeAlias = "Driver | DrivenSlide | Sequence[Driver | DrivenSlide]"
@@ -127,7 +128,9 @@ class Frame(FileTable):
     """The fixed link."""
 
     name: LinkName = field(default="0", metadata=_about('Name of the fixed link, "0" if not given.'))
-    points: dict[PointName, Place] = field(default_factory=dict, metadata=_closed("Fixed pivots, [x, y] each."))
+    points: dict[PointName, FramePlace] = field(
+        default_factory=dict, metadata=_closed("Fixed pivots, [x, y] each, or polar from another of them.")
+    )
     guides: dict[LinkName, Guide] = field(default_factory=dict, metadata=_closed("Straight guides by name."))
 
 
@@ -195,6 +198,10 @@ class Driver(FileTable):
     omega: Number | None = field(default=None, metadata=_about("rad/s, counter-clockwise positive."))
     rpm: Number | None = field(default=None, metadata=_about("Instead of omega: turns per minute."))
     alpha: Number = field(default=0.0, metadata=_about("rad/s2."))
+    sense: Literal["clockwise", "counter-clockwise"] | None = field(
+        default=None,
+        metadata=_about("The sense of omega or rpm, which then is a size, and in which alpha counts."),
+    )
     relative_to: LinkName | None = field(
         default=None, metadata=_about("Angle from this link's own axis, not the frame's.")
     )

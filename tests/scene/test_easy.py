@@ -1,0 +1,83 @@
+"""What makes a scene easy to write: polar points of the frame, the sense as a word."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+import graphkin
+from graphkin.errors import SceneError
+
+pytestmark = pytest.mark.quick
+
+
+def four_bar(points: dict[str, object], **driver: object) -> graphkin.Scene:
+    return graphkin.read(
+        {
+            "frame": {"points": points},
+            "links": {
+                "1": {"points": ["A", "B"], "length": 150},
+                "2": {"points": ["B", "C"], "length": 500},
+                "3": {"points": ["D", "C"], "length": 300},
+            },
+            "driver": {"link": "1", "angle": 60, **driver},
+            "sketch": {"C": [500, 290]},
+        }
+    )
+
+
+def problems(points: dict[str, object], **driver: object) -> list[str]:
+    with pytest.raises(SceneError) as refusal:
+        four_bar(points, **driver)
+    return [str(p) for p in refusal.value.problems]
+
+
+def test_a_point_of_the_frame_may_be_polar_from_another_that_may_be_polar_itself() -> None:
+    points = {"D": {"from": "E", "r": 100, "angle": 90}, "A": [10, 20], "E": {"from": "A", "r": 400, "angle": -30}}
+    found = four_bar(points, omega=10).mechanism.frame.points
+    assert ["D", "A", "E"] == list(found)
+    wanted = 10 + 20j + 400 * complex(math.cos(math.pi / 6), -0.5) + 100j
+    assert pytest.approx(wanted * 1e-3) == found["D"]
+
+
+def test_polar_points_of_the_frame_stay_as_they_are_written(tmp_path) -> None:
+    scene = four_bar({"A": [0, 0], "D": {"from": "A", "r": 400, "angle": 0}}, omega=10)
+    assert scene == graphkin.read(scene.save(tmp_path / "a.toml"))
+    assert {"from": "A", "r": 400, "angle": 0} == scene.to_dict()["frame"]["points"]["D"] | {"angle": 0}
+
+
+@pytest.mark.parametrize(
+    ("points", "said"),
+    [
+        ({"A": [0, 0], "D": {"from": "Q", "r": 400}}, "frame.points.D: the frame has no point Q; known here: A, D"),
+        ({"A": {"from": "D", "r": 1}, "D": {"from": "A", "r": 400}}, "frame.points.A: D has no place yet; the"),
+        ({"A": [0, 0], "D": {"from": "A"}}, "frame.points.D.r: is missing; distance"),
+        ({"A": [0, 0], "D": {"from": "A", "r": 4, "x": 1}}, "frame.points.D.x: unknown key"),
+        ({"A": [0, 0], "D": "left"}, 'frame.points.D: found "left"; write [x, y] or { from = "A"'),
+    ],
+)
+def test_a_polar_point_that_has_no_place_is_told(points: dict[str, object], said: str) -> None:
+    assert any(p.startswith(said) for p in problems(points, omega=10))
+
+
+@pytest.mark.parametrize(("sense", "sign"), [("clockwise", -1), ("counter-clockwise", 1)])
+def test_the_sense_is_a_word(sense: str, sign: int) -> None:
+    points = {"A": [0, 0], "D": [400, 0]}
+    (driver,) = four_bar(points, rpm=30, alpha=2, sense=sense).mechanism.drivers
+    assert (pytest.approx(sign * math.pi), sign * 2) == (driver.omega, driver.alpha)
+
+
+def test_a_sense_with_a_negative_speed_is_told() -> None:
+    points: dict[str, object] = {"A": [0, 0], "D": [400, 0]}
+    said = "driver.omega: found -10 beside the sense clockwise; with sense write the size, or leave sense out"
+    assert [said] == problems(points, omega=-10, sense="clockwise")
+    assert ['driver.sense: found "left"; one of "clockwise", "counter-clockwise" is possible'] == problems(
+        points, omega=10, sense="left"
+    )
+
+
+def test_polar_points_of_the_frame_vary_from_problem_to_problem() -> None:
+    scene = four_bar({"A": [0, 0], "D": {"from": "A", "r": 400, "angle": 10}}, rpm=60, sense="clockwise")
+    made = graphkin.problem_set(scene, 2, seed=1)
+    assert (2, []) == (len(made.made.names), made.made.failures)
