@@ -54,6 +54,7 @@ if TYPE_CHECKING:
     from graphkin.api.converted import Converted, convert
     from graphkin.api.designed import Designed, design
     from graphkin.api.drawn import Drawn, draw
+    from graphkin.api.explained import Explained, explain
     from graphkin.api.handouts import Handout, handout
     from graphkin.api.prepared import Prepared, PreparedDesigns, prepare
     from graphkin.api.problem_sets import ProblemSet, problem_set
@@ -90,6 +91,7 @@ __all__ = [
     "Drawn",
     "DrivenSlide",
     "Driver",
+    "Explained",
     "Frame",
     "GraphkinError",
     "Guide",
@@ -120,6 +122,7 @@ __all__ = [
     "convert",
     "design",
     "draw",
+    "explain",
     "handout",
     "prepare",
     "problem_set",
@@ -139,6 +142,7 @@ _PLACES = {
     "api.converted": "Converted convert",
     "api.designed": "Designed design",
     "api.drawn": "Drawn draw",
+    "api.explained": "Explained explain",
     "api.handouts": "Handout handout",
     "api.prepared": "Prepared PreparedDesigns prepare",
     "api.problem_sets": "ProblemSet problem_set",

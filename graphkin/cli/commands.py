@@ -17,6 +17,7 @@ from graphkin.cli.centres import centres
 from graphkin.cli.check import audit, check, draw
 from graphkin.cli.convert import convert
 from graphkin.cli.design import design
+from graphkin.cli.explain import explain
 from graphkin.cli.handout import handout
 from graphkin.cli.output import tell
 from graphkin.cli.solve import scenes, solve
@@ -36,7 +37,7 @@ app = typer.Typer(
     rich_markup_mode=None,
     help="Velocity and acceleration polygons of mechanisms: constructed, measured, checked, drawn.",
 )
-for command in (scenes, draw, check, solve, centres, audit, sweep, handout, design, convert):
+for command in (scenes, draw, check, solve, centres, audit, sweep, handout, design, convert, explain):
     app.command()(command)
 app.add_typer(study, name="study")
 

@@ -1,0 +1,218 @@
+"""``graphkin explain``: what was understood of a scene, in words."""
+
+from __future__ import annotations
+
+import cmath
+import json
+import math
+import os
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from graphkin.api.arguments import SceneLike, as_scene, known_words, own_unit, write_files
+from graphkin.api.report_text import show
+from graphkin.api.results import Result
+from graphkin.construction import EXACT, execute, plan
+from graphkin.errors import GraphkinError, Unsolvable
+from graphkin.files import path_of
+from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedGuide, PlacedLink
+from graphkin.structure import Cluster, Structure, analyse, mobility_of
+from graphkin.table import Table
+from graphkin.words import Phrase, class_of, say, word
+
+__all__ = ["Explained", "explain"]
+
+Sentence = tuple[str, Phrase]
+"""What a sentence is about (a heading of the words' area ``explanation``), and the sentence."""
+
+
+@dataclass(frozen=True, repr=False, eq=False)
+class Explained(Result):
+    """What a scene says: its units, links, joints, mobility, drivers, groups with their assembly, and what is asked.
+
+    ``why`` is the reason why it cannot move as it is written, "" where it can.
+    """
+
+    scene: Mechanism
+    sentences: tuple[Sentence, ...]
+    why: str
+    language: str
+
+    @property
+    def ok(self) -> bool:
+        """Whether the mobility is as many as there are drivers, and the position can be assembled."""
+        return not self.why
+
+    @property
+    def text(self) -> str:
+        """All of it, paragraph by paragraph."""
+        lines, before = [self.scene.title_in(self.language)], ""
+        for about, phrase in self.sentences:
+            if about != before:
+                lines += ["", word(about, self.language)]
+            lines.append(f"  {say(phrase, self.language, show)}")
+            before = about
+        return "\n".join(lines)
+
+    @cached_property
+    def table(self) -> Table:
+        """A row for each sentence, with what it is about."""
+        rows = [(word(about, self.language), say(phrase, self.language, show)) for about, phrase in self.sentences]
+        return Table.of(("about", "sentence"), rows)
+
+    @cached_property
+    def data(self) -> dict[str, Any]:
+        """The sentences by what they are about, in English."""
+        found: dict[str, list[str]] = {}
+        for about, phrase in self.sentences:
+            found.setdefault(about.removeprefix("explained "), []).append(say(phrase, "en", show))
+        return {"title": self.scene.title, "ok": self.ok, **found, **({"why": self.why} if self.why else {})}
+
+    def write(self, folder: str | os.PathLike[str]) -> list[Path]:
+        """Write explanation.txt and explanation.json; returns the paths.  Raises CallError where it cannot be done."""
+        data = json.dumps(self.data, ensure_ascii=False) + "\n"
+        files = {"explanation.txt": f"{self.text}\n".encode(), "explanation.json": data.encode()}
+        return write_files(path_of(folder), files)
+
+    def __repr__(self) -> str:
+        return f"<Explained {self.scene.name}: {len(self.sentences)} sentences>"
+
+
+def explain(scene: SceneLike, language: str | None = None) -> Explained:
+    """Say in words what was understood of a scene.
+
+    Parameters
+    ----------
+    scene : as for `solve`
+    language : "en" or "zh"; the scene's own if None
+
+    Raises
+    ------
+    SceneError, CallError : the file or the call is wrong.  What cannot move as it is written is no error: ``why`` says
+        it
+
+    Examples
+    --------
+    >>> four_bar = explain("fourbar-150-500-300-400")
+    >>> four_bar.data["mobility"]
+    ['F = 3·3 - 2·4 - 0 = 1: as many as there are drivers']
+    """
+    known_words(language=language)
+    given = as_scene(scene)
+    sentences = [*_units(given), *_links(given), *_joints(given), *_mobility(given), *_drivers(given)]
+    why = ""
+    try:
+        structure = analyse(given)
+        sentences += _groups(structure)
+    except Unsolvable as error:
+        why = error.why
+    sentences += [("explained asked", Phrase("explained asked all"))] if not given.find else [
+        ("explained asked", Phrase("explained asked for", (", ".join(map(str, given.find)),)))
+    ]  # fmt: skip
+    return Explained(given, tuple(sentences), why, language or given.sheet.language)
+
+
+def _units(scene: Mechanism) -> Iterator[Sentence]:
+    yield "explained units", Phrase("explained unit", (scene.units.length,))
+
+
+def _number(value: float) -> str:
+    return f"{value + 0.0:.6g}"
+
+
+def _place(z: complex, scene: Mechanism) -> str:
+    unit = scene.units.metres
+    return f"({_number(z.real / unit)}, {_number(z.imag / unit)})"
+
+
+def _links(scene: Mechanism) -> Iterator[Sentence]:
+    about = "explained links"
+    fixed = ", ".join(f"{p} {_place(z, scene)}" for p, z in scene.frame.points.items()) or "-"
+    yield about, Phrase("explained frame", (scene.frame.name, fixed))
+    yield from ((about, phrase) for phrase in _guides(scene.frame, scene))
+    for link in scene.links:
+        own = link.bar
+        if len(own) == 2:
+            length = _number((link.length or 0.0) / scene.units.metres)
+            yield about, Phrase("explained bar", (link.name, "".join(own), length, scene.units.length))
+        elif any(s.link == link.name for s in scene.slidings):
+            yield about, Phrase("explained block", (link.name, own[0] if own else "-"))
+        else:
+            yield about, Phrase("explained ray", (link.name, own[0] if own else "-"))
+        further = [f"{p} {_place(z, scene)}" for p, z in link.points.items() if p not in own]
+        if further:
+            yield about, Phrase("explained further", (link.name, ", ".join(further)))
+        yield from ((about, phrase) for phrase in _guides(link, scene))
+        if link.redundant:
+            yield about, Phrase("explained redundant", (link.name,))
+
+
+def _guides(link: PlacedLink, scene: Mechanism) -> Iterator[Phrase]:
+    for name, guide in link.guides.items():
+        if name:
+            angle = _number(math.degrees(cmath.phase(guide.direction)))
+            yield Phrase("explained guide", (f"{link.name}.{name}", _place(guide.through, scene), angle))
+
+
+def _joints(scene: Mechanism) -> Iterator[Sentence]:
+    about = "explained joints"
+    counted = {scene.frame.name, *(link.name for link in scene.links if not link.redundant)}
+    for point, holders in scene.holders.items():
+        own = [name for name in holders if name in counted]
+        if len(own) > 1:
+            many = (len(own) - 1,) if len(own) > 2 else ()
+            yield about, Phrase("explained turnings" if many else "explained turning", (point, ", ".join(own), *many))
+    for pair in scene.slidings:
+        guide = _guide_name(scene, pair.on, pair.guide)
+        angle = _number(math.degrees(cmath.phase(pair.turn)))
+        yield about, Phrase("explained sliding", (pair.link, guide, pair.pin or "-", angle))
+    for pin in scene.pins:
+        yield about, Phrase("explained slot", (pin.point, pin.of, _guide_name(scene, pin.on, pin.guide)))
+
+
+def _guide_name(scene: Mechanism, link: str, guide: str) -> str:
+    found: PlacedGuide = scene.by_name[link].guides[guide]
+    return f"{link}.{found.name}" if found.name else link
+
+
+def _mobility(scene: Mechanism) -> Iterator[Sentence]:
+    count = mobility_of(scene)
+    numbers = count.links, count.lower, count.higher, count.value, len(scene.drivers)
+    key = "explained count" if count.value == len(scene.drivers) else "explained miscount"
+    yield "explained mobility", Phrase(key, numbers)
+
+
+def _drivers(scene: Mechanism) -> Iterator[Sentence]:
+    for driver in scene.drivers:
+        yield "explained drivers", _driver(scene, driver)
+
+
+def _driver(scene: Mechanism, driver: AnyDriver) -> Phrase:
+    at = own_unit(scene, driver, driver.values[0])
+    rate = driver.values[1]
+    if isinstance(driver, AngleDriver):
+        sense = "at rest" if not rate else "counter-clockwise" if rate > 0 else "clockwise"
+        said = Phrase(f"explained {sense}", (_number(abs(rate)), _number(abs(rate) * 30 / math.pi)))
+        return Phrase("explained turns", (driver.link, driver.relative_to, at, said))
+    sense = "at rest" if not rate else "forward" if rate > 0 else "back"
+    said = Phrase(f"explained {sense}", (_number(abs(rate) / scene.units.metres), f"{scene.units.length}/s"))
+    return Phrase("explained slides", (driver.key, at, said))
+
+
+def _groups(structure: Structure) -> Iterator[Sentence]:
+    """The groups in the order of solution, and in which assembly each lies, as far as it can be drawn."""
+    assembly: dict[str, Phrase] = {}
+    with suppress(GraphkinError):  # the position cannot be had: solve says why
+        assembly = dict(execute(plan(structure, None, ()), EXACT).assembly)
+    for group in structure.groups:
+        order = group.order if isinstance(group, Cluster) else 2
+        links = ", ".join(group.links)
+        kind = Phrase("explained group kind") if isinstance(group, Cluster) else group.kind
+        yield "explained groups", Phrase("explained group", (links, kind, class_of(order)))
+        taken = assembly.get(links)
+        if taken is not None:
+            yield "explained groups", Phrase("explained assembly", (taken,))

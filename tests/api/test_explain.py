@@ -1,0 +1,62 @@
+"""What was understood of a scene is said in words, in both languages."""
+
+from __future__ import annotations
+
+import pytest
+
+import graphkin
+from graphkin.scene.written import toml_text
+
+from ..command import run
+
+pytestmark = pytest.mark.quick
+
+
+def test_a_six_bar_is_explained_joint_by_joint() -> None:
+    data = graphkin.explain("sixbar-guide-40deg").data
+    assert data["joints"] == [
+        "A joins the links 6, 1: a turning pair",
+        "C joins the links 6, 3: a turning pair",
+        "B joins the links 1, 2: a turning pair",
+        "D joins the links 4, 5: a turning pair",
+        "link 2 slides on the guide 3 with its point B, its own axis at 0° to it: a sliding pair",
+        "link 4 slides on the guide 3 with its point D, its own axis at 0° to it: a sliding pair",
+        "link 5 slides on the guide 6.h with its point D, its own axis at 0° to it: a sliding pair",
+    ]
+    assert data["mobility"] == ["F = 3·5 - 2·7 - 0 = 1: as many as there are drivers"]
+    assert data["drivers"] == ["link 1 turns against link 6, now at 50°, clockwise with 10 rad/s (95.493 rpm)"]
+    assert data["groups"][:2] == [
+        "links 2, 3: RPR, class II", "its assembly: B on the positive side of the guide of 2/3"
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize("name", ["double-butterfly", "oldham-coupling", "hydraulic-cylinder", "hit16-double-guide"])
+def test_every_link_and_every_sliding_pair_is_named(name: str) -> None:
+    explained = graphkin.explain(name)
+    scene = explained.scene
+    said = explained.data
+    assert [] == [n for n in scene.order if not any(f"link {n} " in s for s in said["links"])]
+    assert len(scene.slidings) + len(scene.pins) == sum("slides on" in s or "runs in" in s for s in said["joints"])
+    assert explained.ok
+
+
+def test_a_hinge_of_three_links_is_two_turning_pairs() -> None:
+    scene = graphkin.read("fourbar-150-500-300-400").to_dict()
+    scene["links"]["5"] = {"points": ["C", "F"], "length": 100}
+    explained = graphkin.explain(scene)
+    assert "C joins the links 2, 3, 5: 2 turning pairs" in explained.data["joints"]
+    assert "F = 3·4 - 2·5 - 0 = 2, but the number of drivers is 1: it cannot move as it is written" in (
+        explained.data["mobility"]
+    )
+    assert not explained.ok
+
+
+def test_the_command_says_it_in_chinese_and_leaves_with_3_where_nothing_moves(tmp_path) -> None:
+    assert "构件 1 为杆 AB，长 122 mm" in run("explain", "sixbar-guide-40deg", "--lang", "zh").stdout
+    scene = graphkin.read("fourbar-150-500-300-400").to_dict()
+    scene["links"]["5"] = {"points": ["C", "F"], "length": 100}
+    path = tmp_path / "a.toml"
+    path.write_text(toml_text(scene), encoding="utf-8")
+    answer = run("explain", str(path))
+    assert 3 == answer.returncode
+    assert "a mechanism of mobility 2 needs as many" in answer.stderr
