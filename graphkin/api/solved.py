@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -14,9 +15,10 @@ from numpy.typing import NDArray
 
 from graphkin.api.arguments import At, SceneLike, as_scene, asked_symbols, driver_values, whole_number, write_files
 from graphkin.api.results import Result
-from graphkin.errors import Unsolvable, as_text
+from graphkin.errors import CallError, Problem, Unsolvable, as_list, as_text
 from graphkin.files import path_of
 from graphkin.scene.model import SlideDriver
+from graphkin.scene.symbol import Symbol
 from graphkin.structure import mobility_of
 
 if TYPE_CHECKING:
@@ -41,6 +43,7 @@ class Solved(Result):
 
     motion: Motion
     forces: Forces | None = None
+    find: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
         return f"<Solved {self.motion.scene.name}: {int(self.motion.ok.sum())} of {len(self.motion)} positions>"
@@ -69,11 +72,34 @@ class Solved(Result):
 
         motion, scene = self.motion, self.motion.scene
         columns = [Column("position", np.arange(1, len(motion) + 1)), *driver_columns(scene, motion.values)]
-        for watched in everything(motion.structure):
-            columns += watched.columns(scene, watched.parts(None, motion))
-        columns += self._force_columns()
+        if self.find:
+            columns += [column for name in self.find for column in self.columns(name)]
+        else:
+            for watched in everything(motion.structure):
+                columns += watched.columns(scene, watched.parts(None, motion))
+            columns += self._force_columns()
         said = [text_column("status", map(str, motion.status)), text_column("why", motion.why)]
         return Table((*columns, *said), ("position",))
+
+    def columns(self, name: str) -> list[Column]:
+        """What has a name, as columns of the table: a vector's size and components.  Raises CallError."""
+        from graphkin.study.watched import watched_named, watched_symbol
+
+        if self.forces is not None and self.forces.value(name) is not None:
+            return [c for c in self._force_columns() if c.name.removesuffix(".x").removesuffix(".y") == name]
+        scene = self.motion.scene
+        watched = watched_named(scene, name) or watched_symbol(*asked_symbols(scene, [name]))
+        return watched.columns(scene, watched.parts(None, self.motion))
+
+    def _values(self) -> list[dict[str, Any]]:
+        """For each position what is asked by its name: a number, or a vector's components; angles in radians."""
+        found: list[dict[str, Any]] = [{} for _ in range(len(self.motion))]
+        for name in self.find:
+            own, unit = self[name], self.columns(name)[0].unit
+            for entry, value in zip(found, np.radians(own) if unit == "deg" else own, strict=True):
+                plain = [float(value.real), float(value.imag)] if np.iscomplexobj(own) else float(value)
+                entry[name] = plain if np.isfinite(value) else None
+        return found
 
     def _force_columns(self) -> list[Column]:
         """Forces by their components, and moments."""
@@ -103,6 +129,12 @@ class Solved(Result):
                 name = places.name_of(value)
                 if name:
                     entry["name"] = name
+        if self.find:
+            kept = ("driver", "name", "status", "why", "error_bound")
+            data["positions"] = [
+                {key: entry[key] for key in kept if key in entry} | ({"values": own} if entry["status"] == "ok" else {})
+                for entry, own in zip(data["positions"], self._values(), strict=True)
+            ]
         return data
 
     def loops(self, language: str | None = None) -> LoopText:
@@ -144,7 +176,9 @@ def refused(scene: SceneLike, at: At, stop: Unsolvable) -> dict[str, Any]:
     }
 
 
-def solve(scene: SceneLike, at: At = None, sweep: int | None = None) -> Solved:
+def solve(
+    scene: SceneLike, at: At = None, sweep: int | None = None, find: str | Symbol | Iterable[str | Symbol] | None = None
+) -> Solved:
     """Solve a scene analytically: position, velocity, acceleration of everything that moves.
 
     Parameters
@@ -153,6 +187,7 @@ def solve(scene: SceneLike, at: At = None, sweep: int | None = None) -> Solved:
     at : driver value other than the scene's own, in the driver's unit (degrees, or travel); with several drivers it
         moves the first, or a mapping names them
     sweep : number of positions over a turn of the first driver (over its range, for a driven slide)
+    find : what alone is to be given, by name ("v_D", "C", "theta_3", "F_5/6"); everything if None
 
     Raises
     ------
@@ -173,10 +208,26 @@ def solve(scene: SceneLike, at: At = None, sweep: int | None = None) -> Solved:
     count = None if sweep is None else whole_number("sweep", sweep, 1, 10_000_000, " positions")
     motion = solver.solve(given, at=driver_values(given, at), sweep=count)
     if not given.loading:
-        return Solved(motion)
+        return _asked(Solved(motion), find)
     forces = solver.forces_of(motion)
     stuck = motion.ok & ~forces.ok
     if stuck.any():
         why = tuple(BALANCE_IDLE if here else said for here, said in zip(stuck, motion.why, strict=True))
         motion = replace(motion, status=np.where(stuck, "dead point", motion.status), why=why)
-    return Solved(motion, forces)
+    return _asked(Solved(motion, forces), find)
+
+
+def _asked(solved: Solved, find: str | Symbol | Iterable[str | Symbol] | None) -> Solved:
+    """The solution limited to what is asked.  Raises CallError, naming everything that names nothing."""
+    if find is None:
+        return solved
+    names = [find] if isinstance(find, Symbol) else as_list("find", find, 'give symbols: ["v_B", "omega_3"]')
+    problems: list[Problem] = []
+    for name in map(str, names):
+        try:
+            _ = solved[name], solved.columns(name)
+        except CallError as error:
+            problems += error.problems
+    if problems:
+        raise CallError(*problems)
+    return replace(solved, find=tuple(map(str, names)))

@@ -16,6 +16,7 @@ import typer
 from graphkin.cli.options import (
     AtOption,
     ConventionOption,
+    FindOption,
     InstrumentOption,
     JsonOption,
     LangOption,
@@ -95,6 +96,7 @@ def solve(
     lang: LangOption = None,
     convention: ConventionOption = None,
     instrument: InstrumentOption = "exact",
+    find: FindOption = None,
     as_json: JsonOption = False,
     quiet: QuietOption = False,
 ) -> None:
@@ -106,7 +108,7 @@ def solve(
     known_words(language=lang, convention=convention, instrument=instrument)
     values = driver_values(at, position)
     with unsolvable_as_json(as_json, lambda error: refused(scene, values, error)):
-        solved = solving(scene, values, sweep)
+        solved = solving(scene, values, sweep, find or None)
     if out is not None:
         from graphkin.api.arguments import write_files
 
@@ -135,16 +137,28 @@ def _print_solution(solved: Solved, lang: str | None) -> None:
         links = ", ".join(group["links"])
         args = links, group["kind"], class_of(group["class"]), group["assembly"]
         tell(say(Phrase("solved group", args), language))
-    for position in data["positions"]:
+    for number, position in enumerate(data["positions"]):
         tell("")
         values = ", ".join(f"{k} = {v:.6g}" for k, v in position["driver"].items())
         tell(say(Phrase("solved driver", (values,)), language))
         if position["status"] != "ok":
             tell(f"{position['status']}: {position['why']}")
             continue
+        if solved.find:
+            print_table(*_asked_rows(solved, number, language), right=(1,))
+            continue
         _print_position(position, scene.units.length, language)
         if "forces" in position:
             _print_forces(position, scene.units.force, language)
+
+
+def _asked_rows(solved: Solved, number: int, language: str) -> tuple[list[str], list[list[str]]]:
+    """What is asked at a position: heads and rows of quantity, value, unit; a vector by its size and components."""
+    from graphkin.words import word
+
+    columns = [column for name in solved.find for column in solved.columns(name)]
+    rows = [[c.name, _number(float(c.values[number])), c.unit] for c in columns]
+    return [word("quantity", language), "", ""], rows
 
 
 def _print_position(position: Mapping[str, Any], unit: str, language: str) -> None:

@@ -1,0 +1,43 @@
+"""What alone is asked of the solver."""
+
+from __future__ import annotations
+
+import json
+import math
+
+import pytest
+
+import graphkin
+
+from ..command import run
+
+pytestmark = pytest.mark.quick
+
+SIXBAR = "sixbar-guide-40deg"
+
+
+def test_only_what_is_asked_is_given_in_its_order() -> None:
+    solved, whole = graphkin.solve(SIXBAR, find=["omega_3", "v_D", "theta_3"]), graphkin.solve(SIXBAR)
+    (position,) = solved.data["positions"]
+    v = whole["v_D"][0]
+    wanted = {"omega_3": whole["omega_3"][0], "v_D": [v.real, v.imag], "theta_3": math.radians(whole["theta_3"][0])}
+    assert ["omega_3", "v_D", "theta_3"] == list(position["values"])
+    assert wanted == position["values"]
+    assert not {"links", "points", "slides"} & set(position)
+
+
+def test_the_table_has_the_asked_between_driver_and_status() -> None:
+    table = graphkin.solve(SIXBAR, sweep=4, find="v_D").table
+    assert ("position", "driver_1", "v_D", "v_D.x", "v_D.y", "status", "why") == table.names
+
+
+def test_the_command_finds_the_same() -> None:
+    answer = run("solve", SIXBAR, "--find", "v_D", "--json")
+    assert graphkin.solve(SIXBAR, find="v_D").data == json.loads(answer.stdout)
+    assert "v_D.x      -482.722   mm/s" in run("solve", SIXBAR, "--find", "v_D").stdout
+
+
+def test_everything_that_names_nothing_is_told() -> None:
+    with pytest.raises(graphkin.CallError) as refusal:
+        graphkin.solve(SIXBAR, find=["v_Q", "v_D", "omega_9"])
+    assert 2 == len(refusal.value.problems)
