@@ -65,11 +65,12 @@ class Names:
             unsure |= {""}
         return cls(frame, points, guides, frozenset(unsure))
 
-    def no_link(self, where: str, name: str) -> Problem | None:
-        """The problem of a link that does not exist, None if it does."""
+    def no_link(self, where: str, name: str, moving: bool = False) -> Problem | None:
+        """The problem of a link that does not exist, None if it does; ``moving`` where the frame would not do."""
         if name in self.points or ("" in self.unsure and self.frame in self.unsure):
             return None
-        return Problem(where, f'there is no link "{name}"', did_you_mean(name, self.points))
+        known = [link for link in self.points if not (moving and link == self.frame)]
+        return Problem(where, f'there is no link "{name}"', did_you_mean(name, known))
 
     def no_point(self, where: str, point: str) -> Problem | None:
         """The problem of a point that no link has."""

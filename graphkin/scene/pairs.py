@@ -251,7 +251,7 @@ def _angle_problems(
     for key, name in (("link", table.link), ("relative_to", table.relative_to)):
         if name is None:
             continue
-        missing = names.no_link(f"{where}.{key}", name)
+        missing = names.no_link(f"{where}.{key}", name, moving=key == "link")
         if missing:
             yield missing
         elif name in file.links and file.links[name].redundant:

@@ -25,7 +25,7 @@ BROKEN = {
     "unknown key": ((LINK1, "lenght = 150"), ["links.1.lenght", 'did you mean "length"']),
     "unknown table": (("[driver]", "[drivers]"), ["drivers", "unknown table", 'did you mean "driver"']),
     "unknown unit": (("[frame]", '[units]\nlength = "mn"\n[frame]'), ["units.length", '"mn"', '"mm"']),
-    "unknown key of units": (("[frame]", '[units]\nmass = "kg"\n[frame]'), ["units.mass", "length"]),
+    "unknown key of units": (("[frame]", '[units]\ntime = "h"\n[frame]'), ["units.time", "length"]),
     "top key in a table": (("omega = 10", 'omega = 10\nfind = ["v_B"]'), ["driver.find", "top of the file"]),
     "infinite": ((LINK1, "length = inf"), ["links.1.length", "inf", "finite"]),
     "overflow": ((LINK1, "length = 1e400"), ["links.1.length", "inf", "finite"]),
@@ -138,7 +138,7 @@ BROKEN = {
     # drivers
     "driver of nothing": (('link = "1"\n', ""), ["driver.link", "missing", "slide"]),
     "driver of both": ((DRIVER, DRIVER + '\nslide = "2"'), ["driver.slide", "either link"]),
-    "driver of no link": (('link = "1"', 'link = "7"'), ["driver.link", '"7"', "1, 2, 3, 4"]),
+    "driver of no link": (('link = "1"', 'link = "7"'), ["driver.link", '"7"', "known here: 1, 2, 3"]),
     "driver of the frame": (('link = "1"', 'link = "4"'), ["driver.link", "frame", "1, 2, 3"]),
     "relative to no link": ((DRIVER, DRIVER + '\nrelative_to = "8"'), ["driver.relative_to", '"8"']),
     "relative to itself": ((DRIVER, DRIVER + '\nrelative_to = "1"'), ["driver.relative_to", "itself"]),
@@ -167,7 +167,7 @@ BROKEN = {
     "Coriolis of two points": (('title = "Four-bar"', 'find = ["ak_B@1/C@2"]'), ["find", "two different points"]),
     "printed of no point": (("[driver]", "[printed]\nv_Q = 3\n[driver]"), ["printed.v_Q", "Q"]),
     "printed rate of two": (("[driver]", "[printed]\nomega_2 = [1, 2]\n[driver]"), ["printed.omega_2", "one number"]),
-    "printed text": (("[driver]", "[printed]\nv_B = 'x'\n[driver]"), ["printed.v_B", '"x"', "[x, y]"]),
+    "printed text": (("[driver]", "[printed]\nv_B = 'x'\n[driver]"), ["printed.v_B", '"x"', "as printed"]),
 }
 
 
@@ -267,6 +267,12 @@ def test_a_misspelt_key_beside_the_right_one_is_one_problem() -> None:
 def test_a_point_taken_out_for_a_wrong_number_is_not_reported_as_unknown() -> None:
     text = changed(FOUR_BAR, ("E = [100, 50]", "E = [100, nan]"))
     assert [s.split(":")[0] for s in messages(text)] == ["links.2.at.E.2"]
+
+
+def test_the_frame_is_not_offered_where_a_link_is_to_be_driven() -> None:
+    with pytest.raises(SceneError) as error:
+        mechanism_of_text(changed(FOUR_BAR, ('link = "1"', 'link = "7"')), "four-bar")
+    assert ["known here: 1, 2, 3"] == [problem.wanted for problem in error.value.problems]
 
 
 def test_a_wrong_angle_of_the_driver_is_not_reported_as_missing() -> None:
