@@ -29,7 +29,7 @@ from graphkin.drawing.primitives import Arc, Circle, Group, Line, Primitive, Run
 from graphkin.drawing.strokes import colour_of_link
 from graphkin.drawing.text import plain, rich, wrapped
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import Phrase, languages, say
+from graphkin.words import Phrase, languages, say, word
 
 __all__ = ["background", "centres_figure", "circle_diagram", "stroke_of"]
 
@@ -212,11 +212,11 @@ class _Side:
             "by Kennedy": lambda c: c.kind == "found" and not c.way,
             "otherwise": lambda c: bool(c.way),
         }
-        for word, holds in kinds.items():
+        for kind, holds in kinds.items():
             one = next((c for c in self.centres.found if holds(c)), None)
             if one is not None:
                 self.drawn += mark_of(one, frame, complex(x + 3.0, y - 1.0))
-                self.words.append(self._text(complex(x + 8.0, y), term(word, self.language)))
+                self.words.append(self._text(complex(x + 8.0, y), term(kind, self.language)))
                 y += 5.2
         return y
 
@@ -260,12 +260,22 @@ def _report(
                 kept = ", ".join(centres.kept)
                 sentences.append(_say(Phrase(f"centre {centre.way}", (centre.pair, kept)), each, letters))
             lines += wrapped(term("sentence joint", each).join(sentences), 3.0, width)
-        spoken = velocity_sentences(centres, turning)
-        if spoken:
-            lines += wrapped(term("velocities by centres", each), 3.2, width, bold=True)
-        for phrase in spoken:
-            lines += wrapped(_say(phrase, each, letters), 3.0, width)
+    spoken = velocity_sentences(centres, turning)
+    if spoken:
+        lines += wrapped(term("velocities by centres", language), 3.2, width, bold=True)
+    for phrase in spoken:
+        lines += wrapped(_in_all(phrase, language, letters), 3.0, width)
     return lines
+
+
+def _in_all(phrase: Phrase, language: str, letters: Letters) -> str:
+    """A sentence in each language of a sheet; a formula with which they all begin is written once."""
+    parts = [_say(phrase, each, letters).split(word("sentence joint", each), 1) for each in languages(language)]
+    formulas = list(dict.fromkeys(part[0] for part in parts))
+    if len(formulas) > 1:
+        return "  ".join(dict.fromkeys(word("sentence joint", "en").join(part) for part in parts))
+    words = "  ".join(dict.fromkeys(part[1] for part in parts if len(part) > 1))
+    return formulas[0] + (word("sentence joint", languages(language)[0]) + words if words else "")
 
 
 def _say(phrase: Phrase, language: str, letters: Letters) -> str:

@@ -132,8 +132,7 @@ class Letters:
             index = ",".join(filter(None, (rest, end.link or self.blocks.get(end.point, ""), str(number))))
             return f"{letter.lower()}_{{{index}}}'"
         mark = _PARTS[self.convention][_ROLES[role]]
-        prime = "'" if self.convention == "chinese" else ""
-        return mark + (f"_{{{link}}}" if link else "") + prime
+        return mark + (f"_{{{link}}}" if link else "") + "'"
 
     def direction(self, direction: Direction | None, frame: str) -> str:
         """A direction in an equation row or at its line: ``⊥BC``, ``∥CB``, ``B→A``; "" if none is written."""

@@ -3,7 +3,8 @@ r"""Texts as runs: plain words, and symbols with sub- and superscripts at places
 Between dollar signs stands a symbol, in the notation of TeX: ``"velocity $v_{B3}$ of the ram"``.
 Letters of symbols are italic, digits and signs upright, Chinese upright everywhere; ``_`` and ``^`` take one character
 or a group in braces; both after one letter stand above each other; an index may have an index (``$v_{B_3}$``); a prime
-is ``′`` or ``'``; ``\mathbf{v}`` is a vector, bold and upright.  ``$$`` is a dollar sign.
+is ``′`` or ``'``, and behind an index stands above it; ``\mathbf{v}`` is a vector, bold and upright.  ``$$`` is a
+dollar sign.
 """
 
 from __future__ import annotations
@@ -184,7 +185,13 @@ def _set(atoms: tuple[Atom, ...], x: float, y: float, size: float, level: int, b
             runs.extend(_trimmed(stretch, begin, y, size, *face))
             stretch = ""
 
+    above: float | None = None  # where a prime stands over an index, at the letter that bears both
     for atom in atoms:
+        if above is not None and atom.text == "′" and not (atom.sub or atom.sup):
+            runs.extend(_trimmed("′", above, y, size, False, atom.bold))
+            x = max(x, above + width("′", size))
+            continue
+        above = None
         character = "−" if atom.text == "-" and level == 0 else atom.text
         own = is_italic(character) and not atom.bold, atom.bold
         if stretch and face != own:
@@ -195,6 +202,7 @@ def _set(atoms: tuple[Atom, ...], x: float, y: float, size: float, level: int, b
         x = begin + width(stretch, size, *face)
         if atom.sub or atom.sup:
             flush()
+            above = None if atom.sup else x
             drop = _DROP_STACKED if atom.sup else _DROP
             x = max(
                 _hang(runs, atom.sub, x + _GAP_SUB * size, y + drop * size, level, base),

@@ -125,3 +125,10 @@ def test_the_moving_centrode_touches_the_fixed_one_at_the_centre() -> None:
 def test_links_without_centrodes_are_refused_by_name(link: str) -> None:
     with pytest.raises(CallError, match=f"centrode {link}"):
         centrodes("slider-crank-offset", link)
+
+
+def test_a_formula_of_a_bilingual_figure_is_written_once():
+    from graphkin import centres
+
+    svg = centres("shaper-scheme-2", language="both").figure.content("svg").decode()
+    assert 1 == svg.split("</desc>")[1].count("603.19 mm/s")

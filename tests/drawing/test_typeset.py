@@ -104,3 +104,9 @@ def test_empty_words_have_no_run():
 
 def test_the_width_of_no_runs_is_zero():
     assert runs_width(()) == 0.0
+
+
+def test_a_prime_behind_an_index_stands_above_it_at_the_letter():
+    letter, index, prime = rich("$d_5'$")
+    assert ("d", "5", "′") == (letter.text, index.text, prime.text)
+    assert (prime.x, prime.y) == pytest.approx((width("d", 3.5, italic=True), letter.y))
