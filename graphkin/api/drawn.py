@@ -195,12 +195,25 @@ def _loops(drawn: Drawn) -> Drawing | None:
     return loops_figure(drawn.checked.sheet, language=drawn.language, convention=drawn.convention)
 
 
+def _positions(drawn: Drawn) -> Drawing:
+    from graphkin.api.shown_positions import shown_positions
+    from graphkin.drawing.positions import positions_figure
+    from graphkin.solver.named_positions import named_positions
+
+    places = named_positions(drawn.scene)
+    structure = drawn.plan.structure
+    whole = replace(plan(structure, drawn.checked.sheet.drivers, ()), scales=drawn.plan.scales)
+    shown = shown_positions(whole, places.values if places else {})
+    return positions_figure(shown, language=drawn.language, convention=drawn.convention)
+
+
 FIGURES: Mapping[str, FigureKind] = {
     "mechanism": FigureKind(_always, _mechanism),
     "velocity": FigureKind(_always, _velocity),
     "acceleration": FigureKind(_always, _acceleration),
     "sheet": FigureKind(_always, _sheet),
     "centres": FigureKind(_always, _centres),
+    "positions": FigureKind(lambda scene: scene.positions is not None, _positions),
     "loops": FigureKind(lambda scene: bool(scene.loops), _loops),
 }
 """Every figure of `draw` by its name: the one place where a further figure is entered."""

@@ -1,0 +1,242 @@
+"""The figure of several positions: limit positions dashed, numbered ones thin, the crank's angles between them, stroke,
+swing and K, the least transmission angle at its position, and the paths of points of couplers."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from graphkin.construction.sheet import Sheet
+from graphkin.drawing import strokes
+from graphkin.drawing.box import Box
+from graphkin.drawing.conventions import Letters, letters_of
+from graphkin.drawing.dimensions import angle_dimension, check_bar, dimension
+from graphkin.drawing.drawing import Drawing
+from graphkin.drawing.headings import facts, figure_title, number, term, titles
+from graphkin.drawing.labels import Label
+from graphkin.drawing.mechanism import bare_mechanism
+from graphkin.drawing.mechanism_on_paper import MechanismOnPaper, page
+from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
+from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Polyline, Primitive, Stroke, Text
+from graphkin.drawing.symbols import BLOCK_LENGTH, BLOCK_WIDTH
+from graphkin.drawing.text import plain, rich, wrapped
+from graphkin.scene.model import AngleDriver
+from graphkin.scene.symbol import PointRef
+from graphkin.words import Phrase, languages, say
+
+__all__ = ["Shown", "positions_figure"]
+
+MARGIN, ROOM, FOOT = 8.0, 16.0, 14.0
+LEAST_WIDTH = 130.0
+LINE = 5.0
+NUMBERED, LIMIT, PATH = Stroke(0.18), Stroke(0.35, (3.0, 1.2)), Stroke(0.25, (4.0, 0.8, 0.5, 0.8))
+
+
+@dataclass(frozen=True)
+class Shown:
+    """What the figure shows, all at one scale.
+
+    own : the scene's own position
+    limits : of an output the low and the high limit position, by the output's sliding pair or link
+    numbered : other positions by name
+    least : where the transmission angle of the last group is least, and the angle (rad)
+    paths : places (mm) of points of couplers over a turn
+    measured : readings of the whole turn (m, rad), by kind ("stroke", "swing", "K", "theta_lag") and output
+    """
+
+    own: Sheet
+    limits: Mapping[str, tuple[Sheet, Sheet]]
+    numbered: Mapping[str, Sheet]
+    least: tuple[Sheet, float, tuple[complex, complex, complex]] | None
+    paths: Mapping[str, Sequence[complex]]
+    measured: Mapping[tuple[str, str], float]
+    marks: tuple[str, ...]
+
+
+def positions_figure(shown: Shown, *, language: str | None = None, convention: str | None = None) -> Drawing:
+    """The mechanism in several positions on one figure, at its true scale.
+
+    Parameters
+    ----------
+    language : "en", "zh" or "both"; the scene's own if None
+    convention : letters of points; the scene's own if None
+    """
+    sheet = shown.own
+    scene = sheet.scene
+    spoken = language or scene.sheet.language
+    letters = letters_of(sheet, convention or scene.sheet.convention)  # type: ignore[arg-type]
+    numbered = [_position(one, letters, NUMBERED, f"position-{name}") for name, one in shown.numbered.items()]
+    limits = [
+        _position(one, letters, LIMIT, f"limit-{pair.replace('/', '-')}-{end}")
+        for pair, both in shown.limits.items() for end, one in zip(("low", "high"), both, strict=True)
+    ]  # fmt: skip
+    least = []
+    if shown.least is not None and "gamma" in shown.marks:
+        least = [_position(shown.least[0], letters, NUMBERED, "least-transmission"), _gamma(shown)]
+    paths = Piece({"construction": tuple(
+        Group((Polyline(tuple(map(page, places)), PATH),), id=f"path-{point}", classes=("path",))
+        for point, places in shown.paths.items() if len(places) > 1
+    )})  # fmt: skip
+    numbers = _numbers(shown)
+    whole = joined((paths, *numbered, *limits, *least, _crank(shown), _strokes(shown),
+                    bare_mechanism(sheet, letters), numbers))  # fmt: skip
+    box = ink_box(whole.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
+    width = max(LEAST_WIDTH, box.width + 2 * (ROOM + MARGIN))
+    head = [line for title in titles(sheet, spoken) for line in wrapped(title, 4.0, width - 2 * MARGIN, bold=True)]
+    told = [runs for text in _told(shown, spoken) for runs in wrapped(text, 3.0, width - 2 * MARGIN)]
+    top = MARGIN + LINE * (len(head) + len(told)) + 3.0
+    panel = Box(MARGIN, top, width - MARGIN, top + box.height + 2 * ROOM)
+    placed = with_labels(moved_piece(whole, panel.centre - box.centre), panel)
+    height = panel.bottom + FOOT
+    words: list[Primitive] = [
+        Text(complex(MARGIN, MARGIN + 3.5 + LINE * i), runs, classes=("heading",))
+        for i, runs in enumerate((*head, *told))
+    ]
+    metres, unit = scene.units.metres, scene.units.length
+    scale = f"$μ_{{l}}$ = {number(sheet.scales.length / metres)} {unit}/mm"
+    words.append(Text(complex(MARGIN, height - 6.0), rich(scale, 3.5)))
+    words += check_bar(complex(width - MARGIN - 50.0, height - 6.0), rich(term("check bar", spoken), 2.5))
+    return Drawing(
+        width, height, layer_groups(joined((placed, Piece({"labels": tuple(words)})))),
+        figure_title(sheet, "positions", spoken), ". ".join(t.replace("$", "") for t in _told(shown, spoken)),
+        languages(spoken)[0], facts(sheet, "positions"),
+    )  # fmt: skip
+
+
+def _position(sheet: Sheet, letters: Letters, stroke: Stroke, id: str) -> Piece:
+    """The bars, blocks and pins of one position, without names."""
+    here = MechanismOnPaper(sheet, letters)
+    parts: list[Primitive] = []
+    for shape in here.shapes:
+        own = stroke.coloured(here.colour(shape.link))
+        if shape.corners:
+            parts.append(Polygon(tuple(map(page, shape.corners)), "", own))
+        parts += [Line(page(a), page(b), own) for a, b in shape.bars]
+    for b in here.sliders:
+        if not b.slide.slot:
+            half, across = b.along * BLOCK_LENGTH * 0.35, 1j * b.along * BLOCK_WIDTH * 0.35
+            corners = (b.at + half + across, b.at + half - across, b.at - half - across, b.at - half + across)
+            parts.append(Polygon(tuple(map(page, corners)), "", strokes.DIMENSION.coloured(here.colour(b.slide.a))))
+    moving = [p for p in here.places if here.moving(p) and p not in here.scene.frame.points]
+    parts += [Circle(page(here.places[p]), 0.7, fill=strokes.WHITE, stroke=strokes.DIMENSION) for p in moving]
+    return Piece({"mechanism": (Group(tuple(parts), id=id, classes=("position",)),)},
+                 marks=tuple(page(here.places[p]) for p in moving))  # fmt: skip
+
+
+def _crank_end(sheet: Sheet) -> tuple[complex, complex] | None:
+    """Pivot and far pin of the driven crank on paper; None for another driver."""
+    driver = sheet.scene.drivers[0]
+    if not isinstance(driver, AngleDriver):
+        return None
+    link = sheet.structure.links[driver.link]
+    pivot = next((p for p in link.points if p in sheet.scene.frame.points), None)
+    far = [p for p in link.points if p != pivot and len(sheet.scene.holders[p]) > 1]
+    if pivot is None or not far:
+        return None
+    return sheet.points[PointRef(pivot)], sheet.points[PointRef(far[0])]
+
+
+def _numbers(shown: Shown) -> Piece:
+    """The names of the positions at the crank's pin, or at the driven slide's."""
+    labels = []
+    for name, sheet in shown.numbered.items():
+        ends = _crank_end(sheet)
+        if ends is not None and ends[1] != ends[0]:
+            text = Text(0j, plain(name, 2.6), "start", strokes.BLACK, f"label-position-{name}", ("label",))
+            labels.append(Label(text, page(ends[1]), (cmath.phase(ends[1] - ends[0]),)))
+    return Piece(labels=tuple(labels))
+
+
+def _crank(shown: Shown) -> Piece:
+    """The angle theta between the crank's limit positions, and its two ways, in the driver's sense."""
+    parts: list[Primitive] = []
+    for pair, (low, high) in shown.limits.items():
+        ends = _crank_end(low), _crank_end(high)
+        lag = shown.measured.get(("theta_lag", pair))
+        if ends[0] is None or ends[1] is None or lag is None or "theta" not in shown.marks:
+            continue
+        pivot, radius = ends[0][0], abs(ends[0][1] - ends[0][0])
+        one, two = (end[1] - end[0] for end in ends if end is not None)
+        back = pivot - 1.35 * two
+        parts.append(Line(page(pivot), page(back), strokes.DIRECTION))
+        start = cmath.phase(one)
+        turn = math.remainder(cmath.phase(-two) - start, math.tau)
+        shown_lag = rich(f"$θ$ = {number(math.degrees(lag), 5)}°", 2.8)
+        if abs(turn) > 0.02:
+            parts += angle_dimension(page(pivot), 1.18 * radius, start, start + turn, shown_lag)
+        driver = shown.own.scene.drivers[0]
+        sense = -1.0 if driver.values[1] < 0 else 1.0
+        for from_, to, size in ((one, two, 0.55), (two, one, 0.4)):
+            way = (sense * (cmath.phase(to) - cmath.phase(from_))) % math.tau
+            begin = cmath.phase(from_)
+            written = rich(f"{number(math.degrees(way), 5)}°", 2.4)
+            if radius > 8.0 and way < math.tau - 0.05:
+                parts += angle_dimension(page(pivot), size * radius, begin, begin + sense * way, written)
+        break
+    return Piece({"answers": tuple(parts)}) if parts else Piece()
+
+
+def _strokes(shown: Shown) -> Piece:
+    """Strokes of slides and swings of links, dimensioned between the limit positions."""
+    parts: list[Primitive] = []
+    if "stroke" not in shown.marks:
+        return Piece()
+    metres, unit = shown.own.scene.units.metres, shown.own.scene.units.length
+    for pair, (low, high) in shown.limits.items():
+        if "/" in pair:
+            stroke = shown.measured.get(("stroke", pair))
+            ends = [one.poses[pair.split("/")[0]].origin for one in (low, high)]
+            if stroke is not None and abs(ends[1] - ends[0]) > 1.0:
+                words = rich(f"$H$ = {number(stroke / metres, 6)} {unit}", 2.8)
+                parts += dimension(page(ends[0]), page(ends[1]), -9.0, words)
+        else:
+            swing = shown.measured.get(("swing", pair))
+            pivot = next((p for p in low.structure.links[pair].points if p in low.scene.frame.points), None)
+            if swing is None or pivot is None:
+                continue
+            at = low.points[PointRef(pivot)]
+            begin = cmath.phase(low.poses[pair].axis)
+            words = rich(f"$ψ$ = {number(math.degrees(swing), 5)}°", 2.8)
+            parts += angle_dimension(page(at), 16.0, begin, begin + swing, words)
+    return Piece({"answers": tuple(parts)}) if parts else Piece()
+
+
+def _gamma(shown: Shown) -> Piece:
+    """The least transmission angle as an arc at its joint."""
+    assert shown.least is not None
+    _, gamma, (joint, first, second) = shown.least
+    if gamma < 0.02:
+        return Piece()
+    start = cmath.phase(first)
+    turn = math.remainder(cmath.phase(second) - start, math.tau)
+    if abs(turn) > math.pi / 2:  # the acute one of the two
+        start, turn = cmath.phase(-first), math.remainder(cmath.phase(second) - cmath.phase(-first), math.tau)
+    reach = 11.0
+    lines = [Line(page(joint), page(joint + reach * cmath.rect(1.0, angle)), strokes.DIRECTION)
+             for angle in (start, start + turn)]  # fmt: skip
+    words = rich(rf"$γ_{{min}}$ = {number(math.degrees(gamma), 5)}°", 2.8)
+    arc = angle_dimension(page(joint), 8.0, start, start + turn, words)[:2]
+    middle = page(joint + 8.0 * cmath.rect(1.0, start + turn / 2))
+    label = Label(Text(0j, words, "start", strokes.BLACK, "label-least-gamma", ("label",)), middle)
+    return Piece({"answers": (Group((*lines, *arc), id="least-gamma"),)}, (label,))
+
+
+def _told(shown: Shown, spoken: str) -> list[str]:
+    """What was measured of the whole turn, in words."""
+    metres, unit = shown.own.scene.units.metres, shown.own.scene.units.length
+    said = [term("positions", spoken)]
+    for pair in shown.limits:
+        values = []
+        for kind, letter in (("stroke", "H"), ("swing", "ψ"), ("theta_lag", "θ"), ("K", "K")):
+            value = shown.measured.get((kind, pair))
+            if value is None or (kind == "K" and "K" not in shown.marks):
+                continue
+            text = {
+                "stroke": f"{number(value / metres, 7)} {unit}", "K": number(value, 7),
+            }.get(kind, f"{number(math.degrees(value), 7)}°")  # fmt: skip
+            values.append(f"${letter}$ = {text}")
+        for each in languages(spoken):
+            said.append(say(Phrase("positions of", (pair, ",  ".join(values))), each))
+    return said

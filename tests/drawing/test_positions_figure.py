@@ -1,0 +1,44 @@
+"""The figure of several positions: limit positions, numbered ones, and what is measured of the whole turn."""
+
+from __future__ import annotations
+
+import xml.etree.ElementTree as ET
+
+import pytest
+
+import graphkin
+from graphkin.drawing import svg_bytes
+
+FOUR_BAR = graphkin.read("fourbar-150-500-300-400").to_dict() | {"positions": {"count": 4, "first": 0}}
+
+
+@pytest.fixture(scope="module")
+def figure() -> ET.Element:
+    return ET.fromstring(svg_bytes(graphkin.draw(FOUR_BAR, figures=["positions"]).figures["positions"]))
+
+
+def ids(root: ET.Element) -> set[str]:
+    return {str(e.get("id")) for e in root.iter() if e.get("id")}
+
+
+def test_limit_and_numbered_positions_are_drawn(figure: ET.Element) -> None:
+    wanted = {"limit-3-low", "limit-3-high", *(f"position-{k}" for k in range(1, 5))}
+    assert wanted <= ids(figure)
+
+
+def test_numbers_stand_at_the_cranks_pins(figure: ET.Element) -> None:
+    assert {f"label-position-{k}" for k in range(1, 5)} <= ids(figure)
+
+
+def test_the_coupler_points_path_and_the_least_transmission_angle_are_there(figure: ET.Element) -> None:
+    assert {"path-M", "least-gamma"} <= ids(figure)
+
+
+def test_the_least_transmission_angle_is_that_with_the_crank_along_the_frame(figure: ET.Element) -> None:
+    (text,) = (e for e in figure.iter() if e.get("id") == "label-least-gamma")
+    assert "22.332°" in "".join(text.itertext())
+
+
+def test_a_scene_with_positions_has_the_figure_by_itself() -> None:
+    wanted = graphkin.draw(FOUR_BAR).wanted
+    assert ("mechanism", "velocity", "acceleration", "sheet", "centres", "positions") == wanted
