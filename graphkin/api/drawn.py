@@ -22,11 +22,12 @@ from graphkin.api.arguments import (
 from graphkin.api.checked import Checked, checked, hand_of, here, solved_here, with_elsewhere
 from graphkin.api.report_text import report_text
 from graphkin.api.results import Result
-from graphkin.construction import EXACT, Plan, plan
+from graphkin.construction import EXACT, Plan, execute, plan
 from graphkin.errors import CallError, Problem, as_text, did_you_mean
 from graphkin.files import path_of
-from graphkin.scene.model import Mechanism
+from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, SlideDriver
 from graphkin.scene.symbol import Symbol
+from graphkin.structure import Structure, analyse
 from graphkin.table import Table
 from graphkin.words import languages
 
@@ -53,6 +54,7 @@ class Drawn(Result):
     seed: int = 0
     language: str | None = None
     convention: str | None = None
+    driver: str = ""
 
     @property
     def scene(self) -> Mechanism:
@@ -195,6 +197,35 @@ def _loops(drawn: Drawn) -> Drawing | None:
     return loops_figure(drawn.checked.sheet, language=drawn.language, convention=drawn.convention)
 
 
+def _structure(drawn: Drawn) -> Drawing:
+    from graphkin.drawing.structure import structure_figure
+
+    structure = drawn.plan.structure
+    whole = execute(replace(plan(structure, drawn.checked.sheet.drivers, ()), scales=drawn.plan.scales))
+    others = [driven_by(drawn.scene, drawn.driver)] if drawn.driver else []
+    return structure_figure(whole, others, language=drawn.language, convention=drawn.convention)
+
+
+def driven_by(scene: Mechanism, link: str) -> Structure:
+    """The structure of a mechanism of one driver that another link drives, about the frame or along it.
+
+    Raises
+    ------
+    CallError : there is no such link, or it neither turns about the frame nor slides on it
+    Unsolvable : so driven it is no mechanism
+    """
+    known = [one.name for one in scene.links]
+    slide = next((s.key for s in scene.slidings if s.link == link and s.on == scene.frame.name), None)
+    if link not in known:
+        raise CallError(Problem(f"driver {link}", f'there is no link "{link}"', did_you_mean(link, known)))
+    driver: AnyDriver = AngleDriver(link, scene.frame.name, 0.0, 0.0, 0.0)
+    if slide is not None:
+        driver = SlideDriver(slide, 0.0, 0.0, 0.0)
+    elif not any(p in scene.frame.points for p in scene.by_name[link].points):
+        raise CallError(Problem(f"driver {link}", "neither turns about the frame nor slides on it"))
+    return analyse(replace(scene, drivers=(driver, *scene.drivers[1:])))
+
+
 def _positions(drawn: Drawn) -> Drawing:
     from graphkin.api.shown_positions import shown_positions
     from graphkin.drawing.positions import positions_figure
@@ -213,6 +244,7 @@ FIGURES: Mapping[str, FigureKind] = {
     "acceleration": FigureKind(_always, _acceleration),
     "sheet": FigureKind(_always, _sheet),
     "centres": FigureKind(_always, _centres),
+    "structure": FigureKind(lambda scene: False, _structure),
     "positions": FigureKind(lambda scene: scene.positions is not None, _positions),
     "loops": FigureKind(lambda scene: bool(scene.loops), _loops),
 }
@@ -247,6 +279,7 @@ def draw(
     instrument: str = "exact",
     seed: int = 0,
     figures: Sequence[str] | None = None,
+    driver: str = "",
 ) -> Drawn:
     """Draw a scene step by step, check it, and write the figures if a folder is given.
 
@@ -256,6 +289,7 @@ def draw(
     out : folder for the figures in each of the ``formats``, readings.csv and report.txt
     figures : names of figures, to draw these only; without it mechanism, velocity, acceleration, sheet, centres, and
         those for which the scene has a table
+    driver : of the figure "structure": a link that drives instead of the scene's first driver, shown beside it
     language : "en", "zh" or "both" (on the figures; the report is in English then); the scene's own if None
     convention : "chinese", "us", "british" or "russian"; the scene's own if None
 
@@ -276,7 +310,7 @@ def draw(
     motion = solved_here(structure, values, here(asked))
     what = plan(structure, values, here(asked))
     whole = with_elsewhere(checked(what, motion, hand), asked, seed)
-    drawn = Drawn(whole, what, motion, wanted, seed, language, convention)
+    drawn = Drawn(whole, what, motion, wanted, seed, language, convention, driver)
     if out is not None:
         drawn.write(out, formats)
     return drawn

@@ -127,6 +127,9 @@ def draw(
         typer.Option("--figure", metavar="NAME", help="Draw this figure only (velocity, sheet, ...); may be repeated."),
     ] = None,
     text: TextOption = "glyphs",
+    driver: Annotated[
+        str, typer.Option("--driver", metavar="LINK", help="With --figure structure: another driver beside the first.")
+    ] = "",
     as_json: JsonOption = False,
     quiet: QuietOption = False,
 ) -> None:
@@ -139,7 +142,7 @@ def draw(
     with unsolvable_as_json(as_json, unchecked):
         drawn = drawing(
             scene, None, driver_values(at, position), find or None, wanted, lang, convention, instrument, seed,
-            figure or None,
+            figure or None, driver,
         )  # fmt: skip
         paths = drawn.write(out, wanted, text)
     if not as_json and not quiet:
