@@ -146,8 +146,15 @@ class Swept(Result):
     def figures(self) -> Mapping[str, ChartPage | Drawing]:
         """Motion diagrams of the outputs and coupler curves by name; none over designs."""
         from graphkin.study.diagrams import diagrams
+        from graphkin.study.quantities import Quantity
 
-        return {} if self.turn is None else diagrams(self.turn, self.language)
+        if self.turn is None:
+            return {}
+        # what is asked alone is drawn alone; without that the outputs and the coupler curves
+        own = [str(s) for s in self.over.scene.find]
+        wished = [w.what for w in self.over.asked if isinstance(w.what, Quantity)]
+        asked = wished if [w.name for w in self.over.asked] != own else []
+        return diagrams(self.turn, self.language, asked=asked)
 
     def to_xarray(self) -> xarray.Dataset:
         """The table as a data set of xarray with units, over ``position`` or over ``design`` and ``position``, with

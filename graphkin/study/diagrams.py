@@ -58,16 +58,23 @@ BESIDE = 1e-3
 MARGIN = 0.14
 """Of the range of values, above and below the curve: room for the labels of its extremes."""
 ZERO = Stroke(0.18)
+ASKED_HEIGHT = 95.0  # mm, of the panel of one quantity alone
 LIMIT = Stroke(0.18, (4.0, 0.9, 0.9, 0.9))
 
 
-def diagrams(turn: TurnStudy, language: str = "en", positions: int = 12) -> dict[str, ChartPage | Drawing]:
-    """The motion diagrams of each output and the curve of each coupler point, by name of file.
+def diagrams(
+    turn: TurnStudy, language: str = "en", positions: int = 12, asked: Sequence[Quantity] = ()
+) -> dict[str, ChartPage | Drawing]:
+    """The motion diagrams of each output and the curve of each coupler point, by name of file; where quantities are
+    asked for, the diagram of each of these alone.
 
     Parameters
     ----------
     positions : where the values measured off the drawn polygons are laid over the curves; 0 for none
     """
+    if asked:
+        names = [q.name.replace("/", "-").replace("@", "") for q in asked]
+        return {f"diagram-{name}": _asked_page(turn, q, language) for name, q in zip(names, asked, strict=True)}
     quantities = [o.quantity for o in turn.outputs]
     dots = measured(turn.reach, quantities, positions) if positions else {q: [] for q in quantities}
     pages: dict[str, ChartPage | Drawing] = {}
@@ -140,6 +147,32 @@ def _motion_page(turn: TurnStudy, output: Output, dots: Sequence[tuple[float, ..
     )  # fmt: skip
 
 
+def _asked_page(turn: TurnStudy, quantity: Quantity, language: str) -> ChartPage:
+    """The diagram of one quantity over the driver."""
+    scene = turn.scene
+    axis = driver_axis(turn.reach, language)
+    traced = next((t for t in turn.curves if t.quantity == quantity), None)
+    panel = _panel(turn, axis, quantity, traced, [])
+    title = say(Phrase("diagram of", (panel.title,)), language)
+    kinds = [e.kind for e, _, _ in panel.extremes]
+
+    def paint(figure: Figure) -> None:
+        add_words(figure, *heading(scene, title, [], language))
+        entries = [(look(SOLID_AND_DASHED[0]), word("analytic curve", language))]
+        entries += [(marker("up"), word("greatest", language))] if "max" in kinds else []
+        entries += [(marker("down"), word("least", language))] if "min" in kinds else []
+        add_legend(figure, complex(LEFT, TOP - 9.5), entries)
+        box = Box(LEFT, TOP, WIDTH - RIGHT, TOP + ASKED_HEIGHT)
+        axes = add_panel(figure, box, panel.quantity.name.replace("/", "-"), panel.title, axis.title)
+        _draw(axes, panel, axis, [])
+
+    return ChartPage(
+        WIDTH, TOP + ASKED_HEIGHT + 20.0, paint, title=f"{quantity.name}: {title_of(scene, language)}",
+        desc=quantity.name, lang=language,
+        metadata={"scene": scene.name, "units": scene.units.length, "quantity": quantity.name},
+    )  # fmt: skip
+
+
 def _draw(axes: Axes, panel: _Panel, axis: DriverAxis, limits: Sequence[float]) -> None:
     """One panel; zero lines and limit positions lie behind the curve."""
     axes.set_xlim(axis.left, axis.right)
@@ -201,9 +234,11 @@ def _panel(
         x[0], x[-1] = axis.left, axis.right
         gain = _gain(reach, quantity) if quantity.kind == "theta" else 0.0
         values[-1] = values[0] + quantity.in_units(scene, gain, degrees=True)
-    letter, name = quantity.kind, quantity.of.split("/")[0]
-    greek = {"theta": "θ", "omega": "ω", "alpha": "α"}.get(letter, letter)
-    title = f"${greek}_{{{name}}}$ ({_unit_words(quantity.unit(scene, degrees=True))})"
+    letter, name = str(quantity.kind), quantity.of.split("/")[0]
+    if quantity.symbol is not None:
+        letter, name = quantity.symbol.kind, str(quantity.symbol).removeprefix(f"{quantity.symbol.kind}_")
+    greek = {"theta": "θ", "omega": "ω", "alpha": "α", "gamma": "γ", "pressure": "α^{p}", "d": "l"}.get(letter, letter)
+    title = f"${greek}_{{{name.replace('@', '')}}}$ ({_unit_words(quantity.unit(scene, degrees=True))})"
     at = np.array([d[0] for d in dots])
     read = np.array([d[1] for d in dots])
     if len(dots) and quantity.kind == "theta":
