@@ -234,9 +234,9 @@ def _unknown_names(scene: Mechanism, symbol: Symbol) -> list[Problem]:
     return missing_names(symbol, missing("link", scene.by_name), missing("point", scene.holders), scene.by_name)
 
 
-def write_files(folder: Path, files: Mapping[str, bytes]) -> list[Path]:
-    """Write files by name into a folder, which is made if it is not there, each whole or not at all; returns their
-    paths.
+def write_files(folder: Path, files: Mapping[str, bytes | Iterable[bytes]]) -> list[Path]:
+    """Write files by name, each from one piece or many, into a folder, which is made if it is not there, each whole or
+    not at all; returns their paths.
 
     Raises
     ------
@@ -249,7 +249,8 @@ def write_files(folder: Path, files: Mapping[str, bytes]) -> list[Path]:
         for name, content in files.items():
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
             with whole_file(folder / name) as out:
-                out.write(content)
+                for piece in [content] if isinstance(content, bytes) else content:
+                    out.write(piece)
     except OSError as error:
         where = Problem(str(folder), f"cannot be written: {error.strerror}", "give another folder with -o")
         raise CallError(where) from None

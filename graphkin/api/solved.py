@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import json
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -151,12 +150,17 @@ class Solved(Result):
     @property
     def ok(self) -> bool:
         """Whether one position at least is solved."""
-        return any(p["status"] == "ok" for p in self.data["positions"])
+        return bool(self.motion.ok.any())
 
     def write(self, folder: str | os.PathLike[str]) -> list[Path]:
         """Write solution.json and solution.csv; returns the paths.  Raises CallError where that cannot be done."""
-        text = json.dumps(self.data, ensure_ascii=False, allow_nan=False) + "\n"
-        return write_files(path_of(folder), {"solution.json": text.encode(), "solution.csv": self.table.csv().encode()})
+        return write_files(path_of(folder), {"solution.json": self.json(), "solution.csv": [self.table.csv().encode()]})
+
+    def json(self) -> Iterator[bytes]:
+        """``data`` as the text of JSON, piece by piece."""
+        from graphkin.solver import json_text
+
+        return (piece.encode() for piece in json_text(self.motion, self.forces))
 
 
 def refused(scene: SceneLike, at: At, stop: Unsolvable) -> dict[str, Any]:

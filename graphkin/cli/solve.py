@@ -112,18 +112,19 @@ def solve(
     if out is not None:
         from graphkin.api.arguments import write_files
 
-        text = json.dumps(solved.data, ensure_ascii=False, allow_nan=False) + "\n"
-        write_files(out, {"solution.json": text.encode()})
+        write_files(out, {"solution.json": solved.json()})
     drawn = solved.loops(lang) if loops and solved.motion.ok.any() else None
-    if as_json:
-        print_json({**solved.data, "loops": drawn.data} if drawn else solved.data)
+    if as_json and drawn:
+        print_json({**solved.data, "loops": drawn.data})
+    elif as_json:
+        for piece in solved.json():
+            typer.echo(piece.decode(), nl=False)
     elif not quiet and drawn:
         tell(f"{drawn.plain}\n\n{drawn.latex}")
     elif not quiet:
         _print_solution(solved, lang)
     if not solved.ok:
-        first = solved.data["positions"][0]
-        tell(f"graphkin: {first['status']}: {first['why']}", err=True)
+        tell(f"graphkin: {solved.motion.status[0]}: {solved.motion.why[0]}", err=True)
         raise typer.Exit(3)
 
 

@@ -6,7 +6,7 @@ from graphkin.solver.forces import Forces, forces_of
 from graphkin.solver.motion import Motion, Sliding
 from graphkin.solver.prepared import PreparedMechanism, prepare
 from graphkin.solver.solve import solve
-from graphkin.solver.table import listed_points, to_json, write_json
+from graphkin.solver.table import json_text, listed_points, to_json
 from graphkin.solver.whole_turn import exact_values
 
 __all__ = [
@@ -18,10 +18,10 @@ __all__ = [
     "driver_range",
     "exact_values",
     "forces_of",
+    "json_text",
     "listed_points",
     "prepare",
     "solve",
     "structure_of",
     "to_json",
-    "write_json",
 ]

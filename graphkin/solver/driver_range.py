@@ -22,13 +22,15 @@ from graphkin.solver.findings import assembly_words, limit_why, singular, struct
 from graphkin.solver.joints import Drive
 from graphkin.solver.motion import Motion
 from graphkin.solver.path import FAR, Path, follow_path
-from graphkin.solver.pose import Array, rest
+from graphkin.solver.pose import Array, Pose, rest
 from graphkin.solver.redundant import all_slides, place_redundant
 from graphkin.structure import Structure
 from graphkin.structure.assembly import MOST_TURNS, ways
 
 __all__ = ["DriverRange", "driver_range", "goal_values", "motion_of", "range_from", "stopped_why", "way_to"]
 
+BLOCK = 65536
+"""Positions that are computed together."""
 CLOSED = 1e-7
 """Two positions are the same where links lie closer than this, in the size of the mechanism, and turn closer (rad)."""
 
@@ -335,6 +337,8 @@ def motion_of(
     fine : False leaves 16 digits where they are rough, and the reasons away
     """
     n = len(drive)
+    if n > BLOCK:
+        return _in_blocks(structure, drive, forms, assembly, good, why, fine)
     state = positions(structure, drive, forms, fine=fine)
     status = np.where(good, "ok", "not assembled").astype("<U13")
     reasons = ["" if g else why for g in good]
@@ -348,7 +352,35 @@ def motion_of(
     bound = ErrorBound(*(np.where(ok, b, np.nan) for b in state.bounds))
     rough = (np.where(ok, state.rough[0], np.nan), np.where(ok, state.rough[1], np.nan))
     poses = {name: pose.spread(n).where(ok) for name, pose in state.poses.items()}
-    poses[structure.scene.frame.name] = rest().spread(n)
+    poses[structure.scene.frame.name] = rest().still(n)
     place_redundant(structure, poses, ok, bound)
     slides = all_slides(structure)
     return Motion(structure, drive.value, status, tuple(reasons), poses, slides, assembly, bound, rough)
+
+
+def _in_blocks(
+    structure: Structure,
+    drive: Drive,
+    forms: Mapping[int, Array],
+    assembly: tuple[str, ...],
+    good: Array,
+    why: str,
+    fine: bool,
+) -> Motion:
+    """``motion_of`` a block of positions at a time, so that no more is in memory than what is found."""
+    n = len(drive)
+    status, reasons = np.empty(n, dtype="<U13"), [""] * n
+    poses: dict[str, Pose] = {}
+    numbers = np.empty((8, n))
+    for first in range(0, n, BLOCK):
+        rows = slice(first, min(first + BLOCK, n))
+        own = {i: f[rows] if np.ndim(f) and len(f) == n else f for i, f in forms.items()}
+        some = motion_of(structure, drive[rows], own, assembly, good[rows], why, fine)
+        status[rows], reasons[rows] = some.status, some.why
+        numbers[:, rows] = [*some.bound, *some.rough]
+        poses = poses or {name: rest().spread(n) for name in some.poses}
+        for name, pose in some.poses.items():
+            poses[name].put(rows, pose)
+    poses[structure.scene.frame.name] = rest().still(n)
+    bound, rough = ErrorBound(*numbers[:6]), (numbers[6], numbers[7])
+    return Motion(structure, drive.value, status, tuple(reasons), poses, some.slides, assembly, bound, rough)

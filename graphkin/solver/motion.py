@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -187,6 +187,19 @@ class Motion:
 
     def __len__(self) -> int:
         return len(self.values)
+
+    def rows(self, rows: slice) -> Motion:
+        """Some of the positions, in the same memory; angles of links begin anew."""
+        return replace(
+            self,
+            values=self.values[rows],
+            status=self.status[rows],
+            why=self.why[rows],
+            poses={name: pose.rows(rows) for name, pose in self.poses.items()},
+            bound=ErrorBound(*(b[rows] for b in self.bound)),
+            rough=(self.rough[0][rows], self.rough[1][rows]),
+            turned={},
+        )
 
     def require(self) -> Motion:
         """Itself, if at least one position is ok.  Raises Unsolvable with the first reason otherwise."""

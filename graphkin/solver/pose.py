@@ -110,6 +110,20 @@ class Pose:
             alpha,
         )
 
+    def still(self, n: int) -> Pose:
+        """The same at n positions, in the memory of one."""
+        fields = (self.z, self.u, self.v, self.omega, self.a, self.alpha)
+        return Pose(*(np.broadcast_to(np.ravel(x)[0], (n,)) for x in fields))
+
+    def rows(self, rows: slice) -> Pose:
+        """The same at some positions, in the same memory."""
+        return Pose(*(x[rows] for x in (self.z, self.u, self.v, self.omega, self.a, self.alpha)))
+
+    def put(self, rows: slice, some: Pose) -> None:
+        """Write the same of some positions into the arrays of these."""
+        for name in ("z", "u", "v", "omega", "a", "alpha"):
+            getattr(self, name)[rows] = getattr(some, name)
+
     def where(self, ok: Array) -> Pose:
         """The same where ok, NaN elsewhere."""
         return Pose(*(np.where(ok, x, np.nan) for x in (self.z, self.u, self.v, self.omega, self.a, self.alpha)))

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Sequence
-from typing import IO, Any
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -14,7 +15,7 @@ from graphkin.solver.motion import Motion
 from graphkin.solver.pose import Array
 from graphkin.structure import Cluster, Dyad, Slide
 
-__all__ = ["listed_points", "to_json", "write_json"]
+__all__ = ["json_text", "listed_points", "to_json"]
 
 BLOCK = 1024
 """Positions that are made into objects at once."""
@@ -39,16 +40,18 @@ def to_json(motion: Motion, forces: Forces | None = None) -> dict[str, Any]:
     return {**_head(motion), "positions": entries}
 
 
-def write_json(motion: Motion, out: IO[bytes], forces: Forces | None = None) -> None:
-    """Write ``to_json`` as JSON, with a line feed at its end, as it goes: of a long sweep only a block is in memory."""
-    out.write(_text(_head(motion))[:-1] + b', "positions": [')
+def json_text(motion: Motion, forces: Forces | None = None) -> Iterator[str]:
+    """``to_json`` as the text of JSON, with a line feed at its end, piece by piece: of a long sweep only a block is in
+    memory.  What would command a terminal is escaped."""
+    yield _text(_head(motion))[:-1] + ', "positions": ['
     for k, block in enumerate(_positions(motion, forces)):
-        out.write((b", " if k else b"") + _text(block)[1:-1])
-    out.write(b"]}\n")
+        yield (", " if k else "") + _text(block)[1:-1]
+    yield "]}\n"
 
 
-def _text(data: object) -> bytes:
-    return json.dumps(data, ensure_ascii=False, allow_nan=False).encode()
+def _text(data: object) -> str:
+    text = json.dumps(data, ensure_ascii=False, allow_nan=False)
+    return re.sub("[\x7f-\x9f]", lambda found: f"\\u{ord(found[0]):04x}", text)
 
 
 def _head(motion: Motion) -> dict[str, Any]:
@@ -66,26 +69,16 @@ def _positions(motion: Motion, forces: Forces | None) -> Iterator[list[dict[str,
     """The entries of the positions, some thousand at a time."""
     scene = motion.scene
     metres = scene.units.metres
-    columns: dict[str, dict[str, dict[str, Array]]] = {"links": {}, "points": {}, "slides": {}}
-    for name in (link.name for link in scene.links):
-        found: tuple[Array, ...] = (motion.angle(name), motion.omega(name), motion.alpha(name))
-        columns["links"][name] = dict(zip(("angle", "omega", "alpha"), found, strict=True))
-    for point, name in listed_points(scene, motion.slides):
-        at = motion.point(point, name)
-        found = at.z / metres, at.v / metres, at.a / metres
-        columns["points"][f"{point}@{name}"] = dict(zip(("position", "velocity", "acceleration"), found, strict=True))
-    for pair in motion.slides:
-        found = tuple(value / metres for value in motion.slide(pair.key))
-        kinds = ("travel", "velocity", "acceleration", "coriolis")
-        columns["slides"][pair.key] = dict(zip(kinds, found, strict=True))
+    angles = {link.name: motion.angle(link.name) for link in scene.links}
     drivers = {
         d.key: motion.values[:, i] / (metres if isinstance(d, SlideDriver) else 1.0)
         for i, d in enumerate(scene.drivers)
     }
     for first in range(0, len(motion), BLOCK):
         some = slice(first, first + BLOCK)
+        columns = _columns(motion.rows(some), {name: angle[some] for name, angle in angles.items()})
         cells = {
-            part: {key: {what: _plain(v[some]) for what, v in row.items()} for key, row in table.items()}
+            part: {key: {what: _plain(v) for what, v in row.items()} for key, row in table.items()}
             for part, table in columns.items()
         }
         own = {key: v[some].tolist() for key, v in drivers.items()}
@@ -102,6 +95,23 @@ def _positions(motion: Motion, forces: Forces | None) -> Iterator[list[dict[str,
                 entry |= _forces(scene, forces, first + k)
             block.append(entry)
         yield block
+
+
+def _columns(motion: Motion, angles: Mapping[str, Array]) -> dict[str, dict[str, dict[str, Array]]]:
+    """Every number of some positions, in the scene's length unit."""
+    scene = motion.scene
+    metres = scene.units.metres
+    columns: dict[str, dict[str, dict[str, Array]]] = {"links": {}, "points": {}, "slides": {}}
+    for name, angle in angles.items():
+        columns["links"][name] = {"angle": angle, "omega": motion.omega(name), "alpha": motion.alpha(name)}
+    for point, name in listed_points(scene, motion.slides):
+        at = motion.point(point, name)
+        found = at.z / metres, at.v / metres, at.a / metres
+        columns["points"][f"{point}@{name}"] = dict(zip(("position", "velocity", "acceleration"), found, strict=True))
+    for pair in motion.slides:
+        kinds = ("travel", "velocity", "acceleration", "coriolis")
+        columns["slides"][pair.key] = dict(zip(kinds, (x / metres for x in motion.slide(pair.key)), strict=True))
+    return columns
 
 
 def _forces(scene: Mechanism, forces: Forces, k: int) -> dict[str, Any]:

@@ -168,6 +168,8 @@ def follow(
         if value[i] < -touch:
             return Passage(_end(discriminant, 0.0, grid[max(i - 1, 0)], grid[i]), np.array(touches))
         before, after = max(i - 1, 0), min(i + 1, len(grid) - 1)
+        if not np.isfinite(value[[before, i, after]]).all():
+            continue
         change = max(abs(value[before] - value[i]), abs(value[after] - value[i]))
         if value[before] < value[i] or value[after] < value[i] or value[i] > change:
             continue

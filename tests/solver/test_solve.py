@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from importlib import import_module
 
 import numpy as np
 import pytest
@@ -129,3 +130,14 @@ def test_a_cylinder_holds_its_ends_at_its_travel() -> None:
 def test_a_redundant_link_is_given_its_motion() -> None:
     motion = solve(scene("DOUBLE_PARALLELOGRAM"))
     assert motion.alpha("4")[0] == pytest.approx(motion.alpha("1")[0], rel=1e-13)
+
+
+def test_positions_in_blocks_are_those_of_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    scene = mechanism_of("sixbar-AE70")
+    whole = solve(scene, sweep=37)
+    monkeypatch.setattr(import_module("graphkin.solver.driver_range"), "BLOCK", 5)
+    parts = solve(scene, sweep=37)
+    assert whole.status.tolist() == parts.status.tolist()
+    assert whole.why == parts.why
+    for name, pose in whole.poses.items():
+        assert np.array_equal(pose.a, parts.poses[name].a, equal_nan=True)

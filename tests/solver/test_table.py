@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import json
 from typing import Any
 
@@ -10,7 +9,7 @@ import numpy as np
 import pytest
 
 from graphkin.scene import library, mechanism_of, mechanism_of_text
-from graphkin.solver import solve, to_json, write_json
+from graphkin.solver import json_text, solve, to_json
 from graphkin.solver import table as table_room
 from tests import scenes
 
@@ -28,10 +27,9 @@ def test_a_sweep_of_any_scene_is_json(name: str) -> None:
 @pytest.mark.parametrize("name", ["sixbar-AE70", "shaper-scheme-2", "hydraulic-cylinder"])
 def test_what_is_written_as_it_goes_is_the_object(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(table_room, "BLOCK", 5)
-    motion, out = solve(mechanism_of(name), sweep=12), io.BytesIO()
-    write_json(motion, out)
+    motion = solve(mechanism_of(name), sweep=12)
     whole = json.dumps(to_json(motion), ensure_ascii=False, allow_nan=False) + "\n"
-    assert whole == out.getvalue().decode()
+    assert whole == "".join(json_text(motion))
 
 
 def test_points_are_listed_on_every_link_and_under_every_sliding_pin() -> None:
