@@ -49,9 +49,9 @@ def ranges(reach: DriverRange) -> tuple[AssemblyRange, ...]:
     low, high = sorted(float(reach.value(np.array(end))) for end in reach.ends)
     below, above = reach.limited if reach.sense > 0 else reach.limited[::-1]
     own = AssemblyRange(low, high, True, open_low=not below, open_high=not above)
-    if not_searched(reach):
-        return (own,)
     dyads = [i for i, e in enumerate(reach.structure.elements) if isinstance(e, Dyad)]
+    if not dyads or not_searched(reach):
+        return (own,)
     return own, *_elsewhere(reach, dyads, own)
 
 

@@ -1,0 +1,50 @@
+"""Random mechanisms of every driver through every command: a right answer, or a refusal by name."""
+
+from __future__ import annotations
+
+import os
+
+import pytest
+
+import graphkin
+from tests.bench.attack import attack, mechanism
+
+MANY = 10 if os.environ.get("GRAPHKIN_ALL_POSITIONS") else 1
+DEAD = ("refused: links", "refused: driver")
+
+
+def seeds(first: int, count: int) -> range:
+    return range(first, first + MANY * count)
+
+
+@pytest.mark.parametrize(
+    ("command", "seed"),
+    [("check", s) for s in seeds(1000, 36)]
+    + [("centres", s) for s in seeds(2000, 24)]
+    + [("cad", s) for s in seeds(3000, 2)]
+    + [("audit", s) for s in seeds(4000, 2)]
+    + [("draw", s) for s in seeds(5000, 2)],
+)
+def test_a_random_mechanism_is_answered_rightly_or_refused_by_name(command: str, seed: int) -> None:
+    came = attack(mechanism(seed), command)
+    assert came == "ok" or came.startswith(DEAD)
+
+
+def test_a_driven_slide_that_carries_nothing_is_swept() -> None:
+    scene = {
+        "frame": {"guides": {"h": {"through": [0, 0], "angle": 30}}},
+        "links": {"1": {"points": ["B"], "on": "0.h"}},
+        "driver": {"slide": "1", "travel": 60, "velocity": 1},
+    }
+    assert 12 == len(graphkin.sweep(scene, positions=12)["v_B"])
+
+
+@pytest.mark.parametrize("at", [None, 0, 30, -40])
+def test_a_driven_slide_with_a_pin_in_an_arm_of_no_length_is_drawn(at: float | None) -> None:
+    scene = {
+        "frame": {"points": {"C": [0, 0]}, "guides": {"h": {"through": [0, 50], "angle": 0}}},
+        "links": {"1": {"points": ["B"], "on": "0.h"}, "2": {"points": ["C"]}},
+        "pins": {"B": {"of": "1", "in": "2"}},
+        "driver": {"slide": "1", "travel": 60, "velocity": 10, "acceleration": 5},
+    }
+    assert graphkin.check(scene, at=at).ok
