@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import math
+import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -43,12 +44,25 @@ def scenes(
     schema: Annotated[
         bool, typer.Option("--schema", help="Print the JSON schema of scene files, for editors.")
     ] = False,
+    new: Annotated[
+        str | None,
+        typer.Option(
+            "--new", metavar="KIND", help="A new commented scene: four-bar, slider-crank, guide-bar, ..."
+        ),
+    ] = None,
+    given: Annotated[
+        list[str] | None,
+        typer.Option("--set", metavar="NAME=VALUE", help="With --new: a length (crank=150); asked for otherwise."),
+    ] = None,
     as_json: JsonOption = False,
 ) -> None:
-    """List the scenes that come along, print one, or copy one out."""
+    """List the scenes that come along, print one, copy one out, or begin a new one."""
     from graphkin import scene as room
 
-    if schema:
+    if new is not None:
+        # the one name that is given is that of the file
+        _begin(new, given or [], Path(name) if name is not None else file)
+    elif schema:
         typer.echo(json.dumps(room.schema(), ensure_ascii=False, indent=2))
     elif name is not None:
         text = room.library_text(name)
@@ -60,6 +74,29 @@ def scenes(
         raise CallError(Problem("--copy", "no scene is named", "write graphkin scenes NAME --copy"))
     else:
         _list(as_json)
+
+
+def _begin(kind: str, given: list[str], file: Path | None) -> None:
+    """A new scene: what is not given is asked for in a terminal, and the usual elsewhere."""
+    from graphkin.scene.new_scene import NEW, new_scene
+
+    values: dict[str, float] = {}
+    for text in given:
+        name, _, number = text.partition("=")
+        try:
+            values[name.strip()] = float(number)
+        except ValueError:
+            raise CallError(Problem(f"--set {text}", f'"{number}" is no number', "write --set crank=150")) from None
+    new_scene(kind, values)
+    if sys.stdin is not None and sys.stdin.isatty():
+        for name, usual in NEW[kind].asks.items():
+            if name not in values:
+                values[name] = typer.prompt(name, default=usual, type=float, err=True)
+    made = new_scene(kind, values)
+    if file is None:
+        typer.echo(made, nl=False)
+    else:
+        _write_new(file, made)
 
 
 def _list(as_json: bool) -> None:
