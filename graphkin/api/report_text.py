@@ -209,7 +209,10 @@ def _curves(turn: TurnStudy, language: str) -> list[str]:
         for key, extreme in (("greatest", high), ("least", low)):
             if extreme is not None:
                 value = quantity.in_units(scene, extreme.value)
-                parts.append(f"{word(key, language)} {value:.6g} @ {_at(scene, extreme)}")
+                named = word(f"local {key}" if turn.is_local(traced, extreme) else key, language)
+                parts.append(f"{named} {value:.6g} @ {_at(scene, extreme)}")
+        if turn.is_unbounded(traced):
+            parts.append(word("unbounded", language))
         if traced.zeros:
             places = ", ".join(own_unit(scene, scene.drivers[0], z) for z in traced.zeros)
             parts.append(f"{word('zero at', language)} {places}")

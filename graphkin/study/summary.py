@@ -72,7 +72,8 @@ def _driver(scene: Mechanism, value: float) -> float:
 def _extreme(turn: TurnStudy, traced: Traced, extreme: Extreme) -> dict[str, Any]:
     found: dict[str, Any] = {"kind": extreme.kind, "driver": _driver(turn.scene, extreme.driver)}
     if math.isfinite(extreme.value):
-        return {**found, "value": traced.quantity.in_units(turn.scene, extreme.value)}
+        local = {"local": True} if turn.is_local(traced, extreme) else {}
+        return {**found, "value": traced.quantity.in_units(turn.scene, extreme.value), **local}
     return {**found, "value": None, "why": UNBOUNDED}
 
 

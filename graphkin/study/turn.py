@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal
 
 import numpy as np
@@ -17,6 +18,10 @@ from graphkin.study.ranges import AssemblyRange, not_searched, ranges
 from graphkin.study.trace import Extreme, Least, Traced, trace
 
 __all__ = ["Output", "TurnStudy", "study_turn"]
+
+
+WAY = 400
+GROWS = 5.0  # a hundred times nearer to an end, a rate that goes away with the root of the distance is ten times as much
 
 
 @dataclass(frozen=True)
@@ -75,6 +80,32 @@ class TurnStudy:
     def not_searched(self) -> tuple[str, ...]:
         """Links for whose sake ranges in which the mechanism assembles otherwise are not known."""
         return not_searched(self.reach)
+
+    @cached_property
+    def _way(self) -> Motion:
+        """Positions over a range that ends, close together near its ends."""
+        low, high = self.reach.ends
+        near = np.array([1e-8, 1e-6])
+        part = np.concatenate([near, np.sin(np.linspace(0.0, np.pi / 2, WAY)[1:-1]) ** 2, 1.0 - near[::-1]])
+        return self.reach.motion(low + (high - low) * part)
+
+    def is_local(self, traced: Traced, extreme: Extreme) -> bool:
+        """Whether a quantity goes beyond an extreme of it elsewhere in a range that ends."""
+        if self.reach.full or extreme.kind == "end":
+            return False
+        values = traced.quantity.values(self.reach, self._way)
+        values = values[np.isfinite(values)]
+        slack = 1e-9 * float(np.max(np.abs(values), initial=0.0))
+        beyond = values > extreme.value + slack if extreme.kind == "max" else values < extreme.value - slack
+        return bool(beyond.any())
+
+    def is_unbounded(self, traced: Traced) -> bool:
+        """Whether a quantity grows without bound towards an end of the range."""
+        if self.reach.full or traced.constant is not None:
+            return False
+        values = np.abs(traced.quantity.values(self.reach, self._way))
+        low, high = self.reach.limited
+        return bool((low and values[0] > GROWS * values[1]) or (high and values[-1] > GROWS * values[-2]))
 
     def quick_return(self, output: Output) -> tuple[float, float] | None:
         """K of an output, and the crank angle theta (rad) between its limit positions; None where it has none.

@@ -26,3 +26,9 @@ def test_the_least_transmission_angle_is_an_extreme_of_its_diagram() -> None:
     curve = swept.data["curves"]["gamma_2-3"]
     least = min(e["value"] for e in curve["extremes"])
     assert math.acos((500**2 + 300**2 - 250**2) / (2 * 500 * 300)) == pytest.approx(least, rel=1e-9)
+
+
+def test_an_extreme_of_a_range_that_ends_is_local_where_the_quantity_goes_beyond_it() -> None:
+    text = graphkin.sweep("sixbar-AE70", positions=12, find=["omega_2"]).text
+    assert "local maximum" in text
+    assert "; maximum" not in text
