@@ -21,7 +21,7 @@ __all__ = ["Output", "TurnStudy", "study_turn"]
 
 
 WAY = 400
-GROWS = 5.0  # a hundred times nearer to an end, a rate that goes away with the root of the distance is ten times as much
+GROWS = 5.0  # a hundred times nearer to an end a rate like the root of the distance is ten times as much
 
 
 @dataclass(frozen=True)
