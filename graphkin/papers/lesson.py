@@ -15,7 +15,7 @@ from functools import cached_property
 
 from graphkin.checking.readings import Uncertainty
 from graphkin.checking.report import Compared, Report
-from graphkin.construction.sheet import DiagramName, Equation, Ray, Sheet, Step, Vector
+from graphkin.construction.sheet import Aid, DiagramName, Equation, Ray, Sheet, Step, Vector
 from graphkin.construction.steps import Direction, DirectionLine, Given, LaidOff, MeasuredRate, RateTimes, Size
 from graphkin.drawing.conventions import Letters, letters_of, pole
 from graphkin.drawing.headings import number, written
@@ -240,14 +240,15 @@ class Speaker:
         )
 
     def _laid_off(self, step: Step, act: LaidOff) -> tuple[str, ...]:
-        vector = next(s for s in step.strokes if isinstance(s, Vector))
+        drawn = next(s for s in step.strokes if isinstance(s, Vector | Aid))
+        length = abs(drawn.span if isinstance(drawn, Vector) else drawn.tip - drawn.tail)
         factors = self._factors(act.size)
-        value = product(*factors, carried=MOST) if factors else amount(abs(vector.span) * self._per(step.diagram), MOST)
+        value = product(*factors, carried=MOST) if factors else amount(length * self._per(step.diagram), MOST)
         middle = f" = {self._substituted(act.size, factors)}" if factors else ""
         unit = self._unit(step.diagram)
         return (
             f"${self.letters.vector(act.symbol)}${middle} = {written(value)} {unit}",
-            f"{written(value)} {unit} ÷ {self._scale(step.diagram)} = {written(on_paper(abs(vector.span)))} mm",
+            f"{written(value)} {unit} ÷ {self._scale(step.diagram)} = {written(on_paper(length))} mm",
         )
 
     def _measured(self, diagram: DiagramName, vector: Vector) -> Iterator[str]:
