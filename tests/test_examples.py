@@ -45,6 +45,11 @@ def test_the_crank_turns_as_before_when_the_last_link_drives() -> None:
     assert 1.0 == pytest.approx(ran("two_drivers")[0]["crank_rate"], rel=1e-9)
 
 
+def test_four_of_eight_layouts_have_a_coriolis_term() -> None:
+    wanted = [True, False, False, True, True, True, False, False]
+    assert wanted == [*ran("coriolis_layouts")[0]["with_term"].values()]
+
+
 def test_the_path_of_the_coupler_point_is_closed() -> None:
     path = ran("coupler_curve")[0]["path"]
     assert abs(path[0] - path[-1]) < 2 * np.abs(np.diff(path)).max()

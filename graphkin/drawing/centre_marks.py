@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from graphkin.construction.centres import Centre, Centres
+from graphkin.construction.centres.kennedy import Relation
 from graphkin.construction.centres.pairs import Line as Straight
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
@@ -13,15 +16,14 @@ from graphkin.drawing.obstacles import obstacles_of
 from graphkin.drawing.piece import Piece
 from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Primitive, Stroke, Text
 from graphkin.drawing.symbols import POINTER, arrow
-from graphkin.drawing.text import rich
+from graphkin.drawing.text import SMALLEST, rich
 from graphkin.plane import cross, dot, unit
 
-__all__ = ["centre_marks", "mark_of", "near_box", "pale"]
+__all__ = ["centre_marks", "line_name", "mark_of", "near_box", "pale"]
 
 TOGETHER = 1.3  # mm: centres so near to each other share one mark
-REACH = 7.0  # mm of a construction line to either side of what it finds
+BEYOND = 5.0  # mm of a construction line beyond what it finds
 ARROW = 11.0  # mm, to what lies off the figure
-THIN = strokes.CONSTRUCTION.coloured(strokes.GREY)
 
 
 def mark_of(centre: Centre, frame: str, at: complex) -> tuple[Primitive, ...]:
@@ -36,6 +38,14 @@ def mark_of(centre: Centre, frame: str, at: complex) -> tuple[Primitive, ...]:
         return (Polygon(corners, strokes.WHITE, line),)
     cross_ = tuple(Line(at - 1.7 * w, at + 1.7 * w, strokes.OUTLINE) for w in (1 + 1j, 1 - 1j) for w in (w / abs(w),))
     return *cross_, Circle(at, 0.65, strokes.BLACK)
+
+
+def line_name(relation: Relation, letters: Letters) -> str:
+    """A line on which a centre lies, by the centres that it leads through, or the normal of a pin in a slot."""
+    if len(relation.through) == 1:
+        point = str(relation.through[0]).split("/")[0]
+        return f"$n_{{{point}}}$"
+    return "$" + "".join(letters.centre(pair) for pair in relation.through if not isinstance(pair, str)) + "$"
 
 
 def near_box(centres: Centres, mechanism: Box, most: tuple[float, float]) -> Box:
@@ -86,7 +96,8 @@ class _Marks:
             else:
                 home.append(centre)
         names: list[Label] = []
-        lines = [line for group in near for c in group for line in self._lines(c)]
+        lines = [line for c in (*(c for group in near for c in group), *far) for line in self._lines(c)]
+        names += [label for group in near for label in self._crossings(group)]
         marks: list[Primitive] = []
         for group in near:
             spot = self.at(group[0].point or 0j)
@@ -126,16 +137,52 @@ class _Marks:
         text = Text(0j, rich(words, 3.5), "start", strokes.BLACK, f"label-{self._id(group[0])}", ("label", "centre"))
         return Label(text, spot)
 
+    def _crossings(self, group: list[Centre]) -> list[Label]:
+        """Which lines meet in the centres of one place."""
+        labels = []
+        for c in group:
+            if c.lines:
+                words = " × ".join(line_name(line, self.letters) for line in c.lines)
+                text = Text(0j, rich(words, SMALLEST), "start", strokes.GREY, f"label-lines-{self._id(c)}", ("label",))
+                labels.append(Label(text, self.at(c.point or 0j), (), 3))
+        return labels
+
     def _lines(self, centre: Centre) -> list[Line]:
-        """The two lines that cross in a centre, only near it."""
+        """The two lines that cross in a centre, each from the centres that it leads through to just beyond, cut at the
+        panel."""
         found = []
         for relation in centre.lines:
+            if abs(complex(*relation.line[:2])) <= 1e-12 * abs(relation.line[2]):
+                continue  # the line at infinity
             along = self._along(relation.line)
-            here = self.at(centre.point or 0j)
-            ends = self.panel.clip(here - REACH * along, here + REACH * along)
-            if ends is not None:
-                found.append(Line(*ends, THIN))
+            known = [self.at(z) for z in self._known(relation)]
+            if centre.point is None:
+                # towards a centre that lies at infinity, as far as the panel goes
+                ends = [self.panel.clip(z - 1e4 * along, z + 1e4 * along) for z in known[:1]]
+                found += [Line(*end, strokes.OF_CENTRES) for end in ends if end is not None]
+                continue
+            here = self.at(centre.point)
+            base = known[0] if known else here - BEYOND * along
+            shares = [dot(z - base, along) for z in (*known, here)]
+            end = shares[-1]
+            low, high = min(shares), max(shares)
+            low, high = (low - BEYOND if end == low else low), (high + BEYOND if end == high else high)
+            line = self.panel.clip(base + low * along, base + high * along)
+            if line is not None and line[0] != line[1]:
+                found.append(Line(*line, strokes.OF_CENTRES))
         return found
+
+    def _known(self, relation: Relation) -> list[complex]:
+        """The places (mm, y up) that a line leads through: those of its two centres, or of the pin whose path it is
+        square to."""
+        places: list[complex | None] = []
+        for one in relation.through:
+            if isinstance(one, str):
+                name = one.split("/")[0]
+                places.append(self.centres.links.point(name) if name in self.centres.links.scene.holders else None)
+            else:
+                places.append(self.centres.of(*one).point)
+        return [z for z in places if z is not None]
 
     def _along(self, line: Straight) -> complex:
         """Direction of a line on the page (y down)."""
@@ -189,12 +236,13 @@ class _Marks:
 
     def _crowd(self, tail: complex, tip: complex) -> float:
         """How much is drawn near an arrow."""
-        cost = 0.0
-        spots = [tail + (tip - tail) * k / 3 for k in range(4)]
-        for a, b in self.solid:
-            gap = min(_distance(z, a, b) for z in spots)
-            cost += max(0.0, 7.0 - gap)
-        return cost
+        lines = np.array(self.solid, dtype=complex).reshape(-1, 2)
+        start, span = lines[:, 0], lines[:, 1] - lines[:, 0]
+        off = (tail + (tip - tail) * np.arange(4) / 3)[:, None] - start
+        long = np.maximum((span * span.conj()).real, 1e-30)
+        share = np.clip((off * span.conj()).real / long, 0.0, 1.0)
+        gaps = np.abs(off - share * span).min(axis=0)
+        return float(np.maximum(0.0, 7.0 - gaps).sum())
 
     def _far_name(self, group: list[Centre], tail: complex, tip: complex) -> Label:
         first = group[0]
@@ -215,15 +263,6 @@ class _Marks:
         point = next(iter(fixed), None) or next(iter(links.scene.holders))
         letter, rest = point[0], point[1:]
         return (f"{letter}_{{{rest}}}" if rest else letter), links.point(point)
-
-
-def _distance(z: complex, a: complex, b: complex) -> float:
-    span = b - a
-    length = abs(span)
-    if length == 0.0:
-        return abs(z - a)
-    t = min(1.0, max(0.0, dot(z - a, span) / length**2))
-    return abs(z - a - t * span)
 
 
 def pale(child: Primitive, strength: float = 0.45) -> Primitive:

@@ -13,10 +13,9 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 
 from graphkin.construction.centres import Centre, Centres, Turning, velocity_sentences
-from graphkin.construction.centres.kennedy import Relation
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
-from graphkin.drawing.centre_marks import centre_marks, mark_of, near_box, pale
+from graphkin.drawing.centre_marks import centre_marks, line_name, mark_of, near_box, pale
 from graphkin.drawing.conventions import Letters, in_counting_order, letters_of, scale_statement
 from graphkin.drawing.dimensions import check_bar
 from graphkin.drawing.drawing import Drawing
@@ -235,17 +234,10 @@ class _Side:
 def how_found(centre: Centre, letters: Letters, language: str, centres: Centres) -> str:
     """The construction of a centre in short: the two lines that cross, or the name of another way."""
     if centre.lines:
-        return " × ".join(_line(line, letters) for line in centre.lines)
+        return " × ".join(line_name(line, letters) for line in centre.lines)
     if centre.way:
         return term(f"way {centre.way}", language)
     return term("way none", language)
-
-
-def _line(relation: Relation, letters: Letters) -> str:
-    if len(relation.through) == 1:
-        point = str(relation.through[0]).split("/")[0]
-        return f"$n_{{{point}}}$"
-    return "$" + "".join(letters.centre(pair) for pair in relation.through if not isinstance(pair, str)) + "$"
 
 
 def _report(

@@ -1,5 +1,5 @@
-"""Dimensions, after ISO 129-1: given lengths, the places of the frame's points and the angle of the driver, drawn where
-there is room for them; and the bar that checks the scale of a print.
+"""Dimensions, after ISO 129-1, of lengths and angles, and where there is room for them; and the bar that checks the
+scale of a print.
 
 A dimension keeps clear of the mechanism and of other dimensions; its extension lines begin beyond the symbols of the
 points that they come from.
@@ -8,29 +8,25 @@ points that they come from.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
 from typing import TypeAlias
 
 import numpy as np
 
-from graphkin.construction.sheet import Sheet
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.font_widths import CAP_HEIGHT, text_box
-from graphkin.drawing.headings import number
-from graphkin.drawing.mechanism_on_paper import GUIDE_LENGTH, sliders
-from graphkin.drawing.obstacles import Floats, Indices, Obstacles, Points, cross_product, meets, obstacles_of
-from graphkin.drawing.primitives import Arc, Group, Line, Polygon, Primitive, Run, Text, page_direction
+from graphkin.drawing.obstacles import Floats, Indices, Obstacles, Points, cross_product, meets
+from graphkin.drawing.primitives import Arc, Line, Polygon, Run, Text, page_direction
 from graphkin.drawing.symbols import POINTER, arrowhead
-from graphkin.drawing.text import plain, rich
-from graphkin.scene.model import AngleDriver, PlacedLink
-from graphkin.scene.symbol import PointRef
+from graphkin.drawing.text import plain
 
-__all__ = ["GAP", "LENGTHS", "OVERRUN", "angle_dimension", "check_bar", "dimension", "drawn_lengths"]
+__all__ = ["GAP", "OVERRUN", "DimensionClearance", "Part", "Parts", "angle_dimension", "check_bar", "dimension"]
 
 OVERRUN, GAP = 1.5, 0.8  # extension lines reach past the dimension line and start off the object, mm
+SHORT_ARC = 5.0  # mm of an arc that has no room for a number beside its middle
 CLEAR = 0.7  # between a number and the line broken for it, mm
 Part: TypeAlias = Line | Polygon | Arc | Text
 Parts: TypeAlias = tuple[Part, ...]
@@ -70,12 +66,13 @@ def angle_dimension(
     centre: complex, radius: float, start: float, end: float, runs: tuple[Run, ...]
 ) -> Parts:
     """The angle from one direction to another (rad) about a point: an arc with an arrowhead at ``end``, its number
-    outside the middle of the arc."""
+    outside the middle of the arc, or outside its beginning where it is short."""
     sense = math.copysign(1.0, end - start)
     turn = min(POINTER.head_length / radius, abs(end - start) * 0.75)
     tip = centre + radius * page_direction(end)
     chord = tip - (centre + radius * page_direction(end - sense * turn))
-    outward = page_direction((start + end) / 2)
+    short = abs(end - start) * radius < SHORT_ARC
+    outward = page_direction(start - sense * SHORT_ARC / radius if short else (start + end) / 2)
     box = text_box(_centred(runs, 0j))
     reach = abs(outward.real) * box.width / 2 + abs(outward.imag) * box.height / 2
     return (
@@ -123,18 +120,20 @@ class DimensionClearance:
         self.panel = panel
         self.segments = np.array(obstacles.solid, dtype=complex).reshape(-1, 2)
         self.middles, self.halves = _arrays(obstacles.areas)
+        self.heads = _arrays(())  # arrowheads of dimensions, over which extension lines of others may run
         corners = [z for box in obstacles.areas for z in box.corners] + [z for s in obstacles.solid for z in s]
         self.content = Box.around(corners) if corners else Box(0, 0, 0, 0)
 
-    def take(self, parts: Parts, extensions: int = 2, over: bool = False) -> Parts | None:
+    def take(self, parts: Parts, extensions: int = 2, over: bool = False, ends_on_line: bool = False) -> Parts | None:
         """The dimension, added to what is drawn, if it is clear of everything; None if not.
 
         Its first lines are extension lines: they begin beyond what stands around the point they come from, and run
-        over other lines where that is allowed.
+        over other lines where that is allowed.  The arrowhead of an angle ends on a line that is drawn.
         """
-        boxes = [text_box(part) if isinstance(part, Text) else Box.around(part.points)
-                 for part in parts if isinstance(part, Text | Polygon)]  # fmt: skip
-        if self.panel is not None and not all(self.panel.holds(box) for box in boxes):
+        numbers = [text_box(part) for part in parts if isinstance(part, Text)]
+        heads = [Box.around(part.points) for part in parts if isinstance(part, Polygon)]
+        boxes = numbers if ends_on_line else [*numbers, *heads]
+        if self.panel is not None and not all(self.panel.holds(box) for box in (*numbers, *heads)):
             return None
         middles, halves = _arrays(boxes)
         if self._covered(middles, halves):
@@ -147,25 +146,30 @@ class DimensionClearance:
         own = np.array(ends, dtype=complex).reshape(-1, 2)
         if self._over_areas(own) or len(_crossings(own, self.segments)[0]):
             return None
+        if meets(own[:, None], self.heads[0][None], self.heads[1][None] + 0.4 * (1 + 1j)).any():
+            return None
         trimmed = [self._trimmed(line) for line in lines[:extensions]]
         beyond = np.array([(line.start, line.end) for line in trimmed if line is not None], dtype=complex)
         if len(beyond) < extensions or (extensions and self._over_areas(beyond)):
             return None
         if extensions and not over and len(_crossings(beyond, self.segments)[0]):
             return None
-        words, sizes = _arrays([text_box(part) for part in parts if isinstance(part, Text)])
+        words, sizes = _arrays(numbers)
         lines_of_it = np.concatenate((own, beyond.reshape(-1, 2)))
         if meets(lines_of_it[:, None], words[None], sizes[None]).any():
             return None  # a number past the end of a short dimension stands on the next one
         self.segments = np.concatenate((self.segments, lines_of_it))
-        self.middles, self.halves = np.concatenate((self.middles, middles)), np.concatenate((self.halves, halves))
+        self.middles, self.halves = np.concatenate((self.middles, words)), np.concatenate((self.halves, sizes))
+        more = _arrays(heads)
+        self.heads = np.concatenate((self.heads[0], more[0])), np.concatenate((self.heads[1], more[1]))
         kept = tuple(line for line in trimmed if line is not None)
         return *kept, *(part for part in parts if not any(part is line for line in lines[:extensions]))
 
     def _covered(self, middles: Points, halves: Points) -> bool:
         """Whether boxes meet anything."""
         grown = halves[:, None] + 0.5 * (1 + 1j)
-        off, reach = middles[:, None] - self.middles, grown + self.halves
+        taken, sizes = np.concatenate((self.middles, self.heads[0])), np.concatenate((self.halves, self.heads[1]))
+        off, reach = middles[:, None] - taken, grown + sizes
         if ((np.abs(off.real) < reach.real) & (np.abs(off.imag) < reach.imag)).any():
             return True
         return bool(meets(self.segments[None], middles[:, None], grown).any())
@@ -218,155 +222,3 @@ def _crossings(own: Points, others: Points) -> tuple[Indices, Floats]:
     along = np.abs(turn) < 1e-9  # on one line: no place of their own
     share = cross_product(q[0, what] - p[which, 0], e[0, what]) / np.where(along, 1.0, turn)
     return which, np.where(along, 0.0, share)
-
-
-LENGTHS = "dimensions"  # id of their group
-OFFSETS = (6.0, -6.0, 9.0, -9.0, 12.5, -12.5, 17.0, -17.0, 22.0, -22.0)  # mm from the bar
-LEAST, SHORTEST = 9.0, 5.0  # mm: a shorter bar, or distance in the frame, gets no dimension
-BESIDE = 6.5  # mm from the mechanism to the dimensions of the frame
-NEAR = 0.5  # mm: so near to its given place a hand has drawn what is fixed
-SIZE = 2.8
-ANGLE_RADII = (10.0, 13.0, 16.0)
-
-
-def drawn_lengths(sheet: Sheet, drawn: Iterable[Primitive], panel: Box | None) -> Group:
-    """Dimensions of bars and of the frame.
-
-    Parameters
-    ----------
-    drawn : the mechanism, of which the dimensions keep clear
-    panel : no dimension leaves it
-    """
-    drawn = tuple(drawn)
-    room = DimensionClearance(obstacles_of(drawn), panel)
-    parts: list[Primitive] = []
-    for taken in (*_frame(sheet, room), *_bars(sheet, room), *_angles(sheet, room)):
-        parts += taken
-    return Group(tuple(parts), id=LENGTHS)
-
-
-def _drawn(room: DimensionClearance, choices: Iterable[Parts], extensions: int = 2) -> Parts | None:
-    """The first of some dimensions for which there is room; extension lines run over others only where they must."""
-    tried: list[Parts] = []
-    for parts in choices:
-        tried.append(parts)
-        taken = room.take(parts, extensions)
-        if taken is not None:
-            return taken
-    over = (room.take(parts, extensions, over=True) for parts in tried)
-    return next((parts for parts in over if parts is not None), None)
-
-
-def _bars(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts]:
-    """Lengths of bars, and of further points from them where those are round numbers."""
-    places = {ref.point: z for ref, z in sheet.points.items() if not ref.link}
-    for link in sheet.scene.links:
-        if link.redundant:
-            continue
-        spans = [(link.bar[0], link.bar[1])] if link.length is not None else []
-        for further in (p for p in link.points if p not in link.bar):
-            given = [own for own in link.bar if _round(link, own, further, sheet.scene.units.metres)]
-            on_the_bar = abs(link.points[further].imag) < 1e-9 * abs(link.points[further])
-            spans += [(own, further) for own in (given[:1] if on_the_bar else given)]
-        for one, other in spans:
-            if one not in places or other not in places:
-                continue
-            start, end = places[one].conjugate(), places[other].conjugate()
-            if abs(end - start) < LEAST:
-                continue
-            value = abs(link.points[other] - link.points[one]) / sheet.scene.units.metres
-            runs = rich(number(value, 5), SIZE)
-            parts = _drawn(room, (dimension(start, end, offset, runs) for offset in OFFSETS))
-            if parts is not None:
-                yield parts
-
-
-def _round(link: PlacedLink, one: str, other: str, metres: float) -> bool:
-    """Whether a distance looks like one that was given: at most four digits."""
-    value = abs(link.points[other] - link.points[one]) / metres
-    return value > 0.0 and abs(float(f"{value:.4g}") - value) < 1e-9 * value
-
-
-def _frame(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts]:
-    """Distances between fixed points and guides: across below the mechanism, upright beside it."""
-    scene = sheet.scene
-    per_mm = sheet.scales.length / scene.units.metres
-    spots = [z.conjugate() for ref, z in sheet.points.items() if not ref.link and ref.point in scene.frame.points]
-    level, plumb = [], []
-    for slider in sliders(sheet):
-        if slider.slide.b == scene.frame.name and slider.slide.guide.name:
-            # from the end of the guide as it is drawn, left or below
-            if abs(slider.along.imag) < 1e-9:
-                level.append(slider.at.conjugate() - GUIDE_LENGTH / 2 + 4.0)
-            elif abs(slider.along.real) < 1e-9:
-                plumb.append(slider.at.conjugate() + 1j * (GUIDE_LENGTH / 2 - 4.0))
-    fixed = [*scene.frame.points.values(), *(guide.through for guide in scene.frame.guides.values())]
-    mm = 1.0 / sheet.scales.length
-    given = [z.real * mm for z in fixed], [-z.imag * mm for z in fixed]
-    xs = _levels([*spots, *plumb], lambda z: z.real)
-    ys = _levels([*spots, *level], lambda z: z.imag)
-    content = room.content
-    below_or_above = (content.bottom + BESIDE, OVERRUN), (content.top - BESIDE, -OVERRUN)
-    beside = (content.left - BESIDE, -OVERRUN), (content.right + BESIDE, OVERRUN)
-
-    def chain(levels: Sequence[tuple[float, complex]], upright: bool) -> Parts | None:
-        """Dimensions one after the other on one line, beside the mechanism."""
-        choices = []
-        for line, past in beside if upright else below_or_above:
-            feet = [complex(line, level) if upright else complex(level, line) for level, _ in levels]
-            beyond = past if upright else past * 1j
-            parts: list[Part] = [
-                _extension(z, foot + beyond) for (_, z), foot in zip(levels, feet, strict=True)
-            ]
-            for (a, p), (b, q) in pairwise(zip((level for level, _ in levels), feet, strict=True)):
-                value = (_given(b, given[upright]) - _given(a, given[upright])) * per_mm
-                parts += dimension(p, q, 0.0, rich(number(value, 5), SIZE))
-            choices.append(tuple(parts))
-        return _drawn(room, choices, len(levels))
-
-    for levels, upright in ((xs, False), (ys, True)):
-        wide = [pair for pair in pairwise(levels) if pair[1][0] - pair[0][0] >= SHORTEST]
-        whole = chain(levels, upright) if len(wide) == len(levels) - 1 > 1 else None
-        if whole is not None:
-            yield whole
-        else:
-            yield from (parts for pair in wide for parts in (chain(pair, upright),) if parts is not None)
-
-
-def _given(level: float, given: Sequence[float]) -> float:
-    """What the problem gives for a level (mm on paper) that a hand has drawn."""
-    near = min(given, key=lambda own: abs(own - level), default=level)
-    return near if abs(near - level) < NEAR else level
-
-
-def _angles(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts]:
-    """The angle of a driver from the x axis."""
-    for driver in sheet.scene.drivers:
-        if not isinstance(driver, AngleDriver) or driver.relative_to != sheet.scene.frame.name:
-            continue
-        link = sheet.scene.by_name[driver.link]
-        pivot = next((sheet.points[PointRef(p)] for p in link.points if p in sheet.scene.frame.points), None)
-        value = sheet.drivers[driver.key]
-        turn = math.remainder(value, 2 * math.pi)
-        if pivot is None or abs(turn) < 0.2 or math.pi - abs(turn) < 0.05:
-            continue
-        runs = rich(f"{number(math.degrees(turn), 5)}°", SIZE)
-        for radius in ANGLE_RADII:
-            at = pivot.conjugate()
-            base = Line(at + 2.2, at + radius + 3.0, strokes.DIMENSION)
-            parts = room.take((base, *angle_dimension(at, radius, 0.0, turn, runs)), 1)
-            if parts is not None:
-                yield parts
-                break
-
-
-def _levels(spots: list[complex], key: Callable[[complex], float]) -> list[tuple[float, complex]]:
-    """Places in the order of one coordinate, each value once."""
-    found: dict[float, complex] = {}
-    for z in spots:
-        found.setdefault(round(key(z), 6), z)
-    return sorted(found.items(), key=lambda item: item[0])
-
-
-def _extension(start: complex, end: complex) -> Line:
-    return Line(start + GAP * (end - start) / abs(end - start), end, strokes.DIMENSION)

@@ -11,6 +11,7 @@ from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.headings import (
     FIGURE_WORDS,
     describe,
+    dimensions_in,
     drivers,
     facts,
     figure_title,
@@ -21,11 +22,12 @@ from graphkin.drawing.headings import (
 )
 from graphkin.drawing.insets import polygon_with_insets, strip_height
 from graphkin.drawing.mechanism import mechanism_piece
+from graphkin.drawing.mechanism_detail import mechanism_detail
 from graphkin.drawing.piece import Piece, joined, layer_groups, moved_piece, with_labels
 from graphkin.drawing.polygon_on_page import extent
 from graphkin.drawing.primitives import Primitive, Run, Text
 from graphkin.drawing.sheet import sheet_page
-from graphkin.drawing.text import rich, wrapped
+from graphkin.drawing.text import fitted, rich, wrapped
 from graphkin.words import languages
 
 __all__ = ["acceleration_figure", "figures", "mechanism_figure", "velocity_figure"]
@@ -36,6 +38,7 @@ ROOM = 12.0  # around the figure, for names
 LINE = 5.0  # from one line of the heading to the next
 SMALL_LINE = 3.7
 FOOT = 14.0
+BAR = 56.0  # room of the check bar in it
 
 
 def mechanism_figure(sheet: Sheet, *, language: str | None = None, convention: str | None = None) -> Drawing:
@@ -75,6 +78,7 @@ def _figure(sheet: Sheet, diagram: DiagramName, language: str | None, convention
     bottom = panel.bottom
     if diagram == "mechanism":
         piece = with_labels(moved_piece(piece, origin), panel)
+        piece = joined((piece, mechanism_detail(sheet, letters, spoken, panel, piece.drawn)))
     else:
         bottom += strip_height(sheet, diagram, panel.width)
         strip = Box(panel.left, panel.bottom, panel.right, bottom)
@@ -85,7 +89,9 @@ def _figure(sheet: Sheet, diagram: DiagramName, language: str | None, convention
     ]
     y = MARGIN + LINE * len(head) + 2.6
     words += [Text(complex(MARGIN, y + SMALL_LINE * i), runs, classes=("remark",)) for i, runs in enumerate(notes)]
-    words.append(Text(complex(MARGIN, height - 6.0), rich(scale_statement(sheet, letters.convention, diagram), 3.5)))
+    unit = dimensions_in(sheet, spoken) if diagram == "mechanism" else ""
+    told = ",  ".join(filter(None, (scale_statement(sheet, letters.convention, diagram), unit)))
+    words.append(Text(complex(MARGIN, height - 6.0), fitted(told, 3.5, width - 2 * MARGIN - BAR)))
     words += check_bar(complex(width - MARGIN - 50.0, height - 6.0), rich(term("check bar", spoken), 2.5))
     page = joined((piece, Piece({"labels": tuple(words)})))
     return Drawing(

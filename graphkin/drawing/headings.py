@@ -19,7 +19,7 @@ from graphkin.words import Phrase, languages, say, word
 from graphkin.words.written import amount, on_paper, product
 
 __all__ = [
-    "FIGURE_WORDS", "describe", "drivers", "facts", "figure_title", "number", "punctuation", "remarks",
+    "FIGURE_WORDS", "describe", "dimensions_in", "drivers", "facts", "figure_title", "number", "punctuation", "remarks",
     "spoken_ref", "spoken_vector", "term", "titles", "written",
 ]  # fmt: skip
 
@@ -60,6 +60,13 @@ def titles(sheet: Sheet, language: str) -> tuple[str, ...]:
     return tuple(dict.fromkeys(_plain(title if own else _OWN_POSITION.sub("", title).strip()) for title in found))
 
 
+def dimensions_in(sheet: Sheet, language: str) -> str:
+    """In which unit the dimensions are, where it is not the millimetre that goes without saying."""
+    unit = sheet.scene.units.length
+    said = (say(Phrase("dimensions in", (unit,)), each) for each in languages(language))
+    return "" if unit == "mm" else " / ".join(said)
+
+
 def number(value: float, digits: int = 6) -> str:
     """A number for people: no exponent where it can be helped, a true minus sign.
 
@@ -86,6 +93,8 @@ def drivers(sheet: Sheet, letters: Letters) -> str:
         if isinstance(driver, AngleDriver):
             index = driver.link if driver.relative_to == scene.frame.name else driver.link + driver.relative_to
             parts.append(f"$φ_{{{index}}}$ = {number(math.degrees(value))}°")
+            if driver.rpm is not None and math.isclose(driver.rpm * math.pi / 30, rate):
+                parts.append(f"$n_{{{index}}}$ = {number(driver.rpm)} r/min")
             parts.append(f"$ω_{{{index}}}$ = {number(rate)} rad/s")
             if second:
                 parts.append(f"$α_{{{index}}}$ = {number(second)} rad/s²")

@@ -25,7 +25,7 @@ from graphkin.drawing.strokes import colour_of_vector
 from graphkin.drawing.symbols import COMPONENT, RESULTANT, arrow
 from graphkin.drawing.text import fitted, symbol
 
-__all__ = ["INSET", "coriolis_row", "per_row", "polygon_with_insets", "strip_height"]
+__all__ = ["INSET", "coriolis_row", "free_boxes", "per_row", "polygon_with_insets", "strip_height"]
 
 INSET = (32.0, 26.0)  # mm
 GUTTER = 2.0
@@ -56,7 +56,7 @@ def polygon_with_insets(
         boxes = _in_rows(strip, count)
     elif count:
         bare = polygon_piece(PolygonOnPage(sheet, diagram, letters, language, panel, origin, ()))
-        boxes = _free_boxes(count, INSET, panel, obstacles_of(bare.drawn))
+        boxes = free_boxes(count, INSET, panel, obstacles_of(bare.drawn))
     else:
         boxes = []
     shown, enlarged = senses[: len(boxes)], small[: max(0, len(boxes) - len(senses))]
@@ -114,7 +114,7 @@ def _coriolis(sheet: Sheet, diagram: DiagramName) -> list[CoriolisTerm]:
     return coriolis_terms(sheet) if diagram == "acceleration" else []
 
 
-def _free_boxes(
+def free_boxes(
     count: int, size: tuple[float, float], panel: Box, obstacles: Obstacles, taken: Sequence[Box] = ()
 ) -> list[Box]:
     """Up to ``count`` boxes of a size (mm) along the edges of a panel that hold nothing, those in corners first."""

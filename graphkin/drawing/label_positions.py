@@ -162,7 +162,7 @@ CLEARANCE = 0.35  # between a label and any line or area, mm
 NEARER = 1.2  # by so much a label is nearer to its own mark than to any other
 # What a place costs beside its distance (mm): a leader, whatever the leader crosses, a dashed line under the label, a
 # leader to a line that ends nearer than NEAR_END to a point at its end.
-LEADER_COST, CROSSED_COST, DASHED_COST, END_COST = 4.0, 7.0, 10.0, 3.0
+LEADER_COST, CROSSED_COST, DASHED_COST, END_COST = 4.0, 12.0, 10.0, 3.0
 AREA_WEIGHT = 3.0
 FORBIDDEN = 1000.0
 OUTSIDE = 100  # faults that leaving the panel counts for

@@ -12,7 +12,7 @@ from graphkin.construction.sheet import CompassArc, Sheet
 from graphkin.drawing import strokes, symbols
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
-from graphkin.drawing.dimensions import LENGTHS, drawn_lengths
+from graphkin.drawing.dimensioning import LENGTHS, drawn_lengths
 from graphkin.drawing.group_aids import aids_in_mechanism
 from graphkin.drawing.labels import Label
 from graphkin.drawing.mechanism_on_paper import GUIDE_LENGTH, LinkShape, MechanismOnPaper, Slider, page
@@ -47,7 +47,10 @@ def _frame(here: MechanismOnPaper) -> Group:
         if here.moving(point):
             parts += symbols.fixed_pivot(page(here.places[point]), here.foot(point))
     for b in here.sliders:
-        if here.ground in (b.slide.a, b.slide.b) and not b.slide.slot:
+        if b.slide.slot and b.slide.b == here.ground:
+            reach = GUIDE_LENGTH / 2 * b.along
+            parts += symbols.slot(page(b.at - reach), page(b.at + reach))
+        elif here.ground in (b.slide.a, b.slide.b):
             parts += symbols.guide(page(b.at), phase(b.along), GUIDE_LENGTH)
     return Group(tuple(parts), id=f"link-{here.ground}", classes=("frame",))
 
@@ -62,6 +65,7 @@ def _link(here: MechanismOnPaper, shape: LinkShape) -> Group:
     hidden = {b.slide.b for b in here.sliders if b.slide.key in here.cylinders}
     if shape.link not in hidden:
         parts += [Line(page(start), page(end), stroke) for start, end in shape.bars]
+        parts += _texture(here, shape)
         parts += _welds(here, shape, colour)
     for start, end in shape.slots:
         parts += symbols.slot(page(start), page(end), colour)
@@ -75,6 +79,15 @@ def _link(here: MechanismOnPaper, shape: LinkShape) -> Group:
             start, end = here.rod(b)
             parts.append(Line(page(start), page(end), strokes.LINK.coloured(colour)))
     return Group(tuple(parts), id=f"link-{shape.link}", classes=("link",))
+
+
+def _texture(here: MechanismOnPaper, shape: LinkShape) -> list[Primitive]:
+    """What tells the lines of a link from those of others in black and white."""
+    white = strokes.texture(here.scene.order[shape.link])
+    if white is None or shape.redundant:
+        return []
+    edges = zip(shape.corners, (*shape.corners[1:], *shape.corners[:1]), strict=True)
+    return [Line(page(start), page(end), white) for start, end in (*shape.bars, *edges)]
 
 
 def _block(here: MechanismOnPaper, b: Slider) -> tuple[Primitive, ...]:
@@ -193,13 +206,13 @@ def _guides(here: MechanismOnPaper) -> Iterator[Label]:
         if term.direction and len(term.direction.names) == 1 for name in term.direction.names
     }  # fmt: skip
     for b in here.sliders:
-        if b.slide.guide.name in written:
-            written.discard(b.slide.guide.name)
+        name = b.slide.guide.name or f"x{b.slide.b}"
+        if name in written:
+            written.discard(name)
             edge = GUIDE_LENGTH / 2 if b.slide.b == here.ground else 7.0
-            letter = symbol(here.letters.guide(b.slide.guide.name, here.ground), 3.0)
-            id = f"label-guide-{b.slide.b}-{b.slide.guide.name}"
-            text = Text(0j, letter, "start", strokes.BLACK, id, ("label",))
-            yield Label(text, page(b.at + edge * b.along), (phase(b.along),), 1)
+            letter = symbol(here.letters.guide(name, here.ground), 3.0)
+            text = Text(0j, letter, "start", strokes.BLACK, f"label-guide-{b.slide.b}-{name}", ("label",))
+            yield Label(text, page(b.at + edge * b.along), (phase(b.along),), 0)
 
 
 def _frame_name(here: MechanismOnPaper) -> Iterator[Label]:
@@ -212,7 +225,7 @@ def _frame_name(here: MechanismOnPaper) -> Iterator[Label]:
         yield Label(_number(here.ground, strokes.BLACK), page(spots[0] + away), (phase(away),), 1)
 
 
-COMPASS = 4.0  # mm of arc to either side of what it finds
+COMPASS = 7.0  # mm of arc to either side of what it finds
 
 
 def mechanism_piece(sheet: Sheet, letters: Letters, room: tuple[float, float] | None = None) -> tuple[Piece, Box]:
@@ -263,8 +276,7 @@ def _piece(here: MechanismOnPaper, panel: Box | None) -> Piece:
     placed = joined((_construction(here), links(here), aids_in_mechanism(here.sheet)))
     whole = joined((placed, joints(here), drivers(here, clear), found_rates(here, clear)))
     drawn = [thing for layer in ("construction", "mechanism", "answers") for thing in whole.layers[layer]]
-    lengths = Piece({"mechanism": (drawn_lengths(here.sheet, drawn, panel),)})
-    return joined((whole, lengths, link_names(here), _marks(here)))
+    return joined((whole, drawn_lengths(here.sheet, drawn, panel), link_names(here), _marks(here)))
 
 
 def _construction(here: MechanismOnPaper) -> Piece:

@@ -8,6 +8,7 @@ import math
 from cmath import phase
 from collections.abc import Sequence
 from itertools import pairwise
+from typing import Literal
 
 import numpy as np
 
@@ -111,18 +112,21 @@ def drivers(here: MechanismOnPaper, clear: SenseClearance) -> Piece:
     for driver in here.scene.drivers:
         if isinstance(driver, SlideDriver):
             pieces.append(_slide_arrow(here, driver))
-        elif driver.omega and driver.link in here.sheet.poses:
-            pieces.append(_driver_arc(here, clear, driver))
+        elif driver.link in here.sheet.poses:
+            pieces += [_driver_arc(here, clear, driver, kind) for kind in ("omega", "alpha") if getattr(driver, kind)]
     return joined(pieces)
 
 
-def _driver_arc(here: MechanismOnPaper, clear: SenseClearance, driver: AngleDriver) -> Piece:
-    other = driver.relative_to
-    markup = f"ω_{{{driver.link}{'' if other == here.ground else other}}}"
+def _driver_arc(
+    here: MechanismOnPaper, clear: SenseClearance, driver: AngleDriver, kind: Literal["omega", "alpha"]
+) -> Piece:
+    other, speed = driver.relative_to, kind == "omega"
+    markup = f"{'ω' if speed else 'α'}_{{{driver.link}{'' if other == here.ground else other}}}"
     centres = _centres_of_turn(here, driver.link, other)
     place = clear.arc(centres, DRIVER_RADIUS)
-    sense = 1 if driver.omega > 0 else -1
-    return _arc("mechanism", place, sense, 1, here.colour(driver.link), markup, f"driver-{driver.link}")
+    sense = 1 if (driver.omega if speed else driver.alpha) > 0 else -1
+    id = f"driver-{driver.link}{'' if speed else '-alpha'}"
+    return _arc("mechanism", place, sense, 1 if speed else 2, here.colour(driver.link), markup, id)
 
 
 def _slide_arrow(here: MechanismOnPaper, driver: SlideDriver) -> Piece:

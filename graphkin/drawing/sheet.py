@@ -12,9 +12,19 @@ from graphkin.drawing.coriolis import CoriolisTerm
 from graphkin.drawing.dimensions import check_bar
 from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.equations import WrittenLine, equations_in_room, written_lines
-from graphkin.drawing.headings import FIGURE_WORDS, describe, facts, figure_title, punctuation, term, titles
+from graphkin.drawing.headings import (
+    FIGURE_WORDS,
+    describe,
+    dimensions_in,
+    facts,
+    figure_title,
+    punctuation,
+    term,
+    titles,
+)
 from graphkin.drawing.insets import INSET, coriolis_row, per_row, polygon_with_insets
 from graphkin.drawing.mechanism import mechanism_piece
+from graphkin.drawing.mechanism_detail import mechanism_detail
 from graphkin.drawing.overleaf import Remainder, captioned, heading, overleaf
 from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved, moved_piece, with_labels
 from graphkin.drawing.polygon_on_page import extent
@@ -60,7 +70,7 @@ def sheet_page(
         heading(sheet, letters, spoken, plan.page),
         _panel(plan.mechanism, _caption(sheet, letters, spoken, "mechanism")),
         _panel(plan.velocity, _caption(sheet, letters, spoken, "velocity")),
-        _mechanism(sheet, letters, plan.mechanism),
+        _mechanism(sheet, letters, spoken, plan.mechanism),
         velocity,
         *writing,
         _title_block(sheet, report, letters, spoken, plan.block),
@@ -114,8 +124,9 @@ def _spare(box: Box, written: tuple[Primitive, ...]) -> Box | None:
 
 
 def _caption(sheet: Sheet, letters: Letters, language: str, diagram: DiagramName) -> str:
-    scale = scale_statement(sheet, letters.convention, diagram)
-    return term(FIGURE_WORDS[diagram], language) + punctuation("list comma", language) + scale
+    unit = dimensions_in(sheet, language) if diagram == "mechanism" else ""
+    parts = term(FIGURE_WORDS[diagram], language), scale_statement(sheet, letters.convention, diagram), unit
+    return punctuation("list comma", language).join(filter(None, parts))
 
 
 def _panel(box: Box, caption: str) -> Piece:
@@ -124,10 +135,12 @@ def _panel(box: Box, caption: str) -> Piece:
     return Piece({"construction": (Group((frame,), classes=("panel",)),), "labels": (words,)})
 
 
-def _mechanism(sheet: Sheet, letters: Letters, panel: Box) -> Piece:
+def _mechanism(sheet: Sheet, letters: Letters, language: str, panel: Box) -> Piece:
     room = panel.grown(-0.8)
     piece, content = mechanism_piece(sheet, letters, (room.width, room.height))
-    return with_labels(moved_piece(piece, panel.centre - content.centre), room)
+    origin = panel.centre - content.centre
+    named = with_labels(moved_piece(piece, origin), room)
+    return joined((named, mechanism_detail(sheet, letters, language, room, named.drawn)))
 
 
 def _polygon(

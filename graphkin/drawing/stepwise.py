@@ -12,7 +12,7 @@ from dataclasses import replace
 from graphkin.construction.sheet import DiagramName, Mark, Sheet, Step, Vector
 from graphkin.construction.steps import Carried, MeasuredRate, links_drawn
 from graphkin.drawing import strokes
-from graphkin.drawing.dimensions import LENGTHS
+from graphkin.drawing.dimensioning import LENGTHS
 from graphkin.drawing.polygon_on_page import details
 from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Stroke, Text
 
@@ -52,8 +52,11 @@ def _mechanism(sheet: Sheet, steps: list[Step]) -> dict[str, int]:
         born[f"link-{link.name}"] = max([*points, mentioned.get(link.name, 0)], default=last) or last
     born[f"link-{sheet.scene.frame.name}"] = steps[0].number
     for driver in sheet.scene.drivers:
-        born[f"driver-{driver.key.replace('/', '-')}"] = born.get(f"link-{driver.key.split('/')[0]}", last)
+        for part in ("", "-alpha"):
+            born[f"driver-{driver.key.replace('/', '-')}{part}"] = born.get(f"link-{driver.key.split('/')[0]}", last)
     born[LENGTHS] = last
+    for link in sheet.scene.links:
+        born.update({f"length-{a}{b}": last for a in link.points for b in link.points})
     for step in sheet.steps:
         if isinstance(step.act, MeasuredRate):
             born[f"{step.act.rate}-{step.act.link}"] = step.number

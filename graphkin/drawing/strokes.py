@@ -24,6 +24,7 @@ __all__ = [
     "LEADER",
     "LINK",
     "LINK_COLOURS",
+    "OF_CENTRES",
     "OUTLINE",
     "REDUNDANT",
     "RELATIVE",
@@ -35,6 +36,7 @@ __all__ = [
     "colour_of_vector",
     "link_colour",
     "link_of_vector",
+    "texture",
     "tint",
 ]
 
@@ -49,6 +51,7 @@ DIRECTION = Stroke(0.18, (2.4, 0.9))
 CONSTRUCTION = Stroke(0.18)
 TRIALS = (Stroke(0.18, (4.0, 0.8, 0.6, 0.8)), Stroke(0.25, (0.6, 0.9)), Stroke(0.18, (4.0, 0.8, 0.6, 0.8, 0.6, 0.8)))
 TRIAL_CURVE = Stroke(0.25)
+OF_CENTRES = Stroke(0.13, (), "#7a7a7a")  # lines on which centres lie
 HATCHING = Stroke(0.18)
 DIMENSION = Stroke(0.18)
 LEADER = Stroke(0.18)
@@ -61,6 +64,21 @@ LINK_COLOURS = ("#0067a6", "#b34700", "#007a5a", "#a0467c", "#7a6200", "#1f7f93"
 def link_colour(index: int) -> str:
     """Colour of the moving link at an index of the scene's order; it comes round again after eight links."""
     return LINK_COLOURS[index % len(LINK_COLOURS)]
+
+
+# White along the middle of a link's lines, so that links are told apart without colour too: none, hollow throughout, in
+# long dashes, in short ones, in long ones and dots, with dots alone, dashes and two dots, wide apart.
+_TEXTURES = (
+    None, Stroke(0.2, (1000.0, 1.0)), Stroke(0.2, (2.6, 1.6)), Stroke(0.2, (0.8, 0.8)),
+    Stroke(0.2, (5.0, 1.2, 0.8, 1.2)), Stroke(0.2, (0.8, 3.0)), Stroke(0.2, (2.6, 0.8, 0.8, 0.8, 0.8, 0.8)),
+    Stroke(0.2, (5.0, 5.0)),
+)  # fmt: skip
+
+
+def texture(index: int) -> Stroke | None:
+    """What lies in white along the lines of the moving link at an index of the scene's order; None for nothing."""
+    stroke = _TEXTURES[index % len(_TEXTURES)]
+    return None if stroke is None else stroke.coloured(WHITE)
 
 
 def tint(colour: str, strength: float = 0.14) -> str:

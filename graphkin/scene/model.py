@@ -118,7 +118,8 @@ class FromDeadPoint:
 class AngleDriver:
     """The angle of ``link``'s own x axis from that of ``relative_to`` (the frame's name by default).
 
-    ``position`` names the position that is meant, where its angle follows from a stroke that is not known yet.
+    ``position`` names the position that is meant, where its angle follows from a stroke that is not known yet; ``rpm``
+    is its speed in turns per minute, where the problem gives it so.
     """
 
     link: str
@@ -128,6 +129,7 @@ class AngleDriver:
     alpha: float
     dead_point: FromDeadPoint | None = None
     position: str = ""
+    rpm: float | None = None
 
     @property
     def key(self) -> str:

@@ -165,6 +165,7 @@ class DriverEntry:
     second: float
     dead_point: FromDeadPoint | None = None
     position: str = ""
+    rpm: float | None = None
 
 
 def drives(
@@ -201,7 +202,9 @@ def drives(
             unit = math.pi / 180
             dead = _from_dead_point(table, angle, unit)
             named = "" if table.position is None else str(table.position)
-            found.append(DriverEntry(where, key, base, angle, omega + 0.0, sign * table.alpha + 0.0, dead, named))
+            rpm = None if table.rpm is None else sign * table.rpm
+            alpha = sign * table.alpha + 0.0
+            found.append(DriverEntry(where, key, base, angle, omega + 0.0, alpha, dead, named, rpm))
         else:
             travel = None if table.travel is None else table.travel * metres
             dead = _from_dead_point(table, travel, metres)

@@ -1,0 +1,259 @@
+"""Which lengths and angles of a mechanism are dimensioned: given bars, the places of the frame's points and guides, the
+angles of the drivers; each drawn where there is room for it, or written at its bar.
+"""
+
+from __future__ import annotations
+
+import math
+from cmath import phase
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from itertools import pairwise
+
+from graphkin.construction.sheet import Sheet
+from graphkin.drawing import strokes
+from graphkin.drawing.box import Box
+from graphkin.drawing.dimensions import GAP, OVERRUN, DimensionClearance, Part, Parts, angle_dimension, dimension
+from graphkin.drawing.headings import number
+from graphkin.drawing.labels import Label
+from graphkin.drawing.mechanism_on_paper import GUIDE_LENGTH, sliders
+from graphkin.drawing.obstacles import obstacles_of
+from graphkin.drawing.piece import Piece
+from graphkin.drawing.primitives import Group, Line, Primitive, Text
+from graphkin.drawing.text import rich
+from graphkin.scene.model import AngleDriver, PlacedLink
+from graphkin.scene.symbol import PointRef
+
+__all__ = ["LENGTHS", "drawn_lengths"]
+
+LENGTHS = "dimensions"  # id of their group
+OFFSETS = (6.0, -6.0, 9.0, -9.0, 12.5, -12.5, 17.0, -17.0, 22.0, -22.0)  # mm from the bar
+LEAST, SHORTEST = 9.0, 1.0  # mm: a shorter bar has its number beside it, a shorter distance in the frame no dimension
+BESIDE, NEXT = 6.5, 6.0  # mm from the mechanism to the dimensions of the frame, and from one of them to the next
+LINES = 4  # of dimensions beside each other that are tried
+NEAR = 0.5  # mm: so near to its given place a hand has drawn what is fixed
+SIZE = 2.8
+ANGLE_RADII = (10.0, 13.0, 16.0, 20.0, 25.0, 31.0)
+LEAST_ANGLE = math.radians(0.5)
+
+
+def drawn_lengths(sheet: Sheet, drawn: Iterable[Primitive], panel: Box | None) -> Piece:
+    """Dimensions of bars and of the frame; the lengths of bars for whose dimensions there is no room are labels.
+
+    Parameters
+    ----------
+    drawn : the mechanism, of which the dimensions keep clear
+    panel : no dimension leaves it
+    """
+    drawn = tuple(drawn)
+    room = DimensionClearance(obstacles_of(drawn), panel)
+    parts: list[Primitive] = []
+    labels: list[Label] = []
+    for taken in (*_frame(sheet, room), *_bars(sheet, room), *_angles(sheet, room)):
+        if isinstance(taken, Label):
+            labels.append(taken)
+        else:
+            parts += taken
+    return Piece({"mechanism": (Group(tuple(parts), id=LENGTHS),)}, tuple(labels))
+
+
+def _drawn(room: DimensionClearance, choices: Iterable[Parts], extensions: int = 2) -> Parts | None:
+    """The first of some dimensions for which there is room; extension lines run over others only where they must."""
+    tried: list[Parts] = []
+    for parts in choices:
+        tried.append(parts)
+        taken = room.take(parts, extensions)
+        if taken is not None:
+            return taken
+    over = (room.take(parts, extensions, over=True) for parts in tried)
+    return next((parts for parts in over if parts is not None), None)
+
+
+def _bars(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts | Label]:
+    """Lengths of bars, and of further points from them: as many as it takes, round ones first."""
+    places = {ref.point: z for ref, z in sheet.points.items() if not ref.link}
+    for link in sheet.scene.links:
+        if link.redundant:
+            continue
+        spans, corners = _spans(link, sheet.scene.units.metres)
+        for corner in corners:
+            parts = _corner(link, places, room, *corner)
+            if parts is not None:
+                yield parts
+        for one, other in spans:
+            if one not in places or other not in places or abs(places[one] - places[other]) < 1.0:
+                continue
+            start, end = places[one].conjugate(), places[other].conjugate()
+            value = abs(link.points[other] - link.points[one]) / sheet.scene.units.metres
+            runs = rich(number(value, 5), SIZE)
+            parts = None
+            if abs(end - start) >= LEAST:
+                parts = _drawn(room, (dimension(start, end, offset, runs) for offset in OFFSETS))
+            if parts is not None:
+                yield parts
+            else:
+                text = Text(0j, runs, "start", strokes.BLACK, f"label-length-{one}{other}", ("label", "length"))
+                yield Label(text, (start, end), rank=2)
+
+
+def _spans(link: PlacedLink, metres: float) -> tuple[list[tuple[str, str]], list[tuple[str, str, str]]]:
+    """The distances and angles that give a link: its bar, and each further point by a distance from one point of the
+    bar where it lies on it; else from both, or by one distance and the angle there where these are the round ones."""
+    spans = [(link.bar[0], link.bar[1])] if link.length is not None else []
+    corners = []
+    for further in (p for p in link.points if p not in link.bar):
+        own = [p for p in link.bar if abs(link.points[further] - link.points[p]) > 0.0]
+        own.sort(key=lambda p: not _round(link, p, further, metres))
+        on_the_bar = abs(link.points[further].imag) < 1e-9 * abs(link.points[further])
+        if len(own) == 2 and not on_the_bar and not _round(link, own[1], further, metres):
+            angle = math.degrees(_angle(link, own[1], own[0], further))
+            if abs(angle - round(angle, 2)) < 1e-7:
+                corners.append((own[1], own[0], further))
+                own = own[:1]
+        spans += [(p, further) for p in (own[:1] if on_the_bar else own)]
+    return spans, corners
+
+
+def _angle(link: PlacedLink, start: str, at: str, end: str) -> float:
+    """From one point of a link to another about a third (rad, -pi to pi)."""
+    z = link.points[at]
+    return phase((link.points[end] - z) / (link.points[start] - z))
+
+
+def _corner(
+    link: PlacedLink, places: Mapping[str, complex], room: DimensionClearance, start: str, at: str, end: str
+) -> Parts | None:
+    """The angle of a link about one of its points."""
+    if not {start, at, end} <= set(places):
+        return None
+    turn = _angle(link, start, at, end)
+    runs = rich(f"{number(abs(math.degrees(turn)), 5)}°", SIZE)
+    centre, first = places[at].conjugate(), phase(places[start] - places[at])
+    choices = (angle_dimension(centre, radius, first, first + turn, runs) for radius in ANGLE_RADII)
+    taken = (room.take(choice, 0, ends_on_line=True) for choice in choices)
+    return next((parts for parts in taken if parts is not None), None)
+
+
+def _round(link: PlacedLink, one: str, other: str, metres: float) -> bool:
+    """Whether a distance looks like one that was given: at most four digits."""
+    value = abs(link.points[other] - link.points[one]) / metres
+    return value > 0.0 and abs(float(f"{value:.4g}") - value) < 1e-9 * value
+
+
+def _frame(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts]:
+    """Distances of fixed points from the pivot of the driver, and of guides from the nearest fixed point: across below
+    or above the mechanism, upright beside it."""
+    scene = sheet.scene
+    spots = {
+        ref.point: z.conjugate() for ref, z in sheet.points.items() if not ref.link and ref.point in scene.frame.points
+    }
+    datum = next((spots[p] for p in _datums(sheet) if p in spots), None)
+    guides: tuple[list[complex], list[complex]] = ([], [])
+    for slider in sliders(sheet):
+        if slider.slide.b == scene.frame.name and slider.slide.guide.name:
+            # from the end of the guide as it is drawn, left or below
+            if abs(slider.along.imag) < 1e-9:
+                guides[1].append(slider.at.conjugate() - GUIDE_LENGTH / 2 + 4.0)
+            elif abs(slider.along.real) < 1e-9:
+                guides[0].append(slider.at.conjugate() + 1j * (GUIDE_LENGTH / 2 - 4.0))
+    for upright in (False, True):
+        key: Callable[[complex], float] = (lambda z: z.imag) if upright else (lambda z: z.real)
+        pairs: dict[tuple[float, float], tuple[complex, complex]] = {}
+        for spot in spots.values():
+            if datum is not None and spot != datum:
+                _note(pairs, datum, spot, key)
+        for guide in guides[upright]:
+            if spots:
+                _note(pairs, min(spots.values(), key=lambda z: (abs(key(z) - key(guide)), key(z))), guide, key)
+        wide = [
+            ((low, a), (high, b)) for (low, high), (a, b) in sorted(pairs.items()) if high - low >= SHORTEST
+        ]
+        whole = None
+        if wide and all(one[1][0] == two[0][0] for one, two in pairwise(wide)):
+            whole = _beside(sheet, room, (*(low for low, _ in wide), wide[-1][1]), upright)
+        if whole is not None:
+            yield whole
+            continue
+        for levels in sorted(wide, key=lambda pair: pair[1][0] - pair[0][0]):
+            parts = _beside(sheet, room, levels, upright)
+            if parts is not None:
+                yield parts
+
+
+def _datums(sheet: Sheet) -> Iterator[str]:
+    """Fixed points from which others are measured: the pivots of drivers first."""
+    scene = sheet.scene
+    for driver in scene.drivers:
+        if isinstance(driver, AngleDriver):
+            yield from (p for p in scene.by_name[driver.link].points if p in scene.frame.points)
+    yield from scene.frame.points
+
+
+def _note(
+    pairs: dict[tuple[float, float], tuple[complex, complex]], one: complex, two: complex,
+    key: Callable[[complex], float],
+) -> None:  # fmt: skip
+    low, high = sorted((one, two), key=key)
+    pairs.setdefault((round(key(low), 6), round(key(high), 6)), (low, high))
+
+
+def _beside(
+    sheet: Sheet, room: DimensionClearance, levels: Sequence[tuple[float, complex]], upright: bool
+) -> Parts | None:
+    """The distances of levels, one after the other on a line beside the mechanism."""
+    per_mm = sheet.scales.length / sheet.scene.units.metres
+    frame = sheet.scene.frame
+    fixed = [*frame.points.values(), *(guide.through for guide in frame.guides.values())]
+    given = [(-z.imag if upright else z.real) / sheet.scales.length for z in fixed]
+    box = room.content
+    choices: list[Parts] = []
+    for k in range(LINES):
+        far = BESIDE + k * NEXT
+        sides: Sequence[tuple[float, float]] = (
+            ((box.left - far, -OVERRUN), (box.right + far, OVERRUN)) if upright
+            else ((box.bottom + far, OVERRUN), (box.top - far, -OVERRUN))
+        )  # fmt: skip
+        for line, past in sides:
+            feet = [complex(line, level) if upright else complex(level, line) for level, _ in levels]
+            beyond = past if upright else past * 1j
+            parts: list[Part] = [_extension(z, foot + beyond) for (_, z), foot in zip(levels, feet, strict=True)]
+            for (low, p), (high, q) in pairwise(zip((level for level, _ in levels), feet, strict=True)):
+                value = (_given(high, given) - _given(low, given)) * per_mm
+                parts += dimension(p, q, 0.0, rich(number(value, 5), SIZE))
+            choices.append(tuple(parts))
+    return _drawn(room, choices, len(levels))
+
+
+def _given(level: float, given: Sequence[float]) -> float:
+    """What the problem gives for a level (mm on paper) that a hand has drawn."""
+    near = min(given, key=lambda own: abs(own - level), default=level)
+    return near if abs(near - level) < NEAR else level
+
+
+def _angles(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts]:
+    """The angles of drivers, from the x axis or from the axis of another link."""
+    for driver in sheet.scene.drivers:
+        if not isinstance(driver, AngleDriver) or driver.link not in sheet.poses:
+            continue
+        points = sheet.scene.by_name[driver.relative_to].points
+        pivot = next(
+            (sheet.points[PointRef(p)] for p in sheet.scene.by_name[driver.link].points if p in points), None
+        )
+        value = sheet.drivers[driver.key]
+        turn = math.remainder(value, 2 * math.pi)
+        base = sheet.poses.get(driver.relative_to)
+        if pivot is None or abs(turn) < LEAST_ANGLE:
+            continue
+        start = phase(base.axis) if base is not None else 0.0
+        runs = rich(f"{number(math.degrees(turn), 5)}°", SIZE)
+        at, way = pivot.conjugate(), complex(math.cos(start), -math.sin(start))
+        for radius in ANGLE_RADII:
+            line = Line(at + 2.2 * way, at + (radius + 3.0) * way, strokes.DIMENSION)
+            choice = (line, *angle_dimension(at, radius, start, start + turn, runs))
+            parts = room.take(choice, 1, over=True, ends_on_line=True)
+            if parts is not None:
+                yield parts
+                break
+
+
+def _extension(start: complex, end: complex) -> Line:
+    return Line(start + GAP * (end - start) / abs(end - start), end, strokes.DIMENSION)

@@ -1,0 +1,72 @@
+"""Which lengths and angles of a mechanism are dimensioned."""
+
+import pytest
+
+from graphkin import draw
+from graphkin.drawing import Text
+from graphkin.drawing.primitives import Group, walk
+from graphkin.scene import library
+
+SCENE = {
+    "units": {"length": "mm"},
+    "frame": {"name": "4", "points": {"A": [0, 0], "D": [113, 0], "G": [11, 94]}},
+    "links": {
+        "1": {"points": ["A", "B"], "length": 40},
+        "2": {"points": ["B", "C"], "length": 110, "at": {"E": {"from": "C", "r": 50, "angle": 90}}},
+        "3": {"points": ["D", "C"], "length": 70},
+    },
+    "driver": {"link": "1", "angle": 50, "rpm": 30, "alpha": 5},
+    "sketch": {"C": [110, 70]},
+}
+
+
+def words(figure) -> list[str]:
+    return [thing.string for thing in walk(figure.children) if isinstance(thing, Text)]
+
+
+def test_fixed_points_are_dimensioned_from_the_pivot_of_the_driver():
+    assert {"113", "11", "94"} <= set(words(draw(SCENE).figures["mechanism"]))
+
+
+# eight-bars are too crowded for some of theirs
+@pytest.mark.parametrize("name", sorted({*library()} - {"double-butterfly", "single-flier"}))
+def test_every_bar_has_its_length(name):
+    drawn = draw(name)
+    scene = drawn.checked.sheet.scene
+    lengths = {f"{link.length / scene.units.metres:.5g}" for link in scene.links if link.length and not link.redundant}
+    assert lengths - set(words(drawn.figures["mechanism"])) == set()
+
+
+def test_the_angle_of_the_crank_is_dimensioned():
+    assert "50°" in words(draw(SCENE).figures["mechanism"])
+
+
+def test_a_corner_that_is_round_is_given_by_its_angle():
+    assert {"90°", "50"} <= set(words(draw(SCENE).figures["mechanism"]))
+
+
+def test_a_given_speed_stays_in_turns_per_minute():
+    assert any("n1=30r/min" in text.replace(" ", "") for text in words(draw(SCENE).figures["mechanism"]))
+
+
+def test_a_given_angular_acceleration_is_an_arc_with_two_heads():
+    groups = [thing for thing in walk(draw(SCENE).figures["mechanism"].children) if isinstance(thing, Group)]
+    assert ["driver-1", "driver-1-alpha"] == sorted(thing.id for thing in groups if thing.id.startswith("driver-"))
+
+
+def test_the_unit_of_dimensions_is_told_where_it_is_not_the_millimetre():
+    told = words(draw({**SCENE, "units": {"length": "in"}}).figures["mechanism"])
+    assert any(text.endswith("dimensions in in") for text in told)
+
+
+def test_pivots_whose_symbols_overlap_are_drawn_again_larger():
+    groups = [thing.id for thing in walk(draw("sixbar-rotating-guide-35rpm").figures["sheet"].children)
+              if isinstance(thing, Group)]  # fmt: skip
+    assert "detail-mechanism" in groups
+
+
+def test_links_differ_in_black_and_white():
+    drawn = walk(draw("sixbar-coupler-1A").figures["mechanism"].children)
+    links = [thing for thing in drawn if isinstance(thing, Group) and "link" in thing.classes]
+    looks = [tuple(p.stroke.dash for p in walk(g.children) if not isinstance(p, Text) and p.stroke) for g in links]
+    assert len(links) == len({frozenset(look) for look in looks})
