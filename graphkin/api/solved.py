@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
@@ -159,7 +160,10 @@ class Solved(Result):
     def json(self) -> Iterator[bytes]:
         """``data`` as the text of JSON, piece by piece."""
         from graphkin.solver import json_text
+        from graphkin.solver.named_positions import named_positions
 
+        if self.find or (self.motion.ok.any() and named_positions(self.motion.scene) is not None):
+            return iter([(json.dumps(self.data, ensure_ascii=False, allow_nan=False) + "\n").encode()])
         return (piece.encode() for piece in json_text(self.motion, self.forces))
 
 
