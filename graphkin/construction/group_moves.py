@@ -108,9 +108,10 @@ class GroupMoves(Polygons):
         at = self.end(order, path[0].start)
         open_at = next((i for i, p in enumerate(parts) if p.span is None), None)
         if open_at is None:
-            for part in parts:
-                at = self._vector(order, part, at, number)
-            self.reach(order, last, at, number)
+            for edge, found in side:
+                for part in found:
+                    at = self._vector(order, part, at, number)
+                self.reach(order, edge.end, at, number)
             return
         for part in parts[:open_at]:
             known = self.drawn[order].get(part.symbol)

@@ -92,6 +92,7 @@ class GroupPolygons(GroupMoves):
         if plan.tried:
             plan = self.plans[group] = self._with_assumptions(order, group, plan)
             self._assume(order, group, plan, self._true_rates(order, group, plan))
+        self._complete(order, group)
         for move in plan.moves:
             self._move(order, group, move)
         for edge in self._left(order, plan.net):
@@ -125,6 +126,7 @@ class GroupPolygons(GroupMoves):
     ) -> GroupPolygons:
         trial = self._fork(number)
         trial._assume(order, group, plan, rates)
+        trial._complete(order, group)
         for move in plan.moves:
             trial._move(order, group, move)
         return trial

@@ -86,6 +86,10 @@ class Aid:
     tip: complex
     trial: int
 
+    @property
+    def span(self) -> complex:
+        return self.tip - self.tail
+
     def scaled(self, times: float) -> Aid:
         return Aid(self.symbol, self.tail * times, self.tip * times, self.trial)
 

@@ -10,7 +10,7 @@ import cmath
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache
-from itertools import pairwise, product
+from itertools import islice, pairwise, product
 
 from graphkin.construction.dyads import drive, meet
 from graphkin.construction.follow import Choices, fitted, moved_to
@@ -19,7 +19,7 @@ from graphkin.construction.rigid import PlacedLinks, Poses
 from graphkin.construction.sheet import Pose
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, Mechanism
-from graphkin.structure import Cluster, Driven, Dyad, Element, Structure, pick
+from graphkin.structure import Cluster, Driven, Dyad, Element, Slide, Structure, pick
 
 __all__ = ["Known", "found_by_trial"]
 
@@ -99,10 +99,15 @@ def _cluster_by_sketch(choices: Choices, frame: PlacedLinks, cluster: Cluster) -
     structure = choices.structure
     # where a sketch tells where to look, it is looked there
     ways = sorted(by_driver.values(), key=lambda reduced: _sketched(reduced, frame) is None)
-    for reduced in ways[:TRIALS]:
+    near = (fit for reduced in choices.of[cluster] if (fit := _from_sketch(reduced, frame)) is not None)
+    if len(ways[0].trial) > 1:
+        # a grid of several trial values is coarse: the sketch comes first, by whichever trial drivers it leads to a fit
+        found += islice(near, 1)
+    for reduced in () if found else ways[:TRIALS]:
         for fit in _nearest_fits(reduced, frame, found):  # a fit at a value of the grid is met from both sides
             if not any(_near(fit, other) for other in found):
                 found.append(fit)
+    found = found or list(islice(near, 1))
     if not found:
         names = ", ".join(cluster.links)
         raise Unsolvable("not assembled", Problem(f"links {names}", "no trial position closes this group here"))
@@ -182,6 +187,51 @@ def _span(reduced: ReducedMechanism, i: int) -> tuple[float, float]:
     return (-math.pi, math.pi) if isinstance(reduced.trial[i], AngleDriver) else (-2.0, 2.0)
 
 
+def _as_sketched(reduced: ReducedMechanism, known: PlacedLinks) -> dict[str, Pose] | None:
+    """The links of a group roughly where they are sketched; None where the sketch does not tell of all of them."""
+    structure, scene = reduced.structure, reduced.structure.scene
+    places = {p: z * known.mm for p, z in {**scene.sketch, **scene.drawn}.items()}
+    places |= {p: known.point(n, p) for n in known.poses for p in structure.links[n].points}
+    poses = dict(known.poses)
+    left = [n for n in reduced.cluster.members if n not in poses]
+    slides = [p for p in reduced.cluster.pairs if isinstance(p, Slide)]
+    while left:
+        before = len(left)
+        for name in list(left):
+            points = {p: z * known.mm for p, z in structure.links[name].points.items() if p in places}
+            a, b = max(((a, b) for a in points for b in points), key=lambda ab: abs(points[ab[0]] - points[ab[1]]),
+                       default=("", ""))  # fmt: skip
+            if a != b and places[a] != places[b]:
+                axis = (places[b] - places[a]) / (points[b] - points[a])
+            else:
+                mine = [s for s in slides if name in (s.a, s.b)]
+                beside = next((s for s in mine if {s.a, s.b} - {name} <= set(poses)), None)
+                if not a:
+                    continue
+                if beside is not None:
+                    turn = beside.guide.direction * beside.turn
+                    axis = poses[beside.b].axis * turn if name == beside.a else poses[beside.a].axis * turn.conjugate()
+                else:
+                    # a guide through its own point and that of what slides on it, such as a cylinder with its rod
+                    far = [places[p] for s in mine if s.b == name for p in structure.links[s.a].points if p in places]
+                    if not far or far[0] == places[a]:
+                        continue
+                    guide = next(s for s in mine if s.b == name).guide
+                    axis = (far[0] - places[a]) / guide.direction
+            axis /= abs(axis)
+            poses[name] = Pose(places[a] - axis * points[a], axis)
+            left.remove(name)
+        if len(left) == before:
+            return None
+    return poses
+
+
+def _from_sketch(reduced: ReducedMechanism, known: PlacedLinks) -> dict[str, Pose] | None:
+    """The position that is sketched, improved until everything fits; None where that leads nowhere."""
+    sketched = _as_sketched(reduced, known)
+    return fitted(reduced, known, sketched) if sketched is not None else None
+
+
 def _on_a_grid(reduced: ReducedMechanism, known: PlacedLinks) -> Iterator[dict[str, Pose]]:
     """Several trial drivers: each place of a grid improved."""
     axes = []
@@ -197,9 +247,9 @@ def _on_a_grid(reduced: ReducedMechanism, known: PlacedLinks) -> Iterator[dict[s
         frame = _drawn(reduced, known, values, branches)
         if frame is None:
             continue
-        found = fitted(reduced, known, frame.poses, values)
-        if found is not None:
-            yield found
+        near = fitted(reduced, known, frame.poses, values)
+        if near is not None:
+            yield near
 
 
 def _on_a_line(

@@ -44,7 +44,7 @@ def aids_in_mechanism(sheet: Sheet) -> Piece:
             parts: list[Primitive] = [Polyline(tuple(map(page, curve.curve)), strokes.TRIAL_CURVE)]
             for number, z in enumerate(curve.at, 1):
                 parts += [Line(page(z + w), page(z - w), strokes.CONSTRUCTION) for w in (CROSS, 1j * CROSS)]
-                name = f"label-trial-{curves}-{number}"
+                name = f"label-trial-{curve.point}-{number}"
                 text = Text(0j, symbol(str(number), 2.0), "start", strokes.GREY, name, ("label", "trial"))
                 labels.append(Label(text, page(z), rank=4))
             id = f"trial-curve-{curve.point}" + (f"-{curves}" if curves > 1 else "")

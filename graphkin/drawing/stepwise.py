@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import replace
 
-from graphkin.construction.sheet import DiagramName, Mark, Sheet, Step, Vector
+from graphkin.construction.sheet import Aid, DiagramName, Mark, Sheet, Step, TrialCurve, Vector
 from graphkin.construction.steps import Carried, MeasuredRate, links_drawn
 from graphkin.drawing import strokes
 from graphkin.drawing.dimensioning import LENGTHS
@@ -44,6 +44,8 @@ def _mechanism(sheet: Sheet, steps: list[Step]) -> dict[str, int]:
     for step in steps:
         for mark in (s for s in step.strokes if isinstance(s, Mark)):
             born.setdefault(f"point-{mark.ref.point}", step.number)
+        for curve in (s for s in step.strokes if isinstance(s, TrialCurve)):
+            born |= {f"trial-{curve.point}-{i}": step.number for i in range(1, len(curve.at) + 1)}
         for name in links_drawn(step.act):
             mentioned.setdefault(name, step.number)
     last = steps[-1].number
@@ -72,6 +74,8 @@ def _polygon(diagram: DiagramName, steps: list[Step]) -> dict[str, int]:
         for stroke in step.strokes:
             if isinstance(stroke, Mark):
                 born.setdefault(f"{diagram}-{stroke.ref}".replace("@", ""), step.number)
+            elif isinstance(stroke, Aid):
+                born[f"trial-{diagram}-{stroke.trial}-{stroke.symbol.id}"] = step.number
             elif isinstance(stroke, Vector):
                 born[stroke.symbol.id] = step.number
                 born[f"foot-{stroke.symbol.id}"] = step.number

@@ -241,7 +241,7 @@ class Speaker:
 
     def _laid_off(self, step: Step, act: LaidOff) -> tuple[str, ...]:
         drawn = next(s for s in step.strokes if isinstance(s, Vector | Aid))
-        length = abs(drawn.span if isinstance(drawn, Vector) else drawn.tip - drawn.tail)
+        length = abs(drawn.span)
         factors = self._factors(act.size)
         value = product(*factors, carried=MOST) if factors else amount(length * self._per(step.diagram), MOST)
         middle = f" = {self._substituted(act.size, factors)}" if factors else ""

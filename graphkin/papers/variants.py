@@ -24,7 +24,7 @@ from graphkin.scene import mechanism_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion, exact_values, solve
-from graphkin.structure import Driven, Dyad, analyse
+from graphkin.structure import Cluster, Driven, Dyad, Pair, analyse
 
 __all__ = ["Answer", "Spread", "Unfit", "Variant", "asked_of", "candidate", "examined", "round_step", "varied_keys"]
 
@@ -153,14 +153,21 @@ def asked_of(scene: Mechanism) -> tuple[Symbol, ...]:
     driven = {e.link for e in structure.elements if isinstance(e, Driven)}
     turning = [k.name for k in scene.links if k.name not in driven and set(k.points) & set(scene.frame.points)]
     found: list[Symbol] = []
-    last = next((e for e in reversed(structure.elements) if isinstance(e, Dyad)), None)
+    last = next((e for e in reversed(structure.elements) if not isinstance(e, Driven)), None)
     if last is not None:
-        pairs = (last.outer_second, last.inner, last.outer_first)
-        names = [getattr(p, "point", None) or getattr(p, "pin", None) for p in pairs]
+        names = [getattr(p, "point", None) or getattr(p, "pin", None) for p in _joints(last)]
         moving = next((n for n in names if n and n not in scene.frame.points), None)
         found += [Symbol.parse(f"{k}_{moving}") for k in ("v", "a")] if moving else []
     found += [Symbol(kind, link=name) for name in turning for kind in ("omega", "alpha")]
     return tuple(found)
+
+
+def _joints(group: Dyad | Cluster) -> tuple[Pair, ...]:
+    """The pairs of a group, those whose motion is best asked for first: its end, or what lies inside it."""
+    if isinstance(group, Dyad):
+        return group.outer_second, group.inner, group.outer_first
+    inside = [p for p in group.pairs if {p.a, p.b} <= set(group.members)]
+    return (*reversed(inside), *(p for p in group.pairs if p not in inside))
 
 
 def examined(source: Source, base: Source | None, name: str, strict: bool = True) -> Variant:

@@ -1,0 +1,171 @@
+"""Groups larger than a dyad on the drawing board: how they are drawn, that all of it agrees, that a slip shows."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from typing import Any
+
+import pytest
+
+import graphkin
+from graphkin import solver
+from graphkin.checking.readings import read_off
+from graphkin.construction import Slip, draft, execute, plan
+from graphkin.construction.sheet import Aid, TrialCurve
+from graphkin.construction.steps import SpecialPoint, Superposed
+from graphkin.scene import mechanism_of
+from graphkin.scene.symbol import Symbol
+
+LIBRARY = {
+    "sixbar-1A-last-link": "special points",
+    "triad-slider": "special points",
+    "loader-cylinder": "special points",
+    "single-flier": "special points",
+    "contour-four-bars": "superposition",
+    "double-butterfly": "superposition",
+}
+
+CRANK = {
+    "1": {"points": ["A", "B"], "length": 50},
+    "2": {"points": ["B", "C"], "length": 130},
+}
+PLATE = {"points": ["C", "D"], "length": 90, "at": {"E": [40, 75]}}
+LEGS: dict[str, dict[str, Any]] = {
+    "pin in a slot of the frame": {"pins": {"E": {"of": "3", "in": "0.g"}}},
+    "block on a turned guide": {"links": {"5": {"points": ["E"], "on": "0.g"}}},
+    "guide of the plate in a swivelling block": {
+        "plate": {"guides": {"s": {"through": [40, 75], "angle": 70}}},
+        "links": {"5": {"points": ["H"], "on": "3.s"}},
+    },
+    "cylinder": {
+        "links": {"5": {"points": ["H"]}, "6": {"points": ["E"], "on": "5"}},
+        "driver": {"slide": "6", "travel": 140, "velocity": 30, "acceleration": -20},
+    },
+}
+
+
+def triad(leg: str) -> dict[str, Any]:
+    """A plate on a rod, a rocker and a leg of a kind."""
+    more = LEGS[leg]
+    drivers = [{"link": "1", "angle": 75, "omega": 8, "alpha": -15}]
+    return {
+        "frame": {"points": {"A": [0, 0], "G": [250, -20], "H": [190, 260]},
+                  "guides": {"g": {"through": [175, 130], "angle": 20}}},
+        "links": {**CRANK, "3": PLATE | more.get("plate", {}), "4": {"points": ["G", "D"], "length": 95},
+                  **more.get("links", {})},
+        "pins": more.get("pins", {}),
+        "driver": [*drivers, more["driver"]] if "driver" in more else drivers[0],
+        "sketch": {"B": [13, 48], "C": [140, 70], "D": [228, 72], "E": [180, 140]},
+    }  # fmt: skip
+
+
+def driven_inside(leg: str) -> dict[str, Any]:
+    """The same, driven by the plate's turning from the rod: the crank is in the group too."""
+    scene = triad(leg)
+    here = graphkin.solve(scene).data["positions"][0]["links"]
+    angle = math.degrees(here["3"]["angle"] - here["2"]["angle"])
+    first = {"link": "3", "relative_to": "2", "angle": angle, "omega": 2, "alpha": 3}
+    drivers = scene["driver"]
+    return {**scene, "driver": [first, *drivers[1:]] if isinstance(drivers, list) else first}
+
+
+def everything(scene: Any) -> set[str]:
+    """The readings that a mechanism has for every link and every moving point."""
+    mechanism = mechanism_of(scene)
+    points = {p for link in mechanism.links for p in link.points} - set(mechanism.frame.points)
+    return {f"{kind}_{link.name}" for link in mechanism.links for kind in ("omega", "alpha")} | {
+        f"{kind}_{p}" for p in points for kind in "va"
+    }
+
+
+@pytest.mark.parametrize("name", LIBRARY)
+def test_how_a_group_is_drawn_is_named_and_every_reading_agrees(name: str) -> None:
+    data = graphkin.check(name).data
+    rows = {row["symbol"]: row for row in data["readings"]}
+    assert LIBRARY[name] == data["construction"]
+    assert set() == everything(name) - set(rows)
+    assert [] == [symbol for symbol, row in rows.items() if not row["ok"]]
+
+
+@pytest.mark.parametrize("leg", LEGS)
+def test_a_triad_with_any_leg_is_drawn_by_special_points(leg: str) -> None:
+    result = graphkin.check(triad(leg))
+    assert "special points" == result.data["construction"]
+    assert set() == everything(triad(leg)) - {str(row.symbol) for row in result.report.rows}
+    assert [] == [str(row.symbol) for row in result.report.rows if row.error > 1e-9 * max(abs(row.exact), 1e-3)]
+
+
+@pytest.mark.parametrize("leg", LEGS)
+def test_a_group_with_a_driver_inside_agrees_too(leg: str) -> None:
+    result = graphkin.check(driven_inside(leg))
+    assert set() == everything(triad(leg)) - {str(row.symbol) for row in result.report.rows}
+    assert [] == [str(row.symbol) for row in result.report.rows if not row.ok]
+
+
+def wrong(name: str, slip: Slip) -> set[str]:
+    """Readings that a drawing with a slip gets wrong by more than 1e-9."""
+    scene = mechanism_of(name)
+    motion = solver.solve(scene)
+    largest: dict[str, float] = {}
+    found: dict[str, float] = {}
+    for reading in read_off(execute(plan(scene), slip=slip)):
+        exact = complex(motion.value(reading.symbol)[0])
+        kind = reading.symbol.kind[0]
+        largest[kind] = max(largest.get(kind, 0.0), abs(exact))
+        found[str(reading.symbol)] = abs(reading.value - exact)
+    return {symbol for symbol, error in found.items() if error > 1e-9 * largest[symbol[0]]}
+
+
+def test_a_special_points_line_turned_by_a_tenth_of_a_degree_shows() -> None:
+    turned = cmath.rect(1.0, math.radians(0.1))
+
+    def line(symbol: Symbol, along: complex) -> complex:
+        return along * turned if symbol.of is not None and symbol.of.point == "S" else along
+
+    assert set() == wrong("triad-slider", Slip())
+    assert {"v_C", "v_D", "omega_4", "a_C", "alpha_4"} <= wrong("triad-slider", Slip(line=line))
+
+
+def test_a_trial_rate_divided_wrongly_shows() -> None:
+    def rate(symbol: Symbol, value: float) -> float | None:
+        return value * 1.001 if str(symbol) == "omega_6" else None
+
+    assert {"omega_6"} <= wrong("contour-four-bars", Slip(rate=rate))
+
+
+def test_the_special_point_lies_on_the_lines_of_both_legs() -> None:
+    sheet = draft(mechanism_of("sixbar-1A-last-link"))
+    acts = [step for step in sheet.steps if isinstance(step.act, SpecialPoint)]
+    points = {str(ref): z for ref, z in sheet.points.items()}
+    (step,) = acts
+    at = points[step.act.point]  # type: ignore[union-attr]
+    legs = {"C": "D", "B": "A", "E": "F"}
+    for joint in step.act.joints:  # type: ignore[union-attr]
+        leg = points[legs[joint]] - points[joint]
+        assert 0 == pytest.approx(((at - points[joint]) / leg).imag * abs(leg), abs=1e-9)
+
+
+def test_trial_polygons_are_drawn_and_divided() -> None:
+    sheet = draft(mechanism_of("contour-four-bars"))
+    trials = {s.trial for step in sheet.steps for s in step.strokes if isinstance(s, Aid) and s.trial}
+    assert {1, 2} == trials
+    (velocity, _) = (step.act for step in sheet.steps if isinstance(step.act, Superposed))
+    one, two = (row[0] for row in velocity.apart)  # type: ignore[union-attr]
+    assert one * two < 0
+
+
+def test_the_trial_curve_passes_the_place_found_between_its_trials() -> None:
+    sheet = draft(mechanism_of("triad-slider"))
+    (curve,) = (s for step in sheet.steps for s in step.strokes if isinstance(s, TrialCurve))
+    place = {str(ref): z for ref, z in sheet.points.items()}[curve.point]
+    assert 7 == len(curve.at)
+    step = max(abs(b - a) for a, b in zip(curve.at, curve.at[1:], strict=False))
+    assert min(abs(z - place) for z in curve.at) < step
+    assert min(abs(z - place) for z in curve.at) > 0
+
+
+def test_a_pencil_keeps_what_it_promises() -> None:
+    report = graphkin.check("triad-slider", instrument="pencil", seed=3).report
+    assert report.ok
+    assert all(row.uncertainty is not None for row in report.rows)
