@@ -8,7 +8,7 @@ Hain, Applied Kinematics; Artobolevsky, Theory of mechanisms).
 from __future__ import annotations
 
 import copy
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -19,7 +19,7 @@ from graphkin.construction.group_plan import GroupPlan, Special, plan_group
 from graphkin.construction.net import Edge
 from graphkin.construction.plot import Order
 from graphkin.construction.polygons import same_turn
-from graphkin.construction.remarks import ParallelLegs
+from graphkin.construction.remarks import Magnified, ParallelLegs
 from graphkin.construction.rigid import PlacedLinks
 from graphkin.construction.sheet import Aid, DrawnGroup, Rate, Scales, Vector
 from graphkin.construction.slip import NO_SLIP, Slip
@@ -214,9 +214,11 @@ class GroupPolygons(GroupMoves):
         """The true rates by proportional division of what trial polygons leave open."""
         rates = plan.assumed[order]
         apart: list[list[float]] = []
+        ends: list[dict[PointRef, complex]] = []
         for number, assumed in enumerate(rates, 1):
             trial = self._tried(order, group, plan, number, assumed)
             apart.append([self.board.instrument.read(mm) for mm in self._open(order, plan, trial)])
+            ends.append(trial.ends[order])
             # special points are marked on the mechanism by the trial that meets them first
             self.special, self.places, self.links = trial.special, trial.places, trial.links
             for step in trial.board.steps:
@@ -225,6 +227,7 @@ class GroupPolygons(GroupMoves):
             steps = [step for step in trial.board.steps if step.diagram == order]
             strokes = [replace(s, trial=number) for step in steps for s in step.strokes if isinstance(s, Aid)]
             self.board.do(order, TrialDrawn(number, self._named(order, plan, assumed)), *strokes)
+        self.board.notice(order, Magnified(group.links, _magnified(ends, apart)))
         found = _divided(rates, apart)
         closing = tuple(e.link or (e.slide.key if e.slide else "") for e, _ in plan.open_ends)
         self.board.do(order, Superposed(self._named(order, plan, found), closing, tuple(tuple(row) for row in apart)))
@@ -253,6 +256,15 @@ def _divided(rates: Sequence[Sequence[float]], apart: Sequence[Sequence[float]])
     slopes = np.array([np.array(row) - first for row in apart[1:]]).T
     part = np.linalg.solve(slopes, -first)
     return [float(rates[0][i] + x * (rates[i + 1][i] - rates[0][i])) for i, x in enumerate(part)]
+
+
+def _magnified(ends: Sequence[Mapping[PointRef, complex]], apart: Sequence[Sequence[float]]) -> float:
+    """How far an end point moves, at most, for what is left open in a trial."""
+    first = np.array(apart[0])
+    slopes = np.array([np.array(row) - first for row in apart[1:]]).T
+    inverse = np.linalg.inv(slopes)
+    moved = [[end[ref] - z for end in ends[1:]] for ref, z in ends[0].items() if all(ref in end for end in ends)]
+    return float(np.abs(np.array(moved) @ inverse).max(initial=0.0))
 
 
 def _round(value: float) -> float:

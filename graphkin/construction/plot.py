@@ -181,8 +181,11 @@ class Plot:
         if same:
             self._reach_by(order, ref, ends[same[0]], SamePlace(self.label(ref), self.label(same[0])))
             return
+        # a special point may lie far away: it serves where the link has no other two
+        near = [r for r in refs if r.point not in self.special]
+        apart = max((abs(self.places[r.point] - self.places[s.point]) for r in near for s in near), default=0.0)
         a, b = max(
-            ((a, b) for a in refs for b in refs),
+            ((a, b) for a in (near if apart > self.tiny else refs) for b in (near if apart > self.tiny else refs)),
             key=lambda ab: abs(self.places[ab[0].point] - self.places[ab[1].point]),
         )
         bar = self.places[b.point] - self.places[a.point]
@@ -198,7 +201,8 @@ class Plot:
             ratio = (here - self.places[a.point]) / bar
         at = self.board.instrument.point(ends[a] + (ends[b] - ends[a]) * ratio)
         on_line = abs(ratio.imag) < 1e-9
-        stroke = Bar(ends[a], at, name) if on_line else Image(name, (ends[a], ends[b], at))
+        lined = on_line or bool({a.point, b.point} & self.special)
+        stroke = Bar(ends[a], at, name) if lined else Image(name, (ends[a], ends[b], at))
         act = ByImage(self.label(ref), (self.label(a), self.label(b)), name, on_line)
         self._reach_by(order, ref, at, act, stroke)
 

@@ -13,7 +13,7 @@ from typing import Self
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase
 
-__all__ = ["OffTheSheet", "ParallelLegs", "Remark", "SharpCrossing", "ShortArm", "ZeroVector"]
+__all__ = ["Magnified", "OffTheSheet", "ParallelLegs", "Remark", "SharpCrossing", "ShortArm", "ZeroVector"]
 
 REACH = 2000.0  # mm to either side: how far a construction line is drawn
 SHARP = math.sin(math.radians(15.0))
@@ -98,6 +98,25 @@ class ShortArm:
 
 
 @dataclass(frozen=True)
+class Magnified:
+    """What a trial polygon leaves open and is read wrong moves end points of the links by so many ``times`` as much."""
+
+    links: tuple[str, ...]
+    times: float
+
+    @property
+    def holds(self) -> bool:
+        return self.times > 2.0
+
+    @property
+    def phrase(self) -> Phrase:
+        return Phrase("magnified", (", ".join(self.links), f"{self.times:.2g}"))
+
+    def scaled(self, times: float) -> Self:
+        return self
+
+
+@dataclass(frozen=True)
 class ParallelLegs:
     """Two legs of a link leave it free along one direction: their special point lies at infinity."""
 
@@ -115,4 +134,4 @@ class ParallelLegs:
         return self
 
 
-Remark = ParallelLegs | SharpCrossing | OffTheSheet | ZeroVector | ShortArm
+Remark = Magnified | ParallelLegs | SharpCrossing | OffTheSheet | ZeroVector | ShortArm
