@@ -54,12 +54,15 @@ def _images(here: PolygonOnPage) -> Iterator[Primitive]:
             tail = f"-{count[image.link]}" if count[image.link] > 1 else ""
             outline = strokes.CONSTRUCTION.coloured(colour_of_link(here.sheet.scene, image.link))
             corners = tuple(map(here.at, image.corners))
-            shape = Polygon(corners, "", outline)
+            parts: tuple[Primitive, ...] = (Polygon(corners, "", outline),)
             box = Box.around(corners)
-            large = max(box.width, box.height) > SHADED
-            shade = (Polygon(corners, strokes.tint(outline.colour, SHADE)),) if large else ()
+            if not here.panel.holds(box):  # cut at the panel
+                edges = (here.panel.clip(a, b) for a, b in zip(corners, (*corners[1:], corners[0]), strict=True))
+                parts = tuple(Line(*edge, outline) for edge in edges if edge is not None and edge[0] != edge[1])
+            elif max(box.width, box.height) > SHADED:
+                parts = (Polygon(corners, strokes.tint(outline.colour, SHADE)), *parts)
             id = f"image-{here.diagram}-{image.link}{tail}"
-            yield Group((*shade, shape), id=id, classes=("image",), step=step.number)
+            yield Group(parts, id=id, classes=("image",), step=step.number)
 
 
 def _bars(here: PolygonOnPage) -> Iterator[Piece]:
