@@ -46,12 +46,16 @@ class Discriminant:
         self._extended = extended_precision_of(structure, known, ("closing", i), lambda p: _with_doubt(p, i), drive)
 
     def __call__(self, *values: Decimal) -> Decimal:
-        """At values of the drivers."""
-        return self.with_doubt(values)[0]
+        """At values of the drivers.  Raises ArithmeticError where the groups before it have no place."""
+        value, _ = self._extended.row(0, dict(enumerate(values)))
+        return value
 
     def with_doubt(self, values: Sequence[Decimal]) -> tuple[Decimal, Decimal]:
-        """The same, and how far the file leaves it open."""
-        value, doubt = self._extended.row(0, dict(enumerate(values)))
+        """The same, and how far the file leaves it open: wholly where the groups before it have no place."""
+        try:
+            value, doubt = self._extended.row(0, dict(enumerate(values)))
+        except ArithmeticError:
+            return Decimal(0), Decimal("Infinity")
         return value, doubt
 
     def written(self, k: int) -> tuple[Decimal, Decimal]:
