@@ -35,6 +35,10 @@ _LAYER = re.compile(r' inkscape:(?:groupmode|label)="[^"]*"| xmlns:(?:inkscape|e
 _ID = re.compile(r' id="[^"]*"')
 _LAYER_ID = re.compile(r' id="(?:construction|mechanism|velocity|acceleration|centres|answers|labels)"')
 _LENGTH = re.compile(' (?:lengthAdjust|textLength)="[^"]*"')  # the page has the faces, and many thousands of runs
+_FIRST_RUN = re.compile(
+    '(?P<text><text[^>]*?(?P<size> font-size="[^"]*")[^>]*?(?P<place> x="[^"]*" y="[^"]*")><tspan)'
+    "(?P=size)(?P<face>[^>]*?)(?P=place)"
+)
 _DATA = re.compile(r"<(metadata|title|desc)>.*?</\1>", re.DOTALL)
 
 
@@ -74,7 +78,7 @@ def figure_svg(drawing: Drawing, named: bool = False) -> str:
     head = _LAYER.sub("", head)
     body = _LENGTH.sub("", _LAYER.sub("", _DATA.sub("", body)))
     body = (_LAYER_ID if named else _ID).sub("", body)
-    body = body.replace(" />", "/>")
+    body = _FIRST_RUN.sub(r"\g<text>\g<face>", body.replace(" />", "/>"))  # it has size and place of its text
     label = escape(clean(re.sub(r"\s+", " ", f"{drawing.title}. {drawing.desc}".strip(". "))))
     return f'{head} aria-label="{label}" focusable="false">{body}'
 
@@ -89,7 +93,7 @@ _UNSEEN = re.compile(r"<(style|title|desc)\b.*?</\1>", re.DOTALL)
 
 def used_characters(body: str) -> dict[Style, set[str]]:
     """The characters of a page in each face in which it shows them; the same for figures that a script holds."""
-    plain = _UNSEEN.sub("", unescape(body.replace("\\u003c", "<").replace("\\u003e", ">").replace('\\"', '"')))
+    plain = _UNSEEN.sub("", unescape(body.replace("\\u003c", "<").replace("<\\/", "</").replace('\\"', '"')))
     found = {
         style: {c for match in pattern.finditer(plain) for c in _TAG.sub("", match[0])}
         for style, pattern in (("italic", _ITALIC), ("bold", _BOLD))

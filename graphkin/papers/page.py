@@ -8,6 +8,7 @@ import base64
 import hashlib
 import json
 import math
+import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -305,10 +306,14 @@ def _hash(text: str) -> str:
     return "sha256-" + base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()
 
 
+_ESCAPE = re.compile("<(?=!|script)", re.IGNORECASE)
+
+
 def _json(data: object) -> str:
-    """Data in a script element: no sign in it can end the element."""
+    """Data in a script element: no sign in it can end the element, nor begin a comment in it."""
     text = json.dumps(data, ensure_ascii=False, allow_nan=False, sort_keys=True, separators=(",", ":"))
-    return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
+    text = _ESCAPE.sub(r"\\u003c", text.replace("</", "<\\/"))  # not every one: there are many thousands
+    return text.replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
 
 
 def _plain(words: Said) -> str:
