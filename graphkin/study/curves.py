@@ -45,7 +45,7 @@ class Pieces:
     coefficients : shape (pieces, points, curves)
     weight : shape (curves,), the power of sin(parameter) that the curves were multiplied by to stay finite at the ends
     scale : shape (curves,), the largest value of each curve (the usual one, where it grows without bound), or the floor
-    doubt : shape (pieces, curves), how far the values of each piece may be off
+    doubt : shape (pieces, curves), how far the values of each piece may be off; infinite where a piece is left out
     """
 
     low: Array
@@ -76,8 +76,11 @@ class Pieces:
         return self._roots(slopes, self.scale[curve] * POINTS, self.doubt[:, curve] * POINTS)
 
     def at(self, parameter: float, curve: int) -> float:
-        """The value of a curve, by its polynomial: also at an end where the curve itself cannot be computed."""
+        """The value of a curve, by its polynomial: also at an end where the curve itself cannot be computed; not a
+        number in a piece that was left out."""
         piece = min(int(np.searchsorted(self.high, parameter)), len(self.high) - 1)
+        if np.isinf(self.doubt[piece, curve]):
+            return float("nan")
         low, high = self.low[piece], self.high[piece]
         x = (2 * parameter - low - high) / (high - low)
         return float(chebyshev.chebval(x, self.coefficients[piece, :, curve]))
@@ -188,9 +191,10 @@ def resolve(
         unsure = (tail > np.maximum(RESOLVED * size, doubt)) & ~rounding
         rough = ((broken & (depth < LEFT_OUT)) | (unsure & ~broken)).any(axis=1)
         c = np.where(broken[:, None, :], 0.0, c)
+        lost = np.where(broken, np.inf, doubt)
         if depth == MOST_DEPTH or len(done) + 2 * int(rough.sum()) > MOST_PIECES:
             rough[:] = False
-        done += list(zip(waiting[~rough], c[~rough], doubt[~rough], strict=True))
+        done += list(zip(waiting[~rough], c[~rough], lost[~rough], strict=True))
         if not rough.any():
             break
         low_, high_, mid = waiting[rough, 0], waiting[rough, 1], middle[rough]

@@ -25,6 +25,8 @@ Array = NDArray[np.float64]
 NEAR_END = 1e-5
 """Of the range: an extreme this near to an end of the motion is the end itself."""
 POLISH = 3
+STEPS_TO_END = 2e-2
+"""Of the angle that runs over the range: steps to an end that the solver does not come near enough to."""
 HAIR = 1e-6
 """Of the range of the driver: what is left out before an end at which links go away without bound."""
 NOTHING = 5e-11
@@ -212,19 +214,23 @@ class _Way:
         """The value of a position at the lower or upper end of the motion, where the solver refuses it, or loses half
         of its digits: from the curve, or, where links go away without bound, from values nearer and nearer to it."""
         if not self._away[which]:
-            return curve.quantity.of_smooth(curve.pieces.at(self.range[which], curve.k))
+            value = curve.pieces.at(self.range[which], curve.k)
+            return self._beyond(curve, which) if np.isnan(value) else curve.quantity.of_smooth(value)
         reach, quantity = self.reach, curve.quantity
         low, high = reach.ends
-        steps = HAIR * 2.0 ** np.arange(2, 8)
+        steps = np.asarray(HAIR * 2.0 ** np.arange(2, 8), dtype=np.float64)
         near = steps * (high - low)
         values = quantity.values(reach, reach.motion(high - near if which else low + near))
         if abs(values[0]) > 1.5 * abs(values[1]) > 2.25 * abs(values[2]):
             return float(np.copysign(np.inf, values[0]))
-        # Neville's scheme to the end itself
-        found = values.tolist()
-        for k in range(1, len(found)):
-            found = [b - (c - b) * x / (y - x) for b, c, x, y in zip(found, found[1:], steps, steps[k:], strict=False)]
-        return float(found[0])
+        return _to_zero(steps, values)
+
+    def _beyond(self, curve: _Curve, which: int) -> float:
+        """The value at an end of which the curve was left out, because the solver refuses places too near to it."""
+        low, high = self.range
+        steps: Array = STEPS_TO_END * np.arange(1, 9, dtype=np.float64)
+        motion = self.reach.motion(self.offset(high - steps if which else low + steps))
+        return _to_zero(steps, curve.quantity.values(self.reach, motion))
 
     def offset(self, parameter: Array) -> Array:
         low, high = self.reach.ends
@@ -244,6 +250,14 @@ class _Way:
         margin = NEAR_END * float(np.pi)
         low, high = self.range
         return parameter[(parameter > low + margin) & (parameter < high - margin)]
+
+
+def _to_zero(steps: Array, values: Array) -> float:
+    """Neville's scheme: the value at 0 of the polynomial through values at steps."""
+    found = values.tolist()
+    for k in range(1, len(found)):
+        found = [b - (c - b) * x / (y - x) for b, c, x, y in zip(found, found[1:], steps, steps[k:], strict=False)]
+    return float(found[0])
 
 
 def _traced(way: _Way, curves: Sequence[_Curve]) -> list[Traced]:
@@ -378,6 +392,9 @@ def _leasts(way: _Way, pieces: Pieces, first: int, dyads: Sequence[Dyad]) -> tup
 
 
 def _from_cosine(cosine: float) -> float:
-    """An angle of 90 degrees or less by its cosine as the curve gives it; 0 where rounding tells no more."""
+    """An angle of 90 degrees or less by its cosine as the curve gives it; 0 where rounding tells no more, not a number
+    where the curve was left out."""
+    if np.isnan(cosine):
+        return cosine
     lack = max(0.0, 1.0 - abs(cosine))
     return 2 * float(np.arcsin(np.sqrt(lack / 2))) if lack > 1e-12 else 0.0

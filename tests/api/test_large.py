@@ -27,8 +27,16 @@ def chain(dyads):
     return {"frame": {"name": "0", "points": frame}, "links": links, "driver": driver, "sketch": sketch}
 
 
-def test_a_chain_of_33_dyads_is_drawn_and_agrees():
-    assert graphkin.check(chain(33)).ok
+def test_a_chain_of_24_dyads_is_drawn_and_agrees():
+    assert graphkin.check(chain(24)).ok
+
+
+def test_a_chain_of_33_dyads_is_drawn_and_what_is_not_known_to_agree_is_not_said_to():
+    # the drawing agrees to the last digits, but the bound on rounding exceeds a thousandth of the largest velocity
+    result = graphkin.check(chain(33))
+    assert {row.ok for row in result.report.rows} == {None}
+    assert not result.ok
+    assert all(row.error <= 1e-9 * max(1.0, abs(row.exact)) for row in result.report.rows)
 
 
 def test_of_the_centres_of_16_dyads_only_those_of_rods_that_move_alike_are_wanting():
