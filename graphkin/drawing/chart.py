@@ -47,6 +47,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "BEHIND",
+    "NUMBER",
     "SOLID_AND_DASHED",
     "ChartPage",
     "Shape",

@@ -21,7 +21,8 @@ from tests.mechanisms import KINDS, random_scene
 from tests.scenes import four_bar
 
 SIXBAR = "sixbar-guide-40deg"
-NARROW = ("loader-cylinder",)  # with its cylinder held, its arm swings through less than four steps of 30 degrees
+# with its cylinder held, its arm swings through less than four steps of 30 degrees; six places, each takes its time
+NARROW = ("loader-cylinder",)
 
 
 @pytest.mark.parametrize("name", library())
@@ -32,7 +33,7 @@ def test_every_scene_that_comes_along_passes_at_12_positions(name):
     own = math.degrees(driver.angle) if turns else driver.travel / scene.units.metres
     reached = 0
     step = 5 if name in NARROW else 30
-    for k in range(12):
+    for k in range(0, 12, 2 if name in NARROW else 1):
         value = own + step * (k - 6 * (name in NARROW)) if turns else own * (1 + 0.02 * (k - 6))
         try:
             result = graphkin.check(scene, at=value)

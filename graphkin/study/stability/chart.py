@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from graphkin.drawing import Box, ChartPage, Stroke, Text
 from graphkin.drawing.chart import (
+    NUMBER,
     SOLID_AND_DASHED,
     Shape,
     add_labels,
@@ -94,7 +95,7 @@ def _draw(figure: Figure, one: Singularity, corner: complex, language: str) -> N
             axes.plot(*([value] for value in min(points)), **marker("square"))
         if points:
             labels.append((_words(law, language), _stretch(law, points, k, len(one.laws))))
-    add_labels(axes, labels)
+    add_labels(axes, labels, (NUMBER, 2.3, 2.1, 2.0))
     fates = [runs for fate in one.fates for runs in wrapped(say(fate, language), LETTERS, CELL.real - 4.0)]
     add_words(
         figure,
@@ -111,7 +112,7 @@ def _stretch(
     inside = [p for p in points if law.window[0] <= p[0] <= law.window[1] and p[1] < law.lost]
     inside = inside if len(inside) > 1 else list(points)
     middle = len(inside) * (laws - k) // (laws + 1)
-    near = inside[max(middle - 1, 0) : middle + 2]
+    near = inside[max(middle - 3, 0) : middle + 4]
     return near[0], near[-1]
 
 

@@ -327,4 +327,4 @@ def _pencil(case: DeadPointCase, mp: MPContext) -> ErrorLaw:
         if not math.isfinite(part):
             stops = stops or e
         error.append(part if math.isfinite(part) else math.nan)
-    return ErrorLaw("velocity pencil", tuple(x), tuple(error), -1.0, told, stops, window=(2e-3, 0.4), lost=2.0)
+    return ErrorLaw("velocity pencil", tuple(x), tuple(error), -1.0, told, stops, window=(2e-3, 0.4), lost=0.3)
