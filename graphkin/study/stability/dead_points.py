@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from graphkin import solver
-from graphkin.checking.readings import predict
+from graphkin.checking.readings import COVERAGE, predict
 from graphkin.construction import EXACT, execute, plan
 from graphkin.construction.remarks import SharpCrossing
 from graphkin.errors import Unsolvable
@@ -312,7 +312,12 @@ def _drawn(case: DeadPointCase, mp: MPContext, x: Sequence[float], truth: Sequen
 
 
 def _pencil(case: DeadPointCase, mp: MPContext) -> ErrorLaw:
-    """The uncertainty that is predicted for a pencil, relative."""
+    """The uncertainty that is predicted for a pencil, relative.
+
+    A rate goes as one over the half chord h of the crossing: an error u of it is one of 2 u in the square of h, and
+    where COVERAGE times that is all of it the arcs may miss each other.  From there on the prediction is not of first
+    order but seen on drawings, and has no such law.
+    """
     x = grid(FAR, 1e-4, 1)
     symbol = Symbol("omega", link=case.follower)
     error: list[float] = []
@@ -327,4 +332,5 @@ def _pencil(case: DeadPointCase, mp: MPContext) -> ErrorLaw:
         if not math.isfinite(part):
             stops = stops or e
         error.append(part if math.isfinite(part) else math.nan)
-    return ErrorLaw("velocity pencil", tuple(x), tuple(error), -1.0, told, stops, window=(2e-3, 0.4), lost=0.3)
+    lost = 1 / (2 * COVERAGE)
+    return ErrorLaw("velocity pencil", tuple(x), tuple(error), -1.0, told, stops, window=(2e-3, 0.4), lost=lost)
