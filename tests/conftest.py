@@ -5,11 +5,19 @@
 
 from __future__ import annotations
 
+import signal
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
 
 TESTS = Path(__file__).parent
+
+# started in the background by a shell, a run inherits that Ctrl-C is ignored, and so would all that it starts and
+# interrupts
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    with suppress(ValueError):  # outside of the main thread nothing can be set
+        signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def pytest_xdist_auto_num_workers(config: pytest.Config) -> int | None:
