@@ -15,6 +15,7 @@ from graphkin.errors import CallError, Problem
 from graphkin.files import path_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import KINDS, Symbol
+from graphkin.scene.tables import Units
 
 __all__ = ["Answers", "AnswersLike", "as_answers", "table_of", "with_points"]
 
@@ -132,7 +133,7 @@ def _answers(scene: Mechanism, sheet: Rows, name: str) -> tuple[tuple[Answers, .
         except CallError as error:
             problems += [Problem(f"{name}, column {head}", p.found, p.wanted) for p in error.problems]
             continue
-        wanted = unit_of(symbol, scene.units.length)
+        wanted = unit_of(symbol, scene.units)
         if unit and unit != wanted:
             problems.append(Problem(f"{name}, column {head}", f"is in {unit}", f"give it in {wanted}"))
         if symbol in symbols.values():
@@ -153,10 +154,10 @@ def _answers(scene: Mechanism, sheet: Rows, name: str) -> tuple[tuple[Answers, .
             text = cells[i] if i < len(cells) else ""
             if not is_blank(text):
                 try:
-                    numbers = numbers_in(text, unit_of(symbol, scene.units.length), sheet.sign)
+                    numbers = numbers_in(text, unit_of(symbol, scene.units), sheet.sign)
                     if len(numbers) > (2 if symbol.is_vector else 1):
                         raise ValueError(f'"{text[:40]}" is more than one number')
-                    values.append(stated(symbol, numbers, scene.units.metres))
+                    values.append(stated(symbol, numbers, scene.units))
                 except ValueError as error:
                     problems.append(Problem(f"{name}, line {line}, {symbol}", str(error), "write a number alone"))
         at: float | str | None = None
@@ -182,9 +183,9 @@ def _text(value: object) -> str:
 # heads and cells as people write them: units, Greek letters, decimal commas, signs for nothing
 
 
-def unit_of(symbol: Symbol, length: str) -> str:
+def unit_of(symbol: Symbol, units: Units) -> str:
     """The unit in which a quantity is stated."""
-    return symbol.unit(length)
+    return symbol.unit(units)
 
 
 def head_of(head: str) -> tuple[str, str]:

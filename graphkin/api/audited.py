@@ -212,7 +212,6 @@ def audit(scene: SceneLike, answers: AnswersLike | None = None, at: At = None, l
 def _stated(scene: Mechanism) -> tuple[Answers, ...]:
     """What a scene's own tables state, a row for each position."""
     found: list[Answers] = []
-    metres = scene.units.metres
     for own in scene.stated:
         if own.file:
             rows, _ = as_answers(scene, own.file)
@@ -220,7 +219,7 @@ def _stated(scene: Mechanism) -> tuple[Answers, ...]:
             continue
         values = (
             printed_values(scene) if own.at is None
-            else tuple(stated(symbol, texts, metres) for symbol, texts in own.values.items())
+            else tuple(stated(symbol, texts, scene.units) for symbol, texts in own.values.items())
         )  # fmt: skip
         for place in dict.fromkeys(p.symbol.at for p in values):
             there = tuple(replace(p, symbol=p.symbol.here) for p in values if p.symbol.at == place)

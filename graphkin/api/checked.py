@@ -106,9 +106,9 @@ class Checked(Result):
         """The readings, in scene units."""
         from graphkin.table import Table
 
-        length, rows = self.scene.units.length, []
+        units, rows = self.scene.units, []
         for row in self.report.rows:
-            cells = {**reading_row(self.scene, row, degrees=True), "unit": row.symbol.unit(length)}
+            cells = {**reading_row(self.scene, row, degrees=True), "unit": row.symbol.unit(units)}
             rows.append([cells.get(key) for key in _FORMS])
         return Table.of(list(_FORMS), rows, list(_FORMS.values()))
 
@@ -180,19 +180,19 @@ def _plain(value: float) -> float:
 
 def in_scene_units(scene: Mechanism, symbol: Symbol, value: float, degrees: bool = False) -> float:
     """A value in the scene's length unit, seconds, and radians as in JSON, or degrees as in files."""
-    metres = scene.units.metres
-    return value / (symbol.per_unit(metres) if degrees else symbol.per_unit_of_programs(metres))
+    units = scene.units
+    return value / (symbol.per_unit(units) if degrees else symbol.per_unit_of_programs(units))
 
 
 def reading_words(checked: Checked) -> Iterator[tuple[str, str, str, str, bool | None]]:
     """Each reading in words: symbol, mm on paper, measured with as many figures as the drawing carries, exact, whether
     the two agree."""
-    scales, metres = checked.report.scales, checked.scene.units.metres
+    scales, units = checked.report.scales, checked.scene.units
     for row in checked.report.rows:
-        said = measured(row.reading, scales, metres, row)
+        said = measured(row.reading, scales, units, row)
         if said == "0" and row.uncertainty is not None:
-            said = f"0 {deviation(row, metres)}"
-        yield str(row.symbol), paper(row.reading, row), said, exact(row, metres), row.ok
+            said = f"0 {deviation(row, units)}"
+        yield str(row.symbol), paper(row.reading, row), said, exact(row, units), row.ok
 
 
 def reading_row(scene: Mechanism, row: Compared, degrees: bool = False) -> dict[str, Any]:

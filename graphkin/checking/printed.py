@@ -10,6 +10,7 @@ from itertools import combinations, pairwise
 
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
+from graphkin.scene.tables import Units
 
 __all__ = ["Printed", "printed_values", "stated", "transcription_errors"]
 
@@ -45,8 +46,8 @@ class Printed:
         return max(self.rounding, min(5.0 * self.step, 0.01 * abs(self.value)))
 
 
-def stated(symbol: Symbol, texts: Sequence[str], metres: float) -> Printed:
-    """A value from its text, or the texts of its two components, in scene units (``metres`` is one length unit in m).
+def stated(symbol: Symbol, texts: Sequence[str], units: Units) -> Printed:
+    """A value from its text, or the texts of its two components, in scene units.
 
     Trailing zeros of whole numbers count as written: 480 is stated to the unit.
 
@@ -54,11 +55,11 @@ def stated(symbol: Symbol, texts: Sequence[str], metres: float) -> Printed:
     ------
     ValueError : a text that is no number
 
-    >>> v = stated(Symbol.parse("v_D"), ["480.0"], 1e-3)
+    >>> v = stated(Symbol.parse("v_D"), ["480.0"], Units())
     >>> v.value, v.step, v.digits
     (0.48, 0.0001, 4)
     """
-    unit = symbol.per_unit(metres)
+    unit = symbol.per_unit(units)
     numbers = [_number(text) for text in texts]
     values = [float(n) * unit for n in numbers]
     last = max(int(n.as_tuple().exponent) for n in numbers)
@@ -84,12 +85,12 @@ def printed_values(scene: Mechanism) -> tuple[Printed, ...]:
     of decimals are lost."""
     own = next((s for s in scene.stated if s.at is None and not s.file), None)
     if own is not None and list(own.values) == list(scene.printed):
-        return tuple(stated(symbol, texts, scene.units.metres) for symbol, texts in own.values.items())
+        return tuple(stated(symbol, texts, scene.units) for symbol, texts in own.values.items())
     found = []
     for symbol, value in scene.printed.items():
-        unit = symbol.per_unit(scene.units.metres)
+        unit = symbol.per_unit(scene.units)
         parts = (value.real, value.imag) if isinstance(value, complex) else (value,)
-        found.append(stated(symbol, [_shortest(part / unit) for part in parts], scene.units.metres))
+        found.append(stated(symbol, [_shortest(part / unit) for part in parts], scene.units))
     return tuple(found)
 
 
@@ -123,7 +124,7 @@ def transcription_errors(printed: Printed) -> Iterator[tuple[str, float, float]]
         digits = "0123456789"
         twice = [_put(text, {i: a, j: b}) for i, j in combinations(places, 2) for a in digits for b in digits]
         kinds.append((TWICE_MISREAD, twice))
-    unit = printed.step / stated(printed.symbol, [text], 1.0).step
+    unit = printed.step / stated(printed.symbol, [text], Units("m")).step
     for share, texts in kinds:
         for other in dict.fromkeys(texts):
             if other != text:

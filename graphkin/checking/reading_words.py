@@ -6,6 +6,7 @@ from __future__ import annotations
 from graphkin.checking.readings import Reading
 from graphkin.checking.report import Compared
 from graphkin.construction.sheet import Scales
+from graphkin.scene.tables import Units
 from graphkin.words.written import MOST, amount, figures, on_paper, product
 
 __all__ = ["deviation", "exact", "measured", "paper"]
@@ -19,13 +20,13 @@ def paper(reading: Reading, compared: Compared | None = None) -> str:
     return "0" if residue else on_paper(reading.on_paper)
 
 
-def measured(reading: Reading, scales: Scales, metres: float, compared: Compared | None = None) -> str:
-    """A reading in scene units (``metres`` long): a vector or a length by what is read times the scale, a rate with as
+def measured(reading: Reading, scales: Scales, units: Units, compared: Compared | None = None) -> str:
+    """A reading in scene units: a vector or a length by what is read times the scale, a rate with as
     many figures as that has; 0 where it cannot be told from zero."""
     value = reading.value if compared is None else compared.measured
     if value == 0.0:
         return "0"
-    per = reading.symbol.per_unit(metres)
+    per = reading.symbol.per_unit(units)
     if not reading.on_paper:
         return amount(float(value.real) / per, MOST + 1)
     length = on_paper(reading.on_paper)
@@ -36,15 +37,15 @@ def measured(reading: Reading, scales: Scales, metres: float, compared: Compared
     return amount(float(value.real) / per, min(MOST, figures(length)))
 
 
-def exact(compared: Compared, metres: float, carried: int = MOST + 1) -> str:
+def exact(compared: Compared, units: Units, carried: int = MOST + 1) -> str:
     """The exact value in scene units."""
     value = abs(compared.true) if compared.symbol.is_vector else float(compared.true.real)
-    return amount(value / compared.symbol.per_unit(metres), carried)
+    return amount(value / compared.symbol.per_unit(units), carried)
 
 
-def deviation(compared: Compared, metres: float) -> str:
+def deviation(compared: Compared, units: Units) -> str:
     """How far a reading lies off the exact value: in per cent, or, where there is nothing to be a part of, the bound
     (scene units) within which it cannot be told from zero."""
     if compared.relative is None:
-        return f"± {amount(max(compared.bound, compared.error) / compared.symbol.per_unit(metres), 2)}"
+        return f"± {amount(max(compared.bound, compared.error) / compared.symbol.per_unit(units), 2)}"
     return f"{100 * compared.relative:.2g} %"

@@ -141,24 +141,24 @@ def _shrunk(runs: tuple[Run, ...], width: float) -> tuple[Run, ...]:
 
 def _texts(sheet: Sheet, row: TableRow, letters: Letters, language: str, size: float) -> list[tuple[Run, ...]]:
     reading, compared = row.reading, row.compared
-    unit, metres = _unit(sheet, reading), sheet.scene.units.metres
+    unit, units = _unit(sheet, reading), sheet.scene.units
     name = letters.vector(reading.symbol)
     if row.more:
         name = f"{name[0]}_{{{','.join((reading.symbol.link, *row.more))}}}"
     texts = [
         rich(f"${name}$, {unit}" if unit else f"${name}$", size),
         rich(written(paper(reading, compared)), size),
-        rich(written(measured(reading, sheet.scales, metres, compared)), size),
+        rich(written(measured(reading, sheet.scales, units, compared)), size),
     ]
     if compared is not None:
         agrees = compared.uncertainty is None and compared.ok
-        texts.append(rich(written(exact(compared, metres)), size))
-        texts.append(rich(term("agrees", language) if agrees else written(deviation(compared, metres)), size))
+        texts.append(rich(written(exact(compared, units)), size))
+        texts.append(rich(term("agrees", language) if agrees else written(deviation(compared, units)), size))
     return texts
 
 
 def _unit(sheet: Sheet, reading: Reading) -> str:
-    return reading.symbol.written_unit(sheet.scene.units.length)
+    return reading.symbol.written_unit(sheet.scene.units)
 
 
 def given_lines(sheet: Sheet, letters: Letters, language: str, width: float, size: float) -> list[tuple[Run, ...]]:

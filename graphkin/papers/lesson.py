@@ -121,11 +121,11 @@ class Lesson:
 
     def unit(self, symbol: Symbol) -> str:
         """The unit in which a quantity is given."""
-        return symbol.written_unit(self.sheet.scene.units.length)
+        return symbol.written_unit(self.sheet.scene.units)
 
     def in_unit(self, symbol: Symbol, value: float) -> float:
         """A value (SI) in that unit."""
-        return value / symbol.per_unit(self.sheet.scene.units.metres)
+        return value / symbol.per_unit(self.sheet.scene.units)
 
 
 _POINT_NAMES = re.compile(r"(?:[A-Z][a-z]*\d*)+")

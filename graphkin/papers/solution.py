@@ -255,7 +255,7 @@ def _remarks(lesson: Lesson) -> Iterator[Block]:
 def _results(lesson: Lesson) -> TableBlock:
     heads = tuple(said(key, lesson.language) for key in ("quantity", "on paper", "measured", "exact", "unit", "sense"))
     rows, bold = [], set()
-    metres = lesson.sheet.scene.units.metres
+    units = lesson.sheet.scene.units
     for i, row in enumerate(lesson.results):
         symbol = row.symbol
         if symbol in lesson.questions:
@@ -263,8 +263,8 @@ def _results(lesson: Lesson) -> TableBlock:
         rows.append((
             f"${lesson.letters.vector(symbol)}$",
             written(paper(row.reading, row)),
-            _unsigned(row, written(measured(row.reading, lesson.sheet.scales, metres, row))),
-            _unsigned(row, written(exact(row, metres))),
+            _unsigned(row, written(measured(row.reading, lesson.sheet.scales, units, row))),
+            _unsigned(row, written(exact(row, units))),
             lesson.unit(symbol),
             way(row, lesson.language),
         ))  # fmt: skip

@@ -209,7 +209,7 @@ def examined(source: Source, base: Source | None, name: str, strict: bool = True
     bounded = []
     for symbol, value in answers:
         bound = predicted[symbol].bound if symbol in predicted else 0.0
-        unit = symbol.per_unit(scene.units.metres)
+        unit = symbol.per_unit(scene.units)
         if not math.isfinite(bound):
             raise Unfit(f"{symbol} cannot be drawn: so near a dead point a pencil misses it")
         if bound > WIDEST * abs(value):

@@ -129,7 +129,7 @@ def resolve(file: SceneTables, name: str, problems: list[Problem], flaws: Flaws)
         {p: complex(*xy) * metres for p, xy in file.sketch.items()},
         drawn,
         find,
-        published(stated, metres),
+        published(stated, file.units),
         file.sheet,
         loading,
         stated,

@@ -12,7 +12,7 @@ from graphkin.scene.model import NamedPositions, OnStroke, PinInSlot, SlidingPai
 from graphkin.scene.names import Names
 from graphkin.scene.reading import path_name
 from graphkin.scene.symbol import Symbol, missing_names
-from graphkin.scene.tables import DrivenSlide, Positions, SceneTables, StrokeStart
+from graphkin.scene.tables import DrivenSlide, Positions, SceneTables, StrokeStart, Units
 
 __all__ = ["asked", "loops_named", "position_name", "positions_named", "published", "stated_values"]
 
@@ -60,13 +60,13 @@ def asked(file: SceneTables, names: Names, problems: list[Problem]) -> tuple[Sym
     return tuple(dict.fromkeys(s for s in found if isinstance(s, Symbol)))
 
 
-def published(stated: Iterable[StatedValues], metres: float) -> dict[Symbol, float | complex]:
+def published(stated: Iterable[StatedValues], units: Units) -> dict[Symbol, float | complex]:
     """The values of ``[printed]`` in SI."""
     values: dict[Symbol, float | complex] = {}
     for own in stated:
         if own.at is None and not own.file:
             for symbol, texts in own.values.items():
-                parts = [float(text) * symbol.per_unit(metres) for text in texts]
+                parts = [float(text) * symbol.per_unit(units) for text in texts]
                 values[symbol] = complex(*parts) if len(parts) == 2 else parts[0]
     return values
 

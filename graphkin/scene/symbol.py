@@ -1,4 +1,4 @@
-"""Names of quantities: ``v_B``, ``v_B@3/B@2``, ``omega_3``, ``theta_3/2``, ``d_B/C``, ``stroke_5/6`` ...
+"""Names of quantities: ``v_B``, ``v_B@3/B@2``, ``omega_3``, ``theta_3/2``, ``d_B/C``, ``stroke_5/6``, ``F_5/6`` ...
 
 A kind of quantity is one entry of `KINDS`: what its name is followed by, and what it measures.
 """
@@ -12,13 +12,15 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from graphkin.errors import Problem
+from graphkin.scene.tables import Units
 
 __all__ = ["KINDS", "VECTORS", "Kind", "Measure", "PointRef", "Symbol", "centre_links", "missing_names"]
 
 Measure = Literal[
-    "velocity", "acceleration", "angular velocity", "angular acceleration", "length", "angle", "number"
+    "velocity", "acceleration", "angular velocity", "angular acceleration", "length", "angle", "number", "force",
+    "moment",
 ]
-Scope = Literal["motion", "position", "turn"]
+Scope = Literal["motion", "position", "turn", "force"]
 
 _POINT = r"[A-Z][A-Za-z0-9]*"
 _LINK = r"[A-Za-z0-9]+"
@@ -33,6 +35,10 @@ _FORMS = {
     "link of link": rf"(?P<link>{_LINK})(?:/(?P<other>{_LINK}))?",
     "pair": rf"(?P<link>{_LINK})/(?P<other>{_LINK})",
     "links": rf"(?P<link>{_LINK})-(?P<other>{_LINK})",
+    "link or joint": rf"(?P<link>{_LINK})(?:/(?P<other>{_LINK})(?:@(?P<of>{_POINT}))?)?(?P<plus>\+)?",
+    "of link": rf"(?P<link>{_LINK})(?P<plus>\+)?",
+    "load": rf"(?P<name>{_LINK})(?P<plus>\+)?",
+    "force": rf"(?P<name>(?:F|Fi|G|P)_{_LINK})(?P<plus>\+)?",
 }
 
 
@@ -41,7 +47,7 @@ class Kind:
     """A kind of quantity.
 
     ``form`` says what it is of (a key of the forms above), ``scope`` whether it is a motion drawn in a polygon, a
-    position measured on the mechanism, or belongs to the whole turn.
+    position measured on the mechanism, belongs to the whole turn, or stands in a force polygon.
     """
 
     name: str
@@ -79,6 +85,14 @@ KINDS = {
         Kind("swing", "angle", "link", "turn", "swing_3"),
         Kind("K", "number", "link of link", "turn", "K_5/6"),
         Kind("theta_lag", "angle", "link of link", "turn", "theta_lag_5/6"),
+        Kind("F", "force", "link or joint", "force", "F_5/6, F_5/6@C or F_2", True),
+        Kind("Fi", "force", "of link", "force", "Fi_6", True),
+        Kind("G", "force", "of link", "force", "G_6", True),
+        Kind("P", "force", "load", "force", "P_cut", True),
+        Kind("M", "moment", "link or joint", "force", "M_2 or M_6/1"),
+        Kind("Mi", "moment", "of link", "force", "Mi_4"),
+        Kind("h", "length", "of link", "force", "h_4"),
+        Kind("arm", "velocity", "force", "force", "arm_P_cut or arm_G_6"),
     )
 }
 """All kinds of quantities by name.  A further kind of quantity is a further entry."""
@@ -110,6 +124,9 @@ class Symbol:
     second of two), ``link`` and ``other`` its links (of a sliding pair the sliding and the guiding one; of a pin in a
     slot ``link`` is the pin).  ``at`` names the position that is meant, "" this one.
 
+    Of forces ``link`` acts on ``other`` at the joint ``of`` (where they share two); ``name`` is that of a load, or of a
+    force whose arm is meant; with ``plus`` the load that begins or ends exactly there acts.
+
     >>> Symbol.parse("v_B@3/B@2").id
     'v_B3-B2'
     >>> str(Symbol.parse("omega_3")), str(Symbol.parse("gamma_2-3 at 7"))
@@ -122,6 +139,8 @@ class Symbol:
     link: str = ""
     other: str = ""
     at: str = ""
+    name: str = ""
+    plus: bool = False
 
     @classmethod
     def parse(cls, text: str) -> Symbol:
@@ -139,7 +158,8 @@ class Symbol:
             raise ValueError(f'"{text}" {_MISSING[kind.form]}; write for example {kind.example}')
         found = {part: given for part, given in match.groupdict().items() if given}
         points = {part: PointRef(*found[part].split("@")) for part in ("of", "to") if part in found}
-        return cls(name, **points, link=found.get("link", ""), other=found.get("other", ""))  # type: ignore[arg-type]
+        words = {part: found.get(part, "") for part in ("link", "other", "name")}
+        return cls(name, **points, **words, plus="plus" in found)  # type: ignore[arg-type]
 
     @property
     def meaning(self) -> Kind:
@@ -173,33 +193,38 @@ class Symbol:
         yield from (name for name in (self.link, self.other) if name)
         yield from (ref.link for ref in (self.of, self.to) if ref and ref.link)
 
-    def unit(self, length: str) -> str:
-        """The unit in files and tables: degrees for angles."""
+    def unit(self, units: Units) -> str:
+        """The unit in files and tables, where the scene's are these: degrees for angles."""
         return {
-            "velocity": f"{length}/s", "acceleration": f"{length}/s2", "angular velocity": "rad/s",
-            "angular acceleration": "rad/s2", "length": length, "angle": "deg", "number": "",
+            "velocity": f"{units.length}/s", "acceleration": f"{units.length}/s2", "angular velocity": "rad/s",
+            "angular acceleration": "rad/s2", "length": units.length, "angle": "deg", "number": "",
+            "force": units.force, "moment": f"{units.force} m",
         }[self.measure]  # fmt: skip
 
-    def written_unit(self, length: str) -> str:
-        """The same as it stands on figures and papers: ``mm/s²``, ``°``."""
-        return self.unit(length).replace("s2", "s²").replace("deg", "°")
+    def written_unit(self, units: Units) -> str:
+        """The same as it stands on figures and papers: ``mm/s²``, ``°``, ``N·m``."""
+        return self.unit(units).replace("s2", "s²").replace("deg", "°").replace(" m", "·m")
 
-    def per_unit(self, metres: float) -> float:
-        """What one such unit is in SI, ``metres`` being one length unit."""
-        return math.radians(1.0) if self.measure == "angle" else self.per_unit_of_programs(metres)
+    def per_unit(self, units: Units) -> float:
+        """What one such unit is in SI."""
+        return math.radians(1.0) if self.measure == "angle" else self.per_unit_of_programs(units)
 
-    def per_unit_of_programs(self, metres: float) -> float:
+    def per_unit_of_programs(self, units: Units) -> float:
         """The same in JSON, where angles are in radians."""
-        return metres if self.measure in ("velocity", "acceleration", "length") else 1.0
+        if self.measure in ("force", "moment"):
+            return units.newtons
+        return units.metres if self.measure in ("velocity", "acceleration", "length") else 1.0
 
     @property
     def id(self) -> str:
         """The symbol as an SVG id: ``@`` dropped, ``/`` written ``-``."""
-        return str(self).replace("@", "").replace("/", "-").replace(" at ", "-at-")
+        return str(self).replace("@", "").replace("/", "-").replace(" at ", "-at-").replace("+", "-with")
 
     def __str__(self) -> str:
-        if self.of is None:
-            name = f"{self.kind}_{self.link}" + (f"{KINDS[self.kind].sign}{self.other}" if self.other else "")
+        if self.of is None or self.link:
+            name = f"{self.kind}_{self.link or self.name}"
+            name += f"{KINDS[self.kind].sign}{self.other}" if self.other else ""
+            name += (f"@{self.of}" if self.of else "") + ("+" if self.plus else "")
         else:
             name = f"{self.kind}_{self.of}" + (f"/{self.to}" if self.to else "")
         return f"{name} at {self.at}" if self.at else name
@@ -214,6 +239,10 @@ _MISSING = {
     "link of link": "names no link",
     "pair": "names no sliding pair",
     "links": "needs two links",
+    "link or joint": "names no link and no joint of two",
+    "of link": "names no link",
+    "load": "names no load",
+    "force": "names no force",
 }
 
 

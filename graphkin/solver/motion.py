@@ -26,6 +26,8 @@ def evaluate(motion: Motion, symbol: Symbol) -> Array:
         return motion.omega(symbol.link)
     if symbol.kind == "alpha":
         return motion.alpha(symbol.link)
+    if symbol.scope == "force":
+        raise CallError(Problem(str(symbol), "is no motion", "forces stand in `solve` of a scene with masses or loads"))
     if symbol.scope != "motion":
         return position(motion.structure, motion.poses, symbol)
     assert symbol.of is not None

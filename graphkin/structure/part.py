@@ -20,7 +20,7 @@ def needed(structure: Structure, asked: Sequence[Symbol]) -> list[Element]:
     ------
     CallError : a symbol that names no point of a link here
     """
-    if not asked:
+    if not asked or any(symbol.scope == "force" for symbol in asked):  # every link may push any other
         return list(structure.elements)
     wanted: set[str] = set()
     for symbol in asked:

@@ -82,7 +82,7 @@ class Watched:
         elif self.what.symbol is not None:
             vector = motion.value(self.what.symbol)
             if not self.what.symbol.is_vector:
-                return (vector / self.what.symbol.per_unit(metres),)
+                return (vector / self.what.symbol.per_unit(motion.scene.units),)
         else:
             value = np.asarray(self.what.values(reach, motion))
             if self.what.measure == "angle":

@@ -12,6 +12,7 @@ from graphkin.checking.printed import stated, transcription_errors
 from graphkin.errors import CallError
 from graphkin.scene import mechanism_of
 from graphkin.scene.symbol import Symbol
+from graphkin.scene.tables import Units
 from graphkin.words import say
 from tests.command import run
 
@@ -128,12 +129,12 @@ def test_half_a_unit_of_the_last_digit_is_right_and_more_is_not():
 
 
 def test_digits_are_those_written():
-    printed = stated(Symbol.parse("v_D"), ["480.0"], 1e-3)
+    printed = stated(Symbol.parse("v_D"), ["480.0"], Units())
     assert (4, pytest.approx(1e-4)) == (printed.digits, printed.step)
 
 
 def test_two_digits_exchanged_are_among_the_transcription_errors():
-    assert 482.7 in [v for _, _, v in transcription_errors(stated(Symbol.parse("omega_3"), ["428.7"], 1e-3))]
+    assert 482.7 in [v for _, _, v in transcription_errors(stated(Symbol.parse("omega_3"), ["428.7"], Units()))]
 
 
 def test_people_and_positions_are_read_from_a_table(tmp_path):
@@ -175,4 +176,4 @@ def test_a_scene_without_printed_values_is_refused():
 
 def test_a_number_so_small_that_no_double_holds_its_last_digit_is_refused():
     with pytest.raises(ValueError, match="no number of a size that can be meant"):
-        stated(Symbol.parse("v_D"), ["1e-400"], 1e-3)
+        stated(Symbol.parse("v_D"), ["1e-400"], Units())

@@ -7,6 +7,7 @@ import pytest
 from graphkin.errors import CallError
 from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.scene.symbol import Symbol
+from graphkin.scene.tables import Units
 from graphkin.solver import Motion, solve
 from tests import scenes
 
@@ -117,3 +118,18 @@ def test_a_link_seen_from_the_link_it_is_hinged_to_turns_about_the_hinge_and_has
     assert abs(an) == pytest.approx(2.0**2 * 0.150, rel=1e-12)
     assert abs(at) == pytest.approx(0.5 * 0.150, rel=1e-12)
     assert an + at + ak == pytest.approx(value(motion, "a_C@2/C@1"), rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["F_5/6", "F_5/6@C", "F_5/6+", "F_2", "Fi_6", "G_6", "P_cut", "P_cut+", "M_2", "M_6/1+", "Mi_4", "h_4", "arm_G_6"],
+)
+def test_names_of_forces_are_written_as_they_are_read(name: str) -> None:
+    assert name == str(Symbol.parse(name))
+
+
+def test_forces_are_in_the_units_of_the_scene() -> None:
+    units = Units(force="kN")
+    assert ("kN", "kN m", 1e3) == (
+        Symbol.parse("F_5/6").unit(units), Symbol.parse("M_2").unit(units), Symbol.parse("M_2").per_unit(units)
+    )  # fmt: skip
