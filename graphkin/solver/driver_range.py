@@ -239,6 +239,34 @@ def driver_range(scene: Mechanism | Structure, at: Mapping[str, float] | None = 
 def range_from(structure: Structure, forms: Mapping[int, Array], start: Array, which: int = 0) -> DriverRange:
     """The range about driver values, shape (drivers,), at which the groups have these forms; of the first driver, or of
     another."""
+    for known in _LATEST:
+        if known.structure is structure and known.is_from(forms, start, which):
+            return known.range
+    found = _followed(structure, forms, start, which)
+    _LATEST[:] = [_Known(structure, {i: form.copy() for i, form in forms.items()}, start.copy(), which, found)]
+    return found
+
+
+@dataclass(frozen=True)
+class _Known:
+    """A range that was followed, and from where."""
+
+    structure: Structure
+    forms: Mapping[int, Array]
+    start: Array
+    which: int
+    range: DriverRange
+
+    def is_from(self, forms: Mapping[int, Array], start: Array, which: int) -> bool:
+        same = which == self.which and self.forms.keys() == forms.keys() and np.array_equal(start, self.start)
+        return same and all(np.array_equal(form, forms[i]) for i, form in self.forms.items())
+
+
+_LATEST: list[_Known] = []
+"""The range that was followed last: strokes, loads and tables of one motion ask for the same."""
+
+
+def _followed(structure: Structure, forms: Mapping[int, Array], start: Array, which: int) -> DriverRange:
     driver = structure.scene.drivers[which]
     turning = isinstance(driver, AngleDriver)
     wide = float(np.copysign(2 * np.pi if turning else FAR * structure.scene.size, driver.values[1]))

@@ -19,9 +19,14 @@ from graphkin.structure.transmitting import sliding_pair
 
 __all__ = ["Extremes", "exact_values", "extremes", "where_true"]
 
+Course = Callable[[Array], tuple[Array, Array, Array]]
+
 SAMPLES = 720
 PARTS = 64
 EQUAL = 1e-9  # of two extremes that differ by less, the one at the smaller angle of the crank is meant
+STEPS = 6
+NEAR = 1e-14
+"""Within this (rad) of what Newton's method gives a rate's sign is looked for digit by digit."""
 WHERE_ELSE = "ask for s_, theta_ or d_ at single positions"
 
 
@@ -68,16 +73,16 @@ def extremes(reach: DriverRange, symbol: Symbol) -> Extremes:
     if symbol.other:
         sliding_pair(reach.structure, symbol)
 
-    def course(offset: Array) -> tuple[Array, Array]:
-        """Value and rate by the driver's own angle."""
+    def course(offset: Array) -> tuple[Array, Array, Array]:
+        """Value, rate and second rate by the driver's own angle."""
         motion = reach.motion(offset, unit=True)
         if symbol.other:
             slide = motion.slide(symbol.pair)
-            return slide.travel, slide.velocity
-        return reach.angle(motion, symbol.link), motion.omega(symbol.link)
+            return slide.travel, slide.velocity, slide.acceleration
+        return reach.angle(motion, symbol.link), motion.omega(symbol.link), motion.alpha(symbol.link)
 
     grid = np.linspace(0.0, math.tau, SAMPLES + 1)
-    values, rates = course(grid)
+    values, rates, _ = course(grid)
     pair = symbol.pair
     if not symbol.other and abs(values[-1] - values[0]) > 1.0:
         raise _without(symbol, f"link {pair} turns on and on, it has no limit positions", "ask for one that swings")
@@ -102,25 +107,43 @@ def where_true(holds: Callable[[Array], Array], low: float, high: float) -> floa
         low, high = a, b
 
 
+def _turning_point(course: Course, sign: float, places: Array, rates: Array) -> float:
+    """Where between two places, with the rates there, a rate of this sign changes it: by Newton's method, beside its
+    answer to the last digit."""
+    low, high = places.tolist()
+
+    def turned(offset: Array) -> Array:
+        return np.asarray(sign * course(offset)[1] < 0.0)
+
+    at = low + (high - low) * float(rates[0] / (rates[0] - rates[1]))
+    for _ in range(STEPS):
+        _, rate, slope = (float(found[0]) for found in course(np.array([at])))
+        if not slope or not low <= (last := at) - rate / slope <= high:
+            return where_true(turned, low, high)
+        at = last - rate / slope
+        if abs(at - last) < 1e-7:
+            break
+    found = where_true(turned, at - NEAR, at + NEAR)
+    return found if abs(found - at) < 0.9 * NEAR else where_true(turned, low, high)
+
+
 def _without(symbol: Symbol, found: str, wanted: str) -> Unsolvable:
     return Unsolvable("no whole turn", Problem(str(symbol), found, wanted))
 
 
 def _best(
-    course: Callable[[Array], tuple[Array, Array]], grid: Array, values: Array, rates: Array, sign: float,
-    angle: Callable[[float], float],
+    course: Course, grid: Array, values: Array, rates: Array, sign: float, angle: Callable[[float], float]
 ) -> tuple[float, float]:
     """Where the greatest (or for sign -1 the least) value stands, and how much it is: the rate changes its sign there.
     ``angle`` is the crank's at an offset."""
     n = len(grid) - 1
-    step = float(grid[1])
     tops = [k for k in range(n) if sign * rates[k] >= 0.0 > sign * rates[k + 1]]
     best = max((sign * values[k] for k in tops), default=0.0)
     found = []
     for k in tops:
         if max(sign * values[k], sign * values[k + 1]) < best - 0.05 * float(np.ptp(values)):
             continue
-        c = where_true(lambda offset: sign * course(offset)[1] < 0.0, float(grid[k]), float(grid[k]) + step)
+        c = _turning_point(course, sign, grid[k : k + 2], rates[k : k + 2])
         found.append((c, float(course(np.array([c]))[0][0])))
     most = max(sign * value for _, value in found)
     equal = [one for one in found if sign * one[1] > most - EQUAL * float(np.ptp(values))]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import random
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -193,7 +194,21 @@ def test_the_power_balance_holds_over_a_turn():
             power = power + (np.conj(velocity) * forces.value(key)).real
         power = power + motion.omega(link) * forces.value(f"Mi_{link}")
     power = power + (np.conj(motion.point("C").v) * forces.value("P_P")).real
-    assert 0 == pytest.approx(np.abs(power).max(), abs=1e-10 * np.abs(forces.value("M_2") * motion.omega("2")).max())
+    most = np.abs(forces.value("M_2") * motion.omega("2")).max()
+    assert 0 == pytest.approx(np.abs(power).max(), abs=1e-10 * most)
+    left, greatest = forces.power
+    assert 0 == pytest.approx(np.abs(left).max(), abs=1e-10 * most)
+    assert most == pytest.approx(greatest.max(), rel=0.2)
+
+
+@pytest.mark.parametrize("name", sorted(CASES))
+def test_what_a_load_forgotten_leaves_of_the_powers_is_seen(name):
+    solved = graphkin.solve(scene_of(name))
+    left, greatest = solved.forces.power
+    assert 0 == pytest.approx(left[0], abs=1e-12 * greatest[0])
+    key = next(key for key in solved.forces.moments if key.startswith("M_") and "/" not in key)
+    wrong = replace(solved.forces, moments={**solved.forces.moments, key: 1.001 * solved.forces.moments[key]})
+    assert abs(wrong.power[0][0]) > 1e-4 * greatest[0]
 
 
 @pytest.mark.parametrize("at", [167.3708882, 12.2936947])
@@ -212,6 +227,15 @@ def test_both_values_stand_where_the_cut_begins_and_ends(at):
     assert [-9000.0, 0.0] == pytest.approx(here["forces"]["P_P+"], abs=1e-9)
     assert "M_2+" in here["moments"]
     assert "Fi_6+" not in here["forces"]
+
+
+def test_both_values_stand_where_a_load_begins_by_the_drivers_value():
+    scene = graphkin.read(SHAPER).to_dict()
+    scene["loads"]["P"] = {"on": "6", "at": "C", "force": 100, "angle": 0, "when": {"driver": [40, 60]}}
+    for at, edge in ((40, True), (60, True), (50, False)):
+        here = graphkin.solve(scene, at=at).data["positions"][0]["forces"]
+        assert edge == ("P_P+" in here)
+        assert [0.0 if edge else 100.0, 0.0] == pytest.approx(here["P_P"])
 
 
 def test_forces_stand_in_the_units_of_the_scene():

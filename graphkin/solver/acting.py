@@ -1,0 +1,157 @@
+"""What acts on the links of a motion from outside: inertia forces, weights, loads, each where and while it acts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from graphkin.scene.loads import LoadOn, Phase
+from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.symbol import Symbol
+from graphkin.solver.driver_range import DriverRange, driver_range
+from graphkin.solver.motion import Motion
+from graphkin.solver.pose import Array
+from graphkin.solver.whole_turn import extremes
+
+__all__ = ["EDGE", "Action", "actions"]
+
+EDGE = 1e-9
+"""Of the stroke or the turn: a load that begins or ends within this of a position does so exactly there."""
+
+
+@dataclass(frozen=True)
+class Action:
+    """A force or a couple on a link.
+
+    key : its symbol, ``Fi_6``, ``G_6``, ``P_name``; empty where another tells it
+    at : where a force acts, complex, shape (n,) (m); None for a couple
+    value : force, complex, shape (n,) (N), or couple, real (N m)
+    beside : the same with the loads that begin or end exactly at a position; None where that changes nothing
+    """
+
+    key: str
+    link: str
+    at: Array | None
+    value: Array
+    beside: Array | None = None
+
+    def power(self, motion: Motion) -> Array:
+        """What it does (W), shape (n,)."""
+        pose = motion.poses[self.link]
+        if self.at is None:
+            return np.asarray(self.value * pose.omega)
+        return np.asarray((np.conj(pose.v + 1j * pose.omega * (self.at - pose.z)) * self.value).real)
+
+
+def actions(motion: Motion) -> Iterator[Action]:
+    """All that is known of what acts on the moving links: inertia force -m a and inertia couple -J alpha (d'Alembert)
+    and weight of each mass, then the loads.
+
+    Raises
+    ------
+    Unsolvable : a load acts on a part of a stroke, and the driver makes no whole turn
+    """
+    loading = motion.scene.loading
+    for mass in loading.masses:
+        centre = motion.poses[mass.link].fixed(mass.at)
+        at = np.asarray(centre.z)
+        yield Action(f"Fi_{mass.link}", mass.link, at, np.asarray(-mass.mass * centre.a))
+        yield Action(f"Mi_{mass.link}", mass.link, None, np.asarray(-mass.inertia * centre.alpha))
+        if loading.gravity:
+            yield Action(f"G_{mass.link}", mass.link, at, np.full(len(motion), mass.mass * loading.gravity))
+    applied = _Loads(motion)
+    for load in loading.loads:
+        yield applied.action(load)
+
+
+@dataclass(frozen=True)
+class _Loads:
+    """Loads in a motion."""
+
+    motion: Motion
+
+    @property
+    def scene(self) -> Mechanism:
+        return self.motion.scene
+
+    def action(self, load: LoadOn) -> Action:
+        acts, edge = self._acts(load.phase)
+        key = f"P_{load.name}"
+        if load.is_force:
+            pose = self.motion.poses[load.link]
+            at, value, none = np.asarray(pose.z + pose.u * load.at), self._force(load), 0j
+        else:
+            at, value, none = None, np.full(len(self.motion), load.size), 0.0
+        beside = np.where(acts | edge, value, none) if edge.any() else None
+        surely = acts & ~edge
+        return Action(key, load.link, at, value if surely.all() else np.where(surely, value, none), beside)
+
+    def _force(self, load: LoadOn) -> Array:
+        """A force load as a vector, whether it acts or not."""
+        if load.against:
+            slide = next(s for s in self.motion.slides if s.key == load.against)
+            speed = self._growing.slide(slide.key).velocity
+            most = np.abs(self._growing.poses[slide.b].omega) * self.scene.size + self._scale_of_speed
+            sign = np.where(np.abs(speed) > 1e-12 * most, np.sign(speed), 0.0)
+            return np.asarray(-load.size * sign * self.motion.poses[slide.b].u * slide.guide.direction)
+        if load.follows:
+            return np.asarray(load.size * load.turn * self.motion.poses[load.follows].u)
+        return np.full(len(self.motion), load.size * load.turn)
+
+    @cached_property
+    def _growing(self) -> Motion:
+        """The motion itself or, at rest, that in which the first driver's value grows."""
+        if any(driver.values[1] for driver in self.scene.drivers):
+            return self.motion
+        return self._reach.motion(self._reach.offsets(self.motion.values[:, 0]), unit=True)
+
+    @cached_property
+    def _scale_of_speed(self) -> Array:
+        """The largest speed of any link at each position (m/s)."""
+        moving = [self._growing.poses[link.name] for link in self.scene.links if not link.redundant]
+        speeds = [np.abs(pose.v) for pose in moving] + [np.abs(pose.omega) * self.scene.size for pose in moving]
+        return np.asarray(np.max(np.nan_to_num(speeds), axis=0))
+
+    @cached_property
+    def _reach(self) -> DriverRange:
+        return driver_range(self.motion.structure)
+
+    def _acts(self, phase: Phase | None) -> tuple[Array, Array]:
+        """Where a load acts, and where it begins or ends exactly; shape (n,) each."""
+        n = len(self.motion)
+        always = np.ones(n, dtype=bool), np.zeros(n, dtype=bool)
+        if phase is None:
+            return always
+        if phase.stroke:
+            return self._on_stroke(phase)
+        value = self.motion.values[:, 0]
+        if not isinstance(self.scene.drivers[0], AngleDriver):
+            edge = EDGE * (phase.end - phase.start)
+            near = (np.abs(value - phase.start) < edge) | (np.abs(value - phase.end) < edge)
+            return np.asarray((phase.start < value) & (value < phase.end)), np.asarray(near)
+        turn, span = 2 * np.pi, phase.end - phase.start
+        if span >= turn * (1 - EDGE):
+            return always
+        since = np.remainder(value - phase.start, turn)
+        near = np.minimum(since, turn - since) < EDGE * turn
+        near |= np.abs(since - span) < EDGE * turn
+        return np.asarray(since < span), np.asarray(near)
+
+    def _on_stroke(self, phase: Phase) -> tuple[Array, Array]:
+        turn = extremes(self._reach, Symbol.parse(f"stroke_{phase.stroke}"))
+        low, high = turn.low, turn.high
+        travel = self.motion.slide(phase.stroke).travel
+        speed = self._growing.slide(phase.stroke).velocity
+        part = (travel - low) / (high - low) if high > low else np.zeros(len(self.motion))
+        if phase.sense < 0:
+            part = 1.0 - part
+        running = np.sign(speed) == phase.sense
+        near = np.zeros(len(self.motion), dtype=bool)
+        for edge in (phase.start, phase.end):
+            # where the slide turns back both senses meet
+            turns = edge < EDGE or edge > 1.0 - EDGE
+            near |= (np.abs(part - edge) < EDGE) & (running | turns)
+        return np.asarray(running & (phase.start < part) & (part < phase.end)), np.asarray(near)

@@ -1,0 +1,142 @@
+"""What is unknown in a mechanism that carries loads: the forces and couples of its pairs, and what balances it."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from graphkin.scene.loads import BalanceAt
+from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.solver.motion import Motion
+from graphkin.solver.pose import Array
+from graphkin.structure import Slide, Structure
+
+__all__ = ["PairForce", "balances", "pair_forces"]
+
+
+@dataclass(frozen=True)
+class PairForce:
+    """A force of one direction, or a couple, of ``first`` on ``second``, of unknown size; its opposite acts on
+    ``first``.
+
+    along : unit direction of a force: a number where it is the same everywhere, or shape (n,); None for a couple
+    at : where the force acts, shape (n,) (m)
+    """
+
+    key: str
+    first: str
+    second: str
+    along: complex | Array | None
+    at: Array
+
+
+def pair_forces(motion: Motion) -> list[PairForce]:
+    """The forces and couples in the pairs of a motion, two for a turning pair (its components)."""
+    pairs = _Pairs(motion)
+    joints = [*pairs.turning(), *pairs.sliding(), *pairs.slots()]
+    shared = Counter(frozenset((one.first, one.second)) for group in joints for one in group[:1])
+    named: list[PairForce] = []
+    for group in joints:
+        several = shared[frozenset((group[0].first, group[0].second))] > 1
+        for one in group:
+            pair, _, point = one.key.partition("@")
+            named.append(one if several and point else replace(one, key=pair))
+    return named
+
+
+def balances(motion: Motion) -> list[PairForce]:
+    """What drives: for each driver a moment or a force between the two links that it moves relatively, or what the
+    scene says instead."""
+    return _Pairs(motion).balances()
+
+
+@dataclass(frozen=True)
+class _Pairs:
+    """The pairs of a motion."""
+
+    motion: Motion
+
+    @property
+    def scene(self) -> Mechanism:
+        return self.motion.scene
+
+    @property
+    def structure(self) -> Structure:
+        return self.motion.structure
+
+    def place(self, link: str, at: complex) -> Array:
+        """A place of a link's own axes in the world."""
+        pose = self.motion.poses[link]
+        return np.asarray(pose.z + pose.u * at)
+
+    def turning(self) -> list[list[PairForce]]:
+        """Turning pairs: at each point the first link that has it with each later one."""
+        found = []
+        here = {self.scene.frame.name, *(link.name for link in self.scene.links if not link.redundant)}
+        for point, holders in self.scene.holders.items():
+            links = [name for name in holders if name in here]
+            if len(links) < 2:
+                continue
+            first, at = links[0], np.asarray(self.motion.point(point).z)
+            for second in links[1:]:
+                key = f"F_{first}/{second}@{point}"
+                found.append([PairForce(key, first, second, way, at) for way in (1 + 0j, 1j)])
+        return found
+
+    def sliding(self) -> list[list[PairForce]]:
+        """Sliding pairs: a force square to the guide at the sliding link's first point, and a couple."""
+        found = []
+        for slide in self.structure.slides:
+            if slide.slot:
+                continue
+            at = self.place(slide.a, self._foot(slide))
+            tail = f"{slide.b}/{slide.a}@{slide.pin or ''}"
+            found.append([
+                PairForce(f"F_{tail}", slide.b, slide.a, self._square(slide), at),
+                PairForce(f"M_{tail}", slide.b, slide.a, None, at),
+            ])
+        return found
+
+    def slots(self) -> list[list[PairForce]]:
+        """Pins in slots: a force square to the slot at the pin."""
+        found = []
+        for pin in self.scene.pins:
+            slide = self.structure.slide(pin.key)
+            at = np.asarray(self.motion.point(pin.point, pin.of).z)
+            found.append([PairForce(f"F_{pin.on}/{pin.of}@{pin.point}", pin.on, pin.of, self._square(slide), at)])
+        return found
+
+    def balances(self) -> list[PairForce]:
+        if self.scene.loading.balance is not None:
+            return [self._said_balance(self.scene.loading.balance)]
+        frame, found = self.scene.frame.name, []
+        for driver in self.scene.drivers:
+            if isinstance(driver, AngleDriver):
+                at = np.asarray(self.motion.poses[driver.link].z)
+                found.append(PairForce(f"M_{driver.link}", driver.relative_to, driver.link, None, at))
+                continue
+            slide = self.structure.slide(driver.key)
+            pin = next((p for p in self.scene.pins if p.key == driver.key), None)
+            link = pin.of if pin else slide.a
+            at = np.asarray(self.motion.point(pin.point, link).z) if pin else self.place(slide.a, self._foot(slide))
+            found.append(PairForce(f"F_{link}", slide.b or frame, link, -1j * self._square(slide), at))
+        return found
+
+    def _said_balance(self, balance: BalanceAt) -> PairForce:
+        frame, link = self.scene.frame.name, balance.link
+        at = self.place(link, balance.at)
+        if balance.kind == "moment":
+            return PairForce(f"M_{link}", frame, link, None, at)
+        along = 1j * np.asarray(self.motion.poses[link].u) if balance.square else balance.turn
+        return PairForce(f"F_{link}", frame, link, along, at)
+
+    def _foot(self, slide: Slide) -> complex:
+        return self.structure.links[slide.a].points[slide.pin] if slide.pin else 0j
+
+    def _square(self, slide: Slide) -> complex | Array:
+        """Direction square to a guide, to its left."""
+        if slide.b == self.scene.frame.name:
+            return 1j * slide.guide.direction
+        return np.asarray(1j * slide.guide.direction * self.motion.poses[slide.b].u)
