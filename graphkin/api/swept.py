@@ -49,6 +49,7 @@ __all__ = ["Swept", "sweep"]
 
 MOST_POSITIONS = 1_000_000_000
 OF_TURN = tuple(f"{kind.name}_" for kind in KINDS.values() if kind.scope == "turn")
+ROWS = 36
 IN_MEMORY = 200_000_000
 """Numbers of a table that are kept in memory where no folder is given."""
 
@@ -217,7 +218,7 @@ class Swept(Result):
 def sweep(
     scene: SceneLike,
     out: str | os.PathLike[str] | None = None,
-    positions: int = 36,
+    positions: int | None = None,
     find: Iterable[str | Symbol] | None = None,
     at: At = None,
     designs: Mapping[str, str | float | Sequence[float | str]] | None = None,
@@ -242,7 +243,8 @@ def sweep(
         (travel of a sliding pair); the scene's own if None, or else everything that moves
     out : folder for table.csv (and table.parquet where pyarrow is installed), designs.csv and the figures; an
         interrupted sweep into the same folder goes on where it stopped
-    positions : rows of the table, over a turn from the scene's own value on, or over the range of a driven slide
+    positions : rows of the table, over a turn from the scene's own value on, or over the range of a driven slide; of a
+        scene with named positions from position 1 on, and as many as it counts; else 36
     designs : numbers to replace, by keys of the scene file with dots: {"links.1.length": "40:60:21"} is a grid of 21,
         "40,50,60" or a sequence a list; several keys give every combination
     designs_file : a CSV file whose head names such keys
@@ -272,7 +274,7 @@ def sweep(
 
     known_words(formats, language, text=text, known_formats=CHART_FORMATS)
     may_be_called("progress", progress)
-    positions = whole_number("positions", positions, 1, MOST_POSITIONS)
+    positions = None if positions is None else whole_number("positions", positions, 1, MOST_POSITIONS)
     workers = None if workers is None else whole_number("workers", workers, 1, 1024)
     if executor is not None and scheduler is not None:
         raise CallError(Problem("executor", "is given beside a scheduler", "give one of them"))
@@ -286,6 +288,8 @@ def sweep(
 
         applied(source, made.keys, made[0])  # keys that the scene does not have
     start = driver_values(given, at) or {}
+    if positions is None:
+        positions = given.positions.count if given.positions is not None else ROWS
     over = Sweep(source, name or given.name, made, positions, _asked(given, find), tuple(sorted(start.items())))
     spoken = language or given.sheet.language
     if out is None:

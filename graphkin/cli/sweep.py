@@ -31,8 +31,12 @@ def sweep(
     scene: SceneArgument,
     out: OutOption = None,
     positions: Annotated[
-        int, typer.Option("--positions", metavar="12|36|N", help="Rows of the table over a turn of the driver.")
-    ] = 36,
+        int | None,
+        typer.Option(
+            "--positions", metavar="12|36|N",
+            help="Rows of the table over a turn of the driver; 36 if not given, or as many as the scene's positions.",
+        ),
+    ] = None,
     replace: Annotated[
         list[str] | None,
         typer.Option(

@@ -23,13 +23,15 @@ from graphkin.drawing.font_widths import run_box, runs_width
 from graphkin.drawing.headings import number, term
 from graphkin.drawing.piece import moved
 from graphkin.drawing.primitives import Line, Primitive, Run, Text
-from graphkin.drawing.text import rich, symbol
+from graphkin.drawing.sums import factors_of, lengths_measured, rate_sum, rule_sum, substituted
+from graphkin.drawing.text import rich, symbol, wrapped
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase, languages, say
 
 __all__ = ["Written", "equations_in_room", "write_equation", "written_lines"]
 
-SIZES = (3.2, 2.9, 2.6)  # mm, of the letters; the largest that fits is taken
+# mm, of the letters, and columns; the first that fits is taken: sums break in narrow columns
+WAYS = ((3.2, 1), (2.9, 1), (3.2, 2), (2.9, 2), (2.6, 1), (2.6, 2))
 LEAST_ROW = 2.3  # mm, of the letters in rows: below it a square over an index runs into it
 CLEAR, UNDERLINE = 0.55, 0.6  # mm between two rows, and between two lines under a term
 GAP = 1.3  # mm beside a column of terms
@@ -71,15 +73,14 @@ def equations_in_room(
     """Lines as large as they fit an area (mm), in one column or two, about its left upper corner; and how many of them,
     the first ones, fit."""
     fullest: list[tuple[Written, complex]] = []
-    for size in SIZES:
-        for columns in (1, 2):
-            wide = (width - (columns - 1) * COLUMN_GAP) / columns
-            # lines are set as they are placed, since those after one that has no room are not wanted
-            blocks = (_write_line(line, sheet, letters, language, wide, size) for line in lines)
-            placed = _in_columns(blocks, wide, height, columns)
-            fullest = max(fullest, placed, key=len)
-            if len(placed) == len(lines):
-                return _written(placed), len(placed)
+    for size, columns in WAYS:
+        wide = (width - (columns - 1) * COLUMN_GAP) / columns
+        # lines are set as they are placed, since those after one that has no room are not wanted
+        blocks = (_write_line(line, sheet, letters, language, wide, size) for line in lines)
+        placed = _in_columns(blocks, wide, height, columns)
+        fullest = max(fullest, placed, key=len)
+        if len(placed) == len(lines):
+            return _written(placed), len(placed)
     return _written(fullest), len(fullest)
 
 
@@ -102,10 +103,10 @@ def _in_columns(blocks: Iterable[Written], wide: float, height: float, columns: 
 
 
 def written_lines(sheet: Sheet, letters: Letters, language: str) -> list[WrittenLine]:
-    """Everything that is written to repeat a construction, in its order: each vector equation, and the angular rates
-    where they are known."""
-    lines: list[WrittenLine] = []
+    """Everything that is written to repeat a construction, in its order: what is measured on the mechanism, each vector
+    equation with its products in numbers, and the angular rates where they are known."""
     spoken = languages(language)[0]
+    lines: list[WrittenLine] = [_bound(line) for line in lengths_measured(sheet, letters)]
     written: set[int] = set()
     for step in sheet.steps:
         if step.equation is not None and step.equation not in written:
@@ -114,6 +115,7 @@ def written_lines(sheet: Sheet, letters: Letters, language: str) -> list[Written
             if step.diagram not in {one.diagram for one in lines if isinstance(one, Equation)}:
                 lines += _shared_with_drivers(sheet, equation)
             lines.append(equation)
+            lines += _products(sheet, equation, letters)
         if isinstance(step.act, MeasuredRate):
             lines.append(_measured(sheet, step.act, letters, language))
         elif isinstance(step.act, SpecialPoint):
@@ -161,8 +163,30 @@ def _measured(sheet: Sheet, act: MeasuredRate, letters: Letters, language: str) 
     rule = f"${letters.vector(act.vector)}$ / ${letters.length(act.bar)}$"
     unit = "rad/s" if act.rate == "omega" else "rad/s²"
     way = "" if rate.value == 0.0 else f",  {term('clockwise' if rate.value < 0 else 'counter-clockwise', language)}"
-    value = f"{number(abs(rate.value), 5)} {unit}{way}"
-    return " = ".join((*(_rate_name(act.rate, n) for n in names), rule, value))
+    value = _bound(rate_sum(sheet, act, units=False)) or f"{number(abs(rate.value), 5)} {unit}"
+    return " = ".join((*(_rate_name(act.rate, n) for n in names), rule, value)) + way
+
+
+def _bound(text: str) -> str:
+    """A sum that breaks only before the sign of equality."""
+    return text.replace(" ", "\u00a0").replace("\u00a0=\u00a0", " =\u00a0")
+
+
+def _products(sheet: Sheet, equation: Equation, letters: Letters) -> list[str]:
+    """``a^n_CB = 0.7396² × 383.14 = 209.58 mm/s²``: the sizes in an equation that follow from rates, in numbers, each
+    once; that of an equation which is only a rule stands in it."""
+    if _rule_alone(sheet, equation):
+        return []
+    acts = (s.act for s in sheet.steps if s.equation == equation.number)
+    laid_off = {act.symbol: act for act in acts if isinstance(act, LaidOff)}
+    sums = {
+        one.symbol: rule_sum(sheet, one.size, equation.diagram)
+        for side in equation.sides
+        for one in side
+        if one.symbol in laid_off and not laid_off[one.symbol].is_zero
+    }
+    said = [f"${letters.vector(symbol)}$ = {_bound(text)}" for symbol, text in sums.items() if text]
+    return [";  ".join(said)] if said else []
 
 
 def _shared_with_drivers(sheet: Sheet, equation: Equation) -> Iterator[str]:
@@ -191,12 +215,14 @@ def _rate_name(kind: str, link: str) -> str:
 def _write_line(line: WrittenLine, sheet: Sheet, letters: Letters, language: str, width: float, size: float) -> Written:
     if isinstance(line, Equation):
         return write_equation(sheet, line, letters, language, width, size)
-    return _one_line(line, size)
+    return _sentence(line, size, width)
 
 
-def _one_line(markup: str, size: float) -> Written:
-    runs = rich(markup, size)
-    return Written((Text(complex(0, size), runs),), runs_width(runs), 1.9 * size)
+def _sentence(markup: str, size: float, width: float) -> Written:
+    """Words with symbols, in as many lines as they take."""
+    lines = wrapped(markup, size, width)
+    texts = tuple(Text(complex(0, size * (1 + 1.5 * k)), runs) for k, runs in enumerate(lines))
+    return Written(texts, max(map(runs_width, lines), default=0.0), (0.4 + 1.5 * len(lines)) * size)
 
 
 def write_equation(
@@ -205,9 +231,7 @@ def write_equation(
     """One equation, at most ``width`` mm wide: long ones are broken."""
     short = _short(sheet, equation, letters)
     if short is not None:
-        written = _one_line(short, size)
-        if written.width <= width:
-            return written
+        return _sentence(short, size, width)
     gap = 1.2 * GAP if rows_of(letters.convention) == "table" else 0.6 * GAP
     cells = _cells(sheet, equation, letters, size)
     heads = _heads(letters, language, size)
@@ -224,23 +248,29 @@ def write_equation(
 
 def _short(sheet: Sheet, equation: Equation, letters: Letters) -> str | None:
     """An equation that is only a rule, on one line: ``v_B = ω_1 l_AB = 1220 mm/s, ⊥AB``."""
-    last = equation.sides[-1]
-    if len(last) != 1 or not last[0].size_known or len(equation.sides) > 2:
+    if not _rule_alone(sheet, equation):
         return None
-    only = last[0]
-    vector = sheet.vectors(equation.diagram).get(only.symbol)
-    if vector is None:
-        return None
+    only = equation.sides[-1][0]
+    vector = sheet.vectors(equation.diagram)[only.symbol]
     parts = [f"${letters.vector(side[0].symbol)}$" for side in equation.sides]
     if only.size and not isinstance(only.size, Given):
         parts.append(f"${letters.size(only.size)}$")
+        factors = factors_of(sheet, only.size)
+        if factors:
+            parts.append(_bound(substituted(only.size, factors)))
     unit = sheet.scene.units.length + ("/s" if equation.diagram == "velocity" else "/s²")
     laid_off = (s.act.mm for s in sheet.steps if isinstance(s.act, LaidOff) and s.act.symbol == only.symbol)
     # what is given is not what a hand has made of it
     value = next(laid_off, abs(vector.span)) * sheet.scales.of(equation.diagram) / sheet.scene.units.metres
-    parts.append(f"{number(value, 5)} {unit}")
+    parts.append(f"{number(value, 5)}\u00a0{unit}")
     way = letters.direction(only.direction, sheet.scene.frame.name)
     return " = ".join(parts) + (f",  ${way}$" if way else "")
+
+
+def _rule_alone(sheet: Sheet, equation: Equation) -> bool:
+    last = equation.sides[-1]
+    known = len(last) == 1 and last[0].size_known and len(equation.sides) <= 2
+    return known and last[0].symbol in sheet.vectors(equation.diagram)
 
 
 def _cells(sheet: Sheet, equation: Equation, letters: Letters, size: float) -> list[_Cell]:

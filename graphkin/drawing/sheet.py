@@ -73,6 +73,7 @@ def sheet_page(
         _mechanism(sheet, letters, spoken, plan.mechanism),
         velocity,
         *writing,
+        _step_number(spoken, plan.page),
         _title_block(sheet, report, letters, spoken, plan.block),
     ]
     further = overleaf(sheet, rest, letters, spoken, plan.page)
@@ -114,6 +115,12 @@ def _writing(
 def _goes_on(language: str, page: Box) -> Piece:
     words = plain(word("goes on", languages(language)[0]), 2.6)
     return Piece({"labels": (Text(complex(page.right, page.bottom + 4.0), words, "end"),)})
+
+
+def _step_number(spoken: str, page: Box) -> Piece:
+    """What the numbers in brackets at the vectors are."""
+    words = fitted(" / ".join(word("step number", each) for each in languages(spoken)), 2.4, 0.7 * page.width)
+    return Piece({"labels": (Text(complex(page.left, page.bottom + 4.0), words),)})
 
 
 def _spare(box: Box, written: tuple[Primitive, ...]) -> Box | None:

@@ -9,20 +9,21 @@ the same in every language.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
 from graphkin.checking.readings import Uncertainty
 from graphkin.checking.report import Compared, Report
 from graphkin.construction.sheet import Aid, DiagramName, Equation, Ray, Sheet, Step, Vector
-from graphkin.construction.steps import Direction, DirectionLine, Given, LaidOff, MeasuredRate, RateTimes, Size
+from graphkin.construction.steps import Direction, DirectionLine, Given, LaidOff, MeasuredRate, RateTimes
 from graphkin.drawing.conventions import Letters, letters_of, pole
 from graphkin.drawing.headings import number, written
+from graphkin.drawing.sums import factors_of, rate_sum, scale_of, substituted, times_scale, unit_of
 from graphkin.drawing.text import Atom, parsed
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, say, word
-from graphkin.words.written import MOST, amount, on_paper, product, quotient
+from graphkin.words.written import MOST, amount, on_paper, product
 
 __all__ = ["Lesson", "Speaker", "Stage", "plain_words", "stages"]
 
@@ -145,10 +146,6 @@ class Speaker:
     sheet: Sheet
     letters: Letters
 
-    @property
-    def unit(self) -> str:
-        return self.sheet.scene.units.length
-
     def sentence(self, phrase: Phrase, language: str) -> str:
         """A phrase as a sentence with its full stop."""
         said = say(phrase, language, lambda thing: self._show(thing, language))
@@ -220,85 +217,33 @@ class Speaker:
     def work(self, step: Step) -> tuple[str, ...]:
         """What is computed in a step, as lines of symbols and numbers."""
         if isinstance(step.act, MeasuredRate):
-            return self._rate(step, step.act)
+            return self._rate(step.act)
         if isinstance(step.act, LaidOff) and not step.act.is_zero:
             return self._laid_off(step, step.act)
-        return tuple(line for s in step.strokes if isinstance(s, Vector) for line in self._measured(step.diagram, s))
+        return tuple(self._measured(step.diagram, s) for s in step.strokes if isinstance(s, Vector))
 
-    def _rate(self, step: Step, act: MeasuredRate) -> tuple[str, ...]:
+    def _rate(self, act: MeasuredRate) -> tuple[str, ...]:
         omega = act.rate == "omega"
         rate = (self.sheet.omega if omega else self.sheet.alpha)[act.link]
-        size = amount(rate.mm * self._per(step.diagram), MOST)
-        arm = amount(rate.arm_mm * self.sheet.scales.length / self.sheet.scene.units.metres, MOST)
-        unit = "rad/s" if omega else "rad/s²"
-        name = f"{'ω' if omega else 'α'}_{{{act.link}}}"
-        if rate.mm == 0.0 or not rate.arm_mm:
-            return (f"${name}$ = {number(abs(rate.value), MOST)} {unit}",)
-        return (
-            f"${name}$ = {written(size)} {self._unit(step.diagram)} / {written(arm)} {self.unit} = "
-            f"{written(quotient(size, arm, MOST - 1))} {unit}",
-        )
+        value = rate_sum(self.sheet, act) or f"{number(abs(rate.value), MOST)} {'rad/s' if omega else 'rad/s²'}"
+        return (f"${'ω' if omega else 'α'}_{{{act.link}}}$ = {value}",)
 
     def _laid_off(self, step: Step, act: LaidOff) -> tuple[str, ...]:
         drawn = next(s for s in step.strokes if isinstance(s, Vector | Aid))
         length = abs(drawn.span)
-        factors = self._factors(act.size)
-        value = product(*factors, carried=MOST) if factors else amount(length * self._per(step.diagram), MOST)
-        middle = f" = {self._substituted(act.size, factors)}" if factors else ""
-        unit = self._unit(step.diagram)
+        per, unit = scale_of(self.sheet, step.diagram), unit_of(self.sheet, step.diagram)
+        factors = factors_of(self.sheet, act.size)
+        value = written(product(*factors, carried=MOST) if factors else amount(length * per, MOST))
+        middle = f" = {substituted(act.size, factors)}" if factors else ""
         return (
-            f"${self.letters.vector(act.symbol)}${middle} = {written(value)} {unit}",
-            f"{written(value)} {unit} ÷ {self._scale(step.diagram)} = {written(on_paper(length))} mm",
+            f"${self.letters.vector(act.symbol)}${middle} = {value} {unit}",
+            f"{value} {unit} ÷ {number(per)} ({unit})/mm = {written(on_paper(length))} mm",
         )
 
-    def _measured(self, diagram: DiagramName, vector: Vector) -> Iterator[str]:
+    def _measured(self, diagram: DiagramName, vector: Vector) -> str:
         size = abs(vector.span)
-        if size == 0.0:
-            yield f"${self.letters.vector(vector.symbol)}$ = 0"
-            return
-        length = on_paper(size)
-        value = product(length, amount(self._per(diagram), 12))
-        finer = amount(size * self._per(diagram), MOST)
-        yield (
-            f"${self.letters.vector(vector.symbol)}$ = {written(length)} mm × {self._scale(diagram)} = "
-            f"{written(value)} {self._unit(diagram)}{'' if finer == value else f' ({written(finer)})'}"
-        )
-
-    def _factors(self, rule: Size | None) -> tuple[str, ...]:
-        """The numbers whose product a size is, as they are written; none where no such rule is known."""
-        if not isinstance(rule, RateTimes) or len(rule.links) > 1:
-            return ()
-        factor = self._speed(rule.factor) if isinstance(rule.factor, Symbol) else self._length(*rule.factor)
-        if factor is None:
-            return ()
-        rates = self.sheet.omega if rule.rate == "omega" else self.sheet.alpha
-        rate = amount(abs(rates[rule.links[0]].value), MOST)
-        return (*("2",) * rule.twice, *(rate,) * (1 + rule.square), factor)
-
-    def _substituted(self, rule: Size | None, factors: tuple[str, ...]) -> str:
-        """A rule of a size with numbers in place of its symbols: ``2 × 2.819 × 575.4`` for 2ω v."""
-        shown = [written(factor) for factor in factors]
-        if isinstance(rule, RateTimes) and rule.square:
-            del shown[-2]
-            shown[-2] = f"({shown[-2]})²" if "$" in shown[-2] else f"{shown[-2]}²"
-        return " × ".join(shown)
-
-    def _length(self, one: str, other: str) -> str:
-        arm = abs(self.sheet.points[PointRef(one)] - self.sheet.points[PointRef(other)])
-        return amount(arm * self.sheet.scales.length / self.sheet.scene.units.metres, MOST)
-
-    def _speed(self, symbol: Symbol) -> str | None:
-        vector = self.sheet.vectors("velocity").get(symbol)
-        return None if vector is None else amount(abs(vector.span) * self._per("velocity"), MOST)
-
-    def _per(self, diagram: DiagramName) -> float:
-        return self.sheet.scales.of(diagram) / self.sheet.scene.units.metres
-
-    def _unit(self, diagram: DiagramName) -> str:
-        return self.unit + {"mechanism": "", "velocity": "/s", "acceleration": "/s²"}[diagram]
-
-    def _scale(self, diagram: DiagramName) -> str:
-        return f"{number(self._per(diagram))} ({self._unit(diagram)})/mm"
+        value = times_scale(self.sheet, diagram, size) if size else "0"
+        return f"${self.letters.vector(vector.symbol)}$ = {value}"
 
 
 def plain_words(markup: str) -> str:

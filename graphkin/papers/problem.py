@@ -124,7 +124,7 @@ def reach(lesson: Lesson) -> Iterator[Paragraph]:
 def _speeds(scene: Mechanism) -> Iterator[str]:
     """Speeds of drivers in r/min, where these are the round ones."""
     for driver in scene.drivers:
-        if isinstance(driver, AngleDriver) and driver.omega:
+        if isinstance(driver, AngleDriver) and driver.omega and driver.rpm is None:  # a given one stands there already
             rpm = float(f"{driver.omega * RPM:.9g}")
             if len(number(rpm)) < len(number(driver.omega)):
                 yield f"$n_{{{driver.link}}}$ = {number(rpm)}{BOUND}r/min"

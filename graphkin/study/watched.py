@@ -16,6 +16,7 @@ from graphkin.errors import CallError
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver import DriverRange, Motion, driver_range, listed_points, prepare, structure_of
+from graphkin.solver.named_positions import named_positions
 from graphkin.solver.prepared import PreparedMechanism
 from graphkin.solver.redundant import all_slides
 from graphkin.structure import Cluster, Structure
@@ -174,7 +175,7 @@ class Design:
     """One mechanism, whose motion is followed.
 
     asked : what the table shows; nothing: everything that moves
-    at : driver values to start from (SI), by driver key
+    at : driver values to start from (SI), by driver key; nothing: the scene's position 1, or its own position
     """
 
     scene: Mechanism
@@ -191,15 +192,25 @@ class Design:
         return self.asked or everything(self.structure)
 
     @cached_property
+    def start(self) -> dict[str, float]:
+        """Driver values of the first row, where it is not the scene's own position.  Raises Unsolvable."""
+        places = named_positions(self.scene) if not self.at else None
+        if places is None or not places.reach.full:
+            return dict(self.at)
+        return {self.scene.drivers[0].key: places.first}
+
+    @cached_property
     def reach(self) -> DriverRange:
         """The range of its first driver.  Raises Unsolvable."""
-        return driver_range(self.structure, dict(self.at))
+        return driver_range(self.structure, self.start)
 
     @cached_property
     def engine(self) -> PreparedMechanism | None:
         """The mechanism prepared for what is asked; None where everything is asked, or something that the formulas do
         not give, where a larger group has no closed form, or where it starts elsewhere than the scene."""
-        if not self.asked or self.at or not all(w.can_be_prepared for w in self.asked):
+        if not self.asked or not all(w.can_be_prepared for w in self.asked):
+            return None
+        if self.at or self.scene.positions is not None:
             return None
         if any(isinstance(e, Cluster) for e in self.structure.elements):
             return None

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from decimal import Decimal, localcontext
 
-__all__ = ["MOST", "amount", "figures", "on_paper", "product", "quotient"]
+__all__ = ["MOST", "amount", "difference", "figures", "on_paper", "product", "quotient"]
 
 MOST = 5  # figures of a computed number
 LEAST = 0.05  # mm; what is shorter is read where it is drawn larger
@@ -46,6 +46,16 @@ def product(*factors: str, carried: int | None = None) -> str:
         for factor in factors:
             whole *= _number(factor)
     return _plain(_rounded(whole, carried) if carried else whole)
+
+
+def difference(one: str, other: str) -> str:
+    """How far two numbers are apart, as they are written.
+
+    >>> difference("-10", "-2.8191"), difference("0.5", "0.5")
+    ('7.1809', '0')
+    """
+    with localcontext(prec=DIGITS):
+        return _plain(abs(_number(one) - _number(other)))
 
 
 def quotient(over: str, under: str, carried: int) -> str:

@@ -186,3 +186,13 @@ def test_a_notebook_shows_summary_and_diagrams() -> None:
     shown = graphkin.sweep(NAME, positions=1)._repr_html_()
     assert "<svg" in shown
     assert "K = 1.2" in shown
+
+
+def test_rows_are_numbered_as_the_scene_numbers_its_positions() -> None:
+    numbered = {"count": 12, "first": {"stroke": "6/1", "at": 0, "sense": 1}}
+    scene = graphkin.read("shaper-scheme-2").replace("positions", numbered)
+    table = graphkin.sweep(scene, find=["C"]).table
+    assert (12, 1) == (len(table), table["position"][0])
+    # position 1 is the start of the stroke; the crank turns clockwise
+    assert table["x_C (mm)"][0] == pytest.approx(-322.8693781, abs=1e-6)
+    assert [-30.0] * 11 == pytest.approx(np.diff(table["driver_2 (deg)"]))

@@ -253,3 +253,11 @@ def test_a_slider_has_the_velocity_of_the_crank_at_their_centre() -> None:
     value = by_centres(centres, speeds(centres), Symbol.parse("v_C"))
     assert isinstance(value, complex)
     assert abs(common - pivot) * centres.sheet.scales.length * abs(omega) == pytest.approx(abs(value), rel=1e-12)
+
+
+def test_the_sliding_velocity_is_the_difference_of_rates_times_the_arm_from_the_common_centre():
+    centres = find_centres(mechanism_of("sixbar-guide-40deg"))
+    told = [p.args for p in velocity_sentences(centres, speeds(centres)) if p.key == "centre sliding"]
+    assert [("1", "3"), ("5", "3")] == [args[1:3] for args in told]
+    sizes = [float(args[-1].split()[0]) for args in told]
+    assert [575.4062995771787, 99.20039152997784] == pytest.approx(sizes, rel=1e-3)

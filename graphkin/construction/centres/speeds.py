@@ -10,7 +10,7 @@ of homogeneous coordinates, so that a centre at infinity needs no rule of its ow
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from graphkin.construction.centres.find import Centres
@@ -218,7 +218,8 @@ STILL = 1e-12  # part of the largest speed that is none
 
 
 def velocity_sentences(centres: Centres, moving: Mapping[str, Turning]) -> tuple[Phrase, ...]:
-    """Every link's rate from the link before it in its chain, then every asked point's speed from its link's rate.
+    """Every link's rate from the link before it in its chain, then every asked point's speed from its link's rate, and
+    the sliding velocity of every pin along a guide that moves.
 
     Among the arguments of the phrases, pairs of links stand for centres, `Symbol` for a velocity, `PointRef` for a
     point; distances are those of the figure (mm).
@@ -227,7 +228,50 @@ def velocity_sentences(centres: Centres, moving: Mapping[str, Turning]) -> tuple
     speeds = {s: abs(by_centres(centres, moving, s) or 0.0) for s in points_asked(centres)}
     least = STILL * max(speeds.values(), default=0.0)
     points = [_of_point(centres, moving, s, speed) for s, speed in speeds.items() if speed > least]
-    return (*links, *(p for p in points if p is not None))
+    slidings = (_of_sliding(centres, moving, *one) for one in _pins_on_guides(centres))
+    return (*links, *(p for p in (*points, *slidings) if p is not None))
+
+
+def _pins_on_guides(centres: Centres) -> Iterator[tuple[str, str, str, str]]:
+    """Pins that slide along guides of moving links: the point, the link whose pin it is, the link that slides with it
+    (the same for a pin in a slot) and the link that bears the guide."""
+    scene = centres.links.scene
+    frame = scene.frame.name
+    yield from ((pin.point, pin.of, pin.of, pin.on) for pin in scene.pins if frame not in (pin.of, pin.on))
+    for pair in scene.slidings:
+        guiding = pair.on.split(".")[0]
+        for point in scene.by_name[pair.link].points:
+            others = [n for n in scene.holders[point] if n not in (pair.link, guiding, frame)]
+            if others and guiding != frame:
+                yield point, others[0], pair.link, guiding
+                break
+
+
+def _of_sliding(
+    centres: Centres, moving: Mapping[str, Turning], point: str, pinned: str, sliding: str, guiding: str
+) -> Phrase | None:
+    """v_B3B2 = |ω_1 − ω_3| P_13 B: relative to the guiding link the pin turns about the centre of both links."""
+    links = centres.links
+    if not {pinned, guiding} <= set(moving) or not {pinned, guiding} <= set(links.names):
+        return None
+    centre = centres.of(pinned, guiding)
+    if centre.point is None:
+        return None
+    rates = [amount(moving[name].omega, MOST) for name in (pinned, guiding)]
+    apart = written.difference(*rates)
+    units = links.scene.units
+    per_mm = amount(centres.sheet.scales.length / units.metres)
+    length = on_paper(abs(links.point(point) - centre.point))
+    symbol = Symbol("v", PointRef(point, guiding), PointRef(point, sliding))
+    shown = tuple(f"({rate})" if rate.startswith("-") else rate for rate in rates[1:])
+    return Phrase(
+        "centre sliding",
+        (
+            symbol, pinned, guiding, centre.pair, PointRef(point), *(r.replace("-", "−") for r in (rates[0], *shown)),
+            length, f"{per_mm} {units.length}/mm",
+            f"{written.product(apart, length, per_mm, carried=MOST)} {units.length}/s",
+        ),
+    )  # fmt: skip
 
 
 def points_asked(centres: Centres) -> tuple[Symbol, ...]:

@@ -1,0 +1,134 @@
+"""Sums as a student writes them: what is measured, with its millimetres, and rules with numbers in place of symbols.
+
+Every product and quotient is computed from the numbers that stand before it, so that whoever does the sum gets the
+same; its figures are those that the drawing carries.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from graphkin.construction.board import EXACT
+from graphkin.construction.sheet import DiagramName, Sheet
+from graphkin.construction.steps import LaidOff, MeasuredRate, RateTimes, Size
+from graphkin.drawing.conventions import Letters
+from graphkin.drawing.headings import number, written
+from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.words.written import MOST, amount, figures, on_paper, product, quotient
+
+__all__ = [
+    "factors_of", "lengths_measured", "rate_sum", "rule_sum", "scale_of", "substituted", "times_scale", "unit_of",
+]  # fmt: skip
+
+_TAILS = {"mechanism": "", "velocity": "/s", "acceleration": "/s²"}
+
+
+def unit_of(sheet: Sheet, diagram: DiagramName) -> str:
+    """The unit of what a diagram shows."""
+    return sheet.scene.units.length + _TAILS[diagram]
+
+
+def scale_of(sheet: Sheet, diagram: DiagramName) -> float:
+    """Scene units for one mm of paper."""
+    return sheet.scales.of(diagram) / sheet.scene.units.metres
+
+
+def times_scale(sheet: Sheet, diagram: DiagramName, mm: float) -> str:
+    """``56.67 mm × 5 (mm/s)/mm = 283.35 mm/s (283.37)``: a length on paper, and, where exact hands have drawn it, what
+    it is beyond the hundredth of a millimetre in brackets."""
+    unit, per = unit_of(sheet, diagram), scale_of(sheet, diagram)
+    length = on_paper(mm)
+    value, finer = product(length, amount(per, 12)), amount(mm * per, MOST)
+    more = "" if finer == value or sheet.instrument != EXACT.name else f" ({written(finer)})"
+    shown = unit if diagram == "mechanism" else f"({unit})"
+    return f"{written(length)} mm × {number(per)} {shown}/mm = {written(value)} {unit}{more}"
+
+
+def rate_sum(sheet: Sheet, act: MeasuredRate, units: bool = True) -> str:
+    """``283.37 mm/s / 383.14 mm = 0.7396 rad/s``, or without units before the result; "" where there is nothing to
+    divide."""
+    omega = act.rate == "omega"
+    rate = (sheet.omega if omega else sheet.alpha)[act.link]
+    if rate.mm == 0.0 or not rate.arm_mm:
+        return ""
+    diagram: DiagramName = "velocity" if omega else "acceleration"
+    carried = figures(on_paper(rate.mm))
+    size = _carried(sheet, diagram, rate.mm, carried)
+    arm = amount(rate.arm_mm * scale_of(sheet, "mechanism"), MOST)
+    of, over = (f" {unit_of(sheet, diagram)}", f" {unit_of(sheet, 'mechanism')}") if units else ("", "")
+    value = written(quotient(size, arm, min(MOST - 1, carried)))
+    return f"{written(size)}{of} / {written(arm)}{over} = {value} {'rad/s' if omega else 'rad/s²'}"
+
+
+def _carried(sheet: Sheet, diagram: DiagramName, mm: float, carried: int) -> str:
+    """What a length on paper stands for: of an exact drawing with one figure more than paper shows."""
+    if sheet.instrument != EXACT.name:
+        return product(on_paper(mm), amount(scale_of(sheet, diagram), 12))
+    return amount(mm * scale_of(sheet, diagram), min(MOST, carried + 1))
+
+
+def factors_of(sheet: Sheet, rule: Size | None) -> tuple[str, ...]:
+    """The numbers whose product a size is, as they are written; none where no such rule is known."""
+    if not isinstance(rule, RateTimes) or len(rule.links) > 1:
+        return ()
+    factor = _speed(sheet, rule.factor) if isinstance(rule.factor, Symbol) else _length(sheet, *rule.factor)
+    if factor is None:
+        return ()
+    rates = sheet.omega if rule.rate == "omega" else sheet.alpha
+    rate = amount(abs(rates[rule.links[0]].value), MOST)
+    return (*("2",) * rule.twice, *(rate,) * (1 + rule.square), factor)
+
+
+def substituted(rule: Size | None, factors: tuple[str, ...]) -> str:
+    """A rule of a size with numbers in place of its symbols: ``2 × 2.819 × 575.4`` for 2ω v."""
+    shown = [written(factor) for factor in factors]
+    if isinstance(rule, RateTimes) and rule.square:
+        del shown[-2]
+        shown[-2] = f"({shown[-2]})²" if "$" in shown[-2] else f"{shown[-2]}²"
+    return " × ".join(shown)
+
+
+def rule_sum(sheet: Sheet, rule: Size | None, diagram: DiagramName) -> str:
+    """``0.7396² × 383.14 = 209.58 mm/s²``; "" where no numbers are known."""
+    factors = factors_of(sheet, rule)
+    if not factors:
+        return ""
+    value = written(product(*factors, carried=MOST))
+    return f"{substituted(rule, factors)} = {value} {unit_of(sheet, diagram)}"
+
+
+def lengths_measured(sheet: Sheet, letters: Letters) -> Iterator[str]:
+    """Each length that enters an equation and is not given, in the order of use, with its millimetres:
+    ``l_O4A = 38.31 mm × 10 mm/mm = 383.1 mm (383.14)``."""
+    bars: dict[frozenset[str], tuple[str, str]] = {}
+    for step in sheet.steps:
+        act, bar = step.act, None
+        if isinstance(act, MeasuredRate):
+            bar = act.bar
+        elif isinstance(act, LaidOff) and isinstance(act.size, RateTimes) and not isinstance(act.size.factor, Symbol):
+            bar = act.size.factor
+        if bar is not None and not _is_given(sheet, bar):
+            bars.setdefault(frozenset(bar), bar)
+    for one, other in bars.values():
+        mm = abs(sheet.points[PointRef(one)] - sheet.points[PointRef(other)])
+        yield f"${letters.length((one, other))}$ = {times_scale(sheet, 'mechanism', mm)}"
+
+
+def _is_given(sheet: Sheet, bar: tuple[str, str]) -> bool:
+    """Whether one link holds both ends, or a place of one of them is not on the drawing."""
+    if any(PointRef(name) not in sheet.points for name in bar):
+        return True
+    bodies = (sheet.scene.frame, *sheet.scene.links)
+    return any(set(bar) <= set(body.points) for body in bodies)
+
+
+def _length(sheet: Sheet, one: str, other: str) -> str | None:
+    ends = [sheet.points.get(PointRef(name)) for name in (one, other)]
+    if ends[0] is None or ends[1] is None:
+        return None
+    return amount(abs(ends[0] - ends[1]) * scale_of(sheet, "mechanism"), MOST)
+
+
+def _speed(sheet: Sheet, symbol: Symbol) -> str | None:
+    vector = sheet.vectors("velocity").get(symbol)
+    return None if vector is None else amount(abs(vector.span) * scale_of(sheet, "velocity"), MOST)

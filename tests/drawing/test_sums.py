@@ -1,0 +1,51 @@
+"""Sums on a sheet: measured lengths with their millimetres, products and quotients true as written."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from graphkin.construction import draft
+from graphkin.construction.steps import LaidOff, MeasuredRate
+from graphkin.drawing.conventions import letters_of
+from graphkin.drawing.equations import written_lines
+from graphkin.drawing.sums import lengths_measured, rate_sum, rule_sum
+from graphkin.scene import library, mechanism_of
+
+
+def drawn(name):
+    sheet = draft(mechanism_of(name))
+    return sheet, letters_of(sheet, "chinese")
+
+
+def test_a_length_that_is_not_given_stands_with_its_millimetres():
+    assert ["$l_{CB}$ = 190.80 mm × 2 mm/mm = 381.6 mm"] == [*lengths_measured(*drawn("sixbar-guide-40deg"))]
+
+
+def test_nothing_is_measured_where_every_length_is_given():
+    assert [] == [*lengths_measured(*drawn("fourbar-150-500-300-400"))]
+
+
+def test_the_sheet_tells_the_rate_in_numbers_once():
+    lines = [line for line in written_lines(*drawn("sixbar-guide-40deg"), "en") if isinstance(line, str)]
+    assert 1 == sum("1075.8\u00a0/\u00a0381.6 =\u00a02.819" in line for line in lines)
+
+
+@pytest.mark.parametrize("name", sorted(library())[::4])
+def test_every_sum_is_true_as_it_is_written(name):
+    sheet, _ = drawn(name)
+    for step in sheet.steps:
+        if isinstance(step.act, MeasuredRate):
+            text = rate_sum(sheet, step.act, units=False)
+        elif isinstance(step.act, LaidOff) and not step.act.is_zero:
+            text = rule_sum(sheet, step.act.size, step.diagram)
+        else:
+            continue
+        if not text or "$" in text:
+            continue
+        sum_, told = text.split(" = ")
+        value = eval(re.sub("²", "**2", sum_.replace("×", "*")))
+        result = told.split(" ")[0]
+        step_of = 10.0 ** -len(result.partition(".")[2])
+        assert abs(value - float(result)) <= 0.5000001 * step_of, text
