@@ -40,6 +40,7 @@ from graphkin.words import Phrase, say
 if TYPE_CHECKING:
     import xarray
 
+    from graphkin.api.answers import AnswersLike
     from graphkin.drawing import ChartPage, Drawing
     from graphkin.study.sweeps import Found, Sweep
     from graphkin.study.turn import TurnStudy
@@ -67,6 +68,7 @@ class Swept(Result):
     found: Found
     language: str
     arrays: Arrays | None = None
+    elsewhere: tuple[tuple[Symbol, float, float], ...] = ()
 
     @property
     def rows(self) -> int:
@@ -147,7 +149,7 @@ class Swept(Result):
     def figures(self) -> Mapping[str, ChartPage | Drawing]:
         """Motion diagrams of the outputs and coupler curves by name; none over designs."""
         from graphkin.study.diagrams import diagrams
-        from graphkin.study.quantities import Quantity
+        from graphkin.study.quantities import Quantity, symbol_quantity
 
         if self.turn is None:
             return {}
@@ -155,7 +157,13 @@ class Swept(Result):
         own = [str(s) for s in self.over.scene.find]
         wished = [w.what for w in self.over.asked if isinstance(w.what, Quantity)]
         asked = wished if [w.name for w in self.over.asked] != own else []
-        return diagrams(self.turn, self.language, asked=asked)
+        over: dict[Quantity, list[tuple[float, float]]] = {}
+        for symbol, place, value in self.elsewhere:
+            offset = float(self.turn.reach.offsets(np.array([place]))[0])
+            over.setdefault(symbol_quantity(symbol), []).append((offset, value))
+        if over:
+            asked = list(dict.fromkeys((*asked, *over)))
+        return diagrams(self.turn, self.language, asked=asked, over=over)
 
     def to_xarray(self) -> xarray.Dataset:
         """The table as a data set of xarray with units, over ``position`` or over ``design`` and ``position``, with
@@ -230,6 +238,7 @@ def sweep(
     language: str | None = None,
     progress: Progress | None = None,
     text: str = "glyphs",
+    measured: AnswersLike | None = None,
 ) -> Swept:
     """Follow a scene over the whole turn of its driver, alone or as many designs.
 
@@ -253,6 +262,8 @@ def sweep(
         instead
     progress : called with the rows done and all rows
     text : letters of an SVG as text with its "glyphs", or as "outlines"
+    measured : a CSV file with a row for each position (a column ``at``: driver value or name of a position) and symbols
+        as heads: values measured elsewhere, laid over the diagrams of these quantities
 
     Raises
     ------
@@ -290,6 +301,9 @@ def sweep(
     start = driver_values(given, at) or {}
     if positions is None:
         positions = given.positions.count if given.positions is not None else ROWS
+    elsewhere = () if measured is None else _elsewhere(given, measured)
+    if find is None and elsewhere:
+        find = list(dict.fromkeys(symbol for symbol, _, _ in elsewhere))
     over = Sweep(source, name or given.name, made, positions, _asked(given, find), tuple(sorted(start.items())))
     spoken = language or given.sheet.language
     if out is None:
@@ -297,22 +311,38 @@ def sweep(
             raise CallError(Problem("sweep", f"{over.rows} rows", "give a folder, out=... or -o"))
         arrays = None if made.keys else over.base.arrays(positions)
         if arrays is not None:
-            return Swept(over, Found(over.rows, arrays.good), spoken, arrays)
+            return Swept(over, Found(over.rows, arrays.good), spoken, arrays, elsewhere)
     if not made.keys and over.base.engine is None:
         _ = over.base.reach  # a start that cannot be assembled
     through = cluster(as_text("scheduler", scheduler)) if scheduler is not None else executor
     try:
         with Workers(through, workers if over.long else None) as working:
             if out is None:
-                return Swept(over, collect(over, working, progress), spoken)
+                return Swept(over, collect(over, working, progress), spoken, None, elsewhere)
             found = write_tables(over, path_of(out), working, have("pyarrow"), progress)
     finally:
         if scheduler is not None and through is not None:
             through.shutdown()
-    swept = Swept(over, found, spoken)
+    swept = Swept(over, found, spoken, None, elsewhere)
     if not made.keys:
         swept.write_figures(out, formats, text)
     return swept
+
+
+def _elsewhere(scene: Mechanism, measured: AnswersLike) -> tuple[tuple[Symbol, float, float], ...]:
+    """Values measured elsewhere: symbol, value of the first driver (rad, m), value (SI; of a vector its size)."""
+    from graphkin.api.answers import as_answers
+
+    rows, _ = as_answers(scene, measured)
+    if any(row.at is None for row in rows):
+        raise CallError(Problem("measured", "has no column at", "write the driver's value of each row under at"))
+    places = [(driver_values(scene, row.at) or {})[scene.drivers[0].key] for row in rows]
+    return tuple(
+        (one.symbol, place, abs(one.value) if one.symbol.is_vector else float(one.value.real))
+        for row, place in zip(rows, places, strict=True)
+        for one in row.values
+        if one.symbol.scope != "turn" and not one.symbol.at
+    )
 
 
 def _asked(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tuple[Watched, ...]:

@@ -54,6 +54,13 @@ def sweep(
     scheduler: Annotated[
         str | None, typer.Option("--scheduler", metavar="ADDRESS", help="Run on a Dask cluster (extra cluster).")
     ] = None,
+    measured: Annotated[
+        Path | None,
+        typer.Option(
+            "--measured", metavar="FILE.csv",
+            help="Values measured elsewhere (heads: at, symbols), to lie over the curves.",
+        ),
+    ] = None,
     formats: FormatOption = "svg",
     text: TextOption = "glyphs",
     at: AtOption = None,
@@ -73,7 +80,7 @@ def sweep(
     ):
         swept = sweeping(
             scene, target, positions, find or None, driver_values(at), _replaced(replace), designs, None,
-            None if scheduler else processes(workers), scheduler, listed(formats), lang, progress, text,
+            None if scheduler else processes(workers), scheduler, listed(formats), lang, progress, text, measured,
         )  # fmt: skip
     if as_json:
         print_json(swept.data)

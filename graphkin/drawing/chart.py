@@ -50,6 +50,7 @@ __all__ = [
     "NUMBER",
     "SOLID_AND_DASHED",
     "ChartPage",
+    "Look",
     "Shape",
     "add_labels",
     "add_legend",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from pathlib import Path
 
 import pytest
@@ -32,3 +33,36 @@ def test_an_extreme_of_a_range_that_ends_is_local_where_the_quantity_goes_beyond
     text = graphkin.sweep("sixbar-AE70", positions=12, find=["omega_2"]).text
     assert "local maximum" in text
     assert "; maximum" not in text
+
+
+def words_of(page) -> str:
+    return " ".join(re.findall(">([^<>]+)</", page.content("svg").decode()))
+
+
+def test_a_diagram_calls_no_local_extreme_a_maximum() -> None:
+    words = words_of(graphkin.sweep("sixbar-AE70", positions=2, find=["omega_2"]).figures["diagram-omega_2"])
+    assert (True, False) == ("local maximum" in words, re.search(r"(?<!local )maximum", words) is not None)
+    assert "grows without bound" in words
+
+
+def test_the_diagram_of_a_transmission_angle_shows_what_is_allowed() -> None:
+    page = graphkin.sweep("fourbar-150-500-300-400", positions=2, find=["gamma_2-3"]).figures["diagram-gamma_2-3"]
+    assert "usually allowed: ≥ 40°" in words_of(page)
+
+
+def test_values_measured_elsewhere_lie_over_the_theory_that_they_are_held_against(tmp_path: Path) -> None:
+    theory = graphkin.solve("shaper-scheme-2", at=30).data["positions"][0]["links"]["4"]["omega"]
+    (tmp_path / "class.csv").write_text(f"at,omega_4\n30,{theory + 0.03}\n120,\n")
+    swept = graphkin.sweep("shaper-scheme-2", positions=2, measured=tmp_path / "class.csv")
+    assert ["diagram-omega_4"] == list(swept.figures)
+    words = words_of(swept.figures["diagram-omega_4"])
+    assert "1 values from elsewhere lie 0.03 rad/s" in words
+    (axes,) = swept.figures["diagram-omega_4"].figure().axes
+    (dot,) = [line for line in axes.lines if line.get_marker() == "x"]
+    assert (30.0, theory + 0.03) == pytest.approx((dot.get_xdata()[0], dot.get_ydata()[0]))
+
+
+def test_values_measured_elsewhere_need_the_place_of_each_row(tmp_path: Path) -> None:
+    (tmp_path / "class.csv").write_text("name,omega_4\nAnn,1\n")
+    with pytest.raises(graphkin.CallError, match="no column at"):
+        graphkin.sweep("shaper-scheme-2", measured=tmp_path / "class.csv")
