@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -21,6 +22,10 @@ __all__ = ["choose_forms", "own_values"]
 STARTS = 360
 ROUNDS = 80
 SAME = 1e-6
+NEAR = 1e-4
+FOUND = 1e-13
+FLAT = 1e-7
+"""Where the constraints are open all the same and no step closes them better, relatively, nothing more is found."""
 
 
 def own_values(scene: Mechanism) -> Array:
@@ -137,31 +142,62 @@ def _choose_place(structure: Structure, i: int, group: Cluster, drive: Drive, kn
 
 
 def _assemblies(structure: Structure, group: Cluster, drive: Drive, known: Mapping[str, Pose]) -> Array:
-    start = _starts(structure, group, known)
-    many = Drive(*(np.repeat(x, len(start), axis=0) for x in (drive.value, drive.rate, drive.second)))
-    system = System(structure, group, known, many)
-    place, damping = start, np.ones(len(start))
-    members = system.poses(place)
-    open_ = system.constraints(members)[0]
-    for _ in range(ROUNDS):
-        # Levenberg-Marquardt: singular starts need no care
-        matrix = system.matrix(members)
-        turned = np.swapaxes(matrix, 1, 2)
-        normal = turned @ matrix + damping[:, None, None] * 1e-3 * np.eye(matrix.shape[2])
-        step = solve_all(normal, (turned @ open_[..., None])[..., 0])
-        trial = place - system.scaled(step)
-        new_members = system.poses(trial)
-        new_open = system.constraints(new_members)[0]
-        better = np.sum(new_open**2, axis=1) < np.sum(open_**2, axis=1)
-        place = np.where(better[:, None, None], trial, place)
-        damping = np.clip(np.where(better, damping / 5, damping * 4), 1e-12, 1e8)
-        members = system.poses(place)
-        open_ = system.constraints(members)[0]
-    near = np.abs(open_).max(axis=1) < 1e-4
-    if not near.any():
+    place = _starts(structure, group, known)
+    many = Drive(*(np.repeat(x, len(place), axis=0) for x in (drive.value, drive.rate, drive.second)))
+    missed = _descended(System(structure, group, known, many), place)
+    near = np.flatnonzero(missed < NEAR)
+    if not len(near):
         return np.zeros((0, len(group.members), 3))
-    solved = solve_cluster(structure, group, known, many[near], place[near], rates=False)
+    found = _apart(place, near[np.argsort(missed[near] >= FOUND, kind="stable")], structure.scene.size)
+    solved = solve_cluster(structure, group, known, many[found], place[found], rates=False)
     return _distinct(structure, group, solved)
+
+
+def _descended(system: System, place: Array) -> Array:
+    """Move places down to where the constraints are least open, each until it is there; how far the most is open then.
+
+    Levenberg and Marquardt's method: singular starts need no care (Nocedal and Wright, Numerical Optimization, 10.3).
+    """
+    active, damping = np.arange(len(place)), np.ones(len(place))
+    missed = np.full(len(place), np.inf)
+    all_ = system.at(place)
+    open_ = system.open_(all_)
+    for _ in range(ROUNDS):
+        matrix = system.matrix(all_)
+        turned = np.swapaxes(matrix, 1, 2)
+        slope = (turned @ open_[..., None])[..., 0]
+        most = missed[active] = np.abs(open_).max(axis=1)
+        on = (most > FOUND) & ~(np.abs(slope).max(axis=1) < FLAT * most)
+        if not on.all():
+            active, damping, matrix, turned, slope, open_ = (
+                x[on] for x in (active, damping, matrix, turned, slope, open_)
+            )
+            system = replace(system, drive=system.drive[: len(active)])
+            if not len(active):
+                return missed
+        normal = turned @ matrix + damping[:, None, None] * 1e-3 * np.eye(matrix.shape[2])
+        trial = place[active] - system.scaled(solve_all(normal, slope))
+        new_open = system.open_(system.at(trial))
+        better = np.sum(new_open**2, axis=1) < np.sum(open_**2, axis=1)
+        place[active[better]] = trial[better]
+        damping = np.clip(np.where(better, damping / 5, damping * 4), 1e-12, 1e8)
+        open_ = np.where(better[:, None], new_open, open_)
+        all_ = system.at(place[active])
+    missed[active] = np.abs(open_).max(axis=1)
+    return missed
+
+
+def _apart(place: Array, rows: Array, size: float) -> Array:
+    """Of these rows the first at each place, in the order of the rows."""
+    turned = np.exp(1j * place[..., 2])
+    found: list[int] = []
+    while len(rows):
+        first = rows[0]
+        found.append(int(first))
+        off = np.hypot(*np.moveaxis(place[rows, :, :2] - place[first, :, :2], 2, 0)) / size
+        far = np.maximum(off, np.abs(turned[rows] - turned[first])).max(axis=1)
+        rows = rows[far >= SAME / 4]
+    return np.array(sorted(found))
 
 
 def _starts(structure: Structure, group: Cluster, known: Mapping[str, Pose]) -> Array:

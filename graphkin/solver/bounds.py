@@ -11,13 +11,12 @@ from graphkin.solver.dyads import DyadSolution, Joints
 from graphkin.solver.expressions import ExpressionGraph, Real, Vec, fmax, root
 from graphkin.solver.frame_errors import FrameError, carried, of_dyad, seen, within
 from graphkin.solver.joints import Frames, body_shape
-from graphkin.solver.pose import Pose
+from graphkin.solver.pose import FIELDS, Pose
 from graphkin.solver.rounding import Rounding
 from graphkin.structure import Driven, Dyad, Element, Pair, links_of
 
-__all__ = ["FIELDS", "ErrorFormulas"]
+__all__ = ["ErrorFormulas"]
 
-FIELDS = ("z", "u", "v", "omega", "a", "alpha")
 FEW = 3.0
 """Roundings in adding a point to the origin of its link."""
 

@@ -16,8 +16,8 @@ from graphkin.solver.extended_precision import ExtendedPrecision
 from graphkin.solver.group_errors import bounds as bounds_together
 from graphkin.solver.joints import Drive, turned
 from graphkin.solver.larger_groups import ClusterSolved, solve_cluster
-from graphkin.solver.pose import Array, Pose, rest
-from graphkin.solver.program import FIELDS, GIVEN, Program, program_of
+from graphkin.solver.pose import FIELDS, Array, Pose, rest
+from graphkin.solver.program import GIVEN, Program, program_of
 from graphkin.solver.rounding import UNIT
 from graphkin.structure import Cluster, Dyad, Structure, links_of
 

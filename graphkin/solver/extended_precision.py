@@ -12,8 +12,8 @@ from graphkin.scene.model import AngleDriver, AnyDriver
 from graphkin.solver.code import Code
 from graphkin.solver.decimals import cos_sin, meant, meant_angle, working
 from graphkin.solver.expressions import Name, Real, Vec
-from graphkin.solver.pose import Array
-from graphkin.solver.program import FIELDS, GIVEN, DimensionedProgram
+from graphkin.solver.pose import FIELDS, Array
+from graphkin.solver.program import GIVEN, DimensionedProgram
 from graphkin.solver.rounding import UNIT
 
 __all__ = ["ExtendedPrecision"]

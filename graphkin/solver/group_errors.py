@@ -43,11 +43,11 @@ def bounds(
     system = System.whole(structure, drive)
     names, n = system.group.members, len(drive)
     members = {name: poses[name].spread(n) for name in names}
-    every = {**system.known, **members}
+    every, all_ = {**system.known, **members}, system.of(members)
     with np.errstate(all="ignore"):
-        inverse = _inverse(system.matrix(members))
-        sizes = _sizes(system, members, inverse)
-        open_ = [np.abs(x) for x in system.constraints(members)]
+        inverse = _inverse(system.matrix(all_))
+        sizes = _sizes(system, all_, inverse)
+        open_ = np.abs(system.constraints(all_))
 
         def off(order: int, errors: Mapping[str, Errors]) -> Array:
             return np.asarray(open_[order] + np.stack(_all(_Rows(system, every, errors, given).off(order), n), axis=1))
@@ -90,27 +90,24 @@ def _with(found: Mapping[str, Errors], order: int, error: Array, system: System)
     return made
 
 
-def _sizes(system: System, members: Mapping[str, Pose], inverse: Array) -> tuple[Array, Array, Array]:
+def _sizes(system: System, all_: Pose, inverse: Array) -> tuple[Array, Array, Array]:
     """Sizes of the entries of the inverse, and of its first and second rate along the motion.
 
     With G and A the rates of the matrix these are -S G S and 2 S G S G S - S A S; G and A by differences, which is
     enough for a bound.
     """
-    size = system.structure.scene.size
-    fast = np.max([
-        np.fmax(np.fmax(np.abs(p.omega), np.abs(p.v) / size), np.sqrt(np.fmax(np.abs(p.alpha), np.abs(p.a) / size)))
-        for p in members.values()
-    ], axis=0)  # fmt: skip
+    size, p = system.structure.scene.size, all_
+    quick = np.sqrt(np.fmax(np.abs(p.alpha), np.abs(p.a) / size))
+    fast = np.fmax(np.fmax(np.abs(p.omega), np.abs(p.v) / size), quick).max(axis=1)
     step = 1e-4 / np.where(fast > 0, fast, 1.0)
 
     def at(t: Array) -> Array:
         half = t * t / 2
-        return system.matrix({
-            name: replace(p, z=p.z + t * p.v + half * p.a, u=p.u * np.exp(1j * (t * p.omega + half * p.alpha)))
-            for name, p in members.items()
-        })  # fmt: skip
+        turn = np.exp(1j * (t * p.omega + half * p.alpha))
+        return system.matrix(replace(p, z=p.z + t * p.v + half * p.a, u=p.u * turn))
 
-    here, ahead, behind, wide = system.matrix(members), at(step), at(-step), step[:, None, None]
+    here, wide = system.matrix(p), step[:, None, None]
+    ahead, behind = at(step[:, None]), at(-step[:, None])
     first, second = (ahead - behind) / (2 * wide), (ahead - 2 * here + behind) / wide**2
     bent = inverse @ first @ inverse
     return np.abs(inverse), np.abs(bent), np.abs(2 * bent @ first @ inverse - inverse @ second @ inverse)

@@ -7,15 +7,17 @@ matrix gives velocity and acceleration (Haug, Computer Aided Kinematics and Dyna
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
+from weakref import finalize
 
 import numpy as np
 
 from graphkin.scene.model import AngleDriver
 from graphkin.solver.joints import Drive, joint_place, turned
-from graphkin.solver.pose import Array, Pose, rest
+from graphkin.solver.pose import FIELDS, Array, Pose, rest, together
 from graphkin.solver.rounding import UNIT
 from graphkin.structure import Cluster, Driven, Dyad, Pair, Slide, Structure, Turn
 
@@ -25,14 +27,147 @@ ROUNDS = 40
 ROUNDINGS = 32 * UNIT
 
 
+class _Ends(NamedTuple):
+    """One side of some joints: columns of their links, place and direction of the joint's frame in the link's axes."""
+
+    link: Array
+    place: Array
+    direction: Array
+
+    def of(self, all_: Pose, order: int) -> Pose:
+        """The joints' frames in the world, fields of shape (n, joints); rates up to the order, the others nothing."""
+        z, u = all_.z[:, self.link], all_.u[:, self.link]
+        arm = u * self.place
+        z, u = z + arm, u * self.direction
+        if order == 0:
+            return Pose(z, u, _NOTHING, _NOTHING, _NOTHING, _NOTHING)
+        omega, alpha = all_.omega[:, self.link], all_.alpha[:, self.link]
+        spin = 1j * omega
+        v = all_.v[:, self.link] + spin * arm
+        return Pose(z, u, v, omega, all_.a[:, self.link] + (1j * alpha + spin * spin) * arm, alpha)
+
+
+class _Entries(NamedTuple):
+    """Entries of the matrix by links of the group: of which joints, in which row and column, with which sense."""
+
+    joint: Array
+    row: Array
+    column: Array
+    sense: Array
+
+
+_NOTHING = np.zeros(1)
+
+
+class _Layout:
+    """What stands where among the constraints of a group: the rows of its pairs, then of its drivers."""
+
+    def __init__(self, structure: Structure, group: Cluster) -> None:
+        drivers = structure.scene.drivers
+        self.names = (*group.members, *dict.fromkeys(n for n in self._used(group) if n not in group.members))
+        self.link = {name: k for k, name in enumerate(self.names)}
+        self.members = len(group.members)
+        self.size = structure.scene.size
+        turns: list[tuple[int, Turn]] = []
+        lines: list[tuple[int, Slide, complex]] = []
+        slides: list[int] = []
+        angles: list[tuple[int, str, str, int]] = []
+        self.travels: list[tuple[int, int, int]] = []
+        row = 0
+        for pair in group.pairs:
+            if isinstance(pair, Turn):
+                turns.append((row, pair))
+            else:
+                slides.append(row)
+                lines.append((row + 1, pair, -1j))
+            row += 2
+        self.slides = len(slides)
+        for driver in group.drivers:
+            i = drivers.index(driver)
+            if isinstance(driver, AngleDriver):
+                angles.append((row, driver.link, driver.relative_to, i))
+            else:
+                self.travels.append((row, len(lines), i))
+                lines.append((row, structure.slide(driver.key), 1 + 0j))
+            row += 1
+        self.rows = row
+        self.turns = [self._ends(structure, [(p, getattr(p, side)) for _, p in turns]) for side in "ab"]
+        self.lines = [self._ends(structure, [(p, getattr(p, side)) for _, p, _ in lines]) for side in "ab"]
+        self.turn_rows = np.array([r for r, _ in turns], dtype=int)
+        self.slide_rows = np.array(slides, dtype=int)
+        self.line_rows = np.array([r for r, _, _ in lines], dtype=int)
+        self.part = np.array([part for _, _, part in lines], dtype=complex)
+        """By this times a number its real part is the part that a line wants: along the guide or across."""
+        both = [(link, base) for _, link, base, _ in angles]
+        self.angle_rows = np.array([r for r, *_ in angles], dtype=int)
+        self.turned = [np.array([self.link[x] for x in side], dtype=int) for side in zip(*both, strict=True)]
+        self.angle_drivers = np.array([i for *_, i in angles], dtype=int)
+        self.turn_entries = [self._entries(e, self.turn_rows, s) for e, s in zip(self.turns, (1.0, -1.0), strict=True)]
+        self.line_entries = [self._entries(e, self.line_rows, s) for e, s in zip(self.lines, (1.0, -1.0), strict=True)]
+        self.same = np.zeros((self.rows, 3 * self.members))
+        for entries in self.turn_entries:
+            self.same[entries.row, entries.column] = entries.sense
+            self.same[entries.row + 1, entries.column + 1] = entries.sense
+        turning = [(r, p.a, p.b) for r, (_, p, _) in zip(slides, lines, strict=False)]
+        for r, one, two in [*turning, *((r, one, two) for r, one, two, _ in angles)]:
+            for name, sign in ((one, 1.0), (two, -1.0)):
+                if self.link[name] < self.members:
+                    self.same[r, 3 * self.link[name] + 2] += sign
+
+    @staticmethod
+    def _used(group: Cluster) -> Iterator[str]:
+        for pair in group.pairs:
+            yield from (pair.a, pair.b)
+        for driver in group.drivers:
+            if isinstance(driver, AngleDriver):
+                yield from (driver.link, driver.relative_to)
+
+    def _ends(self, structure: Structure, joints: Sequence[tuple[Pair, str]]) -> _Ends:
+        frames = [joint_place(structure, pair, link) for pair, link in joints]
+        return _Ends(
+            np.array([self.link[link] for _, link in joints], dtype=int),
+            np.array([place for place, _ in frames], dtype=complex),
+            np.array([direction for _, direction in frames], dtype=complex),
+        )
+
+    def _entries(self, ends: _Ends, rows: Array, sense: float) -> _Entries:
+        own = np.flatnonzero(ends.link < self.members)
+        return _Entries(own, rows[own], 3 * ends.link[own], np.full(len(own), sense))
+
+
+_LAYOUTS: dict[tuple[int, tuple[str, ...], tuple[str, ...]], _Layout] = {}
+
+
+def _layout(structure: Structure, group: Cluster) -> _Layout:
+    """The layout of a group, made once."""
+    key = (id(structure), group.members, tuple(driver.key for driver in group.drivers))
+    if key not in _LAYOUTS:
+        _LAYOUTS[key] = _Layout(structure, group)
+        finalize(structure, _LAYOUTS.pop, key, None)
+    return _LAYOUTS[key]
+
+
 @dataclass(frozen=True)
 class System:
-    """The constraints of a group at n positions of what it hangs on."""
+    """The constraints of a group at n positions of what it hangs on.
+
+    The links together are one ``Pose``, its fields of shape (n, links): the group's own first, then those it hangs on.
+    """
 
     structure: Structure
     group: Cluster
     known: Mapping[str, Pose]
     drive: Drive
+
+    @cached_property
+    def _layout(self) -> _Layout:
+        return _layout(self.structure, self.group)
+
+    @cached_property
+    def _outside(self) -> Pose:
+        """The links that the group hangs on."""
+        layout = self._layout
+        return together([self.known[name] for name in layout.names[layout.members :]], len(self.drive))
 
     @classmethod
     def whole(cls, structure: Structure, drive: Drive) -> System:
@@ -50,116 +185,108 @@ class System:
         every = Cluster(members, tuple(pairs), structure.scene.drivers, members, 0)
         return cls(structure, every, {frame: rest()}, drive)
 
+    def at(self, place: Array, rate: Array | None = None, second: Array | None = None) -> Pose:
+        """All links from the members' places, rates and second rates, each of shape (n, members, 3)."""
+        angle, out = place[:, :, 2], self._outside
+        u = np.empty((len(place), len(self._layout.names)), dtype=complex)
+        z, count = np.empty_like(u), self._layout.members
+        z.real[:, :count], z.imag[:, :count] = place[:, :, 0], place[:, :, 1]
+        np.cos(angle, out=u.real[:, :count])
+        np.sin(angle, out=u.imag[:, :count])
+        z[:, count:], u[:, count:] = out.z, out.u
+
+        def rates(given: Array | None, linear: Array, turning: Array) -> tuple[Array, Array]:
+            if given is None:
+                given = np.zeros_like(place)
+            return (
+                np.concatenate((given[:, :, 0] + 1j * given[:, :, 1], linear), axis=1),
+                np.concatenate((given[:, :, 2], turning), axis=1),
+            )
+
+        if rate is None and second is None:
+            return Pose(z, u, _NOTHING, _NOTHING, _NOTHING, _NOTHING)
+        return Pose(z, u, *rates(rate, out.v, out.omega), *rates(second, out.a, out.alpha))
+
+    def of(self, members: Mapping[str, Pose]) -> Pose:
+        """All links from the members' poses."""
+        own, out = together([members[name] for name in self.group.members], len(self.drive)), self._outside
+        return Pose(*(np.concatenate((getattr(own, f), getattr(out, f)), axis=1) for f in FIELDS))
+
     def poses(self, place: Array, rate: Array | None = None, second: Array | None = None) -> dict[str, Pose]:
         """Members' poses from places, rates and second rates, each of shape (n, members, 3)."""
         zero = np.zeros_like(place)
-        r, s = zero if rate is None else rate, zero if second is None else second
-        made: dict[str, Pose] = {}
-        for k, name in enumerate(self.group.members):
-            angle = place[:, k, 2]
-            made[name] = Pose(
-                place[:, k, 0] + 1j * place[:, k, 1],
-                np.cos(angle) + 1j * np.sin(angle),
-                r[:, k, 0] + 1j * r[:, k, 1],
-                r[:, k, 2],
-                s[:, k, 0] + 1j * s[:, k, 1],
-                s[:, k, 2],
-            )
-        return made
+        all_ = self.at(place, zero if rate is None else rate, zero if second is None else second)
+        return {
+            name: Pose(*(np.ascontiguousarray(getattr(all_, f)[:, k]) for f in FIELDS))
+            for k, name in enumerate(self.group.members)
+        }
 
-    def constraints(self, members: Mapping[str, Pose]) -> tuple[Array, Array, Array]:
-        """Each constraint and its first and second rate, with lengths in the size, each of shape (n, rows)."""
-        size, n = self.structure.scene.size, len(self.drive)
-        poses = {**self.known, **members}
-        rows: list[tuple[Array, Array, Array]] = []
-        for pair in self.group.pairs:
-            one, two = self._joints(pair, poses)
-            if isinstance(pair, Turn):
-                gap = ((one.z - two.z) / size, (one.v - two.v) / size, (one.a - two.a) / size)
-                rows += [(gap[0].real, gap[1].real, gap[2].real), (gap[0].imag, gap[1].imag, gap[2].imag)]
-                continue
-            seen = two.inverse().of(one)
-            rows.append((np.angle(seen.u), seen.omega, seen.alpha))
-            rows.append((seen.z.imag / size, seen.v.imag / size, seen.a.imag / size))
-        for driver in self.group.drivers:
-            i = self.structure.scene.drivers.index(driver)
-            value, rate, second = self.drive.value[:, i], self.drive.rate[:, i], self.drive.second[:, i]
-            if isinstance(driver, AngleDriver):
-                seen = poses[driver.relative_to].inverse().of(poses[driver.link])
-                turn = seen.u * np.conj(turned(value))
-                rows.append((np.angle(turn), seen.omega - rate, seen.alpha - second))
-            else:
-                one, two = self._joints(self.structure.slide(driver.key), poses)
-                seen = two.inverse().of(one)
-                rows.append(((seen.z.real - value) / size, (seen.v.real - rate) / size, (seen.a.real - second) / size))
-        found = np.empty((3, n, len(rows)))
-        for k, row in enumerate(rows):
-            for order in range(3):
-                found[order, :, k] = row[order]
-        return found[0], found[1], found[2]
+    def open_(self, all_: Pose) -> Array:
+        """Each constraint, with lengths in the size, shape (n, rows)."""
+        return np.asarray(self._constraints(all_, 0)[0])
 
-    def _joints(self, pair: Pair, poses: Mapping[str, Pose]) -> tuple[Pose, Pose]:
-        """The two frames of a joint, in the world."""
-        one, two = (poses[link].fixed(*joint_place(self.structure, pair, link)) for link in (pair.a, pair.b))
-        return one, two
+    def constraints(self, all_: Pose) -> Array:
+        """Each constraint and its first and second rate, with lengths in the size, shape (3, n, rows)."""
+        return self._constraints(all_, 2)
 
-    def matrix(self, members: Mapping[str, Pose]) -> Array:
+    def _constraints(self, all_: Pose, order: int) -> Array:
+        layout, drive = self._layout, self.drive
+        size = layout.size
+        found = np.empty((order + 1, len(drive), layout.rows))
+        if len(layout.turn_rows):
+            one, two = (ends.of(all_, order) for ends in layout.turns)
+            for k, field in enumerate(("z", "v", "a")[: order + 1]):
+                gap = (getattr(one, field) - getattr(two, field)) / size
+                found[k][:, layout.turn_rows], found[k][:, layout.turn_rows + 1] = gap.real, gap.imag
+        if len(layout.line_rows):
+            one, two = (ends.of(all_, order) for ends in layout.lines)
+            seen, pairs = two.inverse().of(one) if order else _seen(one, two), slice(layout.slides)
+            found[0][:, layout.slide_rows] = np.angle(seen.u[:, pairs])
+            for k, field in enumerate(("z", "v", "a")[: order + 1]):
+                found[k][:, layout.line_rows] = (layout.part * getattr(seen, field)).real / size
+            for k, field in enumerate(("omega", "alpha")[:order]):
+                found[k + 1][:, layout.slide_rows] = getattr(seen, field)[:, pairs]
+            for row, _, i in layout.travels:
+                for k, given in enumerate((drive.value, drive.rate, drive.second)[: order + 1]):
+                    found[k][:, row] -= given[:, i] / size
+        if len(layout.angle_rows):
+            (link, base), which = layout.turned, layout.angle_drivers
+            turn = np.conj(all_.u[:, base]) * all_.u[:, link] * np.conj(turned(drive.value[:, which]))
+            found[0][:, layout.angle_rows] = np.angle(turn)
+            for k, (field, given) in enumerate((("omega", drive.rate), ("alpha", drive.second))[:order]):
+                rates = getattr(all_, field)
+                found[k + 1][:, layout.angle_rows] = rates[:, link] - rates[:, base] - given[:, which]
+        return found
+
+    def matrix(self, all_: Pose) -> Array:
         """Derivative of the constraints by (x / size, y / size, angle) of each member, shape (n, rows, columns)."""
-        size, n = self.structure.scene.size, len(self.drive)
-        poses = {**self.known, **members}
-        column = {name: 3 * k for k, name in enumerate(self.group.members)}
-        count = 3 * len(column)
-        rows: list[Array] = []
-
-        def row() -> Array:
-            rows.append(np.zeros((n, count)))
-            return rows[-1]
-
-        def sliding(pair: Slide, part: str) -> None:
-            one, two = self._joints(pair, poses)
-            back = np.conj(two.u)
-            gap = one.z - two.z
-            line = row()
-            for name, sense, arm in (
-                (pair.a, 1.0, one.z - poses[pair.a].z),
-                (pair.b, -1.0, two.z - poses[pair.b].z + gap),
-            ):
-                if name in column:
-                    at = column[name]
-                    line[:, at] = getattr(sense * back, part)
-                    line[:, at + 1] = getattr(sense * 1j * back, part)
-                    line[:, at + 2] = getattr(sense * 1j * back * arm / size, part)
-
-        def turning(one: str, two: str) -> None:
-            line = row()
-            for name, sense in ((one, 1.0), (two, -1.0)):
-                if name in column:
-                    line[:, column[name] + 2] += sense
-
-        for pair in self.group.pairs:
-            if isinstance(pair, Slide):
-                turning(pair.a, pair.b)
-                sliding(pair, "imag")
-                continue
-            horizontal, vertical = row(), row()
-            for name, sense in ((pair.a, 1.0), (pair.b, -1.0)):
-                if name in column:
-                    at = column[name]
-                    arm = poses[name].u * (self.structure.links[name].points[pair.point] / size)
-                    horizontal[:, at] = vertical[:, at + 1] = sense
-                    horizontal[:, at + 2] = -sense * arm.imag
-                    vertical[:, at + 2] = sense * arm.real
-        for driver in self.group.drivers:
-            if isinstance(driver, AngleDriver):
-                turning(driver.link, driver.relative_to)
-            else:
-                sliding(self.structure.slide(driver.key), "real")
-        return np.stack(rows, axis=1)
+        layout = self._layout
+        found = np.repeat(layout.same[None], len(self.drive), axis=0)
+        for ends, (joint, row, column, sense) in zip(layout.turns, layout.turn_entries, strict=True):
+            if len(joint):
+                arm = all_.u[:, ends.link[joint]] * (ends.place[joint] * (sense / layout.size))
+                found[:, row, column + 2], found[:, row + 1, column + 2] = -arm.imag, arm.real
+        if len(layout.line_rows):
+            one, two = (ends.of(all_, 0) for ends in layout.lines)
+            back = np.conj(two.u) * layout.part
+            for ends, (joint, row, column, sense) in zip(layout.lines, layout.line_entries, strict=True):
+                if len(joint):
+                    along = back[:, joint] * sense
+                    arm = one.z[:, joint] - all_.z[:, ends.link[joint]]
+                    found[:, row, column], found[:, row, column + 1] = along.real, -along.imag
+                    found[:, row, column + 2] = -(along * arm).imag / layout.size
+        return found
 
     def scaled(self, step: Array) -> Array:
         """Columns (n, 3 members) back to (n, members, 3) in m and rad."""
         size = self.structure.scene.size
         return np.asarray(step.reshape(len(step), -1, 3) * np.array([size, size, 1.0]))
+
+
+def _seen(one: Pose, two: Pose) -> Pose:
+    """Place and direction of a frame in the axes of another."""
+    back = np.conj(two.u)
+    return Pose(back * (one.z - two.z), back * one.u, _NOTHING, _NOTHING, _NOTHING, _NOTHING)
 
 
 class ClusterSolved(NamedTuple):
@@ -200,8 +327,8 @@ def solve_cluster(
     missed = np.full(n, np.inf)
     best = place
     for _ in range(ROUNDS):
-        members = system.poses(place)
-        open_, _, _ = system.constraints(members)
+        all_ = system.at(place)
+        open_ = system.open_(all_)
         now = np.abs(open_).max(axis=1)
         better = now < missed
         best = np.where(better[:, None, None], place, best)
@@ -209,19 +336,21 @@ def solve_cluster(
             missed = np.minimum(missed, now)
             break
         missed = np.fmin(missed, now)
-        place = place - system.scaled(solve_all(system.matrix(members), open_))
+        place = place - system.scaled(solve_all(system.matrix(all_), open_))
     place = best
-    members = system.poses(place)
-    matrix = system.matrix(members)
+    matrix = system.matrix(system.at(place))
+    rate: Array | None = None
+    second: Array | None = None
     if rates:
         # the guiding, centripetal and Coriolis terms are the rates of the constraints with the unknown rates left out
-        _, load, _ = system.constraints(members)
+        still = np.zeros_like(place)
+        load = system.constraints(system.at(place, still, still))[1]
         rate = system.scaled(solve_all(matrix, -load))
-        _, _, bent = system.constraints(system.poses(place, rate))
+        bent = system.constraints(system.at(place, rate))[2]
         second = system.scaled(solve_all(matrix, -bent))
-        members = system.poses(place, rate, second)
     else:
         load = np.zeros((n, matrix.shape[1]))
+    members = system.poses(place, rate, second)
     whole: Array = np.asarray(np.isfinite(matrix).all(axis=(1, 2)))
     values = np.linalg.svd(np.asarray(np.where(whole[:, None, None], matrix, 0.0), dtype=float), compute_uv=False)
     condition = np.where(whole, 1 / np.maximum(values[:, -1], 1e-300), np.inf)

@@ -31,6 +31,7 @@ CLOSE = 2e-13
 LEAST = 1e-13
 BEND = 0.2
 AT_END = 1e-9
+BESIDE = 0.003
 NARROW = 1e-6
 """A gap in the motion that is narrower than this (of the path) is a change point, as for groups of two links."""
 At = Callable[[float, Array], tuple[ClusterSolved, Array]]
@@ -98,9 +99,12 @@ def _walk_cluster(at: At, place: Array, size: float, end: float, most: float) ->
         step /= 2
         if step < LEAST:
             break
-    if t < end and end - t < AT_END:
-        # the end of the path is itself singular: what stands there says so
-        t = end
+    if t < end and end - t < NARROW:
+        # the end of the path may itself be singular, and roundings lead astray beside it: what stands there says so
+        there, _ = at(end, places[-1])
+        off = float(np.max(np.abs((there.place[0] - places[-1]) / weight)))
+        if end - t < AT_END or (there.missed[0] < CLOSE and off < BESIDE):
+            t = end
     return _Walk(np.array(nodes), np.array(places), None if t >= end else t, tuple(flips))
 
 

@@ -5,15 +5,18 @@ The drawing board has a pose of its own (``construction.sheet.Pose``, on paper, 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Array", "Pose", "rest"]
+__all__ = ["FIELDS", "Array", "Pose", "rest", "together"]
 
 Array = NDArray[Any]
+FIELDS = ("z", "u", "v", "omega", "a", "alpha")
+REAL = ("omega", "alpha")
 
 
 @dataclass(frozen=True)
@@ -146,3 +149,12 @@ def rest(place: complex | Array = 0j, direction: complex | Array = 1 + 0j) -> Po
         none,
         zero,
     )
+
+
+def together(poses: Sequence[Pose], n: int) -> Pose:
+    """Links at n positions as one, fields of shape (n, links)."""
+    made = Pose(*(np.empty((n, len(poses)), dtype=np.float64 if f in REAL else np.complex128) for f in FIELDS))
+    for k, pose in enumerate(poses):
+        for field in FIELDS:
+            getattr(made, field)[:, k] = getattr(pose, field)
+    return made

@@ -20,8 +20,8 @@ from graphkin.solver.engine import SINGULAR, positions
 from graphkin.solver.expressions import Name, Real
 from graphkin.solver.findings import singular, structure_of
 from graphkin.solver.joints import Drive, turned
-from graphkin.solver.pose import Array
-from graphkin.solver.program import FIELDS, GIVEN, DimensionedProgram, program_of
+from graphkin.solver.pose import FIELDS, Array
+from graphkin.solver.program import GIVEN, DimensionedProgram, program_of
 from graphkin.solver.quantities import Units, bounds, formulas
 from graphkin.solver.rounding import UNIT
 from graphkin.structure import Cluster, Structure

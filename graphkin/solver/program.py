@@ -12,17 +12,17 @@ from typing import Any
 from weakref import finalize
 
 from graphkin.scene.model import AngleDriver, AnyDriver
-from graphkin.solver.bounds import FIELDS, ErrorFormulas
+from graphkin.solver.bounds import ErrorFormulas
 from graphkin.solver.code import Code
 from graphkin.solver.decimals import DIGITS, meant, meant_direction
 from graphkin.solver.dyads import DyadSolution, Joints, solve_dyad
 from graphkin.solver.expressions import ExpressionGraph, Name, Real, Vec
 from graphkin.solver.joints import body_shape, driven, dyad_joints, members
-from graphkin.solver.pose import Pose
+from graphkin.solver.pose import FIELDS, Pose
 from graphkin.solver.rounding import UNIT
 from graphkin.structure import Cluster, Driven, Dyad, Pair, Slide, Structure, Turn
 
-__all__ = ["FIELDS", "GIVEN", "DimensionedProgram", "Program", "program_of"]
+__all__ = ["GIVEN", "DimensionedProgram", "Program", "program_of"]
 
 SPECIAL = (0.0, 1.0, -1.0)
 """Numbers with which formulas are shorter."""
