@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import get_args
 
 from graphkin.errors import CallError, Problem, as_list, did_you_mean
+from graphkin.scene.force_names import no_force
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
 from graphkin.scene.source import SceneLike, mechanism_of
 from graphkin.scene.symbol import Symbol, missing_names
@@ -231,7 +232,9 @@ def _unknown_names(scene: Mechanism, symbol: Symbol) -> list[Problem]:
 
         return problem
 
-    return missing_names(symbol, missing("link", scene.by_name), missing("point", scene.holders), scene.by_name)
+    known = missing_names(symbol, missing("link", scene.by_name), missing("point", scene.holders), scene.by_name)
+    no_such = None if known else no_force(scene, f"find {symbol}", symbol)
+    return known if no_such is None else [no_such]
 
 
 def write_files(folder: Path, files: Mapping[str, bytes | Iterable[bytes]]) -> list[Path]:

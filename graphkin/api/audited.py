@@ -290,7 +290,7 @@ def _case(scene: Mechanism, asked: Sequence[Symbol], at: At) -> Evidence:
     values = driver_values(scene, at)
     motion = solved_here(scene, values)
     structure = motion.structure
-    what = plan(structure, values, asked)
+    what = plan(structure, values, [symbol for symbol in asked if symbol.scope != "force"])
     # everything is drawn, so that slips in what leads to the asked and beside it are found
     whole = plan(structure, values, ())
     drawn = what if set(what.elements) == set(whole.elements) else whole
@@ -302,10 +302,10 @@ def _case(scene: Mechanism, asked: Sequence[Symbol], at: At) -> Evidence:
 def _elsewhere(scene: Mechanism, values: dict[str, float] | None) -> ValuesElsewhere:
     """Exact values at the positions of a table: steps of 5 degrees, from here and from 0."""
 
+    from graphkin import solver
+
     @cache
     def motions() -> tuple[Motion, ...]:
-        from graphkin import solver
-
         first = scene.drivers[0]
         if not isinstance(first, AngleDriver):
             return ()
@@ -317,7 +317,7 @@ def _elsewhere(scene: Mechanism, values: dict[str, float] | None) -> ValuesElsew
         if symbol.scope == "turn":
             return found
         for motion in motions():
-            for i, value in enumerate(motion.value(symbol)):
+            for i, value in enumerate(solver.value_of(motion, symbol)):
                 if motion.ok[i]:
                     name = f"{scene.drivers[0].key} = {own_unit(scene, scene.drivers[0], float(motion.values[i, 0]))}"
                     found.append((name, complex(value) if symbol.is_vector else float(value.real)))

@@ -69,11 +69,12 @@ class Prepared:
 
     @cached_property
     def units(self) -> dict[str, str]:
-        """The unit of each quantity asked for: the scene's length unit, seconds, degrees for angles, but radians in
-        their rates (rad/s, rad/s2)."""
-        length = self.scene.units.length
+        """The unit of each quantity asked for, forces last: the scene's length unit, seconds, degrees for angles, but
+        radians in their rates (rad/s, rad/s2)."""
+        length, force = self.scene.units.length, self.scene.units.force
         kinds = {"v": f"{length}/s", "a": f"{length}/s2", "theta": "deg", "omega": "rad/s", "alpha": "rad/s2"}
-        return {name: kinds.get(name.partition("_")[0] if "_" in name else "", length) for name in self.asked}
+        found = {name: kinds.get(name.partition("_")[0] if "_" in name else "", length) for name in self.ready.wanted}
+        return found | {name: force if f"{name}.x" in self.names else f"{force} m" for name in self.ready.loads}
 
     @cached_property
     def quantities(self) -> Quantities:
@@ -139,7 +140,7 @@ class Prepared:
         return self.samples(columns, ok, None)
 
     def _fitting(self, n: int, out: Reals) -> None:
-        shape = len(self.ready.asked), n
+        shape = self.ready.rows, n
         if not isinstance(out, np.ndarray):
             raise CallError(Problem("out", f"found {out!r:.60}", f"give an array of floats of the shape {shape}"))
         if out.shape != shape or out.dtype != float or not out.flags.c_contiguous:
@@ -174,6 +175,9 @@ class Prepared:
         from graphkin.api.design_keys import design_keys
         from graphkin.solver.designs import PreparedMechanisms
 
+        if self.ready.loads:
+            found = f"forces ({', '.join(self.ready.loads)}) are not given over designs"
+            raise CallError(Problem("over", found, "prepare each design, or sweep over designs"))
         try:
             values = np.broadcast_arrays(*(np.asarray(v, dtype=float) for v in designs.values()))
         except (AttributeError, TypeError, ValueError):
@@ -296,7 +300,8 @@ def prepare(
     ----------
     scene : a file, the name of a scene that comes along, a mapping of the same shape, or a `Scene`
     find : quantities by name: "C" (place of a point), "v_C", "a_C", "a_B@3" (of the point of link 3 that lies at B),
-        "v_C/B" (relative), "theta_3", "omega_3", "alpha_3" (of a link), "s_3/4" (travel of a sliding pair)
+        "v_C/B" (relative), "theta_3", "omega_3", "alpha_3" (of a link), "s_3/4" (travel of a sliding pair); forces and
+        moments ("F_5/6", "M_2"), which stand last, and are solved at each position
     bounds : also how far rounding may have moved each of them, ``Samples.bound``
     fast : compile the formulas with numba (the extra ``fast``): True on the first call, which then takes a second or
         two; False never; None in calls for 500,000 positions or more, where numba is installed

@@ -61,7 +61,7 @@ class Solved(Result):
             return self.table[name]
         if watched is None:
             watched = watched_symbol(*asked_symbols(scene, [name]))
-        parts = watched.parts(None, self.motion)
+        parts = watched.parts(None, self._moved)
         return parts[0] if len(parts) == 1 else parts[0] + 1j * parts[1]
 
     @cached_property
@@ -76,8 +76,7 @@ class Solved(Result):
             columns += [column for name in self.find for column in self.columns(name)]
         else:
             for watched in everything(motion.structure):
-                columns += watched.columns(scene, watched.parts(None, motion))
-            columns += self._force_columns()
+                columns += watched.columns(scene, watched.parts(None, self._moved))
         said = [text_column("status", map(str, motion.status)), text_column("why", motion.why)]
         return Table((*columns, *said), ("position",))
 
@@ -85,11 +84,9 @@ class Solved(Result):
         """What has a name, as columns of the table: a vector's size and components.  Raises CallError."""
         from graphkin.study.watched import watched_named, watched_symbol
 
-        if self.forces is not None and self.forces.value(name) is not None:
-            return [c for c in self._force_columns() if c.name.removesuffix(".x").removesuffix(".y") == name]
         scene = self.motion.scene
         watched = watched_named(scene, name) or watched_symbol(*asked_symbols(scene, [name]))
-        return watched.columns(scene, watched.parts(None, self.motion))
+        return watched.columns(scene, watched.parts(None, self._moved))
 
     def _values(self) -> list[dict[str, Any]]:
         """For each position what is asked by its name: a number, or a vector's components; angles in radians."""
@@ -101,20 +98,10 @@ class Solved(Result):
                 entry[name] = plain if np.isfinite(value) else None
         return found
 
-    def _force_columns(self) -> list[Column]:
-        """Forces by their components, and moments."""
-        from graphkin.table import Column
-
-        if self.forces is None:
-            return []
-        units = self.motion.scene.units
-        made = []
-        for key, values in self.forces.forces.items():
-            parts = ((".x", values.real), (".y", values.imag))
-            made += [Column(key + end, part / units.newtons, units.force) for end, part in parts]
-        for key, values in self.forces.moments.items():
-            made.append(Column(key, values / units.newtons, f"{units.force} m"))
-        return made
+    @property
+    def _moved(self) -> Motion:
+        """The motion for which forces are known already, where there are any."""
+        return self.motion if self.forces is None else self.forces.motion
 
     @cached_property
     def data(self) -> dict[str, Any]:

@@ -9,7 +9,7 @@ from graphkin.checking.audit import COMPUTED_SHARE, Judged, Value, comparable, d
 from graphkin.checking.printed import Printed
 from graphkin.plane import unit
 from graphkin.scene.symbol import Symbol
-from graphkin.solver import Motion
+from graphkin.solver import Motion, value_of
 
 __all__ = ["Exact", "exact_rows", "judged_by_digits"]
 
@@ -23,7 +23,7 @@ def exact_rows(motion: Motion, symbols: Sequence[Symbol], of_turn: Mapping[Symbo
     ----------
     of_turn : the quantities of the whole turn, which are the same at all positions
     """
-    columns = {s: motion.value(s).tolist() for s in symbols if s not in of_turn}
+    columns = {s: value_of(motion, s).tolist() for s in symbols if s not in of_turn}
 
     def exact(row: int, printed: Printed) -> Value:
         symbol = printed.symbol
@@ -39,7 +39,8 @@ def exact_rows(motion: Motion, symbols: Sequence[Symbol], of_turn: Mapping[Symbo
 def _line(motion: Motion, symbol: Symbol, row: int) -> complex | None:
     """Unit vector of the positive sense of a vector that lies along a guide, None where nothing gives it one."""
     of, to, frame = symbol.of, symbol.to, motion.scene.frame.name
-    assert of is not None
+    if of is None:
+        return None
     for slide in motion.slides:
         mine = motion.structure.links[slide.a].points if slide.a in motion.structure.links else {}
         if to is None:

@@ -10,11 +10,13 @@ from collections.abc import Mapping
 
 from graphkin.errors import Problem, SceneError, did_you_mean
 from graphkin.scene.drawn_position import DrawnPosition, find_position, travel_of
+from graphkin.scene.force_names import no_force
 from graphkin.scene.loads import Loading, loading_of
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedGuide, PlacedLink, SlideDriver
 from graphkin.scene.names import Flaws, Names
 from graphkin.scene.pairs import DriverEntry, drives, islands, pins_in_slots, sliding_pairs
 from graphkin.scene.placing import Placement, place_polar
+from graphkin.scene.reading import path_name
 from graphkin.scene.rules import (
     disagreements,
     not_held,
@@ -115,7 +117,7 @@ def resolve(file: SceneTables, name: str, problems: list[Problem], flaws: Flaws)
     links = tuple(_link(n, t, bodies[n]) for n, t in file.links.items())
     frame = PlacedLink(names.frame, fixed, (), _guides(bodies[names.frame]))
     title = file.title or name
-    return Mechanism(
+    made = Mechanism(
         name,
         title,
         frame,
@@ -136,6 +138,17 @@ def resolve(file: SceneTables, name: str, problems: list[Problem], flaws: Flaws)
         positions,
         loops,
     )
+    _ask_for_forces(made)
+    return made
+
+
+def _ask_for_forces(made: Mechanism) -> None:
+    """Raises SceneError for symbols of forces that the mechanism does not have."""
+    asked = [("find", made.find), *(("printed", tuple(own.values)) for own in made.stated)]
+    wrong = (no_force(made, path_name((table, str(symbol))), symbol) for table, symbols in asked for symbol in symbols)
+    problems = [problem for problem in wrong if problem is not None]
+    if problems:
+        raise SceneError(*dict.fromkeys(problems))
 
 
 def _bodies(

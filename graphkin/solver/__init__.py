@@ -1,13 +1,13 @@
 """The analytic solver: dyads in closed form, higher groups by Newton, whole sweeps as arrays."""
 
 from graphkin.solver.driver_range import DriverRange, driver_range
+from graphkin.solver.exact_values import exact_values, value_of
 from graphkin.solver.findings import structure_of
 from graphkin.solver.forces import Forces, forces_of
 from graphkin.solver.motion import Motion, Sliding
 from graphkin.solver.prepared import PreparedMechanism, prepare
 from graphkin.solver.solve import solve
 from graphkin.solver.table import json_text, listed_points, to_json
-from graphkin.solver.whole_turn import exact_values
 
 __all__ = [
     "DriverRange",
@@ -24,4 +24,5 @@ __all__ = [
     "solve",
     "structure_of",
     "to_json",
+    "value_of",
 ]

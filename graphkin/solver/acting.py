@@ -141,8 +141,7 @@ class _Loads:
         return np.asarray(since < span), np.asarray(near)
 
     def _on_stroke(self, phase: Phase) -> tuple[Array, Array]:
-        turn = extremes(self._reach, Symbol.parse(f"stroke_{phase.stroke}"))
-        low, high = turn.low, turn.high
+        low, high = _stroke(self._reach, phase.stroke)
         travel = self.motion.slide(phase.stroke).travel
         speed = self._growing.slide(phase.stroke).velocity
         part = (travel - low) / (high - low) if high > low else np.zeros(len(self.motion))
@@ -155,3 +154,18 @@ class _Loads:
             turns = edge < EDGE or edge > 1.0 - EDGE
             near |= (np.abs(part - edge) < EDGE) & (running | turns)
         return np.asarray(running & (phase.start < part) & (part < phase.end)), np.asarray(near)
+
+
+_LATEST: list[tuple[DriverRange, dict[str, tuple[float, float]]]] = []
+"""The strokes of the range that was asked last: they are the same at all of its positions."""
+
+
+def _stroke(reach: DriverRange, pair: str) -> tuple[float, float]:
+    """Least and greatest travel of a sliding pair (m)."""
+    if not _LATEST or _LATEST[0][0] is not reach:
+        _LATEST[:] = [(reach, {})]
+    known = _LATEST[0][1]
+    if pair not in known:
+        turn = extremes(reach, Symbol.parse(f"stroke_{pair}"))
+        known[pair] = turn.low, turn.high
+    return known[pair]

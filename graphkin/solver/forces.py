@@ -15,6 +15,7 @@ from functools import cached_property
 import numpy as np
 
 from graphkin.plane import cross
+from graphkin.scene.force_names import opposite
 from graphkin.solver.acting import EDGE, Action, actions
 from graphkin.solver.linear_blocks import LinearBlocks
 from graphkin.solver.motion import Motion
@@ -66,16 +67,15 @@ class Forces:
         return np.sum(own, axis=0), np.max(np.abs(own), axis=0)
 
     def value(self, key: str) -> Array | None:
-        """A force or a moment by its symbol, ``F_6/5`` being the opposite of ``F_5/6``; None for one that there is
-        not."""
-        both = {**self.forces, **self.moments}
-        if key in both:
-            return both[key]
-        letter, _, rest = key.partition("_")
-        pair, at, point = rest.partition("@")
-        first, _, second = pair.partition("/")
-        other = both.get(f"{letter}_{second}/{first}{at}{point}")
-        return None if other is None else np.asarray(-other)
+        """A force or a moment by its symbol, ``F_6/5`` being the opposite of ``F_5/6``, ``F_5/6+`` with the loads that
+        begin or end exactly at a position; None for one that there is not."""
+        name, plus = key.removesuffix("+"), key.endswith("+")
+        for known, sign in ((name, 1.0), (opposite(name), -1.0)):
+            own = self.moments.get(known, self.forces.get(known))
+            if own is not None:
+                jumped = self.beside.get(known) if plus else None
+                return np.asarray(sign * (own if jumped is None else np.where(np.isnan(jumped), own, jumped)))
+        return None
 
 
 def forces_of(motion: Motion) -> Forces:
@@ -85,7 +85,13 @@ def forces_of(motion: Motion) -> Forces:
     ------
     Unsolvable : a load acts on a part of a stroke, and the driver makes no whole turn
     """
-    return _cut_free(motion).solved()
+    if not _LATEST or _LATEST[0].motion is not motion:
+        _LATEST[:] = [_cut_free(motion).solved()]
+    return _LATEST[0]
+
+
+_LATEST: list[Forces] = []
+"""What was found last: all forces of a motion are found together, and asked for one by one."""
 
 
 def _cut_free(motion: Motion) -> _Statics:

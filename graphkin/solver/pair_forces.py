@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
+from graphkin.scene.force_names import Joint, joints
 from graphkin.scene.loads import BalanceAt
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.solver.motion import Motion
@@ -33,17 +33,11 @@ class PairForce:
 
 
 def pair_forces(motion: Motion) -> list[PairForce]:
-    """The forces and couples in the pairs of a motion, two for a turning pair (its components)."""
+    """The forces and couples in the pairs of a motion: of a turning pair the two components of its force, of a sliding
+    pair a force square to the guide at the sliding link's first point and a couple, of a pin in a slot a force square
+    to the slot."""
     pairs = _Pairs(motion)
-    joints = [*pairs.turning(), *pairs.sliding(), *pairs.slots()]
-    shared = Counter(frozenset((one.first, one.second)) for group in joints for one in group[:1])
-    named: list[PairForce] = []
-    for group in joints:
-        several = shared[frozenset((group[0].first, group[0].second))] > 1
-        for one in group:
-            pair, _, point = one.key.partition("@")
-            named.append(one if several and point else replace(one, key=pair))
-    return named
+    return [one for joint in joints(motion.scene) for one in pairs.of_joint(joint)]
 
 
 def balances(motion: Motion) -> list[PairForce]:
@@ -71,42 +65,21 @@ class _Pairs:
         pose = self.motion.poses[link]
         return np.asarray(pose.z + pose.u * at)
 
-    def turning(self) -> list[list[PairForce]]:
-        """Turning pairs: at each point the first link that has it with each later one."""
-        found = []
-        here = {self.scene.frame.name, *(link.name for link in self.scene.links if not link.redundant)}
-        for point, holders in self.scene.holders.items():
-            links = [name for name in holders if name in here]
-            if len(links) < 2:
-                continue
-            first, at = links[0], np.asarray(self.motion.point(point).z)
-            for second in links[1:]:
-                key = f"F_{first}/{second}@{point}"
-                found.append([PairForce(key, first, second, way, at) for way in (1 + 0j, 1j)])
-        return found
-
-    def sliding(self) -> list[list[PairForce]]:
-        """Sliding pairs: a force square to the guide at the sliding link's first point, and a couple."""
-        found = []
-        for slide in self.structure.slides:
-            if slide.slot:
-                continue
-            at = self.place(slide.a, self._foot(slide))
-            tail = f"{slide.b}/{slide.a}@{slide.pin or ''}"
-            found.append([
-                PairForce(f"F_{tail}", slide.b, slide.a, self._square(slide), at),
-                PairForce(f"M_{tail}", slide.b, slide.a, None, at),
-            ])
-        return found
-
-    def slots(self) -> list[list[PairForce]]:
-        """Pins in slots: a force square to the slot at the pin."""
-        found = []
-        for pin in self.scene.pins:
-            slide = self.structure.slide(pin.key)
-            at = np.asarray(self.motion.point(pin.point, pin.of).z)
-            found.append([PairForce(f"F_{pin.on}/{pin.of}@{pin.point}", pin.on, pin.of, self._square(slide), at)])
-        return found
+    def of_joint(self, joint: Joint) -> list[PairForce]:
+        name, first, second = f"F_{joint.name}", joint.first, joint.second
+        if joint.kind == "turning":
+            at = np.asarray(self.motion.point(joint.point).z)
+            return [PairForce(name, first, second, way, at) for way in (1 + 0j, 1j)]
+        if joint.kind == "slot":
+            at = np.asarray(self.motion.point(joint.point, second).z)
+            slide = self.structure.slide(f"{joint.point}/{first}")
+            return [PairForce(name, first, second, self._square(slide), at)]
+        slide = self.structure.slide(f"{second}/{first}")
+        at = self.place(slide.a, self._foot(slide))
+        return [
+            PairForce(name, first, second, self._square(slide), at),
+            PairForce(f"M_{joint.name}", first, second, None, at),
+        ]
 
     def balances(self) -> list[PairForce]:
         if self.scene.loading.balance is not None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Hashable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 
 import numpy as np
@@ -19,6 +19,7 @@ from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import SINGULAR, positions
 from graphkin.solver.expressions import Name, Real
 from graphkin.solver.findings import singular, structure_of
+from graphkin.solver.force_columns import force_heads, force_rows
 from graphkin.solver.joints import Drive, turned
 from graphkin.solver.pose import FIELDS, Array
 from graphkin.solver.program import GIVEN, DimensionedProgram, program_of
@@ -45,6 +46,8 @@ class PreparedMechanism:
     wanted : what was asked for by name
     units : what one metre and one radian are in the units of the columns
     bounded : whether bounds were asked for
+    loads : forces and moments that were asked for, by name: the last of the names, solved position by position as they
+        have no closed form, some hundred times slower
     """
 
     names: tuple[str, ...]
@@ -54,6 +57,12 @@ class PreparedMechanism:
     wanted: tuple[str, ...]
     units: Units = (1.0, 1.0)
     bounded: bool = False
+    loads: tuple[str, ...] = ()
+
+    @property
+    def rows(self) -> int:
+        """Of the array of columns: bounds stand last."""
+        return len(self.names) + (len(self.wanted) + len(self.loads)) * self.bounded
 
     @cached_property
     def by_newton(self) -> bool:
@@ -155,12 +164,12 @@ class PreparedMechanism:
     def at(self, value: float) -> tuple[float, ...] | None:
         """The asked quantities at one value of the first driver, in plain floats; None where there is no such position
         or it is a dead point."""
-        return self._one(value)
+        return self._by_columns(value) if self.loads else self._one(value)
 
     @cached_property
     def _one(self) -> Callable[[float], tuple[float, ...] | None]:
         if self.by_newton:
-            return self._one_by_newton
+            return self._by_columns
         code = Code(self.dimensioned.program.graph, (*self.asked, *self._sines), self.fixed)
         function, params, names, count = code.floats, self.given(code), code.inputs, len(self.asked)
         everywhere, steady, turns = self.whole, self.signs is not None, self.turns
@@ -194,7 +203,7 @@ class PreparedMechanism:
 
         return one
 
-    def _one_by_newton(self, value: float) -> tuple[float, ...] | None:
+    def _by_columns(self, value: float) -> tuple[float, ...] | None:
         columns, ok = self.columns(np.array([value]))
         return tuple(columns[:, 0].tolist()) if ok[0] else None
 
@@ -247,7 +256,7 @@ class PreparedMechanism:
     @cached_property
     def clear(self) -> bool:
         """Whether there is nothing to be looked at: a whole turn of one assembly, far from every dead point."""
-        return self.whole and self._even and self.signs is not None
+        return self.whole and self._even and self.signs is not None and not self.loads
 
     def columns(self, values: Array, out: Array | None = None, fast: bool = False) -> tuple[Array, Array]:
         """The asked quantities at many values of the first driver.
@@ -269,17 +278,32 @@ class PreparedMechanism:
         CallError : ``fast`` without numba
         """
         values = np.asarray(values, dtype=float)
-        out = np.empty((len(self.asked), len(values))) if out is None else out
+        out = np.empty((self.rows, len(values))) if out is None else out
         return out, self._all(GivenValues(values), out, fast)
 
     def _all(self, way: GivenValues | UniformGrid, out: Array, fast: bool) -> Array:
         n = len(way)
+        if self.loads:
+            return self._with_loads(way, out)
         if fast and not self.by_newton:
             return self._compiled(way, out)
         if n <= CHUNK:
             return self._arrays(way, out)
         parts = [slice(k, min(k + CHUNK, n)) for k in range(0, n, CHUNK)]
         return np.concatenate([self._arrays(way[p], out[:, p]) for p in parts])
+
+    def _with_loads(self, way: GivenValues | UniformGrid, out: Array) -> Array:
+        """What the formulas give, and below it forces and moments; at last the bounds of both."""
+        found, ok = np.empty((len(self.asked), len(way))), _every(len(way))
+        if self.asked:
+            ok = replace(self, loads=())._all(way, found, False)
+        rows, bounds, solved = force_rows(self.range, self.loads, way.values, self.bounded)
+        count = len(self.names) - len(rows)
+        for row, value in zip(out, [*found[:count], *rows, *found[count:], *bounds], strict=False):
+            row[:] = value
+        ok = ok & solved & self._reached(way.values)
+        out[:, ~ok] = 0.0
+        return ok
 
     def _compiled(self, way: GivenValues | UniformGrid, out: Array) -> Array:
         n = len(way)
@@ -339,7 +363,7 @@ class PreparedMechanism:
 
     def sweep(self, n: int, out: Array | None = None, fast: bool = False) -> tuple[Array, Array]:
         """``columns`` at n positions of the whole range."""
-        out = np.empty((len(self.asked), n)) if out is None else out
+        out = np.empty((self.rows, n)) if out is None else out
         if fast and n < LONG and self.clear:
             # nothing but the call: at some hundred positions each line here would be felt
             self._on_grid.run(0, n, self._numbers, n, 0, out)
@@ -376,9 +400,11 @@ def prepare(
     Unsolvable, SceneError : as for ``solve``
     """
     structure = structure_of(scene)
+    loads = tuple(name for name in asked if force_heads(structure.scene, name))
+    asked = [name for name in asked if name not in loads]
     dimensioned = program_of(structure, tuple(d.values[2] != 0 for d in structure.scene.drivers))
     found = formulas(dimensioned.program, structure, asked, units)
-    names = tuple(found)
+    names = (*found, *(column for name in loads for column in force_heads(structure.scene, name)))
     formed = [*found.values(), *(bounds(dimensioned.program, structure, asked, units).values() if bounded else ())]
     along = along or driver_range(structure)
-    return PreparedMechanism(names, along, tuple(formed), dimensioned, tuple(asked), units, bounded)
+    return PreparedMechanism(names, along, tuple(formed), dimensioned, tuple(asked), units, bounded, loads)

@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import Symbol
-from graphkin.solver.driver_range import DriverRange, driver_range
-from graphkin.solver.motion import Motion
+from graphkin.solver.driver_range import DriverRange
 from graphkin.solver.pose import Array
-from graphkin.solver.solve import solve
 from graphkin.structure.transmitting import sliding_pair
 
-__all__ = ["Extremes", "exact_values", "extremes", "where_true"]
+__all__ = ["Extremes", "extremes", "where_true"]
 
 Course = Callable[[Array], tuple[Array, Array, Array]]
 
@@ -148,39 +146,3 @@ def _best(
     most = max(sign * value for _, value in found)
     equal = [one for one in found if sign * one[1] > most - EQUAL * float(np.ptp(values))]
     return min(equal, key=lambda one: (angle(one[0]) + EQUAL) % math.tau)
-
-
-Value = complex | float
-
-
-def exact_values(motion: Motion, asked: Sequence[Symbol] = ()) -> Callable[[Symbol], Value]:
-    """What gives the exact value of a symbol at the one position of a motion (SI), those of the whole turn among the
-    asked too.  Raises Unsolvable where there is no whole turn."""
-    scene = motion.scene
-    values = {d.key: float(v) for d, v in zip(scene.drivers, motion.values[0], strict=True)}
-    of_turn: Mapping[Symbol, float] = {}
-    if any(s.scope == "turn" for s in asked):
-        reach = driver_range(motion.structure, values)
-        of_turn = {s: _of_turn(reach, s) for s in asked if s.scope == "turn"}
-
-    def value(symbol: Symbol) -> Value:
-        if symbol in of_turn:
-            return of_turn[symbol]
-        found = motion.value(symbol)[0]
-        if symbol.kind == "d" and math.isnan(found):  # the centre of links at rest: that of any motion
-            found = _in_motion(motion, values).value(symbol)[0]
-        return complex(found) if symbol.is_vector else float(found.real)
-
-    return value
-
-
-def _of_turn(reach: DriverRange, symbol: Symbol) -> float:
-    found = extremes(reach, symbol)
-    return {"K": found.ratio, "theta_lag": found.lag}.get(symbol.kind, found.stroke)
-
-
-def _in_motion(motion: Motion, values: Mapping[str, float]) -> Motion:
-    """The same position with the first driver at unit speed."""
-    scene, first = motion.scene, motion.scene.drivers[0]
-    faster = replace(first, **{"omega" if isinstance(first, AngleDriver) else "velocity": 1.0})  # type: ignore[arg-type]
-    return solve(replace(scene, drivers=(faster, *scene.drivers[1:])), at=values)

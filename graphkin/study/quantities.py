@@ -9,15 +9,16 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from graphkin.scene.force_names import force_names, opposite
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
-from graphkin.solver import DriverRange, Motion
+from graphkin.solver import DriverRange, Motion, forces_of
 
-__all__ = ["Quantity", "link_quantities", "slide_quantities", "symbol_quantity"]
+__all__ = ["Quantity", "force_quantity", "link_quantities", "slide_quantities", "symbol_quantity"]
 
 Array = NDArray[Any]
-Kind = Literal["theta", "omega", "alpha", "s", "v", "a", "symbol"]
-Measure = Literal["angle", "length", "angular rate", "speed", "angular acceleration", "acceleration"]
+Kind = Literal["theta", "omega", "alpha", "s", "v", "a", "force", "moment", "symbol"]
+Measure = Literal["angle", "length", "angular rate", "speed", "angular acceleration", "acceleration", "force", "moment"]
 
 _MEASURES: dict[str, Measure] = {
     "theta": "angle",
@@ -26,6 +27,8 @@ _MEASURES: dict[str, Measure] = {
     "s": "length",
     "v": "speed",
     "a": "acceleration",
+    "force": "force",
+    "moment": "moment",
 }
 _OF_SYMBOLS: dict[str, Measure] = {
     "velocity": "speed",
@@ -40,7 +43,8 @@ _OF_SYMBOLS: dict[str, Measure] = {
 @dataclass(frozen=True)
 class Quantity:
     """One number that changes over the turn: ``theta_3`` (angle of a link), ``s_6/1`` (travel of a sliding pair), their
-    rates ``omega_3``, ``alpha_3``, ``v_6/1``, ``a_6/1``, or a symbol of ``find`` (a vector by its size)."""
+    rates ``omega_3``, ``alpha_3``, ``v_6/1``, ``a_6/1``, a force (by its size) or a moment by its name, or another
+    symbol of ``find`` (a vector by its size)."""
 
     kind: Kind
     of: str
@@ -48,6 +52,8 @@ class Quantity:
 
     @property
     def name(self) -> str:
+        if self.is_load:
+            return self.of
         return str(self.symbol) if self.symbol else f"{self.kind}_{self.of}"
 
     @property
@@ -68,9 +74,14 @@ class Quantity:
         return self.measure in ("speed", "angular rate")
 
     @property
+    def is_load(self) -> bool:
+        """Whether it is a force or a moment."""
+        return self.kind in ("force", "moment")
+
+    @property
     def is_size(self) -> bool:
         """Whether it is the size of a vector."""
-        return self.symbol is not None and self.symbol.is_vector
+        return self.kind == "force" or (self.symbol is not None and self.symbol.is_vector)
 
     def unit(self, scene: Mechanism, degrees: bool = False) -> str:
         """The unit of ``in_units``."""
@@ -82,12 +93,16 @@ class Quantity:
             "speed": f"{length}/s",
             "angular acceleration": "rad/s2",
             "acceleration": f"{length}/s2",
+            "force": scene.units.force,
+            "moment": f"{scene.units.force} m",
         }[self.measure]
 
     def in_units(self, scene: Mechanism, value: float, degrees: bool = False) -> float:
         """A value in the scene's length unit, seconds, radians (or degrees)."""
         if self.measure == "angle":
             return math.degrees(value) if degrees else value
+        if self.is_load:
+            return value / scene.units.newtons
         return value if self.measure.startswith("angular") else value / scene.units.metres
 
     def values(self, reach: DriverRange | None, motion: Motion) -> Array:
@@ -97,6 +112,10 @@ class Quantity:
                 return reach.angle(motion, self.symbol.link) - reach.angle(motion, self.symbol.other)
             found = motion.value(self.symbol)
             return np.abs(found) if self.is_size else np.asarray(found.real)
+        if self.is_load:
+            load = forces_of(motion).value(self.of)
+            assert load is not None
+            return np.abs(load) if self.is_size else load
         if self.kind == "theta":
             return motion.angle(self.of) if reach is None else reach.angle(motion, self.of)
         if self.kind == "omega":
@@ -123,6 +142,8 @@ class Quantity:
 
     def _bound(self, motion: Motion) -> Array:
         """How far rounding may have moved it; 0 where that is not known."""
+        if self.is_load:
+            return np.nan_to_num(forces_of(motion).bound[self.kind == "moment"])
         bound = {
             "angle": motion.bound.angle,
             "length": motion.bound.position,
@@ -150,6 +171,13 @@ def link_quantities(link: str) -> tuple[Quantity, Quantity, Quantity]:
 def slide_quantities(key: str) -> tuple[Quantity, Quantity, Quantity]:
     """Travel, velocity and acceleration of a sliding pair."""
     return Quantity("s", key), Quantity("v", key), Quantity("a", key)
+
+
+def force_quantity(scene: Mechanism, name: str) -> Quantity | None:
+    """A force or a moment of a scene by its name, ``F_6/5`` and ``F_5/6+`` among them; None for what is none."""
+    known, plain = force_names(scene), name.removesuffix("+")
+    kind = known.get(plain) or known.get(opposite(plain))
+    return None if kind is None else Quantity(kind, name)
 
 
 def symbol_quantity(symbol: Symbol) -> Quantity:

@@ -13,14 +13,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.errors import CallError
+from graphkin.scene.force_names import force_names
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.solver import DriverRange, Motion, driver_range, listed_points, prepare, structure_of
+from graphkin.solver import DriverRange, Motion, driver_range, forces_of, listed_points, prepare, structure_of
 from graphkin.solver.named_positions import named_positions
 from graphkin.solver.prepared import PreparedMechanism
 from graphkin.solver.redundant import all_slides
 from graphkin.structure import Cluster, Structure
-from graphkin.study.quantities import Quantity, link_quantities, slide_quantities, symbol_quantity
+from graphkin.study.quantities import Quantity, force_quantity, link_quantities, slide_quantities, symbol_quantity
 from graphkin.table import Column, Table, have
 
 __all__ = [
@@ -64,7 +65,7 @@ class Watched:
 
     @property
     def is_vector(self) -> bool:
-        return isinstance(self.what, PointRef) or (self.what.symbol is not None and self.what.symbol.is_vector)
+        return isinstance(self.what, PointRef) or self.what.is_size
 
     @property
     def can_be_prepared(self) -> bool:
@@ -80,6 +81,11 @@ class Watched:
         metres = motion.scene.units.metres
         if isinstance(self.what, PointRef):
             vector = motion.position(self.what.point, self.what.link)
+        elif self.what.is_load:
+            found = forces_of(motion).value(self.what.of)
+            assert found is not None
+            found = found / motion.scene.units.newtons
+            return (found.real, found.imag) if self.is_vector else (found,)
         elif self.what.symbol is not None:
             vector = motion.value(self.what.symbol)
             if not self.what.symbol.is_vector:
@@ -109,8 +115,12 @@ def watched_symbol(symbol: Symbol) -> Watched:
 
 def watched_named(scene: Mechanism, name: str) -> Watched | None:
     """What a name shows that is no symbol of ``find``: the place of a point ("C", "B@3"), the angle of a link
-    ("theta_3"), travel, velocity and acceleration of a sliding pair ("s_3/4", "v_3/4", "a_3/4"); None for others."""
+    ("theta_3"), travel, velocity and acceleration of a sliding pair ("s_3/4", "v_3/4", "a_3/4"), a force or a moment
+    ("F_5/6", "M_2"); None for others."""
     kind, mark, rest = name.partition("_")
+    force = force_quantity(scene, name)
+    if force is not None:
+        return Watched(force, force.is_size)
     if not mark:
         point, _, link = name.partition("@")
         known = point in scene.holders and (not link or link in scene.by_name)
@@ -135,6 +145,7 @@ def everything(structure: Structure) -> tuple[Watched, ...]:
         found += [Watched(ref)] if not ref.link else []
         found += [Watched(symbol_quantity(Symbol(kind, ref))) for kind in ("v", "a")]
     found += [Watched(q) for slide in slides for q in slide_quantities(slide.key)]
+    found += [Watched(Quantity(kind, name)) for name, kind in force_names(scene).items()]
     return tuple(found)
 
 

@@ -1,0 +1,102 @@
+"""Which joints carry forces in a mechanism, and which forces and moments it has, by name."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Literal
+
+from graphkin.errors import Problem, did_you_mean
+from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.symbol import Symbol
+
+__all__ = ["Joint", "force_names", "joints", "no_force", "opposite"]
+
+
+@dataclass(frozen=True)
+class Joint:
+    """A joint, with a force of link ``first`` on link ``second``: a turning pair or a pin in a slot at ``point``, or a
+    sliding pair (``point`` is the sliding link's first point, or empty).  ``second`` slides, or has the pin.
+
+    name : ``5/6``, or ``5/6@C`` where the two share several joints
+    """
+
+    kind: Literal["turning", "sliding", "slot"]
+    first: str
+    second: str
+    point: str
+    name: str = ""
+
+
+def joints(mechanism: Mechanism) -> tuple[Joint, ...]:
+    """All joints: at each point the first link that has it, the frame if it does, with each later one; then sliding
+    pairs, guiding link first, and pins in slots.  Redundant links carry nothing."""
+    here = {mechanism.frame.name, *(link.name for link in mechanism.links if not link.redundant)}
+    found: list[Joint] = []
+    for point, holders in mechanism.holders.items():
+        first, *later = [name for name in holders if name in here] or [""]
+        found += [Joint("turning", first, second, point) for second in later]
+    found += [Joint("sliding", s.on, s.link, s.pin or "") for s in mechanism.slidings if {s.on, s.link} <= here]
+    found += [Joint("slot", p.on, p.of, p.point) for p in mechanism.pins if {p.on, p.of} <= here]
+    shared = Counter(frozenset((joint.first, joint.second)) for joint in found)
+    several = [shared[frozenset((joint.first, joint.second))] > 1 and joint.point != "" for joint in found]
+    return tuple(
+        replace(joint, name=f"{joint.first}/{joint.second}" + (f"@{joint.point}" if more else ""))
+        for joint, more in zip(found, several, strict=True)
+    )
+
+
+def force_names(mechanism: Mechanism) -> Mapping[str, Literal["force", "moment"]]:
+    """Every force and moment of a mechanism that has masses or loads, in the order in which they are told."""
+    loading, made = mechanism.loading, dict[str, Literal["force", "moment"]]()
+    if not loading:
+        return made
+    for mass in loading.masses:
+        made |= {f"Fi_{mass.link}": "force", f"Mi_{mass.link}": "moment"}
+        if loading.gravity:
+            made[f"G_{mass.link}"] = "force"
+    for load in loading.loads:
+        made[f"P_{load.name}"] = "force" if load.is_force else "moment"
+    for joint in joints(mechanism):
+        made[f"F_{joint.name}"] = "force"
+        if joint.kind == "sliding":
+            made[f"M_{joint.name}"] = "moment"
+    if loading.balance is not None:
+        return made | {_balance(loading.balance.kind == "moment", loading.balance.link): loading.balance.kind}
+    for driver in mechanism.drivers:
+        if isinstance(driver, AngleDriver):
+            made[_balance(True, driver.link)] = "moment"
+        else:
+            pin = next((p.of for p in mechanism.pins if p.key == driver.key), driver.key.split("/")[0])
+            made[_balance(False, pin)] = "force"
+    return made
+
+
+def _balance(moment: bool, link: str) -> str:
+    return f"{'M' if moment else 'F'}_{link}"
+
+
+def opposite(name: str) -> str:
+    """The name of the force or couple of the second link on the first, ``F_6/5@C`` for ``F_5/6@C``; others as they are.
+
+    >>> opposite("F_6/5@C"), opposite("M_2")
+    ('F_5/6@C', 'M_2')
+    """
+    letter, _, rest = name.partition("_")
+    pair, at, point = rest.partition("@")
+    first, between, second = pair.partition("/")
+    return f"{letter}_{second}/{first}{at}{point}" if between else name
+
+
+def no_force(mechanism: Mechanism, where: str, symbol: Symbol) -> Problem | None:
+    """What is wrong with a symbol of a force that the mechanism does not have; None for one that it has."""
+    if symbol.scope != "force" or symbol.kind in ("h", "arm"):
+        return None
+    known = force_names(mechanism)
+    if not known:
+        return Problem(where, f"{symbol} is a force, but nothing makes any", "give [masses.LINK] or [loads.NAME]")
+    name = str(replace(symbol, at="", plus=False))
+    if name in known or opposite(name) in known:
+        return None
+    return Problem(where, f"there is no {symbol} here", did_you_mean(name, known))

@@ -1,0 +1,75 @@
+"""Exact values by symbol at one position: of the motion, of the whole turn, and forces."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+
+from graphkin.errors import CallError, Problem
+from graphkin.scene.force_names import no_force
+from graphkin.scene.model import AngleDriver
+from graphkin.scene.symbol import Symbol
+from graphkin.solver.driver_range import DriverRange, driver_range
+from graphkin.solver.forces import forces_of
+from graphkin.solver.motion import Motion
+from graphkin.solver.pose import Array
+from graphkin.solver.solve import solve
+from graphkin.solver.whole_turn import extremes
+
+__all__ = ["exact_values", "value_of"]
+
+
+def value_of(motion: Motion, symbol: Symbol) -> Array:
+    """A quantity of the motion or a force by its symbol: complex for vectors, real for others (SI), shape (n,).
+
+    Raises
+    ------
+    CallError : the symbol names nothing here
+    Unsolvable : a load acts on a part of a stroke, and the driver makes no whole turn
+    """
+    if symbol.scope != "force":
+        return motion.value(symbol)
+    problem = no_force(motion.scene, str(symbol), symbol)
+    if problem is not None:
+        raise CallError(problem)
+    found = forces_of(motion).value(str(symbol.here))
+    if found is None:
+        raise CallError(Problem(str(symbol), "is read off the drawing alone", "ask `check` for it"))
+    return found
+
+
+Value = complex | float
+
+
+def exact_values(motion: Motion, asked: Sequence[Symbol] = ()) -> Callable[[Symbol], Value]:
+    """What gives the exact value of a symbol at the one position of a motion (SI), those of the whole turn among the
+    asked too.  Raises Unsolvable where there is no whole turn."""
+    scene = motion.scene
+    values = {d.key: float(v) for d, v in zip(scene.drivers, motion.values[0], strict=True)}
+    of_turn: Mapping[Symbol, float] = {}
+    if any(s.scope == "turn" for s in asked):
+        reach = driver_range(motion.structure, values)
+        of_turn = {s: _of_turn(reach, s) for s in asked if s.scope == "turn"}
+
+    def value(symbol: Symbol) -> Value:
+        if symbol in of_turn:
+            return of_turn[symbol]
+        found = value_of(motion, symbol)[0]
+        if symbol.kind == "d" and math.isnan(found):  # the centre of links at rest: that of any motion
+            found = _in_motion(motion, values).value(symbol)[0]
+        return complex(found) if symbol.is_vector else float(found.real)
+
+    return value
+
+
+def _of_turn(reach: DriverRange, symbol: Symbol) -> float:
+    found = extremes(reach, symbol)
+    return {"K": found.ratio, "theta_lag": found.lag}.get(symbol.kind, found.stroke)
+
+
+def _in_motion(motion: Motion, values: Mapping[str, float]) -> Motion:
+    """The same position with the first driver at unit speed."""
+    scene, first = motion.scene, motion.scene.drivers[0]
+    faster = replace(first, **{"omega" if isinstance(first, AngleDriver) else "velocity": 1.0})  # type: ignore[arg-type]
+    return solve(replace(scene, drivers=(faster, *scene.drivers[1:])), at=values)

@@ -1,0 +1,98 @@
+"""Forces and moments are asked for by name like every other quantity: of solve, sweep, prepare, judged tables."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import graphkin
+
+SHAPER = Path(__file__).parent.parent / "validation" / "forces" / "shaper-scheme-2.toml"
+R34, BALANCE = 12766.4256127, -539.785613917  # public values at position 7
+POSITIONS = {"4": 104.90059668782988, "10": -75.09940331217012}
+
+
+def shaper(**tables):
+    return {**graphkin.read(SHAPER).to_dict(), **tables}
+
+
+def test_a_force_is_told_from_either_of_its_links():
+    solved = graphkin.solve(SHAPER, find=["F_4/3", "F_3/4"])
+    assert R34 == pytest.approx(abs(solved["F_4/3"][0]), rel=1e-10)
+    assert solved["F_4/3"][0] == -solved["F_3/4"][0]
+
+
+def test_a_sweep_shows_forces_with_their_units():
+    turn = graphkin.sweep(SHAPER, positions=4, find=["M_2", "F_4/3", "v_C"])
+    assert BALANCE == pytest.approx(turn["M_2"][0], rel=1e-10)
+    assert R34 == pytest.approx(abs(turn["F_4/3"][0]), rel=1e-10)
+    assert {"M_2 (N m)", "F_4/3 (N)", "F_4/3.x (N)", "F_4/3.y (N)"} <= set(turn.table.heads)
+
+
+def test_a_sweep_without_wishes_shows_the_forces_too():
+    turn = graphkin.sweep(shaper(find=[]), positions=3)
+    assert BALANCE == pytest.approx(turn.table["M_2"][0], rel=1e-10)
+
+
+def test_prepared_forces_are_those_of_solve():
+    ready = graphkin.prepare(SHAPER, ["F_4/3", "v_C", "M_2"], bounds=True)
+    assert ("v_C.x", "v_C.y", "F_4/3.x", "F_4/3.y", "M_2") == ready.names
+    assert {"v_C": "mm/s", "F_4/3": "N", "M_2": "N m"} == ready.units
+    turn, solved = ready.sweep(24), graphkin.solve(SHAPER, sweep=24)
+    for name in ("F_4/3", "v_C", "M_2"):
+        assert (np.abs(turn[name] - solved[name]) <= 2 * turn.bound(name) + 1e-12).all()
+    assert BALANCE == pytest.approx(ready.at(14.900596687829875)[-1], rel=1e-10)
+    with pytest.raises(graphkin.CallError, match="not given over designs"):
+        ready.over({"links.2.length": [80, 90]})
+
+
+def test_prepared_forces_alone_are_given_where_the_motion_comes_and_where_not():
+    ready = graphkin.prepare(shaper(balance={"on": "4"}), "M_4")
+    turn = ready.sweep(12)
+    assert np.isfinite(turn["M_4"]).sum() >= 10
+    assert ready.at(194.90059668782988) is None
+
+
+def test_tables_of_forces_over_a_turn_are_judged():
+    rows = [{"at": POSITIONS["4"], "M_2": -1059.8, "F_4/3": 12033, "by": "computation"},
+            {"at": POSITIONS["10"], "M_2": -88.70, "F_4/3": 1408.4, "by": "computation"}]  # fmt: skip
+    judged = graphkin.audit(shaper(printed_rows=rows)).data
+    verdicts = [value["verdict"] for value in judged["values"]]
+    assert ["right", "right", "right", "wrong"] == verdicts
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("F_6/2", 'did you mean "F_1/2"'),
+        ("P_Q", 'did you mean "P_P"'),
+        ("G_2", "there is no G_2 here"),
+        ("M_5/6", "there is no M_5/6 here"),
+        ("Fi_9", 'there is no link "9"'),
+    ],
+)
+def test_forces_that_there_are_not_are_refused_by_name(name, said):
+    for call in (graphkin.solve, graphkin.sweep, graphkin.check):
+        with pytest.raises(graphkin.CallError, match=said):
+            call(SHAPER, find=[name])
+    with pytest.raises(graphkin.SceneError, match=said):
+        graphkin.read(shaper(find=[name]))
+
+
+def test_where_nothing_makes_forces_that_is_said():
+    with pytest.raises(graphkin.CallError, match=r"give \[masses.LINK\] or \[loads.NAME\]"):
+        graphkin.solve("shaper-scheme-2", find="F_5/6")
+
+
+def test_both_values_of_a_load_that_begins_here_have_names():
+    scene = shaper(loads={"P": {"on": "6", "at": "C", "force": 90, "angle": 0, "when": {"driver": [40, 60]}}})
+    solved = graphkin.solve(scene, at=40, find=["P_P", "P_P+", "M_2", "M_2+", "Fi_6", "Fi_6+"])
+    here = solved.data["positions"][0]["values"]
+    assert [0.0, 0.0] == here["P_P"]
+    assert [90.0, 0.0] == pytest.approx(here["P_P+"])
+    assert here["M_2"] != here["M_2+"]
+    assert here["Fi_6"] == here["Fi_6+"]
+    assert json.dumps(here)
