@@ -42,6 +42,7 @@ if TYPE_CHECKING:
 
     from graphkin.api.answers import AnswersLike
     from graphkin.drawing import ChartPage, Drawing
+    from graphkin.study.graphical import Chords, Way
     from graphkin.study.sweeps import Found, Sweep
     from graphkin.study.turn import TurnStudy
     from graphkin.study.watched import Arrays, Watched
@@ -69,6 +70,7 @@ class Swept(Result):
     language: str
     arrays: Arrays | None = None
     elsewhere: tuple[tuple[Symbol, float, float], ...] = ()
+    on_paper: tuple[tuple[Way, str], ...] = ()
 
     @property
     def rows(self) -> int:
@@ -163,7 +165,23 @@ class Swept(Result):
             over.setdefault(symbol_quantity(symbol), []).append((offset, value))
         if over:
             asked = list(dict.fromkeys((*asked, *over)))
-        return diagrams(self.turn, self.language, asked=asked, over=over)
+        pages = {}
+        if asked or not self.chords:
+            pages = diagrams(self.turn, self.language, asked=asked, over=over)
+        from graphkin.study.graphical_page import chords_page
+
+        drawn = {name: chords_page(one, self.turn.reach, self.language) for name, one in self.chords.items()}
+        return {**pages, **drawn}
+
+    @cached_property
+    def chords(self) -> Mapping[str, Chords]:
+        """What was differentiated or integrated on paper, by the names of their figures."""
+        from graphkin.study.graphical import graphical
+
+        if not self.on_paper:
+            return {}
+        reach = self.over.base.reach
+        return {f"{way}-{name.replace('/', '-')}": graphical(reach, name, way) for way, name in self.on_paper}
 
     def to_xarray(self) -> xarray.Dataset:
         """The table as a data set of xarray with units, over ``position`` or over ``design`` and ``position``, with
@@ -196,7 +214,10 @@ class Swept(Result):
         """Write the figures, letters of an SVG as text with its "glyphs" or as "outlines"; returns the paths.  Raises
         CallError for an unknown format or a folder that cannot be written."""
         known_words(formats, text=text, known_formats=CHART_FORMATS)
+        from graphkin.study.graphical_page import chords_table
+
         files = {f"{n}.{kind}": f.content(kind, text=text) for n, f in self.figures.items() for kind in formats}
+        files |= {f"{n}.csv": chords_table(one, self.over.base.reach) for n, one in self.chords.items()}
         return write_files(path_of(folder), files)
 
     @property
@@ -239,6 +260,8 @@ def sweep(
     progress: Progress | None = None,
     text: str = "glyphs",
     measured: AnswersLike | None = None,
+    differentiate: Iterable[str] = (),
+    integrate: Iterable[str] = (),
 ) -> Swept:
     """Follow a scene over the whole turn of its driver, alone or as many designs.
 
@@ -265,6 +288,10 @@ def sweep(
     measured : a CSV file with a row for each position (a column ``at``: driver value or name of a position) and symbols
         as heads: values measured elsewhere, laid over the diagrams of these quantities
 
+    differentiate, integrate : angles, travels, coordinates or rates of them ("s_6/1", "theta_4", "omega_4", "x_C",
+        "v_C.x") whose diagrams are differentiated or integrated on paper, with chords and a pole, measured and held
+        against the solver
+
     Raises
     ------
     SceneError, CallError : the scene or the call is wrong
@@ -281,6 +308,7 @@ def sweep(
     '1346 mm/s at most'
     """
     from graphkin.study.designs import designs_of
+    from graphkin.study.graphical import known_ordinate
     from graphkin.study.sweeps import Found, Sweep, collect, write_tables
 
     known_words(formats, language, text=text, known_formats=CHART_FORMATS)
@@ -301,6 +329,12 @@ def sweep(
     start = driver_values(given, at) or {}
     if positions is None:
         positions = given.positions.count if given.positions is not None else ROWS
+    wishes: dict[Way, Iterable[str]] = {"derivative": differentiate, "integral": integrate}
+    on_paper = tuple((w, name) for w, names in wishes.items() for name in as_list(w, names, 'give names: ["s_6/1"]'))
+    for way, name in on_paper:
+        known_ordinate(given, name, way)
+    if on_paper and made.keys:
+        raise CallError(Problem("differentiate, integrate", "do not go with designs", "give one design"))
     elsewhere = () if measured is None else _elsewhere(given, measured)
     if find is None and elsewhere:
         find = list(dict.fromkeys(symbol for symbol, _, _ in elsewhere))
@@ -311,19 +345,19 @@ def sweep(
             raise CallError(Problem("sweep", f"{over.rows} rows", "give a folder, out=... or -o"))
         arrays = None if made.keys else over.base.arrays(positions)
         if arrays is not None:
-            return Swept(over, Found(over.rows, arrays.good), spoken, arrays, elsewhere)
+            return Swept(over, Found(over.rows, arrays.good), spoken, arrays, elsewhere, on_paper)
     if not made.keys and over.base.engine is None:
         _ = over.base.reach  # a start that cannot be assembled
     through = cluster(as_text("scheduler", scheduler)) if scheduler is not None else executor
     try:
         with Workers(through, workers if over.long else None) as working:
             if out is None:
-                return Swept(over, collect(over, working, progress), spoken, None, elsewhere)
+                return Swept(over, collect(over, working, progress), spoken, None, elsewhere, on_paper)
             found = write_tables(over, path_of(out), working, have("pyarrow"), progress)
     finally:
         if scheduler is not None and through is not None:
             through.shutdown()
-    swept = Swept(over, found, spoken, None, elsewhere)
+    swept = Swept(over, found, spoken, None, elsewhere, on_paper)
     if not made.keys:
         swept.write_figures(out, formats, text)
     return swept

@@ -61,6 +61,14 @@ def sweep(
             help="Values measured elsewhere (heads: at, symbols), to lie over the curves.",
         ),
     ] = None,
+    differentiate: Annotated[
+        list[str] | None,
+        typer.Option("--differentiate", metavar="QUANTITY", help="Differentiated on paper (s_6/1, theta_4)."),
+    ] = None,
+    integrate: Annotated[
+        list[str] | None,
+        typer.Option("--integrate", metavar="QUANTITY", help="Integrated on paper (v_6/1, omega_4)."),
+    ] = None,
     formats: FormatOption = "svg",
     text: TextOption = "glyphs",
     at: AtOption = None,
@@ -81,6 +89,7 @@ def sweep(
         swept = sweeping(
             scene, target, positions, find or None, driver_values(at), _replaced(replace), designs, None,
             None if scheduler else processes(workers), scheduler, listed(formats), lang, progress, text, measured,
+            differentiate or (), integrate or (),
         )  # fmt: skip
     if as_json:
         print_json(swept.data)
