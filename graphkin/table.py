@@ -16,6 +16,7 @@ import csv
 import html
 import io
 import json
+import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
@@ -177,6 +178,19 @@ class Table:
     def rows(self, some: slice = slice(None)) -> Table:
         """Some rows of it."""
         return Table(tuple(replace(c, values=c.values[some]) for c in self.columns), self.index)
+
+    def harmless(self) -> Table:
+        """The same with words that a spreadsheet would take for a formula marked as words.
+
+        >>> print(Table.of(["name"], [["=1+1"], ["-2.5"], ["@x"]]).harmless().csv(), end="")
+        name
+        '=1+1
+        -2.5
+        '@x
+        """
+        made = (replace(c, values=np.array(list(map(_no_formula, c.texts())), dtype=object)) if c.is_text else c
+                for c in self.columns)  # fmt: skip
+        return Table(tuple(made), self.index)
 
     # text
 
@@ -459,6 +473,12 @@ def _shown(value: float) -> str:
         return f"{value + 0.0:g}"
     written_out = _LEAST <= abs(value) < _MOST
     return format(Decimal(repr(value)).normalize(), "f" if written_out else "e")
+
+
+def _no_formula(cell: str) -> str:
+    begins = cell.lstrip(" ")[:1]
+    number = re.fullmatch(r"[+\-]?[\d.,\s]*(?:[eE][+\-]?\d+)?[ °%]*", cell)
+    return "'" + cell if begins in tuple("=@+-\t\r") and begins and not number else cell
 
 
 def _quoted(cell: str) -> str:

@@ -6,33 +6,38 @@ import csv
 import io
 import os
 import re
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Literal
 
 from graphkin.api.arguments import asked_symbols
-from graphkin.checking.printed import Printed, stated
+from graphkin.checking.cells import Way, is_blank, read_cell, read_way
+from graphkin.checking.printed import Printed
+from graphkin.checking.spelling import Spelling, plain_text, unit_factor
 from graphkin.errors import CallError, Problem
 from graphkin.files import path_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import KINDS, Symbol
-from graphkin.scene.tables import Units
 
-__all__ = ["Answers", "AnswersLike", "as_answers", "table_of", "with_points"]
+__all__ = ["Answers", "AnswersLike", "Unread", "as_answers", "table_of", "with_points"]
 
+Role = Literal["at", "variant", "person", "id", "equations", "drawing"]
 AnswersLike = str | os.PathLike[str] | Mapping[str, Mapping[str, object]]
 
 LARGEST = 10_000_000
-PLACE = "at"
 _QUANTITY = re.compile(rf"({'|'.join(KINDS)})_")
-_UNIT = re.compile(r"^(.*?)\s*[(（\[]([^)）\]]*)[)）\]]$")
-_GREEK = {"ω": "omega", "α": "alpha", "θ": "theta", "γ": "gamma", "a": "a", "v": "v"}
-_JOINED = re.compile(r"([ωαθ])_?([A-Za-z0-9]+)|([va])([A-Z][A-Za-z0-9]*)")
-_NOTHING = {"", "-", "--", "–", "—", "/", "?", "？", "n/a", "na", "无"}
-_DECIMAL = re.compile(r"[+\-\u2212]?\d+,\d+(?:[eE][+\-]?\d+)?")
-_THOUSANDS = re.compile(r"[+\-\u2212]?\d{1,3}(?:,\d{3})+(?:\.\d+)?")
 _MARKS = {b"\xff\xfe": "utf-16", b"\xfe\xff": "utf-16"}
-
-
+_WAY = re.compile(r"direction|sense|angle|dir\b|arg|方向|转向|角度|指向|∠", re.IGNORECASE)
+_OTHER_COLUMNS: Mapping[Role, set[str]] = {
+    "at": {"at", "position", "driver", "位置", "position no", "φ1", "phi_1"},
+    "variant": {"variant", "version", "variante", "变式", "题号", "题目编号", "试题", "no. of problem"},
+    "person": {"name", "student", "person", "姓名", "学生", "学生姓名", "full name", "student name", "group", "组",
+               "组号", "小组"},
+    "id": {"id", "student id", "student no", "student no.", "number", "学号", "matriculation", "matr", "matr.",
+           "考号", "编号"},
+    "equations": {"equations", "vector equations", "方程", "矢量方程"},
+    "drawing": {"drawing", "drawings", "作图", "图", "图形"},
+}  # fmt: skip
 @dataclass(frozen=True)
 class Rows:
     """A table as read: its heads, its rows with the number of their line, and the sign between their cells."""
@@ -43,23 +48,44 @@ class Rows:
 
 
 @dataclass(frozen=True)
+class Unread:
+    """A cell without a value: nothing was answered (``why`` is ""), or nobody can read it."""
+
+    symbol: Symbol
+    text: str = ""
+    why: str = ""
+
+
+@dataclass(frozen=True)
 class Answers:
     """What one person states, at which driver value or named position (None: the scene's, or that of the call), and how
-    it was found."""
+    it was found.
+
+    ``unread`` are the cells without a value, ``variant`` the name of the problem that was the person's ("" for the
+    scene itself), ``id`` another name of theirs, ``marks`` what a teacher gave (points by part),
+    ``order`` that of the columns.
+    """
 
     person: str
     at: float | str | None
     values: tuple[Printed, ...]
     by: str = "drawing"
+    unread: tuple[Unread, ...] = ()
+    variant: str = ""
+    id: str = ""
+    marks: Mapping[str, float] = field(default_factory=dict)
+    order: tuple[Symbol, ...] = ()
 
 
 def as_answers(scene: Mechanism, given: AnswersLike) -> tuple[tuple[Answers, ...], tuple[str, ...]]:
     """The answers in a CSV file, or in a mapping from person to values by symbol.
 
-    The file has a line of heads: symbols ("v_D", "omega_3", also "ω3", with or without their unit), ``at`` for the
-    driver's value where rows are positions, and any other word for who it is (the first such column counts).  Units
-    are the scene's, rad/s, rad/s2.  A vector is one number, its size, or two with a blank or semicolon between.  A
-    decimal comma is understood, where it cannot be one of thousands.  An empty cell is no answer.
+    The file has a line of heads: symbols as people spell them ("v_D", "ω3", "v_B3"), with or without a unit; behind
+    one, or with its name, a column of directions or senses; ``at`` for the driver's value where rows are positions,
+    ``variant``, ``name``, ``id``, and points already given for ``equations`` and ``drawing``.  Of other heads the first
+    names the person where none of these does; the rest is left alone.  A unit in a cell counts more than that of its
+    head, and that more than the scene's.  A vector is its size, with or without a direction, or two numbers.  An empty
+    cell is no answer; one that cannot be read is a verdict of its own.
 
     Returns
     -------
@@ -67,7 +93,7 @@ def as_answers(scene: Mechanism, given: AnswersLike) -> tuple[tuple[Answers, ...
 
     Raises
     ------
-    CallError : everything that is wrong with the table, by line and column
+    CallError : everything that is wrong with the table itself, by line and column
     """
     if isinstance(given, Mapping):
         strange = [name for name, values in given.items() if not isinstance(values, Mapping)]
@@ -76,8 +102,10 @@ def as_answers(scene: Mechanism, given: AnswersLike) -> tuple[tuple[Answers, ...
             raise CallError(Problem(f"answers of {strange[0]}", found, 'give {"v_D": 480}'))
         heads = list(dict.fromkeys(s for values in given.values() for s in values))
         rows = [(i, (name, *(_text(v.get(h, "")) for h in heads))) for i, (name, v) in enumerate(given.items(), 1)]
-        return _answers(scene, Rows(("person", *heads), tuple(rows)), "answers")
-    return _answers(scene, table_of(given), str(given))
+        # who says nothing of a quantity was not asked for it
+        silent = {i: frozenset(h for h in heads if h not in v) for i, v in enumerate(given.values(), 1)}
+        return _answers(scene, Rows(("person", *heads), tuple(rows)), "answers", silent)
+    return _answers(scene, table_of(given), str(given), {})
 
 
 def table_of(path: str | os.PathLike[str]) -> Rows:
@@ -121,124 +149,152 @@ def with_points(sheet: Rows) -> Rows:
     return Rows(sheet.heads, tuple(rows), sheet.sign)
 
 
-def _answers(scene: Mechanism, sheet: Rows, name: str) -> tuple[tuple[Answers, ...], tuple[str, ...]]:
-    symbols: dict[int, Symbol] = {}
-    problems: list[Problem] = []
-    for i, head in enumerate(sheet.heads):
-        text, unit = head_of(head)
-        if not _QUANTITY.match(text):
+@dataclass(frozen=True)
+class _Columns:
+    """What the columns of a table are: values with their units, directions by symbol, and the others by role."""
+
+    values: Mapping[int, Symbol]
+    units: Mapping[int, str]
+    ways: Mapping[int, Symbol]
+    roles: Mapping[Role, int]
+    unused: tuple[str, ...]
+
+    def cell(self, role: Role, cells: Sequence[str]) -> str:
+        """The cell of a role, "" where the table has none."""
+        i = self.roles.get(role)
+        return cells[i] if i is not None and i < len(cells) else ""
+
+
+def _columns(scene: Mechanism, heads: Sequence[str], name: str, problems: list[Problem]) -> _Columns:
+    spelling = Spelling(scene)
+    values: dict[int, Symbol] = {}
+    units: dict[int, str] = {}
+    ways: dict[int, Symbol] = {}
+    roles: dict[Role, int] = {}
+    others: list[int] = []
+    for i, head in enumerate(heads):
+        role = _role(head)
+        if role is not None and role not in roles:
+            roles[role] = i
             continue
-        try:
-            (symbol,) = asked_symbols(scene, [text])
-        except CallError as error:
-            problems += [Problem(f"{name}, column {head}", p.found, p.wanted) for p in error.problems]
+        told = _WAY.search(head)
+        text, unit = spelling.head(_WAY.sub("", head).strip(" _-:") if told else head)
+        symbol = spelling.symbol(re.sub(r"\bof\b", "", text).strip())
+        if told and symbol is None and not _QUANTITY.match(text) and values and i - 1 in values:
+            symbol = values[i - 1]
+        if symbol is not None and told:
+            ways[i] = symbol
             continue
-        wanted = unit_of(symbol, scene.units)
-        if unit and unit != wanted:
-            problems.append(Problem(f"{name}, column {head}", f"is in {unit}", f"give it in {wanted}"))
-        if symbol in symbols.values():
+        if symbol is None:
+            if _QUANTITY.match(text):
+                problems += _unknown(scene, text, f"{name}, column {head}")
+            elif head:
+                others.append(i)
+            continue
+        problems += _unknown(scene, str(symbol), f"{name}, column {head}")
+        if unit and unit_factor(unit, symbol, scene.units) is None:
+            wanted = f"give it in {symbol.unit(scene.units)}"
+            problems.append(Problem(f"{name}, column {head}", f"{unit} is no unit of {symbol.measure}", wanted))
+        if symbol in values.values():
             problems.append(Problem(f"{name}, column {head}", "stands twice", "keep one of them"))
-        symbols[i] = symbol
-    if not symbols and not problems:
+        values[i], units[i] = symbol, unit
+    if "person" not in roles and others:
+        roles["person"] = others.pop(0)
+    if "person" not in roles and "id" in roles:
+        roles["person"] = roles.pop("id")
+    return _Columns(values, units, ways, roles, tuple(heads[i] for i in others))
+
+
+def _role(head: str) -> Role | None:
+    plain = plain_text(head).lower().strip()
+    return next((role for role, names in _OTHER_COLUMNS.items() if plain in names), None)
+
+
+def _unknown(scene: Mechanism, text: str, where: str) -> list[Problem]:
+    try:
+        asked_symbols(scene, [text])
+    except CallError as error:
+        return [Problem(where, p.found, p.wanted) for p in error.problems]
+    return []
+
+
+def _answers(
+    scene: Mechanism, sheet: Rows, name: str, silent: Mapping[int, frozenset[str]]
+) -> tuple[tuple[Answers, ...], tuple[str, ...]]:
+    problems: list[Problem] = []
+    columns = _columns(scene, sheet.heads, name, problems)
+    if not columns.values and not problems:
         known = "write symbols as heads, for example v_D or omega_3"
         problems.append(Problem(name, f"no column is a quantity: {', '.join(sheet.heads)[:200]}", known))
-    who = next((i for i, h in enumerate(sheet.heads) if i not in symbols and h != PLACE), None)
-    where = sheet.heads.index(PLACE) if PLACE in sheet.heads else None
-    places = [cells[where] for _, cells in sheet.rows if where is not None and where < len(cells) and cells[where]]
+    places = [own for _, cells in sheet.rows if (own := columns.cell("at", cells))]
     # numbers are driver values, unless all of them are names of positions
     by_name = scene.positions is not None and bool(places) and set(places) <= set(scene.positions.names)
     found = []
     for line, cells in sheet.rows:
-        values = []
-        for i, symbol in symbols.items():
-            text = cells[i] if i < len(cells) else ""
-            if not is_blank(text):
-                try:
-                    numbers = numbers_in(text, unit_of(symbol, scene.units), sheet.sign)
-                    if len(numbers) > (2 if symbol.is_vector else 1):
-                        raise ValueError(f'"{text[:40]}" is more than one number')
-                    values.append(stated(symbol, numbers, scene.units))
-                except ValueError as error:
-                    problems.append(Problem(f"{name}, line {line}, {symbol}", str(error), "write a number alone"))
         at: float | str | None = None
-        if where is not None and where < len(cells) and cells[where]:
+        text = columns.cell("at", cells)
+        if text:
             try:
-                at = cells[where] if by_name else float(numbers_in(cells[where], "", sheet.sign)[0])
+                at = text if by_name else _plain_number(text, sheet.sign)
             except ValueError:
-                problems.append(Problem(f"{name}, line {line}, at", f'"{cells[where][:40]}" is no driver value'))
-        person = cells[who] if who is not None and who < len(cells) else ""
-        found.append(Answers(person or ("" if at is not None else f"line {line}"), at, tuple(values)))
+                problems.append(Problem(f"{name}, line {line}, at", f'"{text[:40]}" is no driver value'))
+        found.append(_row(scene, sheet, columns, line, cells, at, silent.get(line, frozenset())))
     if problems:
         raise CallError(*problems[:50])
-    unused = tuple(h for i, h in enumerate(sheet.heads) if h and i not in symbols and i != who and h != PLACE)
-    return tuple(found), unused
+    return tuple(found), columns.unused
+
+
+def _row(
+    scene: Mechanism, sheet: Rows, columns: _Columns, line: int, cells: Sequence[str], at: float | str | None,
+    silent: frozenset[str],
+) -> Answers:  # fmt: skip
+    values: list[Printed] = []
+    unread: list[Unread] = []
+    ways: dict[Symbol, Way] = {}
+    bad: dict[Symbol, str] = {}
+    for i, symbol in columns.ways.items():
+        text = cells[i] if i < len(cells) else ""
+        if not is_blank(text):
+            try:
+                ways[symbol] = read_way(text, symbol)
+            except ValueError as error:
+                bad[symbol] = str(error)
+    for i, symbol in columns.values.items():
+        if sheet.heads[i] in silent:
+            continue
+        text = cells[i] if i < len(cells) else ""
+        if is_blank(text):
+            unread.append(Unread(symbol))
+            continue
+        try:
+            if symbol in bad:
+                raise ValueError(bad[symbol])
+            made = read_cell(text, symbol, scene.units, columns.units[i], sheet.sign, ways.get(symbol))
+            values.append(made)
+        except ValueError as error:
+            unread.append(Unread(symbol, text, str(error)))
+    person = columns.cell("person", cells)
+    marks = {role: _mark(columns.cell(role, cells)) for role in ("equations", "drawing") if role in columns.roles}
+    return Answers(
+        person or ("" if at is not None else f"line {line}"), at, tuple(values), unread=tuple(unread),
+        variant=columns.cell("variant", cells), id=columns.cell("id", cells) if "id" in columns.roles else "",
+        marks={role: mark for role, mark in marks.items() if mark is not None}, order=tuple(columns.values.values()),
+    )  # fmt: skip
+
+
+def _mark(text: str) -> float | None:
+    try:
+        return _plain_number(text, ";") if text else None
+    except ValueError:
+        return None
+
+
+def _plain_number(text: str, sign: str) -> float:
+    plain = plain_text(text).rstrip("°").strip()
+    return float(plain if sign == "," else plain.replace(",", "."))
 
 
 def _text(value: object) -> str:
     if isinstance(value, list | tuple):
         return "; ".join(str(v) for v in value)
     return "" if value is None else str(value)
-
-
-# heads and cells as people write them: units, Greek letters, decimal commas, signs for nothing
-
-
-def unit_of(symbol: Symbol, units: Units) -> str:
-    """The unit in which a quantity is stated."""
-    return symbol.unit(units)
-
-
-def head_of(head: str) -> tuple[str, str]:
-    """The name in a head and its unit, "" if none is written.
-
-    >>> head_of("ω3 [rad/s]"), head_of("a_D（mm/s²）"), head_of("vD")
-    (('omega_3', 'rad/s'), ('a_D', 'mm/s2'), ('v_D', ''))
-    """
-    match = _UNIT.match(head)
-    name, unit = (match[1], match[2]) if match else (head, "")
-    joined = _JOINED.fullmatch(name)
-    if joined:
-        letter, rest = (joined[1], joined[2]) if joined[1] else (joined[3], joined[4])
-        name = f"{_GREEK[letter]}_{rest}"
-    return name.strip(), _plain_unit(unit)
-
-
-def _plain_unit(unit: str) -> str:
-    return re.sub(r"\^|\s", "", unit.replace("²", "2")).lower()
-
-
-def is_blank(text: str) -> bool:
-    """Whether a cell says that there is no answer."""
-    return text.strip().lower() in _NOTHING
-
-
-def numbers_in(text: str, unit: str, sign: str) -> list[str]:
-    """The numbers of a cell, parted by blanks or semicolons, with decimal points.
-
-    Parameters
-    ----------
-    unit : what may stand behind the number
-    sign : what parts the cells of the table; where that is a comma, one in a number may be one of thousands
-
-    Raises
-    ------
-    ValueError : a comma that may be either
-
-    >>> numbers_in("482,7", "mm/s", ";"), numbers_in("(-482.7; 0) mm/s", "mm/s", ",")
-    (['482.7'], ['-482.7', '0'])
-    """
-    bare = text.strip()
-    if unit and _plain_unit(bare).endswith(unit):
-        letters = re.search(r"[^\d\s.,;)\]][^\d]*\s*/\s*s\s*\^?[2²]?$", bare)
-        bare = bare[: letters.start()] if letters else bare
-    parts = [p for p in re.split(r"[;\s]+", bare.strip("[]() ")) if p]
-    return [_pointed(part, sign) for part in parts]
-
-
-def _pointed(number: str, sign: str) -> str:
-    if sign == "," and _THOUSANDS.fullmatch(number):
-        if number.count(",") == 1 and "." not in number:
-            plain, decimal = number.replace(",", ""), number.replace(",", ".")
-            raise ValueError(f'"{number[:40]}" may be {plain} or {decimal}')
-        return number.replace(",", "")
-    return number.replace(",", ".") if _DECIMAL.fullmatch(number) else number

@@ -4,95 +4,97 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from graphkin.api.answers import Answers, AnswersLike, as_answers
-from graphkin.api.arguments import At, SceneLike, as_scene, driver_values, known_words, own_unit, write_files
-from graphkin.api.checked import in_scene_units, solved_here
+from graphkin.api.answers import Answers, AnswersLike, Unread, as_answers
+from graphkin.api.arguments import At, SceneLike, as_scene, known_words, write_files
+from graphkin.api.checked import in_scene_units
+from graphkin.api.class_results import Scheme, people_of, quantities_of, scheme_of
+from graphkin.api.judging import MOST_DRAWN, evidence_at, judged_table
 from graphkin.api.results import Result
-from graphkin.checking.audit import Judged, explained, judge
+from graphkin.checking.audit import Judged, Value, judge
 from graphkin.checking.printed import printed_values, stated
-from graphkin.checking.readings import predict
 from graphkin.checking.slips import Evidence, ValuesElsewhere
-from graphkin.checking.table_audit import exact_rows, judged_by_digits
-from graphkin.construction import plan
-from graphkin.errors import CallError, Problem, Unsolvable, as_text, did_you_mean
+from graphkin.errors import CallError, Problem, as_text, did_you_mean
 from graphkin.files import path_of
-from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase, say, word
 
 if TYPE_CHECKING:
-    from graphkin.solver import Motion
     from graphkin.table import Table
 
 __all__ = ["Audited", "audit"]
-
-POSITIONS = 72
-MOST_DRAWN = 6  # rows of a table that are drawn each
-MOST_PREDICTED = 4  # positions of a longer one that are
-MOST_EXPLAINED = 3  # rows of which is told what their wrong values look like
 
 
 @dataclass(frozen=True, repr=False, eq=False)
 class Audited(Result):
     """The values of each person with their verdicts; of a scene's ``[printed]`` values the person is "".
 
-    ``unused`` are heads of the table of answers that are no quantities.
+    ``unused`` are heads of the table of answers that are no quantities, ``scheme`` how many points there are.
     """
 
     scene: Mechanism
     people: tuple[tuple[Answers, tuple[Judged, ...]], ...]
     language: str = "en"
     unused: tuple[str, ...] = ()
+    scheme: Scheme | None = None
 
     @property
     def ok(self) -> bool:
-        """Whether no value is wrong."""
-        return all(j.verdict != "wrong" for _, judged in self.people for j in judged)
+        """Whether no value is wrong, nor one that cannot be read."""
+        wrong = ("wrong", "right from own values")
+        return not any(j.verdict in wrong for _, judged in self.people for j in judged) and not any(
+            u.why for who, _ in self.people for u in who.unread
+        )
 
     @cached_property
     def data(self) -> dict[str, Any]:
         """The object that ``graphkin audit --json`` prints; values in scene units."""
-        values = [_value(self.scene, who, j, "en") for who, judged in self.people for j in judged]
-        return {"ok": self.ok, "values": values, **({"unused": list(self.unused)} if self.unused else {})}
+        values = [row for who, judged in self.people for row in _values(self.scene, who, judged, "en")]
+        found: dict[str, Any] = {"ok": self.ok, "values": values}
+        if self.is_class:
+            found["people"] = list(people_of(self.people, self.scheme, "en"))
+            found["quantities"] = list(quantities_of(self.people, "en"))
+        return {**found, **({"unused": list(self.unused)} if self.unused else {})}
+
+    @property
+    def is_class(self) -> bool:
+        """Whether these are answers of people, not values of a scene."""
+        return any(who.person for who, _ in self.people)
+
+    @property
+    def _named(self) -> dict[str, str]:
+        """The columns that say whose a value is, with their heads."""
+        known = {
+            "person": any(w.person for w, _ in self.people), "id": any(w.id for w, _ in self.people),
+            "variant": any(w.variant for w, _ in self.people), "at": any(w.at is not None for w, _ in self.people),
+        }  # fmt: skip
+        return {key: key if key in ("at", "id") else word(key, self.language) for key, there in known.items() if there}
 
     @property
     def heads(self) -> list[str]:
         """Heads of ``rows``."""
         keys = ("quantity", "printed", "exact", "deviation", "verdict", "looks like")
-        who = [word("person", self.language)] if any(w.person for w, _ in self.people) else []
-        at = ["at"] if any(w.at is not None for w, _ in self.people) else []
-        return [*who, *at, *(word(k, self.language) for k in keys)]
+        return [*self._named.values(), *(word(k, self.language) for k in keys)]
 
     @cached_property
     def rows(self) -> list[list[str]]:
         """The table as texts, in the language of the call."""
-        named = any(w.person for w, _ in self.people)
-        placed = any(w.at is not None for w, _ in self.people)
         rows = []
         for who, judged in self.people:
-            for j in judged:
-                row = _value(self.scene, who, j, self.language)
+            own = {"person": who.person, "id": who.id, "variant": who.variant, "at": _place(who.at)}
+            lead = [own[key] for key in self._named]
+            for row in _values(self.scene, who, judged, self.language):
                 off = "" if row["deviation_pct"] is None else f"{round(row['deviation_pct'], 2) + 0.0:+.2f} %"
-                rows.append(
-                    [
-                        *([who.person] if named else []),
-                        *(["" if who.at is None else _place(who.at)] if placed else []),
-                        row["symbol"],
-                        ", ".join(j.printed.texts),
-                        _shown(row["exact"]),
-                        off,
-                        word(j.verdict, self.language),
-                        row.get("looks_like", ""),
-                    ]
-                )
+                exact = "" if row["exact"] is None else _shown(row["exact"])
+                verdict = word(row["verdict"] or "not judged", self.language)
+                said = row.get("looks_like", row.get("why", "") if row["verdict"] == "not readable" else "")
+                rows.append([*lead, row["symbol"], row["written"], exact, off, verdict, said])
         return rows
 
     def __getitem__(self, name: str) -> tuple[Judged, ...]:
@@ -112,9 +114,38 @@ class Audited(Result):
 
         return Table.of(self.heads, self.rows)
 
+    @cached_property
+    def students(self) -> Table:
+        """A row for each person: verdicts counted, points, the slip to talk about."""
+        from graphkin.table import Table
+
+        rows = list(people_of(self.people, self.scheme, self.language))
+        flat = [{**{k: v for k, v in r.items() if k != "points"},
+                 **{f"{word(k, self.language)}": v for k, v in r.get("points", {}).items()}} for r in rows]  # fmt: skip
+        keys = list(dict.fromkeys(k for row in flat for k in row))
+        last = [k for k in ("total", "of", "slip") if k in keys]
+        keys = [*(k for k in keys if k not in last), *last]
+        heads = [k if k in ("id", "at") else word(k, self.language) for k in keys]
+        return Table.of(heads, [[_cell(row.get(k)) for k in keys] for row in flat])
+
+    @cached_property
+    def matrix(self) -> Table:
+        """A row for each quantity: verdicts of the class counted, the commonest slip."""
+        from graphkin.table import Table
+
+        rows = list(quantities_of(self.people, self.language))
+        keys = list(dict.fromkeys(k for row in rows for k in row))
+        keys.sort(key=lambda k: k in ("commonest_slip", "made_by"))
+        heads = [word("quantity" if k == "symbol" else k.replace("_", " "), self.language) for k in keys]
+        return Table.of(heads, [[_cell(row.get(k)) for k in keys] for row in rows])
+
     def write(self, folder: str | os.PathLike[str]) -> list[Path]:
-        """Write audit.csv into a folder.  Raises CallError where it cannot be written."""
-        return write_files(path_of(folder), {"audit.csv": self.table.csv().encode("utf-8-sig")})
+        """Write audit.csv into a folder, of a class also students.csv and quantities.csv.  Raises CallError where they
+        cannot be written."""
+        tables = {"audit.csv": self.table}
+        if self.is_class:
+            tables |= {"students.csv": self.students, "quantities.csv": self.matrix}
+        return write_files(path_of(folder), {n: t.harmless().csv().encode("utf-8-sig") for n, t in tables.items()})
 
     def __repr__(self) -> str:
         return (
@@ -123,17 +154,45 @@ class Audited(Result):
         )
 
 
-def _value(scene: Mechanism, who: Answers, judged: Judged, language: str) -> dict[str, Any]:
+def _cell(value: object) -> str:
+    return "" if value is None else f"{value:g}" if isinstance(value, int | float) else str(value)
+
+
+def _values(
+    scene: Mechanism, who: Answers, judged: Sequence[Judged], language: str
+) -> Iterator[dict[str, Any]]:  # fmt: skip
+    """The rows of one person, answered or not."""
+    lead: dict[str, Any] = {k: v for k, v in (("person", who.person), ("id", who.id), ("variant", who.variant)) if v}
+    lead |= {"at": who.at} if who.at is not None else {}
+    rows = [(one.printed.symbol, _value(scene, one, language)) for one in judged]
+    rows += [(cell.symbol, _unread(cell)) for cell in who.unread]
+    place = {symbol: i for i, symbol in enumerate(who.order)}
+    for _, row in sorted(rows, key=lambda row: place.get(row[0], 0)):
+        yield lead | row
+
+
+def _unread(cell: Unread) -> dict[str, Any]:
+    row: dict[str, Any] = {"symbol": str(cell.symbol), "written": cell.text, "printed": None, "exact": None,
+                           "deviation_pct": None}  # fmt: skip
+    if cell.why:
+        return row | {"verdict": "not readable", "why": cell.why}
+    return row | {"verdict": "missing", "why": "no answer"}
+
+
+def _value(scene: Mechanism, judged: Judged, language: str) -> dict[str, Any]:
     symbol = judged.printed.symbol
 
-    def unit(value: complex | float) -> float | list[float]:
+    def unit(value: Value) -> float | list[float]:
         if isinstance(value, complex):
             # what is left of a component that cancels is no value
             parts = (v if abs(v) > 1e-12 * abs(value) else 0.0 for v in (value.real, value.imag))
             return [_plain(in_scene_units(scene, symbol, v, degrees=True)) for v in parts]
         return _plain(in_scene_units(scene, symbol, value, degrees=True))
 
-    row: dict[str, Any] = {"symbol": str(symbol), "printed": unit(judged.printed.value), "exact": unit(judged.exact)}
+    row: dict[str, Any] = {
+        "symbol": str(symbol), "written": judged.printed.text, "printed": unit(judged.printed.value),
+        "exact": unit(judged.exact),
+    }  # fmt: skip
     row["deviation_pct"] = None if judged.deviation is None else 100 * judged.deviation
     if judged.deviation is None:
         row["why"] = "the exact value is zero"
@@ -145,12 +204,11 @@ def _value(scene: Mechanism, who: Answers, judged: Judged, language: str) -> dic
         row["looks_like"] = say(judged.looks_like, language)
     if judged.follows_from:
         row["follows_from"] = [str(s) for s in judged.follows_from]
-    person = {"person": who.person} if who.person else {}
-    return {**person, **({"at": who.at} if who.at is not None else {}), **row}
+    return row
 
 
-def _place(at: float | str) -> str:
-    return at if isinstance(at, str) else f"{at:g}"
+def _place(at: float | str | None) -> str:
+    return "" if at is None else at if isinstance(at, str) else f"{at:g}"
 
 
 def _plain(value: float) -> float:
@@ -161,21 +219,32 @@ def _shown(value: float | list[float]) -> str:
     return ", ".join(f"{v:.6g}" for v in (value if isinstance(value, list) else [value]))
 
 
-def audit(scene: SceneLike, answers: AnswersLike | None = None, at: At = None, language: str | None = None) -> Audited:
+def audit(
+    scene: SceneLike,
+    answers: AnswersLike | None = None,
+    at: At = None,
+    language: str | None = None,
+    variants: str | os.PathLike[str] | Mapping[str, SceneLike] | None = None,
+    grading: Mapping[str, float] | None = None,
+) -> Audited:
     """Judge the scene's ``[printed]`` values, or the answers of several people.
 
     Parameters
     ----------
     scene, at : as for `solve`
     answers : a CSV file with a row for each person (or, with a column ``at``, for each position) and symbols as heads,
-        or a mapping from person to values by symbol; in scene units, rad/s, rad/s2
+        or a mapping from person to values by symbol; in scene units, rad/s, rad/s2, where no unit is written
     language : "en" or "zh", of the table; the scene's own if None
+    variants : for answers with a column ``variant``: the folder of a problem set, or scenes by name
+    grading : points by "equations", "drawing", "values", or by symbol; the scene's ``[grading]`` if None.  The first
+        two are taken from columns of the same names
 
     Returns
     -------
     Audited; each value is "right" (to the digits stated), "within drafting accuracy" (of a pencil drawing with the
-    scene's scales and tools) or "wrong", then with what it looks like where a common slip explains it; "not judged"
-    (None in the JSON, with why) where a pencil may be off by anything, beside a dead point
+    scene's scales and tools), "right from own values" (it follows from earlier wrong ones) or "wrong",
+    then with what it looks like where a common slip explains it; "not judged" (None in the JSON, with why) where a
+    pencil may be off by anything, beside a dead point; "missing" or "not readable" where there is no value
 
     Raises
     ------
@@ -193,20 +262,74 @@ def audit(scene: SceneLike, answers: AnswersLike | None = None, at: At = None, l
         raise CallError(
             Problem("printed", "the scene has no printed values", "write them in [printed], or give answers as CSV")
         )
+    scheme = scheme_of(given, grading)
     people, unused = (_stated(given), ()) if answers is None else as_answers(given, answers)
     asked = list(dict.fromkeys(p.symbol for who in people for p in who.values if not p.symbol.at))
+    problems = _problems(given, people, variants)
 
     @cache
-    def case(place: float | str | None) -> Evidence:
-        return _case(given, asked, at if place is None else place)
+    def case(place: float | str | None, variant: str = "") -> Evidence:
+        own = _others_values(problems, variant) if variant else (lambda symbol: ())
+        return evidence_at(problems[variant], asked, at if place is None else place, own)
 
-    table = [who for who in people if who.by == "computation" or who.at is not None]
+    table = [who for who in people if not who.variant and (who.by == "computation" or who.at is not None)]
     if len(table) <= MOST_DRAWN and all(who.by == "drawing" for who in table):
-        judged = tuple((who, judge(case(who.at), who.values)) for who in people)
+        judged = tuple((who, judge(case(who.at, who.variant), who.values) if who.values else ()) for who in people)
     else:
-        rows = _judged_table(given, table, at, case)
-        judged = tuple((who, rows.get(id(who)) or judge(case(who.at), who.values)) for who in people)
-    return Audited(given, judged, language or given.sheet.language, unused)
+        rows = judged_table(given, table, at, case)
+        judged = tuple(
+            (who, rows[id(who)] if id(who) in rows else judge(case(who.at, who.variant), who.values)) for who in people
+        )
+    return Audited(given, judged, language or given.sheet.language, unused, scheme)
+
+
+def _problems(
+    scene: Mechanism, people: Sequence[Answers], variants: str | os.PathLike[str] | Mapping[str, SceneLike] | None
+) -> dict[str, Mechanism]:
+    """The scene of each variant that somebody had; "" is the scene itself.
+
+    Raises CallError for answers to a variant that is nowhere.
+    """
+    named = sorted({who.variant for who in people if who.variant})
+    if not named:
+        return {"": scene}
+    if variants is None:
+        raise CallError(Problem("variant", f"the answers name variants ({', '.join(named)[:80]})",
+                                "give the folder of the problem set: --variants DIR"))  # fmt: skip
+    found: dict[str, SceneLike] = {}
+    if isinstance(variants, Mapping):
+        found = {str(name): one for name, one in variants.items()}
+    else:
+        folder = path_of(variants)
+        found = {path.stem.rpartition("-")[2]: path for path in sorted(folder.rglob("*-*.toml"))}
+    plain = {name.lstrip("0") or "0": name for name in found}
+    problems = []
+    made = {"": scene, **{name: as_scene(one) for name, one in found.items()}}
+    for name in named:
+        key = name if name in found else plain.get(name.lstrip("0") or "0")
+        if key is None:
+            problems.append(Problem(f"variant {name}", "is not in the set", did_you_mean(name, found)))
+        else:
+            made[name] = made[key]
+    if problems:
+        raise CallError(*problems[:20])
+    return made
+
+
+def _others_values(problems: Mapping[str, Mechanism], own: str) -> ValuesElsewhere:
+    """Exact values of the other problems of a set, by their names."""
+    from graphkin.solver import exact_values, solve
+
+    @cache
+    def values(symbol: Symbol) -> tuple[tuple[str, Value], ...]:
+        found: list[tuple[str, Value]] = []
+        for name, scene in problems.items():
+            if name and scene is not problems[own]:
+                value = exact_values(solve(scene), [symbol])(symbol)
+                found.append((name, value))
+        return tuple(found)
+
+    return values
 
 
 def _stated(scene: Mechanism) -> tuple[Answers, ...]:
@@ -227,100 +350,3 @@ def _stated(scene: Mechanism) -> tuple[Answers, ...]:
     if not scene.stated:
         found.append(Answers("", None, printed_values(scene)))
     return tuple(found)
-
-
-def _judged_table(
-    scene: Mechanism, table: Sequence[Answers], at: At, case: Callable[[float | str | None], Evidence]
-) -> dict[int, tuple[Judged, ...]]:
-    """Rows of a table: all positions solved at once, judged by their digits; only what is wrong is looked into, and of
-    a table that was drawn some positions are drawn to see what a pencil keeps within."""
-    from graphkin.solver import driver_range, exact_values, structure_of
-
-    symbols = list(dict.fromkeys(p.symbol for who in table for p in who.values))
-    reach = driver_range(structure_of(scene))
-    key = scene.drivers[0].key
-    places = [(driver_values(scene, at if who.at is None else who.at) or {}).get(key) for who in table]
-    own = scene.drivers[0].values[0]
-    motion = reach.motion(reach.offsets(np.array([own if place is None else place for place in places])))
-    if not motion.ok.all():
-        k = int(np.argmin(motion.ok))
-        where = own_unit(scene, scene.drivers[0], float(motion.values[k, 0]))
-        status = str(motion.status[k])
-        raise Unsolvable(status, Problem(f"driver {key} at {where}", f"{status}: {motion.why[k]}"))
-    turning = [s for s in symbols if s.scope == "turn"]
-    value = exact_values(solved_here(scene, None), turning)
-    exact = exact_rows(motion, symbols, {s: float(value(s).real) for s in turning})
-    drawn = _Bounds(table, case)
-    made: dict[int, tuple[Judged, ...]] = {}
-    looked_into = 0
-    for row, who in enumerate(table):
-        judged = []
-        for printed in who.values:
-            right = exact(row, printed)
-            one = judged_by_digits(printed, right, who.by, 0.0)
-            if one.verdict != "right" and who.by == "drawing":
-                one = judged_by_digits(printed, right, who.by, drawn.bound(row, printed.symbol))
-            judged.append(one)
-        if any(one.verdict == "wrong" for one in judged) and looked_into < MOST_EXPLAINED:
-            looked_into += 1
-            evidence, values = case(who.at), {p.symbol: p.value for p in who.values}
-            wrong = [one.printed.symbol for one in judged if one.verdict == "wrong"]
-            judged = [explained(evidence, j, values, wrong) if j.verdict == "wrong" else j for j in judged]
-        made[id(who)] = tuple(judged)
-    return made
-
-
-@dataclass
-class _Bounds:
-    """What a pencil keeps within at the rows of a long table: predicted at some of them, the nearest is taken."""
-
-    table: Sequence[Answers]
-    case: Callable[[float | str | None], Evidence]
-
-    def bound(self, row: int, symbol: Symbol) -> float:
-        step = max(1, math.ceil(len(self.table) / MOST_PREDICTED))
-        near = min(len(self.table) - 1, step * round(row / step))
-        uncertainty = self.case(self.table[near].at).predicted.get(symbol)
-        return uncertainty.bound if uncertainty and math.isfinite(uncertainty.bound) else 0.0
-
-
-def _case(scene: Mechanism, asked: Sequence[Symbol], at: At) -> Evidence:
-    from graphkin.solver import exact_values
-
-    values = driver_values(scene, at)
-    motion = solved_here(scene, values)
-    structure = motion.structure
-    what = plan(structure, values, [symbol for symbol in asked if symbol.scope != "force"])
-    # everything is drawn, so that slips in what leads to the asked and beside it are found
-    whole = plan(structure, values, ())
-    drawn = what if set(what.elements) == set(whole.elements) else whole
-
-    predicted = predict(what, "pencil", scene.sheet.tools)
-    return Evidence(drawn, exact_values(motion, asked), predicted, _elsewhere(scene, values))
-
-
-def _elsewhere(scene: Mechanism, values: dict[str, float] | None) -> ValuesElsewhere:
-    """Exact values at the positions of a table: steps of 5 degrees, from here and from 0."""
-
-    from graphkin import solver
-
-    @cache
-    def motions() -> tuple[Motion, ...]:
-        first = scene.drivers[0]
-        if not isinstance(first, AngleDriver):
-            return ()
-        from_zero = {**(values or {}), first.key: 0.0}
-        return solver.solve(scene, values, POSITIONS), solver.solve(scene, from_zero, POSITIONS)
-
-    def table(symbol: Symbol) -> list[tuple[str, complex | float]]:
-        found: list[tuple[str, complex | float]] = []
-        if symbol.scope == "turn":
-            return found
-        for motion in motions():
-            for i, value in enumerate(solver.value_of(motion, symbol)):
-                if motion.ok[i]:
-                    name = f"{scene.drivers[0].key} = {own_unit(scene, scene.drivers[0], float(motion.values[i, 0]))}"
-                    found.append((name, complex(value) if symbol.is_vector else float(value.real)))
-        return found
-
-    return table

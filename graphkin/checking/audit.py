@@ -7,20 +7,21 @@ value is called by no name where no slip fits much better than chance.
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from graphkin.checking.consequential_errors import consequential_values
+from graphkin.checking.consequential_errors import consequential_values, drawn_before
 from graphkin.checking.printed import Printed, transcription_errors
-from graphkin.checking.slips import Evidence, Suspect, dimension, line_of, suspects
+from graphkin.checking.slips import Evidence, Suspect, dimension, line_of
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase
 
 __all__ = ["COMPUTED_SHARE", "Judged", "Value", "comparable", "deviation", "difference", "explained", "judge"]
 
-Verdict = Literal["right", "within drafting accuracy", "wrong", "not judged"]
+Verdict = Literal["right", "within drafting accuracy", "right from own values", "wrong", "not judged"]
 Value = complex | float
 
 RIGHT_SHARE = 0.7  # drawn values that are right but for drafting errors
@@ -28,9 +29,13 @@ CHANCE = 0.15  # a wrong value lies anywhere, within its own size
 SURER = 10.0  # so much likelier must a slip be than drafting errors, to call a value in their reach wrong
 BAD = 3.0  # bounds of drafting: so far off a drawn value may lie that still shows what it was meant for
 CLUMSY = 0.08  # part of it, for a drawing that is worse than it should be
+NEAT = 0.01  # part of it within which most drawings lie
 SURE = 3.0  # so much commoner must a slip be than chance, where only its neighbourhood fits
 DIGITS = 5  # fewer digits than this tell no slip from an error of drafting
 COMPUTED_SHARE = 1e-4  # a computed value may be off by so much of itself, for inputs that were rounded
+NEVER = 1e-4  # so near a value was meant right, whatever else lies there
+NOTHING = 1e-9  # of the greatest value of its sort: what is smaller is zero
+LEAST_TURN = math.radians(1.5)  # directions are read off with a protractor
 COMPUTED = 1e-5  # relative error of values worked out with rounded ones
 
 
@@ -59,12 +64,14 @@ def judge(case: Evidence, stated: Sequence[Printed]) -> tuple[Judged, ...]:
     first = [_judged(case, p) for p in stated]
     wrong = [j.printed.symbol for j in first if j.verdict == "wrong"]
     own = {p.symbol: p.value for p in stated}
-    return tuple(explained(case, j, own, wrong) if j.verdict == "wrong" else j for j in first)
+    return tuple(
+        explained(case, j, own, wrong) if j.verdict == "wrong" and j.looks_like is None else j for j in first
+    )
 
 
 def _judged(case: Evidence, printed: Printed) -> Judged:
     symbol = printed.symbol
-    right = case.exact(symbol)
+    right = _no_residue(case, symbol, case.exact(symbol))
     line = line_of(case.sheet, symbol)
     exact = comparable(printed, right, line)
     off = abs(difference(printed, exact))
@@ -73,24 +80,55 @@ def _judged(case: Evidence, printed: Printed) -> Judged:
     if symbol.scope == "motion" and bound > _largest(case, symbol):
         bound = math.inf
     share = deviation(printed, exact)
+    judged = Judged(printed, exact, share, "right", bound)
+    turned = _turned(judged, right)
     if off <= printed.rounding + 1e-9 * abs(exact):
-        return Judged(printed, exact, share, "right", bound)
+        return turned or judged
     if math.isinf(bound):
-        judged = Judged(printed, exact, share, "not judged", bound)
+        judged = replace(judged, verdict="not judged")
         fits = [s for s, _ in _weighed(case, judged) if not s.copied and _fits_to_the_digit(judged, s, case)]
         if printed.digits < DIGITS or not fits:
             return judged
         return replace(judged, verdict="wrong", looks_like=max(fits, key=lambda s: s.share).phrase)
-    verdict: Verdict = "within drafting accuracy" if off <= bound + printed.coarse else "wrong"
-    judged = Judged(printed, exact, share, verdict, bound)
-    if verdict == "wrong":
-        return judged
-    if printed.digits >= DIGITS:
+    if off > bound + printed.coarse:
+        return replace(judged, verdict="wrong")
+    judged = replace(judged, verdict="within drafting accuracy")
+    if turned:
+        return turned
+    if printed.digits >= DIGITS and off > NEVER * abs(exact):
         best = max(_weighed(case, judged), key=lambda w: w[1], default=None)
         drawn = RIGHT_SHARE * _likelihood(printed, off, bound / 3, exact)
         if best and best[1] > SURER * drawn and _fits_to_the_digit(judged, best[0], case):
             return replace(judged, verdict="wrong", looks_like=best[0].phrase)
     return judged
+
+
+def _no_residue(case: Evidence, symbol: Symbol, value: Value) -> Value:
+    """A value without what is left where it cancels."""
+    if symbol.scope != "motion" or not value:
+        return value
+    return value if abs(value) > NOTHING * _largest(case, symbol) else 0.0 * value
+
+
+def _turned(judged: Judged, right: Value) -> Judged | None:
+    """A value whose size is right and whose stated direction is not, by what it looks like."""
+    printed = judged.printed
+    if printed.direction is None or not right or printed.symbol.measure == "angle":
+        return None
+    true = cmath.phase(complex(right))
+    drawn = judged.bound / abs(right) if math.isfinite(judged.bound) else math.pi
+    reach = max(LEAST_TURN, min(drawn, math.pi / 6)) + printed.room * (1 + 1e-9)
+
+    def near(angle: float) -> bool:
+        return abs(math.remainder(printed.direction - angle, math.tau)) <= reach  # type: ignore[operator]
+
+    if near(true):
+        return None
+    ways = (("slip turned back", math.pi + true), ("slip mirrored", -true), ("slip mirrored", math.pi - true),
+            ("slip square", true + math.pi / 2), ("slip square", true - math.pi / 2))  # fmt: skip
+    key = next((key for key, angle in ways if near(angle)), "slip direction")
+    off = math.degrees(math.remainder(printed.direction - true, math.tau))
+    return replace(judged, verdict="wrong", looks_like=Phrase(key, (f"{off:+.0f}",)))
 
 
 def _largest(case: Evidence, symbol: Symbol) -> float:
@@ -127,39 +165,51 @@ def comparable(printed: Printed, value: Value, line: complex | None) -> Value:
 
 
 def explained(case: Evidence, judged: Judged, own: Mapping[Symbol, Value], wrong: Iterable[Symbol]) -> Judged:
+    """A wrong value with what it looks like; one that is right on somebody's own earlier values is so called."""
     symbol = judged.printed.symbol
-    others = [s for s in wrong if s != symbol]
     chance = CHANCE / max(abs(judged.printed.value), abs(judged.exact), judged.printed.step)
     found = list(_weighed(case, judged))
-    line = line_of(case.sheet, symbol)
+    others = [s for s in wrong if s != symbol and drawn_before(case.sheet, s, symbol)]
     if others:
-        for value in consequential_values(case.plan, case.sheet, own, symbol):
-            exact = comparable(judged.printed, value, line)
-            if abs(exact - judged.exact) > judged.bound / 3:
-                names = tuple(s for s in others if _moves(case, own, s, symbol, judged))
-                phrase = Phrase("slip follows", (", ".join(str(s) for s in names),))
-                if names:
-                    found.append(_weight(judged, Suspect(phrase, value, 0.5, follows_from=names), line))
+        found += _following(case, judged, own, others, chance)
     best = max(found, key=lambda w: w[1], default=None)
     if best is None or best[1] <= chance:
-        best = _drawn_badly(judged, [s for s, _ in found], line)
+        best = _drawn_badly(judged, [s for s, _ in found], line_of(case.sheet, symbol))
     if best is None:
-        return replace(judged, looks_like=None) if judged.looks_like is None else judged
-    return replace(judged, looks_like=best[0].phrase, follows_from=best[0].follows_from)
+        return judged
+    verdict: Verdict = "right from own values" if best[0].follows_from else "wrong"
+    return replace(judged, verdict=verdict, looks_like=best[0].phrase, follows_from=best[0].follows_from)
+
+
+def _following(
+    case: Evidence, judged: Judged, own: Mapping[Symbol, Value], others: Sequence[Symbol], chance: float
+) -> Iterator[tuple[Suspect, float]]:
+    """What a value comes to when the drawing is gone on with from earlier wrong ones."""
+    symbol = judged.printed.symbol
+    line = line_of(case.sheet, symbol)
+    for value in consequential_values(case.plan, case.sheet, own, symbol):
+        if abs(comparable(judged.printed, value, line) - judged.exact) <= judged.bound / 3:
+            continue
+        one = _weight(judged, Suspect(Phrase("slip follows"), value, 0.5), line)
+        names = tuple(s for s in others if _moves(case, own, s, symbol, judged)) if one[1] > chance else ()
+        if names:
+            phrase = Phrase("slip follows", (", ".join(str(s) for s in names),))
+            yield replace(one[0], phrase=phrase, follows_from=names), one[1]
 
 
 def _drawn_badly(judged: Judged, found: Sequence[Suspect], line: complex | None) -> tuple[Suspect, float] | None:
     """A slip in a drawing worse than it should be: the likeliest of those that are much commoner than a value there by
     chance."""
     near: list[tuple[Suspect, float]] = []
-    for suspect in found:
+    for suspect in found if judged.printed.value else ():
         value = comparable(judged.printed, suspect.value, line)
         bound = judged.bound / abs(judged.exact) if judged.exact else 0.0
         reach = max(CLUMSY, min(BAD * bound, 2 * CLUMSY)) * abs(value)
-        by_chance = CHANCE * 2 * reach / max(abs(judged.printed.value), abs(judged.exact))
         off = abs(judged.printed.value - value)
+        within = min(reach, max(off, NEAT * abs(value)))
+        by_chance = CHANCE * 2 * within / max(abs(judged.printed.value), abs(judged.exact))
         if suspect.drawn and not suspect.copied and off <= reach and suspect.share > SURE * by_chance:
-            near.append((suspect, suspect.share / max(off, reach / 3)))
+            near.append((suspect, suspect.share / max(off, reach / 3, judged.printed.step / 2)))
     return max(near, key=lambda w: w[1], default=None)
 
 
@@ -173,7 +223,7 @@ def _moves(case: Evidence, own: Mapping[Symbol, Value], one: Symbol, symbol: Sym
 def _weighed(case: Evidence, judged: Judged) -> Iterator[tuple[Suspect, float]]:
     """Every explanation with its weight: share times likelihood (per unit of the value)."""
     line = line_of(case.sheet, judged.printed.symbol)
-    for suspect in suspects(case, judged.printed.symbol):
+    for suspect in case.suspects(judged.printed.symbol):
         yield _weight(judged, suspect, line)
     for text, share, other in transcription_errors(judged.printed):
         off = abs(other - judged.exact)
@@ -192,7 +242,7 @@ def _weight(judged: Judged, suspect: Suspect, line: complex | None) -> tuple[Sus
 
 def _likelihood(printed: Printed, off: float, spread: float, value: Value) -> float:
     """Density of a stated value at a distance from what it should be: half of them computed, half of them drawn."""
-    half = printed.rounding + COMPUTED * abs(value)
+    half = 0.5 * printed.step + COMPUTED * abs(value)
     computed = 0.5 / (2 * half) if off <= half else 0.0
     if spread <= 0.0:
         return computed

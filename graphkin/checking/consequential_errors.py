@@ -8,12 +8,11 @@ from dataclasses import dataclass, replace
 
 from graphkin.checking.readings import read_off
 from graphkin.construction import Plan, Sheet, Slip, execute
-from graphkin.construction.sheet import Vector
 from graphkin.construction.slip import Component
 from graphkin.errors import GraphkinError
 from graphkin.scene.symbol import PointRef, Symbol
 
-__all__ = ["consequential_values"]
+__all__ = ["consequential_values", "drawn_before"]
 
 Value = complex | float
 
@@ -49,6 +48,11 @@ def consequential_values(plan: Plan, base: Sheet, own: Mapping[Symbol, Value], o
     return tuple(values)
 
 
+def drawn_before(sheet: Sheet, one: Symbol, other: Symbol) -> bool:
+    """Whether a quantity is known on a drawing before another, which can then follow from it."""
+    return _step(sheet, one) < _step(sheet, other)
+
+
 def _step(sheet: Sheet, symbol: Symbol) -> float:
     """When a quantity is known on the drawing; a rate follows the vector that it is measured from."""
     if symbol.scope != "motion":
@@ -58,10 +62,7 @@ def _step(sheet: Sheet, symbol: Symbol) -> float:
         if rate is not None and rate.same_as:
             return _step(sheet, Symbol(symbol.kind, link=rate.same_as))
         return _step(sheet, rate.vector) + 0.5 if rate is not None and rate.vector else 0.0
-    for step in sheet.steps:
-        if any(isinstance(s, Vector) and s.symbol == symbol for s in step.strokes):
-            return float(step.number)
-    return math.inf
+    return float(sheet.drawn_in.get(symbol, math.inf))
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from decimal import Decimal, InvalidOperation
 from itertools import combinations, pairwise
 
@@ -15,6 +15,7 @@ from graphkin.scene.tables import Units
 __all__ = ["Printed", "printed_values", "stated", "transcription_errors"]
 
 Value = complex | float
+MOST_PARDONED = 0.01  # part of a value that its rounding may take away
 SMALLEST = -300  # power of ten of a last digit that a double still holds
 
 
@@ -23,7 +24,9 @@ class Printed:
     """A stated value.
 
     ``value`` (SI) is a float, or a complex number for a vector given by two components; ``step`` (SI) one unit of its
-    last digit; ``digits`` the number of its significant digits; ``texts`` what was written, in scene units.
+    last digit; ``digits`` the number of its significant digits; ``texts`` its numbers as written, in scene units unless
+    ``shown``, the whole cell, says otherwise.  ``direction`` (rad) is that of a vector given by size and direction,
+    which may be meant otherwise by ``room``.
     """
 
     symbol: Symbol
@@ -31,11 +34,28 @@ class Printed:
     step: float
     digits: int
     texts: tuple[str, ...]
+    shown: str = ""
+    direction: float | None = None
+    room: float = 0.0
+
+    def written(self, shown: str, direction: float | None, room: float) -> Printed:
+        """The same with what else the cell says."""
+        return replace(self, shown=shown, direction=direction, room=room)
+
+    @property
+    def text(self) -> str:
+        """What was written."""
+        return self.shown or ", ".join(self.texts)
 
     @property
     def rounding(self) -> float:
-        """How far a right value may lie from it (SI): half a unit of the last digit."""
-        return 0.5 * self.step * (1 + 1e-9)
+        """How far a right value may lie from it (SI): half a unit of the last digit, but never more than a hundredth.
+
+        Few digits say what was meant, they pardon nothing.  A zero is zero to the decimals written.
+        """
+        if not self.value:
+            return (0.5 if any("." in text for text in self.texts) else MOST_PARDONED) * self.step
+        return min(0.5 * self.step, MOST_PARDONED * abs(self.value)) * (1 + 1e-9)
 
     @property
     def coarse(self) -> float:
@@ -43,13 +63,14 @@ class Printed:
         520 mm/s), where that is no more than one in a hundred."""
         if any("." in t or not t.endswith("0") for t in self.texts):
             return self.rounding
-        return max(self.rounding, min(5.0 * self.step, 0.01 * abs(self.value)))
+        return max(self.rounding, min(5.0 * self.step, MOST_PARDONED * abs(self.value)))
 
 
-def stated(symbol: Symbol, texts: Sequence[str], units: Units) -> Printed:
-    """A value from its text, or the texts of its two components, in scene units.
+def stated(symbol: Symbol, texts: Sequence[str], units: Units, unit: float | None = None) -> Printed:
+    """A value from its text, or the texts of its two components, in scene units, or in a ``unit`` (SI).
 
-    Trailing zeros of whole numbers count as written: 480 is stated to the unit.
+    Trailing zeros of whole numbers count as written: 480 is stated to the unit.  A component that is zero is zero to
+    the accuracy of the other.
 
     Raises
     ------
@@ -59,10 +80,10 @@ def stated(symbol: Symbol, texts: Sequence[str], units: Units) -> Printed:
     >>> v.value, v.step, v.digits
     (0.48, 0.0001, 4)
     """
-    unit = symbol.per_unit(units)
+    unit = symbol.per_unit(units) if unit is None else unit
     numbers = [_number(text) for text in texts]
     values = [float(n) * unit for n in numbers]
-    last = max(int(n.as_tuple().exponent) for n in numbers)
+    last = max(int(n.as_tuple().exponent) for n in [n for n in numbers if n] or numbers)
     digits = max(len(n.as_tuple().digits) for n in numbers)
     value: Value = complex(*values) if len(values) == 2 else values[0]
     return Printed(symbol, value, 10.0**last * unit, digits, tuple(t.strip() for t in texts))

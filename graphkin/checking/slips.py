@@ -21,7 +21,7 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Slide
 from graphkin.words import Phrase
 
-__all__ = ["Evidence", "Suspect", "ValuesElsewhere", "dimension", "line_of", "suspects"]
+__all__ = ["Evidence", "Suspect", "ValuesElsewhere", "dimension", "line_of"]
 
 
 def line_of(sheet: Sheet, symbol: Symbol) -> complex | None:
@@ -93,13 +93,14 @@ class Evidence:
     """Everything known of a scene at one position, against which values are judged.
 
     ``exact`` gives the exact value of a symbol, ``elsewhere`` its exact values at other positions with their names,
-    ``predicted`` the uncertainty of a pencil drawing.
+    ``variants`` those of other problems of a set, ``predicted`` the uncertainty of a pencil drawing.
     """
 
     plan: Plan
     exact: Callable[[Symbol], Value]
     predicted: Mapping[Symbol, Uncertainty]
     elsewhere: ValuesElsewhere
+    variants: ValuesElsewhere = lambda symbol: ()
 
     @cached_property
     def sheet(self) -> Sheet:
@@ -122,6 +123,16 @@ class Evidence:
                 continue  # with this slip nothing can be drawn, so nobody's value comes from it
             found.append((phrase, share, values))
         return tuple(found)
+
+    @cached_property
+    def _explanations(self) -> dict[Symbol, tuple[Suspect, ...]]:
+        return {}
+
+    def suspects(self, symbol: Symbol) -> tuple[Suspect, ...]:
+        """Every explanation for a wrong value of a symbol; looked for once."""
+        if symbol not in self._explanations:
+            self._explanations[symbol] = tuple(_suspects(self, symbol))
+        return self._explanations[symbol]
 
 
 Altered = tuple[Phrase, float, Callable[[], Sheet]]
@@ -156,7 +167,7 @@ def _times(symbols: tuple[Symbol, ...], factor: float) -> Callable[[Component], 
     return changed
 
 
-def suspects(case: Evidence, symbol: Symbol) -> Iterator[Suspect]:
+def _suspects(case: Evidence, symbol: Symbol) -> Iterator[Suspect]:
     """Every explanation for a wrong value of a symbol."""
     exact = case.exact(symbol)
     yield Suspect(Phrase("slip sign"), -exact, 0.15)
@@ -169,6 +180,9 @@ def suspects(case: Evidence, symbol: Symbol) -> Iterator[Suspect]:
     yield from _factors(case, symbol, exact)
     yield from _own_parts(case, symbol)
     yield from _others(case, symbol, exact)
+    own = case.variants(symbol)
+    for name, value in own:
+        yield Suspect(Phrase("slip variant", (name,)), value, 0.3 / len(own))
     places = case.elsewhere(symbol)
     for name, value in places:
         yield Suspect(Phrase("slip position", (name,)), value, 0.05 / len(places), drawn=False)

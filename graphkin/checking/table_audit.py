@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
 
 from graphkin.checking.audit import COMPUTED_SHARE, Judged, Value, comparable, deviation, difference
-from graphkin.checking.printed import Printed
+from graphkin.checking.printed import Printed, transcription_errors
 from graphkin.plane import unit
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion, value_of
+from graphkin.words import Phrase
 
-__all__ = ["Exact", "exact_rows", "judged_by_digits"]
+__all__ = ["Exact", "exact_rows", "judged_by_digits", "told_by_digits"]
 
 Exact = Callable[[int, Printed], Value]
 
@@ -64,3 +66,47 @@ def judged_by_digits(printed: Printed, exact: Value, by: str, bound: float) -> J
         return Judged(printed, exact, share, "right" if near else "wrong", 0.0)
     near = math.isfinite(bound) and off <= bound + printed.coarse
     return Judged(printed, exact, share, "within drafting accuracy" if near else "wrong", bound)
+
+
+TELLING = 4  # digits from which a number can be told to be another
+
+
+def told_by_digits(
+    judged: Judged, exact: Exact, row: int, symbols: Sequence[Symbol], names: Sequence[str]
+) -> Judged:
+    """A wrong value of a table with what its digits are: the right one with a slip of the pen or a sign, that of
+    another row or of another column.
+
+    Parameters
+    ----------
+    symbols, names : of the columns and rows of the table
+    """
+    printed = judged.printed
+    if printed.digits < TELLING or isinstance(printed.value, complex):
+        return judged
+    ways = _ways(judged, exact, row, symbols, names)
+    near = COMPUTED_SHARE * abs(printed.value) / 10
+    phrase = next((phrase for phrase, value in ways if abs(printed.value - value) <= printed.rounding + near), None)
+    return judged if phrase is None else replace(judged, looks_like=phrase)
+
+
+def _ways(
+    judged: Judged, exact: Exact, row: int, symbols: Sequence[Symbol], names: Sequence[str]
+) -> Iterator[tuple[Phrase, Value]]:
+    printed, right = judged.printed, judged.exact
+    value: Value = -right
+    yield Phrase("slip sign"), value
+    for power in (1, 2, 3):
+        for factor in (10.0**power, 0.1**power):
+            yield Phrase("slip factor", (f"{factor:g}",)), right * factor
+    for text, _, value in transcription_errors(printed):
+        if abs(value - right) <= printed.rounding + 0.1 * COMPUTED_SHARE * abs(right):
+            yield Phrase("slip pen", (text,)), printed.value
+    others = sorted((k for k in range(len(names)) if k != row), key=lambda k: abs(k - row))
+    for k in others:
+        yield Phrase("slip position", (names[k],)), exact(k, printed)
+    for symbol in symbols:
+        if symbol != printed.symbol and (symbol.is_vector or not isinstance(printed.value, complex)):
+            value = exact(row, replace(printed, symbol=symbol))
+            yield Phrase("slip other", (str(symbol),)), value
+

@@ -31,7 +31,7 @@ from graphkin.cli.options import (
     listed,
 )
 from graphkin.cli.output import print_json, print_paths, print_table, tell, tell_unused, unsolvable_as_json
-from graphkin.errors import Unsolvable
+from graphkin.errors import CallError, Problem, Unsolvable
 from graphkin.words import languages
 
 if TYPE_CHECKING:
@@ -161,6 +161,13 @@ def audit(
     at: AtOption = None,
     position: PositionOption = None,
     out: Annotated[Path | None, typer.Option("-o", "--out", metavar="DIR", help="Folder for audit.csv.")] = None,
+    variants: Annotated[
+        Path | None,
+        typer.Option("--variants", metavar="DIR", help="Folder of the problem set, for answers with a column variant."),
+    ] = None,
+    grading: Annotated[
+        str, typer.Option("--grading", metavar="equations=20,drawing=30,values=50", help="Points, also by symbol.")
+    ] = "",
     lang: LangOption = None,
     as_json: JsonOption = False,
     quiet: QuietOption = False,
@@ -168,15 +175,30 @@ def audit(
     """Judge the scene's printed values, or people's answers: right, within drafting accuracy, or wrong and why."""
     from graphkin.api.audited import audit as auditing
 
-    audited = auditing(scene, answers, driver_values(at, position), lang)
+    audited = auditing(scene, answers, driver_values(at, position), lang, variants, _points(grading))
     paths = audited.write(out) if out is not None else []
     if as_json:
         print_json(audited.data)
     elif not quiet:
         first = len(audited.heads) - 6
         print_table(audited.heads, audited.rows, right=(first + 1, first + 2, first + 3))
+        for summary in (audited.students, audited.matrix) if audited.is_class else ():
+            tell("")
+            print_table(list(summary.heads), [list(row) for row in summary.texts()])
         if paths:
             print_paths(paths)
     tell_unused(audited.unused)
     if not audited.ok:
         raise typer.Exit(1)
+
+
+def _points(text: str) -> dict[str, float] | None:
+    """Points by part or symbol, as ``--grading`` gives them."""
+    found: dict[str, float] = {}
+    for one in filter(None, map(str.strip, text.split(","))):
+        name, _, points = one.partition("=")
+        try:
+            found[name.strip()] = float(points)
+        except ValueError:
+            raise CallError(Problem("grading", f'"{one[:40]}"', "write equations=20,drawing=30,values=50")) from None
+    return found or None

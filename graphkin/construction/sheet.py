@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import Literal
 
 from graphkin.construction.remarks import Remark
@@ -367,6 +368,12 @@ class Sheet:
     def notes(self) -> tuple[Phrase, ...]:
         """The remarks as sentences to be, each once."""
         return tuple(dict.fromkeys(remark.phrase for remark in self.remarks))
+
+    @cached_property
+    def drawn_in(self) -> dict[Symbol, int]:
+        """The step in which each vector is first drawn."""
+        drawn = [(s.symbol, step.number) for step in self.steps for s in step.strokes if isinstance(s, Vector)]
+        return dict(reversed(drawn))
 
     def vectors(self, diagram: DiagramName) -> dict[Symbol, Vector]:
         """All vectors of a diagram by symbol."""

@@ -14,7 +14,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from xml.sax.saxutils import escape
 
-from graphkin.checking.slips import Evidence, suspects
+from graphkin.checking.slips import Evidence
 from graphkin.errors import GraphkinError
 from graphkin.papers.blocks import clean
 from graphkin.papers.html import said_html, words_html
@@ -111,7 +111,7 @@ def _slips(
     """The commonest slips whose values can be told from the right one and from each other."""
     taken = [right]
     try:
-        found = sorted(suspects(evidence, symbol), key=lambda s: -s.share)
+        found = sorted(evidence.suspects(symbol), key=lambda s: -s.share)
     except GraphkinError:
         return
     for suspect in found:

@@ -94,6 +94,10 @@ Stated = Annotated[
     | Annotated[str, StringConstraints(strict=True, max_length=40), Tag("<name>")],
     _forms('write a number, "1.0" for its digits as printed, or [x, y] for a vector by its components'),
 ]
+Range = Annotated[list[Number], Field(min_length=2, max_length=2)]
+Keys = list[Annotated[str, StringConstraints(strict=True, max_length=80)]]
+KeyLists = list[Keys]
+Asked = Annotated[int, Field(strict=True, ge=1, le=100)]
 StatedRow = dict[str, Stated]
 Start = Annotated[
     Annotated[Number, Tag("<number>")] | Annotated[StrokeStart, Tag("<polar>")],

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Literal
 
+from graphkin.scene.class_tables import Vary
 from graphkin.scene.loads import Loading
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import SheetWishes, Units
@@ -222,7 +223,8 @@ class Mechanism:
     ``links`` are the moving links in the order of the file (redundant ones included, see ``PlacedLink.redundant``);
     ``sketch`` and ``drawn`` give places of points in world axes (m); ``printed`` maps symbols to values in SI
     (a float, or a complex number for a vector given by two components); ``stated`` holds all that is printed, digit by
-    digit, first that of this position; ``loops`` are vector loops by name, each through its points.
+    digit, first that of this position; ``loops`` are vector loops by name, each through its points; ``vary`` says how
+    a set of problems is drawn from it, ``grading`` for what there are points.
     """
 
     name: str
@@ -244,6 +246,8 @@ class Mechanism:
     stated: tuple[StatedValues, ...] = ()
     positions: NamedPositions | None = None
     loops: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    vary: Vary | None = None
+    grading: Mapping[str, float] = field(default_factory=dict)
 
     def __hash__(self) -> int:
         return hash((self.name, self.title, tuple(link.name for link in self.links)))

@@ -137,6 +137,8 @@ def resolve(file: SceneTables, name: str, problems: list[Problem], flaws: Flaws)
         stated,
         positions,
         loops,
+        file.vary,
+        dict(file.grading),
     )
     _ask_for_forces(made)
     return made

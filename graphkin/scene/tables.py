@@ -11,6 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
+from graphkin.scene.class_tables import Vary
 from graphkin.scene.file_table import FileTable
 from graphkin.scene.file_table import about as _about
 from graphkin.scene.file_table import closed as _closed
@@ -45,6 +46,7 @@ if TYPE_CHECKING:
     StatedRow = Mapping[str, float | str | Sequence[float]]
     Count = int
     Share = float
+    NotNegative = float
     PositionName = str
     ShownName = str | int
     Start: TypeAlias = "float | StrokeStart"
@@ -70,6 +72,7 @@ __all__ = [
     "StrokeStart",
     "Tools",
     "Units",
+    "Vary",
 ]
 
 
@@ -371,6 +374,11 @@ class SceneTables(FileTable):
         default=None, metadata=_about("What is unknown besides the joint forces; a moment on the driver if left out.")
     )
     flywheel: Flywheel | None = field(default=None, metadata=_about("A flywheel that evens out the turn."))
+    vary: Vary | None = field(default=None, metadata=_about("How a set of problems is drawn from the scene."))
+    grading: dict[str, NotNegative] = field(
+        default_factory=dict,
+        metadata=_about("Points of a class: for equations, drawing, values, and for single quantities by symbol."),
+    )
     sheet: SheetWishes = SheetWishes()
 
     @property

@@ -21,23 +21,32 @@ def test_a_table_is_read_as_people_write_it(tmp_path, encoding):
     audited = graphkin.audit(SIXBAR, tmp_path / "a.csv")
     found = [(v["person"], v["symbol"], v["verdict"]) for v in audited.data["values"]]
     expected = [("张三", s, "right") for s in ("v_D", "a_D", "omega_3")]
-    assert [*expected, ("李四", "v_D", "right"), ("李四", "omega_3", "wrong")] == found
+    rest = [("李四", "v_D", "right"), ("李四", "a_D", "missing"), ("李四", "omega_3", "wrong")]
+    assert [*expected, *rest] == found
     assert ("备注",) == audited.unused
 
 
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ('name,a_D\nx,"1,126"\n', "may be 1126 or 1.126"),
-        ("name,v_D (m/s)\nx,0.48\n", "give it in mm/s"),
+        ("name,v_D (kg)\nx,0.48\n", "give it in mm/s"),
         ("name,v_D,v_D\nx,480,481\n", "stands twice"),
-        ("name,omega_3\nx,1 2\n", "more than one number"),
     ],
 )
 def test_what_may_be_meant_in_two_ways_is_refused(tmp_path, text, said):
     (tmp_path / "a.csv").write_text(text)
     with pytest.raises(CallError, match=re.escape(said)):
         graphkin.audit(SIXBAR, tmp_path / "a.csv")
+
+
+@pytest.mark.parametrize(
+    ("head", "cell", "said"),
+    [("a_D", '"1,126"', "may be 1126 or 1.126"), ("omega_3", "1 2", "more than one number")],
+)
+def test_a_cell_that_may_be_meant_in_two_ways_is_not_readable(tmp_path, head, cell, said):
+    (tmp_path / "a.csv").write_text(f"name,{head}\nx,{cell}\n")
+    (value,) = graphkin.audit(SIXBAR, tmp_path / "a.csv").data["values"]
+    assert ("not readable", True) == (value["verdict"], said in value["why"])
 
 
 def test_a_comma_between_digits_of_a_list_is_a_decimal_comma_where_it_can_be_nothing_else(tmp_path):

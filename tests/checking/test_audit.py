@@ -7,7 +7,7 @@ import json
 import pytest
 
 import graphkin
-from graphkin.api.audited import _case
+from graphkin.api.judging import evidence_at
 from graphkin.checking.printed import stated, transcription_errors
 from graphkin.errors import CallError
 from graphkin.scene import mechanism_of
@@ -104,12 +104,12 @@ def test_the_normal_term_alone_is_known_where_the_image_gave_the_point():
 def test_what_follows_from_an_earlier_wrong_value_is_told_with_it():
     # at = 8998 is the Coriolis term reversed; a = hypot(3033, 8998) and alpha = at / BC are right on their own inputs
     entry = judged(SIXBAR, an_B_at_3_to_C="3033", at_B_at_3_to_C="8998", alpha_3="23.58")
-    assert ("wrong", ["at_B@3/C"]) == (entry["verdict"], entry["follows_from"])
+    assert ("right from own values", ["at_B@3/C"]) == (entry["verdict"], entry["follows_from"])
 
 
 def test_a_wrong_angular_velocity_is_followed_to_a_point_far_from_it():
     entry = judged(SIXBAR, omega_3="-3.5", v_D_at_3="586.5")
-    assert "follows from an earlier wrong value: omega_3" == entry["looks_like"]
+    assert "right from your own omega_3" == entry["looks_like"]
 
 
 def test_a_wrong_value_that_nothing_explains_has_no_name():
@@ -118,7 +118,7 @@ def test_a_wrong_value_that_nothing_explains_has_no_name():
 
 def test_slips_drawn_out_in_any_mechanism_are_found_again():
     scene = mechanism_of("shaper-scheme-2")
-    for phrase, _, values in _case(scene, [], None).altered:
+    for phrase, _, values in evidence_at(scene, [], None).altered:
         wrong = abs(values[Symbol.parse("a_C")]) * 1e3
         if "coriolis" in phrase.key and abs(wrong - 4137.5) > 300:
             assert say(phrase) == judged(scene, a_C=f"{wrong:.5g}")["looks_like"]
@@ -143,11 +143,17 @@ def test_people_and_positions_are_read_from_a_table(tmp_path):
     assert [("王", -60, "right"), ("李", -90, "right")] == [(v["person"], v["at"], v["verdict"]) for v in found]
 
 
-def test_everything_wrong_with_a_table_is_said_at_once(tmp_path):
-    (tmp_path / "a.csv").write_text("name,v_Q,v_D,a_D\nx,1,many,2\ny,1,2,nan\n")
+def test_everything_wrong_with_the_heads_of_a_table_is_said_at_once(tmp_path):
+    (tmp_path / "a.csv").write_text("name,v_Q,v_D,v_D (kg),a_D\nx,1,1,1,2\n")
     with pytest.raises(CallError) as refusal:
         graphkin.audit(TABLE, tmp_path / "a.csv")
     assert 3 == len(refusal.value.problems)
+
+
+def test_one_bad_cell_is_a_verdict_of_its_own_and_the_rest_is_judged(tmp_path):
+    (tmp_path / "a.csv").write_text("name,v_D,a_D\nx,many,\ny,1293.7,nan\n")
+    found = graphkin.audit(TABLE, tmp_path / "a.csv", -60).data["values"]
+    assert ["not readable", "missing", "right", "not readable"] == [v["verdict"] for v in found]
 
 
 @pytest.mark.parametrize("text", ["", "v_D\n", "name,mark\nx,3\n"])

@@ -1,0 +1,127 @@
+"""A class's answers put together: points by a scheme, a slip for each student, what went wrong with each quantity."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from graphkin.api.answers import Answers
+from graphkin.checking.audit import Judged
+from graphkin.checking.spelling import Spelling
+from graphkin.errors import CallError, Problem
+from graphkin.scene.model import Mechanism
+from graphkin.scene.symbol import Symbol
+from graphkin.words import Phrase, say
+
+__all__ = ["Scheme", "people_of", "quantities_of", "scheme_of"]
+
+FULL = ("right", "within drafting accuracy", "right from own values")
+PARTS = ("equations", "drawing", "values")
+COUNTED = (*FULL, "wrong", "missing", "not readable")
+Person = tuple[Answers, tuple[Judged, ...]]
+
+
+@dataclass(frozen=True)
+class Scheme:
+    """How many points there are: for each part that is marked by hand, for all values together, and for single ones."""
+
+    parts: Mapping[str, float]
+    symbols: Mapping[Symbol, float]
+
+    def of(self, symbol: Symbol, asked: Sequence[Symbol]) -> float:
+        """Points for one of the values asked for."""
+        if symbol in self.symbols:
+            return self.symbols[symbol]
+        alike = [s for s in asked if s not in self.symbols]
+        return self.parts.get("values", 0.0) / len(alike) if symbol in alike else 0.0
+
+
+def scheme_of(scene: Mechanism, given: Mapping[str, float] | None) -> Scheme | None:
+    """The scheme of a call, or else that of the scene (``[grading]``); None where there is none.
+
+    Raises CallError for a name that is neither a part nor a quantity of the scene, and for points below 0.
+    """
+    weights = given if given is not None else scene.grading
+    if not weights:
+        return None
+    spelling = Spelling(scene)
+    parts: dict[str, float] = {}
+    symbols: dict[Symbol, float] = {}
+    problems = []
+    for name, weight in weights.items():
+        symbol = spelling.symbol(str(name))
+        if isinstance(weight, bool) or not isinstance(weight, int | float) or not 0 <= weight < 1e6:
+            problems.append(Problem(f"grading {name}", f"found {weight!r:.40}", "give points, 0 or more"))
+        elif name in PARTS:
+            parts[name] = float(weight)
+        elif symbol is not None:
+            symbols[symbol] = float(weight)
+        else:
+            problems.append(Problem(f"grading {name}", "is no part and no quantity of the scene",
+                                    f"{', '.join(PARTS)}, or a symbol such as v_D"))  # fmt: skip
+    if problems:
+        raise CallError(*problems)
+    return Scheme(parts, symbols)
+
+
+def people_of(people: Sequence[Person], scheme: Scheme | None, language: str) -> Iterator[dict[str, Any]]:
+    """For each person: the verdicts counted, the slip to talk about, and the points where there is a scheme.
+
+    The slip is the first one made: values that only follow from it are no slips.
+    """
+    for who, judged in people:
+        asked = [*(j.printed.symbol for j in judged), *(u.symbol for u in who.unread)]
+        counts = Counter(_verdicts(who, judged))
+        slip = next((j.looks_like for j in judged if j.verdict == "wrong" and j.looks_like is not None), None)
+        row: dict[str, Any] = {"person": who.person}
+        row |= {k: v for k, v in (("id", who.id), ("variant", who.variant), ("at", who.at)) if v not in ("", None)}
+        row |= {verdict: counts[verdict] for verdict in COUNTED}
+        if slip is not None:
+            row["slip"] = say(slip, language)
+        if scheme is not None:
+            row |= _points(who, judged, asked, scheme)
+        yield row
+
+
+def _points(who: Answers, judged: Sequence[Judged], asked: Sequence[Symbol], scheme: Scheme) -> dict[str, Any]:
+    """Points by part, their sum, and of how many; a part that nobody has marked yet is None and not counted."""
+    good = [j.printed.symbol for j in judged if j.verdict in FULL]
+    values = sum(scheme.of(s, asked) for s in good)
+    most = sum(scheme.of(s, asked) for s in asked)
+    points: dict[str, Any] = {"values": values}
+    total = values
+    for part in ("equations", "drawing"):
+        if part in scheme.parts:
+            mark = who.marks.get(part)
+            points[part] = None if mark is None else min(max(mark, 0.0), scheme.parts[part])
+            if mark is not None:
+                total += points[part]
+                most += scheme.parts[part]
+    return {"points": {k: None if v is None else round(v, 4) for k, v in points.items()},
+            "total": round(total, 4), "of": round(most, 4)}  # fmt: skip
+
+
+def _verdicts(who: Answers, judged: Sequence[Judged]) -> Iterator[str]:
+    yield from (j.verdict for j in judged)
+    yield from ("not readable" if u.why else "missing" for u in who.unread)
+
+
+def quantities_of(people: Sequence[Person], language: str) -> Iterator[dict[str, Any]]:
+    """For each quantity: the verdicts of the class counted, and the commonest slip with how many made it."""
+    symbols: dict[Symbol, None] = {}
+    for who, judged in people:
+        symbols |= dict.fromkeys([*(j.printed.symbol for j in judged), *(u.symbol for u in who.unread)])
+    for symbol in symbols:
+        own = [j for _, judged in people for j in judged if j.printed.symbol == symbol]
+        counts: Counter[str] = Counter(j.verdict for j in own)
+        unread = [u for who, _ in people for u in who.unread if u.symbol == symbol]
+        counts["not readable"] = sum(bool(u.why) for u in unread)
+        counts["missing"] = len(unread) - counts["not readable"]
+        slips: Counter[Phrase] = Counter(j.looks_like for j in own if j.verdict == "wrong" and j.looks_like)
+        row: dict[str, Any] = {"symbol": str(symbol), **{verdict: counts[verdict] for verdict in COUNTED}}
+        if slips:
+            phrase, made = slips.most_common(1)[0]
+            row |= {"commonest_slip": say(phrase, language), "made_by": made}
+        yield row

@@ -1,0 +1,147 @@
+"""What stated values are held against: the evidence of one position, and whole tables of positions at once."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cache
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from graphkin.api.answers import Answers
+from graphkin.api.arguments import At, driver_values, own_unit
+from graphkin.api.checked import solved_here
+from graphkin.checking.audit import Judged, explained
+from graphkin.checking.readings import predict
+from graphkin.checking.slips import Evidence, ValuesElsewhere
+from graphkin.checking.table_audit import exact_rows, judged_by_digits, told_by_digits
+from graphkin.construction import plan
+from graphkin.errors import Problem, Unsolvable
+from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.symbol import Symbol
+
+if TYPE_CHECKING:
+    from graphkin.solver import Motion
+
+__all__ = ["MOST_DRAWN", "evidence_at", "judged_table"]
+
+POSITIONS = 72
+MOST_DRAWN = 6  # rows of a table that are drawn each
+MOST_PREDICTED = 4  # positions of a longer one that are
+MOST_EXPLAINED = 3  # rows of which the drawing is asked what their wrong values look like
+
+
+def judged_table(
+    scene: Mechanism, table: Sequence[Answers], at: At, case: Callable[[float | str | None], Evidence]
+) -> dict[int, tuple[Judged, ...]]:
+    """Rows of a table: all positions solved at once, judged by their digits; only what is wrong is looked into, and of
+    a table that was drawn some positions are drawn to see what a pencil keeps within."""
+    from graphkin.solver import driver_range, exact_values, structure_of
+
+    symbols = list(dict.fromkeys(p.symbol for who in table for p in who.values))
+    reach = driver_range(structure_of(scene))
+    key = scene.drivers[0].key
+    places = [(driver_values(scene, at if who.at is None else who.at) or {}).get(key) for who in table]
+    own = scene.drivers[0].values[0]
+    motion = reach.motion(reach.offsets(np.array([own if place is None else place for place in places])))
+    if not motion.ok.all():
+        k = int(np.argmin(motion.ok))
+        where = own_unit(scene, scene.drivers[0], float(motion.values[k, 0]))
+        status = str(motion.status[k])
+        raise Unsolvable(status, Problem(f"driver {key} at {where}", f"{status}: {motion.why[k]}"))
+    turning = [s for s in symbols if s.scope == "turn"]
+    value = exact_values(solved_here(scene, None), turning)
+    exact = exact_rows(motion, symbols, {s: float(value(s).real) for s in turning})
+    drawn = _Bounds(table, case)
+    names = [_named(scene, who.at, motion.values[row, 0]) for row, who in enumerate(table)]
+    made: dict[int, tuple[Judged, ...]] = {}
+    looked_into = 0
+    for row, who in enumerate(table):
+        judged = []
+        for printed in who.values:
+            right = exact(row, printed)
+            one = judged_by_digits(printed, right, who.by, 0.0)
+            if one.verdict != "right" and who.by == "drawing":
+                one = judged_by_digits(printed, right, who.by, drawn.bound(row, printed.symbol))
+            if one.verdict == "wrong":
+                one = told_by_digits(one, exact, row, symbols, names)
+            judged.append(one)
+        if any(one.verdict == "wrong" and not one.looks_like for one in judged) and looked_into < MOST_EXPLAINED:
+            looked_into += 1
+            evidence, values = case(who.at), {p.symbol: p.value for p in who.values}
+            wrong = [one.printed.symbol for one in judged if one.verdict == "wrong"]
+            judged = [
+                explained(evidence, j, values, wrong) if j.verdict == "wrong" and not j.looks_like else j
+                for j in judged
+            ]
+        made[id(who)] = tuple(judged)
+    return made
+
+
+@dataclass
+class _Bounds:
+    """What a pencil keeps within at the rows of a long table: predicted at some of them, the nearest is taken."""
+
+    table: Sequence[Answers]
+    case: Callable[[float | str | None], Evidence]
+
+    def bound(self, row: int, symbol: Symbol) -> float:
+        step = max(1, math.ceil(len(self.table) / MOST_PREDICTED))
+        near = min(len(self.table) - 1, step * round(row / step))
+        uncertainty = self.case(self.table[near].at).predicted.get(symbol)
+        return uncertainty.bound if uncertainty and math.isfinite(uncertainty.bound) else 0.0
+
+
+def evidence_at(
+    scene: Mechanism, asked: Sequence[Symbol], at: At, variants: ValuesElsewhere = lambda symbol: ()
+) -> Evidence:
+    """Everything that is known of a scene at one position.
+
+    ``variants`` gives the values of the other problems of its set.
+    """
+    from graphkin.solver import exact_values
+
+    values = driver_values(scene, at)
+    motion = solved_here(scene, values)
+    structure = motion.structure
+    what = plan(structure, values, [symbol for symbol in asked if symbol.scope != "force"])
+    # everything is drawn, so that slips in what leads to the asked and beside it are found
+    whole = plan(structure, values, ())
+    drawn = what if set(what.elements) == set(whole.elements) else whole
+
+    predicted = predict(what, "pencil", scene.sheet.tools)
+    return Evidence(drawn, exact_values(motion, asked), predicted, _elsewhere(scene, values), variants)
+
+
+def _elsewhere(scene: Mechanism, values: dict[str, float] | None) -> ValuesElsewhere:
+    """Exact values at the positions of a table: steps of 5 degrees, from here and from 0."""
+    from graphkin import solver
+
+    @cache
+    def motions() -> tuple[Motion, ...]:
+        first = scene.drivers[0]
+        if not isinstance(first, AngleDriver):
+            return ()
+        from_zero = {**(values or {}), first.key: 0.0}
+        return solver.solve(scene, values, POSITIONS), solver.solve(scene, from_zero, POSITIONS)
+
+    def table(symbol: Symbol) -> list[tuple[str, complex | float]]:
+        found: list[tuple[str, complex | float]] = []
+        if symbol.scope == "turn":
+            return found
+        for motion in motions():
+            for i, value in enumerate(solver.value_of(motion, symbol)):
+                if motion.ok[i]:
+                    name = f"{scene.drivers[0].key} = {own_unit(scene, scene.drivers[0], float(motion.values[i, 0]))}"
+                    found.append((name, complex(value) if symbol.is_vector else float(value.real)))
+        return found
+
+    return table
+
+
+def _named(scene: Mechanism, at: float | str | None, value: float) -> str:
+    """How a row of a table is called: its position's name, or the driver's value."""
+    driver = scene.drivers[0]
+    return at if isinstance(at, str) else f"{driver.key} = {own_unit(scene, driver, float(value))}"

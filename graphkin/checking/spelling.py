@@ -1,0 +1,230 @@
+"""Names of quantities as people spell them: ``v_B3``, ``ω₃``, ``omega3``, ``vB``, ``a_{CB}^{n}``, ``v_C/(m/s)``.
+
+A spelling is held against the names that the scene has, so that ``v_B3`` is the pin B3 where there is one, and else B
+as a point of link 3.
+"""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from graphkin.scene.model import Mechanism
+from graphkin.scene.symbol import KINDS, PointRef, Symbol
+from graphkin.scene.tables import Units
+
+__all__ = ["Spelling", "plain_text", "unit_factor"]
+
+_GREEK = {"ω": "omega", "Ω": "omega", "α": "alpha", "ε": "alpha", "ϵ": "alpha", "θ": "theta", "φ": "theta",
+          "ϕ": "theta", "ψ": "theta", "γ": "gamma", "τ": "t"}  # fmt: skip
+_WRITTEN = {"w": "omega", "epsilon": "alpha", "phi": "theta", "ac": "ak", "l": "d", "V": "v", **{k: k for k in KINDS}}
+_SPOKEN = sorted(_WRITTEN, key=len, reverse=True)
+_PART = re.compile(r"\^\{?([a-z])\}?")
+_HEAD_UNIT = re.compile(r"^(.*?)\s*(?:\(([^()]*(?:\([^()]*\)[^()]*)*)\)|\[([^\[\]]*)\])\s*$")
+_BEHIND_A_LINE = re.compile(r"^(.*?[^/\s])\s*/\s*((?:[^/]|/(?=s|min|\())+)$")
+_WORDS_ASIDE = re.compile("[\u3000-\u9fff\uff00-\uffef]+")
+
+
+def plain_text(text: str) -> str:
+    """Raised and lowered signs, wide ones and typographic minus signs as plain ones: ``ω₃`` is ``ω3``; powers of ten
+    keep an e.
+
+    >>> plain_text("−1.22×10³ mm/s²"), plain_text("2．82（rad／s）"), plain_text("1.2·$10^{-7}$")
+    ('-1.22e3 mm/s2', '2.82(rad/s)', '1.2e-7')
+    """
+    raised = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺", "0123456789-+")
+    powers = re.sub(
+        r"\s*[×xX·*⋅]\s*10\s*([⁻⁺]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+)", lambda m: "e" + m[1].translate(raised), text.replace("$", "")
+    )
+    powers = re.sub(r"\s*[×xX·*⋅]\s*10\s*\^\s*\{?\s*([-+\u2212]?\d+)\s*\}?", r"e\1", powers)
+    signs = str.maketrans({"\u2212": "-", "\u2010": "-", "\u2011": "-", "\u2012": "-", "\u2013": "-", "\u207b": "-",
+                           "\u20d7": None, "\u0305": None, "°": "°", "º": "°"})  # fmt: skip
+    return unicodedata.normalize("NFKC", powers.translate(signs)).translate(signs).strip()
+
+
+@dataclass(frozen=True)
+class Spelling:
+    """Reads names of quantities of one scene."""
+
+    scene: Mechanism
+
+    @cached_property
+    def _points(self) -> dict[str, set[str]]:
+        """The links that own each point."""
+        scene = self.scene
+        owners = {p: {scene.frame.name} for p in scene.frame.points}
+        for link in scene.links:
+            for point in link.points:
+                owners.setdefault(point, set()).add(link.name)
+        return owners
+
+    @cached_property
+    def _links(self) -> set[str]:
+        return {self.scene.frame.name, *(link.name for link in self.scene.links)}
+
+    def head(self, text: str) -> tuple[str, str]:
+        """The name in a head and its unit, "" if none is written: ``v_C (m/s)``, ``ω3 [rad/s]``, ``v_C/(mm·s⁻¹)``."""
+        plain = plain_text(text)
+        for pattern in (_HEAD_UNIT, _BEHIND_A_LINE):
+            match = pattern.match(plain)
+            if match:
+                name, unit = match[1].rstrip(" /"), next(g for g in match.groups()[1:] if g is not None)
+                unit = unit.strip("() ")
+                symbol = self.symbol(name)
+                if (symbol is not None or pattern is _HEAD_UNIT) and (
+                    pattern is _HEAD_UNIT or (symbol and unit_factor(unit, symbol, self.scene.units))
+                ):
+                    return name, unit
+        return plain, ""
+
+    def symbol(self, text: str) -> Symbol | None:
+        """The quantity that a text means; None where it means none of this scene."""
+        plain = plain_text(text)
+        for one in dict.fromkeys((plain, _WORDS_ASIDE.sub("", plain).strip())):
+            found = next(self._meanings(one), None)
+            if found is not None:
+                return found
+        return None
+
+    def _meanings(self, text: str) -> Iterator[Symbol]:
+        if not text or len(text) > 60:
+            return
+        head, _, place = text.partition(" at ")
+        try:
+            symbol = Symbol.parse(text)
+            if self._exists(symbol):
+                yield self._usual(symbol)
+        except ValueError:
+            pass
+        bare = "".join(_GREEK.get(c, c) for c in head)
+        part = "".join(_PART.findall(bare))
+        bare = re.sub(r"[\\{}\s|]", "", _PART.sub("", bare)).replace("(", "").replace(")", "")
+        if len(part) > 1 or (part and not bare.startswith("a")):
+            return
+        if part:
+            bare = f"a{ {'c': 'k', 'n': 'n', 't': 't', 'k': 'k', 'r': 'r'}.get(part, '?') }{bare[1:]}".replace(" ", "")
+        for kind in _SPOKEN:
+            if bare.startswith(kind) and len(bare) > len(kind):
+                rest = bare[len(kind) :]
+                joined = rest.lstrip("_")
+                for form in self._of_kind(_WRITTEN[kind], joined):
+                    yield self._usual(Symbol.parse(f"{form} at {place}" if place else form))
+
+    def _of_kind(self, kind: str, rest: str) -> Iterator[str]:
+        points = "|".join(sorted(map(re.escape, self._points), key=len, reverse=True))
+        links = "|".join(sorted(map(re.escape, self._links), key=len, reverse=True))
+        ways = {
+            "point": [rf"({points})"],
+            "points": [rf"({points})", rf"({points})@?({links})", rf"({points})/?({points})",
+                       rf"({points})@?({links})/?({points})@?({links})", rf"({points})@?({links})/?({points})",
+                       rf"({points})/?({points})@?({links})"],
+            "coincident": [rf"({points})@?({links})/?({points})@?({links})"],
+            "two points": [rf"({points})[/-]?({points})"],
+            "link": [rf"({links})"],
+            "of link": [rf"({links})"],
+            "link or joint": [rf"({links})", rf"({links})/?({links})"],
+            "link of link": [rf"({links})", rf"({links})/?({links})"],
+            "pair": [rf"({links})[/-]?({links})"],
+            "links": [rf"({links})[/-]?({links})"],
+        }.get(KINDS[kind].form, [])  # fmt: skip
+        for flags in (re.NOFLAG, re.IGNORECASE):
+            for way in ways:
+                match = re.fullmatch(way, rest, flags)
+                if match is None:
+                    continue
+                names = [self._own_case(g) for g in match.groups()]
+                if None in names:
+                    continue
+                yield f"{kind}_{self._joined(kind, [n for n in names if n])}"
+
+    def _own_case(self, name: str) -> str | None:
+        known = [*self._points, *self._links]
+        if name in known:
+            return name
+        alike = [k for k in known if k.lower() == name.lower()]
+        return alike[0] if len(alike) == 1 else None
+
+    def _joined(self, kind: str, names: list[str]) -> str:
+        if KINDS[kind].form not in ("points", "coincident", "point", "two points"):
+            return KINDS[kind].sign.join(names)
+        refs: list[str] = []
+        for name in names:
+            if name in self._points and not (name in self._links and refs and "@" not in refs[-1]):
+                refs.append(name)
+            else:
+                refs[-1] += f"@{name}"
+        return "/".join(refs)
+
+    def _exists(self, symbol: Symbol) -> bool:
+        refs = [r for r in (symbol.of, symbol.to) if r]
+        return all(r.point in self._points for r in refs) and all(
+            link in self._links or link in self._points for link in symbol.links()
+        )
+
+    def _usual(self, symbol: Symbol) -> Symbol:
+        """The name under which a point of a link is known: ``v_B@2`` is ``v_B`` where B is one of link 2's points."""
+        of, to = symbol.of, symbol.to
+        if of is None or symbol.link or (to is not None and to.point == of.point):
+            return symbol
+
+        def plain(ref: PointRef | None) -> PointRef | None:
+            own = ref is not None and ref.link in self._points.get(ref.point, ())
+            return PointRef(ref.point) if ref is not None and own else ref
+
+        return replace(symbol, of=plain(of), to=plain(to))
+
+
+_CHINESE_UNITS = (
+    ("毫米", "mm"), ("厘米", "cm"), ("米", "m"), ("弧度", "rad"), ("转", "r"), ("度", "deg"), ("分钟", "min"),
+    ("分", "min"), ("平方秒", "s2"), ("秒", "s"), ("每", "/"),
+)  # fmt: skip
+_LENGTHS = {"mm": 1e-3, "cm": 1e-2, "dm": 0.1, "m": 1.0, "km": 1e3, "um": 1e-6, "in": 0.0254, "inch": 0.0254,
+            "inches": 0.0254, "\"": 0.0254, "ft": 0.3048, "feet": 0.3048}  # fmt: skip
+_FORCES = {"kn": 1e3, "kgf": 9.80665, "lbf": 4.4482216152605, "n": 1.0}
+_ANGLES = {"rad": 1.0, "": 1.0, "1": 1.0, "deg": 0.017453292519943295, "°": 0.017453292519943295,
+           "degrees": 0.017453292519943295, "r": 6.283185307179586, "rev": 6.283185307179586,
+           "turn": 6.283185307179586}  # fmt: skip
+_TIMES = {"s": 1.0, "sec": 1.0, "min": 60.0, "h": 3600.0, "": 1.0}
+_RATE = re.compile(r"(?P<what>[a-z°\"1]*?)(?:/(?P<over>s|sec|min|h)(?P<power>2?)|/(?P<one>s|sec)/(?P<two>s|sec)"
+                   r"|(?P<by>s|min)-(?P<times>[12]))?")  # fmt: skip
+
+
+def unit_factor(text: str, symbol: Symbol, units: Units) -> float | None:
+    """What a unit that people write is in SI, None where it is none of this quantity.
+
+    >>> unit_factor("m/s", Symbol.parse("v_B"), Units()), unit_factor("mm·s⁻²", Symbol.parse("a_B"), Units())
+    (1.0, 0.001)
+    >>> round(unit_factor("r/min", Symbol.parse("omega_3"), Units()), 6)
+    0.10472
+    """
+    bare = re.sub(r"[\s^·*⋅.]", "", plain_text(text)).lower().replace("µ", "u").replace("μ", "u")
+    for word, unit in _CHINESE_UNITS:
+        bare = bare.replace(word, unit)
+    if symbol.measure in ("force", "moment"):
+        force, arm = next(((f, bare[len(f) :]) for f in _FORCES if bare.startswith(f)), ("", bare))
+        length = _LENGTHS.get(arm) if symbol.measure == "moment" else 1.0 if not arm else None
+        return _FORCES[force] * length if force and length else None
+    bare = bare.replace("rpm", "r/min")
+    match = _RATE.fullmatch(bare)
+    if match is None:
+        return None
+    order = {"velocity": 1, "angular velocity": 1, "acceleration": 2, "angular acceleration": 2, "length": 0,
+             "angle": 0}.get(symbol.measure)  # fmt: skip
+    if order is None:
+        return None
+    power = 0
+    if match["over"]:
+        power = int(match["power"] or 1)
+    elif match["one"]:
+        power = 2
+    elif match["by"]:
+        power = int(match["times"])
+    time = _TIMES[match["over"] or match["one"] or match["by"] or ""]
+    table = _LENGTHS if symbol.measure in ("velocity", "acceleration", "length") else _ANGLES
+    what = match["what"]
+    if power != order or what not in table or (order == 0 and what in ("", "1")):
+        return None
+    return table[what] / time**power

@@ -1,0 +1,203 @@
+"""A class's answers as people write them: symbols, senses, directions, units; verdicts, points, and who made what."""
+
+from __future__ import annotations
+
+import csv
+import json
+
+import pytest
+
+import graphkin
+from graphkin.checking.cells import read_cell
+from graphkin.checking.spelling import Spelling
+from graphkin.errors import CallError
+from graphkin.scene import mechanism_of
+from graphkin.scene.symbol import Symbol
+from graphkin.scene.tables import Units
+from tests.command import run
+
+pytestmark = pytest.mark.quick
+
+SIXBAR = "sixbar-guide-40deg"  # v_D 482.72 to the left, omega_3 -2.819, alpha_3 6.577
+
+
+def judged(**values):
+    named = {k.replace("_at_", "@").replace("_to_", "/"): v for k, v in values.items()}
+    return graphkin.audit(SIXBAR, {"A": named}).data["values"]
+
+
+def table(folder, text, **more):
+    (folder / "a.csv").write_text(text, encoding="utf-8")
+    return graphkin.audit(SIXBAR, folder / "a.csv", **more)
+
+
+@pytest.mark.parametrize(
+    ("text", "symbol"),
+    [
+        ("v_B3", "v_B@3"), ("vB3", "v_B@3"), ("v_{B3}", "v_B@3"), ("v_B2", "v_B"), ("ω₃", "omega_3"),
+        ("omega3", "omega_3"), ("$\\omega_3$", "omega_3"), ("w3", "omega_3"), ("角速度ω3", "omega_3"),
+        ("ε3", "alpha_3"), ("v_B3B2", "v_B@3/B@2"), ("a_{B3B2}^{k}", "ak_B@3/B@2"), ("aᵏ_B3B2", "ak_B@3/B@2"),
+        ("a^n_B3C", "an_B@3/C"), ("anB3C", "an_B@3/C"), ("v_d", "v_D"), ("φ3", "theta_3"), ("dBC", "d_B/C"),
+        ("s2/3", "s_2/3"),
+    ],
+)  # fmt: skip
+def test_a_symbol_is_read_as_people_spell_it(text, symbol):
+    assert symbol == str(Spelling(mechanism_of(SIXBAR)).symbol(text))
+
+
+@pytest.mark.parametrize("text", ["name", "note", "student", "score", "v_Q", "id", "at"])
+def test_a_word_that_names_nothing_of_the_scene_is_no_symbol(text):
+    assert Spelling(mechanism_of(SIXBAR)).symbol(text) is None
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("2.82 clockwise", -2.82), ("2.82 cw", -2.82), ("2.82 逆时针", 2.82), ("↻ 2.82", -2.82), ("2.82 (CCW)", 2.82),
+        ("−2.82 rad/s", -2.82), ("≈2.82", 2.82), ("ω = 2.82 rad/s", 2.82), ("30 r/min", 3.14159265358979),
+        ("2.82 ± 0.1", 2.82), ("2．82", 2.82), ("0.282×10¹", 2.82),
+    ],
+)  # fmt: skip
+def test_a_rate_is_read_as_people_write_it(text, value):
+    assert pytest.approx(value) == read_cell(text, Symbol.parse("omega_3"), Units()).value
+
+
+@pytest.mark.parametrize(
+    ("text", "value", "degrees"),
+    [
+        ("0.483 m/s", 0.483, None), ("48,3 cm/s", 0.483, None), ("483 ←", 0.483, 180), ("483 向左", 0.483, 180),
+        ("483 mm/s, 12° above x", 0.483, 12), ("483 12° above -x", 0.483, 168), ("483 12° below x", 0.483, -12),
+        ("483 ∠168.9°", 0.483, 168.9), ("483 168.9°", 0.483, 168.9), ("约 483 毫米/秒", 0.483, None),
+        ("483 与x轴成30°", 0.483, 30),
+    ],
+)  # fmt: skip
+def test_a_vector_is_read_with_its_unit_and_direction(text, value, degrees):
+    found = read_cell(text, Symbol.parse("v_D"), Units())
+    way = None if found.direction is None else pytest.approx(degrees * 3.141592653589793 / 180)
+    assert (pytest.approx(value), way) == (found.value, found.direction)
+
+
+@pytest.mark.parametrize("text", ["many", "5 apples", "1 2 3", "nan", "4.8 rad/s"])
+def test_what_is_no_such_value_says_so(text):
+    with pytest.raises(ValueError, match=r"is no|more than one|unit"):
+        read_cell(text, Symbol.parse("v_D"), Units())
+
+
+@pytest.mark.parametrize(
+    ("values", "verdict"),
+    [
+        ({"v_D": "482.7 ←"}, "right"), ({"v_D": "482.7 →"}, "wrong"), ({"v_D": "482.7 180°"}, "right"),
+        ({"v_D": "482.7 5° above -x"}, "wrong"), ({"alpha_3": "7"}, "wrong"), ({"v_D": "5e2"}, "wrong"),
+        ({"v_D": "0.4827 m/s"}, "right"), ({"omega_3": "2.82 clockwise"}, "right"),
+        ({"v_D": [-482.72, 0.0]}, "right"), ({"v_D": [-600.0, 0.0]}, "wrong"),
+        ({"v_D": "482.77"}, "within drafting accuracy"),
+    ],
+)  # fmt: skip
+def test_digits_and_directions_say_what_was_meant_and_pardon_nothing(values, verdict):
+    assert verdict == judged(**values)[0]["verdict"]
+
+
+def test_a_zero_component_is_zero_to_the_accuracy_of_the_other():
+    mapping = {"A": {"v_D": [-0.7, 0.0]}}
+    assert "wrong" == graphkin.audit(SIXBAR, mapping).data["values"][0]["verdict"]
+
+
+def test_a_direction_turned_back_is_called_so():
+    assert "the direction is reversed" == judged(v_D="482.7 →")[0]["looks_like"]
+
+
+def test_the_words_of_the_key_are_right(tmp_path):
+    from graphkin.papers.blocks import TableBlock
+    from graphkin.papers.lesson import plain_words
+    from graphkin.papers.solution import answer_key
+
+    for language in ("en", "zh"):
+        lesson = graphkin.handout(SIXBAR, language=language).lesson
+        (key,) = (b for b in answer_key(lesson).blocks if isinstance(b, TableBlock))
+        rows = [
+            (str(line.symbol), plain_words(row[2]), row[6])
+            for row, line in zip(key.rows, lesson.results, strict=True) if row[6]
+        ]  # fmt: skip
+        heads = ",".join(f"{symbol},{symbol} direction" for symbol, _, _ in rows)
+        cells = ",".join(f"{value},{way}" for _, value, way in rows)
+        found = table(tmp_path, f"name,{heads}\nx,{cells}\n").data["values"]
+        assert {"right"} == {v["verdict"] for v in found}
+
+
+def test_missing_and_unreadable_cells_do_not_stop_the_rest(tmp_path):
+    found = table(tmp_path, "学号,姓名,v_D,omega_3\n7,张,482.7,\n8,李,abc,-2.82\n").data["values"]
+    expected = [("张", "right"), ("张", "missing"), ("李", "not readable"), ("李", "right")]
+    assert expected == [(v["person"], v["verdict"]) for v in found]
+    assert {"7", "8"} == {v["id"] for v in found}
+
+
+def test_points_follow_a_scheme_with_marks_of_the_teacher(tmp_path):
+    text = "name,equations,drawing,v_D,omega_3\nA,18,20,482.7,-2.82\nB,10,,482.7,2.82\n"
+    people = table(tmp_path, text, grading={"equations": 20, "drawing": 30, "values": 50}).data["people"]
+    assert [(88, 100), (35, 70)] == [(p["total"], p["of"]) for p in people]
+
+
+def test_a_scheme_stands_in_the_scene_too():
+    source = graphkin.read(SIXBAR).to_dict() | {"grading": {"v_D": 3, "omega_3": 1}}
+    (person,) = graphkin.audit(source, {"A": {"v_D": "482.7", "omega_3": "2.82"}}).data["people"]
+    assert (3, 4) == (person["total"], person["of"])
+
+
+def test_a_strange_name_in_a_scheme_is_refused():
+    with pytest.raises(CallError, match="no part and no quantity"):
+        graphkin.audit(SIXBAR, {"A": {"v_D": 480}}, grading={"neatness": 5})
+
+
+def test_each_student_has_a_slip_and_each_quantity_its_commonest(tmp_path):
+    text = "name,v_D,omega_3\nA,482.7,2.819\nB,0.4827,2.819\nC,482.7,-2.82\n"
+    data = table(tmp_path, text).data
+    assert ["sign", "wrong unit: 0.001 times the right value", None] == [p.get("slip") for p in data["people"]]
+    rates = data["quantities"][1]
+    assert ("omega_3", "sign", 2, 1) == (rates["symbol"], rates["commonest_slip"], rates["made_by"], rates["right"])
+
+
+def test_one_table_serves_a_set_of_variants_and_whose_answer_it_is_is_told(tmp_path):
+    made = graphkin.problem_set("four-bar-coupler-point", 2, seed=3, out=tmp_path / "set", find=["v_P", "omega_3"])
+    one, two = (made[name][0].value for name in ("01", "02"))
+    (tmp_path / "a.csv").write_text(f"name,variant,v_P\nA,01,{one:.4g}\nB,1,{two:.4g}\nC,2,{two:.4g}\n")
+    found = graphkin.audit("four-bar-coupler-point", tmp_path / "a.csv", variants=tmp_path / "set").data["values"]
+    assert ["right", "wrong", "right"] == [v["verdict"] for v in found]
+    assert "the answer of variant 02" == found[1]["looks_like"]
+
+
+def test_answers_of_variants_need_their_set(tmp_path):
+    with pytest.raises(CallError, match="--variants"):
+        table(tmp_path, "name,variant,v_D\nA,01,482.7\n")
+
+
+def test_no_cell_that_is_written_can_be_a_formula(tmp_path):
+    audited = graphkin.audit(SIXBAR, {'=HYPERLINK("x")': {"v_D": "482.7", "omega_3": "=1+1"}})
+    audited.write(tmp_path)
+    tables = [(tmp_path / name).read_text("utf-8-sig") for name in ("audit.csv", "students.csv")]
+    cells = [cell for text in tables for row in csv.reader(text.splitlines()) for cell in row]
+    assert [] == [c for c in cells if c.startswith("=")]
+    assert "'=1+1" in cells
+
+
+def test_a_table_computed_by_somebody_is_judged_to_its_digits_and_its_slips_are_told():
+    turn = graphkin.sweep("shaper-scheme-2", positions=12, find=["v_C", "x_C"])
+    rows = [
+        {"at": round(float(a), 6), "v_C": f"{abs(v):.3f}", "x_C": f"{x:.3f}"}
+        for a, v, x in zip(turn.table.columns[1].values, turn["v_C"], turn["x_C"], strict=True)
+    ]
+    right = [r["v_C"] for r in rows]
+    rows[2]["v_C"], rows[3]["v_C"] = right[3], right[2]  # exchanged with the next row
+    rows[5]["v_C"] = right[5][:1] + right[5][2] + right[5][1] + right[5][3:]  # two digits exchanged
+    source = graphkin.read("shaper-scheme-2").to_dict()
+    source |= {"printed_rows": [{**r, "by": "computation"} for r in rows], "printed": {}}
+    wrong = [v for v in graphkin.audit(source).data["values"] if v["verdict"] != "right"]
+    assert [rows[2]["at"], rows[3]["at"], rows[5]["at"]] == [v["at"] for v in wrong]
+    assert ["another position", "another position", "a slip of the pen"] == [
+        v["looks_like"].partition(":")[0].partition(" for")[0] for v in wrong
+    ]
+
+
+def test_the_command_reads_points_and_prints_the_class(tmp_path):
+    (tmp_path / "a.csv").write_text("name,equations,v_D\nA,5,482.7\n")
+    done = run("audit", SIXBAR, "--answers", "a.csv", "--grading", "equations=10,v_D=10", "--json", cwd=tmp_path)
+    assert (0, 15, 20) == (done.returncode, *(json.loads(done.stdout)["people"][0][k] for k in ("total", "of")))
