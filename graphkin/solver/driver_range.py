@@ -264,6 +264,9 @@ class _Known:
 
 _LATEST: list[_Known] = []
 """The range that was followed last: strokes, loads and tables of one motion ask for the same."""
+_ENDED: list[tuple[Mapping[int, Array], Path]] = []
+"""The ways that ended before they came to where they should, the last ones, from their start and with its forms: the
+range in which the motion runs asks for the same."""
 
 
 def _followed(structure: Structure, forms: Mapping[int, Array], start: Array, which: int) -> DriverRange:
@@ -274,6 +277,12 @@ def _followed(structure: Structure, forms: Mapping[int, Array], start: Array, wh
     def followed(turns: int) -> Path:
         end = start.copy()
         end[which] += turns * wide
+        for known, path in _ENDED:
+            moved = path.end - start
+            if known is forms and np.array_equal(np.flatnonzero(moved), [which]):
+                by = float((end - start)[which] / moved[which])
+                if path.reach <= by:
+                    return path.rescaled(by)
         return follow_path(structure, forms, start, end)
 
     ahead = followed(1)
@@ -318,14 +327,14 @@ def stopped_why(structure: Structure, forms: Mapping[int, Array], start: Array, 
 def way_to(structure: Structure, forms: Mapping[int, Array], goal: Array) -> Path:
     """The way from the scene's own position to other driver values: straight, whole turns included, else the other way
     round for drivers that turn; the straight one if none gets there."""
-    start, first = own_values(structure.scene), None
+    start, ended = own_values(structure.scene), list[tuple[Mapping[int, Array], Path]]()
     for end in ways(structure.scene.drivers, start.tolist(), goal.tolist()):
         path = follow_path(structure, forms, start, np.array(end))
         if path.limit is None:
             return path
-        first = first or path
-    assert first is not None
-    return first
+        ended.append((forms, path))
+    _ENDED[:] = ended
+    return ended[0][1]
 
 
 def goal_values(scene: Mechanism, at: Mapping[str, float] | None) -> Array:

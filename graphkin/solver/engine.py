@@ -197,7 +197,7 @@ class _Run:
         for name in group.members:
             pose = solved.poses[name]
             for f in FIELDS:
-                value = np.broadcast_to(getattr(pose, f), (self.n,))
+                value = getattr(pose, f)
                 self.given["pose", name, f, "x"] = np.ascontiguousarray(value.real)
                 if np.iscomplexobj(value):
                     self.given["pose", name, f, "y"] = np.ascontiguousarray(value.imag)

@@ -223,13 +223,10 @@ class System:
 
     def open_(self, all_: Pose) -> Array:
         """Each constraint, with lengths in the size, shape (n, rows)."""
-        return np.asarray(self._constraints(all_, 0)[0])
+        return np.asarray(self.constraints(all_, 0)[0])
 
-    def constraints(self, all_: Pose) -> Array:
-        """Each constraint and its first and second rate, with lengths in the size, shape (3, n, rows)."""
-        return self._constraints(all_, 2)
-
-    def _constraints(self, all_: Pose, order: int) -> Array:
+    def constraints(self, all_: Pose, order: int = 2) -> Array:
+        """Each constraint and its rates up to the order, with lengths in the size, shape (order + 1, n, rows)."""
         layout, drive = self._layout, self.drive
         size = layout.size
         found = np.empty((order + 1, len(drive), layout.rows))
@@ -289,27 +286,51 @@ def _seen(one: Pose, two: Pose) -> Pose:
     return Pose(back * (one.z - two.z), back * one.u, _NOTHING, _NOTHING, _NOTHING, _NOTHING)
 
 
-class ClusterSolved(NamedTuple):
+@dataclass(frozen=True)
+class ClusterSolved:
     """What a larger group gives.
 
     poses : its links
     place : the same as an array (n, members, 3) of x, y (m) and angle (rad, not reduced)
-    missed : largest constraint still open, no unit
-    determinant : of the scaled constraints, its sign tells the branch
-    condition : of the scaled constraints, one over the least singular value: how much an error grows
+    open_ : largest constraint still open, no unit
     matrix : derivative of the constraints by the scaled unknowns, shape (n, rows, columns)
     load : rate of the constraints with the group held still, shape (n, rows)
-    certificate : less than 1/2 where Newton's method has converged quadratically to a position
     """
 
+    system: System
     poses: Mapping[str, Pose]
     place: Array
-    missed: Array
-    determinant: Array
-    condition: Array
+    open_: Array
     matrix: Array
     load: Array
-    certificate: Array
+
+    @cached_property
+    def _whole(self) -> Array:
+        return np.asarray(np.isfinite(self.matrix).all(axis=(1, 2)))
+
+    @cached_property
+    def missed(self) -> Array:
+        """Largest constraint still open, infinite where nothing is known."""
+        return np.asarray(np.where(self._whole, self.open_, np.inf))
+
+    @cached_property
+    def determinant(self) -> Array:
+        """Of the scaled constraints; its sign tells the branch."""
+        return np.asarray(np.linalg.det(self.matrix))
+
+    @cached_property
+    def condition(self) -> Array:
+        """Of the scaled constraints, one over the least singular value: how much an error grows."""
+        with np.errstate(all="ignore"):
+            finite = np.asarray(np.where(self._whole[:, None, None], self.matrix, 0.0), dtype=float)
+            least = np.linalg.svd(finite, compute_uv=False)[:, -1]
+            return np.asarray(np.where(self._whole, 1 / np.maximum(least, 1e-300), np.inf))
+
+    @cached_property
+    def certificate(self) -> Array:
+        """Less than 1/2 where Newton's method has converged quadratically to a position."""
+        with np.errstate(all="ignore"):
+            return certificate(self.system, self.poses, self.condition, self.missed)
 
 
 def solve_cluster(
@@ -343,20 +364,13 @@ def solve_cluster(
     second: Array | None = None
     if rates:
         # the guiding, centripetal and Coriolis terms are the rates of the constraints with the unknown rates left out
-        still = np.zeros_like(place)
-        load = system.constraints(system.at(place, still, still))[1]
+        load = system.constraints(system.at(place, np.zeros_like(place)), 1)[1]
         rate = system.scaled(solve_all(matrix, -load))
         bent = system.constraints(system.at(place, rate))[2]
         second = system.scaled(solve_all(matrix, -bent))
     else:
         load = np.zeros((n, matrix.shape[1]))
-    members = system.poses(place, rate, second)
-    whole: Array = np.asarray(np.isfinite(matrix).all(axis=(1, 2)))
-    values = np.linalg.svd(np.asarray(np.where(whole[:, None, None], matrix, 0.0), dtype=float), compute_uv=False)
-    condition = np.where(whole, 1 / np.maximum(values[:, -1], 1e-300), np.inf)
-    missed = np.where(whole, missed, np.inf)
-    certain = certificate(system, members, condition, missed)
-    return ClusterSolved(members, place, missed, np.linalg.det(matrix), condition, matrix, load, certain)
+    return ClusterSolved(system, system.poses(place, rate, second), place, missed, matrix, load)
 
 
 def certificate(system: System, members: Mapping[str, Pose], condition: Array, missed: Array) -> Array:
