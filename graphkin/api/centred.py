@@ -206,7 +206,7 @@ class Centred(Result):
         return row
 
     def _velocity(self, v: Velocity) -> dict[str, Any]:
-        unit = self.scene.units.metres if v.symbol.is_vector else 1.0
+        unit = self.scene.units.rates.metres if v.symbol.is_vector else 1.0
         values = (
             None if x is None else abs(x) / unit if v.symbol.is_vector else float(x.real)
             for x in (v.by_centres, v.exact)

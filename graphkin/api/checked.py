@@ -141,7 +141,7 @@ class Checked(Result):
     @property
     def scales(self) -> dict[str, float]:
         """What one mm on paper is: mm, and scene units per second and second squared."""
-        scales, unit = self.report.scales, self.scene.units.metres
+        scales, unit = self.report.scales, self.scene.units.rates.metres
         return {
             "length": _plain(scales.length * 1e3),
             "velocity": _plain(scales.velocity / unit),

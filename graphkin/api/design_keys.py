@@ -155,7 +155,7 @@ def _laws(
 
 def _plain(slope: complex, scene: Mechanism) -> complex:
     """A slope without the rounding of its finding, where it is one of the units."""
-    for unit in (scene.units.metres, 1.0, math.radians(1.0), math.pi / 30):
+    for unit in (scene.units.metres, scene.units.rates.metres, 1.0, math.radians(1.0), math.pi / 30):
         for turn in (1, -1, 1j, -1j):
             if abs(slope - turn * unit) <= 1e-11 * unit:
                 return turn * unit

@@ -199,7 +199,8 @@ def _driver(scene: Mechanism, driver: AnyDriver) -> Phrase:
         said = Phrase(f"explained {sense}", (_number(abs(rate)), _number(abs(rate) * 30 / math.pi)))
         return Phrase("explained turns", (driver.link, driver.relative_to, at, said))
     sense = "at rest" if not rate else "forward" if rate > 0 else "back"
-    said = Phrase(f"explained {sense}", (_number(abs(rate) / scene.units.metres), f"{scene.units.length}/s"))
+    units = scene.units.rates
+    said = Phrase(f"explained {sense}", (_number(abs(rate) / units.metres), f"{units.length}/s"))
     return Phrase("explained slides", (driver.key, at, said))
 
 

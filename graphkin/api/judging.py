@@ -13,7 +13,7 @@ import numpy as np
 from graphkin.api.answers import Answers
 from graphkin.api.arguments import At, driver_values, own_unit
 from graphkin.api.checked import solved_here
-from graphkin.checking.audit import Judged, explained
+from graphkin.checking.audit import Judged, drafting_bound, explained
 from graphkin.checking.readings import predict
 from graphkin.checking.slips import Evidence, ValuesElsewhere
 from graphkin.checking.table_audit import exact_rows, judged_by_digits, told_by_digits
@@ -71,6 +71,12 @@ def judged_table(
         if any(one.verdict == "wrong" and not one.looks_like for one in judged) and looked_into < MOST_EXPLAINED:
             looked_into += 1
             evidence, values = case(who.at), {p.symbol: p.value for p in who.values}
+            if who.by == "drawing":  # by what a pencil keeps within here, not near by
+                judged = [
+                    j if j.verdict == "right" or j.looks_like
+                    else judged_by_digits(j.printed, j.exact, who.by, drafting_bound(evidence, j.printed.symbol))
+                    for j in judged
+                ]  # fmt: skip
             wrong = [one.printed.symbol for one in judged if one.verdict == "wrong"]
             judged = [
                 explained(evidence, j, values, wrong) if j.verdict == "wrong" and not j.looks_like else j
@@ -90,8 +96,7 @@ class _Bounds:
     def bound(self, row: int, symbol: Symbol) -> float:
         step = max(1, math.ceil(len(self.table) / MOST_PREDICTED))
         near = min(len(self.table) - 1, step * round(row / step))
-        uncertainty = self.case(self.table[near].at).predicted.get(symbol)
-        return uncertainty.bound if uncertainty and math.isfinite(uncertainty.bound) else 0.0
+        return drafting_bound(self.case(self.table[near].at), symbol)
 
 
 def evidence_at(

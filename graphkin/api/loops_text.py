@@ -45,10 +45,10 @@ class LoopText:
         return [self._block(block) for block in self.blocks]
 
     def _block(self, block: LoopBlock) -> dict[str, Any]:
-        metres = self.scene.units.metres
+        metres, fast = self.scene.units.metres, self.scene.units.rates.metres
 
-        def plain(unknown: Unknown, value: float) -> float:
-            return value / metres if unknown.kind == "s" else value
+        def plain(unknown: Unknown, value: float, per: float) -> float:
+            return value / per if unknown.kind == "s" else value
 
         loops = [
             {
@@ -61,23 +61,23 @@ class LoopText:
                 ],
                 "gap": abs(one.gap) / metres,
                 **({"root": {"of": str(one.root.unknown), "sign": one.root.sign,
-                             "value": plain(one.root.unknown, one.root.value)}} if one.root else {}),
+                             "value": plain(one.root.unknown, one.root.value, metres)}} if one.root else {}),
             }
             for one in block.loops
         ]  # fmt: skip
         matrix = [
-            [float(x) / (metres if u.kind == "theta" else 1.0) for x, u in zip(row, block.unknowns, strict=True)]
+            [float(x) / (fast if u.kind == "theta" else 1.0) for x, u in zip(row, block.unknowns, strict=True)]
             for row in block.matrix
         ]
         return {
             "loops": loops,
             "unknowns": [str(u) for u in block.unknowns],
-            "values": [plain(u, v) for u, v in zip(block.unknowns, block.values, strict=True)],
+            "values": [plain(u, v, metres) for u, v in zip(block.unknowns, block.values, strict=True)],
             "matrix": matrix,
-            "velocity": (block.velocity / metres).tolist(),
-            "rates": [plain(u, v) for u, v in zip(block.unknowns, block.rates, strict=True)],
-            "acceleration": (block.acceleration / metres).tolist(),
-            "second_rates": [plain(u, v) for u, v in zip(block.unknowns, block.second_rates, strict=True)],
+            "velocity": (block.velocity / fast).tolist(),
+            "rates": [plain(u, v, fast) for u, v in zip(block.unknowns, block.rates, strict=True)],
+            "acceleration": (block.acceleration / fast).tolist(),
+            "second_rates": [plain(u, v, fast) for u, v in zip(block.unknowns, block.second_rates, strict=True)],
         }
 
     @property

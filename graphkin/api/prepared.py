@@ -72,7 +72,8 @@ class Prepared:
         """The unit of each quantity asked for, forces last: the scene's length unit, seconds, degrees for angles, but
         radians in their rates (rad/s, rad/s2)."""
         length, force = self.scene.units.length, self.scene.units.force
-        kinds = {"v": f"{length}/s", "a": f"{length}/s2", "theta": "deg", "omega": "rad/s", "alpha": "rad/s2"}
+        speed = f"{self.scene.units.rates.length}/s"
+        kinds = {"v": speed, "a": f"{speed}2", "theta": "deg", "omega": "rad/s", "alpha": "rad/s2"}
         found = {name: kinds.get(name.partition("_")[0] if "_" in name else "", length) for name in self.ready.wanted}
         return found | {name: force if f"{name}.x" in self.names else f"{force} m" for name in self.ready.loads}
 
@@ -347,5 +348,5 @@ def prepare(
         raise CallError(Problem("bounds, fast", f"found {bounds!r:.40}, {fast!r:.40}", "give True or False"))
     if not asked:
         raise CallError(Problem("find", "asks for nothing", 'name quantities, for example ["v_C", "omega_3"]'))
-    units = 1.0 / given.units.metres, math.degrees(1.0)
+    units = 1.0 / given.units.metres, math.degrees(1.0), 1.0 / given.units.rates.metres
     return Prepared(scene, asked, fast, solver.prepare(given, asked, units, bounds))

@@ -47,7 +47,7 @@ def report_text(checked: Checked, language: str) -> str:
     lines.append(f"{word('driver', language)}{colon}{', '.join(drivers)}")
     for links, phrase in sheet.assembly.items():
         lines.append(f"{word('group', language)} {links}{colon}{say(phrase, language, show)}")
-    unit, scales = scene.units.length, checked.scales
+    unit, scales = scene.units.rates.length, checked.scales
     lines += [
         "",
         f"1 mm = {scales['length']:g} mm, {scales['velocity']:g} {unit}/s, {scales['acceleration']:g} {unit}/s²",

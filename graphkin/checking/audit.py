@@ -19,7 +19,10 @@ from graphkin.checking.slips import Evidence, Suspect, dimension, line_of
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase
 
-__all__ = ["COMPUTED_SHARE", "Judged", "Value", "comparable", "deviation", "difference", "explained", "judge"]
+__all__ = [
+    "COMPUTED_SHARE", "Judged", "Value", "comparable", "deviation", "difference", "drafting_bound", "explained",
+    "judge",
+]  # fmt: skip
 
 Verdict = Literal["right", "within drafting accuracy", "right from own values", "wrong", "not judged"]
 Value = complex | float
@@ -75,10 +78,7 @@ def _judged(case: Evidence, printed: Printed) -> Judged:
     line = line_of(case.sheet, symbol)
     exact = comparable(printed, right, line)
     off = abs(difference(printed, exact))
-    uncertainty = case.predicted.get(symbol)
-    bound = uncertainty.bound if uncertainty else 0.0
-    if symbol.scope == "motion" and bound > _largest(case, symbol):
-        bound = math.inf
+    bound = drafting_bound(case, symbol)
     share = deviation(printed, exact)
     judged = Judged(printed, exact, share, "right", bound)
     turned = _turned(judged, right)
@@ -87,7 +87,7 @@ def _judged(case: Evidence, printed: Printed) -> Judged:
     if math.isinf(bound):
         judged = replace(judged, verdict="not judged")
         fits = [s for s, _ in _weighed(case, judged) if not s.copied and _fits_to_the_digit(judged, s, case)]
-        if printed.digits < DIGITS or not fits:
+        if printed.digits < DIGITS or not fits or off <= printed.coarse + COMPUTED * abs(exact):
             return judged
         return replace(judged, verdict="wrong", looks_like=max(fits, key=lambda s: s.share).phrase)
     if off > bound + printed.coarse:
@@ -129,6 +129,13 @@ def _turned(judged: Judged, right: Value) -> Judged | None:
     key = next((key for key, angle in ways if near(angle)), "slip direction")
     off = math.degrees(math.remainder(printed.direction - true, math.tau))
     return replace(judged, verdict="wrong", looks_like=Phrase(key, (f"{off:+.0f}",)))
+
+
+def drafting_bound(case: Evidence, symbol: Symbol) -> float:
+    """What a pencil keeps within (SI): 0 where nothing is predicted, infinite where it tells nothing."""
+    uncertainty = case.predicted.get(symbol)
+    bound = uncertainty.bound if uncertainty else 0.0
+    return math.inf if symbol.scope == "motion" and bound > _largest(case, symbol) else bound
 
 
 def _largest(case: Evidence, symbol: Symbol) -> float:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal, InvalidOperation
 from itertools import combinations, pairwise
 
 from graphkin.scene.model import Mechanism
+from graphkin.scene.stating import digits_of
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Units
 
@@ -111,14 +111,8 @@ def printed_values(scene: Mechanism) -> tuple[Printed, ...]:
     for symbol, value in scene.printed.items():
         unit = symbol.per_unit(scene.units)
         parts = (value.real, value.imag) if isinstance(value, complex) else (value,)
-        found.append(stated(symbol, [_shortest(part / unit) for part in parts], scene.units))
+        found.append(stated(symbol, [digits_of(part / unit) for part in parts], scene.units))
     return tuple(found)
-
-
-def _shortest(number: float) -> str:
-    # unit conversion leaves noise in the last digits; nobody prints more than twelve
-    text = f"{number:.12g}"
-    return text if "e" not in text or not math.isfinite(number) else format(Decimal(text), "f")
 
 
 SWAPPED, MISREAD, TWICE_MISREAD, MISSED = 0.05, 0.05, 0.02, 0.02

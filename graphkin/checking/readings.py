@@ -151,6 +151,10 @@ def predict(what: Plan, name: str, tools: Tools, together: bool = True) -> Mappi
             off = abs(values.get(symbol, math.inf) - value) ** 2
             if off:
                 parts[symbol][cause] = parts[symbol].get(cause, 0.0) + off
+    for symbol, shares in parts.items():
+        if shares and symbol.is_vector and base[symbol] == 0:  # what errs away from nothing is read off the ruler then
+            order: DiagramName = "velocity" if symbol.measure == "velocity" else "acceleration"
+            shares[reading] = shares.get(reading, 0.0) + (still.reading_error * what.scales.of(order)) ** 2
     samples = _samples(what, name, tools) if together else ()
     found = {}
     for symbol, shares in parts.items():

@@ -56,7 +56,7 @@ def _line(motion: Motion, symbol: Symbol, row: int) -> complex | None:
 
 def judged_by_digits(printed: Printed, exact: Value, by: str, bound: float) -> Judged:
     """A stated value judged by its digits: computed ones may be off by 1e-4 of themselves too, for inputs that were
-    rounded; drawn ones by what a pencil keeps within (``bound``, SI)."""
+    rounded; drawn ones by what a pencil keeps within (``bound``, SI; infinite where nothing can be judged)."""
     off = abs(difference(printed, exact))
     share = deviation(printed, exact)
     if off <= printed.rounding + 1e-9 * abs(exact):
@@ -64,7 +64,9 @@ def judged_by_digits(printed: Printed, exact: Value, by: str, bound: float) -> J
     if by == "computation":
         near = off <= printed.rounding + COMPUTED_SHARE * abs(exact)
         return Judged(printed, exact, share, "right" if near else "wrong", 0.0)
-    near = math.isfinite(bound) and off <= bound + printed.coarse
+    if math.isinf(bound):
+        return Judged(printed, exact, share, "not judged", bound)
+    near = off <= bound + printed.coarse
     return Judged(printed, exact, share, "within drafting accuracy" if near else "wrong", bound)
 
 

@@ -155,8 +155,13 @@ class Hand:
         across = self.tools.line_width / 2
         return at + complex(self._error(across), self._error(across))
 
+    @property
+    def reading_error(self) -> float:
+        """Standard deviation of a length read off the ruler (mm)."""
+        return self.tools.ruler / _UNIFORM
+
     def read(self, mm: float) -> float:
-        return mm + self._error(self.tools.ruler / _UNIFORM)
+        return mm + self._error(self.reading_error)
 
     def read_direction(self, along: complex) -> complex:
         return _turned(along, self._error(self.tools.protractor / _UNIFORM))

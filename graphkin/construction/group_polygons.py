@@ -236,7 +236,7 @@ class GroupPolygons(GroupMoves):
     def _named(self, order: Order, plan: GroupPlan, values: Sequence[float]) -> tuple[tuple[Symbol, float], ...]:
         """Rates by their symbols, in scene units."""
         named = []
-        metres = self.structure.scene.units.metres
+        metres = self.structure.scene.units.rates.metres
         for unknown, value in zip(plan.tried, values, strict=True):
             kind, name = unknown.split(" ", 1)
             if kind == "omega":

@@ -89,15 +89,16 @@ UNMET = 40.0  # what a wish that a room does not hold costs, as `Room.cost`
 
 def _chosen_scales(scene: Mechanism, extents: Mapping[DiagramName, Extent], room: Room | None) -> Scales:
     """The scene's own scales, and for those it does not give the finest of the series that fit the room."""
-    unit = scene.units.metres
+    fast = scene.units.rates.metres
     wanted = scene.sheet.length_scale, scene.sheet.velocity_scale, scene.sheet.acceleration_scale
-    wishes = [wish * per if wish else None for wish, per in zip(wanted, (1e-3, unit, unit), strict=True)]
+    wishes = [wish * per if wish else None for wish, per in zip(wanted, (1e-3, fast, fast), strict=True)]
     space = room or Room()
     best: tuple[float, list[float]] | None = None
     for one in (space, *space.others):
         cost, scales = one.cost, []
         for name, wish in zip(DIAGRAMS, wishes, strict=True):
             most = one.mechanism if name == "mechanism" else one.polygon
+            unit = scene.units.metres if name == "mechanism" else fast
             fitting = fitting_scale(extents[name], most, 1.0 / unit) * unit
             if wish is not None and (room is None or space.keeps_wishes):
                 if room is None or wish * (1 + 1e-9) >= _least(extents[name], one, name):

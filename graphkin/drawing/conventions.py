@@ -202,8 +202,8 @@ def scale_statement(sheet: Sheet, convention: Convention, diagram: DiagramName) 
     >>> scale_statement(draft(mechanism_of("sixbar-guide-40deg")), "british", "velocity")
     '1 cm = 100 mm/s'
     """
-    unit = sheet.scene.units.length
-    per = sheet.scales.of(diagram) / sheet.scene.units.metres
+    units = sheet.scene.units if diagram == "mechanism" else sheet.scene.units.rates
+    unit, per = units.length, sheet.scales.of(diagram) / units.metres
     tail = {"mechanism": "", "velocity": "/s", "acceleration": "/s²"}[diagram]
     if convention == "us":
         return f"1 mm = {_number(per)} {unit}{tail}"

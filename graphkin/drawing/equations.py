@@ -137,10 +137,10 @@ def _trials(sheet: Sheet, last: Step, letters: Letters, language: str) -> Iterat
     """``I: ω_3 = 0.2 rad/s; left open at 8: 3.21 mm``, a line for each trial, and what follows."""
     act = last.act
     assert isinstance(act, Superposed)
-    units = {"omega": "rad/s", "alpha": "rad/s²", "v": f"{sheet.scene.units.length}/s"}
+    units = {"omega": "rad/s", "alpha": "rad/s²", "v": f"{sheet.scene.units.rates.length}/s"}
 
     def rates(found: Sequence[tuple[Symbol, float]]) -> str:
-        push = f"{sheet.scene.units.length}/s²"
+        push = f"{sheet.scene.units.rates.length}/s²"
         return ", ".join(
             f"${letters.vector(s)}$ = {number(value, 5)} {units.get(s.kind, push)}" for s, value in found
         )
@@ -258,10 +258,10 @@ def _short(sheet: Sheet, equation: Equation, letters: Letters) -> str | None:
         factors = factors_of(sheet, only.size)
         if factors:
             parts.append(_bound(substituted(only.size, factors)))
-    unit = sheet.scene.units.length + ("/s" if equation.diagram == "velocity" else "/s²")
+    unit = sheet.scene.units.rates.length + ("/s" if equation.diagram == "velocity" else "/s²")
     laid_off = (s.act.mm for s in sheet.steps if isinstance(s.act, LaidOff) and s.act.symbol == only.symbol)
     # what is given is not what a hand has made of it
-    value = next(laid_off, abs(vector.span)) * sheet.scales.of(equation.diagram) / sheet.scene.units.metres
+    value = next(laid_off, abs(vector.span)) * sheet.scales.of(equation.diagram) / sheet.scene.units.rates.metres
     parts.append(f"{number(value, 5)}\u00a0{unit}")
     way = letters.direction(only.direction, sheet.scene.frame.name)
     return " = ".join(parts) + (f",  ${way}$" if way else "")

@@ -85,7 +85,7 @@ def written(plain: str) -> str:
 def drivers(sheet: Sheet, letters: Letters) -> str:
     """Driver values with their rates, as words with symbols between dollar signs."""
     scene = sheet.scene
-    unit, metres = scene.units.length, scene.units.metres
+    unit, rates = scene.units, scene.units.rates
     parts = []
     for driver in scene.drivers:
         value = sheet.drivers[driver.key]
@@ -101,10 +101,10 @@ def drivers(sheet: Sheet, letters: Letters) -> str:
         else:
             index = _slide_index(sheet, driver.key)
             v, a = ("V", "A") if letters.convention == "us" else ("v", "a")
-            parts.append(f"$s_{{{index}}}$ = {number(value / metres)} {unit}")
-            parts.append(f"${v}_{{{index}}}$ = {number(rate / metres)} {unit}/s")
+            parts.append(f"$s_{{{index}}}$ = {number(value / unit.metres)} {unit.length}")
+            parts.append(f"${v}_{{{index}}}$ = {number(rate / rates.metres)} {rates.length}/s")
             if second:
-                parts.append(f"${a}_{{{index}}}$ = {number(second / metres)} {unit}/s²")
+                parts.append(f"${a}_{{{index}}}$ = {number(second / rates.metres)} {rates.length}/s²")
     return ",  ".join(parts)
 
 
@@ -124,8 +124,8 @@ def facts(sheet: Sheet, figure: str) -> dict[str, object]:
     }
     scales = {
         "length": float(f"{sheet.scales.length / metres:.12g}"),
-        "velocity": float(f"{sheet.scales.velocity / metres:.12g}"),
-        "acceleration": float(f"{sheet.scales.acceleration / metres:.12g}"),
+        "velocity": float(f"{sheet.scales.velocity / scene.units.rates.metres:.12g}"),
+        "acceleration": float(f"{sheet.scales.acceleration / scene.units.rates.metres:.12g}"),
     }
     return {
         "figure": figure,
@@ -232,8 +232,8 @@ def _mechanism(sheet: Sheet, language: str) -> list[str]:
 
 
 def _vectors(sheet: Sheet, diagram: DiagramName, language: str) -> list[str]:
-    unit = sheet.scene.units.length + ("/s" if diagram == "velocity" else "/s²")
-    per_mm = sheet.scales.of(diagram) / sheet.scene.units.metres
+    unit = sheet.scene.units.rates.length + ("/s" if diagram == "velocity" else "/s²")
+    per_mm = sheet.scales.of(diagram) / sheet.scene.units.rates.metres
     said = []
     for symbol, vector in sheet.vectors(diagram).items():
         words = _capital(spoken_vector(symbol, language))

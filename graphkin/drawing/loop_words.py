@@ -120,7 +120,7 @@ class MatrixEquation:
 
 def matrices(block: LoopBlock, scene: Mechanism) -> Iterator[MatrixEquation]:
     """The velocity and the acceleration equation of loops that are solved together, with this position's numbers."""
-    metres, length = scene.units.metres, scene.units.length
+    metres, length = scene.units.rates.metres, scene.units.rates.length
     for key, right, found, letters, after in (
         ("loop velocities", block.velocity, block.rates, ("ω", "v"), ("rad/s", f"{length}/s")),
         ("loop accelerations", block.acceleration, block.second_rates, ("α", "a"), ("rad/s²", f"{length}/s²")),

@@ -14,6 +14,7 @@ from graphkin.construction.steps import LaidOff, MeasuredRate, RateTimes, Size
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.headings import number, written
 from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.scene.tables import Units
 from graphkin.words.written import MOST, amount, figures, on_paper, product, quotient
 
 __all__ = [
@@ -25,12 +26,21 @@ _TAILS = {"mechanism": "", "velocity": "/s", "acceleration": "/s²"}
 
 def unit_of(sheet: Sheet, diagram: DiagramName) -> str:
     """The unit of what a diagram shows."""
-    return sheet.scene.units.length + _TAILS[diagram]
+    return _units(sheet, diagram).length + _TAILS[diagram]
 
 
 def scale_of(sheet: Sheet, diagram: DiagramName) -> float:
     """Scene units for one mm of paper."""
-    return sheet.scales.of(diagram) / sheet.scene.units.metres
+    return sheet.scales.of(diagram) / _units(sheet, diagram).metres
+
+
+def _units(sheet: Sheet, diagram: DiagramName) -> Units:
+    return sheet.scene.units if diagram == "mechanism" else sheet.scene.units.rates
+
+
+def _arm(sheet: Sheet, mm: float) -> str:
+    """A length (mm on paper) in the length unit of rates, with which it is multiplied or by which they are divided."""
+    return amount(mm * sheet.scales.length / sheet.scene.units.rates.metres, MOST)
 
 
 def times_scale(sheet: Sheet, diagram: DiagramName, mm: float) -> str:
@@ -54,8 +64,8 @@ def rate_sum(sheet: Sheet, act: MeasuredRate, units: bool = True) -> str:
     diagram: DiagramName = "velocity" if omega else "acceleration"
     carried = figures(on_paper(rate.mm))
     size = _carried(sheet, diagram, rate.mm, carried)
-    arm = amount(rate.arm_mm * scale_of(sheet, "mechanism"), MOST)
-    of, over = (f" {unit_of(sheet, diagram)}", f" {unit_of(sheet, 'mechanism')}") if units else ("", "")
+    arm = _arm(sheet, rate.arm_mm)
+    of, over = (f" {unit_of(sheet, diagram)}", f" {sheet.scene.units.rates.length}") if units else ("", "")
     value = written(quotient(size, arm, min(MOST - 1, carried)))
     return f"{written(size)}{of} / {written(arm)}{over} = {value} {'rad/s' if omega else 'rad/s²'}"
 
@@ -126,7 +136,7 @@ def _length(sheet: Sheet, one: str, other: str) -> str | None:
     ends = [sheet.points.get(PointRef(name)) for name in (one, other)]
     if ends[0] is None or ends[1] is None:
         return None
-    return amount(abs(ends[0] - ends[1]) * scale_of(sheet, "mechanism"), MOST)
+    return _arm(sheet, abs(ends[0] - ends[1]))
 
 
 def _speed(sheet: Sheet, symbol: Symbol) -> str | None:

@@ -63,7 +63,7 @@ def common_scales(plans: Sequence[Plan], paper: Scales) -> list[Scales]:
     The mechanism has one scale in all positions.
     """
     sheets = [execute(plan) for plan in plans]
-    metres = sheets[0].scene.units.metres
+    metres = sheets[0].scene.units.rates.metres
     whole = _joined(Box.around(sheet.points.values()) for sheet in sheets)
     on_paper = sheets[0].scales.length / paper.length
     length = (

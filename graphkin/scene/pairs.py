@@ -208,7 +208,8 @@ def drives(
         else:
             travel = None if table.travel is None else table.travel * metres
             dead = _from_dead_point(table, travel, metres)
-            rate, second = (table.velocity or 0.0) * metres, table.acceleration * metres
+            fast = file.units.rates.metres
+            rate, second = (table.velocity or 0.0) * fast, table.acceleration * fast
             found.append(DriverEntry(where, key, base, travel, rate, second, dead))
     return tuple(found)
 

@@ -14,7 +14,7 @@ from graphkin.scene.reading import path_name
 from graphkin.scene.symbol import Symbol, missing_names
 from graphkin.scene.tables import DrivenSlide, Positions, SceneTables, StrokeStart, Units
 
-__all__ = ["asked", "loops_named", "position_name", "positions_named", "published", "stated_values"]
+__all__ = ["asked", "digits_of", "loops_named", "position_name", "positions_named", "published", "stated_values"]
 
 BY = ("drawing", "computation")
 Stated = float | str | Sequence[float]
@@ -119,7 +119,7 @@ def _texts(
             problems.append(symbol)
         elif not isinstance(value, int | float | str):
             if symbol.is_vector:
-                found[symbol] = tuple(map(_shortest, value))
+                found[symbol] = tuple(map(digits_of, value))
             else:
                 problems.append(Problem(where, "found two numbers", "it is one number, no vector"))
         elif isinstance(value, str):
@@ -129,7 +129,7 @@ def _texts(
             else:
                 problems.append(Problem(where, f'"{value[:40]}" is no number', 'write "1.0", the digits as printed'))
         else:
-            found[symbol] = (_shortest(value),)
+            found[symbol] = (digits_of(value),)
     return found
 
 
@@ -141,10 +141,11 @@ def _is_number(text: str) -> bool:
     return number.is_finite() and abs(number) < Decimal("1e15") and int(number.as_tuple().exponent) > -300
 
 
-def _shortest(number: float) -> str:
-    # a number of a file lost its last zeros; nobody prints more than twelve digits
+def digits_of(number: float) -> str:
+    """The text of a number that lost its last zeros in a file or a computation; nobody prints more than 12 digits."""
     text = f"{number:.12g}"
-    return text if "e" not in text or not math.isfinite(number) else format(Decimal(text), "f")
+    tiny = abs(number) < 1e-12  # written out it would be longer than a number may be
+    return text if "e" not in text or tiny or not math.isfinite(number) else format(Decimal(text), "f")
 
 
 # -- positions and loops -----------------------------------------------------------------------------------------------

@@ -195,8 +195,9 @@ class Symbol:
 
     def unit(self, units: Units) -> str:
         """The unit in files and tables, where the scene's are these: degrees for angles."""
+        speed = f"{units.rates.length}/s"
         return {
-            "velocity": f"{units.length}/s", "acceleration": f"{units.length}/s2", "angular velocity": "rad/s",
+            "velocity": speed, "acceleration": f"{speed}2", "angular velocity": "rad/s",
             "angular acceleration": "rad/s2", "length": units.length, "angle": "deg", "number": "",
             "force": units.force, "moment": f"{units.force} m",
         }[self.measure]  # fmt: skip
@@ -213,7 +214,9 @@ class Symbol:
         """The same in JSON, where angles are in radians."""
         if self.measure in ("force", "moment"):
             return units.newtons
-        return units.metres if self.measure in ("velocity", "acceleration", "length") else 1.0
+        if self.measure in ("velocity", "acceleration"):
+            return units.rates.metres
+        return units.metres if self.measure == "length" else 1.0
 
     @property
     def id(self) -> str:

@@ -8,7 +8,7 @@ scene is made of them (`graphkin.scene.form` has the rules, from which the JSON 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from graphkin.scene.class_tables import Vary
@@ -83,7 +83,10 @@ class Units(FileTable):
     length: Literal["mm", "cm", "m", "in", "ft"] = field(
         default="mm", metadata=_about("The unit of every length; speeds are in it per second.")
     )
-
+    speed: Literal["mm/s", "cm/s", "m/s", "in/s", "ft/s"] | None = field(
+        default=None,
+        metadata=_about("The unit of velocities, where it is not the length unit per second; accelerations are per s."),
+    )
     force: Literal["N", "kN", "kgf", "lbf"] = field(
         default="N", metadata=_about("The unit of every force; moments are in it times metre.")
     )
@@ -95,6 +98,13 @@ class Units(FileTable):
     def metres(self) -> float:
         """One length unit in m."""
         return {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254, "ft": 0.3048}[self.length]
+
+    @property
+    def rates(self) -> Units:
+        """The units in which the lengths in velocities and accelerations are counted."""
+        lengths: dict[str, Literal["mm", "cm", "m", "in", "ft"]]
+        lengths = {"mm/s": "mm", "cm/s": "cm", "m/s": "m", "in/s": "in", "ft/s": "ft"}
+        return self if self.speed is None else replace(self, length=lengths[self.speed], speed=None)
 
     @property
     def newtons(self) -> float:
@@ -229,8 +239,8 @@ class DrivenSlide(FileTable):
         default=None,
         metadata=_about("From the guide's origin to the sliding link's own; may be left out with [drawn]."),
     )
-    velocity: Number | None = field(default=None, metadata=_about("Length unit/s along the guide's sense."))
-    acceleration: Number = field(default=0.0, metadata=_about("Length unit/s2 along the guide's sense."))
+    velocity: Number | None = field(default=None, metadata=_about("Unit of speed, along the guide's sense."))
+    acceleration: Number = field(default=0.0, metadata=_about("Unit of speed per s, along the guide's sense."))
     relative_to: LinkName | None = field(
         default=None, metadata=_about("The guiding link, where there are two.")
     )
@@ -272,8 +282,8 @@ class SheetWishes(FileTable):
     paper: Literal["A5", "A4", "A3", "A2", "A1", "A0"] = "A4"
     orientation: Literal["portrait", "landscape"] = "portrait"
     length_scale: Magnitude | None = field(default=None, metadata=_about("mm of mechanism per mm of paper."))
-    velocity_scale: Magnitude | None = field(default=None, metadata=_about("(length unit/s) per mm of paper."))
-    acceleration_scale: Magnitude | None = field(default=None, metadata=_about("(length unit/s2) per mm of paper."))
+    velocity_scale: Magnitude | None = field(default=None, metadata=_about("Units of speed per mm of paper."))
+    acceleration_scale: Magnitude | None = field(default=None, metadata=_about("(unit of speed/s) per mm of paper."))
     force_scale: Magnitude | None = field(default=None, metadata=_about("Force units per mm of paper."))
     convention: Convention = "chinese"
     language: Language = "en"

@@ -224,6 +224,8 @@ def as_mapping(scene: Mechanism) -> dict[str, Any]:
         pins.setdefault(pin.point, {"of": pin.of, "in": []})["in"].append(_guide_name(pin.on, pin.guide))
     made: dict[str, Any] = {"title": scene.title, "title_zh": scene.title_zh, "source": scene.source}
     made["units"] = {"length": scene.units.length}
+    if scene.units.speed:
+        made["units"]["speed"] = scene.units.speed
     if scene.loading:
         made["units"] |= {"force": scene.units.force, "mass": scene.units.mass}
     made["frame"] = {k: v for k, v in frame.items() if v != {}}
@@ -288,7 +290,8 @@ def _driver(scene: Mechanism, driver: AnyDriver, length: Any) -> dict[str, Any]:
         base = {} if driver.relative_to == scene.frame.name else {"relative_to": driver.relative_to}
         angle = _tidy(math.degrees(driver.angle))
         return {"link": driver.link, **base, "angle": angle, "omega": _tidy(driver.omega), "alpha": _tidy(driver.alpha)}
-    travel, velocity, second = (length(v) for v in driver.values)
+    travel = length(driver.travel)
+    velocity, second = (_tidy(v / scene.units.rates.metres) for v in driver.values[1:])
     return {"slide": driver.key, "travel": travel, "velocity": velocity, "acceleration": second}
 
 

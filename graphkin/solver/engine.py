@@ -73,7 +73,7 @@ def positions(
         group the poses from which Newton's method starts, shape (n, members, 3)
     upto : solve only the elements before this one
     rates : False leaves out velocity, acceleration and bounds
-    sure : False leaves out the bounds; with a larger group they need all elements
+    sure : False leaves out the bounds; with a larger group they need all elements, and are left out for fewer
     fine : False leaves 16 digits where they are rough, and the bounds as they are there: for curves, and on the way
 
     Returns
@@ -178,10 +178,11 @@ class _Run:
                 *(given.get(p, _LOST) for p in DyadSolution._fields[2:]),
             )
         found = list(values)
-        if self.sure and self.clusters:
+        sure = self.sure and (not self.clusters or upto >= len(self.structure.elements))
+        if sure and self.clusters:
             found = [*bounds_together(self.structure, poses, self.drive, self._known)]
             rough = _rough(found, size)
-        bounds = ErrorBound(*(_sure(b) for b in found)) if self.sure else None
+        bounds = ErrorBound(*(_sure(b) for b in found)) if sure else None
         return State(poses, dict(sorted(groups.items())), bounds, rough, np.where(fine, TINY, SINGULAR))
 
     def _together(self, i: int, group: Cluster) -> None:

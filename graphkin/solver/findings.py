@@ -157,7 +157,7 @@ def _dead_why(structure: Structure, i: int, values: Array, forms: Mapping[int, A
     group = structure.elements[i]
     assert isinstance(group, Dyad | Cluster)
     one = np.ones((1, len(scene.drivers)))
-    solved = positions(structure, Drive(values[None], one, 0 * one), forms, i + 1).groups[i]
+    solved = positions(structure, Drive(values[None], one, 0 * one), forms, i + 1, sure=False).groups[i]
     names = ", ".join(group.links)
     if isinstance(solved, ClusterSolved):
         if not (solved.missed[0] < OPEN and solved.certificate[0] < CERTIFIED) and solved.condition[0] * SINGULAR <= 1:

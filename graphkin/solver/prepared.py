@@ -33,6 +33,7 @@ CHUNK = 16384
 """Positions in a piece, so that all columns of one stay in the cache."""
 PRODUCTS = 4
 """Roundings in the cosine and sine of an angle, those of many even steps included."""
+_PER: tuple[Name, ...] = (("per metre",), ("per radian",), ("per metre of rates",))
 CLEAR = 0.2
 """Where no sine at the nodes of a path is less than this, none between them is near zero."""
 
@@ -44,7 +45,7 @@ class PreparedMechanism:
     names : of the columns, two for a vector ("v_B.x", "v_B.y")
     asked : their formulas, with those of bounds after them
     wanted : what was asked for by name
-    units : what one metre and one radian are in the units of the columns
+    units : what one metre, one radian and one metre in rates are in the units of the columns
     bounded : whether bounds were asked for
     loads : forces and moments that were asked for, by name: the last of the names, solved position by position as they
         have no closed form, some hundred times slower
@@ -55,7 +56,7 @@ class PreparedMechanism:
     asked: tuple[Real, ...]
     dimensioned: DimensionedProgram
     wanted: tuple[str, ...]
-    units: Units = (1.0, 1.0)
+    units: Units = (1.0, 1.0, 1.0)
     bounded: bool = False
     loads: tuple[str, ...] = ()
 
@@ -110,7 +111,7 @@ class PreparedMechanism:
     @cached_property
     def _held(self) -> dict[Name, float]:
         """Units, rates of the drivers, values of those but the first; and how far each of these may be off."""
-        held: dict[Name, float] = {("per metre",): self.units[0], ("per radian",): self.units[1]}
+        held: dict[Name, float] = dict(zip(_PER, self.units, strict=True))
         for k, driver in enumerate(self.structure.scene.drivers):
             _, rate, second = driver.values
             held["rate", k], held["second", k] = rate, second
@@ -380,7 +381,7 @@ def _every(n: int) -> Array:
 def prepare(
     scene: Mechanism | Structure,
     asked: Sequence[str],
-    units: Units = (1.0, 1.0),
+    units: Units = (1.0, 1.0, 1.0),
     bounded: bool = False,
     along: DriverRange | None = None,
 ) -> PreparedMechanism:
@@ -390,7 +391,7 @@ def prepare(
     ----------
     scene : a scene, or its structure
     asked : columns by name, as in ``graphkin.solver.quantities.formulas``: "B", "v_B", "a_B@3", "omega_3", ...
-    units : what one metre and one radian are in the units of the columns
+    units : what one metre, one radian and one metre in rates are in the units of the columns
     bounded : after all others a column for each name, of how far rounding may have moved its values
     along : the range of its first driver, where that is known already
 

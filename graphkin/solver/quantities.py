@@ -17,12 +17,12 @@ from graphkin.structure import Cluster, Structure
 __all__ = ["Units", "bounds", "formulas"]
 
 
-Units = tuple[float, float]
-"""What one metre and one radian are in the units of the columns."""
+Units = tuple[float, float, float]
+"""What one metre, one radian and one metre in rates are in the units of the columns."""
 
 
 def formulas(
-    program: Program, structure: Structure, asked: Sequence[str], units: Units = (1.0, 1.0)
+    program: Program, structure: Structure, asked: Sequence[str], units: Units = (1.0, 1.0, 1.0)
 ) -> dict[str, Real]:
     """A formula for each column.
 
@@ -30,7 +30,7 @@ def formulas(
     ----------
     asked : "B", "B@3" (place of a point: columns B.x, B.y), "v_B", "a_B@3", "v_C/B" (two columns each), "theta_3",
         "omega_3", "alpha_3", "s_2/3" (travel of a sliding pair)
-    units : of lengths and of angles; rates of angles are in radians always
+    units : of lengths, of angles and of lengths in rates; rates of angles are in radians always
 
     Raises
     ------
@@ -47,7 +47,9 @@ def formulas(
     return found
 
 
-def bounds(program: Program, structure: Structure, asked: Sequence[str], units: Units = (1.0, 1.0)) -> dict[str, Real]:
+def bounds(
+    program: Program, structure: Structure, asked: Sequence[str], units: Units = (1.0, 1.0, 1.0)
+) -> dict[str, Real]:
     """For each name how far rounding may have moved its columns, in their units.
 
     With a larger group they are made from the bounds of the whole mechanism, inputs ("bound", 0) to ("bound", 5).
@@ -92,7 +94,10 @@ class _Quantity:
         """What the formula in SI is to be multiplied by."""
         if self.kind in ("omega", "alpha"):
             return 1.0
-        what, factor = ("per radian", units[1]) if self.kind == "theta" else ("per metre", units[0])
+        rate = self.kind in ("v", "a")
+        what, factor = ("per metre of rates", units[2]) if rate else ("per metre", units[0])
+        if self.kind == "theta":
+            what, factor = "per radian", units[1]
         return 1.0 if factor == 1.0 else self.program.graph.param((what,))
 
     def formula(self) -> Real | Vec:

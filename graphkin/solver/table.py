@@ -57,9 +57,10 @@ def _text(data: object) -> str:
 def _head(motion: Motion) -> dict[str, Any]:
     scene = motion.scene
     force = {"force": scene.units.force} if scene.loading else {}
+    speed = {"speed": scene.units.speed} if scene.units.speed else {}
     return {
         "title": scene.title,
-        "units": {"length": scene.units.length, "time": "s", "angle": "rad", **force},
+        "units": {"length": scene.units.length, **speed, "time": "s", "angle": "rad", **force},
         "mobility": motion.structure.mobility.value,
         "groups": [_group(g, words) for g, words in zip(motion.structure.groups, motion.assembly, strict=True)],
     }
@@ -98,19 +99,20 @@ def _positions(motion: Motion, forces: Forces | None) -> Iterator[list[dict[str,
 
 
 def _columns(motion: Motion, angles: Mapping[str, Array]) -> dict[str, dict[str, dict[str, Array]]]:
-    """Every number of some positions, in the scene's length unit."""
+    """Every number of some positions, in the scene's units."""
     scene = motion.scene
-    metres = scene.units.metres
+    metres, fast = scene.units.metres, scene.units.rates.metres
     columns: dict[str, dict[str, dict[str, Array]]] = {"links": {}, "points": {}, "slides": {}}
     for name, angle in angles.items():
         columns["links"][name] = {"angle": angle, "omega": motion.omega(name), "alpha": motion.alpha(name)}
     for point, name in listed_points(scene, motion.slides):
         at = motion.point(point, name)
-        found = at.z / metres, at.v / metres, at.a / metres
+        found = at.z / metres, at.v / fast, at.a / fast
         columns["points"][f"{point}@{name}"] = dict(zip(("position", "velocity", "acceleration"), found, strict=True))
     for pair in motion.slides:
-        kinds = ("travel", "velocity", "acceleration", "coriolis")
-        columns["slides"][pair.key] = dict(zip(kinds, (x / metres for x in motion.slide(pair.key)), strict=True))
+        kinds, each = ("travel", "velocity", "acceleration", "coriolis"), (metres, fast, fast, fast)
+        values = zip(motion.slide(pair.key), each, strict=True)
+        columns["slides"][pair.key] = dict(zip(kinds, (x / per for x, per in values), strict=True))
     return columns
 
 
@@ -137,11 +139,11 @@ def _plain(values: Array) -> list[Any]:
 
 
 def _bounds(motion: Motion, k: int) -> dict[str, Any]:
-    metres = motion.scene.units.metres
+    metres, fast = motion.scene.units.metres, motion.scene.units.rates.metres
     moving, turning = motion.bound.of_point, motion.bound.of_turning
     found: dict[str, Any] = {
-        name: float(b[k]) / metres if np.isfinite(b[k]) else None
-        for name, b in zip(("position", "velocity", "acceleration"), moving, strict=True)
+        name: float(b[k]) / per if np.isfinite(b[k]) else None
+        for name, b, per in zip(("position", "velocity", "acceleration"), moving, (metres, fast, fast), strict=True)
     }
     for name, b in zip(("angle", "omega", "alpha"), turning, strict=True):
         found[name] = float(b[k]) if np.isfinite(b[k]) else None

@@ -120,7 +120,8 @@ class Chords:
 def _per(measure: Measure, scene: Mechanism) -> float:
     if measure == "angle":
         return math.radians(1.0)
-    return 1.0 if measure.startswith("angular") else scene.units.metres
+    units = scene.units if measure == "length" else scene.units.rates
+    return 1.0 if measure.startswith("angular") else units.metres
 
 
 def _chain_of(scene: Mechanism, name: str) -> tuple[tuple[Ordinate, ...], int]:

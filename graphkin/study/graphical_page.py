@@ -14,6 +14,7 @@ from graphkin.drawing.primitives import Circle, Group, Line, Polyline, Primitive
 from graphkin.drawing.symbols import POINTER, arrowhead
 from graphkin.drawing.text import fitted, plain, rich, symbol, wrapped
 from graphkin.scene.model import AngleDriver
+from graphkin.scene.tables import Units
 from graphkin.solver import DriverRange
 from graphkin.study.driver_axis import number, title_of
 from graphkin.study.graphical import Array, Chords, Ordinate
@@ -39,10 +40,11 @@ def markup_of(one: Ordinate) -> str:
     return f"{_GREEK.get(kind, kind)}_{{{rest.replace('/', '').replace('.', '').replace('@', '')}}}"
 
 
-def _unit(one: Ordinate, length: str) -> str:
+def _unit(one: Ordinate, units: Units) -> str:
+    speed = f"{units.rates.length}/s"
     return {
-        "angle": "°", "length": length, "angular rate": "rad/s", "speed": f"{length}/s",
-        "angular acceleration": "rad/s²", "acceleration": f"{length}/s²",
+        "angle": "°", "length": units.length, "angular rate": "rad/s", "speed": speed,
+        "angular acceleration": "rad/s²", "acceleration": f"{speed}²",
     }[one.measure]  # fmt: skip
 
 
@@ -50,21 +52,22 @@ def _per_mm(unit: str) -> str:
     return f"({unit})/mm" if "/" in unit else f"{unit}/mm"
 
 
-def _per(one: Ordinate, metres: float) -> float:
+def _per(one: Ordinate, units: Units) -> float:
+    metres = units.metres if one.measure == "length" else units.rates.metres
     return math.radians(1.0) if one.measure == "angle" else 1.0 if one.measure.startswith("angular") else metres
 
 
 def chords_page(chords: Chords, reach: DriverRange, language: str) -> Drawing:
     """Draw it.  One mm of the file is one mm on paper, so that what a ruler measures times the scale is the value."""
     scene = reach.scene
-    metres, length = scene.units.metres, scene.units.length
+    units = scene.units
     given, result = markup_of(chords.given), markup_of(chords.result)
     title = say(Phrase(f"graphical {chords.way}", (f"${result}$", f"${given}$")), language)
-    per_y, per_found = chords.per_y / _per(chords.given, metres), chords.per_found / _per(chords.result, metres)
+    per_y, per_found = chords.per_y / _per(chords.given, units), chords.per_found / _per(chords.result, units)
     scales = (
-        f"$μ_{{{given[0]}}}$ = {number(per_y)} {_per_mm(_unit(chords.given, length))}",
+        f"$μ_{{{given[0]}}}$ = {number(per_y)} {_per_mm(_unit(chords.given, units))}",
         f"$μ_{{t}}$ = {number(chords.per_x)} s/mm", f"$H$ = {number(chords.pole)} mm",
-        f"$μ_{{{result[0]}}}$ = {number(per_found)} {_per_mm(_unit(chords.result, length))}",
+        f"$μ_{{{result[0]}}}$ = {number(per_found)} {_per_mm(_unit(chords.result, units))}",
     )  # fmt: skip
     facts = [",  ".join(scales), say(Phrase(f"graphical {chords.way} off", (f"{100 * chords.off:.2g}",)), language)]
     words: list[Primitive] = [
@@ -97,7 +100,7 @@ def chords_page(chords: Chords, reach: DriverRange, language: str) -> Drawing:
     return Drawing(
         WIDTH, end + 20.0, layer_groups(page), f"{title.replace('$', '')}: {title_of(scene, language)}",
         " ".join(fact.replace("$", "") for fact in facts), language,
-        {"scene": scene.name, "units": length, "given": chords.given.name, "result": chords.result.name,
+        {"scene": scene.name, "units": units.length, "given": chords.given.name, "result": chords.result.name,
          "pole": chords.pole, "scales": {"given": per_y, "time": chords.per_x, "result": per_found}},
     )  # fmt: skip
 

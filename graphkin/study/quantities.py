@@ -85,14 +85,14 @@ class Quantity:
 
     def unit(self, scene: Mechanism, degrees: bool = False) -> str:
         """The unit of ``in_units``."""
-        length, angle = scene.units.length, "deg" if degrees else "rad"
+        length, rate, angle = scene.units.length, scene.units.rates.length, "deg" if degrees else "rad"
         return {
             "angle": angle,
             "length": length,
             "angular rate": "rad/s",
-            "speed": f"{length}/s",
+            "speed": f"{rate}/s",
             "angular acceleration": "rad/s2",
-            "acceleration": f"{length}/s2",
+            "acceleration": f"{rate}/s2",
             "force": scene.units.force,
             "moment": f"{scene.units.force} m",
         }[self.measure]
@@ -103,7 +103,11 @@ class Quantity:
             return math.degrees(value) if degrees else value
         if self.is_load:
             return value / scene.units.newtons
-        return value if self.measure.startswith("angular") else value / scene.units.metres
+        return value if self.measure.startswith("angular") else value / self.metres(scene)
+
+    def metres(self, scene: Mechanism) -> float:
+        """The length unit in it (m)."""
+        return scene.units.metres if self.measure == "length" else scene.units.rates.metres
 
     def values(self, reach: DriverRange | None, motion: Motion) -> Array:
         """Its values in a motion (SI), shape (n,); in one of a range angles go on from those before."""

@@ -90,11 +90,12 @@ class Watched:
             vector = motion.value(self.what.symbol)
             if not self.what.symbol.is_vector:
                 return (vector / self.what.symbol.per_unit(motion.scene.units),)
+            metres = self.what.metres(motion.scene)
         else:
             value = np.asarray(self.what.values(reach, motion))
             if self.what.measure == "angle":
                 return (np.degrees(value),)
-            return (value if self.what.measure.startswith("angular") else value / metres,)
+            return (value if self.what.measure.startswith("angular") else value / self.what.metres(motion.scene),)
         return vector.real / metres, vector.imag / metres
 
     def columns(self, scene: Mechanism, parts: Sequence[Array]) -> list[Column]:
@@ -225,7 +226,7 @@ class Design:
             return None
         if any(isinstance(e, Cluster) for e in self.structure.elements):
             return None
-        units = 1.0 / self.scene.units.metres, float(np.degrees(1.0))
+        units = 1.0 / self.scene.units.metres, float(np.degrees(1.0)), 1.0 / self.scene.units.rates.metres
         try:
             return prepare(self.structure, [w.name for w in self.asked], units)
         except CallError:  # a redundant link is none of its

@@ -30,6 +30,20 @@ def test_a_random_mechanism_is_answered_rightly_or_refused_by_name(command: str,
     assert came == "ok" or came.startswith(DEAD)
 
 
+@pytest.mark.parametrize(
+    ("command", "seed"),
+    [
+        ("audit", 7700051),  # whole numbers rounded to tens, where a pencil tells nothing
+        ("audit", 7700105),
+        ("audit", 7700083),  # a value of 1e-57
+        ("centres", 7800124),  # three centres in one place, where a link turns with another
+        ("cad", 7700045),  # a vector that is nothing, drawn as a hair, read to 0.01 mm
+    ],
+)
+def test_what_gave_way_once_holds(command: str, seed: int) -> None:
+    assert "ok" == attack(mechanism(seed), command)
+
+
 def test_a_driven_slide_that_carries_nothing_is_swept() -> None:
     scene = {
         "frame": {"guides": {"h": {"through": [0, 0], "angle": 30}}},

@@ -8,6 +8,8 @@ import pytest
 
 import graphkin
 from graphkin.errors import SceneError
+from graphkin.scene import mechanism_of
+from graphkin.scene.written import as_mapping
 
 pytestmark = pytest.mark.quick
 
@@ -81,3 +83,30 @@ def test_polar_points_of_the_frame_vary_from_problem_to_problem() -> None:
     scene = four_bar({"A": [0, 0], "D": {"from": "A", "r": 400, "angle": 10}}, rpm=60, sense="clockwise")
     made = graphkin.problem_set(scene, 2, seed=1)
     assert (2, []) == (len(made.made.names), made.made.failures)
+
+
+@pytest.mark.parametrize(("length", "speed", "times"), [("mm", "m/s", 1e-3), ("in", "ft/s", 1 / 12)])
+def test_speeds_may_have_a_unit_of_their_own(length: str, speed: str, times: float) -> None:
+    given = graphkin.read("slider-crank-offset").to_dict()
+    given.pop("sheet", None)
+    plain = {**given, "units": {"length": length}}
+    own = {**given, "units": {"length": length, "speed": speed}}
+    assert graphkin.check(own).ok
+    drawn, after = ({r["symbol"]: r["measured"] for r in graphkin.check(s).data["readings"]} for s in (plain, own))
+    assert times * drawn["v_C"] == pytest.approx(after["v_C"], rel=1e-12)
+    before = graphkin.solve(plain).data["positions"][0]["points"]["C@3"]
+    entry = graphkin.solve(own).data["positions"][0]["points"]["C@3"]
+    assert before["position"] == entry["position"]
+    for rate in ("velocity", "acceleration"):
+        assert [times * x for x in before[rate]] == pytest.approx(entry[rate], rel=1e-12)
+    assert f"v_C ({speed})" in graphkin.sweep(own, positions=3, find=["v_C"]).table.heads
+
+
+def test_a_driven_slide_is_given_in_the_unit_of_speeds() -> None:
+    given = graphkin.read("hydraulic-cylinder").to_dict()
+    driver = given["driver"] if isinstance(given["driver"], dict) else given["driver"][0]
+    metres = {**given, "units": {"length": "mm", "speed": "m/s"},
+              "driver": {**driver, "velocity": driver["velocity"] / 1000}}  # fmt: skip
+    assert mechanism_of(given).drivers[0].values == pytest.approx(mechanism_of(metres).drivers[0].values, rel=1e-12)
+    again = mechanism_of(as_mapping(mechanism_of(metres))).drivers
+    assert mechanism_of(metres).drivers[0].values == pytest.approx(again[0].values, rel=1e-12)

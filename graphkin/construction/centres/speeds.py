@@ -193,7 +193,7 @@ def error_by_centres(centres: Centres, moving: Mapping[str, Turning], symbol: Sy
     whole = 0.0
     for name in names:
         turning = moving.get(name)
-        if turning is not None and turning.strength != 0.0:
+        if turning is not None:  # a motion of nothing may be off by all there is, where centres fall together
             whole += turning.error + abs(turning.strength) * _error(centres, name, links.scene.frame.name)
     return whole * reach * (1.0 if symbol.link else chart.unit / links.mm)
 
@@ -259,7 +259,7 @@ def _of_sliding(
         return None
     rates = [amount(moving[name].omega, MOST) for name in (pinned, guiding)]
     apart = written.difference(*rates)
-    units = links.scene.units
+    units = links.scene.units.rates
     per_mm = amount(centres.sheet.scales.length / units.metres)
     length = on_paper(abs(links.point(point) - centre.point))
     symbol = Symbol("v", PointRef(point, guiding), PointRef(point, sliding))
@@ -313,7 +313,7 @@ def _of_point(centres: Centres, moving: Mapping[str, Turning], symbol: Symbol, s
     turning = next((moving[n] for n in holders if n in moving), None)
     if turning is None:
         return None
-    units = links.scene.units
+    units = links.scene.units.rates
     per_mm = amount(centres.sheet.scales.length / units.metres)
     own = centres.of(turning.link, frame)
     if own.point is not None:
