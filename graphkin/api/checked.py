@@ -30,6 +30,7 @@ from graphkin.checking.reading_words import deviation, exact, measured, paper
 from graphkin.checking.readings import Advice, Uncertainty, advise, predict, read_off
 from graphkin.checking.report import Compared, Report, compare
 from graphkin.construction import EXACT, Cad, Instrument, Plan, Sheet, execute, pencil, plan
+from graphkin.construction.forces import ForceSheet, force_scale, forces_on
 from graphkin.construction.sheet import DiagramName
 from graphkin.construction.steps import phrase_of
 from graphkin.errors import CallError, Problem, Unsolvable, as_text, did_you_mean
@@ -45,7 +46,8 @@ if TYPE_CHECKING:
     from graphkin.table import Table
 
 __all__ = [
-    "Checked", "check", "checked", "hand_of", "here", "reading_row", "reading_words", "solved_here", "with_elsewhere",
+    "Checked", "check", "checked", "drawn_symbols", "hand_of", "here", "reading_row", "reading_words", "solved_here",
+    "with_elsewhere",
 ]  # fmt: skip
 
 _FORMS = {
@@ -123,7 +125,8 @@ class Checked(Result):
             "instrument": self.report.instrument,
             "ok": self.ok,
             "scales": self.scales,
-            "readings": [{**reading_row(self.scene, row), **self._by_centres(row)} for row in self.report.rows],
+            "readings": [{**reading_row(self.scene, row), **self._by_centres(row), **self._by_lever(row)}
+                         for row in self.report.rows],
             **({"advice": say(self.advice.phrase())} if self.advice else {}),
             **self._construction,
         }
@@ -146,6 +149,7 @@ class Checked(Result):
             "length": _plain(scales.length * 1e3),
             "velocity": _plain(scales.velocity / unit),
             "acceleration": _plain(scales.acceleration / unit),
+            **({"force": _plain(scales.force / self.scene.units.newtons)} if scales.force else {}),
         }
 
     @cached_property
@@ -154,6 +158,22 @@ class Checked(Result):
         from graphkin.construction.centres import centres_on
 
         return centres_on(self.sheet, self.asked)
+
+    @cached_property
+    def forces(self) -> ForceSheet | None:
+        """The forces as they are drawn; None where there is neither mass nor load, or nothing of them is asked."""
+        return forces_on(self.sheet) if self.sheet.has_forces else None
+
+    def _by_lever(self, row: Compared) -> dict[str, float]:
+        """What balances by Zhukovsky's lever, in the scene's force unit."""
+        if self.forces is None or row.symbol.scope != "force":
+            return {}
+        levers = self.forces.levers[-1 if row.symbol.plus else 0]
+        for lever in levers:
+            if lever.balance == replace(row.symbol, plus=False, at=""):
+                found = 0.0 + (lever.value if lever.balance.kind == "M" else abs(lever.vector))
+                return {"by_lever": in_scene_units(self.scene, row.symbol, found)}
+        return {}
 
     @cached_property
     def _turning(self) -> Mapping[str, Turning]:
@@ -263,7 +283,7 @@ def check(
     from graphkin import solver
 
     given = as_scene(scene)
-    asked = asked_symbols(given, find)
+    asked = drawn_symbols(given, find)
     values = driver_values(given, at)
     hand = hand_of(given, instrument, seed)
     structure = solver.structure_of(given)
@@ -275,22 +295,45 @@ def check(
 def checked(what: Plan, motion: Motion, hand: Instrument) -> Checked:
     """Draw a plan and hold everything on it against the solver at the same position."""
 
-    from graphkin.solver import exact_values
+    from graphkin.solver import exact_values, force_values
 
     value = exact_values(motion, what.asked)
     sheet = execute(what, hand)
+    scale = lost = 0.0
+    if sheet.has_forces:
+        of_motion = value
+        of_force, lost = force_values(motion)
+        scale = force_scale(sheet)
+
+        def value(symbol: Symbol) -> complex | float:
+            return of_force(symbol) if symbol.scope == "force" else of_motion(symbol)
+
     readings = read_off(sheet, (), hand)
     rounding: dict[DiagramName, float] = {
         "mechanism": float(np.nan_to_num(motion.bound.position[0], posinf=0.0)),
         "velocity": float(motion.rough[0][0]),
         "acceleration": float(motion.rough[1][0]),
+        "force": lost,
     }
     if hand is EXACT:
-        return Checked(sheet, compare(sheet, readings, value, what.asked, rounding=rounding), None, what.asked)
+        report = compare(sheet, readings, value, what.asked, rounding=rounding, force_scale=scale)
+        return Checked(sheet, report, None, what.asked)
     tools = what.structure.scene.sheet.tools
     predicted = predict(what, hand.name, tools)
     advice = advise(what, hand.name, tools, readings, predicted)
-    return Checked(sheet, compare(sheet, readings, value, what.asked, predicted, rounding), advice, what.asked)
+    report = compare(sheet, readings, value, what.asked, predicted, rounding, scale)
+    return Checked(sheet, report, advice, what.asked)
+
+
+def drawn_symbols(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tuple[Symbol, ...]:
+    """What is asked, or is the scene's own wish; of a scene with masses and loads forces are drawn then too."""
+    asked = asked_symbols(scene, find)
+    if find is not None or not asked or not scene.loading or any(s.scope == "force" for s in asked):
+        return asked
+    loading = scene.loading
+    forces = [Symbol("Fi", link=mass.link) for mass in loading.masses]
+    forces += [Symbol("P", name=load.name, turning=not load.is_force) for load in loading.loads]
+    return (*asked, *forces)
 
 
 def here(asked: Sequence[Symbol]) -> tuple[Symbol, ...]:

@@ -13,13 +13,12 @@ from graphkin.api.arguments import (
     ON_SHEETS,
     At,
     SceneLike,
-    asked_symbols,
     driver_values,
     for_paper,
     known_words,
     write_files,
 )
-from graphkin.api.checked import Checked, checked, hand_of, here, solved_here, with_elsewhere
+from graphkin.api.checked import Checked, checked, drawn_symbols, hand_of, here, solved_here, with_elsewhere
 from graphkin.api.report_text import report_text
 from graphkin.api.results import Result
 from graphkin.construction import EXACT, Plan, execute, plan
@@ -303,7 +302,7 @@ def draw(
     known_words(formats, language, convention, instrument, known_languages=ON_SHEETS)
     given = for_paper(scene)
     wanted = known_figures(given, figures)
-    asked = asked_symbols(given, find)
+    asked = drawn_symbols(given, find)
     values = driver_values(given, at)
     hand = hand_of(given, instrument, seed)
     structure = solver.structure_of(given)

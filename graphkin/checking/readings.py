@@ -18,6 +18,7 @@ from dataclasses import dataclass, replace
 from graphkin.construction import Plan, Scales, erring, execute, nudged
 from graphkin.construction.board import EXACT, Instrument
 from graphkin.construction.centres import Centres, centres_on
+from graphkin.construction.forces import force_readings
 from graphkin.construction.measures import measured
 from graphkin.construction.sheet import DiagramName, Sheet, Vector
 from graphkin.construction.steps import Cause, ReadOff, phrase_of
@@ -67,13 +68,26 @@ def read_off(sheet: Sheet, asked: Sequence[Symbol] = (), instrument: Instrument 
             found[symbol] = Reading(symbol, r.mm, r.value, name)
     places = _centres(sheet, instrument)
     for symbol in dict.fromkeys((*sheet.asked, *asked)):
-        if symbol.scope != "motion" and not symbol.at:
+        if symbol.scope in ("position", "turn") and not symbol.at:
             one = measured(sheet, symbol, instrument, places)
             if one is not None:
                 found[symbol] = Reading(symbol, one.mm, one.value, "mechanism")
+    if sheet.has_forces:
+        found |= {r.symbol: Reading(r.symbol, r.mm, r.value, r.diagram) for r in force_readings(sheet, instrument)}
+        for symbol in (*sheet.asked, *asked):
+            same = _as_drawn(symbol, found)
+            if same is not None and symbol not in found:
+                found[symbol] = replace(same, symbol=symbol, value=-same.value)
     if not asked:
         return tuple(found.values())
     return tuple(found[s] for s in asked if s in found)
+
+
+def _as_drawn(symbol: Symbol, found: Mapping[Symbol, Reading]) -> Reading | None:
+    """The reading of a joint force or couple that is asked for from its other side."""
+    if symbol.scope != "force" or not symbol.other:
+        return None
+    return found.get(replace(symbol, link=symbol.other, other=symbol.link))
 
 
 def _centres(sheet: Sheet, instrument: Instrument) -> Callable[[str], complex | None]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from graphkin.checking.readings import Reading, Uncertainty
 from graphkin.construction.sheet import DiagramName, Scales, Sheet
@@ -108,6 +108,7 @@ def compare(
     asked: Sequence[Symbol] = (),
     predicted: Mapping[Symbol, Uncertainty] | None = None,
     rounding: Mapping[DiagramName, float] | None = None,
+    force_scale: float = 0.0,
 ) -> Report:
     """Hold readings against exact values.
 
@@ -119,8 +120,10 @@ def compare(
         size; where what is allowed exceeds a thousandth of that (of a pencil: the whole of it) nothing is determined
     rounding : how far rounding may have moved the exact places (m) and vectors of a diagram (m/s, m/s2): within a hair
         of a dead point it exceeds 1e-9, and drawing and solver can agree no better; what is smaller is zero
+    force_scale : N for one mm of the force polygons
     """
     pairs = [(r, exact(r.symbol)) for r in readings]
+    of_forces = _Forces.of(sheet, pairs, predicted, rounding)
     # a vector is judged by the largest of its diagram, a rate by the largest rate or by that vector over the size
     largest: dict[tuple[str, bool], float] = {}
     for reading, value in pairs:
@@ -138,6 +141,9 @@ def compare(
     grain = _grain(sheet)
     rows = []
     for reading, value in pairs:
+        if reading.symbol.scope == "force":
+            rows.append(of_forces.row(reading, value))
+            continue
         if reading.symbol.scope != "motion":
             rows.append(_position(sheet, reading, float(value.real), predicted, rounding))
             continue
@@ -155,7 +161,59 @@ def compare(
         fair = _fair(sheet, tolerance, most, least)
         rows.append(Compared(reading, value, error, tolerance, turned, expected, floor, fair))
     have = {r.symbol for r in readings}
-    return Report(sheet.instrument, sheet.scales, tuple(rows), tuple(s for s in asked if s not in have))
+    scales = replace(sheet.scales, force=force_scale)
+    return Report(sheet.instrument, scales, tuple(rows), tuple(s for s in asked if s not in have))
+
+
+@dataclass(frozen=True)
+class _Forces:
+    """By what forces are judged: the largest of them (N), that times the size of the mechanism (N m), and how far
+    rounding may have moved a force (N)."""
+
+    sheet: Sheet
+    largest: float
+    turning: float
+    fastest: float
+    lost: float
+    inertia: Mapping[str, float]
+    predicted: Mapping[Symbol, Uncertainty] | None
+
+    @classmethod
+    def of(
+        cls, sheet: Sheet, pairs: Sequence[tuple[Reading, complex | float]],
+        predicted: Mapping[Symbol, Uncertainty] | None, rounding: Mapping[DiagramName, float] | None,
+    ) -> _Forces:  # fmt: skip
+        forces = [(r, v) for r, v in pairs if r.symbol.scope == "force"]
+
+        def most(measure: str) -> float:
+            found = (max(abs(r.value), abs(v)) for r, v in forces if r.symbol.measure == measure)
+            return max((size for size in found if math.isfinite(size)), default=0.0)
+
+        largest, size = most("force"), sheet.scene.size
+        turning = max(most("moment"), largest * size)
+        inertia = {r.symbol.link: abs(v) for r, v in forces if r.symbol.kind == "Fi"}
+        lost = (rounding or {}).get("force", 0.0)
+        return cls(sheet, largest, turning, most("velocity"), lost, inertia, predicted)
+
+    def row(self, reading: Reading, exact: complex | float) -> Compared:
+        symbol, sheet, size = reading.symbol, self.sheet, self.sheet.scene.size
+        relative = self.lost / self.largest if self.largest else 0.0
+        whole = {"force": self.largest, "moment": self.turning, "velocity": self.fastest}.get(symbol.measure, size)
+        if symbol.kind == "h" and self.inertia.get(symbol.link):
+            # a moment over a force: a small force has an uncertain line
+            whole = (self.turning + abs(exact) * self.largest) / self.inertia[symbol.link]
+        error = abs(reading.value - exact)
+        turned = 0.0
+        if symbol.is_vector and min(abs(reading.value), abs(exact)) > 1e-7 * whole:
+            turned = cmath.phase(complex(reading.value) / complex(exact))
+        expected = (self.predicted or {}).get(symbol)
+        tolerance = max(_allowed(self.predicted, expected), max(EXACT_TOLERANCE, 4.0 * relative) * whole)
+        if not math.isfinite(abs(exact)):
+            error = math.inf
+        least = HAND * self.largest / 100.0 if sheet.instrument not in ON_PAPER else 0.0
+        fair = _fair(sheet, tolerance, whole, least if symbol.measure == "force" else 0.0)
+        floor = max(relative, 1e-12) * whole
+        return Compared(reading, exact, error, tolerance, turned, expected, floor, fair)
 
 
 def _grain(sheet: Sheet) -> float:

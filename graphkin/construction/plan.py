@@ -14,7 +14,9 @@ from functools import cached_property
 from graphkin.construction.asked import show
 from graphkin.construction.board import EXACT, Board, Instrument
 from graphkin.construction.dyads import meet
+from graphkin.construction.extent import Extent, fitting_scale
 from graphkin.construction.follow import Choices, best_reduced
+from graphkin.construction.forces.phases import acting_loads, strokes_of_loads
 from graphkin.construction.group_plan import GroupPlan
 from graphkin.construction.group_polygons import GroupPolygons
 from graphkin.construction.group_position import GroupTrial
@@ -40,14 +42,14 @@ from graphkin.construction.slip import NO_SLIP, Slip
 from graphkin.construction.steps import Asked
 from graphkin.construction.trial import Known, found_by_trial
 from graphkin.errors import Problem, Unsolvable
+from graphkin.scene.loads import Loading
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Cluster, Driven, Dyad, Element, Structure, analyse, links_of, needed
 from graphkin.words import Phrase
 
-__all__ = ["Extent", "Plan", "Room", "draft", "drawn_sizes", "execute", "fitting_scale", "plan", "scales_for"]
+__all__ = ["Plan", "Room", "draft", "drawn_sizes", "execute", "plan", "scales_for"]
 
-SERIES = (1.0, 2.0, 2.5, 5.0)
 ORDERS: tuple[Order, ...] = ("velocity", "acceleration")
 
 
@@ -65,23 +67,6 @@ class Room:
     others: tuple[Room, ...] = ()
     cost: float = 0.0
     keeps_wishes: bool = False
-
-
-@dataclass(frozen=True)
-class Extent:
-    """Width and height of what a figure shows (m, m/s, m/s2)."""
-
-    width: float
-    height: float
-
-    @staticmethod
-    def around(points: Iterable[complex], per_mm: float) -> Extent:
-        """Of points on paper (mm) at a scale; nothing where there are none."""
-        spots = list(points)
-        if not spots:
-            return Extent(0.0, 0.0)
-        x, y = [z.real for z in spots], [z.imag for z in spots]
-        return Extent((max(x) - min(x)) * per_mm, (max(y) - min(y)) * per_mm)
 
 
 UNMET = 40.0  # what a wish that a room does not hold costs, as `Room.cost`
@@ -117,20 +102,6 @@ def _least(extent: Extent, room: Room, name: DiagramName) -> float:
     """The scale (m, m/s, m/s2 for one mm) at which something just fits a room."""
     width, height = room.mechanism if name == "mechanism" else room.polygon
     return max(extent.width / width, extent.height / height)
-
-
-def fitting_scale(extent: Extent, room: tuple[float, float], units: float) -> float:
-    """The finest scale of the series (units for one mm) at which something fits the room; 1 if it spans nothing."""
-    least = max(extent.width / room[0], extent.height / room[1]) * units
-    if not math.isfinite(least) or least <= 0.0:
-        return 1.0
-    decade = 10.0 ** math.floor(math.log10(least))
-    for step in (*SERIES, 10.0):
-        if step * decade >= least * (1 - 1e-12):
-            return float(f"{step * decade:.12g}")
-    return 10.0 * decade
-
-
 
 
 def _extents(
@@ -175,7 +146,7 @@ class Task:
 
     ``opened`` is the structure with groups that driven triangles turn into dyads in their parts, ``triangles`` are
     these, each with its assembly; ``values`` are the drivers', those at the triangles' pairs included; ``limits`` are
-    the limit positions of what is asked, on paper of the mechanism's size.
+    the limit positions of what is asked, on paper of the mechanism's size.  ``acting`` and ``growing`` as in `Sheet`.
     """
 
     structure: Structure
@@ -189,13 +160,16 @@ class Task:
     plans: Mapping[Cluster, GroupPlan]
     triangles: tuple[tuple[Inversion, int], ...]
     limits: Mapping[str, Limits]
+    acting: Mapping[str, bool | None]
+    growing: tuple[Sheet, ...]
 
     @cached_property
     def drawn(self) -> Mapping[Order, tuple[Element, ...]]:
         """What each polygon needs for what is asked: accelerations only of what leads to accelerations."""
         pushes = [s for s in self.asked if s.measure in ("acceleration", "angular acceleration")]
         wanted = needed(self.opened, pushes) if pushes else []
-        pushed = tuple(e for e in self.elements if e in wanted) if self.asked else self.elements
+        every = not self.asked or any(s.scope == "force" for s in self.asked)
+        pushed = self.elements if every else tuple(e for e in self.elements if e in wanted)
         return {"velocity": self.elements, "acceleration": pushed}
 
     @cached_property
@@ -251,7 +225,8 @@ def plan(
     values = own | dict(at or {})
     if any(isinstance(e, Cluster) for e in elements):
         branches, trials = _by_trial(structure, elements, values, near)
-        return _planned(Task(structure, structure, asked, elements, values, branches, trials, {}, {}, (), {}), room)
+        task = Task(structure, structure, asked, elements, values, branches, trials, {}, {}, (), {}, {}, ())
+        return _planned(task, room)
     dyads = [e for e in elements if isinstance(e, Driven | Dyad)]
     inversions = inversions_of(structure)
     triangles: tuple[tuple[Inversion, int], ...] = ()
@@ -262,7 +237,7 @@ def plan(
         values |= {v.key: v.near(own[v.key], v.value(values, branch)) for v, branch in triangles}
     keys = [d.key for d in opened.scene.drivers]
     branches = branches_at(opened, elements, {k: values[k] for k in keys}, {k: own[k] for k in keys}, chosen)
-    return _planned(Task(structure, opened, asked, elements, values, branches, {}, {}, {}, triangles, {}), room)
+    return _planned(Task(structure, opened, asked, elements, values, branches, {}, {}, {}, triangles, {}, {}, ()), room)
 
 
 def _by_trial(
@@ -304,13 +279,35 @@ def _planned(task: Task, room: Room | None) -> Plan:
     polygons, assembly, held = _carried_out(task, NATURAL, EXACT, NO_SLIP)
     size = NATURAL.length / task.structure.scene.size
     poses = {name: pose.scaled(size) for name, pose in polygons.frame.poses.items()}
-    found = limits_asked(task.structure, needed(task.structure, task.asked), task.asked, task.values, poses)
+    exact = _finished(task, polygons, assembly, held)
+    asked = (*task.asked, *strokes_of_loads(task.structure)) if exact.has_forces else task.asked
+    found = limits_asked(task.structure, needed(task.structure, task.asked), asked, task.values, poses)
     task = replace(task, limits=found)
+    exact = _finished(task, polygons, assembly, held)
+    if exact.has_forces:
+        growing = _growing(task, exact)
+        moves = any(driver.values[1] for driver in task.structure.scene.drivers)
+        task = replace(task, acting=acting_loads(exact, exact if moves else growing[0]), growing=growing)
+        exact = replace(exact, acting=task.acting, growing=task.growing)
     places = [z for p, z in polygons.places.items() if p not in polygons.special]
     extents = _extents(places, polygons.shown_of, NATURAL)
     own = {f.name: getattr(task, f.name) for f in fields(Task)} | {"chains": polygons.chains, "plans": polygons.plans}
     scales = _chosen_scales(task.structure.scene, extents, room)
-    return Plan(**own, scales=scales, exact=_finished(task, polygons, assembly, held), extents=extents)
+    return Plan(**own, scales=scales, exact=exact, extents=extents)
+
+
+def _growing(task: Task, here: Sheet) -> tuple[Sheet, ...]:
+    """The position with each driver's value alone growing at a unit rate, where one driver's motion alone is not drawn
+    already."""
+    scene = task.structure.scene
+    if len(scene.drivers) == 1 and scene.drivers[0].values[1]:
+        return ()
+    made = []
+    for moving in scene.drivers:
+        drivers = tuple(driver.at_rate(1.0 if driver is moving else 0.0) for driver in scene.drivers)
+        other = replace(scene, drivers=drivers, loading=Loading())
+        made.append(plan(other, here.drivers, (), near=here).exact)
+    return tuple(made)
 
 
 def execute(what: Plan, instrument: Instrument = EXACT, slip: Slip = NO_SLIP) -> Sheet:
@@ -379,6 +376,8 @@ def _finished(
         groups=tuple(_drawn_groups(task, polygons)),
         causes=tuple(board.causes) if board.instrument.acts else (),
         asked=task.asked,
+        acting=task.acting,
+        growing=task.growing,
         limits=limits_on_paper(
             task.limits, task.structure, task.elements, task.values, polygons.scales,
             EXACT if task.triangles else board.instrument,

@@ -43,7 +43,7 @@ __all__ = [
     "Vector",
 ]
 
-DiagramName = Literal["mechanism", "velocity", "acceleration"]
+DiagramName = Literal["mechanism", "velocity", "acceleration", "force"]
 DIAGRAMS: tuple[DiagramName, ...] = ("mechanism", "velocity", "acceleration")
 EXACT_NAME = "exact"  # of the instrument that errs nowhere
 Role = Literal["resultant", "relative", "normal", "tangential", "coriolis", "sliding"]
@@ -51,14 +51,17 @@ Role = Literal["resultant", "relative", "normal", "tangential", "coriolis", "sli
 
 @dataclass(frozen=True)
 class Scales:
-    """Scale factors: m, m/s and m/s2 for one mm of paper."""
+    """Scale factors: m, m/s, m/s2 and N for one mm of paper; ``force`` is 0 where no forces are drawn."""
 
     length: float
     velocity: float
     acceleration: float
+    force: float = 0.0
 
     def of(self, diagram: DiagramName) -> float:
-        return {"mechanism": self.length, "velocity": self.velocity, "acceleration": self.acceleration}[diagram]
+        return {
+            "mechanism": self.length, "velocity": self.velocity, "acceleration": self.acceleration, "force": self.force,
+        }[diagram]  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -306,6 +309,9 @@ class Sheet:
     ``asked`` is what is asked for, if the drawing is limited to it; ``limits`` are the limit positions drawn for it, by
     sliding pair or link.
     ``groups`` tells how each group larger than a dyad was drawn.
+    ``acting`` says of each load whether it acts here (None where it begins or ends exactly here), if forces are drawn;
+    ``growing`` are then, where the mechanism rests or has several drivers, drawings with each driver's value alone
+    growing at a unit rate.
     """
 
     scene: Mechanism
@@ -328,6 +334,13 @@ class Sheet:
     asked: tuple[Symbol, ...] = ()
     limits: Mapping[str, Limits] = field(default_factory=dict)
     groups: tuple[DrawnGroup, ...] = ()
+    acting: Mapping[str, bool | None] = field(default_factory=dict)
+    growing: tuple[Sheet, ...] = ()
+
+    @property
+    def has_forces(self) -> bool:
+        """Whether forces are drawn of it: there are masses or loads, and all is drawn that they need."""
+        return bool(self.scene.loading) and (not self.asked or any(s.scope == "force" for s in self.asked))
 
     def at(self, scales: Scales) -> Sheet:
         """The same construction at other scales: every length on paper so many times as large.

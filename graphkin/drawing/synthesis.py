@@ -20,7 +20,7 @@ from graphkin.construction.design_sheet import (
     DesignStroke,
     LineKind,
 )
-from graphkin.construction.plan import Extent, fitting_scale
+from graphkin.construction.extent import Extent, fitting_scale
 from graphkin.drawing import strokes, symbols
 from graphkin.drawing.box import Box
 from graphkin.drawing.chart import ChartPage

@@ -46,7 +46,7 @@ POSITIONS = 24
 MECHANISM, POLYGON = (160.0, 218.0), 190.0  # mm that the mechanism in all positions and a polygon may fill
 SERIES = (1.0, 2.0, 2.5, 5.0)
 POLYGONS: tuple[DiagramName, ...] = ("velocity", "acceleration")
-FigureName: TypeAlias = Literal["mechanism", "velocity", "acceleration", "centres"]
+FigureName: TypeAlias = Literal["mechanism", "velocity", "acceleration", "centres", "force"]
 
 
 @dataclass(frozen=True)

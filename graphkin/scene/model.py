@@ -141,6 +141,10 @@ class AngleDriver:
         """Value, rate, second rate (rad, rad/s, rad/s2)."""
         return self.angle, self.omega, self.alpha
 
+    def at_rate(self, rate: float) -> AngleDriver:
+        """The same driver at a steady rate (rad/s)."""
+        return replace(self, omega=rate, alpha=0.0, rpm=None)
+
 
 @dataclass(frozen=True)
 class SlideDriver:
@@ -156,6 +160,10 @@ class SlideDriver:
     def values(self) -> tuple[float, float, float]:
         """Value, rate, second rate (m, m/s, m/s2)."""
         return self.travel, self.velocity, self.acceleration
+
+    def at_rate(self, rate: float) -> SlideDriver:
+        """The same driver at a steady rate (m/s)."""
+        return replace(self, velocity=rate, acceleration=0.0)
 
 
 AnyDriver = AngleDriver | SlideDriver

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Container, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 from graphkin.errors import Problem
@@ -125,7 +125,8 @@ class Symbol:
     slot ``link`` is the pin).  ``at`` names the position that is meant, "" this one.
 
     Of forces ``link`` acts on ``other`` at the joint ``of`` (where they share two); ``name`` is that of a load, or of a
-    force whose arm is meant; with ``plus`` the load that begins or ends exactly there acts.
+    force whose arm is meant; with ``plus`` the load that begins or ends exactly there acts.  ``turning`` is a load that
+    is a moment, which no name tells.
 
     >>> Symbol.parse("v_B@3/B@2").id
     'v_B3-B2'
@@ -141,6 +142,7 @@ class Symbol:
     at: str = ""
     name: str = ""
     plus: bool = False
+    turning: bool = field(default=False, compare=False)
 
     @classmethod
     def parse(cls, text: str) -> Symbol:
@@ -168,7 +170,7 @@ class Symbol:
 
     @property
     def is_vector(self) -> bool:
-        return self.kind in VECTORS
+        return self.kind in VECTORS and not self.turning
 
     @property
     def scope(self) -> Scope:
@@ -176,7 +178,7 @@ class Symbol:
 
     @property
     def measure(self) -> Measure:
-        return KINDS[self.kind].measure
+        return "moment" if self.turning else KINDS[self.kind].measure
 
     @property
     def pair(self) -> str:

@@ -3,6 +3,7 @@
 from graphkin.solver.driver_range import DriverRange, driver_range
 from graphkin.solver.exact_values import exact_values, value_of
 from graphkin.solver.findings import structure_of
+from graphkin.solver.force_values import force_values
 from graphkin.solver.forces import Forces, forces_of
 from graphkin.solver.motion import Motion, Sliding
 from graphkin.solver.prepared import PreparedMechanism, prepare
@@ -17,6 +18,7 @@ __all__ = [
     "Sliding",
     "driver_range",
     "exact_values",
+    "force_values",
     "forces_of",
     "json_text",
     "listed_points",

@@ -1,0 +1,12 @@
+"""Forces on the drawing board: inertia forces, force polygons group by group, joint forces, what balances, and
+Zhukovsky's lever."""
+
+from graphkin.construction.forces.draw import force_scale, forces_on
+from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceState, Lever
+from graphkin.construction.forces.measured import force_readings, readings_of
+from graphkin.construction.forces.phases import acting_loads, strokes_of_loads
+
+__all__ = [
+    "ForceGroup", "ForceSheet", "ForceState", "Lever", "acting_loads", "force_readings", "force_scale", "forces_on",
+    "readings_of", "strokes_of_loads",
+]  # fmt: skip

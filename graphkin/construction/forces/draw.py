@@ -1,0 +1,116 @@
+"""Forces of a position on the drawing board: from the drawn accelerations to what balances the mechanism."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from graphkin.construction.board import EXACT, Instrument
+from graphkin.construction.extent import Extent, fitting_scale
+from graphkin.construction.forces.cut_free import CutFree
+from graphkin.construction.forces.force_sheet import (
+    Acting,
+    ForceGroup,
+    ForceSheet,
+    ForceState,
+    Turning,
+)
+from graphkin.construction.forces.groups import at_driver, of_dyad
+from graphkin.construction.forces.images import Images
+from graphkin.construction.forces.known import from_outside, inertias
+from graphkin.construction.forces.lever import levers_of
+from graphkin.construction.forces.naming import JointNames
+from graphkin.construction.forces.order import Balance, balance_of, driver_of, force_groups
+from graphkin.construction.forces.system import of_larger_group
+from graphkin.construction.sheet import Sheet
+from graphkin.scene.symbol import Symbol
+from graphkin.structure import Driven, Dyad, Element
+
+__all__ = ["ROOM", "force_scale", "forces_on"]
+
+ROOM = (120.0, 100.0)
+"""Width and height (mm) that the largest force polygon fills at most, where the scene wishes for no scale."""
+
+
+def forces_on(sheet: Sheet, hand: Instrument = EXACT) -> ForceSheet:
+    """All forces of a drawn position, each taken off its polygon, and the levers.
+
+    Raises
+    ------
+    Unsolvable : "dead point": the balance does no work, or a polygon does not close
+    """
+    return _drawn(sheet, hand, force_scale(sheet))
+
+
+def force_scale(sheet: Sheet) -> float:
+    """N for one mm of the force polygons: as the scene wishes, or the finest of the series at which every polygon fits
+    its room.  Raises Unsolvable as `forces_on`."""
+    newtons, wish = sheet.scene.units.newtons, sheet.scene.sheet.force_scale
+    if wish:
+        return wish * newtons
+    whole = _drawn(sheet, EXACT, 1.0)
+    polygons = [p for state in whole.states for group in state.groups for p in (group.polygon, *group.inner.values())]
+    extents = [Extent.around([z for v in p for z in (v.tail, v.tip)], 1.0) for p in polygons if p]
+    width, height = (max((getattr(e, name) for e in extents), default=0.0) for name in ("width", "height"))
+    return fitting_scale(Extent(width, height), ROOM, 1.0 / newtons) * newtons
+
+
+def _drawn(sheet: Sheet, hand: Instrument, per_mm: float) -> ForceSheet:
+    moves = any(driver.values[1] for driver in sheet.scene.drivers)
+    growing = sheet if moves else sheet.growing[0]
+    found = inertias(sheet, hand)
+    edges = None in sheet.acting.values()
+    states = []
+    for with_edges in (False, True) if edges else (False,):
+        forces, moments = from_outside(sheet, growing, found, sheet.acting, with_edges)
+        states.append(_state(sheet, hand, per_mm, forces, moments))
+    levers = tuple(levers_of(sheet, state, hand) for state in states)
+    return ForceSheet(per_mm, found, tuple(states), levers)
+
+
+def _state(
+    sheet: Sheet, hand: Instrument, per_mm: float, known: tuple[Acting, ...], turning: tuple[Turning, ...]
+) -> ForceState:
+    names = JointNames(sheet.structure)
+    cut = CutFree(Images(sheet), hand, per_mm, names, {}, {})
+    for one in known:
+        cut.push(one)
+    for moment in turning:
+        cut.turn(moment)
+    groups = tuple(_group(cut, element) for element in reversed(force_groups(sheet.structure)))
+    vectors = {one.symbol: one.force / per_mm for one in known}
+    moments = {one.symbol: one.moment for one in turning}
+    _joints(cut, vectors, moments)
+    for symbol, value in cut.balances.items():
+        if symbol.kind == "M":
+            moments[symbol] = float(value.real)
+        else:
+            vectors[symbol] = complex(value) / per_mm
+    return ForceState(known, turning, tuple(g for g in groups if g.links), vectors, moments)
+
+
+def _group(cut: CutFree, element: Element) -> ForceGroup:
+    structure = cut.names.structure
+    balances: Mapping[str, Balance] = {d.key: balance_of(structure, d) for d in driver_of(element)}
+    if isinstance(element, Driven):
+        return at_driver(cut, element, balances[element.driver.key])
+    if isinstance(element, Dyad):
+        return of_dyad(cut, element, balances)
+    return of_larger_group(cut, element, tuple(balances.values()))
+
+
+def _joints(cut: CutFree, vectors: dict[Symbol, complex], moments: dict[Symbol, float]) -> None:
+    """The forces of all joints by their names, off what was found of pins and sliding pairs."""
+    names = cut.names
+    for point, first, later in names.turning():
+        force = cut.pins[point, later]
+        # the block of a pin in a slot belongs to the link of the pin
+        force += sum(cut.pins[point, key] for key, (of, _) in names.blocks.items()
+                     if of == later and point in names.structure.links[key].points)  # fmt: skip
+        vectors[names.between(first, later, point)] = force / cut.per_mm
+    for slide in names.structure.slides:
+        force, couple = cut.slides[slide.key]
+        vectors[names.of_slide(slide)] = force / cut.per_mm
+        if not slide.slot:
+            moments[names.of_slide(slide, "M")] = couple
+
+

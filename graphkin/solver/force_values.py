@@ -1,0 +1,109 @@
+"""Exact values of forces and moments by their symbols, at one position."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from graphkin.errors import Problem, Unsolvable
+from graphkin.plane import dot
+from graphkin.scene.symbol import Symbol
+from graphkin.solver.forces import Forces, forces_of
+from graphkin.solver.motion import Motion
+from graphkin.solver.pose import Pose
+from graphkin.solver.solve import solve
+
+__all__ = ["force_values"]
+
+Value = complex | float
+
+
+def force_values(motion: Motion) -> tuple[Callable[[Symbol], Value], float]:
+    """What gives the exact force (N), moment (N m), shift of an inertia force (m) or arm on Zhukovsky's lever (m/s: the
+    power of a force over its size) of a symbol at the one position of a motion; and how far rounding may have moved any
+    force (N).
+
+    At rest an arm is that of the driver's value growing at a unit rate.
+
+    Raises
+    ------
+    Unsolvable : "dead point": the balance does no work
+    """
+    forces = forces_of(motion)
+    if not forces.ok[0]:
+        drivers = ", ".join(d.key for d in motion.scene.drivers)
+        raise Unsolvable("dead point", Problem(f"driver {drivers}", "the balance does no work in this position"))
+    moving = motion if any(d.values[1] for d in motion.scene.drivers) else _growing(motion)
+
+    def value(symbol: Symbol) -> Value:
+        if symbol.kind == "h":
+            return _shift(forces, symbol.link)
+        if symbol.kind == "arm":
+            return _arm(moving, forces, symbol.name)
+        bare = replace(symbol, plus=False, at="")
+        if symbol.plus and (found := _beside(forces, bare)) is not None:
+            return found
+        known = forces.value(str(bare))
+        return float("nan") if known is None else _plain(known)
+
+    return value, float(forces.bound[0][0])
+
+
+def _plain(value: np.ndarray) -> Value:
+    return complex(value[0]) if np.iscomplexobj(value) else float(value[0])
+
+
+def _beside(forces: Forces, symbol: Symbol) -> Value | None:
+    """A value with the loads that begin or end exactly here; None where they change nothing."""
+    for name, sign in ((symbol, 1.0), (replace(symbol, link=symbol.other, other=symbol.link), -1.0)):
+        found = forces.beside.get(str(name))
+        if found is not None and not np.isnan(found[0]):
+            return _plain(np.asarray(sign * found))
+    return None
+
+
+def _shift(forces: Forces, link: str) -> float:
+    force, moment = abs(_plain(forces.forces[f"Fi_{link}"])), forces.moments[f"Mi_{link}"]
+    return float(moment[0]) / force if force else 0.0
+
+
+def _arm(moving: Motion, forces: Forces, name: str) -> float:
+    kind, _, rest = name.partition("_")
+    loading = moving.scene.loading
+    pose: Pose
+    if kind == "P":
+        load = next(one for one in loading.loads if one.name == rest)
+        pose = moving.poses[load.link].fixed(load.at)
+    elif kind == "F":
+        return _of_balance(moving, forces, name)
+    else:
+        mass = next(one for one in loading.masses if one.link == rest)
+        pose = moving.poses[mass.link].fixed(mass.at)
+    force = _plain(forces.forces[name])
+    if not force:
+        force = _plain(forces.beside.get(name, forces.forces[name]))
+    return _along(complex(np.ravel(pose.v)[0]), complex(force))
+
+
+def _along(velocity: complex, force: complex) -> float:
+    return dot(velocity, force / abs(force)) if force else 0.0
+
+
+def _of_balance(moving: Motion, forces: Forces, name: str) -> float:
+    """Of a balancing force: the part of its point's velocity along its line, positive in the line's own sense."""
+    scene, said = moving.scene, moving.scene.loading.balance
+    if said is not None:
+        pose = moving.poses[said.link]
+        along = 1j * complex(np.ravel(pose.u)[0]) if said.square else said.turn
+        return dot(complex(np.ravel(pose.fixed(said.at).v)[0]), along)
+    return float(moving.slide(scene.drivers[0].key).velocity[0])
+
+
+def _growing(motion: Motion) -> Motion:
+    """The same position with the first driver's value growing at a unit rate."""
+    scene = motion.scene
+    drivers = tuple(d.at_rate(1.0 if d is scene.drivers[0] else 0.0) for d in scene.drivers)
+    values = {d.key: float(v) for d, v in zip(scene.drivers, motion.values[0], strict=True)}
+    return solve(replace(scene, drivers=drivers), at=values)

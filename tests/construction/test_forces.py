@@ -1,0 +1,184 @@
+"""Forces drawn: against published values and the solver; in equilibrium; the lever agrees; planted errors are found."""
+
+from __future__ import annotations
+
+import math
+import os
+import random
+import sys
+from dataclasses import replace
+
+import pytest
+
+import graphkin
+from graphkin.construction import draft
+from graphkin.construction.forces import forces_on
+from graphkin.construction.forces import known as acting
+from graphkin.construction.forces.cut_free import CutFree
+from graphkin.errors import Unsolvable
+from graphkin.scene import mechanism_of
+from tests.mechanisms import KINDS, floating_cylinder, random_scene
+from tests.solver.test_forces import CASES, PLACES, loaded, number, opposite, scene_of
+
+SHAPER = scene_of("shaper-scheme-2")
+SCENES = 300 if os.environ.get("GRAPHKIN_ALL_POSITIONS") else 12
+
+
+def drawn(scene, driver_deg=None):
+    mechanism = mechanism_of(scene)
+    values = None if driver_deg is None else {mechanism.drivers[0].key: math.radians(driver_deg)}
+    return draft(mechanism, values)
+
+
+def by_name(forces, state=0):
+    """Forces (N) and moments (N m) as they were drawn."""
+    found = {str(symbol): span * forces.per_mm for symbol, span in forces.states[state].vectors.items()}
+    return found | {str(symbol): moment for symbol, moment in forces.states[state].moments.items()}
+
+
+@pytest.mark.parametrize(("name", "at"), PLACES)
+def test_drawn_forces_are_those_of_the_reference(name, at):
+    true = CASES[name]["positions"][at]
+    forces = forces_on(drawn(scene_of(name), true["driver_deg"]))
+    most = max(abs(number(v)) for v in true["forces"].values())
+    for key, exact in {**true["forces"], **true["moments"]}.items():
+        found = by_name(forces, -1 if key.endswith("+") else 0)
+        bare = key.removesuffix("+")
+        mine = found[bare] if bare in found else -found[opposite(bare)]
+        assert abs(number(exact) - mine) <= 1e-11 * most, key
+
+
+@pytest.mark.parametrize("at", ["7", "10"])
+def test_arms_on_the_lever_are_those_of_the_reference(at):
+    case = CASES["shaper-scheme-2"]
+    true = case["positions"][at]["lever"]
+    (lever,) = forces_on(drawn(SHAPER, case["positions"][at]["driver_deg"])).levers[0]
+    for row in lever.rows:
+        expected = true["rows"].get(str(row.symbol), {}).get("arm_mm")
+        if expected is not None and row.force:
+            assert expected == pytest.approx(abs(row.arm) * lever.per_mm / 10e-3, abs=1e-9), row.symbol
+
+
+def test_a_force_at_the_crank_end_has_the_published_arm():
+    scene = graphkin.read(SHAPER).to_dict() | {"balance": {"on": "2", "at": "A", "angle": "square"}}
+    row = {r["symbol"]: r for r in graphkin.check(scene).data["readings"]}["arm_F_2"]
+    assert 60.3185789489 == pytest.approx(abs(row["measured"]) / 10, rel=1e-11)
+
+
+def judged(scene):
+    """A check, its balance by the lever included."""
+    checked = graphkin.check(scene)
+    rows = checked.data["readings"]
+    off = [r["symbol"] for r in rows if "by_lever" in r and abs(abs(r["by_lever"]) - abs(r["exact"])) > r["tolerance"]]
+    return checked.ok, off
+
+
+@pytest.mark.parametrize("seed", range(SCENES))
+def test_drawn_forces_of_every_pair_kind_agree_with_the_solver(seed):
+    rng = random.Random(seed)
+    drive = rng.choice(("crank", "slider", "cylinder", "slot", "resting"))
+    assert (True, []) == judged(loaded(random_scene(seed, tuple(rng.choices(KINDS, k=2)), drive), seed))
+
+
+@pytest.mark.parametrize("seed", range(0, SCENES, 3))
+def test_any_link_may_be_balanced_by_a_moment_or_a_force(seed):
+    rng = random.Random(seed)
+    scene = loaded(random_scene(seed, tuple(rng.choices(KINDS, k=2)), "crank"), seed)
+    scene["balance"] = {"on": rng.choice(list(scene["links"]))}
+    if seed % 2:
+        scene["balance"] |= {"at": [5, 3], "angle": rng.choice(["square", 30])}
+    try:
+        assert (True, []) == judged(scene)
+    except Unsolvable as stop:
+        assert "balance does no work" in str(stop)
+
+
+@pytest.mark.parametrize("name", ["double-butterfly", "single-flier", "loader-cylinder", "oldham-coupling"])
+def test_larger_groups_and_cylinders_agree_with_the_solver(name):
+    assert (True, []) == judged(loaded(graphkin.read(name).to_dict(), 5))
+
+
+def test_a_cylinder_between_moving_links_agrees_with_the_solver():
+    assert (True, []) == judged(loaded(floating_cylinder(3), 3))
+
+
+def test_forces_of_a_larger_group_come_from_one_drawn_system():
+    forces = forces_on(drawn(loaded(graphkin.read("double-butterfly").to_dict(), 5)))
+    assert ("drawn system", "driver") == forces.ways
+
+
+@pytest.mark.parametrize("seed", [1, 4])
+def test_every_polygon_closes(seed):
+    forces = forces_on(drawn(loaded(random_scene(seed, ("RRR", "RPR", "RPP"), "crank"), seed)))
+    polygons = [p for group in forces.states[0].groups for p in (group.polygon, *group.inner.values()) if p]
+    for polygon in polygons:
+        most = max(abs(v.span) for v in polygon)
+        for one, two in zip(polygon, (*polygon[1:], polygon[0]), strict=True):
+            assert abs(one.tip - two.tail) <= 1e-9 * most
+
+
+def test_at_rest_loads_against_a_motion_act_as_if_the_driver_grew():
+    scene = graphkin.read(SHAPER).replace("driver", {"link": "2", "angle": 250.0, "omega": 0.0})
+    forces = by_name(forces_on(drawn(scene)))
+    exact = graphkin.solve(scene).forces
+    assert exact.value("M_2")[0] == pytest.approx(forces["M_2"], rel=1e-11)
+    assert 9000 == pytest.approx(abs(forces["P_P"]))
+
+
+def test_where_a_load_ends_both_polygons_are_drawn():
+    forces = forces_on(drawn(scene_of("engine"), 180))
+    assert [0.0, 6000.0] == pytest.approx([abs(by_name(forces, k)["P_gas"]) for k in (0, 1)])
+
+
+def test_a_pencil_keeps_its_promise():
+    assert graphkin.check(scene_of("engine"), instrument="pencil", seed=3).ok
+
+
+def test_a_balance_that_does_no_work_is_a_dead_point():
+    scene = graphkin.read(SHAPER).replace("driver.angle", 194.90059668782988).replace("balance", {"on": "4"})
+    with pytest.raises(Unsolvable, match="does no work"):
+        graphkin.check(scene)
+
+
+def test_a_scene_without_masses_and_loads_draws_no_forces():
+    assert not graphkin.check("shaper-scheme-2").data["scales"].get("force")
+
+
+# -- planted errors --------------------------------------------------------------------------------------------------
+
+
+def wrong(scene=SHAPER):
+    return {str(row.symbol) for row in graphkin.check(scene).report.rows if row.ok is False}
+
+
+def test_an_inertia_force_in_the_sense_of_the_acceleration_is_found(monkeypatch):
+    right = acting._inertia
+    def along(*given):
+        one = right(*given)
+        return replace(one, force=-one.force)
+
+    monkeypatch.setattr(acting, "_inertia", along)
+    assert {"Fi_6", "F_4/3", "M_2"} <= wrong()
+
+
+def test_an_arm_on_the_wrong_side_is_found(monkeypatch):
+    right = CutFree.term
+
+    def flipped(self, one, about, part=""):
+        term = right(self, one, about, part)
+        return replace(term, moment=-term.moment) if str(one.symbol) == "G_4" else term
+
+    monkeypatch.setattr(CutFree, "term", flipped)
+    assert {"F_4/3", "M_2"} <= wrong()
+    assert "F_5/6" not in wrong()
+
+
+def test_a_load_forgotten_is_found(monkeypatch):
+    monkeypatch.setattr(sys.modules["graphkin.construction.plan"], "acting_loads", lambda *_: {"P": False})
+    assert {"P_P", "F_5/6", "M_2"} <= wrong()
+
+
+def test_a_moment_of_inertia_forgotten_is_found(monkeypatch):
+    right = acting._inertia
+    monkeypatch.setattr(acting, "_inertia", lambda *given: replace(right(*given), moment=0.0))
+    assert {"Mi_4", "F_4/3", "M_2"} <= wrong()
