@@ -22,7 +22,7 @@ from graphkin.api.checked import Checked, checked, drawn_symbols, hand_of, here,
 from graphkin.api.report_text import report_text
 from graphkin.api.results import Result
 from graphkin.construction import EXACT, Plan, execute, plan
-from graphkin.errors import CallError, Problem, as_text, did_you_mean
+from graphkin.errors import CallError, Problem, as_list, as_text, did_you_mean
 from graphkin.files import path_of
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, SlideDriver
 from graphkin.scene.symbol import Symbol
@@ -54,6 +54,7 @@ class Drawn(Result):
     language: str | None = None
     convention: str | None = None
     driver: str = ""
+    beside: tuple[str | float, ...] = ()
 
     @property
     def scene(self) -> Mechanism:
@@ -237,6 +238,33 @@ def _positions(drawn: Drawn) -> Drawing:
     return positions_figure(shown, language=drawn.language, convention=drawn.convention)
 
 
+def _polygons(drawn: Drawn) -> Drawing:
+    from graphkin.drawing.polygons_beside import polygons_beside
+
+    scene, structure = drawn.scene, drawn.plan.structure
+    named = scene.positions.show if scene.positions else ()
+    known = scene.positions.names if scene.positions else ()
+    wished = drawn.beside or tuple(n for n in known if n in named or ("all" in named and n.isdigit()))
+    if len(wished) < 2:
+        wanted = 'name two or more: --beside 1 --beside 7, beside=["1", 75], or show in [positions]'
+        raise CallError(Problem("figure polygons", "shows several positions beside each other", wanted))
+    asked = tuple(s for s in scene.find if s.scope == "motion" and not s.at)
+    sheets = []
+    for name in map(str, wished):
+        place = name if name in known else _number(name)
+        values = {**drawn.checked.sheet.drivers, **(driver_values(scene, place) or {})}
+        sheets.append((name, execute(plan(structure, values, asked))))
+    return polygons_beside(sheets, language=drawn.language, convention=drawn.convention)
+
+
+def _number(text: str) -> float | str:
+    """A driver's value, as far as it is one."""
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
 FIGURES: Mapping[str, FigureKind] = {
     "mechanism": FigureKind(_always, _mechanism),
     "velocity": FigureKind(_always, _velocity),
@@ -245,6 +273,7 @@ FIGURES: Mapping[str, FigureKind] = {
     "centres": FigureKind(_always, _centres),
     "structure": FigureKind(lambda scene: False, _structure),
     "positions": FigureKind(lambda scene: scene.positions is not None, _positions),
+    "polygons": FigureKind(lambda scene: False, _polygons),
     "loops": FigureKind(lambda scene: bool(scene.loops), _loops),
 }
 """Every figure of `draw` by its name: the one place where a further figure is entered."""
@@ -279,6 +308,7 @@ def draw(
     seed: int = 0,
     figures: Sequence[str] | None = None,
     driver: str = "",
+    beside: Sequence[str | float] = (),
 ) -> Drawn:
     """Draw a scene step by step, check it, and write the figures if a folder is given.
 
@@ -288,6 +318,8 @@ def draw(
     out : folder for the figures in each of the ``formats``, readings.csv and report.txt
     figures : names of figures, to draw these only; without it mechanism, velocity, acceleration, sheet, centres, and
         those for which the scene has a table
+    beside : of the figure "polygons": names of positions, or values of the first driver, whose polygons stand beside
+        each other; without it those that `[positions]` shows
     driver : of the figure "structure": a link that drives instead of the scene's first driver, shown beside it
     language : "en", "zh" or "both" (on the figures; the report is in English then); the scene's own if None
     convention : "chinese", "us", "british" or "russian"; the scene's own if None
@@ -309,7 +341,8 @@ def draw(
     motion = solved_here(structure, values, here(asked))
     what = plan(structure, values, here(asked))
     whole = with_elsewhere(checked(what, motion, hand), asked, seed)
-    drawn = Drawn(whole, what, motion, wanted, seed, language, convention, driver)
+    places = tuple(as_list("beside", beside, 'give names of positions, or driver values: ["1", 75]'))
+    drawn = Drawn(whole, what, motion, wanted, seed, language, convention, driver, places)
     if out is not None:
         drawn.write(out, formats)
     return drawn

@@ -130,6 +130,10 @@ def draw(
     driver: Annotated[
         str, typer.Option("--driver", metavar="LINK", help="With --figure structure: another driver beside the first.")
     ] = "",
+    beside: Annotated[
+        list[str] | None,
+        typer.Option("--beside", metavar="NAME|DEG", help="With --figure polygons: a position; two or more."),
+    ] = None,
     as_json: JsonOption = False,
     quiet: QuietOption = False,
 ) -> None:
@@ -142,7 +146,7 @@ def draw(
     with unsolvable_as_json(as_json, unchecked):
         drawn = drawing(
             scene, None, driver_values(at, position), find or None, wanted, lang, convention, instrument, seed,
-            figure or None, driver,
+            figure or None, driver, beside or (),
         )  # fmt: skip
         paths = drawn.write(out, wanted, text)
     if not as_json and not quiet:

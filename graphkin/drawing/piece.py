@@ -22,6 +22,7 @@ __all__ = [
     "middle_of",
     "moved",
     "moved_piece",
+    "renamed",
     "with_labels",
 ]
 
@@ -125,6 +126,18 @@ def moved_piece(piece: Piece, by: complex) -> Piece:
     labels = tuple(Label(one.text, _moved_mark(one.mark, by), one.toward, one.rank) for one in piece.labels)
     layers = {layer: moved(things, by) for layer, things in piece.layers.items()}
     return Piece(layers, labels, tuple(_moved_mark(mark, by) for mark in piece.marks))
+
+
+def renamed(piece: Piece, suffix: str) -> Piece:
+    """The piece with other ids, where it stands beside others of its kind."""
+    return replace(piece, layers={k: tuple(_renamed(thing, suffix) for thing in v) for k, v in piece.layers.items()})
+
+
+def _renamed(thing: Primitive, suffix: str) -> Primitive:
+    if isinstance(thing, Group):
+        children = tuple(_renamed(child, suffix) for child in thing.children)
+        return replace(thing, children=children, id=thing.id + suffix if thing.id else "")
+    return replace(thing, id=thing.id + suffix) if isinstance(thing, Text) and thing.id else thing
 
 
 def middle_of(mark: Mark) -> complex:
