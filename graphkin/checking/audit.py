@@ -82,7 +82,8 @@ def _judged(case: Evidence, printed: Printed) -> Judged:
     share = deviation(printed, exact)
     judged = Judged(printed, exact, share, "right", bound)
     turned = _turned(judged, right)
-    if off <= printed.rounding + 1e-9 * abs(exact):
+    nothing = NOTHING * _largest(case, symbol) if exact == 0 and symbol.scope == "motion" else 0.0
+    if off <= printed.rounding + max(1e-9 * abs(exact), nothing):
         return turned or judged
     if math.isinf(bound):
         judged = replace(judged, verdict="not judged")
