@@ -16,7 +16,7 @@ from graphkin.api.checked import in_scene_units
 from graphkin.api.class_results import Scheme, people_of, quantities_of, scheme_of
 from graphkin.api.judging import MOST_DRAWN, evidence_at, judged_table
 from graphkin.api.results import Result
-from graphkin.checking.audit import Judged, Value, judge
+from graphkin.checking.audit import Judged, Value, judge, with_gaps
 from graphkin.checking.printed import printed_values, stated
 from graphkin.checking.slips import Evidence, ValuesElsewhere
 from graphkin.errors import CallError, Problem, as_text, did_you_mean
@@ -29,6 +29,8 @@ if TYPE_CHECKING:
     from graphkin.table import Table
 
 __all__ = ["Audited", "audit"]
+
+MOST_LOOPS = 24  # rows of a table of which wrong angles are told with the gaps of their loops
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -94,6 +96,10 @@ class Audited(Result):
                 exact = "" if row["exact"] is None else _shown(row["exact"])
                 verdict = word(row["verdict"] or "not judged", self.language)
                 said = row.get("looks_like", row.get("why", "") if row["verdict"] == "not readable" else "")
+                if "loop_gap" in row:
+                    gap = row["loop_gap"]
+                    open_ = Phrase("loop open", (gap["loop"], f"{gap['gap']:.4g} {self.scene.units.length}"))
+                    said = "; ".join(filter(None, (said, say(open_, self.language))))
                 rows.append([*lead, row["symbol"], row["written"], exact, off, verdict, said])
         return rows
 
@@ -202,6 +208,8 @@ def _value(scene: Mechanism, judged: Judged, language: str) -> dict[str, Any]:
         row["why"] = say(Phrase("nothing to judge by"), language)
     if judged.looks_like is not None:
         row["looks_like"] = say(judged.looks_like, language)
+    if judged.gap is not None:
+        row["loop_gap"] = {"loop": judged.gap[0], "gap": _plain(judged.gap[1] / scene.units.metres)}
     if judged.follows_from:
         row["follows_from"] = [str(s) for s in judged.follows_from]
     return row
@@ -280,7 +288,14 @@ def audit(
         judged = tuple(
             (who, rows[id(who)] if id(who) in rows else judge(case(who.at, who.variant), who.values)) for who in people
         )
+    told = {id(who): with_gaps(case(who.at, who.variant), own) for who, own in [*filter(_opens, judged)][:MOST_LOOPS]}
+    judged = tuple((who, told.get(id(who), own)) for who, own in judged)
     return Audited(given, judged, language or given.sheet.language, unused, scheme)
+
+
+def _opens(one: tuple[Answers, tuple[Judged, ...]]) -> bool:
+    """Whether a wrong angle or travel leaves a vector loop open."""
+    return any(j.verdict == "wrong" and j.printed.symbol.kind in ("theta", "s") for j in one[1])
 
 
 def _problems(

@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from graphkin.checking.consequential_errors import consequential_values, drawn_before
+from graphkin.checking.loop_gaps import loop_gaps
 from graphkin.checking.printed import Printed, transcription_errors
 from graphkin.checking.slips import Evidence, Suspect, dimension, line_of
 from graphkin.scene.symbol import Symbol
@@ -21,7 +22,7 @@ from graphkin.words import Phrase
 
 __all__ = [
     "COMPUTED_SHARE", "Judged", "Value", "comparable", "deviation", "difference", "drafting_bound", "explained",
-    "judge",
+    "judge", "with_gaps",
 ]  # fmt: skip
 
 Verdict = Literal["right", "within drafting accuracy", "right from own values", "wrong", "not judged"]
@@ -50,7 +51,8 @@ class Judged:
     the size of the vector (SI).  ``deviation`` is the relative one, None where the exact value is zero; ``bound`` what
     a pencil drawing keeps within (0 where nothing can be predicted, infinite where it keeps within nothing: then a
     value that is not right is "not judged", unless a slip explains it to the digit).  ``follows_from`` are earlier
-    wrong values of the same person from which it follows.
+    wrong values of the same person from which it follows.  ``gap`` tells of a wrong angle or travel the vector loop
+    that gives it, and how far that stays open with all stated values in it (m).
     """
 
     printed: Printed
@@ -60,6 +62,14 @@ class Judged:
     bound: float
     looks_like: Phrase | None = None
     follows_from: tuple[Symbol, ...] = ()
+    gap: tuple[str, float] | None = None
+
+
+def with_gaps(case: Evidence, judged: Sequence[Judged]) -> tuple[Judged, ...]:
+    """Verdicts with the gaps of the loops of what is wrong."""
+    wrong = {j.printed.symbol for j in judged if j.verdict == "wrong"}
+    gaps = loop_gaps(case.sheet, {j.printed.symbol: j.printed.value for j in judged})
+    return tuple(replace(j, gap=gaps.get(j.printed.symbol)) if j.printed.symbol in wrong else j for j in judged)
 
 
 def judge(case: Evidence, stated: Sequence[Printed]) -> tuple[Judged, ...]:

@@ -7,6 +7,7 @@ import cmath
 import math
 from collections.abc import Iterable, Sequence
 
+from graphkin.checking.loop_gaps import places_of_loops, stated_arrows
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing import strokes, symbols
 from graphkin.drawing.box import Box
@@ -17,11 +18,10 @@ from graphkin.drawing.headings import drivers, facts, figure_title, number, term
 from graphkin.drawing.labels import Label
 from graphkin.drawing.loop_words import MatrixEquation, equation, matrices, projections, root, size_name
 from graphkin.drawing.piece import Piece, joined, layer_groups, moved_piece, with_labels
-from graphkin.drawing.primitives import Arc, Circle, Group, Line, Primitive, Run, Text
+from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polyline, Primitive, Run, Stroke, Text
 from graphkin.drawing.strokes import colour_of_link
 from graphkin.drawing.symbols import POINTER, arrowhead
 from graphkin.drawing.text import rich, symbol, wrapped
-from graphkin.plane import dot
 from graphkin.structure.loop_values import LoopBlock, LoopValue, loops_in_numbers
 from graphkin.words import Phrase, languages, say
 
@@ -31,6 +31,8 @@ WIDTH, MARGIN = 190.0, 8.0
 PANEL = (84.0, 62.0)  # width and least height of a polygon's panel (mm)
 ROOM = 11.0  # around a polygon, for names
 LINE, SMALL = 4.6, 2.8  # mm from line to line, size of letters
+OPEN = Stroke(0.5, (), "#b00020")
+CLOSES = 2e-3  # part of a loop's length within which printed angles close it, rounded as they are
 ARC = 5.0  # mm, of an angle from the x axis
 AXIS = 8.5  # mm of x axis at a tail
 
@@ -38,14 +40,7 @@ AXIS = 8.5  # mm of x axis at a tail
 def loop_blocks(sheet: Sheet) -> tuple[LoopBlock, ...]:
     """The loops of what stands on a sheet, measured on the drawn mechanism.  Raises CallError for a chosen loop that
     does not go from point to point."""
-    axes = {name: pose.axis for name, pose in sheet.poses.items()}
-    travels = {}
-    for slide in sheet.structure.slides:
-        if {slide.a, slide.b} <= set(sheet.poses):
-            guide = sheet.poses[slide.b]
-            start = guide.origin + guide.axis * (slide.guide.through / sheet.scales.length)
-            along = guide.axis * slide.guide.direction
-            travels[slide.key] = dot(sheet.poses[slide.a].origin - start, along) * sheet.scales.length
+    axes, travels = places_of_loops(sheet)
     return loops_in_numbers(sheet.structure, axes, travels)
 
 
@@ -146,10 +141,41 @@ def _polygon(sheet: Sheet, loop: LoopValue, block: LoopBlock, scale: float) -> t
             drawn.append(Circle(corners[k], 0.55, fill=strokes.BLACK))
             point = Text(0j, symbol(letters_of(sheet, "chinese").point(arrow.arrow.names[0])), classes=("label",))
             labels.append(Label(point, corners[k], rank=1))
+    opened, more = _as_printed(sheet, loop, scale)
+    thin += opened
+    labels += more
     marks = tuple(corners[:-1])
     piece = Piece({"construction": tuple(thin), "mechanism": (Group(tuple(drawn), id=f"loop-{name}"),)},
                   tuple(labels), marks)  # fmt: skip
     return piece, Box.around(corners)
+
+
+def _as_printed(sheet: Sheet, loop: LoopValue, scale: float) -> tuple[list[Primitive], list[Label]]:
+    """The loop with the printed angles and travels, dashed, where these leave it open, and its gap."""
+    gap = _gap(sheet, loop)
+    if gap is None:
+        return [], []
+    at, corners = 0j, [0j]
+    for vector in stated_arrows(sheet, loop.loop, sheet.scene.printed):
+        at += vector / scale
+        corners.append(at.conjugate())
+    drawn = Group((Polyline(tuple(corners), strokes.DIRECTION),), classes=("printed",))
+    ends = Line(corners[-1], corners[0], OPEN)
+    if abs(ends.end - ends.start) < 0.05:
+        return [drawn], []
+    metres, unit = sheet.scene.units.metres, sheet.scene.units.length
+    words = Text(0j, rich(f"{number(gap / metres, 4)} {unit}", 2.8), "start", OPEN.colour, classes=("label",))
+    return [drawn, Group((ends,), id=f"gap-{loop.loop.name}", classes=("gap",))], [Label(words, (ends.start, ends.end))]
+
+
+def _gap(sheet: Sheet, loop: LoopValue) -> float | None:
+    """How far the values printed for this position leave a loop open (m); None where it closes as well as they are
+    printed."""
+    if any(abs(sheet.drivers[d.key] - d.values[0]) > 1e-9 for d in sheet.scene.drivers):
+        return None
+    vectors = stated_arrows(sheet, loop.loop, sheet.scene.printed)
+    gap = abs(sum(vectors))
+    return gap if gap > CLOSES * sum(map(abs, vectors)) else None
 
 
 def _angle(tail: complex, vector: complex) -> list[Primitive]:
@@ -173,6 +199,10 @@ def _lines(sheet: Sheet, loop: LoopValue, block: LoopBlock, spoken: str) -> list
         lines.append((say(Phrase("loop heading", (loop.loop.name, names, equation(loop))), each), True))
     x, y = projections(loop, block, scene)
     lines += [(f"x:  {x}", False), (f"y:  {y}", False)]
+    gap = _gap(sheet, loop)
+    if gap is not None:
+        told = f"{number(gap / scene.units.metres, 4)} {scene.units.length}"
+        lines += [(say(Phrase("loop open", (loop.loop.name, told)), each), False) for each in languages(spoken)]
     if loop.root is not None:
         lines += [(root(loop.root, loop, scene, each), False) for each in languages(spoken)[:1]]
     return lines

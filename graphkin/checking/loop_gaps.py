@@ -1,0 +1,77 @@
+"""How far vector loops stay open where stated angles and travels take the place of the drawn ones."""
+
+from __future__ import annotations
+
+import cmath
+from collections.abc import Mapping
+
+from graphkin.construction.sheet import Sheet
+from graphkin.plane import dot
+from graphkin.scene.symbol import Symbol
+from graphkin.structure.loops import Loop, Unknown, loops_of
+
+__all__ = ["loop_gaps", "places_of_loops", "stated_arrows"]
+
+
+def places_of_loops(sheet: Sheet) -> tuple[dict[str, complex], dict[str, float]]:
+    """The unit vector of each link's own axis, and the travel (m) of each sliding pair, as they are drawn."""
+    axes = {name: pose.axis for name, pose in sheet.poses.items()}
+    travels = {}
+    for slide in sheet.structure.slides:
+        if {slide.a, slide.b} <= set(sheet.poses):
+            guide = sheet.poses[slide.b]
+            start = guide.origin + guide.axis * (slide.guide.through / sheet.scales.length)
+            along = guide.axis * slide.guide.direction
+            travels[slide.key] = dot(sheet.poses[slide.a].origin - start, along) * sheet.scales.length
+    return axes, travels
+
+
+def loop_gaps(sheet: Sheet, stated: Mapping[Symbol, complex | float]) -> dict[Symbol, tuple[str, float]]:
+    """For each stated angle of a link or travel of a sliding pair the loop that gives it, by its name, and how far that
+    stays open (m) with everything that is stated in place of what is drawn."""
+    own = [symbol for symbol in stated if _of_loop(symbol) is not None]
+    found: dict[Symbol, tuple[str, float]] = {}
+    for loop in loops_of(sheet.structure) if own else ():
+        vectors = stated_arrows(sheet, loop, stated)
+        for symbol in own:
+            if vectors and _gives(loop, symbol):
+                found.setdefault(symbol, (loop.name, abs(sum(vectors))))
+    return found
+
+
+def stated_arrows(sheet: Sheet, loop: Loop, stated: Mapping[Symbol, complex | float]) -> tuple[complex, ...]:
+    """The arrows of a loop (m) with the stated angles and travels; none where it is not drawn, or nothing is stated of
+    it."""
+    axes, travels = places_of_loops(sheet)
+    if not all(a.link in axes and (not a.slide or a.slide in travels) for a in loop.arrows):
+        return ()
+    turned, moved = {}, {}  # of all links that turn with a stated one
+    for symbol, value in stated.items():
+        one = _of_loop(symbol)
+        if one is None or (one.kind == "s" and one.of not in travels):
+            continue
+        if one.kind == "s":
+            moved[one.of] = float(value.real)
+        elif one.of in axes and one.of in loop.ties:
+            turned[loop.ties[one.of]] = cmath.rect(1.0, float(value.real)) / axes[one.of]
+    if not any(loop.ties[a.link] in turned or a.slide in moved for a in loop.arrows):
+        return ()
+    return tuple(
+        arrow.vector * axes[arrow.link] * turned.get(loop.ties[arrow.link], 1.0)
+        * (moved.get(arrow.slide, travels[arrow.slide]) if arrow.slide else 1.0)
+        for arrow in loop.arrows
+    )  # fmt: skip
+
+
+def _of_loop(symbol: Symbol) -> Unknown | None:
+    if symbol.kind == "theta" and not symbol.other and not symbol.at:
+        return Unknown("theta", symbol.link)
+    return Unknown("s", symbol.pair) if symbol.kind == "s" and not symbol.at else None
+
+
+def _gives(loop: Loop, symbol: Symbol) -> bool:
+    one = _of_loop(symbol)
+    assert one is not None
+    if one.kind == "theta":
+        one = Unknown("theta", loop.ties.get(one.of, one.of))
+    return one in loop.unknowns
