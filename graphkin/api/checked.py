@@ -295,8 +295,9 @@ def check(
 def checked(what: Plan, motion: Motion, hand: Instrument) -> Checked:
     """Draw a plan and hold everything on it against the solver at the same position."""
 
-    from graphkin.solver import exact_values, force_values
+    from graphkin.solver import as_drawn, exact_values, force_values
 
+    motion = as_drawn(motion, what.structure)
     value = exact_values(motion, what.asked)
     sheet = execute(what, hand)
     scale = lost = 0.0

@@ -106,7 +106,7 @@ def evidence_at(
 
     ``variants`` gives the values of the other problems of its set.
     """
-    from graphkin.solver import exact_values
+    from graphkin.solver import as_drawn, exact_values
 
     values = driver_values(scene, at)
     motion = solved_here(scene, values)
@@ -117,7 +117,8 @@ def evidence_at(
     drawn = what if set(what.elements) == set(whole.elements) else whole
 
     predicted = predict(what, "pencil", scene.sheet.tools)
-    return Evidence(drawn, exact_values(motion, asked), predicted, _elsewhere(scene, values), variants)
+    exact = exact_values(as_drawn(motion, what.structure), asked)
+    return Evidence(drawn, exact, predicted, _elsewhere(scene, values), variants)
 
 
 def _elsewhere(scene: Mechanism, values: dict[str, float] | None) -> ValuesElsewhere:

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 
 from graphkin.construction.board import Instrument
+from graphkin.construction.cams_in_place import follower_limits
 from graphkin.construction.dyads import meet
 from graphkin.construction.follow import Choices, best_reduced, found_near
 from graphkin.construction.group_position import GroupTrial
@@ -186,6 +187,8 @@ def limits_asked(
     Unsolvable : no whole turn, or a link that has no limit positions
     CallError : a sliding pair that there is not
     """
+    if structure.scene.instead_of is not None:
+        return follower_limits(structure, asked, values)
     found: dict[str, Limits] = {}
     turn: TurnOfCrank | None = None
     for symbol in asked:
@@ -206,7 +209,7 @@ def limits_on_paper(
 ) -> dict[str, Limits]:  # fmt: skip
     """Limit positions that exact hands found on paper of the mechanism's size, drawn at a scale by any hands."""
     mm = 1.0 / scales.length
-    if hand.faultless:
+    if hand.faultless or structure.scene.instead_of is not None:
         return {pair: limits.scaled(structure.scene.size * mm) for pair, limits in found.items()}
     return {pair: _drawn_again(limits, structure, elements, values, mm, hand) for pair, limits in found.items()}
 

@@ -13,6 +13,8 @@ from functools import cached_property
 
 from graphkin.construction.asked import show
 from graphkin.construction.board import EXACT, Board, Instrument
+from graphkin.construction.cam_outline import outlines_on_paper
+from graphkin.construction.cams_in_place import cams_in_place
 from graphkin.construction.dyads import meet
 from graphkin.construction.extent import Extent, fitting_scale
 from graphkin.construction.follow import Choices, best_reduced
@@ -46,6 +48,7 @@ from graphkin.scene.loads import Loading
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Cluster, Driven, Dyad, Element, Structure, analyse, links_of, needed
+from graphkin.structure.cams_replaced import with_cams
 from graphkin.words import Phrase
 
 __all__ = ["Plan", "Room", "draft", "drawn_sizes", "execute", "plan", "scales_for"]
@@ -134,7 +137,8 @@ def _extents_of(sheet: Sheet) -> dict[DiagramName, Extent]:
             if step.diagram == order and not isinstance(step.act, Asked):
                 yield from (s for s in step.strokes if isinstance(s, Vector))
 
-    return _extents(sheet.points.values(), vectors, sheet.scales)
+    outlines = outlines_on_paper(sheet.scene, sheet.poses, 1.0 / sheet.scales.length)
+    return _extents([*sheet.points.values(), *(z for o in outlines.values() for z in o)], vectors, sheet.scales)
 
 
 NATURAL = Scales(1e-3, 1e-3, 1e-3)  # 1 mm of paper for 1 mm, 1 mm/s, 1 mm/s2
@@ -214,9 +218,12 @@ def plan(
     near: Sheet | None = None,
 ) -> Plan:
     """Decide what to draw, and carry it out exactly; parameters and errors as for `draft`."""
-    structure = analyse(scene)
+    structure = analyse(with_cams(scene))
     scene = structure.scene
     asked = tuple(scene.find if find is None else find)
+    if scene.cams:
+        structure = cams_in_place(structure, {d.key: d.values[0] for d in scene.drivers} | dict(at or {}))
+        scene = structure.scene
     opened = opened_at_triangles(structure)
     if any(isinstance(e, Cluster) for e in needed(opened, asked)):
         opened = structure  # groups that remain are found by trial, driven triangles with them
@@ -290,6 +297,8 @@ def _planned(task: Task, room: Room | None) -> Plan:
         task = replace(task, acting=acting_loads(exact, exact if moves else growing[0]), growing=growing)
         exact = replace(exact, acting=task.acting, growing=task.growing)
     places = [z for p, z in polygons.places.items() if p not in polygons.special]
+    for profile in outlines_on_paper(task.structure.scene, polygons.frame.poses, 1.0 / NATURAL.length).values():
+        places += profile
     extents = _extents(places, polygons.shown_of, NATURAL)
     own = {f.name: getattr(task, f.name) for f in fields(Task)} | {"chains": polygons.chains, "plans": polygons.plans}
     scales = _chosen_scales(task.structure.scene, extents, room)

@@ -17,11 +17,48 @@ from graphkin.words import Phrase
 from graphkin.words.written import amount, on_paper
 
 __all__ = [
-    "Act", "ArcOnPath", "Asked", "ByImage", "ByRate", "Carried", "Cause", "CompassArcs", "Direction",
-    "DirectionLine", "FixedPoints", "FoundVector", "Given", "GuideThrough", "GuideTouching", "HeldStill",
-    "LaidOff", "LaidOffAngle", "LaidOffTravel", "LinesMeet", "LinkPoints", "MeasuredRate", "Named", "PathDrawn",
-    "PathsCross", "Placing", "PutBack", "RateTimes", "ReadOff", "Resultant", "SamePlace", "Size", "SlidToMeet",
-    "SpecialPoint", "Superposed", "Translated", "TrialDrawn", "TrialPositions", "links_drawn", "phrase_of", "scaled",
+    "Act",
+    "ArcOnPath",
+    "Asked",
+    "ByImage",
+    "ByRate",
+    "Carried",
+    "Cause",
+    "CompassArcs",
+    "Direction",
+    "DirectionLine",
+    "FixedPoints",
+    "FoundVector",
+    "Given",
+    "GuideThrough",
+    "GuideTouching",
+    "HeldStill",
+    "LaidOff",
+    "LaidOffAngle",
+    "LaidOffTravel",
+    "LinesMeet",
+    "LinkPoints",
+    "MeasuredRate",
+    "Named",
+    "PathDrawn",
+    "PathsCross",
+    "Placing",
+    "PutBack",
+    "RateTimes",
+    "ReadOff",
+    "Resultant",
+    "SamePlace",
+    "Size",
+    "SlidToMeet",
+    "SpecialPoint",
+    "SquareOverRadius",
+    "Superposed",
+    "Translated",
+    "TrialDrawn",
+    "TrialPositions",
+    "links_drawn",
+    "phrase_of",
+    "scaled",
 ]  # fmt: skip
 
 
@@ -70,7 +107,22 @@ class RateTimes:
         return f"{'2' * self.twice}{letter}_{{{''.join(self.links)}}}{'²' * self.square}·{factor}"
 
 
-Size = Given | RateTimes
+@dataclass(frozen=True)
+class SquareOverRadius:
+    """The square of a relative velocity over the radius of curvature (m) of the path.
+
+    >>> str(SquareOverRadius(Symbol.parse("v_B@2/B@1"), 0.05))
+    '(v_B@2/B@1)²/ρ'
+    """
+
+    velocity: Symbol
+    radius: float
+
+    def __str__(self) -> str:
+        return f"({self.velocity})²/ρ"
+
+
+Size = Given | RateTimes | SquareOverRadius
 
 # -- acts in the mechanism ---------------------------------------------------------------------------------------------
 

@@ -7,7 +7,7 @@ from typing import Literal
 from graphkin.construction.net import Edge
 from graphkin.construction.plot import Order, Plot
 from graphkin.construction.slip import Component
-from graphkin.construction.steps import Direction, Given, RateTimes
+from graphkin.construction.steps import Direction, Given, RateTimes, SquareOverRadius
 from graphkin.plane import dot, unit
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import Symbol
@@ -72,7 +72,8 @@ def _slide_parts(plot: Plot, order: Order, edge: Edge, slide: Slide) -> list[Com
         span = None if given is None else sense * (given / plot.scales.velocity)
         return [Component(symbol_of(plot, "v", edge), role, sense, span, edge.direction, _given_size(span))]
     span = None if given is None else sense * (given / plot.scales.acceleration)
-    if slide.b in plot.still or slide.a in plot.still:
+    bent = _bent_parts(plot, edge, slide, sense)
+    if (slide.b in plot.still or slide.a in plot.still) and not bent:
         # no rotation, no Coriolis: the sliding part is all there is
         symbol = symbol_of(plot, "a", edge) if fixed else symbol_of(plot, "ar", edge)
         return [
@@ -91,7 +92,22 @@ def _slide_parts(plot: Plot, order: Order, edge: Edge, slide: Slide) -> list[Com
         RateTimes("omega", (slide.b,), symbol_of(plot, "v", edge), twice=True),
     )
     sliding = Component(symbol_of(plot, "ar", edge), "sliding", sense, span, edge.direction, _given_size(span))
-    return [coriolis, sliding]
+    return [coriolis, *bent, sliding]
+
+
+def _bent_parts(plot: Plot, edge: Edge, slide: Slide, sense: complex) -> list[Component]:
+    """The normal part that a curved guide adds: the square of the sliding velocity over the radius of curvature,
+    towards the centre of curvature of the guide; against the guide's motion it is turned round."""
+    bends = slide.guide.curvature
+    if bends == 0.0:
+        return []
+    slip = plot.end("velocity", edge.end) - plot.end("velocity", edge.start)
+    speed = plot.board.instrument.read(abs(slip)) * plot.scales.velocity
+    inward = 1j * sense * (1 if bends > 0.0 else -1)
+    span = inward * (speed**2 * abs(bends) / plot.scales.acceleration)
+    size = SquareOverRadius(symbol_of(plot, "v", edge), 1.0 / abs(bends))
+    way = Direction("turned", edge.direction.names)
+    return [Component(symbol_of(plot, "an", edge), "normal", inward, span, way, size)]
 
 
 def _given(plot: Plot, key: str, order: Order) -> float | None:

@@ -14,7 +14,7 @@ from functools import lru_cache
 from typing import Literal
 
 from graphkin.construction.sheet import DiagramName, Sheet
-from graphkin.construction.steps import Direction, RateTimes, Size
+from graphkin.construction.steps import Direction, RateTimes, Size, SquareOverRadius
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Convention
 
@@ -158,6 +158,8 @@ class Letters:
 
     def size(self, rule: Size) -> str:
         """The rule that gives a size: ``ω_{1}^{2} l_{AB}``."""
+        if isinstance(rule, SquareOverRadius):
+            return f"({self.vector(rule.velocity)})^{{2}} / ρ"
         if not isinstance(rule, RateTimes):
             return str(rule).replace("²", "^{2}")
         letter = "ω" if rule.rate == "omega" else "α"

@@ -71,7 +71,7 @@ def _drawn(room: DimensionClearance, choices: Iterable[Parts], extensions: int =
 def _bars(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts | Label]:
     """Lengths of bars, and of further points from them: as many as it takes, round ones first."""
     places = {ref.point: z for ref, z in sheet.points.items() if not ref.link}
-    for link in sheet.scene.links:
+    for link in (sheet.scene.instead_of or sheet.scene).links:
         if link.redundant:
             continue
         spans, corners = _spans(link, sheet.scene.units.metres)

@@ -15,9 +15,9 @@ from graphkin.drawing.conventions import Letters
 from graphkin.drawing.dimensioning import LENGTHS, drawn_lengths
 from graphkin.drawing.group_aids import aids_in_mechanism
 from graphkin.drawing.labels import Label
-from graphkin.drawing.mechanism_on_paper import GUIDE_LENGTH, LinkShape, MechanismOnPaper, Slider, page
+from graphkin.drawing.mechanism_on_paper import GUIDE_LENGTH, CamOnPaper, LinkShape, MechanismOnPaper, Slider, page
 from graphkin.drawing.piece import Piece, cut_to, ink_box, joined, middle_of
-from graphkin.drawing.primitives import Arc, Group, Line, Polygon, Primitive, Text
+from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Primitive, Text
 from graphkin.drawing.senses import clearance, drivers, found_rates
 from graphkin.drawing.text import plain, symbol
 from graphkin.plane import cross, dot
@@ -29,7 +29,8 @@ def links(here: MechanismOnPaper) -> Piece:
     """All links, areas first, so that feet of pivots stand on them and bars lie over them."""
     areas = [_link(here, shape) for shape in here.shapes if shape.corners]
     bars = sorted((shape for shape in here.shapes if not shape.corners), key=lambda shape: _depth(here, shape))
-    return Piece({"mechanism": (*areas, _frame(here), *(_link(here, shape) for shape in bars))})
+    profiles = [_profile(here, one) for one in here.cams]
+    return Piece({"mechanism": (*profiles, *areas, _frame(here), *(_link(here, shape) for shape in bars))})
 
 
 def _depth(here: MechanismOnPaper, shape: LinkShape) -> int:
@@ -39,6 +40,31 @@ def _depth(here: MechanismOnPaper, shape: LinkShape) -> int:
     if any(b.slide.a == shape.link for b in here.sliders):
         return 1 + here.nested(shape.link)
     return 9
+
+
+NORMAL, FACE = 9.0, 13.0
+"""mm: how far normal and tangent go on beyond what they touch, and half a flat face."""
+
+
+def _profile(here: MechanismOnPaper, one: CamOnPaper) -> Group:
+    """A cam with its profile, the follower's roller or face, tangent and normal where they touch."""
+    colour, other = here.colour(one.cam.link), here.colour(one.cam.follower)
+    shape = Polygon(tuple(map(page, one.profile)), strokes.tint(colour), strokes.LINK.coloured(colour))
+    across = 1j * one.normal
+    parts: list[Primitive] = [shape]
+    if one.roller:
+        parts.append(Circle(page(one.point), one.roller, stroke=strokes.LINK.coloured(other)))
+    if one.cam.flat:
+        ends = page(one.point - FACE * across), page(one.point + FACE * across)
+        parts.append(Line(*ends, strokes.LINK.coloured(other)))
+        if abs(one.contact - one.point) > FACE:
+            parts.append(Line(page(one.point), page(one.contact), strokes.LINK.coloured(other)))
+    beyond = one.contact + one.roller * one.normal
+    thin = ((one.contact - NORMAL * one.normal, beyond + NORMAL * one.normal),
+            (one.point - NORMAL * across, one.point + NORMAL * across))  # fmt: skip
+    for start, end in thin[: 1 if one.cam.flat else 2]:
+        parts.append(Line(page(start), page(end), strokes.DIRECTION))
+    return Group(tuple(parts), id=f"cam-{one.cam.link}", classes=("cam",))
 
 
 def _frame(here: MechanismOnPaper) -> Group:
@@ -189,6 +215,9 @@ def _numbers(here: MechanismOnPaper) -> Iterator[Label]:
             yield Label(text, (page(whole[0]), page(whole[1])), rank=1)
         elif block is not None:
             yield Label(text, page(block), rank=1)
+        elif (cam := next((c for c in here.cams if c.cam.link == shape.link), None)) is not None:
+            axis = here.sheet.poses[shape.link].origin
+            yield Label(text, page(axis + 0.6 * (max(cam.profile, key=lambda z: abs(z - axis)) - axis)), rank=1)
 
 
 def _cylinder_part(here: MechanismOnPaper, link: str) -> tuple[complex, complex] | None:

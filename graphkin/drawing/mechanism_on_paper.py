@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import math
 from cmath import phase
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
+from graphkin.construction.cam_outline import outlines_on_paper, station
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing import symbols
 from graphkin.drawing.conventions import Letters
@@ -19,13 +20,15 @@ from graphkin.drawing.primitives import Segment
 from graphkin.drawing.strokes import colour_of_link
 from graphkin.drawing.symbols import hull
 from graphkin.plane import cross, dot
+from graphkin.scene.cams import LawCam, SlidingFollower
 from graphkin.scene.model import Mechanism, SlideDriver
 from graphkin.structure import Slide
 
-__all__ = ["GUIDE_LENGTH", "LinkShape", "MechanismOnPaper", "Slider", "page", "sliders"]
+__all__ = ["GUIDE_LENGTH", "CamOnPaper", "LinkShape", "MechanismOnPaper", "Slider", "page", "sliders"]
 
 # mm: how far a bar of no fixed length goes on beyond a block, and a slot beyond its pin
 PAST_BLOCK, PAST_PIN = 9.0, 8.0
+PAST_ROLLER = 17.0  # mm from the roller of a follower to the middle of its guide
 GUIDE_LENGTH = 24.0  # mm of the frame's guide about a block
 NEAR = 1e-4  # mm: points so near to a line lie on it
 FOOT = {-math.pi / 2: 0.0, 0.0: 0.5, math.pi: 0.5, math.pi / 2: 0.7}  # where feet may point, and how little liked
@@ -44,6 +47,19 @@ class Slider:
     at: complex
     along: complex
     driven: bool
+
+
+@dataclass(frozen=True)
+class CamOnPaper:
+    """A cam and its follower on paper (mm): the profile, the follower's point, where they touch, the normal (unit, out
+    of the cam), the radius of the roller (0 without one)."""
+
+    cam: LawCam
+    profile: tuple[complex, ...]
+    point: complex
+    contact: complex
+    normal: complex
+    roller: float
 
 
 @dataclass(frozen=True)
@@ -95,6 +111,11 @@ class MechanismOnPaper:
     def places(self) -> Mapping[str, complex]:
         """Where each point is."""
         return {ref.point: z for ref, z in self.sheet.points.items() if not ref.link}
+
+    @cached_property
+    def cams(self) -> tuple[CamOnPaper, ...]:
+        """The cams with the followers that they touch."""
+        return tuple(cams(self.sheet))
 
     @cached_property
     def cylinders(self) -> frozenset[str]:
@@ -160,24 +181,48 @@ class MechanismOnPaper:
         return abs(cross(b.at - pivot, b.along)) < 1e-3 and dot(b.at - pivot, b.along) > 12.0
 
 
+def cams(sheet: Sheet) -> Iterator[CamOnPaper]:
+    """The cams that stand on paper with their followers."""
+    mm = 1.0 / sheet.scales.length
+    outlines = outlines_on_paper(sheet.scene, sheet.poses, mm)
+    for cam in sheet.scene.cams:
+        if cam.link not in outlines or cam.follower not in sheet.poses:
+            continue
+        pose = sheet.poses[cam.link]
+        at = station(cam, cam.sense * phase(pose.axis))
+        point, contact = (pose.origin + pose.axis * z * mm for z in (at.point, at.contact))
+        yield CamOnPaper(cam, outlines[cam.link], point, contact, pose.axis * at.normal, cam.roller * mm)
+
+
+def replaced_pairs(sheet: Sheet) -> set[str]:
+    """Keys of the sliding pairs that only stand for a cam and its follower."""
+    whole = sheet.scene.instead_of
+    return set() if whole is None else {p.key for p in sheet.scene.pins} - {p.key for p in whole.pins}
+
+
 def sliders(sheet: Sheet) -> tuple[Slider, ...]:
     """All sliding pairs whose two links stand on paper, pins in slots too."""
     driven = {d.key for d in sheet.scene.drivers if isinstance(d, SlideDriver)}
-    return tuple(
-        Slider(
-            slide, sheet.poses[slide.a].origin, sheet.poses[slide.b].axis * slide.guide.direction, slide.key in driven
-        )
-        for slide in sheet.structure.slides
-        if slide.a in sheet.poses and slide.b in sheet.poses
-    )
+    # a follower's block stands clear of its roller
+    clear = {
+        cam.motion.pair: cam.roller / sheet.scales.length + PAST_ROLLER
+        for cam in sheet.scene.cams if isinstance(cam.motion, SlidingFollower)
+    }  # fmt: skip
+    found = []
+    for slide in sheet.structure.slides:
+        if slide.a in sheet.poses and slide.b in sheet.poses:
+            along = sheet.poses[slide.b].axis * slide.guide.direction
+            at = sheet.poses[slide.a].origin + clear.get(slide.key, 0.0) * along
+            found.append(Slider(slide, at, along, slide.key in driven))
+    return tuple(found)
 
 
 def shapes(sheet: Sheet) -> tuple[LinkShape, ...]:
     """The moving links on paper, in the order of the file; links that were not reached are left out."""
     places = {ref.point: z for ref, z in sheet.points.items() if not ref.link}
-    slides = sliders(sheet)
+    slides = tuple(s for s in sliders(sheet) if s.slide.key not in replaced_pairs(sheet))
     found = []
-    for link in sheet.scene.links:
+    for link in (sheet.scene.instead_of or sheet.scene).links:
         points = {p: places[p] for p in link.points if p in places}
         if link.redundant and len(points) == len(link.points):
             corners, bars = _spanned(tuple(points.values()))

@@ -52,6 +52,7 @@ def _mechanism(sheet: Sheet, steps: list[Step]) -> dict[str, int]:
     for link in (sheet.scene.frame, *sheet.scene.links):
         points = [born.get(f"point-{p}", last) for p in link.points]
         born[f"link-{link.name}"] = max([*points, mentioned.get(link.name, 0)], default=last) or last
+    born |= {f"cam-{cam.link}": last for cam in sheet.scene.cams}
     born[f"link-{sheet.scene.frame.name}"] = steps[0].number
     for driver in sheet.scene.drivers:
         for part in ("", "-alpha"):

@@ -16,7 +16,15 @@ from functools import cached_property
 from graphkin.checking.readings import Uncertainty
 from graphkin.checking.report import Compared, Report
 from graphkin.construction.sheet import Aid, DiagramName, Equation, Ray, Sheet, Step, Vector
-from graphkin.construction.steps import Direction, DirectionLine, Given, LaidOff, MeasuredRate, RateTimes
+from graphkin.construction.steps import (
+    Direction,
+    DirectionLine,
+    Given,
+    LaidOff,
+    MeasuredRate,
+    RateTimes,
+    SquareOverRadius,
+)  # fmt: skip
 from graphkin.drawing.conventions import Letters, letters_of, pole
 from graphkin.drawing.headings import number, written
 from graphkin.drawing.sums import factors_of, rate_sum, scale_of, substituted, times_scale, unit_of
@@ -189,7 +197,7 @@ class Speaker:
             return self._marked(self.letters.direction(thing, self.sheet.scene.frame.name))
         if isinstance(thing, Given):
             return word("given", language).lower()
-        if isinstance(thing, RateTimes):
+        if isinstance(thing, RateTimes | SquareOverRadius):
             return self._marked(self.letters.size(thing))
         text = str(thing)
         names = text.split(", ")

@@ -42,7 +42,8 @@ def lesson_of(what: Plan, motion: Motion, language: str, convention: str) -> Les
     """The lesson of a plan, with its check and with the tolerances of a pencil drawing."""
 
     sheet = execute(what)
-    report = compare(sheet, read_off(sheet), solver.exact_values(motion, what.asked), what.asked)
+    exact = solver.exact_values(solver.as_drawn(motion, what.structure), what.asked)
+    report = compare(sheet, read_off(sheet), exact, what.asked)
     tolerance = predict(what, "pencil", sheet.scene.sheet.tools)
     return Lesson(sheet, report, tolerance, language, convention, what.asked)
 
@@ -51,7 +52,8 @@ def evidence_of(what: Plan, motion: Motion, lesson: Lesson) -> Evidence:
     """What the slips of a lesson are looked for in: everything drawn, so that one in what leads to the asked counts."""
     whole = plan(what.structure, what.values, ())
     drawn = what if set(what.elements) == set(whole.elements) else whole
-    return Evidence(drawn, solver.exact_values(motion, what.asked), lesson.tolerance, lambda symbol: ())
+    exact = solver.exact_values(solver.as_drawn(motion, what.structure), what.asked)
+    return Evidence(drawn, exact, lesson.tolerance, lambda symbol: ())
 
 
 def usual_count(scene: Mechanism) -> int:

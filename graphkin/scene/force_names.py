@@ -17,12 +17,13 @@ __all__ = ["Joint", "force_names", "joints", "no_force", "opposite"]
 @dataclass(frozen=True)
 class Joint:
     """A joint, with a force of link ``first`` on link ``second``: a turning pair or a pin in a slot at ``point``, or a
-    sliding pair (``point`` is the sliding link's first point, or empty).  ``second`` slides, or has the pin.
+    sliding pair (``point`` is the sliding link's first point, or empty), or a cam (``first``) with its follower.
+    ``second`` slides, or has the pin.
 
     name : ``5/6``, or ``5/6@C`` where the two share several joints
     """
 
-    kind: Literal["turning", "sliding", "slot"]
+    kind: Literal["turning", "sliding", "slot", "cam"]
     first: str
     second: str
     point: str
@@ -39,6 +40,8 @@ def joints(mechanism: Mechanism) -> tuple[Joint, ...]:
         found += [Joint("turning", first, second, point) for second in later]
     found += [Joint("sliding", s.on, s.link, s.pin or "") for s in mechanism.slidings if {s.on, s.link} <= here]
     found += [Joint("slot", p.on, p.of, p.point) for p in mechanism.pins if {p.on, p.of} <= here]
+    if mechanism.instead_of is None:
+        found += [Joint("cam", c.link, c.follower, "") for c in mechanism.cams if {c.link, c.follower} <= here]
     shared = Counter(frozenset((joint.first, joint.second)) for joint in found)
     several = [shared[frozenset((joint.first, joint.second))] > 1 and joint.point != "" for joint in found]
     return tuple(

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Strict, StringConstraints, Tag, TypeAdapter
 
+from graphkin.scene.cam_tables import LawPiece
 from graphkin.scene.tables import SMALLEST, Compass, DrivenSlide, Driver, Link, Polar, SceneTables, StrokeStart
 from graphkin.words import LANGUAGES
 
@@ -46,6 +47,7 @@ PointNames = list[PointName]
 TwoPoints = Annotated[list[PointName], Field(min_length=2, max_length=2)]
 TwoLengths = Annotated[list[Magnitude], Field(min_length=2, max_length=2)]
 Links = Annotated[dict[LinkName, Link], Field(min_length=1)]
+LawPieces = list[LawPiece]
 
 
 def _form(value: Any) -> str | None:

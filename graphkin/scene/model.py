@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Literal
 
+from graphkin.scene.cams import LawCam
 from graphkin.scene.class_tables import Vary
 from graphkin.scene.loads import Loading
 from graphkin.scene.symbol import Symbol
@@ -38,12 +39,14 @@ class PlacedGuide:
     """A straight guide of a link, in that link's own axes.
 
     ``name`` is "" for the link's own x axis.  ``through`` (m) is the guide's origin, from which travel
-    counts; ``direction`` is a unit complex number, its sense.
+    counts; ``direction`` is a unit complex number, its sense.  With a ``curvature`` (1/m, positive where it bends to
+    the left of its sense) it is the tangent of a curved one at what slides there now.
     """
 
     name: str
     through: complex
     direction: complex
+    curvature: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -232,7 +235,9 @@ class Mechanism:
     ``sketch`` and ``drawn`` give places of points in world axes (m); ``printed`` maps symbols to values in SI
     (a float, or a complex number for a vector given by two components); ``stated`` holds all that is printed, digit by
     digit, first that of this position; ``loops`` are vector loops by name, each through its points; ``vary`` says how
-    a set of problems is drawn from it, ``grading`` for what there are points.
+    a set of problems is drawn from it, ``grading`` for what there are points;
+    ``instead_of`` is the mechanism with cams in whose place this one moves alike at this position, in velocity and
+    acceleration.
     """
 
     name: str
@@ -256,6 +261,8 @@ class Mechanism:
     loops: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     vary: Vary | None = None
     grading: Mapping[str, float] = field(default_factory=dict)
+    cams: tuple[LawCam, ...] = ()
+    instead_of: Mechanism | None = None
 
     def __hash__(self) -> int:
         return hash((self.name, self.title, tuple(link.name for link in self.links)))
@@ -292,4 +299,5 @@ class Mechanism:
         spans += [abs(a - b) for i, a in enumerate(fixed) for b in fixed[:i]]
         spans += [abs(z - w) for z in self.drawn.values() for w in fixed]
         spans += [abs(d.travel) for d in self.drivers if isinstance(d, SlideDriver)]
+        spans += [cam.base for cam in self.cams]
         return max(spans, default=0.0) or self.units.metres

@@ -19,7 +19,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from graphkin.errors import Problem, SceneError, did_you_mean
-from graphkin.scene import load_tables, tables
+from graphkin.scene import cam_tables, load_tables, tables
 from graphkin.scene.file_table import FileTable, entries, key_of, keys_of
 from graphkin.scene.form import SCENE
 from graphkin.scene.names import Flaws, Path
@@ -128,6 +128,8 @@ def _cut(path: Path) -> Path:
         if path[-1] in ("link", "slide"):  # without it the form of the driver is not known
             return head
         return path[: 3 if len(path) > 1 and isinstance(path[1], int) else 2]
+    if head == ("cams",):
+        return path[: 3 if len(path) > 2 and path[2] not in ("follower", "law", "base") else 2]
     inside = ("pins", "sketch", "drawn", "printed", "sheet", "units", "masses", "loads", "positions", "loops")
     return path[:2] if head and head[0] in inside else head
 
@@ -178,6 +180,10 @@ _TABLES: tuple[tuple[tuple[str, ...], type[FileTable]], ...] = (
     (("driver", "<one>", "<slide>"), tables.DrivenSlide),
     (("driver", "<list>", "*", "<angle>"), tables.Driver),
     (("driver", "<list>", "*", "<slide>"), tables.DrivenSlide),
+    (("cams", "*"), cam_tables.Cam),
+    (("cams", "*", "base"), cam_tables.BaseCircle),
+    (("cams", "*", "allow"), cam_tables.AllowedPressure),
+    (("cams", "*", "law", "*"), cam_tables.LawPiece),
     (("gravity",), load_tables.Gravity),
     (("masses", "*"), load_tables.Mass),
     (("loads", "*"), load_tables.Load),
@@ -272,7 +278,7 @@ def sentence(loc: Path, path: Path, item: dict[str, Any]) -> Problem:
         choices = re.findall(r"'([^']*)'", ctx["expected"])
         near = did_you_mean(value[:60], choices) if isinstance(value, str) else ""
         tail = f", {near}" if near.startswith("did") else ""
-        words = ("one of " if len(choices) > 1 else "") + ", ".join(f'"{c}"' for c in choices)
+        words = ("one of " if len(choices) > 1 else "") + ", ".join(f'"{c}"' for c in choices) or str(ctx["expected"])
         return Problem(where, f"found {shown(value)}", f"{words} is possible{tail}")
     if kind == "finite_number":
         return Problem(where, f"found {shown(value)}", "a finite number is wanted")

@@ -9,6 +9,8 @@ import cmath
 from collections.abc import Mapping
 
 from graphkin.errors import Problem, SceneError, did_you_mean
+from graphkin.scene.cam_reading import cams_of
+from graphkin.scene.cams import LawCam
 from graphkin.scene.drawn_position import DrawnPosition, find_position, travel_of
 from graphkin.scene.force_names import no_force
 from graphkin.scene.loads import Loading, loading_of
@@ -104,6 +106,7 @@ def resolve(file: SceneTables, name: str, problems: list[Problem], flaws: Flaws)
         problems += disagreements(position)
     if not problems:
         problems += _not_found(position)
+    cams = _cams(file, names, flaws, position, problems) if file.cams else ()
     loading = Loading()
     if file.masses or file.loads or file.balance or file.flywheel:
         places = {n: b.local for n, b in bodies.items()}
@@ -139,6 +142,7 @@ def resolve(file: SceneTables, name: str, problems: list[Problem], flaws: Flaws)
         loops,
         file.vary,
         dict(file.grading),
+        cams,
     )
     _ask_for_forces(made)
     return made
@@ -151,6 +155,17 @@ def _ask_for_forces(made: Mechanism) -> None:
     problems = [problem for problem in wrong if problem is not None]
     if problems:
         raise SceneError(*dict.fromkeys(problems))
+
+
+def _cams(
+    file: SceneTables, names: Names, flaws: Flaws, position: DrawnPosition, problems: list[Problem]
+) -> tuple[LawCam, ...]:
+    """The cams, with the lines of the frame on which followers slide."""
+    frame = position.bodies[names.frame]
+    rails = {s.link: (s, frame.guides.get(s.guide)) for s in position.slidings if s.on == names.frame}
+    lines = {name: (s.key, rail.through, rail.direction) for name, (s, rail) in rails.items() if rail is not None}
+    seen = {p: complex(*xy) * position.metres for p, xy in file.sketch.items()} | dict(position.drawn)
+    return cams_of(file, names, flaws, lines, frame.local, seen, problems)
 
 
 def _bodies(

@@ -11,6 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
+from graphkin.scene.cam_tables import Cam
 from graphkin.scene.class_tables import Vary
 from graphkin.scene.file_table import FileTable
 from graphkin.scene.file_table import about as _about
@@ -376,6 +377,9 @@ class SceneTables(FileTable):
     positions: Positions | None = field(default=None, metadata=_about("Positions with names, and their figure."))
     loops: dict[LinkName, PointNames] = field(
         default_factory=dict, metadata=_closed("Vector loops by name, each the points that it goes through.")
+    )
+    cams: dict[LinkName, Cam] = field(
+        default_factory=dict, metadata=_closed("Cams by the law of their follower, by the link.")
     )
     gravity: Gravity | None = field(default=None, metadata=_about("Weights pull where this table stands."))
     masses: dict[LinkName, Mass] = field(default_factory=dict, metadata=_closed("Masses of moving links."))

@@ -16,6 +16,7 @@ from typing import Any
 
 from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.plane import degrees
+from graphkin.scene.cams import LawCam, SwingingFollower
 from graphkin.scene.loads import Phase
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedLink
 from graphkin.scene.tables import SceneTables
@@ -231,11 +232,29 @@ def as_mapping(scene: Mechanism) -> dict[str, Any]:
     made["frame"] = {k: v for k, v in frame.items() if v != {}}
     made["links"] = links
     made["pins"] = pins
+    made["cams"] = {cam.link: _cam(cam, length) for cam in scene.cams}
     made["driver"] = [_driver(scene, d, length) for d in scene.drivers]
     made |= _loading(scene, place)
     made["sketch"] = {p: place(z) for p, z in {**scene.drawn, **scene.sketch}.items() if _moves(scene, p)}
     made["find"] = [str(s) for s in scene.find]
     return {k: v for k, v in made.items() if v not in ("", {}, [])}
+
+
+def _cam(cam: LawCam, length: Callable[[float], float]) -> dict[str, Any]:
+    """A cam by the law of its follower."""
+    swings = isinstance(cam.motion, SwingingFollower)
+    pieces: list[dict[str, Any]] = []
+    for piece in cam.law.pieces:
+        way = piece.high - piece.low
+        moved = _tidy(math.degrees(abs(way))) if swings else length(abs(way))
+        kind = {"rise" if way > 0 else "fall": moved, "by": piece.by} if piece.by else {}
+        pieces.append({"to": _tidy(math.degrees(piece.end)), **kind})
+    made: dict[str, Any] = {"follower": cam.follower, "law": pieces, "base": {"r": length(cam.base), "of": "pitch"}}
+    made |= {"sense": cam.sense} if cam.sense < 0 else {}
+    made |= {"roller": length(cam.roller)} if cam.roller else {}
+    made |= {"flat": True} if cam.flat else {}
+    allow = {key: _tidy(math.degrees(a)) for key, a in zip(("rise", "fall"), cam.allowed, strict=True) if a is not None}
+    return made | ({"allow": allow} if allow else {})
 
 
 def _loading(scene: Mechanism, place: Callable[[complex], list[float]]) -> dict[str, Any]:
@@ -333,7 +352,7 @@ def toml_text(mapping: Mapping[str, Any]) -> str:
     text = tomlkit.document()
     for key in sorted(mapping, key=lambda key: _is_table(mapping[key])):  # tables come after what stands alone
         given = mapping[key]
-        if key in ("links", "pins") and _is_table(given):
+        if key in ("links", "pins", "cams") and _is_table(given):
             made = tomlkit.table(is_super_table=True)
             for name, item in given.items():
                 made.append(name, table(item))

@@ -5,6 +5,7 @@ from graphkin.solver.exact_values import exact_values, value_of
 from graphkin.solver.findings import structure_of
 from graphkin.solver.force_values import force_values
 from graphkin.solver.forces import Forces, forces_of
+from graphkin.solver.in_place_of_cams import as_drawn
 from graphkin.solver.motion import Motion, Sliding
 from graphkin.solver.prepared import PreparedMechanism, prepare
 from graphkin.solver.solve import solve
@@ -16,6 +17,7 @@ __all__ = [
     "Motion",
     "PreparedMechanism",
     "Sliding",
+    "as_drawn",
     "driver_range",
     "exact_values",
     "force_values",

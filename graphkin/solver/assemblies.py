@@ -14,7 +14,7 @@ from graphkin.solver.engine import State, positions
 from graphkin.solver.joints import Drive, driver_text
 from graphkin.solver.larger_groups import ClusterSolved, System, as_place, solve_all, solve_cluster
 from graphkin.solver.pose import Array, Pose
-from graphkin.structure import Cluster, Dyad, Slide, Structure, links_of, pick
+from graphkin.structure import Cluster, Dyad, Slide, Structure, in_stages, links_of, pick
 from graphkin.structure.assembly import TOUCH, last_true
 
 __all__ = ["choose_forms", "own_values"]
@@ -99,7 +99,7 @@ def _nearest(structure: Structure, i: int, drive: Drive, forms: Mapping[int, Arr
         gaps = [g.discriminant >= 0 for g in state.groups.values() if isinstance(g, DyadSolution)]
         return np.asarray(np.logical_and.reduce(np.broadcast_arrays(*gaps)))
 
-    if any(isinstance(e, Cluster) for e in structure.elements[:i]):
+    if in_stages(structure.elements[:i]):
         return ""
     offset = np.linspace(-1, 1, 721)
     good = np.flatnonzero(open_(offset))

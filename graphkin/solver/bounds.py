@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any, Protocol
 
+from graphkin.scene.cams import LawCam, SlidingFollower
 from graphkin.scene.model import AngleDriver
 from graphkin.solver.dyads import DyadSolution, Joints
 from graphkin.solver.expressions import ExpressionGraph, Real, Vec, fmax, root
@@ -123,6 +124,9 @@ class ErrorFormulas:
     def _driven_error(self, element: Driven) -> dict[str, FrameError]:
         pair, link, driver = element.pair, element.link, element.driver
         base = _base(pair, [link])
+        if isinstance(driver, LawCam):
+            error, pose = self._follower_error(driver, self._at(pair, base)), self.program.poses[link]
+            return {link: carried(error, pose, within(self._rest, self.program.rest(pair, link)))}
         joint, pose = self._at(pair, base), self.program.poses[link]
         mine = self.program.rest(pair, link)
         turning = joint
@@ -134,6 +138,21 @@ class ErrorFormulas:
             guide = self.program.poses[base].fixed(at.z, at.u)
             turning = carried(joint, guide, seen(guide, pose.of(mine)))
         return {link: carried(turning, pose, within(self._rest, mine))}
+
+    def _follower_error(self, cam: LawCam, joint: FrameError) -> FrameError:
+        """What a follower has from its joint, and by its law from the cam's own turning."""
+        turn, off = self.program.poses[cam.link], self._error_of(cam.link)
+        _, slope, bend = self.program.lift(cam)
+        jerk, spin = self.graph.param(("lift", cam.link, "jerk")), abs(turn.omega)
+        slope, bend = abs(slope), abs(bend)
+        moved = slope * off.angle
+        rate = slope * off.omega + bend * (spin * off.angle)
+        second = (slope * off.alpha + bend * (2.0 * (spin * off.omega) + abs(turn.alpha) * off.angle)
+                  + jerk * (spin * spin * off.angle))  # fmt: skip
+        if isinstance(cam.motion, SlidingFollower):
+            return replace(joint, position=joint.position + moved, velocity=joint.velocity + rate,
+                           acceleration=joint.acceleration + second)  # fmt: skip
+        return joint.turning_as(moved, rate, second)
 
     def _dyad_errors(self, i: int, element: Dyad) -> dict[str, FrameError]:
         shapes = tuple(body_shape(self.program, body, self._rest) for body in element.bodies)
@@ -153,6 +172,8 @@ class ErrorFormulas:
             return self.graph.const(0)
         if name[0] in ("cos", "sin"):
             return self.graph.param(("error", "angle", name[1]))
+        if name[0] == "lift":
+            return self.graph.param(("error", *name))
         if name[0] == "travel":
             return self.graph.param(("error", *name))
         return self.graph.param(("error", *(name[:-1] if name[-1] in ("x", "y") else name)))
@@ -167,6 +188,8 @@ def _bases(element: Driven | Dyad) -> list[str]:
     """The known links that an element hangs on."""
     if isinstance(element, Driven):
         found = [_base(element.pair, [element.link])]
+        if isinstance(element.driver, LawCam):
+            return [*found, element.driver.link]
         if isinstance(element.driver, AngleDriver):
             found += [n for n in (element.driver.link, element.driver.relative_to) if n != element.link]
         return found

@@ -19,7 +19,7 @@ from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import positions
 from graphkin.solver.joints import Drive, driver_text
 from graphkin.solver.pose import Array
-from graphkin.structure import Cluster, Dyad, Structure, analyse
+from graphkin.structure import Cluster, Dyad, Structure, analyse, in_stages
 from graphkin.structure.assembly import last_true
 
 __all__ = ["DeadPoint", "dead_points", "from_dead_point", "nearest_dead_point"]
@@ -61,6 +61,9 @@ def dead_points(structure: Structure, near: float = 0.0) -> list[DeadPoint]:
         if isinstance(element, Cluster):
             where = f"links {', '.join(element.links)}"
             raise Unsolvable("dead point", Problem(where, "dead points are found for groups of two links only"))
+    if in_stages(structure.elements):
+        where = "cams " + ", ".join(cam.link for cam in structure.scene.cams)
+        raise Unsolvable("dead point", Problem(where, "dead points are found for mechanisms without cams only"))
     found: list[DeadPoint] = []
     dyads = [i for i, e in enumerate(structure.elements) if isinstance(e, Dyad)][:MOST_GROUPS]
     for k, i in enumerate(dyads):
@@ -86,7 +89,7 @@ def not_searched(structure: Structure) -> tuple[str, ...]:
 
 def nearest_dead_point(structure: Structure, i: int, signs: Mapping[int, float], value: float) -> DeadPoint | None:
     """The dead point of a group within a hundredth of a radian (of the size) of a value of the only driver."""
-    if len(structure.scene.drivers) != 1 or any(isinstance(e, Cluster) for e in structure.elements[: i + 1]):
+    if len(structure.scene.drivers) != 1 or in_stages(structure.elements[: i + 1]):
         return None
     unit = 1.0 if isinstance(structure.scene.drivers[0], AngleDriver) else structure.scene.size
     grid = value + BESIDE * unit * np.linspace(-1.0, 1.0, 42)

@@ -7,19 +7,21 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from graphkin.scene.cams import LawCam
 from graphkin.scene.model import AngleDriver
 from graphkin.solver.code import Code
 from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.error_bound import ErrorBound
 from graphkin.solver.expressions import Name, Real, Vec
 from graphkin.solver.extended_precision import ExtendedPrecision
+from graphkin.solver.followers import follower_inputs, greatest_jerk
 from graphkin.solver.group_errors import bounds as bounds_together
 from graphkin.solver.joints import Drive, turned
 from graphkin.solver.larger_groups import ClusterSolved, solve_cluster
 from graphkin.solver.pose import FIELDS, Array, Pose, rest
 from graphkin.solver.program import GIVEN, Program, program_of
 from graphkin.solver.rounding import UNIT
-from graphkin.structure import Cluster, Dyad, Structure, links_of
+from graphkin.structure import Cluster, Driven, Dyad, Structure, in_stages, links_of
 
 __all__ = ["SINGULAR", "State", "extended_precision_of", "positions"]
 
@@ -29,6 +31,8 @@ TINY = 1e-25
 """The same where the driver's distance from the dead point is known to fifty digits."""
 SLACK = 1.001
 """For the rounding of the bounds themselves."""
+LOOKED_UP = 4 * GIVEN
+"""Relative error of what a law gives."""
 FEW = 4
 """As many positions are computed one by one in plain floats."""
 
@@ -45,6 +49,7 @@ class State:
     bounds : how far rounding may have moved any point of any link, and their turning; None where rates were left out
     rough : bounds of velocity and acceleration, of points as far off as the mechanism is large, for a computation in 16
         digits throughout, such as a drawing; greater where more digits were used
+    lifted : what the formulas take of followers, by name, shape (n,)
     singular : the sine below which a group is at a dead point, smaller where the driver is given from a dead point
     """
 
@@ -53,6 +58,7 @@ class State:
     bounds: ErrorBound[Array] | None = None
     rough: tuple[Array, Array] = (_ZERO, _ZERO)
     singular: Array = field(default_factory=lambda: np.full(1, SINGULAR))
+    lifted: Mapping[Name, Array] = field(default_factory=dict)
 
 
 def positions(
@@ -147,6 +153,8 @@ class _Run:
         for i, element in enumerate(elements):
             if isinstance(element, Cluster):
                 self._together(i, element)
+            elif isinstance(element, Driven) and isinstance(element.driver, LawCam):
+                self._lift(i, element.driver)
         program = self.dimensioned.program
         names = [n for e in elements for n in links_of(e)]
         dyads = [i for i, e in enumerate(elements) if isinstance(e, Dyad)]
@@ -160,7 +168,7 @@ class _Run:
         size = self.structure.scene.size
         rough = _rough(columns[-6:], size) if followed else (_ZERO, _ZERO)
         fine = np.zeros(self.n, dtype=bool)
-        if names and not self.clusters:
+        if names and not in_stages(elements):
             extended = self._extended(program.code((upto, self.rates, followed), ()))
             fine = extended.exact()
             if followed and self.fine:
@@ -183,7 +191,16 @@ class _Run:
             found = [*bounds_together(self.structure, poses, self.drive, self._known)]
             rough = _rough(found, size)
         bounds = ErrorBound(*(_sure(b) for b in found)) if sure else None
-        return State(poses, dict(sorted(groups.items())), bounds, rough, np.where(fine, TINY, SINGULAR))
+        lifted = {name: column for name, column in self.given.items() if name[0] == "lift"}
+        return State(poses, dict(sorted(groups.items())), bounds, rough, np.where(fine, TINY, SINGULAR), lifted)
+
+    def _lift(self, i: int, cam: LawCam) -> None:
+        """Look up where a cam holds its follower, by the cam's own turning."""
+        (turn,) = self._values(("cam", i), [self.dimensioned.program.poses[cam.link].u])
+        self.rates_of["lift", cam.link, "jerk"] = greatest_jerk(cam.law)
+        for part, column in follower_inputs(cam, np.broadcast_to(turn, (self.n,))).items():
+            self.given["lift", cam.link, part] = np.ascontiguousarray(column)
+            self.rates_of["error", "lift", cam.link, part] = LOOKED_UP * float(np.abs(column).max(initial=0.0))
 
     def _together(self, i: int, group: Cluster) -> None:
         """Solve a larger group, and give its poses to the formulas of what follows."""

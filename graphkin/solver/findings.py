@@ -18,12 +18,14 @@ from graphkin.solver.dead_points import from_dead_point, nearest_dead_point
 from graphkin.solver.decimals import meant_value
 from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import SINGULAR, State, positions
+from graphkin.solver.followers import meeting_followers
 from graphkin.solver.joints import Drive, driver_text
 from graphkin.solver.larger_groups import ClusterSolved
 from graphkin.solver.path import Path
 from graphkin.solver.pose import Array
 from graphkin.solver.redundant import Fit, fit
-from graphkin.structure import Cluster, Dyad, Slide, Structure, Turn, analyse, mobility_of
+from graphkin.structure import Cluster, Dyad, Slide, Structure, Turn, analyse, in_stages, mobility_of
+from graphkin.structure.cams_replaced import with_cams
 
 __all__ = ["assembly_words", "limit_why", "singular", "structure_of", "without_singular"]
 
@@ -94,7 +96,7 @@ def _beyond_limits(
         if not len(near):
             continue
         own = {j: np.broadcast_to(f, (n, *np.shape(f)[1:]))[near] for j, f in forms.items() if j <= i}
-        if any(isinstance(e, Cluster) for e in structure.elements[:i]):
+        if in_stages(structure.elements[:i]):
             side, left_open = np.where(discriminant[near] < 0, -1, 1), np.zeros(len(near), dtype=bool)
         else:
             one = np.ones((len(near), values.shape[1]))
@@ -283,12 +285,13 @@ def structure_of(scene: Mechanism | Structure) -> Structure:
         status "mobility", with the diagnosis: where the count fails, each link is left out in turn, the rest is solved,
         and the link is laid back into it, in position, velocity and acceleration, here and at a position nearby
     """
+    scene = with_cams(scene)
     if isinstance(scene, Structure):
         return scene
     try:
-        structure = analyse(scene)
+        structure = meeting_followers(analyse(scene))
     except Unsolvable as stop:
-        found = _diagnosis(scene)
+        found = _diagnosis(scene) if stop.status == "mobility" else None
         if found is None:
             raise
         raise Unsolvable("mobility", *stop.problems, found) from None

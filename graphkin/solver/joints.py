@@ -8,6 +8,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from graphkin.scene.cams import LawCam
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
 from graphkin.solver.dyads import Joints
 from graphkin.solver.pose import Array, Pose
@@ -78,13 +79,24 @@ class Frames(Protocol):
     def travel(self, driver: AnyDriver) -> tuple[Any, Any, Any]:
         """Value, rate and second rate of a slide driver."""
 
+    def lift(self, cam: LawCam) -> tuple[Any, Any, Any]:
+        """Where a follower stands, its travel or the direction of its own axis, and its first and second derivative by
+        the angle of the cam."""
+
 
 def driven(frames: Frames, element: Driven, poses: Mapping[str, Pose]) -> Pose:
-    """The pose of a link that a driver moves from known links: crank, driven slider."""
+    """The pose of a link that a driver or a cam moves from known links: crank, driven slider, follower."""
     pair, link = element.pair, element.link
     base = pair.b if pair.a == link else pair.a
     mine, theirs = frames.rest(pair, link), frames.rest(pair, base)
     at = poses[base].fixed(theirs.z, theirs.u)
+    if isinstance(element.driver, LawCam):
+        stands, slope, bend = frames.lift(element.driver)
+        cam = poses[element.driver.link]
+        rate, second = slope * cam.omega, bend * (cam.omega * cam.omega) + slope * cam.alpha
+        if isinstance(pair, Turn):
+            return at.pinned(mine, stands, rate, second)
+        return at.along(stands, rate, second).of(mine.inverse())
     if isinstance(element.driver, AngleDriver):
         given = frames.turn(element.driver)
         forward = element.driver.link == link

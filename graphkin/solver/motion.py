@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
+from graphkin.plane import dot
 from graphkin.scene.model import Mechanism, PlacedLink
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver.error_bound import ErrorBound
@@ -37,6 +38,13 @@ def evaluate(motion: Motion, symbol: Symbol) -> Array:
             return np.asarray(one.v if symbol.kind == "v" else one.a)
         two = motion.point(symbol.to.point, symbol.to.link)
         return np.asarray(one.v - two.v if symbol.kind == "v" else one.a - two.a)
+    curved = symbol.to is not None and symbol.of.point == symbol.to.point and _curved(motion, symbol)
+    if curved and symbol.kind in ("an", "ar"):
+        assert symbol.to is not None
+        whole = _sliding(motion, symbol, symbol.of, symbol.to)
+        across = 1j * motion.poses[curved.b].u * curved.guide.direction
+        bent = across * dot(across, whole)
+        return np.asarray(bent if symbol.kind == "an" else whole - bent)
     hinge = _hinge(motion, symbol.of, symbol.to)
     if symbol.to is not None and hinge is not None and symbol.kind != "ar":
         return _turned(motion, symbol, symbol.of, symbol.to, hinge)
@@ -44,6 +52,13 @@ def evaluate(motion: Motion, symbol: Symbol) -> Array:
         return _turning(motion, symbol, symbol.of)
     assert symbol.to is not None
     return _sliding(motion, symbol, symbol.of, symbol.to)
+
+
+def _curved(motion: Motion, symbol: Symbol) -> Slide | None:
+    """The curved guide on which a point slides, if it does."""
+    assert symbol.of is not None
+    links = {symbol.of.link, symbol.to.link if symbol.to else ""}
+    return next((s for s in motion.slides if s.guide.curvature and s.pin == symbol.of.point and s.b in links), None)
 
 
 def _is_on(motion: Motion, ref: PointRef, link: str) -> bool:

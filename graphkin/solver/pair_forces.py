@@ -9,6 +9,7 @@ import numpy as np
 from graphkin.scene.force_names import Joint, joints
 from graphkin.scene.loads import BalanceAt
 from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.solver.cam_profile import contact_of
 from graphkin.solver.motion import Motion
 from graphkin.solver.pose import Array
 from graphkin.structure import Slide, Structure
@@ -35,7 +36,7 @@ class PairForce:
 def pair_forces(motion: Motion) -> list[PairForce]:
     """The forces and couples in the pairs of a motion: of a turning pair the two components of its force, of a sliding
     pair a force square to the guide at the sliding link's first point and a couple, of a pin in a slot a force square
-    to the slot."""
+    to the slot, of a cam one along the normal."""
     pairs = _Pairs(motion)
     return [one for joint in joints(motion.scene) for one in pairs.of_joint(joint)]
 
@@ -74,6 +75,11 @@ class _Pairs:
             at = np.asarray(self.motion.point(joint.point, second).z)
             slide = self.structure.slide(f"{joint.point}/{first}")
             return [PairForce(name, first, second, self._square(slide), at)]
+        if joint.kind == "cam":
+            cam = next(c for c in self.scene.cams if c.link == first)
+            turn = self.motion.poses[first]
+            touching = contact_of(cam, np.asarray(turn.u), np.asarray(turn.omega))
+            return [PairForce(name, first, second, touching.normal, touching.contact)]
         slide = self.structure.slide(f"{second}/{first}")
         at = self.place(slide.a, self._foot(slide))
         return [

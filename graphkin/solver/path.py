@@ -19,7 +19,7 @@ from graphkin.solver.engine import positions
 from graphkin.solver.joints import Drive
 from graphkin.solver.larger_groups import ClusterSolved
 from graphkin.solver.pose import Array
-from graphkin.structure import Cluster, Dyad, Structure
+from graphkin.structure import Cluster, Dyad, Structure, in_stages
 from graphkin.structure.assembly import Passage, follow
 
 __all__ = ["FAR", "Path", "follow_path"]
@@ -283,7 +283,7 @@ def _follow_dyad(path: Path, i: int, dyad: Dyad, sign: float, grid: Array) -> Pa
         return np.broadcast_to(solved.discriminant, t.shape)
 
     def least(t: float) -> tuple[float, int] | None:
-        if any(isinstance(e, Cluster) for e in path.structure.elements[:i]):
+        if in_stages(path.structure.elements[:i]):
             return None
         forms = path.form(_off_flips(path.flips, np.array([t])))
         return least_closes(path.structure, i, forms, path.start.tolist(), path.end.tolist(), t)

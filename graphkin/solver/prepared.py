@@ -25,7 +25,7 @@ from graphkin.solver.pose import FIELDS, Array
 from graphkin.solver.program import GIVEN, DimensionedProgram, program_of
 from graphkin.solver.quantities import Units, bounds, formulas
 from graphkin.solver.rounding import UNIT
-from graphkin.structure import Cluster, Structure
+from graphkin.structure import Cluster, Structure, in_stages
 
 __all__ = ["PreparedMechanism", "prepare"]
 
@@ -68,7 +68,7 @@ class PreparedMechanism:
     @cached_property
     def by_newton(self) -> bool:
         """Whether there is a larger group, whose poses are found by Newton's method before the formulas are used."""
-        return any(isinstance(e, Cluster) for e in self.structure.elements)
+        return in_stages(self.structure.elements)
 
     # the way of the driver
 
@@ -236,6 +236,7 @@ class PreparedMechanism:
                 given["pose", name, field, "x"] = np.ascontiguousarray(part.real)
                 given["pose", name, field, "y"] = np.ascontiguousarray(part.imag)
         assert state.bounds is not None
+        given |= state.lifted
         return given | {("bound", k): np.broadcast_to(b, value.shape) for k, b in enumerate(state.bounds)}
 
     # many

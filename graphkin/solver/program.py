@@ -11,6 +11,7 @@ from decimal import Decimal
 from typing import Any
 from weakref import finalize
 
+from graphkin.scene.cams import LawCam, SlidingFollower
 from graphkin.scene.model import AngleDriver, AnyDriver
 from graphkin.solver.bounds import ErrorFormulas
 from graphkin.solver.code import Code
@@ -97,6 +98,12 @@ class Program:
         """Value, rate and second rate of a slide driver."""
         k = self.structure.scene.drivers.index(driver)
         return self.graph.input(("travel", k)), *self._rates(driver)
+
+    def lift(self, cam: LawCam) -> tuple[Real | Vec, Real, Real]:
+        """Where a follower stands, and its derivatives by the angle of the cam."""
+        parts = ("slope", "bend", *(("travel",) if isinstance(cam.motion, SlidingFollower) else ("cos", "sin")))
+        slope, bend, *stands = (self.graph.input(("lift", cam.link, part)) for part in parts)
+        return (Vec(*stands) if len(stands) == 2 else stands[0]), slope, bend
 
     # elements
 

@@ -12,7 +12,7 @@ from graphkin.solver.expressions import Real, Vec, fmax
 from graphkin.solver.frame_errors import FrameError
 from graphkin.solver.pose import Pose
 from graphkin.solver.program import Program
-from graphkin.structure import Cluster, Structure
+from graphkin.structure import Structure, in_stages
 
 __all__ = ["Units", "bounds", "formulas"]
 
@@ -136,7 +136,7 @@ class _Quantity:
 
     def _link_bounds(self, link: str) -> FrameError:
         """Of any point of a link and of its turning."""
-        if any(isinstance(e, Cluster) for e in self.structure.elements):
+        if in_stages(self.structure.elements):
             return FrameError(*(self.program.graph.input(("bound", k)) for k in range(6)))
         return self.program.bounds.of_link(link)
 

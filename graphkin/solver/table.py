@@ -9,7 +9,9 @@ from typing import Any
 
 import numpy as np
 
+from graphkin.scene.cams import SwingingFollower
 from graphkin.scene.model import Mechanism, SlideDriver
+from graphkin.solver.cam_profile import contact_of
 from graphkin.solver.forces import Forces
 from graphkin.solver.motion import Motion
 from graphkin.solver.pose import Array
@@ -113,6 +115,14 @@ def _columns(motion: Motion, angles: Mapping[str, Array]) -> dict[str, dict[str,
         kinds, each = ("travel", "velocity", "acceleration", "coriolis"), (metres, fast, fast, fast)
         values = zip(motion.slide(pair.key), each, strict=True)
         columns["slides"][pair.key] = dict(zip(kinds, (x / per for x, per in values), strict=True))
+    for cam in scene.cams:
+        turn = motion.poses[cam.link]
+        touching = contact_of(cam, np.asarray(turn.u), np.asarray(turn.omega))
+        unit = 1.0 if isinstance(cam.motion, SwingingFollower) else metres
+        columns.setdefault("cams", {})[cam.link] = {
+            "lift": touching.lift / unit, "contact": touching.contact / metres, "normal": touching.normal,
+            "slip": touching.slip / fast, "pressure": touching.pressure,
+        }  # fmt: skip
     return columns
 
 

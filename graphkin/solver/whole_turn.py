@@ -9,9 +9,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphkin.errors import Problem, Unsolvable
+from graphkin.scene.cams import LawCam, SlidingFollower
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import Symbol
 from graphkin.solver.driver_range import DriverRange
+from graphkin.solver.followers import beginning
 from graphkin.solver.pose import Array
 from graphkin.structure.transmitting import sliding_pair
 
@@ -70,6 +72,9 @@ def extremes(reach: DriverRange, symbol: Symbol) -> Extremes:
         raise _without(symbol, f"belongs to a whole turn, which the driver does not make: {why}", WHERE_ELSE)
     if symbol.other:
         sliding_pair(reach.structure, symbol)
+    cam = next((c for c in reach.scene.cams if symbol.pair in (c.follower, getattr(c.motion, "pair", ""))), None)
+    if cam is not None and (reach.driver.link, reach.driver.relative_to) == (cam.link, reach.scene.frame.name):
+        return _of_follower(reach, cam)
 
     def course(offset: Array) -> tuple[Array, Array, Array]:
         """Value, rate and second rate by the driver's own angle."""
@@ -92,6 +97,22 @@ def extremes(reach: DriverRange, symbol: Symbol) -> Extremes:
         for sign in (-1.0, 1.0)
     )
     return Extremes(low, high, low_at, high_at)
+
+
+def _of_follower(reach: DriverRange, cam: LawCam) -> Extremes:
+    """The extremes of a follower by its law; where it stands still, the end of the dwell."""
+    law, motion = cam.law, cam.motion
+    if law.least == law.greatest:
+        raise _without(Symbol("stroke"), f"{cam.follower} does not move", "ask for an output that moves")
+    ends = []
+    for lift in (law.least, law.greatest):
+        offset = reach.sense * (cam.leaves(lift, int(reach.sense)) - float(reach.start[0])) % math.tau
+        if isinstance(motion, SlidingFollower):
+            ends.append((motion.travel + beginning(cam) + lift, offset))
+        else:
+            ends.append((motion.side * lift, offset))
+    low, high = sorted(ends)
+    return Extremes(low[0], high[0], low[1], high[1])
 
 
 def where_true(holds: Callable[[Array], Array], low: float, high: float) -> float:

@@ -17,7 +17,7 @@ from graphkin.structure.model import (
     Weld,
     driver_pair,
 )
-from graphkin.structure.part import links_of, needed, part_of
+from graphkin.structure.part import in_stages, links_of, needed, part_of
 
 __all__ = [
     "Body",
@@ -35,6 +35,7 @@ __all__ = [
     "Weld",
     "analyse",
     "driver_pair",
+    "in_stages",
     "links_of",
     "mobility_of",
     "needed",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
+from graphkin.scene.cams import LawCam, SlidingFollower
 from graphkin.scene.model import AngleDriver, Mechanism, PlacedGuide, PlacedLink
 from graphkin.structure.model import Mobility, Slide
 
@@ -37,6 +38,9 @@ class Constraints:
         self.links: Mapping[str, PlacedLink] = links
         self.slides = tuple(slides)
         self.hinges = {p: tuple(names) for p, names in hinges.items() if len(names) > 1}
+        self.cams: tuple[LawCam, ...] = tuple(
+            cam for cam in scene.cams if scene.instead_of is None and {cam.link, cam.follower} <= links.keys()
+        )
         self._place = {name: i for i, name in enumerate(links)}
 
     def place(self, node: Node) -> tuple[int, int, str]:
@@ -52,7 +56,7 @@ class Constraints:
         blocks = {s.key for s in self.slides if s.slot}
         real = [name for name in self.links if name not in blocks and name != self.scene.frame.name]
         lower = sum(len([n for n in names if n not in blocks]) - 1 for names in self.hinges.values())
-        return Mobility(len(real), lower + len(self.slides) - len(blocks), len(blocks))
+        return Mobility(len(real), lower + len(self.slides) - len(blocks), len(blocks) + len(self.cams))
 
     def equations(self) -> list[set[Unknown]]:
         """For each scalar constraint the coordinates in it."""
@@ -64,6 +68,9 @@ class Constraints:
         for s in self.slides:
             rows.append({*self._coordinates(s.a, "t"), *self._coordinates(s.b, "t")})
             rows.append({*self._coordinates(s.a, "xy"), *self._coordinates(s.b, "xyt")})
+        for cam in self.cams:
+            moved = "xy" if isinstance(cam.motion, SlidingFollower) else "t"
+            rows.append({*self._coordinates(cam.link, "t"), *self._coordinates(cam.follower, moved)})
         for driver in self.scene.drivers:
             if isinstance(driver, AngleDriver):
                 rows.append({*self._coordinates(driver.link, "t"), *self._coordinates(driver.relative_to, "t")})

@@ -11,6 +11,7 @@ from collections.abc import Hashable, Mapping, Sequence
 from itertools import pairwise
 from typing import TypeVar
 
+from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, AnyDriver
 from graphkin.structure.constraints import Constraints
 from graphkin.structure.model import Body, Cluster, Driven, Dyad, Element, Pair, Turn, Weld, driver_pair
@@ -112,6 +113,13 @@ def element_of(system: Constraints, members: list[str], known: set[str]) -> Elem
     inside = set(members)
     drivers = [d for d in scene.drivers if _ends(d, system) & inside and not (_ends(d, system) - inside - known)]
     pairs = _pairs(system, members, known)
+    for cam in system.cams:
+        if members == [cam.follower] and cam.link in known and len(pairs) == 1 and not drivers:
+            return Driven(cam.follower, pairs[0], cam)
+        if cam.follower in inside or (cam.link in inside and cam.follower in known):
+            raise Unsolvable("mobility", Problem(
+                f"cams.{cam.link}", f"link {cam.follower} is not moved by the cam alone",
+                f"drive cam {cam.link}; what else moves hangs on the cam or on its follower"))  # fmt: skip
     if len(members) == 1 and len(pairs) == 1 and len(drivers) == 1:
         return Driven(members[0], pairs[0], drivers[0])
     blocks = {s.key for s in system.slides if s.slot}

@@ -48,13 +48,15 @@ def _found(system: Constraints) -> Iterator[Problem]:
 
 def _held(system: Constraints, point: str) -> bool:
     """Whether something else has a point too, or a pin of it runs in a slot."""
-    return point in system.hinges or any(s.slot and s.pin == point for s in system.slides)
+    on_cam = any(cam.name_of_point == point for cam in system.cams)
+    return on_cam or point in system.hinges or any(s.slot and s.pin == point for s in system.slides)
 
 
 def _joints(system: Constraints, link: PlacedLink) -> list[str]:
     """The hinges and slides of a link."""
     hinges = [p for p, names in system.hinges.items() if link.name in names]
-    return hinges + [s.key for s in system.slides if link.name in (s.a, s.b)]
+    slides = [s.key for s in system.slides if link.name in (s.a, s.b)]
+    return hinges + slides + [cam.key for cam in system.cams if link.name in (cam.link, cam.follower)]
 
 
 def _hangs(joints: Sequence[str]) -> str:

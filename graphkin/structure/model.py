@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from graphkin.scene.cams import LawCam
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedGuide, PlacedLink, SlideDriver
 
 __all__ = [
@@ -84,7 +85,7 @@ class Body:
 
 @dataclass(frozen=True)
 class Driven:
-    """A link that a driver moves from links already known: crank, driven slider.
+    """A link that a driver, or a cam by its law, moves from links already known: crank, driven slider, follower.
 
     ``pair`` joins it (``a``) to a known link (``b``); for a slide driver it is the slide itself, in which the
     driven link may be the sliding or the guiding one.
@@ -92,7 +93,7 @@ class Driven:
 
     link: str
     pair: Pair
-    driver: AnyDriver
+    driver: AnyDriver | LawCam
 
 
 @dataclass(frozen=True)

@@ -6,11 +6,12 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.scene.cams import LawCam
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
 from graphkin.scene.symbol import Symbol, centre_links
 from graphkin.structure.model import Cluster, Driven, Element, Structure
 
-__all__ = ["links_of", "needed", "part_of"]
+__all__ = ["in_stages", "links_of", "needed", "part_of"]
 
 
 def needed(structure: Structure, asked: Sequence[Symbol]) -> list[Element]:
@@ -31,6 +32,13 @@ def needed(structure: Structure, asked: Sequence[Symbol]) -> list[Element]:
             kept.append(element)
             wanted |= _outside(element)
     return kept[::-1]
+
+
+def in_stages(elements: Sequence[Element]) -> bool:
+    """Whether some elements are not given by formulas of the drivers alone: larger groups, found by Newton's method,
+    and followers, whose law has pieces."""
+    followers = (isinstance(e, Driven) and isinstance(e.driver, LawCam) for e in elements)
+    return any(isinstance(e, Cluster) or follows for e, follows in zip(elements, followers, strict=True))
 
 
 def links_of(element: Element) -> tuple[str, ...]:
@@ -55,14 +63,21 @@ def part_of(structure: Structure, asked: Sequence[Symbol]) -> Mechanism:
     kept = {scene.frame.name, *(n for e in needed(structure, asked) for n in links_of(e))}
     if all(link.name in kept for link in scene.links):
         return scene
+    return _kept(scene, kept, tuple(asked))
+
+
+def _kept(scene: Mechanism, kept: set[str], asked: tuple[Symbol, ...]) -> Mechanism:
+    """The scene with these links only."""
     return replace(
         scene,
         links=tuple(link for link in scene.links if link.name in kept),
         slidings=tuple(s for s in scene.slidings if {s.link, s.on} <= kept),
         pins=tuple(p for p in scene.pins if {p.of, p.on} <= kept),
+        cams=tuple(c for c in scene.cams if {c.link, c.follower} <= kept),
         drivers=tuple(d for d in scene.drivers if _ends(scene, d) <= kept),
-        find=tuple(asked),
+        find=asked,
         printed={},
+        instead_of=None if scene.instead_of is None else _kept(scene.instead_of, kept, asked),
     )
 
 
@@ -101,6 +116,8 @@ def _links_for(structure: Structure, symbol: Symbol) -> set[str]:
 
 def _outside(element: Element) -> set[str]:
     if isinstance(element, Driven):
+        if isinstance(element.driver, LawCam):
+            return {element.pair.a, element.pair.b, element.driver.link} - {element.link}
         pairs, drivers = [element.pair], [element.driver]
     elif isinstance(element, Cluster):
         pairs, drivers = list(element.pairs), list(element.drivers)

@@ -20,7 +20,7 @@ from graphkin.solver import DriverRange, Motion, driver_range, forces_of, listed
 from graphkin.solver.named_positions import named_positions
 from graphkin.solver.prepared import PreparedMechanism
 from graphkin.solver.redundant import all_slides
-from graphkin.structure import Cluster, Structure
+from graphkin.structure import Structure, in_stages
 from graphkin.study.quantities import Quantity, force_quantity, link_quantities, slide_quantities, symbol_quantity
 from graphkin.table import Column, Table, have
 
@@ -224,7 +224,7 @@ class Design:
             return None
         if self.at or self.scene.positions is not None:
             return None
-        if any(isinstance(e, Cluster) for e in self.structure.elements):
+        if in_stages(self.structure.elements):
             return None
         units = 1.0 / self.scene.units.metres, float(np.degrees(1.0)), 1.0 / self.scene.units.rates.metres
         try:

@@ -13,6 +13,7 @@ import pytest
 
 import graphkin
 from graphkin.scene import library, mechanism_of
+from graphkin.solver.cam_profile import contact_of
 from tests.command import run
 from tests.mechanisms import KINDS, random_scene
 
@@ -76,6 +77,9 @@ def shares(mechanism, solved, key):
     first, second = pair.split("/")
     sliding = next((s for s in mechanism.slidings if (s.link, s.on) == (second, first) and point in ("", s.pin)), None)
     pin = next((p for p in mechanism.pins if (p.of, p.on) == (second, first) and point in ("", p.point)), None)
+    cam = next((c for c in mechanism.cams if (c.link, c.follower) == (first, second)), None)
+    if cam is not None:
+        return second, first, contact_of(cam, motion.poses[first].u, motion.poses[first].omega).contact
     common = [p for p, holders in mechanism.holders.items() if {first, second} <= set(holders) and point in ("", p)]
     if sliding is not None and not (letter == "F" and common and point):
         pose = motion.poses[second]

@@ -1,0 +1,116 @@
+"""The mechanism that is drawn in place of one with cams: what replaces each cam at this position, the assembly of the
+other groups kept on the way to it."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Mapping, Sequence
+
+from graphkin.construction.position import branches_at, place
+from graphkin.construction.rigid import PlacedLinks
+from graphkin.construction.sheet import LimitPosition, Limits
+from graphkin.errors import Problem, Unsolvable
+from graphkin.scene.cams import LawCam, SwingingFollower
+from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.symbol import Symbol
+from graphkin.structure import Cluster, Driven, Structure, analyse, part_of
+from graphkin.structure.assembly import ways
+from graphkin.structure.cams_replaced import cams_replaced
+
+__all__ = ["cams_in_place", "follower_limits"]
+
+STEP = math.radians(3.0)
+
+
+def cams_in_place(structure: Structure, values: Mapping[str, float]) -> Structure:
+    """What stands for a mechanism with cams at driver values (rad, m).
+
+    Raises
+    ------
+    Unsolvable : a follower that does not come to its base circle, a position that cannot be assembled or reached
+    """
+    scene = structure.scene
+    own = {d.key: d.values[0] for d in scene.drivers}
+    groups = [e for e in structure.elements if not isinstance(e, Driven)]
+    if not groups or any(isinstance(e, Cluster) for e in groups):
+        return analyse(_replaced(scene, values, {}))
+    first, goal = [own[d.key] for d in scene.drivers], [values[d.key] for d in scene.drivers]
+    way = next(iter(ways(scene.drivers, first, goal)), goal)
+    far = max((abs(b - a) / (1.0 if isinstance(d, AngleDriver) else scene.size)
+               for d, a, b in zip(scene.drivers, first, way, strict=True)), default=0.0)  # fmt: skip
+    count = math.ceil(far / STEP)
+    seen: Mapping[str, complex] = {}
+    for k in range(count):
+        at = {d.key: a + (b - a) * k / count for d, a, b in zip(scene.drivers, first, way, strict=True)}
+        seen = _places(analyse(_replaced(scene, at, seen)), at)
+    return analyse(_replaced(scene, values, seen))
+
+
+def _replaced(scene: Mechanism, values: Mapping[str, float], seen: Mapping[str, complex]) -> Mechanism:
+    """The scene with all cams replaced; their angles come from the drivers, or are drawn."""
+    turns: dict[str, float] = {}
+    for cam in scene.cams:
+        driver = next((d for d in scene.drivers if isinstance(d, AngleDriver) and d.link == cam.link), None)
+        if driver is not None and driver.relative_to == scene.frame.name:
+            turns[cam.link] = values[driver.key]
+        else:
+            turns[cam.link] = _drawn_turn(scene, cam, values, seen)
+    return cams_replaced(scene, turns, values, seen)
+
+
+def _drawn_turn(scene: Mechanism, cam: LawCam, values: Mapping[str, float], seen: Mapping[str, complex]) -> float:
+    """The angle of a cam that other links turn."""
+    part = part_of(analyse(scene), [Symbol("theta", link=cam.link)])
+    known = _replaced(part, values, seen) if part.cams else _moved(part, values, seen)
+    return cmath.phase(_placed(analyse(known), values).poses[cam.link].axis)
+
+
+def _moved(scene: Mechanism, values: Mapping[str, float], seen: Mapping[str, complex]) -> Mechanism:
+    return cams_replaced(scene, {}, values, seen)
+
+
+def _placed(structure: Structure, values: Mapping[str, float]) -> PlacedLinks:
+    kept = {d.key: values[d.key] for d in structure.scene.drivers}
+    branches = branches_at(structure, structure.elements, kept, kept, None)
+    return place(structure, structure.elements, 1.0 / structure.scene.size, kept, branches).frame
+
+
+def _places(structure: Structure, values: Mapping[str, float]) -> dict[str, complex]:
+    """Where the points of moving links lie (m)."""
+    frame = _placed(structure, values)
+    return {p: frame.point(link.name, p) / frame.mm for link in structure.scene.links for p in link.points}
+
+
+def follower_limits(structure: Structure, asked: Sequence[Symbol], values: Mapping[str, float]) -> dict[str, Limits]:
+    """The limit positions of followers, on paper of the mechanism's size, as the law gives them, by the sliding pair or
+    the link; of what stands still there for a while, the end of it.
+
+    Raises
+    ------
+    Unsolvable : of what is no follower of the driven cam
+    """
+    whole = structure.scene.instead_of
+    assert whole is not None
+    found: dict[str, Limits] = {}
+    for symbol in asked:
+        if symbol.scope != "turn" or symbol.pair in found:
+            continue
+        cam = next((c for c in whole.cams if symbol.pair in (c.follower, getattr(c.motion, "pair", ""))), None)
+        driver = whole.drivers[0]
+        if cam is None or not isinstance(driver, AngleDriver) or (driver.link, driver.relative_to) != (
+            cam.link, whole.frame.name
+        ):  # fmt: skip
+            said = "is drawn of followers of the driven cam only", "ask for s_, theta_ or d_ at single positions"
+            raise Unsolvable("no whole turn", Problem(str(symbol), *said))
+        ends = []
+        for lift in (cam.law.least, cam.law.greatest):
+            value = cam.leaves(lift, -1 if driver.omega < 0.0 else 1)
+            there = {**values, driver.key: value}
+            frame = _placed(cams_in_place(analyse(whole), there), there)
+            ends.append(LimitPosition(value, dict(frame.poses)))
+        backwards = isinstance(cam.motion, SwingingFollower) and cam.motion.side < 0
+        low, high = ends[::-1] if backwards else ends
+        swing = cam.law.greatest - cam.law.least
+        found[symbol.pair] = Limits(low, high, swing)
+    return found

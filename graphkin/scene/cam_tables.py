@@ -1,0 +1,73 @@
+"""The tables of a scene file that describe cams: the law of the follower, base circle, allowed pressure angles."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Literal
+
+from graphkin.scene.file_table import FileTable, about
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from typing import TypeAlias
+
+    Number = float
+    Magnitude = float
+    Switch = bool
+    LinkName = str
+    LawPieces: TypeAlias = "Sequence[LawPiece]"
+
+__all__ = ["AllowedPressure", "BaseCircle", "Cam", "LawName", "LawPiece"]
+
+LawName = Literal["uniform", "parabolic", "harmonic", "cycloidal", "345", "4567"]
+
+
+@dataclass(frozen=True)
+class LawPiece(FileTable):
+    """A piece of the law of a follower, from where the piece before it ends: a rise, a fall, or a dwell."""
+
+    to: Number = field(metadata=about("Degrees of the cam at which it ends; the last piece ends at 360."))
+    rise: Number | None = field(
+        default=None, metadata=about("By how much the follower rises: length, or degrees of one that swings.")
+    )
+    fall: Number | None = field(default=None, metadata=about("Instead of rise: by how much it falls."))
+    by: LawName | None = field(default=None, metadata=about("The law of a rise or fall."))
+
+
+@dataclass(frozen=True)
+class BaseCircle(FileTable):
+    """The base circle of a cam."""
+
+    r: Magnitude = field(metadata=about("Its radius."))
+    of: Literal["profile", "pitch"] = field(
+        default="profile", metadata=about("Of the profile, or of the pitch curve, on which the roller's centre runs.")
+    )
+
+
+@dataclass(frozen=True)
+class AllowedPressure(FileTable):
+    """Greatest pressure angles that are allowed."""
+
+    rise: Number | None = field(default=None, metadata=about("Degrees, while the follower rises."))
+    fall: Number | None = field(default=None, metadata=about("Degrees, while it falls."))
+
+
+@dataclass(frozen=True)
+class Cam(FileTable):
+    """A cam that turns about its first point, given by the law of its follower."""
+
+    follower: LinkName = field(
+        metadata=about("The link that it moves: on a guide of the frame, or swinging about a point of the frame.")
+    )
+    law: LawPieces = field(metadata=about('Pieces of the law: [{ to = 60, rise = 28, by = "harmonic" }, ...].'))
+    base: BaseCircle = field(metadata=about('The base circle: { r = 30, of = "profile" }.'))
+    sense: Literal[1, -1] = field(
+        default=1, metadata=about("The cam degree is sense times the cam's own angle; -1: a cam that turns clockwise.")
+    )
+    offset: Number | None = field(
+        default=None,
+        metadata=about("Distance of a sliding follower's line from the axis, positive where the axis is to its left."),
+    )
+    roller: Magnitude | None = field(default=None, metadata=about("Radius of the roller; a knife edge if left out."))
+    flat: Switch = field(default=False, metadata=about("A flat face square to the line of a sliding follower."))
+    allow: AllowedPressure | None = field(default=None, metadata=about("Greatest pressure angles, judged."))

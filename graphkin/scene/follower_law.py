@@ -1,0 +1,157 @@
+"""The law of a follower: its lift over the angle of the cam, piece by piece, with three derivatives.
+
+Laws after Norton, Cam Design and Manufacturing Handbook, ch. 2 and 3, and Sun Huan, Mechanical Principles, ch. 9.
+"""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_right
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from types import ModuleType
+from typing import Any, NamedTuple
+
+__all__ = ["FollowerLaw", "Lift", "Piece", "SmoothPart"]
+
+TURN = 2 * math.pi
+SEAM = 1e-12
+"""An angle (rad) nearer than this before a seam belongs to the piece after it."""
+
+
+class Lift(NamedTuple):
+    """Lift and its first three derivatives by the angle of the cam (m or rad, per rad)."""
+
+    lift: Any
+    slope: Any
+    bend: Any
+    jerk: Any
+
+
+def _uniform(x: Any, _: ModuleType) -> tuple[Any, Any, Any, Any]:
+    return x, 1.0 + 0 * x, 0.0 * x, 0.0 * x
+
+
+def _accelerated(x: Any, _: ModuleType) -> tuple[Any, Any, Any, Any]:
+    return x * x, 2 * x, 2.0 + 0 * x, 0.0 * x
+
+
+def _decelerated(x: Any, _: ModuleType) -> tuple[Any, Any, Any, Any]:
+    return x * (2 - x), 2 * (1 - x), -2.0 + 0 * x, 0.0 * x
+
+
+def _harmonic(x: Any, m: ModuleType) -> tuple[Any, Any, Any, Any]:
+    c, s, w = m.cos(math.pi * x), m.sin(math.pi * x), math.pi
+    return (1 - c) / 2, w * s / 2, w**2 * c / 2, -(w**3) * s / 2
+
+
+def _cycloidal(x: Any, m: ModuleType) -> tuple[Any, Any, Any, Any]:
+    c, s, w = m.cos(TURN * x), m.sin(TURN * x), TURN
+    return x - s / w, 1 - c, w * s, w**2 * c
+
+
+def _345(x: Any, _: ModuleType) -> tuple[Any, Any, Any, Any]:
+    y = 1 - x
+    return x**3 * (10 + x * (6 * x - 15)), 30 * (x * y) ** 2, 60 * x * y * (1 - 2 * x), 60 - 360 * x * y
+
+
+def _4567(x: Any, _: ModuleType) -> tuple[Any, Any, Any, Any]:
+    xy = x * (1 - x)
+    lift = x**4 * (35 + x * (x * (70 - 20 * x) - 84))
+    return lift, 140 * xy**3, 420 * xy**2 * (1 - 2 * x), 840 * xy * (1 - 5 * xy)
+
+
+_FORMS: Mapping[str, Callable[[Any, ModuleType], tuple[Any, Any, Any, Any]]] = {
+    "uniform": _uniform, "accelerated": _accelerated, "decelerated": _decelerated, "harmonic": _harmonic,
+    "cycloidal": _cycloidal, "345": _345, "4567": _4567,
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class SmoothPart:
+    """A part of the law with derivatives of every order; of a parabolic piece each half is one."""
+
+    start: float
+    end: float
+    low: float
+    high: float
+    form: str
+
+    def at(self, angle: Any, m: ModuleType = math) -> Lift:
+        """The lift at angles inside (rad), plain, or arrays with the functions of NumPy."""
+        wide, h = self.end - self.start, self.high - self.low
+        if h == 0.0:
+            return Lift(self.low + 0 * angle, 0.0 * angle, 0.0 * angle, 0.0 * angle)
+        f, f1, f2, f3 = _FORMS[self.form]((angle - self.start) / wide, m)
+        return Lift(self.low + h * f, h * f1 / wide, h * f2 / wide**2, h * f3 / wide**3)
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A piece of the law between two cam angles (rad), from one lift to another (m or rad); ``by`` is "" of a dwell."""
+
+    start: float
+    end: float
+    low: float
+    high: float
+    by: str
+
+    @property
+    def parts(self) -> tuple[SmoothPart, ...]:
+        if self.by != "parabolic":
+            return (SmoothPart(self.start, self.end, self.low, self.high, self.by),)
+        middle, half = (self.start + self.end) / 2, (self.low + self.high) / 2
+        return (
+            SmoothPart(self.start, middle, self.low, half, "accelerated"),
+            SmoothPart(middle, self.end, half, self.high, "decelerated"),
+        )
+
+
+@dataclass(frozen=True)
+class FollowerLaw:
+    """The lift over a turn of the cam; a seam belongs to the later piece.
+
+    >>> law = FollowerLaw((Piece(0.0, math.pi, 0.0, 2.0, "harmonic"), Piece(math.pi, TURN, 2.0, 0.0, "harmonic")))
+    >>> round(law.at(math.pi / 2).lift, 12), law.at(-math.pi / 2).slope
+    (1.0, -1.0)
+    """
+
+    pieces: tuple[Piece, ...]
+
+    @cached_property
+    def parts(self) -> tuple[SmoothPart, ...]:
+        return tuple(part for piece in self.pieces for part in piece.parts)
+
+    @cached_property
+    def starts(self) -> tuple[float, ...]:
+        return tuple(part.start for part in self.parts)
+
+    @cached_property
+    def least(self) -> float:
+        return min(piece.low for piece in self.pieces)
+
+    @cached_property
+    def greatest(self) -> float:
+        return max(piece.low for piece in self.pieces)
+
+    def reduced(self, angle: float) -> float:
+        """An angle in [0, 2 pi), on a seam where it lies beside one by rounding."""
+        within = angle % TURN
+        for seam in (*self.starts[1:], TURN):
+            if abs(within - seam) < SEAM:
+                return seam if seam < TURN else 0.0
+        return 0.0 if within < SEAM else within
+
+    def part(self, angle: float) -> SmoothPart:
+        """The part in which an angle (rad) lies."""
+        return self.parts[bisect_right(self.starts, self.reduced(angle)) - 1]
+
+    def piece(self, angle: float) -> Piece:
+        """The piece in which an angle (rad) lies."""
+        within = self.reduced(angle)
+        return next(piece for piece in reversed(self.pieces) if piece.start <= within)
+
+    def at(self, angle: float) -> Lift:
+        """Lift and derivatives at an angle of the cam (rad), of any turn."""
+        return self.part(angle).at(self.reduced(angle))
