@@ -29,8 +29,13 @@ def has_cjk(text: str) -> bool:
 @lru_cache(maxsize=4096)
 def width(text: str, size: float, italic: bool = False, bold: bool = False) -> float:
     """Advance width (mm) of a text set at a size (mm)."""
-    style = style_of(italic, bold)
-    return sum(_advance(character, style) for character in text) * size
+    return _length(text, style_of(italic, bold)) * size
+
+
+@lru_cache(maxsize=8192)
+def _length(text: str, style: Style) -> float:
+    """Advance width in sizes."""
+    return sum(_advance(character, style) for character in text)
 
 
 def style_of(italic: bool, bold: bool) -> Style:

@@ -83,12 +83,13 @@ class LabelPosition(NamedTuple):
         a, b = leader
         space = LEADER_SPACE
         left, top, right, bottom = self.left - space, self.top - space, self.right + space, self.bottom + space
-        if max(a.real, b.real) < left or min(a.real, b.real) > right:
+        x1, y1, x2, y2 = a.real, a.imag, b.real, b.imag
+        if (x1 < left and x2 < left) or (x1 > right and x2 > right):
             return False
-        if max(a.imag, b.imag) < top or min(a.imag, b.imag) > bottom:
+        if (y1 < top and y2 < top) or (y1 > bottom and y2 > bottom):
             return False
-        dx, dy = b.real - a.real, b.imag - a.imag
-        off = abs(dx * ((top + bottom) / 2 - a.imag) - dy * ((left + right) / 2 - a.real))
+        dx, dy = x2 - x1, y2 - y1
+        off = abs(dx * ((top + bottom) / 2 - y1) - dy * ((left + right) / 2 - x1))
         return off <= (right - left) / 2 * abs(dy) + (bottom - top) / 2 * abs(dx)
 
 

@@ -206,7 +206,8 @@ class _Ink:
 
 
 def _clean(text: str) -> str:
-    return _UNFIT.sub("", text)
+    # what is printable is fit, and that is told at once
+    return text if text.isprintable() else _UNFIT.sub("", text)
 
 
 def _pair(point: complex) -> tuple[str, str]:
@@ -268,7 +269,10 @@ def _written(page: Any) -> str:
 
     def write(element: Any) -> None:
         tag = element.elementname
-        look = "".join([f' {key}="{_quoted(value)}"' for key, value in sorted(element.attribs.items()) if value])
+        looks = [pair for pair in sorted(element.attribs.items()) if pair[1]]
+        if _MARKUP.search("".join([value for _, value in looks])):
+            looks = [(key, _quoted(value)) for key, value in looks]
+        look = "".join([f' {key}="{value}"' for key, value in looks])
         if not (element.elements or element.text):
             out.append(f"<{tag}{look} />")
             return
@@ -288,7 +292,7 @@ def _escaped(text: str) -> str:
 
 
 def _quoted(text: str) -> str:
-    return _escaped(text).translate(_IN_QUOTES) if _MARKUP.search(text) else text
+    return _escaped(text).translate(_IN_QUOTES)
 
 
 def _allow_accessibility(page: Any) -> None:
