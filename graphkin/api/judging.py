@@ -51,7 +51,7 @@ def judged_table(
         where = own_unit(scene, scene.drivers[0], float(motion.values[k, 0]))
         status = str(motion.status[k])
         raise Unsolvable(status, Problem(f"driver {key} at {where}", f"{status}: {motion.why[k]}"))
-    turning = [s for s in symbols if s.scope == "turn"]
+    turning = [s for s in symbols if s.scope in ("turn", "cycle")]
     value = exact_values(solved_here(scene, None), turning)
     exact = exact_rows(motion, symbols, {s: float(value(s).real) for s in turning})
     drawn = _Bounds(table, case)
@@ -111,7 +111,7 @@ def evidence_at(
     values = driver_values(scene, at)
     motion = solved_here(scene, values)
     structure = motion.structure
-    what = plan(structure, values, [symbol for symbol in asked if symbol.scope != "force"])
+    what = plan(structure, values, [symbol for symbol in asked if symbol.scope not in ("force", "cycle")])
     # everything is drawn, so that slips in what leads to the asked and beside it are found
     whole = plan(structure, values, ())
     drawn = what if set(what.elements) == set(whole.elements) else whole
@@ -135,7 +135,7 @@ def _elsewhere(scene: Mechanism, values: dict[str, float] | None) -> ValuesElsew
 
     def table(symbol: Symbol) -> list[tuple[str, complex | float]]:
         found: list[tuple[str, complex | float]] = []
-        if symbol.scope == "turn":
+        if symbol.scope in ("turn", "cycle"):
             return found
         for motion in motions():
             for i, value in enumerate(solver.value_of(motion, symbol)):

@@ -11,6 +11,7 @@ from graphkin.api.arguments import own_unit
 from graphkin.api.checked import Checked, reading_words
 from graphkin.construction.sheet import Equation, Sheet, Term
 from graphkin.construction.steps import Direction
+from graphkin.errors import Unsolvable
 from graphkin.scene.model import Mechanism
 from graphkin.words import Phrase, say, word
 
@@ -163,7 +164,24 @@ def turn_text(turn: TurnStudy, language: str) -> list[str]:
         angle = f"{math.degrees(least.angle):.6g}°"
         lines.append(f"{word('least transmission', language)} {names}{colon}{angle} ({where}); {pressure}")
     lines += _curves(turn, language)
-    return lines
+    return lines + _flywheel(turn, language)
+
+
+def _flywheel(turn: TurnStudy, language: str) -> list[str]:
+    """The flywheel that the scene asks for, or why it has none."""
+    found, units = turn.flywheel, turn.scene.units
+    if found is None:
+        return []
+    head = word("flywheel", language) + word("colon", language)
+    if isinstance(found, Unsolvable):
+        return [head + found.why]
+    moment, square = f"{units.force} m", "ft2" if units.mass == "lb" else "m2"
+    said = [
+        say(Phrase("driving moment is", (f"{found.driving / units.newtons:.8g} {moment}",)), language),
+        say(Phrase("excess work is", (f"{found.excess / units.newtons:.8g} {moment}",)), language),
+        f"J_F = {found.inertia / units.inertias:.8g} {units.mass} {square} (δ = {found.delta:g})",
+    ]
+    return [head + "; ".join(said)]
 
 
 def _between(scene: Mechanism, low: float, high: float, open_low: bool = False, open_high: bool = False) -> str:

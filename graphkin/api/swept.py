@@ -50,7 +50,7 @@ if TYPE_CHECKING:
 __all__ = ["Swept", "sweep"]
 
 MOST_POSITIONS = 1_000_000_000
-OF_TURN = tuple(f"{kind.name}_" for kind in KINDS.values() if kind.scope == "turn")
+OF_TURN = tuple(f"{kind.name}_" for kind in KINDS.values() if kind.scope in ("turn", "cycle"))
 ROWS = 36
 IN_MEMORY = 200_000_000
 """Numbers of a table that are kept in memory where no folder is given."""
@@ -384,7 +384,8 @@ def _asked(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tuple[Watch
     from graphkin.study.watched import watched_named, watched_symbol
 
     if find is None:
-        return tuple(watched_symbol(s) for s in scene.find if s.scope != "turn" and not s.at)
+        shown = (s for s in scene.find if s.scope not in ("turn", "cycle") and s.kind not in ("h", "arm") and not s.at)
+        return tuple((watched_named(scene, str(s)) if s.scope == "force" else None) or watched_symbol(s) for s in shown)
     found: list[Watched] = []
     problems: list[Problem] = []
     for name in [find] if isinstance(find, Symbol) else as_list("find", find, 'give symbols: ["v_B", "omega_3"]'):

@@ -93,7 +93,10 @@ def opposite(name: str) -> str:
 
 
 def no_force(mechanism: Mechanism, where: str, symbol: Symbol) -> Problem | None:
-    """What is wrong with a symbol of a force that the mechanism does not have; None for one that it has."""
+    """What is wrong with a symbol of a force or a flywheel that the mechanism does not have; None for one that it
+    has."""
+    if symbol.scope == "cycle" and mechanism.loading.flywheel is None:
+        return Problem(where, f"{symbol} belongs to a flywheel, but there is none", "give [flywheel]")
     if symbol.scope != "force" or symbol.kind in ("h", "arm"):
         return None
     known = force_names(mechanism)

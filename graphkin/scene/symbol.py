@@ -18,9 +18,9 @@ __all__ = ["KINDS", "VECTORS", "Kind", "Measure", "PointRef", "Symbol", "centre_
 
 Measure = Literal[
     "velocity", "acceleration", "angular velocity", "angular acceleration", "length", "angle", "number", "force",
-    "moment",
+    "moment", "work", "inertia",
 ]
-Scope = Literal["motion", "position", "turn", "force"]
+Scope = Literal["motion", "position", "turn", "force", "cycle"]
 
 _POINT = r"[A-Z][A-Za-z0-9]*"
 _LINK = r"[A-Za-z0-9]+"
@@ -39,6 +39,8 @@ _FORMS = {
     "of link": rf"(?P<link>{_LINK})(?P<plus>\+)?",
     "load": rf"(?P<name>{_LINK})(?P<plus>\+)?",
     "force": rf"(?P<name>(?:F|Fi|G|P)_{_LINK})(?P<plus>\+)?",
+    "excess work": r"(?P<name>W)",
+    "flywheel": r"(?P<name>F)",
 }
 
 
@@ -47,7 +49,7 @@ class Kind:
     """A kind of quantity.
 
     ``form`` says what it is of (a key of the forms above), ``scope`` whether it is a motion drawn in a polygon, a
-    position measured on the mechanism, belongs to the whole turn, or stands in a force polygon.
+    position measured on the mechanism, belongs to the whole turn, stands in a force polygon, or is of a flywheel.
     """
 
     name: str
@@ -93,6 +95,8 @@ KINDS = {
         Kind("Mi", "moment", "of link", "force", "Mi_4"),
         Kind("h", "length", "of link", "force", "h_4"),
         Kind("arm", "velocity", "force", "force", "arm_P_cut or arm_G_6"),
+        Kind("excess", "work", "excess work", "cycle", "excess_W"),
+        Kind("J", "inertia", "flywheel", "cycle", "J_F"),
     )
 }
 """All kinds of quantities by name.  A further kind of quantity is a further entry."""
@@ -201,12 +205,13 @@ class Symbol:
         return {
             "velocity": speed, "acceleration": f"{speed}2", "angular velocity": "rad/s",
             "angular acceleration": "rad/s2", "length": units.length, "angle": "deg", "number": "",
-            "force": units.force, "moment": f"{units.force} m",
+            "force": units.force, "moment": f"{units.force} m", "work": f"{units.force} m",
+            "inertia": f"{units.mass} {'ft2' if units.mass == 'lb' else 'm2'}",
         }[self.measure]  # fmt: skip
 
     def written_unit(self, units: Units) -> str:
         """The same as it stands on figures and papers: ``mm/s²``, ``°``, ``N·m``."""
-        return self.unit(units).replace("s2", "s²").replace("deg", "°").replace(" m", "·m")
+        return self.unit(units).replace("2", "²").replace("deg", "°").replace(" m", "·m")
 
     def per_unit(self, units: Units) -> float:
         """What one such unit is in SI."""
@@ -214,8 +219,10 @@ class Symbol:
 
     def per_unit_of_programs(self, units: Units) -> float:
         """The same in JSON, where angles are in radians."""
-        if self.measure in ("force", "moment"):
+        if self.measure in ("force", "moment", "work"):
             return units.newtons
+        if self.measure == "inertia":
+            return units.inertias
         if self.measure in ("velocity", "acceleration"):
             return units.rates.metres
         return units.metres if self.measure == "length" else 1.0
@@ -248,6 +255,8 @@ _MISSING = {
     "of link": "names no link",
     "load": "names no load",
     "force": "names no force",
+    "excess work": "is no quantity",
+    "flywheel": "is no quantity",
 }
 
 

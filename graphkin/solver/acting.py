@@ -16,7 +16,7 @@ from graphkin.solver.motion import Motion
 from graphkin.solver.pose import Array
 from graphkin.solver.whole_turn import extremes
 
-__all__ = ["EDGE", "Action", "actions"]
+__all__ = ["EDGE", "Action", "actions", "stroke_of"]
 
 EDGE = 1e-9
 """Of the stroke or the turn: a load that begins or ends within this of a position does so exactly there."""
@@ -141,7 +141,7 @@ class _Loads:
         return np.asarray(since < span), np.asarray(near)
 
     def _on_stroke(self, phase: Phase) -> tuple[Array, Array]:
-        low, high = _stroke(self._reach, phase.stroke)
+        low, high = stroke_of(self._reach, phase.stroke)
         travel = self.motion.slide(phase.stroke).travel
         speed = self._growing.slide(phase.stroke).velocity
         part = (travel - low) / (high - low) if high > low else np.zeros(len(self.motion))
@@ -160,7 +160,7 @@ _LATEST: list[tuple[DriverRange, dict[str, tuple[float, float]]]] = []
 """The strokes of the range that was asked last: they are the same at all of its positions."""
 
 
-def _stroke(reach: DriverRange, pair: str) -> tuple[float, float]:
+def stroke_of(reach: DriverRange, pair: str) -> tuple[float, float]:
     """Least and greatest travel of a sliding pair (m)."""
     if not _LATEST or _LATEST[0][0] is not reach:
         _LATEST[:] = [(reach, {})]

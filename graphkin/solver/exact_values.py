@@ -6,11 +6,14 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
+import numpy as np
+
 from graphkin.errors import CallError, Problem
 from graphkin.scene.force_names import no_force
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import Symbol
 from graphkin.solver.driver_range import DriverRange, driver_range
+from graphkin.solver.flywheel import flywheel_of
 from graphkin.solver.forces import forces_of
 from graphkin.solver.motion import Motion
 from graphkin.solver.pose import Array
@@ -26,13 +29,16 @@ def value_of(motion: Motion, symbol: Symbol) -> Array:
     Raises
     ------
     CallError : the symbol names nothing here
-    Unsolvable : a load acts on a part of a stroke, and the driver makes no whole turn
+    Unsolvable : a load acts on a part of a stroke, or a flywheel is asked for, and the driver makes no whole turn
     """
-    if symbol.scope != "force":
+    if symbol.scope not in ("force", "cycle"):
         return motion.value(symbol)
     problem = no_force(motion.scene, str(symbol), symbol)
     if problem is not None:
         raise CallError(problem)
+    if symbol.scope == "cycle":
+        wheel = flywheel_of(driver_range(motion.structure))
+        return np.full(len(motion), wheel.excess if symbol.kind == "excess" else wheel.inertia)
     found = forces_of(motion).value(str(symbol.here))
     if found is None:
         raise CallError(Problem(str(symbol), "is read off the drawing alone", "ask `check` for it"))

@@ -9,9 +9,12 @@ from typing import Any
 
 import numpy as np
 
+from graphkin.errors import Unsolvable
 from graphkin.scene.cams import SwingingFollower
 from graphkin.scene.model import Mechanism, SlideDriver
 from graphkin.solver.cam_profile import contact_of
+from graphkin.solver.driver_range import driver_range
+from graphkin.solver.flywheel import flywheel_of
 from graphkin.solver.forces import Forces
 from graphkin.solver.motion import Motion
 from graphkin.solver.pose import Array
@@ -72,6 +75,7 @@ def _positions(motion: Motion, forces: Forces | None) -> Iterator[list[dict[str,
     """The entries of the positions, some thousand at a time."""
     scene = motion.scene
     metres = scene.units.metres
+    flywheel = _flywheel(motion)
     angles = {link.name: motion.angle(link.name) for link in scene.links}
     drivers = {
         d.key: motion.values[:, i] / (metres if isinstance(d, SlideDriver) else 1.0)
@@ -96,6 +100,7 @@ def _positions(motion: Motion, forces: Forces | None) -> Iterator[list[dict[str,
             entry["error_bound"] = _bounds(motion, first + k)
             if forces is not None:
                 entry |= _forces(scene, forces, first + k)
+                entry["moments"] |= flywheel
             block.append(entry)
         yield block
 
@@ -136,9 +141,22 @@ def _forces(scene: Mechanism, forces: Forces, k: int) -> dict[str, Any]:
                 here[f"{key}+"] = forces.beside[key][k]
             for name, value in here.items():
                 shown = value / scene.units.newtons
-                found[part][name] = [float(shown.real), float(shown.imag)] if part == "forces" else float(shown)
+                plain = [float(shown.real) + 0.0, float(shown.imag) + 0.0]  # no minus before nought
+                found[part][name] = plain if part == "forces" else plain[0]
     bound = {name: float(b[k]) / scene.units.newtons for name, b in zip(found, forces.bound, strict=True)}
     return {**found, "force_bound": bound}
+
+
+def _flywheel(motion: Motion) -> dict[str, float]:
+    """Excess work and inertia of the flywheel that the scene asks for, where it has one."""
+    units = motion.scene.units
+    if motion.scene.loading.flywheel is None or not motion.ok.any():
+        return {}
+    try:
+        found = flywheel_of(driver_range(motion.structure))
+    except Unsolvable:
+        return {}
+    return {"excess_W": found.excess / units.newtons, "J_F": found.inertia / units.inertias}
 
 
 def _plain(values: Array) -> list[Any]:

@@ -10,10 +10,14 @@ import numpy as np
 
 from graphkin.drawing import Box, ChartPage, Drawing
 from graphkin.drawing.chart import add_legend, add_panel, add_words, look
+from graphkin.scene.force_names import force_names
 from graphkin.scene.model import AngleDriver
+from graphkin.solver.flywheel import Flywheel
 from graphkin.study.coupler import coupler_points, curve_page
 from graphkin.study.diagram_panels import LIMIT, DiagramPanel, draw_panel, panel_of, signs_of, unit_words
 from graphkin.study.driver_axis import HEIGHT, LEFT, RIGHT, WIDTH, driver_axis, driver_number, heading, number, title_of
+from graphkin.study.flywheel_page import flywheel_page
+from graphkin.study.force_diagrams import force_page, polar_page
 from graphkin.study.measured import measured
 from graphkin.study.quantities import Quantity, link_quantities, slide_quantities
 from graphkin.study.turn import Output, TurnStudy
@@ -44,8 +48,13 @@ def diagrams(
     over : what somebody else has measured, laid over the curves
     """
     if asked:
-        names = [q.name.replace("/", "-").replace("@", "") for q in asked]
-        return {f"diagram-{name}": _asked_page(turn, q, over, language) for name, q in zip(names, asked, strict=True)}
+        made: dict[str, ChartPage | Drawing] = {}
+        for quantity in asked:
+            if quantity.is_load:
+                made |= _force_pages(turn, quantity, language)
+            else:
+                made[f"diagram-{_file(quantity)}"] = _asked_page(turn, quantity, over, language)
+        return made
     quantities = [o.quantity for o in turn.outputs]
     dots = measured(turn.reach, quantities, positions) if positions else {q: [] for q in quantities}
     pages: dict[str, ChartPage | Drawing] = {}
@@ -56,6 +65,29 @@ def diagrams(
         pages[name] = _motion_page(turn, output, dots[quantity], over, language)
     for point, link in coupler_points(turn.scene):
         pages[f"curve-{point}"] = curve_page(turn, point, link, language)
+    return pages | _balance_pages(turn, language)
+
+
+def _file(quantity: Quantity) -> str:
+    return quantity.name.replace("/", "-").replace("@", "")
+
+
+def _force_pages(turn: TurnStudy, quantity: Quantity, language: str) -> dict[str, ChartPage | Drawing]:
+    """A force or a moment over the driver; of a force the polar diagram too."""
+    pages: dict[str, ChartPage | Drawing] = {f"diagram-{_file(quantity)}": force_page(turn.reach, quantity, language)}
+    if quantity.is_size:
+        pages[f"polar-{_file(quantity)}"] = polar_page(turn.reach, quantity, language)
+    return pages
+
+
+def _balance_pages(turn: TurnStudy, language: str) -> dict[str, ChartPage | Drawing]:
+    """What balances a mechanism that carries loads, and the flywheel that it asks for."""
+    pages: dict[str, ChartPage | Drawing] = {}
+    for name, kind in force_names(turn.scene).items():
+        if name[:2] in ("F_", "M_") and "/" not in name:
+            pages[f"diagram-{name}"] = force_page(turn.reach, Quantity(kind, name), language)
+    if isinstance(turn.flywheel, Flywheel):
+        pages["flywheel"] = flywheel_page(turn.reach, turn.flywheel, language)
     return pages
 
 

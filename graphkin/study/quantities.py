@@ -18,7 +18,10 @@ __all__ = ["Quantity", "force_quantity", "link_quantities", "slide_quantities", 
 
 Array = NDArray[Any]
 Kind = Literal["theta", "omega", "alpha", "s", "v", "a", "force", "moment", "symbol"]
-Measure = Literal["angle", "length", "angular rate", "speed", "angular acceleration", "acceleration", "force", "moment"]
+Measure = Literal[
+    "angle", "length", "angular rate", "speed", "angular acceleration", "acceleration", "force", "moment",
+    "work", "inertia",
+]
 
 _MEASURES: dict[str, Measure] = {
     "theta": "angle",
@@ -37,6 +40,8 @@ _OF_SYMBOLS: dict[str, Measure] = {
     "angular acceleration": "angular acceleration",
     "length": "length",
     "angle": "angle",
+    "work": "work",
+    "inertia": "inertia",
 }
 
 
@@ -95,6 +100,8 @@ class Quantity:
             "acceleration": f"{rate}/s2",
             "force": scene.units.force,
             "moment": f"{scene.units.force} m",
+            "work": f"{scene.units.force} m",
+            "inertia": f"{scene.units.mass} {'ft2' if scene.units.mass == 'lb' else 'm2'}",
         }[self.measure]
 
     def in_units(self, scene: Mechanism, value: float, degrees: bool = False) -> float:

@@ -5,6 +5,9 @@ from __future__ import annotations
 import math
 from typing import Any
 
+import numpy as np
+
+from graphkin.errors import Unsolvable
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.study.trace import Extreme, Traced
 from graphkin.study.turn import Output, TurnStudy
@@ -12,6 +15,34 @@ from graphkin.study.turn import Output, TurnStudy
 __all__ = ["row", "to_json"]
 
 UNBOUNDED = "it goes away without bound at an end of the motion"
+
+
+def _flywheel(turn: TurnStudy) -> dict[str, Any]:
+    """The flywheel, where the scene asks for one, or why it has none: in the scene's units, works in force x metre."""
+    units = turn.scene.units
+    found = turn.flywheel
+    if found is None:
+        return {}
+    if isinstance(found, Unsolvable):
+        return {"flywheel": {"excess_W": None, "J_F": None, "why": found.why}}
+    areas = [
+        {"from": _driver(turn.scene, float(turn.reach.value(np.array(area.first)))),
+         "to": _driver(turn.scene, float(turn.reach.value(np.array(area.last)))), "work": area.work / units.newtons}
+        for area in found.areas
+    ]  # fmt: skip
+    return {
+        "flywheel": {
+            "on": found.link,
+            "delta": found.delta,
+            "driving_moment": found.driving / units.newtons,
+            "work": found.work / units.newtons,
+            "areas": areas,
+            "slowest": _driver(turn.scene, float(turn.reach.value(np.array(found.slowest)))),
+            "fastest": _driver(turn.scene, float(turn.reach.value(np.array(found.fastest)))),
+            "excess_W": found.excess / units.newtons,
+            "J_F": found.inertia / units.inertias,
+        }
+    }
 
 
 def to_json(turn: TurnStudy) -> dict[str, Any]:
@@ -61,6 +92,7 @@ def to_json(turn: TurnStudy) -> dict[str, Any]:
             for least in turn.transmission
         ],
         "curves": {t.quantity.name: _curve(turn, t) for t in turn.curves},
+        **_flywheel(turn),
     }
 
 

@@ -9,9 +9,11 @@ from typing import Literal
 
 import numpy as np
 
+from graphkin.errors import Unsolvable
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import DriverRange, Motion
+from graphkin.solver.flywheel import Flywheel, flywheel_of
 from graphkin.study.grashof import Loop, loops
 from graphkin.study.quantities import Quantity, link_quantities, slide_quantities, symbol_quantity
 from graphkin.study.ranges import AssemblyRange, not_searched, ranges
@@ -88,6 +90,16 @@ class TurnStudy:
         near = np.array([1e-8, 1e-6])
         part = np.concatenate([near, np.sin(np.linspace(0.0, np.pi / 2, WAY)[1:-1]) ** 2, 1.0 - near[::-1]])
         return self.reach.motion(low + (high - low) * part)
+
+    @cached_property
+    def flywheel(self) -> Flywheel | Unsolvable | None:
+        """The flywheel that the scene asks for, or why it has none; None where it asks for none."""
+        if self.scene.loading.flywheel is None:
+            return None
+        try:
+            return flywheel_of(self.reach)
+        except Unsolvable as stop:
+            return stop
 
     def is_local(self, traced: Traced, extreme: Extreme) -> bool:
         """Whether a quantity goes beyond an extreme of it elsewhere in a range that ends."""

@@ -16,7 +16,7 @@ from graphkin.errors import CallError
 from graphkin.scene.force_names import force_names
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.solver import DriverRange, Motion, driver_range, forces_of, listed_points, prepare, structure_of
+from graphkin.solver import DriverRange, Motion, driver_range, forces_of, listed_points, prepare, structure_of, value_of
 from graphkin.solver.named_positions import named_positions
 from graphkin.solver.prepared import PreparedMechanism
 from graphkin.solver.redundant import all_slides
@@ -87,7 +87,7 @@ class Watched:
             found = found / motion.scene.units.newtons
             return (found.real, found.imag) if self.is_vector else (found,)
         elif self.what.symbol is not None:
-            vector = motion.value(self.what.symbol)
+            vector = value_of(motion, self.what.symbol)
             if not self.what.symbol.is_vector:
                 return (vector / self.what.symbol.per_unit(motion.scene.units),)
             metres = self.what.metres(motion.scene)

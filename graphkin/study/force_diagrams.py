@@ -1,0 +1,224 @@
+"""Forces over the turn, as pages: the diagram of a force or a moment, and the polar diagram of a force.
+
+Where a load begins, ends or turns round the curve jumps: both its values stand there, joined by an upright line.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphkin.drawing import Box, ChartPage
+from graphkin.drawing.chart import (
+    BEHIND,
+    SOLID_AND_DASHED,
+    add_labels,
+    add_legend,
+    add_panel,
+    add_words,
+    count_steps,
+    look,
+    marker,
+)
+from graphkin.drawing.primitives import Stroke
+from graphkin.scene.model import AngleDriver
+from graphkin.solver import DriverRange, forces_of
+from graphkin.solver.load_edges import load_edges
+from graphkin.study.driver_axis import LEFT, RIGHT, WIDTH, DriverAxis, driver_axis, heading, number, title_of
+from graphkin.study.quantities import Quantity
+from graphkin.words import Phrase, say, word
+
+if TYPE_CHECKING:
+    from graphkin.drawing.chart import Axes, Figure
+
+__all__ = ["Course", "course", "force_page", "force_title", "polar_page", "whole_turn"]
+
+Array = NDArray[np.float64]
+
+TOP, TALL = 40.0, 95.0  # mm
+JUMP = 1e-8
+"""Of the range: so far on both sides of where a load begins or ends its two values are taken."""
+MARGIN = 0.14
+ZERO, LEAP = Stroke(0.18), Stroke(0.25, (1.2, 0.9))
+FINER = 33
+TICKS = 12
+
+
+@dataclass(frozen=True)
+class Course:
+    """A force (complex) or a moment over the way of the driver, in the scene's units.
+
+    offsets, x, values : shape (n,), as the axis goes; NaN where it has none, and between the two values of a jump
+    """
+
+    offsets: Array
+    x: Array
+    values: NDArray[np.complex128] | Array
+
+
+def whole_turn(axis: DriverAxis) -> Array:
+    """Offsets as the axis goes, with two on both sides of each place where the forces jump."""
+    low, high = axis.reach.ends
+    eps = JUMP * (high - low)
+    beside = np.concatenate([[edge - eps, edge + eps] for edge in load_edges(axis.reach)] or [[]])
+    if axis.reach.full:
+        along = np.concatenate([(axis.offsets[:-1] - axis.first) % high, (beside - axis.first) % high])
+        along = np.unique(np.concatenate([along, [0.0, high * (1 - 1e-12)]]))
+        return np.asarray((along + axis.first) % high)
+    return np.unique(np.concatenate([axis.offsets, beside[(beside > low) & (beside < high)]]))
+
+
+def course(axis: DriverAxis, name: str) -> Course:
+    """A force or a moment by its name over the way of the driver."""
+    reach, offsets = axis.reach, whole_turn(axis)
+    value = forces_of(reach.motion(offsets)).value(name)
+    assert value is not None
+    x = axis.at(offsets)
+    if reach.full:
+        x[0], x[-1] = axis.left, axis.right
+    return Course(offsets, x, value / reach.scene.units.newtons)
+
+
+def force_title(name: str) -> str:
+    """A force as it is printed.
+
+    >>> force_title("F_5/6"), force_title("M_2"), force_title("Fi_6")
+    ('$F_{56}$', '$M_{2}$', '$F_{i6}$')
+    """
+    letter, _, rest = name.partition("_")
+    pair, _, point = rest.partition("@")
+    first, between, second = pair.partition("/")
+    long = between and max(len(first), len(second)) > 1
+    index = f"{letter[1:]}{first}{',' if long else ''}{second}{point}"
+    return f"${letter[0]}_{{{index}}}$"
+
+
+def force_page(reach: DriverRange, quantity: Quantity, language: str) -> ChartPage:
+    """A moment, or the size of a force, over the driver, with its greatest and its least value."""
+    scene = reach.scene
+    axis = driver_axis(reach, language)
+    found = course(axis, quantity.of)
+    values = np.abs(found.values) if quantity.is_size else np.asarray(found.values.real)
+    unit = quantity.unit(scene).replace(" m", "·m")
+    name = force_title(quantity.of)
+    title = say(Phrase("diagram of", (name,)), language)
+    marks = _extremes(axis, quantity, found, values)
+    jumps = _jumps(found, values)
+
+    def paint(figure: Figure) -> None:
+        add_words(figure, *heading(scene, title, [], language))
+        entries = [(look(SOLID_AND_DASHED[0]), word("analytic curve", language))]
+        entries += [(marker("up"), word("greatest", language)), (marker("down"), word("least", language))]
+        entries += [(look(LEAP), word("load jumps", language))] if jumps else []
+        add_legend(figure, complex(LEFT, TOP - 9.5), entries)
+        box = Box(LEFT, TOP, WIDTH - RIGHT, TOP + TALL)
+        axes = add_panel(figure, box, quantity.name.replace("/", "-"), f"{name} ({unit})", axis.title)
+        draw_course(axes, axis, found, values)
+        for k, (x, value) in enumerate(marks):
+            axes.plot([x], [value], **marker("down" if k else "up"))
+        labels = [(number(value), (x, value)) for x, value in marks]
+        add_labels(axes, labels, toward=[(math.pi / 2,), (-math.pi / 2,)][: len(labels)])
+
+    return ChartPage(
+        WIDTH, TOP + TALL + 20.0, paint, title=f"{quantity.name}: {title_of(scene, language)}", desc=quantity.name,
+        lang=language, metadata={"scene": scene.name, "units": unit, "quantity": quantity.name},
+    )  # fmt: skip
+
+
+def draw_course(axes: Axes, axis: DriverAxis, found: Course, values: Array) -> None:
+    """The curve over the driver, its jumps dashed."""
+    good = values[np.isfinite(values)]
+    low, high = (min(0.0, good.min()), max(0.0, good.max())) if len(good) else (0.0, 1.0)
+    room = MARGIN * (high - low) or 0.5
+    axes.set_xlim(axis.left, axis.right)
+    axes.set_ylim(low - room, high + room)
+    count_steps(axes.xaxis, axis.step)
+    count_steps(axes.yaxis)
+    axes.axhline(0.0, zorder=BEHIND, **look(ZERO))
+    jumps = _jumps(found, values)
+    for piece in np.split(np.arange(len(values)), [k + 1 for k in jumps]):
+        axes.plot(found.x[piece], values[piece], **look(SOLID_AND_DASHED[0]))
+    for k in jumps:
+        axes.plot(found.x[k : k + 2], values[k : k + 2], **look(LEAP))
+
+
+def _jumps(found: Course, values: Array) -> list[int]:
+    """After which values the curve jumps."""
+    step = np.abs(np.diff(found.x))
+    leap = np.abs(np.diff(values))
+    wide = float(np.nanmax(np.abs(values), initial=0.0))
+    return np.flatnonzero((step < 1e-5 * float(np.ptp(found.x))) & (leap > 1e-6 * wide)).tolist()
+
+
+def _extremes(axis: DriverAxis, quantity: Quantity, found: Course, values: Array) -> list[tuple[float, float]]:
+    """Place on the axis and value of the greatest and the least."""
+    marks = []
+    for pick in (np.nanargmax, np.nanargmin):
+        if not np.isfinite(values).any():
+            return []
+        k = int(pick(values))
+        x, value = float(found.x[k]), float(values[k])
+        near = found.offsets[max(k - 1, 0) : k + 2]
+        if len(near) == 3 and 0 < near[2] - near[0] < 0.1 * (axis.reach.ends[1] - axis.reach.ends[0]):
+            finer = np.concatenate([np.linspace(near[0], near[1], FINER), np.linspace(near[1], near[2], FINER)])
+            both = forces_of(axis.reach.motion(finer)).value(quantity.of)
+            assert both is not None
+            own = (np.abs(both) if quantity.is_size else both.real) / axis.reach.scene.units.newtons
+            best = int(pick(own))
+            x, value = float(axis.at(finer[best : best + 1])[0]), float(own[best])
+        marks.append((x, value))
+    return marks if marks[0][1] > marks[1][1] else marks[:1]
+
+
+def polar_page(reach: DriverRange, quantity: Quantity, language: str) -> ChartPage:
+    """The polar diagram of a force: the end of its vector, drawn from one pole, over the way of the driver."""
+    scene = reach.scene
+    axis = driver_axis(reach, language)
+    found = course(axis, quantity.of)
+    vector = np.asarray(found.values, dtype=complex)
+    sizes = np.abs(vector)
+    jumps = _jumps(found, vector.real) + [k for k in _jumps(found, vector.imag) if k not in _jumps(found, vector.real)]
+    unit, name = quantity.unit(scene), force_title(quantity.of)
+    title = say(Phrase("polar diagram of", (name,)), language)
+    k = int(np.nanargmax(sizes))
+    mark = "°" if isinstance(scene.drivers[0], AngleDriver) else f" {scene.units.length}"
+    greatest = f"{number(float(sizes[k]))} {unit}", f"{number(float(found.x[k]), 4)}{mark}"
+    facts = [say(Phrase("greatest force at", greatest), language)]
+    whole = np.concatenate([vector[np.isfinite(vector)], [0j]])
+    span = 1.12 * max(float(np.ptp(whole.real)), float(np.ptp(whole.imag))) or 1.0
+    middle = complex(whole.real.max() + whole.real.min(), whole.imag.max() + whole.imag.min()) / 2
+    ticks = axis.ticks[:-1] if reach.full else axis.ticks
+    if len(ticks) > TICKS + 1:
+        ticks = ticks[:: -(-len(ticks) // TICKS)]
+    at = [int(np.argmin(np.abs(found.x - x))) for x in ticks]
+    side = WIDTH - LEFT - RIGHT
+
+    def paint(figure: Figure) -> None:
+        add_words(figure, *heading(scene, title, facts, language))
+        box = Box(LEFT, TOP - 4.0, LEFT + side, TOP - 4.0 + side)
+        axes = add_panel(figure, box, quantity.name.replace("/", "-"), f"{name} ({unit})", f"({unit})")
+        axes.set_xlim(middle.real - span / 2, middle.real + span / 2)
+        axes.set_ylim(middle.imag - span / 2, middle.imag + span / 2)
+        count_steps(axes.xaxis)
+        count_steps(axes.yaxis)
+        axes.axhline(0.0, zorder=BEHIND, **look(ZERO))
+        axes.axvline(0.0, zorder=BEHIND, **look(ZERO))
+        for piece in np.split(np.arange(len(vector)), [k + 1 for k in sorted(jumps)]):
+            axes.plot(vector[piece].real, vector[piece].imag, **look(SOLID_AND_DASHED[0]))
+        for j in jumps:
+            axes.plot(vector[j : j + 2].real, vector[j : j + 2].imag, **look(LEAP))
+        for j in at:
+            axes.plot([vector[j].real], [vector[j].imag], **marker("circle"))
+        labels = [(f"{number(float(x), 4)}{mark if mark == '°' else ''}", (vector[j].real, vector[j].imag)) for x, j in
+                  zip(ticks, at, strict=True) if np.isfinite(vector[j])]  # fmt: skip
+        toward = [(float(np.angle(vector[j])),) for j in at if np.isfinite(vector[j])]
+        add_labels(axes, labels, toward=toward)
+
+    return ChartPage(
+        WIDTH, TOP + side + 16.0, paint, title=f"{quantity.name}: {title_of(scene, language)}",
+        desc=facts[0], lang=language, metadata={"scene": scene.name, "units": unit, "quantity": quantity.name},
+    )  # fmt: skip

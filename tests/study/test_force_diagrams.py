@@ -1,0 +1,114 @@
+"""Forces over a turn: diagrams whose jumps stand where loads begin and end, polar diagrams, the flywheel."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import graphkin
+from graphkin.scene import mechanism_of
+from graphkin.solver import driver_range
+from graphkin.solver.flywheel import flywheel_of, needed_moment
+from graphkin.solver.load_edges import load_edges
+from graphkin.study.driver_axis import driver_axis
+from graphkin.study.force_diagrams import course
+
+FORCES = Path(__file__).parent.parent / "validation" / "forces"
+SHAPER, ENGINE = FORCES / "shaper-scheme-2.toml", FORCES / "engine.toml"
+STROKE = 2 * 0.58 * 90 / 350
+
+
+def crank(load, **driver):
+    """A crank alone, that a moment holds up over a quarter of the turn."""
+    return {
+        "frame": {"name": "0", "points": {"A": [0, 0]}},
+        "links": {"1": {"points": ["A", "B"], "length": 100}},
+        "driver": {"link": "1", "angle": 30, "omega": 20, **driver},
+        "loads": {"L": {"on": "1", "moment": load, "when": {"driver": [45, 135]}}},
+        "flywheel": {"on": "1", "delta": 0.1},
+    }
+
+
+def reach_of(scene):
+    return driver_range(mechanism_of(scene))
+
+
+@pytest.mark.parametrize(("load", "speed"), [(-100, 20), (100, -20)])
+def test_a_flywheel_carries_over_what_the_driving_moment_lacks(load, speed):
+    found = flywheel_of(reach_of(crank(load, omega=speed)))
+    assert 25 == pytest.approx(found.driving, rel=1e-9)
+    assert 75 * math.pi / 2 == pytest.approx(found.excess, rel=1e-8)
+    assert 75 * math.pi / 2 / (0.1 * 400) == pytest.approx(found.inertia, rel=1e-8)
+    assert 0 == pytest.approx(sum(area.work for area in found.areas), abs=1e-9)
+
+
+def test_the_work_of_a_cycle_is_that_of_the_loads():
+    scene = graphkin.read(SHAPER).to_dict() | {"flywheel": {"on": "2", "delta": 0.1}}
+    found = flywheel_of(reach_of(scene))
+    assert 9000 * 0.9 * STROKE == pytest.approx(found.work, rel=1e-10)
+
+
+def test_the_excess_work_is_that_of_a_sum_over_many_positions():
+    scene = graphkin.read(ENGINE).to_dict() | {"flywheel": {"on": "2", "delta": 0.02}}
+    reach = reach_of(scene)
+    found = flywheel_of(reach)
+    n = 20_000
+    moment = needed_moment(reach, (np.arange(n) + 0.5) / n * math.tau)
+    energy = np.cumsum(moment.mean() - moment) * math.tau / n
+    assert np.ptp(energy) == pytest.approx(found.excess, rel=1e-6)
+
+
+@pytest.mark.parametrize("change", [{"driver": {"link": "1", "angle": 30, "omega": 0}}])
+def test_a_machine_at_rest_has_no_flywheel(change):
+    swept = graphkin.sweep(crank(-100) | change, positions=4)
+    assert {"excess_W": None, "J_F": None, "why": swept.data["flywheel"]["why"]} == swept.data["flywheel"]
+    assert "the driver rests" in swept.data["flywheel"]["why"]
+    assert "flywheel" not in swept.figures
+
+
+def test_a_flywheel_is_told_by_name_and_judged():
+    scene = crank(-100)
+    solved = graphkin.solve(scene, find=["J_F", "excess_W"])
+    assert 75 * math.pi / 2 == pytest.approx(solved["excess_W"][0], rel=1e-8)
+    assert ("J_F (kg m2)", "excess_W (N m)") == solved.table.heads[2:4]
+    assert solved["J_F"][0] == graphkin.solve(scene).data["positions"][0]["moments"]["J_F"]
+    judged = graphkin.audit(scene | {"printed": {"J_F": 2.945, "excess_W": 100}})
+    assert ["right", "wrong"] == [value["verdict"] for value in judged.data["values"]]
+    with pytest.raises(graphkin.CallError, match="but there is none"):
+        graphkin.solve(SHAPER, find="J_F")
+
+
+def test_forces_jump_where_the_cut_begins_and_ends():
+    edges = np.degrees(load_edges(reach_of(SHAPER)))
+    # 14.9 degrees at the start; the crank turns clockwise; 2.6 and 207.5 are the ends of the cut, 180 and 29.8 those of
+    # the strokes, where the force against the ram turns round
+    assert [2.60618, 29.80119, 180.0, 207.52959] == pytest.approx(edges.tolist(), abs=1e-4)
+
+
+def test_both_values_stand_at_a_jump_of_the_diagram():
+    axis = driver_axis(reach_of(crank(-100)), "en")
+    found = course(axis, "M_1")
+    for place in (45, 135):
+        near = np.flatnonzero(np.abs(found.x - place) < 1e-4)
+        assert {0.0, 100.0} == set(found.values[near].round(6).tolist())
+
+
+def test_the_diagrams_of_forces_are_those_that_are_asked_for():
+    swept = graphkin.sweep(SHAPER, positions=4, find=["M_2", "F_4/3"])
+    assert ["diagram-F_4-3", "diagram-M_2", "polar-F_4-3"] == sorted(swept.figures)
+    svg = swept.figures["diagram-M_2"].content("svg").decode()
+    greatest = np.abs(graphkin.solve(SHAPER, sweep=3600)["M_2"]).max()
+    assert f"−{greatest:.5g}" in re.sub("<[^>]*>", "", svg)
+
+
+def test_a_sweep_without_wishes_draws_the_balance_and_the_flywheel():
+    scene = graphkin.read(SHAPER).to_dict() | {"flywheel": {"on": "2", "delta": 0.1}}
+    swept = graphkin.sweep(scene, positions=4, language="zh")
+    assert {"diagram-M_2", "flywheel"} <= set(swept.figures)
+    assert "飞轮" in swept.text
+    assert json.dumps(swept.data)
