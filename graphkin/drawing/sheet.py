@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from graphkin.checking.report import Report
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.drawing import strokes
@@ -23,6 +25,8 @@ from graphkin.drawing.headings import (
     titles,
 )
 from graphkin.drawing.insets import INSET, coriolis_row, per_row, polygon_with_insets
+from graphkin.drawing.loops import MARGIN as LOOPS_MARGIN
+from graphkin.drawing.loops import loops_figure
 from graphkin.drawing.mechanism import mechanism_piece
 from graphkin.drawing.mechanism_detail import mechanism_detail
 from graphkin.drawing.overleaf import Remainder, captioned, heading, overleaf
@@ -77,6 +81,8 @@ def sheet_page(
         _title_block(sheet, report, letters, spoken, plan.block),
     ]
     further = overleaf(sheet, rest, letters, spoken, plan.page)
+    if scene.sheet.loops:
+        further += _loops(sheet, spoken, letters, plan, len(further) + 2)
     if further:
         pieces.append(_goes_on(spoken, plan.page))
     return Drawing(
@@ -110,6 +116,17 @@ def _writing(
     readings, count = readings_table(sheet, rows, letters, language, plan.readings)
     pieces += [equations, captioned(plan.readings, term("readings", language), "answers", readings)]
     return pieces, Remainder(lines_left, senses, given_rest, rows[count:])
+
+
+def _loops(sheet: Sheet, spoken: str, letters: Letters, plan: SheetPlan, number: int) -> tuple[Drawing, ...]:
+    """The vector loops on a page of the sheet's size, or a longer one where they take it."""
+    loops = loops_figure(sheet, language=spoken, convention=letters.convention)
+    if loops is None:
+        return ()
+    to = complex(plan.page.left - LOOPS_MARGIN, plan.page.top - LOOPS_MARGIN)
+    height = max(plan.height, loops.height + to.imag)
+    return (replace(loops, width=plan.width, height=height, children=moved(loops.children, to),
+                    title=f"{loops.title} ({number})", metadata=facts(sheet, "sheet")),)  # fmt: skip
 
 
 def _goes_on(language: str, page: Box) -> Piece:

@@ -286,6 +286,7 @@ class SheetWishes(FileTable):
     velocity_scale: Magnitude | None = field(default=None, metadata=_about("Units of speed per mm of paper."))
     acceleration_scale: Magnitude | None = field(default=None, metadata=_about("(unit of speed/s) per mm of paper."))
     force_scale: Magnitude | None = field(default=None, metadata=_about("Force units per mm of paper."))
+    loops: bool = field(default=False, metadata=_about("Vector loops as a further page of the sheet."))
     convention: Convention = "chinese"
     language: Language = "en"
     tools: Tools = field(default=Tools(), metadata=_about("Tools of a pencil drawing.", alias="instrument"))

@@ -82,3 +82,10 @@ def test_a_loop_over_points_that_nothing_joins_is_refused() -> None:
 
 def test_the_loops_are_told_in_latex() -> None:
     assert r"\[ 500 \cos \theta_{2} - 300 \cos \theta_{3}" in graphkin.solve("fourbar-150-500-300-400").loops().latex
+
+
+def test_a_sheet_bears_the_loops_where_the_scene_wishes_for_them() -> None:
+    scene = graphkin.read("shaper-scheme-2").replace("sheet", {"loops": True})
+    figures = graphkin.draw(scene, figures=["sheet"]).figures
+    last = list(figures.values())[-1]
+    assert (210.0, True) == (last.width, 'id="loop-I"' in last.content("svg").decode())
