@@ -232,7 +232,8 @@ def _unknown_names(scene: Mechanism, symbol: Symbol) -> list[Problem]:
 
         return problem
 
-    known = missing_names(symbol, missing("link", scene.by_name), missing("point", scene.holders), scene.by_name)
+    points = [*scene.holders, *(c.name for c in scene.contacts)]
+    known = missing_names(symbol, missing("link", scene.by_name), missing("point", points), scene.by_name)
     no_such = None if known else no_force(scene, f"find {symbol}", symbol)
     return known if no_such is None else [no_such]
 

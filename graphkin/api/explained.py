@@ -133,7 +133,7 @@ def _links(scene: Mechanism) -> Iterator[Sentence]:
     about = "explained links"
     fixed = ", ".join(f"{p} {_place(z, scene)}" for p, z in scene.frame.points.items()) or "-"
     yield about, Phrase("explained frame", (scene.frame.name, fixed))
-    yield from ((about, phrase) for phrase in _guides(scene.frame, scene))
+    yield from ((about, phrase) for phrase in (*_outlines(scene.frame, scene), *_guides(scene.frame, scene)))
     for link in scene.links:
         own = link.bar
         if len(own) == 2:
@@ -146,9 +146,16 @@ def _links(scene: Mechanism) -> Iterator[Sentence]:
         further = [f"{p} {_place(z, scene)}" for p, z in link.points.items() if p not in own]
         if further:
             yield about, Phrase("explained further", (link.name, ", ".join(further)))
+        yield from ((about, phrase) for phrase in _outlines(link, scene))
         yield from ((about, phrase) for phrase in _guides(link, scene))
         if link.redundant:
             yield about, Phrase("explained redundant", (link.name,))
+
+
+def _outlines(link: PlacedLink, scene: Mechanism) -> Iterator[Phrase]:
+    for disc in link.discs:
+        place = disc.name, disc.centre, _number(disc.radius / scene.units.metres), scene.units.length
+        yield Phrase("explained disc", place)
 
 
 def _guides(link: PlacedLink, scene: Mechanism) -> Iterator[Phrase]:
@@ -172,6 +179,15 @@ def _joints(scene: Mechanism) -> Iterator[Sentence]:
         yield about, Phrase("explained sliding", (pair.link, guide, pair.pin or "-", angle))
     for pin in scene.pins:
         yield about, Phrase("explained slot", (pin.point, pin.of, _guide_name(scene, pin.on, pin.guide)))
+    for contact in scene.contacts:
+        sides = [f"{d.link}.{d.name}" if d else _guide_name(scene, contact.face, contact.guide) for d in contact.discs]
+        held = (contact.carrier,) if contact.carrier else ()
+        key = "explained contact" if not contact.rolling else "explained held rolling" if held else "explained rolling"
+        yield about, Phrase(key, (contact.name, *sides, *held))
+    for gear in scene.gears:
+        teeth = [_number(z) for z in gear.teeth if z is not None]
+        yield about, Phrase("explained rack" if gear.is_rack else "explained gear",
+                            (gear.name, *gear.wheels, *teeth, gear.carrier))  # fmt: skip
 
 
 def _guide_name(scene: Mechanism, link: str, guide: str) -> str:

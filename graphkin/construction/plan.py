@@ -42,6 +42,7 @@ from graphkin.construction.sheet import (
 )
 from graphkin.construction.slip import NO_SLIP, Slip
 from graphkin.construction.steps import Asked
+from graphkin.construction.touching import Touching
 from graphkin.construction.trial import Known, found_by_trial
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.loads import Loading
@@ -138,7 +139,9 @@ def _extents_of(sheet: Sheet) -> dict[DiagramName, Extent]:
                 yield from (s for s in step.strokes if isinstance(s, Vector))
 
     outlines = outlines_on_paper(sheet.scene, sheet.poses, 1.0 / sheet.scales.length)
-    return _extents([*sheet.points.values(), *(z for o in outlines.values() for z in o)], vectors, sheet.scales)
+    places = [*sheet.points.values(), *(z for o in outlines.values() for z in o)]
+    places += Touching(sheet.scene, 1.0 / sheet.scales.length, sheet.poses).outermost()
+    return _extents(places, vectors, sheet.scales)
 
 
 NATURAL = Scales(1e-3, 1e-3, 1e-3)  # 1 mm of paper for 1 mm, 1 mm/s, 1 mm/s2
@@ -299,6 +302,7 @@ def _planned(task: Task, room: Room | None) -> Plan:
     places = [z for p, z in polygons.places.items() if p not in polygons.special]
     for profile in outlines_on_paper(task.structure.scene, polygons.frame.poses, 1.0 / NATURAL.length).values():
         places += profile
+    places += Touching(task.structure.scene, 1.0 / NATURAL.length, polygons.frame.poses).outermost()
     extents = _extents(places, polygons.shown_of, NATURAL)
     own = {f.name: getattr(task, f.name) for f in fields(Task)} | {"chains": polygons.chains, "plans": polygons.plans}
     scales = _chosen_scales(task.structure.scene, extents, room)

@@ -57,7 +57,9 @@ class Plot:
         self.places = {point: frame.point(name, point) for name in frame.poses for point in self.links[name].points}
         size = max((abs(z - w) for z in self.places.values() for w in self.places.values()), default=1.0)
         self.tiny = 1e-11 * size
+        self.touching = {c.name for c in structure.scene.contacts}
         self.block_of = {p.key: p.of for p in structure.scene.pins}
+        self.block_of |= {c.block: c.round[0].link for c in structure.scene.contacts if c.flat}
 
     def label(self, ref: PointRef) -> PointRef:
         """A node as it is written: the block of a pin in a slot bears the name of the pin's link."""
@@ -158,9 +160,13 @@ class Plot:
         self.record(order, Vector(symbol, 0j, at, "resultant"), Resultant(symbol), equation, mark)
 
     def complete(self, order: Order, name: str) -> None:
-        """All points of a link, and the points of it under sliding pins."""
+        """All points of a link, and the points of it under sliding pins and at contacts."""
         for point in self.links[name].points:
-            self.place(order, PointRef(point))
+            if point not in self.touching:
+                self.place(order, PointRef(point))
+        for contact in self.structure.scene.contacts:
+            if name in contact.links and contact.name in self.places and name != self.ground:
+                self.place(order, PointRef(contact.name, name))
         for s in self.structure.slides:
             if s.pin and s.pin in self.places and s.b == name and "/" not in name:
                 self.place(order, node(self.links, s.pin, name))

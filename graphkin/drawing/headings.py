@@ -224,6 +224,11 @@ def _mechanism(sheet: Sheet, language: str) -> list[str]:
         said.append(say(Phrase("link slides", (pair.link, pair.on)), language))
     for pin in scene.pins:
         said.append(say(Phrase("pin runs", (pin.point, pin.of, pin.on)), language))
+    for contact in scene.contacts:
+        key = "rolls on" if contact.rolling else "touches"
+        said.append(say(Phrase(key, (*contact.links, contact.name)), language))
+    for gear in scene.gears:
+        said.append(say(Phrase("meshes", (*gear.wheels, gear.carrier)), language))
     per_mm = sheet.scales.length / scene.units.metres
     for ref, z in sheet.points.items():
         place = (number(z.real * per_mm, 5), number(z.imag * per_mm, 5), scene.units.length)

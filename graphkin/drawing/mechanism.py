@@ -20,6 +20,7 @@ from graphkin.drawing.piece import Piece, cut_to, ink_box, joined, middle_of
 from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Primitive, Text
 from graphkin.drawing.senses import clearance, drivers, found_rates
 from graphkin.drawing.text import plain, symbol
+from graphkin.drawing.touching import contact_marks, faces_of_frame, outlines_of, wheels_of
 from graphkin.plane import cross, dot
 
 __all__ = ["bare_mechanism", "mechanism_piece"]
@@ -78,6 +79,7 @@ def _frame(here: MechanismOnPaper) -> Group:
             parts += symbols.slot(page(b.at - reach), page(b.at + reach))
         elif here.ground in (b.slide.a, b.slide.b):
             parts += symbols.guide(page(b.at), phase(b.along), GUIDE_LENGTH)
+    parts += [*outlines_of(here, here.ground), *wheels_of(here, here.ground), *faces_of_frame(here)]
     return Group(tuple(parts), id=f"link-{here.ground}", classes=("frame",))
 
 
@@ -88,6 +90,7 @@ def _link(here: MechanismOnPaper, shape: LinkShape) -> Group:
     if shape.corners:
         corners = tuple(map(page, shape.corners))
         parts.append(Polygon(corners, "" if shape.redundant else strokes.tint(colour), stroke))
+    parts += [*outlines_of(here, shape.link), *wheels_of(here, shape.link)]
     hidden = {b.slide.b for b in here.sliders if b.slide.key in here.cylinders}
     if shape.link not in hidden:
         parts += [Line(page(start), page(end), stroke) for start, end in shape.bars]
@@ -155,6 +158,8 @@ def _joint(here: MechanismOnPaper, point: str) -> list[Primitive]:
         return [*(_over_block(here, z) if on_block else ()), *circle, *_through(here, z, held)]
     if moving:
         return [*symbols.pin(page(z), here.colour(moving[0]))]
+    if any(c.name == point for c in here.scene.contacts):
+        return [Circle(page(z), 0.5, fill=strokes.BLACK)]
     if any(p.point == point for p in here.scene.pins):
         return [*symbols.pin(page(z), strokes.BLACK)]
     thin = strokes.OUTLINE
@@ -302,7 +307,7 @@ def _marks(here: MechanismOnPaper) -> Piece:
 
 def _piece(here: MechanismOnPaper, panel: Box | None) -> Piece:
     clear = clearance(here)
-    placed = joined((_construction(here), links(here), aids_in_mechanism(here.sheet)))
+    placed = joined((_construction(here), contact_marks(here), links(here), aids_in_mechanism(here.sheet)))
     whole = joined((placed, joints(here), drivers(here, clear), found_rates(here, clear)))
     drawn = [thing for layer in ("construction", "mechanism", "answers") for thing in whole.layers[layer]]
     return joined((whole, drawn_lengths(here.sheet, drawn, panel), link_names(here), _marks(here)))

@@ -22,6 +22,7 @@ from graphkin.drawing.symbols import hull
 from graphkin.plane import cross, dot
 from graphkin.scene.cams import LawCam, SlidingFollower
 from graphkin.scene.model import Mechanism, SlideDriver
+from graphkin.scene.symbol import PointRef
 from graphkin.structure import Slide
 
 __all__ = ["GUIDE_LENGTH", "CamOnPaper", "LinkShape", "MechanismOnPaper", "Slider", "page", "sliders"]
@@ -208,19 +209,31 @@ def sliders(sheet: Sheet) -> tuple[Slider, ...]:
         cam.motion.pair: cam.roller / sheet.scales.length + PAST_ROLLER
         for cam in sheet.scene.cams if isinstance(cam.motion, SlidingFollower)
     }  # fmt: skip
+    touching = {c.block for c in sheet.scene.contacts}
     found = []
     for slide in sheet.structure.slides:
-        if slide.a in sheet.poses and slide.b in sheet.poses:
+        if slide.a in sheet.poses and slide.b in sheet.poses and slide.key not in touching:
             along = sheet.poses[slide.b].axis * slide.guide.direction
             at = sheet.poses[slide.a].origin + clear.get(slide.key, 0.0) * along
             found.append(Slider(slide, at, along, slide.key in driven))
     return tuple(found)
 
 
+def faces(sheet: Sheet) -> tuple[Slider, ...]:
+    """The flat faces of moving links: a contact, the direction of the face, as if a slider stood there."""
+    found = []
+    for contact in sheet.scene.contacts:
+        slide = next((s for s in sheet.structure.slides if s.key == contact.block), None)
+        at = sheet.points.get(PointRef(contact.name))
+        if slide is not None and at is not None and slide.b in sheet.poses:
+            found.append(Slider(slide, at, sheet.poses[slide.b].axis * slide.guide.direction, False))
+    return tuple(found)
+
+
 def shapes(sheet: Sheet) -> tuple[LinkShape, ...]:
     """The moving links on paper, in the order of the file; links that were not reached are left out."""
     places = {ref.point: z for ref, z in sheet.points.items() if not ref.link}
-    slides = tuple(s for s in sliders(sheet) if s.slide.key not in replaced_pairs(sheet))
+    slides, flat = tuple(s for s in sliders(sheet) if s.slide.key not in replaced_pairs(sheet)), faces(sheet)
     found = []
     for link in (sheet.scene.instead_of or sheet.scene).links:
         points = {p: places[p] for p in link.points if p in places}
@@ -228,11 +241,13 @@ def shapes(sheet: Sheet) -> tuple[LinkShape, ...]:
             corners, bars = _spanned(tuple(points.values()))
             found.append(LinkShape(link.name, points, corners, bars, redundant=True))
         elif link.name in sheet.poses:
-            found.append(_shape(link.name, points, slides))
+            found.append(_shape(link.name, points, (*slides, *flat), frozenset(b.slide.key for b in flat)))
     return tuple(found)
 
 
-def _shape(name: str, points: dict[str, complex], slides: tuple[Slider, ...]) -> LinkShape:
+def _shape(
+    name: str, points: dict[str, complex], slides: tuple[Slider, ...], flat: frozenset[str] = frozenset()
+) -> LinkShape:
     anchors = _apart((*points.values(), *(b.at for b in slides if b.slide.a == name)))
     carried: dict[str, list[Slider]] = {}
     for b in slides:
@@ -253,8 +268,10 @@ def _shape(name: str, points: dict[str, complex], slides: tuple[Slider, ...]) ->
             met, span = [anchor], [foot]
         tied += met
         low, high = _reach(sliding, span)
-        bars += [(line.at + a * line.along, line.at + z * line.along) for a, z in _solid(sliding, low, high)]
-        for b in sliding:
+        slotted = [b for b in sliding if b.slide.key not in flat]
+        solid = _solid(slotted, low, high, line)
+        bars += [(line.at + a * line.along, line.at + z * line.along) for a, z in solid]
+        for b in slotted:
             if b.slide.slot:
                 slots.append((b.at - PAST_PIN * line.along, b.at + PAST_PIN * line.along))
     loose = [z for z in anchors if z not in tied]
@@ -284,9 +301,9 @@ def _reach(sliding: list[Slider], span: list[float]) -> tuple[float, float]:
     return low, high
 
 
-def _solid(sliding: list[Slider], low: float, high: float) -> list[tuple[float, float]]:
+def _solid(sliding: list[Slider], low: float, high: float, line: Slider) -> list[tuple[float, float]]:
     """The stretches of a guide that are bar, the slots taken out."""
-    start, along = sliding[0].at, sliding[0].along
+    start, along = line.at, line.along
     solid = [(low, high)]
     for b in sliding:
         if b.slide.slot:

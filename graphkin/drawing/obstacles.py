@@ -16,7 +16,18 @@ from numpy.typing import NDArray
 
 from graphkin.drawing.box import Box
 from graphkin.drawing.font_widths import text_box
-from graphkin.drawing.primitives import Arc, Circle, Line, Polygon, Polyline, Primitive, Segment, Text, walk
+from graphkin.drawing.primitives import (
+    Arc,
+    Circle,
+    Line,
+    Polygon,
+    Polyline,
+    Primitive,
+    Segment,
+    Text,
+    page_direction,
+    walk,
+)
 
 __all__ = [
     "Flags", "Floats", "Indices", "Obstacles", "Points", "cross_product", "crosses", "meets", "obstacles_of",
@@ -64,6 +75,9 @@ def obstacles_of(children: tuple[Primitive, ...]) -> Obstacles:
         if isinstance(thing, Text):
             if thing.runs:
                 writing.append(text_box(thing))
+        elif isinstance(thing, Circle) and not thing.fill and thing.stroke and thing.radius > SMALL / 2:
+            # the outline of a disc: labels may stand inside
+            (solid if thing.stroke.solid else dashed).extend(pairwise(_round(thing)))
         elif isinstance(thing, Circle):
             reach = thing.radius + (thing.stroke.width / 2 if thing.stroke else 0.0)
             areas.append(Box.around((thing.centre,)).grown(reach))
@@ -88,6 +102,11 @@ def _course(thing: Line | Polyline | Polygon | Arc) -> tuple[complex, ...]:
         return *thing.points, thing.points[0]
     steps = max(1, math.ceil(abs(thing.end - thing.start) / _ARC_STEP))
     return tuple(thing.at(thing.start + (thing.end - thing.start) * i / steps) for i in range(steps + 1))
+
+
+def _round(circle: Circle) -> tuple[complex, ...]:
+    steps = max(24, math.ceil(circle.radius))
+    return tuple(circle.centre + circle.radius * page_direction(2 * math.pi * k / steps) for k in range(steps + 1))
 
 
 def _size(polygon: Polygon) -> float:

@@ -90,6 +90,9 @@ def tint(colour: str, strength: float = 0.14) -> str:
 def colour_of_link(scene: Mechanism, link: str) -> str:
     """Colour of a link; the frame is black."""
     name = link.split("/")[-1]
+    bar = next((c for c in scene.contacts if c.block == name), None)
+    if name not in scene.order and bar is not None:  # what stands for a contact has the colour of what is moved
+        name = next((n for n in reversed(bar.links) if n != scene.frame.name), bar.two)
     return BLACK if name == scene.frame.name else link_colour(scene.order[name])
 
 
@@ -109,6 +112,9 @@ def link_of_vector(sheet: Sheet, symbol: Symbol) -> str:
     common = [name for name in mine if name in theirs and name != scene.frame.name]
     if of.point != to.point and common:
         return common[0]
+    bars = [c.block for c in scene.contacts if not c.flat and {of.point, to.point} <= {d.centre for d in c.round}]
+    if bars and of.point != to.point:
+        return bars[0]
     sliding = {s.a for s in sheet.structure.slides} | {p.of for p in scene.pins}
     for name in (*mine, *theirs):
         if name in sliding:

@@ -20,7 +20,8 @@ from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_p
 from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Primitive, Text
 from graphkin.drawing.symbols import JOINT_RADIUS
 from graphkin.drawing.text import plain, rich, symbol, wrapped
-from graphkin.structure import Cluster, Driven, Dyad, Element, Pair, Slide, Structure, Turn, links_of
+from graphkin.drawing.touching import stand_ins
+from graphkin.structure import Cluster, Driven, Dyad, Element, Pair, Slide, Structure, Turn, links_of, replaced_pairs
 from graphkin.words import Phrase, class_of, languages, say
 
 __all__ = ["structure_figure"]
@@ -81,7 +82,7 @@ def _diagram(sheet: Sheet, letters: Letters, panel: Box) -> Piece:
     here = MechanismOnPaper(small, letters)
     labels = []
     for point, names in sheet.structure.hinges.items():
-        count = len([n for n in names if "/" not in n])
+        count = len([n for n in names if n in sheet.scene.by_name])
         if count > 2 and point in here.places:
             text = Text(0j, rich(f"{count} − 1", 2.4, bold=True), "start", strokes.GREY, f"badge-{point}", ("label",))
             labels.append(Label(text, page(here.places[point]), rank=1))
@@ -90,7 +91,11 @@ def _diagram(sheet: Sheet, letters: Letters, panel: Box) -> Piece:
             name = f"badge-{pin.point}-{pin.on}"
             text = Text(0j, symbol("p_{H}", 3.0), "start", strokes.GREY, name, ("label",))
             labels.append(Label(text, page(here.places[pin.point]), rank=1))
-    whole = joined((piece, Piece(labels=tuple(labels))))
+    for contact in sheet.scene.contacts:
+        if contact.name in here.places and (contact.carrier or not contact.rolling):
+            text = Text(0j, symbol("p_{H}", 3.0), "start", strokes.GREY, f"badge-{contact.name}", ("label",))
+            labels.append(Label(text, page(here.places[contact.name]), rank=1))
+    whole = joined((stand_ins(here), piece, Piece(labels=tuple(labels))))
     ink = ink_box(whole.drawn) or panel
     return with_labels(moved_piece(whole, panel.centre - ink.centre), panel)
 
@@ -113,7 +118,7 @@ def _counted(structure: Structure, spoken: str) -> list[tuple[str, bool]]:
     lines = [
         (f"$F$ = 3 $n$ − 2 $p_{{L}}$ − $p_{{H}}$ = 3 · {m.links} − 2 · {m.lower}{high} = {m.value}", True),
     ]
-    compound = {p: len([n for n in names if "/" not in n]) for p, names in structure.hinges.items()}
+    compound = {p: len([n for n in names if n in structure.scene.by_name]) for p, names in structure.hinges.items()}
     idle = [link.name for link in structure.scene.links if link.redundant]
     order = max((_order(g) for g in structure.groups), default=1)
     for each in languages(spoken):
@@ -124,6 +129,7 @@ def _counted(structure: Structure, spoken: str) -> list[tuple[str, bool]]:
                 lines.append((say(Phrase("structure compound", (point, count, count - 1)), each), False))
         for pin in structure.scene.pins:
             lines.append((say(Phrase("structure high pair", (pin.point, pin.on)), each), False))
+        lines += [(say(phrase, each), False) for phrase in replaced_pairs(structure)]
         if idle:
             lines.append((say(Phrase("structure redundant", (", ".join(idle),)), each), False))
         lines.append((say(Phrase("structure class", (class_of(order),)), each), True))
@@ -229,6 +235,10 @@ def _group(sheet: Sheet, elements: Sequence[Element], letters: Letters, panel: B
         if shape.longest:
             text = Text(0j, plain(shape.link, bold=True), "start", colour, classes=("label",))
             labels.append(Label(text, (page(shape.longest[0]), page(shape.longest[1])), rank=1))
+    for name in links:
+        tips = [here.places[p] for p in sheet.structure.links[name].bar if p in here.places]
+        if name not in here.scene.by_name and len(tips) == 2:  # the bar that replaces a contact
+            parts.append(Line(page(tips[0]), page(tips[1]), strokes.REDUNDANT.coloured(here.colour(name))))
     for b in here.sliders:
         if b.slide.key in {p.key for p in (*inner, *outer) if isinstance(p, Slide)}:
             parts += symbols.block(page(b.at), phase(b.along), here.colour(b.slide.a))

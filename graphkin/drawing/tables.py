@@ -217,6 +217,8 @@ def given_lengths(scene: Mechanism, letters: Letters) -> list[tuple[str, float]]
         if link.length is not None:
             found.append((letters.length(link.bar), link.length / scene.units.metres))
         found += _further(link, scene, letters)
+    metres = scene.units.metres
+    found += [(f"r_{{{d.name}}}", abs(d.radius) / metres) for link in (*scene.links, scene.frame) for d in link.discs]
     return found
 
 

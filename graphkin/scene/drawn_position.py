@@ -13,17 +13,19 @@ directions of guides to be taken from them.  What can be known is collected step
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from graphkin.errors import Problem
 from graphkin.plane import dot
+from graphkin.scene.contacts import Contact
 from graphkin.scene.model import PinInSlot, SlidingPair
 from graphkin.scene.placing import Placement, guide_of, place_of
-from graphkin.scene.tables import Polar
+from graphkin.scene.tables import Polar, SceneTables
 
-__all__ = ["DrawnPosition", "find_position", "running_points", "travel_of"]
+__all__ = ["DrawnPosition", "find_position", "running_points", "starts_of", "travel_of"]
 
 GIVEN_TWICE = 1e-6
 
@@ -250,3 +252,29 @@ def _along(rail: Placement, guide_name: str, place: complex | None) -> float | N
     local = None if place is None else rail.in_own_axes(place)
     guide = rail.guides.get(guide_name)
     return None if local is None or guide is None else dot(guide.direction, local - guide.through)
+
+
+def starts_of(file: SceneTables, position: DrawnPosition, contacts: tuple[Contact, ...]) -> dict[str, float]:
+    """Where what rolls stands: angles of links (rad), travels of sliding pairs and of contacts with a face (m), as far
+    as the file or its drawn points tell."""
+    found: dict[str, float] = {}
+    for name, link in file.links.items():
+        turn = position.bodies[name].turn
+        own = [s.key for s in position.slidings if s.link == name]
+        if link.start is not None and own:
+            found[own[0]] = link.start * position.metres
+        elif link.start is not None:
+            found[name] = math.radians(link.start)
+        elif turn is not None:
+            found[name] = cmath.phase(turn)
+    for pair in position.slidings:
+        travel = travel_of(position, pair.key)
+        if travel is not None:
+            found.setdefault(pair.key, travel)
+    for contact in contacts:
+        if contact.flat:
+            place = position.places.get(contact.round[0].centre)
+            travel = _along(position.bodies[contact.face], contact.guide, place)
+            if travel is not None:
+                found[contact.block] = travel
+    return found

@@ -117,6 +117,16 @@ At = Annotated[
     _forms('write [x, y], { from = "C", r = 65, angle = -60 }, '
            '{ from = ["B", "C"], r = [60, 80], side = "left" } or "drawn"'),
 ]
+TwoOutlines = Annotated[list[GuideRef], Field(min_length=2, max_length=2)]
+TwoTeeth = Annotated[
+    list[
+        Annotated[
+            Annotated[Number, Tag("<number>")] | Annotated[Literal["rack"], Tag("<name>")],
+            _forms('write a number of teeth, or "rack"'),
+        ]
+    ],
+    Field(min_length=2, max_length=2),
+]
 NumberOrSquare = Annotated[
     Annotated[Number, Tag("<number>")] | Annotated[Literal["square"], Tag("<name>")],
     _forms('write degrees, or "square" for square to the link\'s own axis'),

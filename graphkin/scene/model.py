@@ -14,6 +14,7 @@ from typing import Literal
 
 from graphkin.scene.cams import LawCam
 from graphkin.scene.class_tables import Vary
+from graphkin.scene.contacts import Contact, Disc, Gear
 from graphkin.scene.loads import Loading
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import SheetWishes, Units
@@ -55,7 +56,7 @@ class PlacedLink:
 
     ``points`` maps names to places (m), the own points first, in the order of the file.
     ``bar`` are the 0, 1 or 2 names in the file's ``points`` key that give the own axes.
-    ``guides`` always holds "" (the own x axis).
+    ``guides`` always holds "" (the own x axis).  ``discs`` are its round outlines.
     """
 
     name: str
@@ -63,6 +64,7 @@ class PlacedLink:
     bar: tuple[str, ...]
     guides: Mapping[str, PlacedGuide]
     redundant: bool = False
+    discs: tuple[Disc, ...] = ()
 
     @property
     def length(self) -> float | None:
@@ -237,7 +239,8 @@ class Mechanism:
     digit, first that of this position; ``loops`` are vector loops by name, each through its points; ``vary`` says how
     a set of problems is drawn from it, ``grading`` for what there are points;
     ``instead_of`` is the mechanism with cams in whose place this one moves alike at this position, in velocity and
-    acceleration.
+    acceleration.  ``starts`` say where what rolls stands at the scene's own position: the angle of a link's own axis
+    (rad), or the travel (m) of a sliding pair or of a contact by its block.
     """
 
     name: str
@@ -263,6 +266,9 @@ class Mechanism:
     grading: Mapping[str, float] = field(default_factory=dict)
     cams: tuple[LawCam, ...] = ()
     instead_of: Mechanism | None = None
+    contacts: tuple[Contact, ...] = ()
+    gears: tuple[Gear, ...] = ()
+    starts: Mapping[str, float] = field(default_factory=dict)
 
     def __hash__(self) -> int:
         return hash((self.name, self.title, tuple(link.name for link in self.links)))
@@ -300,4 +306,5 @@ class Mechanism:
         spans += [abs(z - w) for z in self.drawn.values() for w in fixed]
         spans += [abs(d.travel) for d in self.drivers if isinstance(d, SlideDriver)]
         spans += [cam.base for cam in self.cams]
+        spans += [abs(disc.radius) for c in self.contacts for disc in c.round]
         return max(spans, default=0.0) or self.units.metres

@@ -43,6 +43,7 @@ class Names:
     points: Mapping[str, tuple[str, ...]]
     guides: Mapping[str, frozenset[str]]
     unsure: frozenset[str]
+    contacts: frozenset[str] = frozenset()
 
     @classmethod
     def of(cls, file: SceneTables, flaws: Flaws) -> Names:
@@ -63,7 +64,7 @@ class Names:
             unsure |= {frame, ""}
         if unsure:
             unsure |= {""}
-        return cls(frame, points, guides, frozenset(unsure))
+        return cls(frame, points, guides, frozenset(unsure), frozenset(file.contacts) | flaws.names("contacts"))
 
     def no_link(self, where: str, name: str, moving: bool = False) -> Problem | None:
         """The problem of a link that does not exist, None if it does; ``moving`` where the frame would not do."""
@@ -74,7 +75,7 @@ class Names:
 
     def no_point(self, where: str, point: str) -> Problem | None:
         """The problem of a point that no link has."""
-        everywhere = {p for own in self.points.values() for p in own}
+        everywhere = {p for own in self.points.values() for p in own} | self.contacts
         if point in everywhere or "" in self.unsure:
             return None
         return Problem(where, f"no link has a point {point}", did_you_mean(point, everywhere))

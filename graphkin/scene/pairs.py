@@ -18,6 +18,7 @@ from graphkin.plane import direction
 from graphkin.scene.model import FromDeadPoint, PinInSlot, SlidingPair
 from graphkin.scene.names import Flaws, Names
 from graphkin.scene.tables import SMALLEST, DrivenSlide, Driver, Link, SceneTables
+from graphkin.scene.touching import touching_links
 
 __all__ = ["DriverEntry", "drives", "islands", "pins_in_slots", "sliding_pairs"]
 
@@ -121,6 +122,7 @@ def islands(file: SceneTables, names: Names) -> list[tuple[str, ...]]:
     """
     slides = [(name, ref.partition(".")[0]) for name, link in file.links.items() for ref in _as_list(link.on or [])]
     slides += [(pin.of, ref.partition(".")[0]) for pin in file.pins.values() for ref in _as_list(pin.slots)]
+    slides += touching_links(file)
     meant = {n: n if n in names.points else "".join(get_close_matches(n, names.points, n=1)) for p in slides for n in p}
     if "" in meant.values():
         return []

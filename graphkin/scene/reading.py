@@ -19,7 +19,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from graphkin.errors import Problem, SceneError, did_you_mean
-from graphkin.scene import cam_tables, load_tables, tables
+from graphkin.scene import cam_tables, contact_tables, load_tables, tables
 from graphkin.scene.file_table import FileTable, entries, key_of, keys_of
 from graphkin.scene.form import SCENE
 from graphkin.scene.names import Flaws, Path
@@ -121,16 +121,19 @@ def _cut(path: Path) -> Path:
     """The smallest entry of the file that can be taken out for something wrong at ``path``."""
     head = path[:1]
     if head == ("links",):
-        return path[: 4 if len(path) > 2 and path[2] in ("at", "guides") else 3]
+        return path[: 4 if len(path) > 2 and path[2] in ("at", "guides", "discs") else 3]
     if head == ("frame",):
-        return path[: 3 if len(path) > 1 and path[1] in ("points", "guides") else 2]
+        return path[: 3 if len(path) > 1 and path[1] in ("points", "guides", "discs") else 2]
     if head == ("driver",):
         if path[-1] in ("link", "slide"):  # without it the form of the driver is not known
             return head
         return path[: 3 if len(path) > 1 and isinstance(path[1], int) else 2]
     if head == ("cams",):
         return path[: 3 if len(path) > 2 and path[2] not in ("follower", "law", "base") else 2]
-    inside = ("pins", "sketch", "drawn", "printed", "sheet", "units", "masses", "loads", "positions", "loops")
+    inside = (
+        "pins", "contacts", "gears", "sketch", "drawn", "printed", "sheet", "units", "masses", "loads", "positions",
+        "loops",
+    )  # fmt: skip
     return path[:2] if head and head[0] in inside else head
 
 
@@ -175,6 +178,10 @@ _TABLES: tuple[tuple[tuple[str, ...], type[FileTable]], ...] = (
     (("links", "*", "guides", "*"), tables.Guide),
     (("links", "*", "at", "*", "<polar>"), tables.Polar),
     (("links", "*", "at", "*", "<compass>"), tables.Compass),
+    (("links", "*", "discs", "*"), contact_tables.DiscTable),
+    (("frame", "discs", "*"), contact_tables.DiscTable),
+    (("contacts", "*"), contact_tables.ContactTable),
+    (("gears", "*"), contact_tables.GearTable),
     (("pins", "*"), tables.Pin),
     (("driver", "<one>", "<angle>"), tables.Driver),
     (("driver", "<one>", "<slide>"), tables.DrivenSlide),

@@ -11,7 +11,8 @@ from collections.abc import Mapping
 from graphkin.errors import Problem, SceneError, did_you_mean
 from graphkin.scene.cam_reading import cams_of
 from graphkin.scene.cams import LawCam
-from graphkin.scene.drawn_position import DrawnPosition, find_position, travel_of
+from graphkin.scene.contacts import Disc
+from graphkin.scene.drawn_position import DrawnPosition, find_position, starts_of, travel_of
 from graphkin.scene.force_names import no_force
 from graphkin.scene.loads import Loading, loading_of
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedGuide, PlacedLink, SlideDriver
@@ -29,6 +30,7 @@ from graphkin.scene.rules import (
 )
 from graphkin.scene.stating import asked, loops_named, positions_named, published, stated_values
 from graphkin.scene.tables import Link, Polar, SceneTables
+from graphkin.scene.touching import contacts_of, discs_of, gears_of, wrong_distances
 
 __all__ = ["resolve", "unknown_places"]
 
@@ -71,6 +73,9 @@ def resolve(file: SceneTables, name: str, problems: list[Problem], flaws: Flaws)
     problems += wrong_own_points(file, names, flaws)
     slidings = sliding_pairs(file, names, flaws, problems)
     pins = pins_in_slots(file, names, slidings, problems)
+    discs = discs_of(file, names, problems)
+    contacts = contacts_of(file, names, flaws, discs, problems)
+    gears = gears_of(file, names, slidings, problems)
     driven = drives(file, names, flaws, slidings, pins, metres, problems)
     problems += unknown_places(file, names)
     find = asked(file, names, problems)
@@ -107,6 +112,9 @@ def resolve(file: SceneTables, name: str, problems: list[Problem], flaws: Flaws)
     if not problems:
         problems += _not_found(position)
     cams = _cams(file, names, flaws, position, problems) if file.cams else ()
+    if not problems:
+        places, rails = {n: b.local for n, b in bodies.items()}, {n: b.guides for n, b in bodies.items()}
+        problems += wrong_distances(contacts, gears, slidings, places, rails, metres)
     loading = Loading()
     if file.masses or file.loads or file.balance or file.flywheel:
         places = {n: b.local for n, b in bodies.items()}
@@ -117,8 +125,9 @@ def resolve(file: SceneTables, name: str, problems: list[Problem], flaws: Flaws)
         drivers[0] = positions.placed(drivers[0])
     if problems:
         raise SceneError(*dict.fromkeys(problems))
-    links = tuple(_link(n, t, bodies[n]) for n, t in file.links.items())
-    frame = PlacedLink(names.frame, fixed, (), _guides(bodies[names.frame]))
+    links = tuple(_link(n, t, bodies[n], discs) for n, t in file.links.items())
+    outlines = tuple(d for d in discs.values() if d.link == names.frame)
+    frame = PlacedLink(names.frame, fixed, (), _guides(bodies[names.frame]), discs=outlines)
     title = file.title or name
     made = Mechanism(
         name,
@@ -143,6 +152,9 @@ def resolve(file: SceneTables, name: str, problems: list[Problem], flaws: Flaws)
         file.vary,
         dict(file.grading),
         cams,
+        contacts=contacts,
+        gears=gears,
+        starts=starts_of(file, position, contacts) if contacts or gears else {},
     )
     _ask_for_forces(made)
     return made
@@ -298,6 +310,7 @@ def _guides(body: Placement) -> dict[str, PlacedGuide]:
     return {"": body.guides[""], **{name: body.guides[name] for name in body.rails}}
 
 
-def _link(name: str, table: Link, body: Placement) -> PlacedLink:
+def _link(name: str, table: Link, body: Placement, discs: Mapping[tuple[str, str], Disc]) -> PlacedLink:
     order = dict.fromkeys((*body.own, *table.at))
-    return PlacedLink(name, {p: body.local[p] for p in order}, body.own, _guides(body), table.redundant)
+    outlines = tuple(d for d in discs.values() if d.link == name)
+    return PlacedLink(name, {p: body.local[p] for p in order}, body.own, _guides(body), table.redundant, outlines)

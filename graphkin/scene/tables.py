@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from graphkin.scene.cam_tables import Cam
 from graphkin.scene.class_tables import Vary
+from graphkin.scene.contact_tables import ContactTable, DiscTable, GearTable
 from graphkin.scene.file_table import FileTable
 from graphkin.scene.file_table import about as _about
 from graphkin.scene.file_table import closed as _closed
@@ -146,6 +147,7 @@ class Frame(FileTable):
         default_factory=dict, metadata=_closed("Fixed pivots, [x, y] each, or polar from another of them.")
     )
     guides: dict[LinkName, Guide] = field(default_factory=dict, metadata=_closed("Straight guides by name."))
+    discs: dict[LinkName, DiscTable] = field(default_factory=dict, metadata=_closed("Round outlines by name."))
 
 
 @dataclass(frozen=True)
@@ -190,6 +192,12 @@ class Link(FileTable):
     )
     at: dict[PointName, At] = field(default_factory=dict, metadata=_closed("Further points."))
     guides: dict[LinkName, Guide] = field(default_factory=dict, metadata=_closed("Straight guides by name."))
+    discs: dict[LinkName, DiscTable] = field(default_factory=dict, metadata=_closed("Round outlines by name."))
+    start: Number | None = field(
+        default=None,
+        metadata=_about("Where rolling leaves it open: degrees of its own axis (of a link with on, its travel) at the "
+                        "scene's own driver value; 0 if left out."),
+    )
     redundant: Switch = field(default=False, metadata=_about("The link only repeats what others already hold."))
 
 
@@ -357,6 +365,10 @@ class SceneTables(FileTable):
     frame: Frame = field(default_factory=Frame)
     links: Links = field(metadata=_closed("The moving links by name."))
     pins: dict[PointName, Pin] = field(default_factory=dict, metadata=_closed("Pins in slots, by the point."))
+    contacts: dict[PointName, ContactTable] = field(
+        default_factory=dict, metadata=_closed("Outlines that touch, by the name of the point of contact.")
+    )
+    gears: dict[LinkName, GearTable] = field(default_factory=dict, metadata=_closed("Wheels with teeth by name."))
     driver: Drivers = field(default=(), metadata=_about("What drives: one table [driver], or several [[driver]]."))
     sketch: dict[PointName, Place] = field(
         default_factory=dict, metadata=_closed("Roughly where points lie: picks the assembly.")

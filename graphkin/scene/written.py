@@ -17,6 +17,7 @@ from typing import Any
 from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.plane import degrees
 from graphkin.scene.cams import LawCam, SwingingFollower
+from graphkin.scene.contacts import Contact, Gear
 from graphkin.scene.loads import Phase
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedLink
 from graphkin.scene.tables import SceneTables
@@ -203,9 +204,13 @@ def as_mapping(scene: Mechanism) -> dict[str, Any]:
         own = {n: g for n, g in link.guides.items() if n}
         return {n: {"through": place(g.through), "angle": _tidy(degrees(g.direction))} for n, g in own.items()}
 
+    def discs(link: PlacedLink) -> dict[str, Any]:
+        return {d.name: {"centre": d.centre, "r": length(d.radius)} for d in link.discs}
+
     frame: dict[str, Any] = {"name": scene.frame.name}
     frame["points"] = {p: place(z) for p, z in scene.frame.points.items()}
     frame["guides"] = guides(scene.frame)
+    frame["discs"] = discs(scene.frame)
     links: dict[str, dict[str, Any]] = {}
     for link in scene.links:
         table: dict[str, Any] = {"points": list(link.bar)} if link.bar else {}
@@ -217,6 +222,9 @@ def as_mapping(scene: Mechanism) -> dict[str, Any]:
             table["angle_on"] = [_tidy(degrees(s.turn)) for s in pairs]
         table["at"] = {p: place(z) for p, z in link.points.items() if p not in link.bar}
         table["guides"] = guides(link)
+        table["discs"] = discs(link)
+        if (start := _start(scene, link, length)) is not None:
+            table["start"] = start
         if link.redundant:
             table["redundant"] = True
         links[link.name] = {k: v for k, v in table.items() if v != {}}
@@ -233,9 +241,13 @@ def as_mapping(scene: Mechanism) -> dict[str, Any]:
     made["links"] = links
     made["pins"] = pins
     made["cams"] = {cam.link: _cam(cam, length) for cam in scene.cams}
+    made["contacts"] = {c.name: _contact(c) for c in scene.contacts}
+    made["gears"] = {g.name: _gear(g) for g in scene.gears}
     made["driver"] = [_driver(scene, d, length) for d in scene.drivers]
     made |= _loading(scene, place)
     made["sketch"] = {p: place(z) for p, z in {**scene.drawn, **scene.sketch}.items() if _moves(scene, p)}
+    held = {c.round[0].centre for c in scene.contacts if c.rolling and c.flat}
+    made["drawn"] = {p: place(z) for p, z in scene.drawn.items() if p in held}
     made["find"] = [str(s) for s in scene.find]
     return {k: v for k, v in made.items() if v not in ("", {}, [])}
 
@@ -255,6 +267,31 @@ def _cam(cam: LawCam, length: Callable[[float], float]) -> dict[str, Any]:
     made |= {"flat": True} if cam.flat else {}
     allow = {key: _tidy(math.degrees(a)) for key, a in zip(("rise", "fall"), cam.allowed, strict=True) if a is not None}
     return made | ({"allow": allow} if allow else {})
+
+
+def _start(scene: Mechanism, link: PlacedLink, length: Callable[[float], float]) -> float | None:
+    """Where a link stands that rolls."""
+    if not (scene.gears or any(c.rolling for c in scene.contacts)):
+        return None
+    slide = next((s.key for s in scene.slidings if s.link == link.name), None)
+    if slide is not None:
+        return length(scene.starts[slide]) if slide in scene.starts else None
+    return _tidy(math.degrees(scene.starts[link.name])) if link.name in scene.starts else None
+
+
+def _contact(contact: Contact) -> dict[str, Any]:
+    between = [f"{d.link}.{d.name}" if d else _guide_name(contact.face, contact.guide) for d in contact.discs]
+    if contact.flat:
+        side = "left" if contact.left else "right"
+    else:
+        side = "inside" if min(d.radius for d in contact.round) < 0 else "outside"
+    return {"between": between, "side": side, "rolling": contact.rolling}
+
+
+def _gear(gear: Gear) -> dict[str, Any]:
+    second = _guide_name(gear.wheels[1], gear.guide)
+    teeth = ["rack" if z is None else z for z in gear.teeth]
+    return {"between": [gear.wheels[0], second], "teeth": teeth, "carrier": gear.carrier}
 
 
 def _loading(scene: Mechanism, place: Callable[[complex], list[float]]) -> dict[str, Any]:
@@ -352,7 +389,7 @@ def toml_text(mapping: Mapping[str, Any]) -> str:
     text = tomlkit.document()
     for key in sorted(mapping, key=lambda key: _is_table(mapping[key])):  # tables come after what stands alone
         given = mapping[key]
-        if key in ("links", "pins", "cams") and _is_table(given):
+        if key in ("links", "pins", "contacts", "gears", "cams") and _is_table(given):
             made = tomlkit.table(is_super_table=True)
             for name, item in given.items():
                 made.append(name, table(item))

@@ -9,7 +9,7 @@ from graphkin.solver.in_place_of_cams import as_drawn
 from graphkin.solver.motion import Motion, Sliding
 from graphkin.solver.prepared import PreparedMechanism, prepare
 from graphkin.solver.solve import solve
-from graphkin.solver.table import json_text, listed_points, to_json
+from graphkin.solver.table import json_text, listed_points, own_slides, to_json
 
 __all__ = [
     "DriverRange",
@@ -24,6 +24,7 @@ __all__ = [
     "forces_of",
     "json_text",
     "listed_points",
+    "own_slides",
     "prepare",
     "solve",
     "structure_of",

@@ -69,7 +69,7 @@ def _is_on(motion: Motion, ref: PointRef, link: str) -> bool:
     if ref.link == link:
         return True
     own = not ref.link or ref.link in holders[ref.point]
-    return own and link in holders[ref.point]
+    return own and (link in holders[ref.point] or ref.point in motion.link(link).points)
 
 
 def _hinge(motion: Motion, of: PointRef, to: PointRef | None) -> str | None:
@@ -103,8 +103,8 @@ def _turning(motion: Motion, symbol: Symbol, of: PointRef) -> Array:
     if of.link:
         motion.link(of.link)
     frame = motion.scene.frame
-    moving = [link.name for link in motion.scene.links]
-    for name in moving:
+    stand_ins = [name for name in motion.structure.links if name not in motion.scene.by_name]
+    for name in (*(link.name for link in motion.scene.links), *stand_ins):
         if not _is_on(motion, of, name):
             continue
         pose = motion.poses[name]
@@ -114,7 +114,7 @@ def _turning(motion: Motion, symbol: Symbol, of: PointRef) -> Array:
                 continue
             arm = at.z - motion.point(symbol.to.point, name).z
         else:
-            pivot = next((p for p in motion.scene.by_name[name].points if p in frame.points and p != of.point), None)
+            pivot = next((p for p in motion.link(name).points if p in frame.points and p != of.point), None)
             if pivot is None:
                 continue
             arm = at.z - motion.point(pivot, name).z
@@ -135,6 +135,7 @@ def _sliding(motion: Motion, symbol: Symbol, of: PointRef, to: PointRef) -> Arra
         block = {pair.a}
         if pair.slot:
             block = {pin.of for pin in motion.scene.pins if pin.key == pair.key}
+            block |= {c.round[0].link for c in motion.scene.contacts if c.block == pair.key}
         sides = (block, {pair.b})
         for one, two in (sides, sides[::-1]):
             if of.point != to.point:
@@ -235,17 +236,25 @@ class Motion:
     def point(self, point: str, link: str = "") -> Pose:
         """Axes that move with ``link``, their origin at ``point`` of it, or at its point that lies at that pin now.
 
-        Without a link the pin itself: the point of any link that has it, the frame first.
+        Without a link the pin itself: the point of any link that has it, the frame first; of a contact the place where
+        it is made, which runs along both outlines.
         """
-        if point not in self.scene.holders:
-            raise CallError(
-                Problem(f'point "{point}"', "there is no such point", did_you_mean(point, self.scene.holders))
-            )
-        of = self.link(link or self.scene.holders[point][0])
+        of = self.link(link or self._holder(point))
         pose = self.poses[of.name]
         if point in of.points:
             return pose.fixed(of.points[point])
-        return pose.carrying(self.point(point).z)
+        at = self.link(self._holder(point))
+        return pose.carrying(self.poses[at.name].fixed(at.points[point]).z)
+
+    def _holder(self, point: str) -> str:
+        """The first link that has a point; of a point of contact what stands for the contact."""
+        if point in self.scene.holders:
+            return self.scene.holders[point][0]
+        held = next((name for name, link in self.structure.links.items() if point in link.points), None)
+        if held is None:
+            known = did_you_mean(point, [*self.scene.holders, *(c.name for c in self.scene.contacts)])
+            raise CallError(Problem(f'point "{point}"', "there is no such point", known))
+        return held
 
     def position(self, point: str, link: str = "") -> Array:
         """complex, shape (n,) (m)."""

@@ -59,6 +59,10 @@ def _place(structure: Structure, poses: Poses, symbol: Symbol, name: str) -> Arr
     if name in scene.holders:
         link = scene.holders[name][0]
         return np.asarray(poses[link].fixed(scene.by_name[link].points[name]).z)
+    touching = next((c for c in scene.contacts if c.name == name), None)
+    if touching is not None:
+        held = touching.carrier or touching.block
+        return np.asarray(poses[held].fixed(structure.links[held].points[name]).z)
     pair = centre_links(name, scene.by_name)
     if pair is None:
         raise CallError(Problem(str(symbol), f'there is no point "{name}"', did_you_mean(name, scene.holders)))

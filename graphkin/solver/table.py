@@ -13,6 +13,7 @@ from graphkin.errors import Unsolvable
 from graphkin.scene.cams import SwingingFollower
 from graphkin.scene.model import Mechanism, SlideDriver
 from graphkin.solver.cam_profile import contact_of
+from graphkin.solver.contacts import contact_motion, pitch_point
 from graphkin.solver.driver_range import driver_range
 from graphkin.solver.flywheel import flywheel_of
 from graphkin.solver.forces import Forces
@@ -20,22 +21,30 @@ from graphkin.solver.motion import Motion
 from graphkin.solver.pose import Array
 from graphkin.structure import Cluster, Dyad, Slide
 
-__all__ = ["json_text", "listed_points", "to_json"]
+__all__ = ["json_text", "listed_points", "own_slides", "to_json"]
 
 BLOCK = 1024
 """Positions that are made into objects at once."""
 
 
 def listed_points(scene: Mechanism, slides: Sequence[Slide]) -> tuple[tuple[str, str], ...]:
-    """Every point of a moving link, on every link that has it, and every coincident point under a sliding pin:
-    (point, link) in the order of the file."""
+    """Every point of a moving link, on every link that has it, every coincident point under a sliding pin, and the
+    points of both bodies at a contact: (point, link) in the order of the file."""
     found = [(p, link.name) for link in scene.links for p in link.points]
     moving = {link.name for link in scene.links}
-    for pair in slides:
+    found += [(c.name, link) for c in scene.contacts for link in c.links if link in moving]
+    for pair in own_slides(scene, slides):
         if pair.pin and pair.b in moving and (pair.pin, pair.b) not in found:
             found.append((pair.pin, pair.b))
     place = {link.name: i for i, link in enumerate(scene.links)}
     return tuple(sorted(found, key=lambda ref: place[ref[1]]))
+
+
+def own_slides(scene: Mechanism, slides: Sequence[Slide]) -> tuple[Slide, ...]:
+    """The sliding pairs and pins in slots of the scene, and of a contact with a face its disc's centre along it; not
+    that of what rolls."""
+    blocks = {c.block for c in scene.contacts if c.rolling}
+    return tuple(s for s in slides if s.key not in blocks)
 
 
 def to_json(motion: Motion, forces: Forces | None = None) -> dict[str, Any]:
@@ -89,6 +98,7 @@ def _positions(motion: Motion, forces: Forces | None) -> Iterator[list[dict[str,
             for part, table in columns.items()
         }
         own = {key: v[some].tolist() for key, v in drivers.items()}
+        touching = _touching(motion.rows(some)) if scene.contacts or scene.gears else [{}] * BLOCK
         block: list[dict[str, Any]] = []
         for k, status in enumerate(motion.status[some].tolist()):
             entry: dict[str, Any] = {"driver": {key: v[k] for key, v in own.items()}, "status": status}
@@ -97,6 +107,7 @@ def _positions(motion: Motion, forces: Forces | None) -> Iterator[list[dict[str,
                 continue
             for part, table in cells.items():
                 entry[part] = {key: {what: v[k] for what, v in row.items()} for key, row in table.items()}
+            entry |= touching[k]
             entry["error_bound"] = _bounds(motion, first + k)
             if forces is not None:
                 entry |= _forces(scene, forces, first + k)
@@ -116,7 +127,7 @@ def _columns(motion: Motion, angles: Mapping[str, Array]) -> dict[str, dict[str,
         at = motion.point(point, name)
         found = at.z / metres, at.v / fast, at.a / fast
         columns["points"][f"{point}@{name}"] = dict(zip(("position", "velocity", "acceleration"), found, strict=True))
-    for pair in motion.slides:
+    for pair in own_slides(scene, motion.slides):
         kinds, each = ("travel", "velocity", "acceleration", "coriolis"), (metres, fast, fast, fast)
         values = zip(motion.slide(pair.key), each, strict=True)
         columns["slides"][pair.key] = dict(zip(kinds, (x / per for x, per in values), strict=True))
@@ -129,6 +140,27 @@ def _columns(motion: Motion, angles: Mapping[str, Array]) -> dict[str, dict[str,
             "slip": touching.slip / fast, "pressure": touching.pressure,
         }  # fmt: skip
     return columns
+
+
+def _touching(motion: Motion) -> list[dict[str, Any]]:
+    """Contacts and gears of each position."""
+    scene, metres = motion.scene, motion.scene.units.metres
+    found: list[dict[str, Any]] = [{} for _ in range(len(motion))]
+    for contact in scene.contacts:
+        at = contact_motion(motion, contact)
+        kind = "rolling" if contact.rolling else "sliding"
+        columns = {"position": at.place / metres, "normal": at.normal, "slip": at.slip / scene.units.rates.metres}
+        cells = {what: _plain(column) for what, column in columns.items()}
+        for k, entry in enumerate(found):
+            pressure = {link: float(angle[k]) for link, angle in at.pressure.items() if np.isfinite(angle[k])}
+            own = {"kind": kind, **{what: cell[k] for what, cell in cells.items()}, "pressure": pressure}
+            entry.setdefault("contacts", {})[contact.name] = own
+    for gear in scene.gears:
+        place, radii = pitch_point(motion, gear)
+        shown = [None if r is None else r / metres for r in radii]
+        for entry, cell in zip(found, _plain(place / metres), strict=True):
+            entry.setdefault("gears", {})[gear.name] = {"pitch_point": cell, "radii": shown}
+    return found
 
 
 def _forces(scene: Mechanism, forces: Forces, k: int) -> dict[str, Any]:

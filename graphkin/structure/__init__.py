@@ -18,6 +18,7 @@ from graphkin.structure.model import (
     driver_pair,
 )
 from graphkin.structure.part import in_stages, links_of, needed, part_of
+from graphkin.structure.replacement import replaced_pairs
 
 __all__ = [
     "Body",
@@ -42,4 +43,5 @@ __all__ = [
     "part_of",
     "pick",
     "regrouped",
+    "replaced_pairs",
 ]

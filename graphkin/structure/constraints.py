@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping
 from graphkin.scene.cams import LawCam, SlidingFollower
 from graphkin.scene.model import AngleDriver, Mechanism, PlacedGuide, PlacedLink
 from graphkin.structure.model import Mobility, Slide
+from graphkin.structure.replacement import stand_in
 
 __all__ = ["Constraints", "Node", "Unknown"]
 
@@ -31,6 +32,12 @@ class Constraints:
                 continue
             links[pin.key] = PlacedLink(pin.key, {pin.point: 0j}, (pin.point,), {"": PlacedGuide("", 0j, 1 + 0j)})
             slides.append(Slide(pin.key, pin.key, pin.on, links[pin.on].guides[pin.guide], 1 + 0j, pin.point, True))
+        self.contacts = tuple(c for c in scene.contacts if {*c.links} <= links.keys())
+        self.gears = tuple(g for g in scene.gears if {*g.wheels, g.carrier} <= links.keys())
+        for contact in self.contacts:
+            link, slide = stand_in(contact, links)
+            links[link.name] = link
+            slides += [slide] if slide else []
         hinges: dict[str, list[str]] = {}
         for link in links.values():
             for point in link.points:
@@ -53,10 +60,14 @@ class Constraints:
         return [("link", name) for name in moving] + [("point", name) for name in self.hinges]
 
     def mobility(self) -> Mobility:
-        blocks = {s.key for s in self.slides if s.slot}
-        real = [name for name in self.links if name not in blocks and name != self.scene.frame.name]
-        lower = sum(len([n for n in names if n not in blocks]) - 1 for names in self.hinges.values())
-        return Mobility(len(real), lower + len(self.slides) - len(blocks), len(blocks) + len(self.cams))
+        frame = self.scene.frame.name
+        real = [name for name in self.links if name in self.scene.by_name]
+        shared = [sum(name in self.scene.by_name for name in names) for names in self.hinges.values()]
+        lower = sum(n - 1 for n in shared if n) + sum(not s.slot for s in self.slides)
+        rolling = [c for c in self.contacts if c.rolling and not c.carrier]  # two constraints each, as a lower pair
+        blocks = sum(s.slot for s in self.slides) - sum(c.flat for c in self.contacts)
+        higher = blocks + len(self.contacts) - len(rolling) + len(self.gears) + len(self.cams)
+        return Mobility(len([n for n in real if n != frame]), lower + len(rolling), higher)
 
     def equations(self) -> list[set[Unknown]]:
         """For each scalar constraint the coordinates in it."""

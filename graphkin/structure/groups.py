@@ -122,8 +122,7 @@ def element_of(system: Constraints, members: list[str], known: set[str]) -> Elem
                 f"drive cam {cam.link}; what else moves hangs on the cam or on its follower"))  # fmt: skip
     if len(members) == 1 and len(pairs) == 1 and len(drivers) == 1:
         return Driven(members[0], pairs[0], drivers[0])
-    blocks = {s.key for s in system.slides if s.slot}
-    real = tuple(m for m in members if m not in blocks)
+    real = tuple(m for m in members if m in scene.by_name)
     bodies, loose = _bodies(system, members, drivers)
     dyad = _dyad(system, bodies, pairs, real) if not loose else None
     return dyad or Cluster(tuple(members), tuple(pairs), tuple(drivers), real, _order(members, pairs))

@@ -74,6 +74,8 @@ def _kept(scene: Mechanism, kept: set[str], asked: tuple[Symbol, ...]) -> Mechan
         slidings=tuple(s for s in scene.slidings if {s.link, s.on} <= kept),
         pins=tuple(p for p in scene.pins if {p.of, p.on} <= kept),
         cams=tuple(c for c in scene.cams if {c.link, c.follower} <= kept),
+        contacts=tuple(c for c in scene.contacts if set(c.links) <= kept),
+        gears=tuple(g for g in scene.gears if {*g.wheels, g.carrier} <= kept),
         drivers=tuple(d for d in scene.drivers if _ends(scene, d) <= kept),
         find=asked,
         printed={},

@@ -9,6 +9,8 @@ Taken is the acute angle between the two paths on which the inner joint of a gro
   through both, as in most guide-bar mechanisms and swinging blocks
 - PRP, RPP: between the two guides
 
+At a sliding contact the force acts along the common normal, on the link's point at the contact.
+
 The pressure angle, between the force that drives a link and the velocity of where it acts, is what it lacks to 90
 degrees.
 """
@@ -18,6 +20,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from graphkin.errors import CallError, Problem
+from graphkin.scene.contacts import Contact
 from graphkin.scene.symbol import Symbol
 from graphkin.structure.model import Cluster, Dyad, Slide, Structure, Turn
 
@@ -47,7 +50,13 @@ def _spot(structure: Structure, turn: Turn) -> Spot:
 
 
 def joint_of_dyad(structure: Structure, dyad: Dyad) -> Joint:
-    """The joint of a group of two links."""
+    """The joint of a group of two links; where one of them stands for a sliding contact, the contact itself."""
+    for contact in structure.scene.contacts:
+        if not contact.rolling and any(contact.block in body.links for body in dyad.bodies):
+            moved = [n for body in dyad.bodies for n in body.links if n in contact.links]
+            joint = _at_contact(structure, contact, moved[0]) if moved else None
+            if joint is not None:
+                return joint
     inner, one, two = dyad.inner, dyad.outer_first, dyad.outer_second
     if isinstance(inner, Turn):
         here = _spot(structure, inner)
@@ -91,7 +100,11 @@ def _arm(structure: Structure, name: str, point: str) -> Way | None:
 
 
 def joint_of_follower(structure: Structure, name: str, symbol: Symbol) -> Joint:
-    """The joint through which a link is driven.  Raises CallError where none can be told."""
+    """The joint through which a link is driven, a sliding contact first.  Raises CallError where none can be told."""
+    for contact in structure.scene.contacts:
+        joint = _at_contact(structure, contact, name) if not contact.rolling and name in contact.links else None
+        if joint is not None:
+            return joint
     for dyad in structure.groups:
         if isinstance(dyad, Dyad) and any(name in body.links for body in dyad.bodies):
             return joint_of_dyad(structure, dyad)
@@ -116,6 +129,26 @@ def joint_of_follower(structure: Structure, name: str, symbol: Symbol) -> Joint:
     raise CallError(
         Problem(str(symbol), f"link {name} is driven through no joint of a group of two links", "name a follower")
     )
+
+
+def _at_contact(structure: Structure, contact: Contact, name: str) -> Joint | None:
+    """The common normal, and what the velocity of the link's point at the contact is square to: a guide of the frame on
+    which it slides, or the line to its fixed pivot."""
+    block, frame = contact.block, structure.scene.frame
+    if block not in structure.links or name not in structure.links:
+        return None
+    stand_in = structure.links[block]
+    centre = stand_in.points[contact.round[0].centre]
+    far = stand_in.points[contact.name] if contact.flat else stand_in.points[contact.round[1].centre]
+    normal = (block, centre), (block, far)
+    slide = next((s for s in structure.slides if s.a == name and s.b == frame.name and not s.slot), None)
+    if slide is not None:
+        return Joint(normal, _guide(slide), True)
+    link = structure.links[name]
+    pivot = next((p for p in link.points if p in frame.points), None)
+    if pivot is None:
+        return None
+    return Joint(normal, ((name, link.points[pivot]), (block, stand_in.points[contact.name])))
 
 
 def sliding_pair(structure: Structure, symbol: Symbol) -> Slide:

@@ -46,7 +46,7 @@ def loops(structure: Structure) -> tuple[Loop, ...]:
             loop = _FINDERS[group.kind](structure, group)
             if loop is not None:
                 order = structure.scene.order
-                found.append(replace(loop, turns=tuple(sorted(loop.turns, key=lambda name: order[name]))))
+                found.append(replace(loop, turns=tuple(sorted(loop.turns, key=lambda name: order.get(name, -1)))))
     return tuple(found)
 
 

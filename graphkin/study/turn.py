@@ -12,7 +12,7 @@ import numpy as np
 from graphkin.errors import Unsolvable
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol
-from graphkin.solver import DriverRange, Motion
+from graphkin.solver import DriverRange, Motion, own_slides
 from graphkin.solver.flywheel import Flywheel, flywheel_of
 from graphkin.study.grashof import Loop, loops
 from graphkin.study.quantities import Quantity, link_quantities, slide_quantities, symbol_quantity
@@ -154,7 +154,7 @@ def study_turn(reach: DriverRange, asked: Sequence[Symbol] = (), everything: boo
         others = [symbol_quantity(s) for s in asked]
         if not asked:
             others = [q for link in scene.links for q in link_quantities(link.name)]
-            others += [q for s in start.slides for q in slide_quantities(s.key)]
+            others += [q for s in own_slides(scene, start.slides) for q in slide_quantities(s.key)]
         wanted += [q for q in others if q not in wanted]
     traced, least = trace(reach, wanted)
     outputs = tuple(_output(reach, t) for t in traced[: len(mains)])

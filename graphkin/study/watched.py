@@ -16,7 +16,17 @@ from graphkin.errors import CallError
 from graphkin.scene.force_names import force_names
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.solver import DriverRange, Motion, driver_range, forces_of, listed_points, prepare, structure_of, value_of
+from graphkin.solver import (
+    DriverRange,
+    Motion,
+    driver_range,
+    forces_of,
+    listed_points,
+    own_slides,
+    prepare,
+    structure_of,
+    value_of,
+)
 from graphkin.solver.named_positions import named_positions
 from graphkin.solver.prepared import PreparedMechanism
 from graphkin.solver.redundant import all_slides
@@ -124,7 +134,8 @@ def watched_named(scene: Mechanism, name: str) -> Watched | None:
         return Watched(force, force.is_size)
     if not mark:
         point, _, link = name.partition("@")
-        known = point in scene.holders and (not link or link in scene.by_name)
+        here = point in scene.holders or any(c.name == point for c in scene.contacts)
+        known = here and (not link or link in scene.by_name)
         return Watched(PointRef(point, link)) if known else None
     if kind == "theta" and any(link.name == rest for link in scene.links):
         return Watched(link_quantities(rest)[0])
@@ -135,7 +146,7 @@ def watched_named(scene: Mechanism, name: str) -> Watched | None:
 
 def everything(structure: Structure) -> tuple[Watched, ...]:
     """Everything that moves: each pin once, and each point under a sliding pin."""
-    scene, slides = structure.scene, all_slides(structure)
+    scene, slides = structure.scene, own_slides(structure.scene, all_slides(structure))
     found = [Watched(q) for link in scene.links for q in link_quantities(link.name)]
     seen: set[PointRef] = set()
     for point, link_name in listed_points(scene, slides):

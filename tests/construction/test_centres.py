@@ -51,9 +51,9 @@ def test_a_sliding_pair_has_its_centre_at_infinity_square_to_the_guide() -> None
     assert 1j == find_centres(mechanism_of("slider-crank-offset")).of("3", "4").direction
 
 
-def test_a_pin_in_a_slot_gives_its_common_normal_as_one_line() -> None:
+def test_a_contact_gives_its_common_normal_as_one_line() -> None:
     found = find_centres(mechanism_of("cam-eccentric-flat-rocker")).of("1", "2")
-    assert [("O/2",), (("1", "3"), ("2", "3"))] == [line.through for line in found.lines]
+    assert [("K",), (("1", "3"), ("2", "3"))] == [line.through for line in found.lines]
 
 
 def test_found_centres_are_numbered_in_the_order_in_which_they_are_found() -> None:

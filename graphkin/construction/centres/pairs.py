@@ -16,6 +16,7 @@ from functools import cached_property
 from itertools import combinations
 
 from graphkin.construction.sheet import Pose
+from graphkin.construction.touching import Touching
 from graphkin.plane import dot
 from graphkin.scene.model import Mechanism
 
@@ -136,6 +137,11 @@ class Links:
         return tuple(name for name in named if name in self.poses)
 
     @cached_property
+    def touching(self) -> Touching:
+        """What touches among them."""
+        return Touching(self.scene, self.mm, self.poses)
+
+    @cached_property
     def pairs(self) -> tuple[LinkPair, ...]:
         """All pairs, each written in the order of the file, the frame last."""
         return tuple(self.pair(a, b) for a, b in combinations(self.names, 2))
@@ -150,7 +156,10 @@ class Links:
         return pose.origin + pose.axis * (local * self.mm)
 
     def point(self, name: str) -> complex:
-        """A pin or a point of any link, on paper (mm)."""
+        """A pin or a point of any link, or the point of a contact, on paper (mm)."""
+        contact = next((c for c in self.scene.contacts if c.name == name), None)
+        if contact is not None:
+            return self.touching.contact(contact)[0]
         holder = next(n for n in self.scene.holders[name] if n in self.poses)
         return self.place(holder, self.scene.by_name[holder].points[name])
 
@@ -201,7 +210,7 @@ def links_on_paper(scene: Mechanism, mm: float, poses: Mapping[str, Pose]) -> Li
 
 
 def permanent(links: Links, chart: ProjectiveChart) -> dict[LinkPair, Permanent]:
-    """The centres that turning and sliding pairs give; k links at one hinge share k (k - 1) / 2 of them."""
+    """The centres that turning, sliding and rolling pairs give; k links at one hinge share k (k - 1) / 2 of them."""
     found: dict[LinkPair, Permanent] = {}
     for point, holders in links.scene.holders.items():
         here = [name for name in holders if name in links.poses]
@@ -214,11 +223,13 @@ def permanent(links: Links, chart: ProjectiveChart) -> dict[LinkPair, Permanent]
             square = 1j * links.poses[s.on].axis * guide.direction
             pair = links.pair(s.link, s.on)
             found.setdefault(pair, Permanent(pair, chart.towards(square), None, s.key))
+    for a, b, z, name in links.touching.rolling():
+        found.setdefault(links.pair(a, b), Permanent(links.pair(a, b), chart.at(z), z, name))
     return found
 
 
 def normals(links: Links, chart: ProjectiveChart) -> list[Normal]:
-    """For each pin in a slot the line through the pin square to the slot."""
+    """The common normals: of a pin in a slot the line through the pin square to the slot, and of sliding contacts."""
     found = []
     for pin in links.scene.pins:
         if pin.of in links.poses and pin.on in links.poses and pin.of != pin.on:
@@ -228,4 +239,8 @@ def normals(links: Links, chart: ProjectiveChart) -> list[Normal]:
             start = links.place(pin.on, guide.through)
             foot = start + along * dot(at - start, along)
             found.append(Normal(links.pair(pin.of, pin.on), chart.line(foot, 1j * along), foot, pin.key))
+    for contact in links.scene.contacts:
+        if not contact.rolling and set(contact.links) <= links.poses.keys():
+            at, along = links.touching.contact(contact)
+            found.append(Normal(links.pair(*contact.links), chart.line(at, along), at, contact.name))
     return found

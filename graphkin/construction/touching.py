@@ -1,0 +1,97 @@
+"""What touches, as it stands on paper: contacts with their normals, pitch circles, pitch lines and pitch points."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from graphkin.construction.sheet import Pose
+from graphkin.plane import dot
+from graphkin.scene.contacts import Contact, Gear
+from graphkin.scene.model import Mechanism
+
+__all__ = ["Touching"]
+
+
+@dataclass(frozen=True)
+class Touching:
+    """The contacts and gears of links placed on paper; ``mm`` of paper for one m."""
+
+    scene: Mechanism
+    mm: float
+    poses: Mapping[str, Pose]
+
+    def place(self, link: str, local: complex) -> complex:
+        """A place given in a link's own axes (m), on paper (mm)."""
+        pose = self.poses[link]
+        return pose.origin + pose.axis * (local * self.mm)
+
+    def contacts(self) -> Iterator[Contact]:
+        """The contacts both of whose links stand on paper."""
+        return (c for c in self.scene.contacts if set(c.links) <= self.poses.keys())
+
+    def gears(self) -> Iterator[Gear]:
+        """The gears whose wheels and carrier stand on paper."""
+        return (g for g in self.scene.gears if {*g.wheels, g.carrier} <= self.poses.keys())
+
+    def centres(self, contact: Contact) -> list[complex]:
+        """The centres of its discs."""
+        return [self.place(d.link, self.scene.by_name[d.link].points[d.centre]) for d in contact.round]
+
+    def contact(self, contact: Contact) -> tuple[complex, complex]:
+        """Where a contact is made, and the direction of its normal: out of the face, or from the first centre to the
+        second."""
+        spots = self.centres(contact)
+        if contact.flat:
+            guide = self.scene.by_name[contact.face].guides[contact.guide]
+            normal = self.poses[contact.face].axis * guide.direction * contact.normal_to_face
+            return spots[0] - normal * contact.round[0].radius * self.mm, normal
+        one, two = contact.round
+        way = spots[1] - spots[0]
+        return spots[0] + way * (one.radius / (one.radius + two.radius)), way / abs(way)
+
+    def pitch_point(self, gear: Gear) -> complex:
+        """Where the pitch circles touch, or circle and pitch line."""
+        held = self.scene.by_name[gear.carrier].points
+        axis = self.place(gear.carrier, held[gear.axes[0]])
+        if gear.teeth[1] is None:
+            rack = self.scene.by_name[gear.wheels[1]].guides[gear.guide]
+            along = self.poses[gear.wheels[1]].axis * rack.direction
+            start = self.place(gear.wheels[1], rack.through)
+            return start + along * dot(axis - start, along)
+        way = self.place(gear.carrier, held[gear.axes[1]]) - axis
+        return axis + way * (gear.teeth[0] / (gear.teeth[0] + gear.teeth[1]))
+
+    def rolling(self) -> Iterator[tuple[str, str, complex, str]]:
+        """Links that roll on each other, where they touch, and the name of the contact or the gear."""
+        for contact in self.contacts():
+            if contact.rolling:
+                yield *contact.links, self.contact(contact)[0], contact.name
+        for gear in self.gears():
+            yield *gear.wheels, self.pitch_point(gear), gear.name
+
+    def pitch_circles(self) -> Iterator[tuple[str, complex, float]]:
+        """Wheels with the centre and the radius (mm, negative for internal teeth) of each pitch circle."""
+        for gear in self.gears():
+            held, at = self.scene.by_name[gear.carrier].points, self.pitch_point(gear)
+            for wheel, axis, teeth in zip(gear.wheels, gear.axes, gear.teeth, strict=True):
+                if teeth is not None:
+                    centre = self.place(gear.carrier, held[axis])
+                    yield wheel, centre, math.copysign(abs(at - centre), teeth)
+
+    def pitch_lines(self) -> Iterator[tuple[str, complex, complex]]:
+        """Racks with the pitch point, and the direction from the wheel to the rack's body."""
+        for gear in self.gears():
+            if gear.is_rack:
+                at = self.pitch_point(gear)
+                axis = self.place(gear.carrier, self.scene.by_name[gear.carrier].points[gear.axes[0]])
+                yield gear.wheels[1], at, (at - axis) / abs(at - axis)
+
+    def outermost(self) -> list[complex]:
+        """The four outermost places of each round outline and each pitch circle."""
+        found = [(c, abs(radius)) for _, c, radius in self.pitch_circles()]
+        for link in (self.scene.frame, *self.scene.links):
+            if link.name in self.poses:
+                found += [(self.place(link.name, link.points[d.centre]), abs(d.radius) * self.mm) for d in link.discs]
+        return [centre + radius * way for centre, radius in found for way in (1, 1j, -1, -1j)]

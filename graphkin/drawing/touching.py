@@ -1,0 +1,135 @@
+"""What touches, on the drawn mechanism: discs, faces, pitch circles of wheels, and at a contact its tangent and normal.
+
+A pitch circle is dash-dotted (ISO 2203), an outline of the frame is hatched on the side of its body.
+"""
+
+from __future__ import annotations
+
+import math
+from cmath import phase
+from collections.abc import Iterator
+
+from graphkin.construction.touching import Touching
+from graphkin.drawing import strokes, symbols
+from graphkin.drawing.labels import Label
+from graphkin.drawing.mechanism_on_paper import MechanismOnPaper, page
+from graphkin.drawing.piece import Piece
+from graphkin.drawing.primitives import Circle, Group, Line, Primitive, Stroke, Text
+from graphkin.drawing.text import symbol
+
+__all__ = ["contact_marks", "faces_of_frame", "outlines_of", "stand_ins", "wheels_of"]
+
+NORMAL, TANGENT = 15.0, 12.0
+"""mm of normal and tangent to either side of a contact."""
+FACE = 16.0
+"""mm of a face of the frame to either side of a contact."""
+PITCH = Stroke(0.25, (4.0, 0.8, 0.6, 0.8))
+AXIS = Stroke(0.18, (4.0, 0.8, 0.6, 0.8))
+HATCHES = 6.0
+"""mm of outline between two hatches of a hatched ring."""
+
+
+def _on_paper(here: MechanismOnPaper) -> Touching:
+    return Touching(here.scene, 1.0 / here.sheet.scales.length, here.sheet.poses)
+
+
+def outlines_of(here: MechanismOnPaper, link: str) -> list[Primitive]:
+    """The round outlines of a link; a hollow one, and every one of the frame, hatched where its body is."""
+    if link not in here.sheet.poses:
+        return []
+    links, colour = _on_paper(here), here.colour(link)
+    parts: list[Primitive] = []
+    for disc in here.scene.by_name[link].discs:
+        centre = links.place(link, here.scene.by_name[link].points[disc.centre])
+        radius = abs(disc.radius) * links.mm
+        parts.append(Circle(page(centre), radius, stroke=strokes.LINK.coloured(colour)))
+        if link == here.ground or disc.radius < 0:
+            parts += _ring(centre, radius, disc.radius < 0, colour)
+    return parts
+
+
+def _ring(centre: complex, radius: float, outside: bool, colour: str) -> Iterator[Primitive]:
+    count = max(12, round(2 * math.pi * radius / HATCHES))
+    away = symbols.HATCH_DEPTH if outside else -symbols.HATCH_DEPTH
+    for k in range(count):
+        way = complex(math.cos(2 * math.pi * k / count), math.sin(2 * math.pi * k / count))
+        foot = centre + radius * way
+        yield Line(page(foot), page(foot + away * way * complex(1, 0.8)), strokes.HATCHING.coloured(colour))
+
+
+def wheels_of(here: MechanismOnPaper, link: str) -> list[Primitive]:
+    """The pitch circles of a link that is a wheel, its pitch lines if it is a rack."""
+    links, colour = _on_paper(here), here.colour(link)
+    parts: list[Primitive] = []
+    for wheel, centre, radius in links.pitch_circles():
+        if wheel == link:
+            parts.append(Circle(page(centre), abs(radius), stroke=PITCH.coloured(colour)))
+            if link == here.ground:
+                parts += _ring(centre, abs(radius), radius < 0, colour)
+    for rack, foot, body in links.pitch_lines():
+        if rack == link:
+            along = 1j * body
+            reach = 2.2 * FACE * along
+            parts.append(Line(page(foot - reach), page(foot + reach), PITCH.coloured(colour)))
+            edge = body * 2.0
+            ends = (foot - reach + edge, foot + reach + edge)
+            edge_of_body = Line(page(ends[0]), page(ends[1]), strokes.LINK.coloured(colour))
+            parts += _hatched(*ends, body) if link == here.ground else [edge_of_body]
+    return parts
+
+
+def _hatched(start: complex, end: complex, body: complex) -> tuple[Primitive, ...]:
+    """An edge of the frame, hatched on the side of ``body``."""
+    right = page(end - start) * 1j
+    if (right * page(body).conjugate()).real < 0:
+        start, end = end, start
+    return symbols.hatched_line(page(start), page(end))
+
+
+def faces_of_frame(here: MechanismOnPaper) -> list[Primitive]:
+    """Flat faces that the frame carries."""
+    links, parts = _on_paper(here), list[Primitive]()
+    for contact in links.contacts():
+        if contact.flat and contact.face == here.ground:
+            at, normal = links.contact(contact)
+            along = 1j * normal * FACE
+            parts += _hatched(at - along, at + along, -normal)
+    return parts
+
+
+def contact_marks(here: MechanismOnPaper) -> Piece:
+    """At every contact the common normal n-n and the common tangent t-t."""
+    links, drawn, names = _on_paper(here), list[Primitive](), list[Label]()
+    for contact in links.contacts():
+        at, normal = links.contact(contact)
+        lines = []
+        for letter, along, reach in (("n", normal, NORMAL), ("t", 1j * normal, TANGENT)):
+            ends = at - reach * along, at + reach * along
+            lines.append(Line(page(ends[0]), page(ends[1]), AXIS))
+            for k, (end, way) in enumerate(zip(ends, (-along, along), strict=True)):
+                mark = f"label-{letter}-{contact.name}-{k + 1}"
+                text = Text(0j, symbol(letter, 3.0), "start", strokes.BLACK, mark, ("label",))
+                names.append(Label(text, page(end), (phase(way),), 0))
+        drawn.append(Group(tuple(lines), id=f"contact-{contact.name}", classes=("contact",)))
+    return Piece({"construction": tuple(drawn)}, tuple(names))
+
+
+
+def stand_ins(here: MechanismOnPaper) -> Piece:
+    """What replaces the higher pairs, dashed: the bar between two centres of curvature, the block at the one of a disc
+    whose guide runs along the face."""
+    links, drawn = _on_paper(here), list[Primitive]()
+    for contact in links.contacts():
+        if contact.carrier:
+            continue
+        colour = here.colour(contact.block)
+        spots = links.centres(contact)
+        if contact.flat:
+            _, normal = links.contact(contact)
+            along = 1j * normal
+            drawn += symbols.block(page(spots[0]), phase(along), colour)
+            reach = FACE * along
+            drawn.append(Line(page(spots[0] - reach), page(spots[0] + reach), strokes.DIRECTION))
+        else:
+            drawn.append(Line(page(spots[0]), page(spots[1]), strokes.REDUNDANT.coloured(colour)))
+    return Piece({"construction": tuple(drawn)})

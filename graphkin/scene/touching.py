@@ -1,0 +1,285 @@
+"""Contacts and gears of a file: names looked up, radii with their signs, the carriers of wheels found."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+
+from graphkin.errors import Problem, did_you_mean
+from graphkin.plane import cross
+from graphkin.scene.contact_tables import ContactTable, GearTable
+from graphkin.scene.contacts import Contact, Disc, Gear
+from graphkin.scene.model import PlacedGuide, SlidingPair
+from graphkin.scene.names import Flaws, Names
+from graphkin.scene.tables import SceneTables
+
+__all__ = ["contacts_of", "discs_of", "gears_of", "rack_place", "touching_links", "wrong_distances"]
+
+AGREE = 1e-6
+
+
+def discs_of(file: SceneTables, names: Names, problems: list[Problem]) -> dict[tuple[str, str], Disc]:
+    """Every round outline by its link and its name."""
+    metres, found = file.units.metres, dict[tuple[str, str], Disc]()
+    tables = [(f"links.{n}", n, link.discs) for n, link in file.links.items()]
+    for where, link, discs in (*tables, ("frame", names.frame, file.frame.discs)):
+        for name, table in discs.items():
+            here = f"{where}.discs.{name}"
+            if name in names.guides.get(link, ()):
+                problems.append(Problem(here, f"{link}.{name} is the name of a guide too", "give one of them another"))
+            if missing := names.no_point_of(f"{here}.centre", link, table.centre):
+                problems.append(missing)
+            elif table.r == 0:
+                problems.append(Problem(f"{here}.r", "found 0", "write a radius; a negative one is a hollow outline"))
+            else:
+                found[link, name] = Disc(link, name, table.centre, table.r * metres)
+    return found
+
+
+def touching_links(file: SceneTables) -> Iterator[tuple[str, str]]:
+    """The links that a contact or a gear joins."""
+    for between in (*(c.between for c in file.contacts.values()), *(g.between for g in file.gears.values())):
+        one, two = (ref.partition(".")[0] for ref in between)
+        yield one, two
+
+
+@dataclass(frozen=True)
+class _Side:
+    """One side of a contact: its link, and its disc or the name of its guide."""
+
+    link: str
+    disc: Disc | None
+    guide: str
+
+
+def contacts_of(
+    file: SceneTables, names: Names, flaws: Flaws, discs: Mapping[tuple[str, str], Disc], problems: list[Problem]
+) -> tuple[Contact, ...]:
+    """The contacts of a file; what is wrong with them is added to ``problems``."""
+    lost = {(n, k) for n in names.points for k in flaws.names("links", n, "discs")}
+    lost |= {(names.frame, k) for k in flaws.names("frame", "discs")}
+    found: list[Contact] = []
+    for name, table in file.contacts.items():
+        where = f"contacts.{name}"
+        if any(name in own for own in names.points.values()):
+            wanted = "give the contact a letter of its own"
+            problems.append(Problem(where, f"{name} is a point of a link already", wanted))
+        sides = [_side(f"{where}.between", ref, file, names, discs, lost) for ref in table.between]
+        wrong = [s for s in sides if isinstance(s, Problem)]
+        problems += wrong
+        one, two = sides
+        if wrong or not isinstance(one, _Side) or not isinstance(two, _Side):
+            continue
+        reasons = list(_contact_problems(where, table, one, two))
+        problems += reasons
+        if not reasons:
+            found.append(_contact(name, table, one, two, names))
+    blocks: set[str] = set()
+    for k, contact in enumerate(found):
+        found[k] = replace(contact, again=contact.flat and contact.block in blocks)
+        blocks.add(contact.block)
+    return tuple(found)
+
+
+def _side(
+    where: str, ref: str, file: SceneTables, names: Names, discs: Mapping[tuple[str, str], Disc],
+    lost: set[tuple[str, str]],
+) -> _Side | Problem | None:
+    link, _, part = ref.partition(".")
+    if missing := names.no_link(where, link):
+        return missing
+    if link not in file.links and link != names.frame:
+        return None
+    outlines = (file.frame if link == names.frame else file.links[link]).discs
+    if part in outlines or (link, part) in lost:
+        disc = discs.get((link, part))
+        return _Side(link, disc, "") if disc else None  # what is wrong with it is told already
+    if not part or part in names.guides.get(link, ()):
+        return _Side(link, None, part)
+    known = [*outlines, *names.guides.get(link, ())]
+    wanted = did_you_mean(part, known) if known else f"write it in links.{link}.discs or links.{link}.guides"
+    return Problem(where, f'link {link} has no disc and no guide "{part}"', wanted)
+
+
+def _contact_problems(where: str, table: ContactTable, one: _Side, two: _Side) -> Iterator[Problem]:
+    refs = " and ".join(table.between)
+    if one.link == two.link:
+        yield Problem(f"{where}.between", f"{refs} are outlines of the same link {one.link}", "name two links")
+        return
+    if one.disc is None and two.disc is None:
+        yield Problem(f"{where}.between", f"{refs} are two guides", "one of them at least is a disc")
+        return
+    if one.disc is None or two.disc is None:
+        disc = one.disc or two.disc
+        assert disc is not None
+        if table.side in ("outside", "inside"):
+            wanted = 'a face has a "left" and a "right" side'
+            yield Problem(f"{where}.side", f'found "{table.side}" with a flat face', wanted)
+        if disc.radius < 0:
+            wanted = "no flat face touches a hollow outline"
+            yield Problem(f"{where}.between", f"{disc.link}.{disc.name} is hollow", wanted)
+        return
+    if table.side in ("left", "right"):
+        yield Problem(f"{where}.side", f'found "{table.side}" with two discs', 'two discs touch "outside" or "inside"')
+    r1, r2 = one.disc.radius, two.disc.radius
+    hollow = [d for d in (one.disc, two.disc) if d.radius < 0]
+    if len(hollow) == 2:
+        yield Problem(f"{where}.between", f"{refs} are both hollow", "one of them has a positive radius")
+    elif table.side == "outside" and hollow:
+        yield Problem(f"{where}.side", 'found "outside" with a hollow outline', 'leave side out, or write "inside"')
+    elif hollow and r1 + r2 >= 0:
+        found = f"the hollow outline {hollow[0].link}.{hollow[0].name} is no larger than what is in it"
+        yield Problem(f"{where}.between", found, "its radius must be the larger one")
+    elif table.side == "inside" and abs(r1) == abs(r2):
+        yield Problem(f"{where}.side", "both radii are equal", "inside, one must be smaller than the other")
+
+
+def _contact(name: str, table: ContactTable, one: _Side, two: _Side, names: Names) -> Contact:
+    first, second, guide = one.disc, two.disc, one.guide or two.guide
+    carrier = ""
+    if first and second:
+        if table.side == "inside" and first.radius > 0 and second.radius > 0:
+            if first.radius > second.radius:
+                first = replace(first, radius=-first.radius)
+            else:
+                second = replace(second, radius=-second.radius)
+        if table.rolling:
+            both = {first.centre, second.centre}
+            others = [n for n, own in names.points.items() if n not in (one.link, two.link) and both <= set(own)]
+            others.sort(key=lambda n: n != names.frame)
+            carrier = others[0] if others else ""
+    discs = (first, second)
+    return Contact(name, one.link, two.link, discs, guide, table.side != "right", table.rolling, carrier)
+
+
+def gears_of(
+    file: SceneTables, names: Names, slidings: tuple[SlidingPair, ...], problems: list[Problem]
+) -> tuple[Gear, ...]:
+    """The gears of a file; what is wrong with them is added to ``problems``."""
+    found = []
+    for name, table in file.gears.items():
+        made = _gear(f"gears.{name}", name, table, file, names, slidings)
+        if isinstance(made, Gear):
+            found.append(made)
+        else:
+            problems += made
+    return tuple(found)
+
+
+def _gear(
+    where: str, name: str, table: GearTable, file: SceneTables, names: Names, slidings: tuple[SlidingPair, ...]
+) -> Gear | list[Problem]:
+    first, _, part = table.between[0].partition(".")
+    second, _, guide = table.between[1].partition(".")
+    z1, z2 = table.teeth
+    rack = isinstance(z2, str)
+    problems = [p for link in (first, second) if (p := names.no_link(f"{where}.between", link))]
+    if isinstance(z1, str):
+        problems.append(Problem(f"{where}.teeth", 'the first is "rack"', "the rack is the second one of between"))
+        return problems
+    if part or (guide and not rack):
+        ref = table.between[0] if part else table.between[1]
+        problems.append(Problem(f"{where}.between", f'found "{ref}"', "a wheel is named by its link alone"))
+    elif guide and not problems:
+        problems += [p for p in [names.no_guide(f"{where}.between", table.between[1])] if p]
+    for z in (z1, z2):
+        if not isinstance(z, str) and (z == 0 or not float(z).is_integer()):
+            wanted = "write a number of teeth, negative for internal ones"
+            problems.append(Problem(f"{where}.teeth", f"found {z:g}", wanted))
+    if rack and z1 < 0:
+        wanted = "the wheel of a rack has external teeth"
+        problems.append(Problem(f"{where}.teeth", f"found {z1:g} with a rack", wanted))
+    if not isinstance(z2, str):
+        if z1 < 0 and z2 < 0:
+            problems.append(Problem(f"{where}.teeth", "both have internal teeth", "one of them has external teeth"))
+        elif min(z1, z2) < 0 <= z1 + z2:
+            wanted = "a ring has more teeth than what runs in it"
+            problems.append(Problem(f"{where}.teeth", f"found {z1:g} and {z2:g}", wanted))
+    if first == second:
+        problems.append(Problem(f"{where}.between", f"link {first} meshes with itself", "name two links"))
+    if table.carrier is not None and (missing := names.no_link(f"{where}.carrier", table.carrier)):
+        problems.append(missing)
+    elif table.carrier in (first, second):
+        wanted = "name the link that holds both axes"
+        problems.append(Problem(f"{where}.carrier", f"link {table.carrier} is one of the wheels", wanted))
+    if problems:
+        return problems
+    if "" in names.unsure or any(n not in names.points for n in (first, second)):
+        return []
+    moving = [n for n in file.links if n not in (first, second)]
+    candidates = [table.carrier] if table.carrier else [n for n in (names.frame, *moving) if n not in (first, second)]
+    for carrier in candidates:
+        one = _axis(names, first, carrier)
+        if rack:
+            pair = next((s for s in slidings if {s.link, s.on} == {second, carrier}), None)
+            if one and pair:
+                return Gear(name, (first, second), (z1, None), carrier, (one, ""), guide, pair.key)
+            continue
+        two = _axis(names, second, carrier)
+        if one and two and one != two:
+            return Gear(name, (first, second), (z1, float(z2)), carrier, (one, two))
+    held = "the wheel's axis and the rack's slide" if rack else "both axes"
+    if table.carrier:
+        wanted = f"it shares a point with link {first}" + ("" if rack else f" and another with link {second}")
+        return [Problem(f"{where}.carrier", f"link {table.carrier} does not hold {held}",
+                        wanted + (f", and link {second} slides on it or it on link {second}" if rack else ""))]
+    return [Problem(where, f"no link holds {held} of wheels {first} and {second}",
+                    "pin both wheels to one carrier, and name it: carrier = ...")]
+
+
+def _axis(names: Names, wheel: str, carrier: str) -> str:
+    """The point that a wheel and its carrier share."""
+    own = names.points.get(carrier, ())
+    return next((p for p in names.points.get(wheel, ()) if p in own), "")
+
+
+def wrong_distances(
+    contacts: tuple[Contact, ...], gears: tuple[Gear, ...], slidings: tuple[SlidingPair, ...],
+    points: Mapping[str, Mapping[str, complex]], guides: Mapping[str, Mapping[str, PlacedGuide]], metres: float,
+) -> Iterator[Problem]:
+    """Wheels whose carrier does not hold them as far apart as their radii say, or at no distance; pitch lines that are
+    not parallel to their slide; centres on the other body."""
+    for c in contacts:
+        if not c.flat and c.carrier:
+            one, two = c.round
+            held = abs(points[c.carrier][two.centre] - points[c.carrier][one.centre])
+            wanted = abs(one.radius + two.radius)
+            if abs(held - wanted) > AGREE * max(abs(one.radius), abs(two.radius)):
+                yield Problem(f"contacts.{c.name}", f"link {c.carrier} holds the centres {held / metres:.10g} apart, "
+                              f"the radii make it {wanted / metres:.10g}", "correct a radius, or the distance")
+        if not c.flat and c.round[0].centre == c.round[1].centre:
+            yield Problem(f"contacts.{c.name}", "both outlines have the same centre", "two centres lie apart")
+    for g in gears:
+        own = points[g.carrier]
+        if not g.is_rack:
+            if abs(own[g.axes[1]] - own[g.axes[0]]) == 0:
+                yield Problem(f"gears.{g.name}", "both axes lie at the same place", "two wheels have axes apart")
+            continue
+        height, tilt, far = rack_place(g, slidings, points, guides)
+        if abs(tilt) > AGREE:
+            yield Problem(f"gears.{g.name}", f"the pitch line is not parallel to the slide {g.slide}",
+                          f"name a guide of link {g.wheels[1]} along which it slides")
+        elif abs(height) <= AGREE * max(far, 1e-300):
+            yield Problem(f"gears.{g.name}", "the wheel's axis lies on the pitch line of the rack",
+                          "the distance of the two is the radius of the wheel")
+
+
+def rack_place(
+    gear: Gear, slidings: tuple[SlidingPair, ...],
+    points: Mapping[str, Mapping[str, complex]], guides: Mapping[str, Mapping[str, PlacedGuide]],
+) -> tuple[float, float, float]:
+    """How far the pitch line of a rack lies to the left of the wheel's axis, seen along the guide of its slide (m); the
+    sine of its angle with the guide; and a length to compare with (m)."""
+    pair = next(s for s in slidings if s.key == gear.slide)
+    rail = guides[pair.on][pair.guide]
+
+    def seen(link: str, z: complex) -> complex:
+        # in the axes of the guide, but for the travel along it
+        return z * pair.turn if link == pair.link else (z - rail.through) / rail.direction
+
+    rack, line = gear.wheels[1], guides[gear.wheels[1]][gear.guide]
+    axis = seen(gear.carrier, points[gear.carrier][gear.axes[0]])
+    at = seen(rack, line.through)
+    along = seen(rack, line.through + line.direction) - at
+    far = abs(axis) + abs(at)
+    return (at - axis).imag, cross(1 + 0j, along), far

@@ -1,0 +1,88 @@
+"""What is wrong with contacts and gears is told by name, all at once."""
+
+import copy
+
+import pytest
+
+from graphkin.errors import SceneError
+from graphkin.scene.source import mechanism_of, read
+from graphkin.scene.written import as_mapping
+
+DISC = {
+    "frame": {"points": {"A": [0, 0], "C": [80, 0]}},
+    "links": {
+        "1": {"points": ["A", "O"], "length": 22, "discs": {"k": {"centre": "O", "r": 50}}},
+        "2": {"points": ["C"], "guides": {"f": {"through": "C", "angle": 0}}},
+    },
+    "contacts": {"K": {"between": ["1.k", "2.f"]}},
+    "driver": {"link": "1", "angle": 90, "omega": 10},
+}
+WHEELS = {
+    "frame": {"points": {"A": [0, 0], "B": [50, 0]}},
+    "links": {"1": {"points": ["A"]}, "2": {"points": ["B"]}},
+    "gears": {"g": {"between": ["1", "2"], "teeth": [20, 30]}},
+    "driver": {"link": "1", "angle": 0, "omega": 12},
+}
+
+
+def changed(scene, path, value):
+    made = copy.deepcopy(scene)
+    *way, last = path.split(".")
+    place = made
+    for key in way:
+        place = place[key]
+    place[last] = value
+    return made
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "where", "words"),
+    [
+        ("links.1.discs.k.r", 0, "links.1.discs.k.r", "found 0"),
+        ("links.1.discs.k.centre", "Q", "links.1.discs.k.centre", "Q is nowhere placed on link 1"),
+        ("links.1.discs.k.r", -50, "contacts.K.between", "1.k is hollow"),
+        ("contacts.K.between", ["1.k", "2.q"], "contacts.K.between", 'no disc and no guide "q"'),
+        ("contacts.K.between", ["1.k", "7.f"], "contacts.K.between", 'there is no link "7"'),
+        ("contacts.K.between", ["1.k", "1"], "contacts.K.between", "outlines of the same link 1"),
+        ("contacts.K.between", ["1", "2.f"], "contacts.K.between", "are two guides"),
+        ("contacts.K.side", "inside", "contacts.K.side", "with a flat face"),
+        ("contacts.K.side", "above", "contacts.K.side", 'found "above"'),
+        ("contacts.K.rolls", True, "contacts.K.rolls", 'did you mean "rolling"?'),
+        ("contacts", {"O": {"between": ["1.k", "2.f"]}}, "contacts.O", "a point of a link already"),
+    ],
+)
+def test_a_wrong_contact_is_named(path, value, where, words):
+    with pytest.raises(SceneError) as told:
+        mechanism_of(changed(DISC, path, value))
+    assert any(where == p.where and words in f"{p.found} {p.wanted}" for p in told.value.problems), told.value.problems
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "where", "words"),
+    [
+        ("gears.g.teeth", [0, 30], "gears.g.teeth", "found 0"),
+        ("gears.g.teeth", [20.5, 30], "gears.g.teeth", "found 20.5"),
+        ("gears.g.teeth", [30, -20], "gears.g.teeth", "a ring has more teeth"),
+        ("gears.g.teeth", ["rack", 20], "gears.g.teeth", 'the first is "rack"'),
+        ("gears.g.teeth", [20, "rack"], "gears.g", "no link holds the wheel's axis and the rack's slide"),
+        ("gears.g.between", ["1", "1"], "gears.g.between", "meshes with itself"),
+        ("gears.g.between", ["1", "9"], "gears.g.between", 'there is no link "9"'),
+        ("gears.g.carrier", "2", "gears.g.carrier", "is one of the wheels"),
+        ("links.2.points", ["A"], "gears.g", "no link holds both axes"),
+        ("frame.points.B", [0, 0], "gears.g", "both axes lie at the same place"),
+    ],
+)
+def test_a_wrong_gear_is_named(path, value, where, words):
+    with pytest.raises(SceneError) as told:
+        mechanism_of(changed(WHEELS, path, value))
+    assert any(where == p.where and words in f"{p.found} {p.wanted}" for p in told.value.problems), told.value.problems
+
+
+def test_a_scene_with_contacts_reads_as_it_was_written():
+    scene = mechanism_of("disc-on-disc")
+    assert scene.contacts == mechanism_of(as_mapping(scene)).contacts
+
+
+def test_contacts_can_be_changed_by_key():
+    smaller = read("disc-on-disc").replace("links.1.discs.k.r", 30)
+    assert 0.03 == smaller.mechanism.contacts[0].round[0].radius

@@ -1,0 +1,81 @@
+"""Outlines that touch: the solver beside another one in 50 digits, and beside what the figure itself must keep."""
+
+import numpy as np
+import pytest
+
+from graphkin import check, solve, sweep
+from graphkin.scene import mechanism_of
+from graphkin.structure import analyse
+
+
+def frame_of(data):
+    return data["positions"][0]
+
+
+def test_the_flat_rocker_moves_as_the_exercise_says():
+    here = frame_of(solve("cam-eccentric-flat-rocker").data)
+    assert here["links"]["2"]["omega"] == pytest.approx(2.633742889782669, rel=1e-13)
+    assert here["links"]["2"]["alpha"] == pytest.approx(4.348559188361159, rel=1e-12)
+    assert here["points"]["K@2"]["acceleration"] == pytest.approx([51.78362191245033, -539.5945080649294], rel=1e-12)
+    contact = here["contacts"]["K"]
+    assert contact["position"] == pytest.approx([39.63291103600903, 52.48331285821464], rel=1e-13)
+    assert contact["normal"] == pytest.approx([0.7926582207201806, 0.6096662571642928], rel=1e-13)
+    assert contact["slip"] == pytest.approx([-386.60557650958424, 502.64564390022593], rel=1e-12)
+    assert contact["pressure"] == pytest.approx({"1": 1.3024301158889897, "2": 0.0}, abs=1e-12)
+
+
+def test_two_discs_move_as_the_four_bar_of_their_centres():
+    here = frame_of(solve("disc-on-disc").data)
+    assert here["links"]["2"]["alpha"] == pytest.approx(55.609990265700986, rel=1e-12)
+    assert here["contacts"]["K"]["pressure"]["2"] == pytest.approx(0.1991395448398155, rel=1e-12)
+
+
+def test_the_outlines_touch_all_the_turn_and_slide_along_the_tangent():
+    turn = solve("disc-on-disc", sweep=24)
+    for here in turn.data["positions"]:
+        contact = here["contacts"]["K"]
+        normal, slip = complex(*contact["normal"]), complex(*contact["slip"])
+        at = complex(*contact["position"])
+        assert 40 == pytest.approx(abs(at - complex(*here["points"]["O@1"]["position"])), rel=1e-12)
+        assert 15 == pytest.approx(abs(at - complex(*here["points"]["B@2"]["position"])), rel=1e-12)
+        assert 0 == pytest.approx((normal.conjugate() * slip).real, abs=1e-10 * abs(slip))
+
+
+def test_a_flat_face_that_slides_moves_as_a_scotch_yoke():
+    turn = sweep("cam-eccentric-flat-slider", positions=36, find=["B", "pressure_2"])
+    angle = np.radians(40 + np.arange(36) * 10)
+    assert 40 + 15 * np.sin(angle) == pytest.approx(turn["B"].imag, rel=1e-13)
+    assert np.zeros(36) == pytest.approx(turn["pressure_2"], abs=1e-9)
+
+
+@pytest.mark.parametrize("scene", ["cam-eccentric-flat-rocker", "cam-eccentric-flat-slider", "disc-on-disc"])
+def test_a_contact_is_a_higher_pair_and_its_replacement_leaves_the_mobility(scene):
+    structure = analyse(mechanism_of(scene))
+    assert (2, 2, 1, 1) == (*vars(structure.mobility).values(), structure.mobility.value)
+
+
+@pytest.mark.parametrize("at", [0, 75, 200, 310])
+@pytest.mark.parametrize("scene", ["cam-eccentric-flat-rocker", "cam-eccentric-flat-slider", "disc-on-disc"])
+def test_the_drawing_agrees_with_the_solver_on_the_points_at_the_contact(scene, at):
+    asked = ["v_K@1", "v_K@2", "a_K@1", "a_K@2", "v_K@1/K@2", "pressure_2", "x_K"]
+    result = check(scene, at=at, find=asked)
+    for name in asked:
+        row = result[name]
+        assert row.exact == pytest.approx(row.reading.value, rel=1e-9, abs=1e-12)
+
+
+def test_a_hollow_outline_holds_a_smaller_disc():
+    ring = {
+        "frame": {"points": {"A": [0, 0], "C": [70, 0]}},
+        "links": {
+            "1": {"points": ["A", "O"], "length": 20, "discs": {"k": {"centre": "O", "r": -75}}},
+            "2": {"points": ["C", "B"], "length": 55, "discs": {"w": {"centre": "B", "r": 15}}},
+        },
+        "contacts": {"K": {"between": ["1.k", "2.w"]}},
+        "sketch": {"B": [40, 45]},
+        "driver": {"link": "1", "angle": 30, "omega": 3},
+    }
+    here = frame_of(solve(ring).data)
+    o, b, k = (complex(*here["points"][p]["position"]) for p in ("O@1", "B@2", "K@1"))
+    assert [60, 75, 15] == pytest.approx([abs(b - o), abs(k - o), abs(k - b)], rel=1e-12)
+    assert 1.0 == pytest.approx((complex(*here["contacts"]["K"]["normal"]) / ((o - k) / abs(o - k))).real, rel=1e-12)
