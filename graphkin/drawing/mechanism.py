@@ -5,7 +5,7 @@ and senses, the compass arcs that found it; cut to its room where it has to be.
 from __future__ import annotations
 
 import math
-from cmath import phase
+from cmath import phase, rect
 from collections.abc import Iterator
 
 from graphkin.construction.sheet import CompassArc, Sheet
@@ -15,7 +15,15 @@ from graphkin.drawing.conventions import Letters
 from graphkin.drawing.dimensioning import LENGTHS, drawn_lengths
 from graphkin.drawing.group_aids import aids_in_mechanism
 from graphkin.drawing.labels import Label
-from graphkin.drawing.mechanism_on_paper import GUIDE_LENGTH, CamOnPaper, LinkShape, MechanismOnPaper, Slider, page
+from graphkin.drawing.mechanism_on_paper import (
+    GUIDE_LENGTH,
+    CamOnPaper,
+    CurvedSlot,
+    LinkShape,
+    MechanismOnPaper,
+    Slider,
+    page,
+)
 from graphkin.drawing.piece import Piece, cut_to, ink_box, joined, middle_of
 from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Primitive, Text
 from graphkin.drawing.senses import clearance, drivers, found_rates
@@ -31,7 +39,8 @@ def links(here: MechanismOnPaper) -> Piece:
     areas = [_link(here, shape) for shape in here.shapes if shape.corners]
     bars = sorted((shape for shape in here.shapes if not shape.corners), key=lambda shape: _depth(here, shape))
     profiles = [_profile(here, one) for one in here.cams]
-    return Piece({"mechanism": (*profiles, *areas, _frame(here), *(_link(here, shape) for shape in bars))})
+    slots = (Group(tuple(_curved(here, one)), id=f"slot-{one.slot.bar}", classes=("link",)) for one in here.curved)
+    return Piece({"mechanism": (*profiles, *areas, _frame(here), *slots, *(_link(here, shape) for shape in bars))})
 
 
 def _depth(here: MechanismOnPaper, shape: LinkShape) -> int:
@@ -98,6 +107,9 @@ def _link(here: MechanismOnPaper, shape: LinkShape) -> Group:
         parts += _welds(here, shape, colour)
     for start, end in shape.slots:
         parts += symbols.slot(page(start), page(end), colour)
+    for curved in here.curved:
+        if curved.slot.block and curved.slot.bar == shape.link:
+            parts += symbols.block(page(curved.at), phase(1j * (curved.at - curved.centre)), colour)
     for b in here.sliders:
         if b.slide.b == shape.link and b.slide.key in here.cylinders:
             parts += symbols.cylinder(page(here.pivot(b)), page(b.at), colour)
@@ -117,6 +129,18 @@ def _texture(here: MechanismOnPaper, shape: LinkShape) -> list[Primitive]:
         return []
     edges = zip(shape.corners, (*shape.corners[1:], *shape.corners[:1]), strict=True)
     return [Line(page(start), page(end), white) for start, end in (*shape.bars, *edges)]
+
+
+def _curved(here: MechanismOnPaper, curved: CurvedSlot) -> Iterator[Primitive]:
+    """A circular slot, and what joins it to a moving link that has it."""
+    slot, radius = curved.slot, abs(curved.at - curved.centre)
+    colour = strokes.BLACK if slot.on == here.ground else here.colour(slot.on)
+    if slot.on != here.ground:
+        rim = curved.centre + radius * rect(1.0, curved.start)
+        held = [here.places[p] for p in here.scene.by_name[slot.on].points if p in here.places and p != slot.centre]
+        near = min(held or [curved.centre], key=lambda z: abs(z - rim))
+        yield Line(page(near), page(rim), strokes.LINK.coloured(colour))
+    yield from symbols.circular_slot(page(curved.centre), radius, curved.start, curved.end, colour)
 
 
 def _block(here: MechanismOnPaper, b: Slider) -> tuple[Primitive, ...]:

@@ -21,15 +21,16 @@ from graphkin.drawing.strokes import colour_of_link
 from graphkin.drawing.symbols import hull
 from graphkin.plane import cross, dot
 from graphkin.scene.cams import LawCam, SlidingFollower
-from graphkin.scene.model import Mechanism, SlideDriver
+from graphkin.scene.model import CircularSlot, Mechanism, SlideDriver
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import Slide
 
-__all__ = ["GUIDE_LENGTH", "CamOnPaper", "LinkShape", "MechanismOnPaper", "Slider", "page", "sliders"]
+__all__ = ["GUIDE_LENGTH", "CamOnPaper", "CurvedSlot", "LinkShape", "MechanismOnPaper", "Slider", "page", "sliders"]
 
 # mm: how far a bar of no fixed length goes on beyond a block, and a slot beyond its pin
 PAST_BLOCK, PAST_PIN = 9.0, 8.0
 PAST_ROLLER = 17.0  # mm from the roller of a follower to the middle of its guide
+CURVED_ALONG = 16.0  # mm of a circular slot to either side of what runs in it
 GUIDE_LENGTH = 24.0  # mm of the frame's guide about a block
 NEAR = 1e-4  # mm: points so near to a line lie on it
 FOOT = {-math.pi / 2: 0.0, 0.0: 0.5, math.pi: 0.5, math.pi / 2: 0.7}  # where feet may point, and how little liked
@@ -61,6 +62,17 @@ class CamOnPaper:
     contact: complex
     normal: complex
     roller: float
+
+
+@dataclass(frozen=True)
+class CurvedSlot:
+    """A circular slot on paper: its centre, what runs in it, and the angles (rad) between which it is drawn."""
+
+    slot: CircularSlot
+    centre: complex
+    at: complex
+    start: float
+    end: float
 
 
 @dataclass(frozen=True)
@@ -117,6 +129,21 @@ class MechanismOnPaper:
     def cams(self) -> tuple[CamOnPaper, ...]:
         """The cams with the followers that they touch."""
         return tuple(cams(self.sheet))
+
+    @cached_property
+    def curved(self) -> tuple[CurvedSlot, ...]:
+        """The circular slots between links that stand on paper."""
+        found = []
+        for slot in self.scene.slots:
+            if slot.on not in self.sheet.poses or not {slot.centre, slot.point} <= set(self.places):
+                continue
+            centre, at = self.places[slot.centre], self.places[slot.point]
+            here, axis = phase(at - centre), phase(self.sheet.poses[slot.on].axis)
+            half = min(CURVED_ALONG / abs(at - centre), math.pi / 3)
+            start, end = (here - half, here + half) if slot.ends is None else sorted(axis + a for a in slot.ends)
+            here = (start + end) / 2 + math.remainder(here - (start + end) / 2, math.tau)
+            found.append(CurvedSlot(slot, centre, at, min(start, here), max(here, end)))  # it runs beyond no end
+        return tuple(found)
 
     @cached_property
     def cylinders(self) -> frozenset[str]:
@@ -235,8 +262,12 @@ def shapes(sheet: Sheet) -> tuple[LinkShape, ...]:
     places = {ref.point: z for ref, z in sheet.points.items() if not ref.link}
     slides, flat = tuple(s for s in sliders(sheet) if s.slide.key not in replaced_pairs(sheet)), faces(sheet)
     found = []
+    centres = {slot.bar: slot.centre for slot in sheet.scene.slots}
+    replaced = {slot.bar for slot in sheet.scene.slots if not slot.block}
     for link in (sheet.scene.instead_of or sheet.scene).links:
-        points = {p: places[p] for p in link.points if p in places}
+        points = {p: places[p] for p in link.points if p in places and p != centres.get(link.name)}
+        if link.name in replaced:  # it stands for a slot, which is drawn in its place
+            points = {}
         if link.redundant and len(points) == len(link.points):
             corners, bars = _spanned(tuple(points.values()))
             found.append(LinkShape(link.name, points, corners, bars, redundant=True))

@@ -28,6 +28,7 @@ __all__ = [
     "bar",
     "block",
     "block_with_pin",
+    "circular_slot",
     "cylinder",
     "fixed_pivot",
     "guide",
@@ -205,6 +206,22 @@ def slot(start: complex, end: complex, colour: str = strokes.BLACK, width: float
         Line(end - side, start - side, stroke),
         Arc(end, width / 2, bearing - math.pi / 2, bearing + math.pi / 2, stroke),
         Arc(start, width / 2, bearing + math.pi / 2, bearing + 3 * math.pi / 2, stroke),
+    )
+
+
+def circular_slot(
+    centre: complex, radius: float, start: float, end: float, colour: str = strokes.BLACK, width: float = SLOT_WIDTH
+) -> tuple[Shape, ...]:
+    """Slot along a circle between two angles (rad, as of `Arc`), where its round ends have their centres."""
+    stroke, half = strokes.OUTLINE.coloured(colour), width / 2
+    whole = Arc(centre, radius, start, end, strokes.OUTLINE)
+    ends = [(whole.at(angle), angle, sign) for angle, sign in ((start, -1.0), (end, 1.0))]
+    caps = [Arc(place, half, angle, angle + sign * math.pi, stroke) for place, angle, sign in ends]
+    return (
+        Arc(centre, radius, start, end, Stroke(width, colour=strokes.WHITE)),
+        Arc(centre, radius + half, start, end, stroke),
+        Arc(centre, radius - half, start, end, stroke),
+        *caps,
     )
 
 

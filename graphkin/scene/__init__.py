@@ -17,6 +17,9 @@ Where the format leaves something open, the reader decides as follows.
 - Where a drawn position leaves the direction of a swinging guide open, what slides on it (the first in the file)
   lies on its positive side.  A link with one own point, all else of which is drawn and nothing measured from its
   axis, has its x axis toward the first drawn point.
+- A guide with ``centre`` and ``r`` is a slot along a circle: a pin in it is moved by a bar from the centre, a link by
+  the guide's name (counted as a higher pair); a link with ``on`` turns about the centre, which lies to the left of the
+  guide's sense, and ``angle_on`` counts from that sense.  ``ends`` only say how far it is drawn.
 - Two statements of one thing are compared where they act: an angle by how far it moves the points that gave it.
 - Of a driver written as ``[[driver]]``, ``driver.2`` in a message is the second; so are items of lists.
 - ``[printed]`` takes negative numbers for vectors too (a signed velocity of a slider); one number is a magnitude.

@@ -22,6 +22,7 @@ from graphkin.scene.tables import SheetWishes, Units
 __all__ = [
     "AngleDriver",
     "AnyDriver",
+    "CircularSlot",
     "FromDeadPoint",
     "Mechanism",
     "NamedPositions",
@@ -175,6 +176,24 @@ AnyDriver = AngleDriver | SlideDriver
 
 
 @dataclass(frozen=True)
+class CircularSlot:
+    """A slot of link ``on`` along a circle about its point ``centre`` (``radius`` in m), in which ``point`` runs.
+
+    ``bar`` is the link that moves it so: one that replaces a pin in the slot, or the block itself (``block``).
+    ``ends`` are the angles (rad, from the own x axis of ``on``) between which it is drawn, if the file has them.
+    """
+
+    name: str
+    on: str
+    centre: str
+    radius: float
+    bar: str
+    point: str
+    block: bool = False
+    ends: tuple[float, float] | None = None
+
+
+@dataclass(frozen=True)
 class StatedValues:
     """Values that somebody states of one position, each as the texts of its number or of its two components.
 
@@ -237,7 +256,8 @@ class Mechanism:
     ``sketch`` and ``drawn`` give places of points in world axes (m); ``printed`` maps symbols to values in SI
     (a float, or a complex number for a vector given by two components); ``stated`` holds all that is printed, digit by
     digit, first that of this position; ``loops`` are vector loops by name, each through its points; ``vary`` says how
-    a set of problems is drawn from it, ``grading`` for what there are points;
+    a set of problems is drawn from it, ``grading`` for what there are points; ``slots`` are the circular ones, for
+    which bars and turning pairs stand among the links.
     ``instead_of`` is the mechanism with cams in whose place this one moves alike at this position, in velocity and
     acceleration.  ``starts`` say where what rolls stands at the scene's own position: the angle of a link's own axis
     (rad), or the travel (m) of a sliding pair or of a contact by its block.
@@ -269,6 +289,7 @@ class Mechanism:
     contacts: tuple[Contact, ...] = ()
     gears: tuple[Gear, ...] = ()
     starts: Mapping[str, float] = field(default_factory=dict)
+    slots: tuple[CircularSlot, ...] = ()
 
     def __hash__(self) -> int:
         return hash((self.name, self.title, tuple(link.name for link in self.links)))

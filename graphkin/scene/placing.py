@@ -105,6 +105,8 @@ def guide_of(
     where: str, name: str, entry: Guide, metres: float, body: Placement, places: Places, tolerance: float
 ) -> PlacedGuide | Problem | None:
     """A guide of a link, its direction by angle or toward a point of the link, a fixed one or a drawn one."""
+    if entry.through is None:
+        return None
     through = body.local.get(entry.through) if isinstance(entry.through, str) else complex(*entry.through) * metres
     if through is None:
         return None

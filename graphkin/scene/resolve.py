@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from graphkin.errors import Problem, SceneError, did_you_mean
 from graphkin.scene.cam_reading import cams_of
 from graphkin.scene.cams import LawCam
+from graphkin.scene.circular_slots import with_bars
 from graphkin.scene.contacts import Disc
 from graphkin.scene.drawn_position import DrawnPosition, find_position, starts_of, travel_of
 from graphkin.scene.force_names import no_force
@@ -68,6 +69,7 @@ def resolve(file: SceneTables, name: str, problems: list[Problem], flaws: Flaws)
         raise SceneError(*problems)
 
     metres = file.units.metres
+    file, slots = with_bars(file, flaws, problems)
     names = Names.of(file, flaws)
     problems += unwritable_texts(file)
     problems += wrong_own_points(file, names, flaws)
@@ -155,6 +157,7 @@ def resolve(file: SceneTables, name: str, problems: list[Problem], flaws: Flaws)
         contacts=contacts,
         gears=gears,
         starts=starts_of(file, position, contacts) if contacts or gears else {},
+        slots=slots,
     )
     _ask_for_forces(made)
     return made

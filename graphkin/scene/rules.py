@@ -99,6 +99,9 @@ def nowhere_placed(file: SceneTables, names: Names, flaws: Flaws) -> list[Proble
     for where, name, guides in (*tables, ("frame", names.frame, file.frame.guides)):
         for guide, rail in guides.items():
             here, aim = f"{where}.guides.{guide}", rail.toward
+            if rail.through is None:
+                hint = "write a point of the guide; a circular slot has centre and r"
+                found.append(Problem(f"{here}.through", "is missing", hint))
             if isinstance(rail.through, str):
                 found.append(names.no_point_of(f"{here}.through", name, rail.through))
             if rail.angle is None and aim is None:

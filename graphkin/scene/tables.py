@@ -126,15 +126,25 @@ class Units(FileTable):
 
 @dataclass(frozen=True)
 class Guide(FileTable):
-    """A straight guide: any point of it and its direction."""
+    """A straight guide: any point of it and its direction; or a slot along a circle: its centre and radius."""
 
-    through: NameOrPlace = field(metadata=_about("A point of the link by name, or [x, y] in the link's own axes."))
+    through: NameOrPlace | None = field(
+        default=None, metadata=_about("A point of the link by name, or [x, y] in the link's own axes.")
+    )
     angle: Number | None = field(
         default=None, metadata=_about("Direction in degrees from the link's own x axis.")
     )
     toward: PointName | None = field(
         default=None,
         metadata=_about("Instead of angle: the point that the guide points to (of the link, fixed or drawn)."),
+    )
+    centre: NameOrPlace | None = field(
+        default=None, metadata=_about("Of a circular slot: a point of the link, or [x, y] in the link's own axes.")
+    )
+    r: Magnitude | None = field(default=None, metadata=_about("Radius of a circular slot."))
+    ends: Place | None = field(
+        default=None,
+        metadata=_about("Where a circular slot is drawn: from one to the other, degrees from the link's own x axis."),
     )
 
 

@@ -202,7 +202,11 @@ def as_mapping(scene: Mechanism) -> dict[str, Any]:
 
     def guides(link: PlacedLink) -> dict[str, Any]:
         own = {n: g for n, g in link.guides.items() if n}
-        return {n: {"through": place(g.through), "angle": _tidy(degrees(g.direction))} for n, g in own.items()}
+        made = {n: {"through": place(g.through), "angle": _tidy(degrees(g.direction))} for n, g in own.items()}
+        for slot in (s for s in scene.slots if s.on == link.name):
+            made[slot.name] = {"centre": slot.centre, "r": length(slot.radius)}
+            made[slot.name] |= {"ends": [_tidy(math.degrees(a)) for a in slot.ends]} if slot.ends else {}
+        return made
 
     def discs(link: PlacedLink) -> dict[str, Any]:
         return {d.name: {"centre": d.centre, "r": length(d.radius)} for d in link.discs}
@@ -212,15 +216,21 @@ def as_mapping(scene: Mechanism) -> dict[str, Any]:
     frame["guides"] = guides(scene.frame)
     frame["discs"] = discs(scene.frame)
     links: dict[str, dict[str, Any]] = {}
+    bars = {slot.bar for slot in scene.slots if not slot.block}
     for link in scene.links:
+        if link.name in bars:
+            continue
+        blocks = [slot for slot in scene.slots if slot.bar == link.name]
         table: dict[str, Any] = {"points": list(link.bar)} if link.bar else {}
         if link.length is not None:
             table["length"] = length(link.length)
         pairs = [s for s in scene.slidings if s.link == link.name]
-        if pairs:
-            table["on"] = [_guide_name(s.on, s.guide) for s in pairs]
-            table["angle_on"] = [_tidy(degrees(s.turn)) for s in pairs]
-        table["at"] = {p: place(z) for p, z in link.points.items() if p not in link.bar}
+        if pairs or blocks:
+            table["on"] = [_guide_name(s.on, s.guide) for s in pairs] + [f"{s.on}.{s.name}" for s in blocks]
+            sides = [degrees(1j / link.points[s.centre] * abs(link.points[s.centre])) for s in blocks]
+            table["angle_on"] = [_tidy(degree) for degree in (*(degrees(s.turn) for s in pairs), *sides)]
+        centres = {slot.centre for slot in blocks}
+        table["at"] = {p: place(z) for p, z in link.points.items() if p not in (*link.bar, *centres)}
         table["guides"] = guides(link)
         table["discs"] = discs(link)
         if (start := _start(scene, link, length)) is not None:
@@ -231,6 +241,9 @@ def as_mapping(scene: Mechanism) -> dict[str, Any]:
     pins: dict[str, dict[str, Any]] = {}
     for pin in scene.pins:
         pins.setdefault(pin.point, {"of": pin.of, "in": []})["in"].append(_guide_name(pin.on, pin.guide))
+    for slot in (s for s in scene.slots if not s.block):
+        of = next(n for n in scene.holders[slot.point] if n not in (slot.bar, slot.on))
+        pins.setdefault(slot.point, {"of": of, "in": []})["in"].append(f"{slot.on}.{slot.name}")
     made: dict[str, Any] = {"title": scene.title, "title_zh": scene.title_zh, "source": scene.source}
     made["units"] = {"length": scene.units.length}
     if scene.units.speed:

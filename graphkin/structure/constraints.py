@@ -61,12 +61,13 @@ class Constraints:
 
     def mobility(self) -> Mobility:
         frame = self.scene.frame.name
-        real = [name for name in self.links if name in self.scene.by_name]
-        shared = [sum(name in self.scene.by_name for name in names) for names in self.hinges.values()]
+        bars = {s.bar for s in self.scene.slots if not s.block and s.bar in self.links}  # instead of pins in slots
+        real = [name for name in self.links if name in self.scene.by_name and name not in bars]
+        shared = [sum(name in real for name in names) for names in self.hinges.values()]
         lower = sum(n - 1 for n in shared if n) + sum(not s.slot for s in self.slides)
         rolling = [c for c in self.contacts if c.rolling and not c.carrier]  # two constraints each, as a lower pair
         blocks = sum(s.slot for s in self.slides) - sum(c.flat for c in self.contacts)
-        higher = blocks + len(self.contacts) - len(rolling) + len(self.gears) + len(self.cams)
+        higher = blocks + len(bars) + len(self.contacts) - len(rolling) + len(self.gears) + len(self.cams)
         return Mobility(len([n for n in real if n != frame]), lower + len(rolling), higher)
 
     def equations(self) -> list[set[Unknown]]:

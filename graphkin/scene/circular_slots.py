@@ -1,0 +1,159 @@
+"""Circular slots: what runs in one turns about the slot's centre, so that a bar to the centre moves it exactly so.
+
+A guide with ``centre`` and ``r`` is a slot along a circle.  A pin in it (``[pins.B]``) is replaced by a bar from the
+centre to the pin, a link by the guide's name; a block on it (``on``) by a turning pair of the block about the centre,
+which lies to the left of the guide's sense (counter-clockwise about the centre).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+from graphkin.errors import Problem, did_you_mean
+from graphkin.plane import direction
+from graphkin.scene.model import CircularSlot
+from graphkin.scene.names import Flaws
+from graphkin.scene.tables import Guide, Link, Pin, SceneTables
+
+__all__ = ["with_bars"]
+
+
+class _Slots:
+    """The circular slots of a file while they are taken out of it."""
+
+    def __init__(self, file: SceneTables, flaws: Flaws, problems: list[Problem]) -> None:
+        self.file, self.flaws, self.problems = file, flaws, problems
+        frame = file.frame.name
+        self.holders: dict[str, Any] = {**file.links, frame: file.frame}
+        self.points = {n: {*getattr(h, "at", {}), *h.points} for n, h in self.holders.items()}
+        self.given: dict[str, dict[str, Any]] = {n: {} for n in self.holders}  # points that stand for places of centres
+        self.arcs: dict[tuple[str, str], tuple[str, float, Guide]] = {}
+        for name, holder in self.holders.items():
+            where = "frame" if name == frame and name not in file.links else f"links.{name}"
+            for key, guide in holder.guides.items():
+                if guide.centre is not None or guide.r is not None or guide.ends is not None:
+                    self._slot(f"{where}.guides.{key}", name, key, guide)
+
+    def _slot(self, where: str, name: str, key: str, guide: Guide) -> None:
+        both = [k for k in ("through", "angle", "toward") if getattr(guide, k) is not None]
+        if both:
+            hint = "a straight guide has through and angle, a circular slot centre and r"
+            self.problems.append(Problem(f"{where}.{both[0]}", "stands in a slot along a circle", hint))
+        if guide.centre is None or guide.r is None:
+            missing = "centre" if guide.centre is None else "r"
+            wanted = 'write centre = "M" or [x, y], and r = ...' if guide.centre is None else "write the slot's radius"
+            self.problems.append(Problem(f"{where}.{missing}", "is missing", wanted))
+        centre = guide.centre
+        if isinstance(centre, str):
+            if centre not in self.points[name] and not self.flaws.under(*where.split(".")[:2]):
+                wanted = did_you_mean(centre, sorted(self.points[name]))
+                self.problems.append(Problem(f"{where}.centre", f"link {name} has no point {centre}", wanted))
+                centre = None
+        elif centre is not None:
+            point = self._free("M", {p for own in self.points.values() for p in own})
+            self.given[name][point] = list(centre)
+            self.points[name].add(point)
+            centre = point
+        self.arcs[name, key] = (str(centre or ""), guide.r or 0.0, guide)
+
+    @staticmethod
+    def _free(name: str, taken: set[str]) -> str:
+        return next(n for n in (name, *(f"{name}{k}" for k in range(1, 10_000))) if n not in taken)
+
+    def of(self, ref: str) -> tuple[str, str] | None:
+        """The link and the name of the circular slot that a guide's name means."""
+        link, _, guide = ref.partition(".")
+        return (link, guide) if (link, guide) in self.arcs else None
+
+
+def _refs(refs: str | Sequence[str] | None) -> list[str]:
+    return [] if refs is None else [refs] if isinstance(refs, str) else list(refs)
+
+
+def with_bars(
+    file: SceneTables, flaws: Flaws, problems: list[Problem]
+) -> tuple[SceneTables, tuple[CircularSlot, ...]]:
+    """The file with bars and turning pairs in place of circular slots, and what they stand for; what is wrong is added
+    to ``problems``."""
+    slots = _Slots(file, flaws, problems)
+    if not slots.arcs:
+        return file, ()
+    metres, found = file.units.metres, list[CircularSlot]()
+    taken = {*slots.holders}
+    links: dict[str, Link] = {}
+    pins: dict[str, Pin] = {}
+    bars: dict[str, Link] = {}
+
+    def slot(key: tuple[str, str], bar: str, point: str, block: bool) -> None:
+        centre, r, guide = slots.arcs[key]
+        ends = None if guide.ends is None else (math.radians(guide.ends[0]), math.radians(guide.ends[1]))
+        found.append(CircularSlot(key[1], key[0], centre, r * metres, bar, point, block, ends))
+
+    for point, pin in file.pins.items():
+        straight = [ref for ref in _refs(pin.slots) if slots.of(ref) is None]
+        if straight:
+            pins[point] = replace(pin, slots=straight)
+        for key in filter(None, map(slots.of, _refs(pin.slots))):
+            where, (centre, r, _) = f"pins.{point}", slots.arcs[key]
+            if pin.of not in slots.holders:
+                problems.append(Problem(f"{where}.of", f'there is no link "{pin.of}"', did_you_mean(pin.of, taken)))
+            elif point not in slots.points[pin.of]:
+                wanted = did_you_mean(point, sorted(slots.points[pin.of]))
+                problems.append(Problem(f"{where}.of", f"link {pin.of} has no point {point}", wanted))
+            elif pin.of == key[0] or point in slots.points[key[0]]:
+                problems.append(Problem(f"{where}.in", f"{point} is a point of link {key[0]} itself",
+                                        "name the slot of another link"))  # fmt: skip
+            elif centre:
+                bar = slots._free(key[1], taken)
+                taken.add(bar)
+                bars[bar] = Link(points=[centre, point], length=r)
+                slot(key, bar, point, block=False)
+    for name, link in file.links.items():
+        refs = _refs(link.on)
+        keys = [slots.of(ref) for ref in refs]
+        at: dict[str, Any] = {**link.at, **slots.given[name]}
+        on, angle_on = link.on, link.angle_on
+        if any(keys):
+            angles = _refs_of_angles(angle_on, len(refs))
+            kept = [k for k, key in enumerate(keys) if key is None]
+            on = [refs[k] for k in kept] or None
+            angle_on = [angles[k] for k in kept] or None
+            at |= _centres(slots, name, link, [(key, angles[k]) for k, key in enumerate(keys) if key], slot)
+        links[name] = replace(link, on=on, angle_on=angle_on, at=at, guides=_straight(slots, name, link.guides))
+    frame = replace(
+        file.frame,
+        points={**file.frame.points, **slots.given[file.frame.name]},
+        guides=_straight(slots, file.frame.name, file.frame.guides),
+    )
+    return replace(file, frame=frame, links={**links, **bars}, pins=pins), tuple(found)
+
+
+def _refs_of_angles(angles: float | Sequence[float] | None, count: int) -> list[float]:
+    given = [angles] if isinstance(angles, int | float) else list(angles or [])
+    return (given + [0.0] * count)[:count]
+
+
+def _centres(slots: _Slots, name: str, link: Link, keys: Sequence[tuple[tuple[str, str], float]], slot: Any) -> Any:
+    """The centres of the slots that a block runs in, as points in its own axes."""
+    made: dict[str, list[float]] = {}
+    for key, angle in keys:
+        centre, r, _ = slots.arcs[key]
+        if key[0] == name:
+            slots.problems.append(Problem(f"links.{name}.on", f"link {name} slides on itself", "name another link"))
+        elif not link.points:
+            slots.problems.append(
+                Problem(f"links.{name}.points", "is missing", "name the point of the block that runs in the slot")
+            )
+        elif centre:
+            # along the guide's sense, turned back by angle_on, lies the own x axis: the centre is to the left of it
+            way = 1j * direction(-angle)
+            made[centre] = [r * way.real, r * way.imag]
+            slot(key, name, link.points[0], block=True)
+    return made
+
+
+def _straight(slots: _Slots, name: str, guides: Mapping[str, Guide]) -> dict[str, Guide]:
+    return {key: guide for key, guide in guides.items() if (name, key) not in slots.arcs}

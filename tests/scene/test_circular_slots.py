@@ -1,0 +1,119 @@
+"""Circular slots: a bar to the centre stands for a pin in one, a turning pair about the centre for a block."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from typing import Any
+
+import pytest
+
+import graphkin
+from graphkin.errors import SceneError
+from graphkin.scene import mechanism_of
+from graphkin.scene.written import as_mapping
+
+pytestmark = pytest.mark.quick
+
+
+def rocker(centre: object = "M", **slot: object) -> dict[str, Any]:
+    """A crank and a rod whose end runs on a circle of 120 about M."""
+    points = {"A": [0, 0], "M": [200, 40]} if centre == "M" else {"A": [0, 0]}
+    return {
+        "frame": {"points": points, "guides": {"s": {"centre": centre, "r": 120, **slot}}},
+        "links": {"1": {"points": ["A", "B"], "length": 60}, "2": {"points": ["B", "C"], "length": 150}},
+        "driver": {"link": "1", "angle": 70, "omega": 10, "alpha": 3},
+        "sketch": {"C": [150, 140]},
+    }
+
+
+def with_pin(**slot: Any) -> dict[str, Any]:
+    return {**rocker(**slot), "pins": {"C": {"of": "2", "in": "0.s"}}}
+
+
+def with_block(angle_on: float = 0.0) -> dict[str, Any]:
+    scene = rocker()
+    block = {"points": ["C"], "on": "0.s", "angle_on": angle_on}
+    return {**scene, "links": {**scene["links"], "3": block}}
+
+
+def four_bar() -> dict[str, Any]:
+    scene = rocker()
+    scene["frame"]["guides"] = {}
+    return {**scene, "links": {**scene["links"], "3": {"points": ["M", "C"], "length": 120}}}
+
+
+CASES = [with_pin(), with_pin(centre=[200, 40]), with_block(), with_block(35.0)]
+
+
+@pytest.mark.parametrize("scene", CASES)
+def test_what_runs_in_a_circular_slot_moves_as_at_a_bar_to_its_centre(scene: dict[str, Any]) -> None:
+    wanted = graphkin.solve(four_bar()).data["positions"][0]["points"]["C@2"]
+    found = graphkin.solve(scene).data["positions"][0]["points"]["C@2"]
+    for key, value in wanted.items():
+        assert value == pytest.approx(found[key], rel=1e-11)
+
+
+@pytest.mark.parametrize("scene", CASES[1:3])
+def test_it_is_drawn_and_checked(scene: dict[str, Any]) -> None:
+    result = graphkin.check(scene)
+    assert (True, True) == (result.ok, result.complete)
+    assert "slot-" in graphkin.draw(scene, figures=["mechanism"]).figures["mechanism"].content("svg").decode()
+
+
+def test_a_pin_in_one_counts_as_a_higher_pair() -> None:
+    count = graphkin.prepare(with_pin(), ["v_C"]).ready.range.structure.mobility
+    assert (2, 2, 1, 1) == (count.links, count.lower, count.higher, count.value)
+
+
+def test_the_own_axis_of_a_block_lies_along_the_slot_turned_by_angle_on() -> None:
+    def axis(scene: dict[str, Any]) -> complex:
+        return cmath.rect(1.0, graphkin.solve(scene).data["positions"][0]["links"]["3"]["angle"])
+
+    spoke = axis(four_bar())
+    assert 1j * spoke == pytest.approx(axis(with_block()), abs=1e-12)
+    assert 1j * spoke * cmath.rect(1.0, math.radians(35)) == pytest.approx(axis(with_block(35.0)), abs=1e-12)
+
+
+@pytest.mark.parametrize("scene", [*CASES, with_pin(ends=[60, 150])])
+def test_a_file_is_written_again_with_its_slot(scene: dict[str, Any]) -> None:
+    one = mechanism_of(scene)
+    again = mechanism_of(as_mapping(one))
+    assert one.slots == again.slots
+    assert one.pins == again.pins
+    assert [link.name for link in one.links] == [link.name for link in again.links]
+
+
+@pytest.mark.parametrize(
+    ("slot", "said"),
+    [
+        ({"centre": "Q", "r": 1}, "frame.guides.s.centre: link 0 has no point Q; known here: A, M"),
+        ({"centre": "M"}, "frame.guides.s.r: is missing; write the slot's radius"),
+        ({"r": 3}, 'frame.guides.s.centre: is missing; write centre = "M" or [x, y], and r = ...'),
+        (
+            {"centre": "M", "r": 3, "angle": 4},
+            "frame.guides.s.angle: stands in a slot along a circle; a straight guide has through and angle, a circular "
+            "slot centre and r",
+        ),
+        ({"angle": 3}, "frame.guides.s.through: is missing; write a point of the guide; a circular slot has centre"),
+    ],
+)
+def test_what_is_wrong_with_one_is_said(slot: dict[str, Any], said: str) -> None:
+    scene = with_pin()
+    scene["frame"]["guides"] = {"s": slot}
+    with pytest.raises(SceneError) as refusal:
+        graphkin.read(scene)
+    assert any(str(p).startswith(said) for p in refusal.value.problems)
+
+
+@pytest.mark.parametrize(
+    ("pin", "said"),
+    [
+        ({"of": "9", "in": "0.s"}, 'pins.C.of: there is no link "9"'),
+        ({"of": "1", "in": "0.s"}, "pins.C.of: link 1 has no point C"),
+    ],
+)
+def test_a_pin_that_is_not_there_is_said(pin: dict[str, Any], said: str) -> None:
+    with pytest.raises(SceneError) as refusal:
+        graphkin.read({**rocker(), "pins": {"C": pin}})
+    assert any(str(p).startswith(said) for p in refusal.value.problems)
