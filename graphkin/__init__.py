@@ -48,6 +48,7 @@ from graphkin.version import __version__
 
 if TYPE_CHECKING:
     from graphkin.api.audited import Audited, audit
+    from graphkin.api.cams import Cams, cam
     from graphkin.api.centred import Centred, centres
     from graphkin.api.centroded import Centroded, centrodes
     from graphkin.api.checked import Checked, check
@@ -82,6 +83,7 @@ if TYPE_CHECKING:
 __all__ = [
     "Audited",
     "CallError",
+    "Cams",
     "Centred",
     "Centroded",
     "Checked",
@@ -116,6 +118,7 @@ __all__ = [
     "Unsolvable",
     "__version__",
     "audit",
+    "cam",
     "centres",
     "centrodes",
     "check",
@@ -136,6 +139,7 @@ __all__ = [
 
 _PLACES = {
     "api.audited": "Audited audit",
+    "api.cams": "Cams cam",
     "api.centred": "Centred centres",
     "api.centroded": "Centroded centrodes",
     "api.checked": "Checked check",

@@ -18,6 +18,7 @@ from graphkin.api.arguments import (
     known_words,
     write_files,
 )
+from graphkin.api.cams import cam_table
 from graphkin.api.checked import Checked, checked, drawn_symbols, hand_of, here, solved_here, with_elsewhere
 from graphkin.api.report_text import report_text
 from graphkin.api.results import Result
@@ -120,6 +121,8 @@ class Drawn(Result):
                 if kind == "pdf" and id(figure) in overleaf:
                     continue  # a page of the PDF that it goes on
                 files[f"{name}.{kind}"] = figure.content(kind, text=text)
+        if self.scene.cams and "cam" in self.wanted:
+            files["cam.csv"] = cam_table(self.scene).csv().encode()
         files["readings.csv"] = self.table.csv().encode()
         spoken = languages(self.language or self.checked.scene.sheet.language)[0]
         files["report.txt"] = report_text(self.checked, spoken).encode()
@@ -265,6 +268,14 @@ def _number(text: str) -> float | str:
         return text
 
 
+def _cams(drawn: Drawn) -> Drawing | None:
+    from graphkin.api.cams import cam_made
+
+    spoken = drawn.language or drawn.scene.sheet.language
+    pages = [one.figure(spoken) for one in cam_made(drawn.scene)]
+    return replace(pages[0], further=tuple(pages[1:])) if pages else None
+
+
 FIGURES: Mapping[str, FigureKind] = {
     "mechanism": FigureKind(_always, _mechanism),
     "velocity": FigureKind(_always, _velocity),
@@ -274,6 +285,7 @@ FIGURES: Mapping[str, FigureKind] = {
     "structure": FigureKind(lambda scene: False, _structure),
     "positions": FigureKind(lambda scene: scene.positions is not None, _positions),
     "polygons": FigureKind(lambda scene: False, _polygons),
+    "cam": FigureKind(lambda scene: bool(scene.cams), _cams),
     "loops": FigureKind(lambda scene: bool(scene.loops), _loops),
 }
 """Every figure of `draw` by its name: the one place where a further figure is entered."""

@@ -13,6 +13,7 @@ from typing import Annotated
 import typer
 
 from graphkin import __version__
+from graphkin.cli.cam import cam
 from graphkin.cli.centres import centres
 from graphkin.cli.check import audit, check, draw
 from graphkin.cli.convert import convert
@@ -37,7 +38,7 @@ app = typer.Typer(
     rich_markup_mode=None,
     help="Velocity and acceleration polygons of mechanisms: constructed, measured, checked, drawn.",
 )
-for command in (scenes, draw, check, solve, centres, audit, sweep, handout, design, convert, explain):
+for command in (scenes, draw, check, solve, centres, audit, sweep, handout, design, cam, convert, explain):
     app.command()(command)
 app.add_typer(study, name="study")
 

@@ -7,7 +7,7 @@ hide lines on paper, are left out: what is drawn is geometry.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Sequence
 from io import StringIO
 from threading import Lock
 from typing import Any
@@ -16,7 +16,7 @@ from graphkin.drawing.font_widths import CAP_HEIGHT, has_cjk, start_runs, width
 from graphkin.drawing.primitives import Arc, Circle, Group, Line, Page, Polygon, Polyline, Primitive, Stroke, Text
 from graphkin.errors import CallError, Problem
 
-__all__ = ["dxf_bytes"]
+__all__ = ["closed_curve_dxf", "dxf_bytes"]
 
 WIDTHS = (0, 5, 9, 13, 15, 18, 20, 25, 30, 35, 40, 50, 53, 60, 70, 80, 90, 100, 106, 120, 140, 158, 200, 211)
 """Widths of lines that the format knows, in hundredths of a millimetre."""
@@ -27,6 +27,31 @@ _ALONE = Lock()
 
 def dxf_bytes(drawing: Page) -> bytes:
     """The drawing as a DXF file (release 2010).  Raises CallError where the extra ``cad`` is not installed."""
+
+    def put(document: Any) -> None:
+        for name, font in STYLES.items():
+            document.styles.add(name, font=font)
+        _Board(document, drawing.height).draw(drawing.children, PAPER)
+
+    return _document(put)
+
+
+def closed_curve_dxf(vertices: Sequence[tuple[complex, float]], reach: float) -> bytes:
+    """A closed curve of arcs on the layer "profile", each vertex with the bulge to the next (mm), and on the layer
+    "axis" a cross at the origin, half a ``reach`` long.  Raises CallError without the extra ``cad``."""
+
+    def put(document: Any) -> None:
+        space = document.modelspace()
+        points = [(z.real, z.imag, bulge) for z, bulge in vertices]
+        space.add_lwpolyline(points, format="xyb", close=True, dxfattribs={"layer": "profile"})
+        for way in (reach / 4, 1j * reach / 4):
+            space.add_line((-way.real, -way.imag), (way.real, way.imag), {"layer": "axis"})
+
+    return _document(put)
+
+
+def _document(put: Callable[[Any], None]) -> bytes:
+    """A file in millimetres, filled by ``put``."""
     try:
         import ezdxf
         from ezdxf import units
@@ -38,10 +63,7 @@ def dxf_bytes(drawing: Page) -> bytes:
         ezdxf.options.write_fixed_meta_data_for_testing = True
         try:
             document = ezdxf.new("R2010", units=units.MM)
-            for name, font in STYLES.items():
-                document.styles.add(name, font=font)
-            board = _Board(document, drawing.height)
-            board.draw(drawing.children, PAPER)
+            put(document)
             out = StringIO()
             document.write(out)
         finally:

@@ -47,13 +47,15 @@ class SwingingFollower:
 
 
 class Course(NamedTuple):
-    """The follower's point from the cam's axis (m), its first and second derivative by the cam's own angle, and the
-    direction in which it moves, unit; complex, or arrays of complex numbers."""
+    """The follower's point from the cam's axis (m), its first to third derivative by the cam's own angle, and the
+    direction in which it moves, unit; complex, or arrays of complex numbers.  ``turning`` is how fast that turns."""
 
     point: Any
     first: Any
     second: Any
+    third: Any
     way: Any
+    turning: Any
 
     @property
     def tangent(self) -> Any:
@@ -64,6 +66,11 @@ class Course(NamedTuple):
     def bend(self) -> Any:
         """Its second derivative."""
         return self.second - 2j * self.first - self.point
+
+    @property
+    def jerk(self) -> Any:
+        """Its third derivative."""
+        return self.third - 3j * self.second - 3.0 * self.first + 1j * self.point
 
 
 @dataclass(frozen=True)
@@ -123,15 +130,18 @@ class LawCam:
         lift : with its derivatives by the degree of the cam
         exp : the exponential function, of NumPy for arrays
         """
-        motion, along, more = self.motion, self.sense * lift.slope, lift.bend
+        motion = self.motion
+        s1, s2, s3 = self.sense * lift.slope, lift.bend, self.sense * lift.jerk
         if isinstance(motion, SlidingFollower):
             point = motion.foot - self.axis + motion.along * (start + lift.lift)
-            return Course(point, motion.along * along, motion.along * more, motion.along + 0 * point)
+            e = motion.along
+            return Course(point, e * s1, e * s2, e * s3, e + 0 * point, 0.0 * s1)
         line = self.axis - motion.centre
         bar = motion.arm * line / abs(line) * exp(1j * motion.side * (start + lift.lift))
-        turn, turning = motion.side * along, motion.side * more
-        return Course(motion.centre - self.axis + bar, 1j * turn * bar, (1j * turning - turn * turn) * bar,
-                      1j * motion.side * bar / motion.arm)  # fmt: skip
+        t1, t2, t3 = motion.side * s1, motion.side * s2, motion.side * s3
+        third = (1j * t3 - 3.0 * t1 * t2 - 1j * t1 * t1 * t1) * bar
+        return Course(motion.centre - self.axis + bar, 1j * t1 * bar, (1j * t2 - t1 * t1) * bar, third,
+                      1j * motion.side * bar / motion.arm, t1)  # fmt: skip
 
     @property
     def beginning(self) -> float | None:

@@ -33,7 +33,7 @@ class CamAt:
     way : the direction in which the follower's point moves, unit
     radius : of curvature of the profile, positive where the cam is convex; infinite where it is straight
     leaning : the angle from way to normal (rad), with sign
-    tangent, bend : first and second derivative of the pitch curve by the cam's own angle, in the cam's axes
+    leaning_rate, radius_rate : by the cam's own angle
     """
 
     lift: Array
@@ -45,8 +45,8 @@ class CamAt:
     way: Array
     radius: Array
     leaning: Array
-    tangent: Array
-    bend: Array
+    leaning_rate: Array
+    radius_rate: Array
 
     @property
     def pressure(self) -> Array:
@@ -87,9 +87,15 @@ def cam_with(cam: LawCam, degree: Array, lift: Lift) -> CamAt:
             normal = 1j * tangent / np.abs(tangent)
             contact = point - cam.roller * normal
             radius = -(np.abs(tangent) ** 3) / cross(tangent, bend) - cam.roller
+        if cam.flat:
+            leaning_rate, radius_rate = 0.0 * s1, s1 + sense * np.asarray(lift.jerk)
+        else:
+            size, turn = np.abs(tangent), cross(tangent, bend)
+            leaning_rate = turn / size**2 + 1.0 - course.turning
+            radius_rate = (size**3 * cross(tangent, course.jerk) - 3.0 * size * dot(tangent, bend) * turn) / turn**2
     leaning = np.angle(normal * np.conj(way))
-    return CamAt(s0, np.asarray(lift.slope), u, np.asarray(point), np.asarray(normal), np.asarray(contact), way,
-                 np.asarray(radius), leaning, tangent * np.conj(u), bend * np.conj(u))  # fmt: skip
+    found = (s0, lift.slope, u, point, normal, contact, way, radius, leaning, leaning_rate, radius_rate)
+    return CamAt(*map(np.asarray, found))
 
 
 @dataclass(frozen=True)

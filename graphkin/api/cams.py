@@ -1,0 +1,321 @@
+"""``graphkin cam``: cams looked over, drawn by inversion, written out for a milling machine."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from graphkin.api.arguments import ON_SHEETS, SceneLike, for_paper, known_words, write_files
+from graphkin.api.results import Result
+from graphkin.checking.cam_points import CamPoints, compare_cam
+from graphkin.construction.cam_sheet import CamSheet, cam_sheet
+from graphkin.errors import CallError, Problem
+from graphkin.files import path_of
+from graphkin.scene.cams import LawCam, SwingingFollower
+from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.words import Phrase, say
+
+if TYPE_CHECKING:
+    from graphkin.drawing import Drawing
+    from graphkin.solver.cam_study import AtDegree, CamStudy
+    from graphkin.table import Table
+
+__all__ = ["CamMade", "Cams", "cam", "cam_made", "cam_table"]
+
+STEP = 1.0
+FINEST, COARSEST = 0.001, 30.0
+
+
+@dataclass(frozen=True)
+class CamMade:
+    """A cam: what is found of it, and how it was drawn."""
+
+    scene: Mechanism
+    cam: LawCam
+
+    @cached_property
+    def study(self) -> CamStudy:
+        from graphkin.solver.cam_study import study_cam
+
+        return study_cam(self.cam)
+
+    @cached_property
+    def sheet(self) -> CamSheet:
+        """The construction at the scale of its figure."""
+        from graphkin.drawing.cam import cam_scale
+
+        natural = cam_sheet(self.cam, self.cam.base / 50.0)
+        return cam_sheet(self.cam, cam_scale(self.scene, self.cam, natural))
+
+    @cached_property
+    def drawn(self) -> CamPoints:
+        """The drawn points held against the computed ones."""
+        return compare_cam(self.sheet)
+
+    @property
+    def ok(self) -> bool:
+        return self.study.ok and self.drawn.ok
+
+    @property
+    def _swings(self) -> bool:
+        return isinstance(self.cam.motion, SwingingFollower)
+
+    @property
+    def _rate(self) -> float:
+        """The cam's angular velocity (rad/s), where it is driven about the frame; 0 elsewhere."""
+        own = (d for d in self.scene.drivers if isinstance(d, AngleDriver) and d.link == self.cam.link)
+        driver = next(own, None)
+        return driver.omega if driver is not None and driver.relative_to == self.scene.frame.name else 0.0
+
+    def _length(self, metres: float) -> str:
+        return f"{metres / self.scene.units.metres:.6g}"
+
+    @cached_property
+    def wanted_base(self) -> float | None:
+        """The least base radius of the profile (m) with which the cam is as wished; None where it is so, or none is."""
+        from graphkin.solver.cam_study import least_base
+
+        return None if self.study.ok else least_base(self.cam)
+
+    def phrases(self) -> list[Phrase]:
+        """What is to be said of it."""
+        study, cam = self.study, self.cam
+        unit = self.scene.units.length
+        made = []
+        for kind, most, kept, allowed in zip(
+            ("rise", "fall"), (study.rise, study.fall), study.judged, cam.allowed, strict=True
+        ):
+            if most is None:
+                continue
+            said = Phrase(f"cam pressure {kind}", (f"{math.degrees(most.value):.4f}", _degree(most)))
+            if kept is not None and allowed is not None:
+                said = Phrase("cam kept" if kept else "cam exceeded", (said, f"{math.degrees(allowed):.6g}"))
+            made.append(said)
+        if study.radius is not None:
+            made.append(Phrase("cam radius", (self._length(study.radius.value), unit, _degree(study.radius))))
+        made += [self._undercut(start, end) for start, end in study.undercut]
+        if self.wanted_base is not None:
+            made.append(Phrase("cam base wanted", (self._length(self.wanted_base), unit)))
+        made += self._rates()
+        for jump in study.jumps:
+            at = f"{math.degrees(jump.degree):.6g}"
+            made.append(Phrase("cam impact" if jump.order == 1 else "cam soft impact", (at,)))
+        return made
+
+    def _undercut(self, start: float, end: float) -> Phrase:
+        unit = self.scene.units.length
+        between = f"{math.degrees(start):.4f}", f"{math.degrees(end):.4f}"
+        least = self.study.radius.value if self.study.radius is not None else 0.0
+        if self.cam.flat:
+            return Phrase("cam undercut flat", (*between, self._length(self.cam.base - least), unit))
+        if not self.cam.roller:
+            return Phrase("cam undercut edge", between)
+        most = self._length(max(least + self.cam.roller, 0.0))
+        return Phrase("cam undercut roller", (*between, self._length(self.cam.roller), unit, most))
+
+    def _rates(self) -> list[Phrase]:
+        """The greatest velocity and acceleration: at the cam's own speed, or by its angle."""
+        turns, found = self._rate, []
+        units = self.scene.units
+        for key, most, order in (("velocity", self.study.velocity, 1), ("acceleration", self.study.acceleration, 2)):
+            value = most.value * ((abs(turns) if order == 1 else turns**2) or 1.0)
+            per = ("/s", "/s²") if turns else ("/rad", "/rad²")
+            if self._swings:
+                name = "rad" + per[order - 1]
+            else:
+                value, name = value / units.metres, units.length + per[order - 1]
+            found.append(Phrase(f"cam {key}", (f"{value:.6g}", name, _degree(most))))
+        return found
+
+    def sentences(self, language: str) -> list[str]:
+        return [say(phrase, language) for phrase in self.phrases()]
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """Plain data: lengths in the scene's unit, angles in degrees of the cam under ``degree``, else radians."""
+        metres, study = self.scene.units.metres, self.study
+        lift = 1.0 if self._swings else metres
+
+        def at(one: AtDegree | None, per: float = 1.0) -> dict[str, float] | None:
+            return None if one is None else {"value": one.value / per, "degree": math.degrees(one.degree)}
+
+        return {
+            "follower": self.cam.follower,
+            "ok": self.ok,
+            "base": {"profile": self.cam.base_of_profile / metres, "pitch": self.cam.base / metres},
+            "rise": (self.cam.law.greatest - self.cam.law.least) / lift,
+            "pressure": {"rise": at(study.rise), "fall": at(study.fall)},
+            "kept": {"rise": study.judged[0], "fall": study.judged[1]},
+            "velocity": at(study.velocity, lift),
+            "acceleration": at(study.acceleration, lift),
+            "radius": at(study.radius, metres),
+            "undercut": [[math.degrees(start), math.degrees(end)] for start, end in study.undercut],
+            "jumps": [{"order": j.order, "degree": math.degrees(j.degree), "by": j.by / lift} for j in study.jumps],
+            "least_base": None if self.wanted_base is None else self.wanted_base / metres,
+            "divisions": [
+                {"number": d.number, "degree": math.degrees(d.degree), "lift": d.lift / lift, "pressure": d.pressure}
+                for d in self.sheet.divisions
+            ],
+            "drawn": {"pitch": self.drawn.pitch / metres, "profile": self.drawn.profile / metres,
+                      "pressure": self.drawn.pressure, "ok": self.drawn.ok},
+        }  # fmt: skip
+
+    def figure(self, language: str) -> Drawing:
+        """The cam by inversion, on a page of its own."""
+        from graphkin.drawing.cam import cam_figure
+
+        told = list(zip(*(self.sentences(each) for each in ("en", "zh")), strict=True))
+        return cam_figure(self.scene, self.sheet, told, language)
+
+    def profile_dxf(self) -> bytes:
+        """The profile true to size, in mm, as a closed curve of arcs.  Raises CallError without the extra ``cad``."""
+        from graphkin.drawing.cam_dxf import profile_dxf
+
+        return profile_dxf(self.cam)
+
+
+def _degree(at: AtDegree) -> str:
+    return f"{math.degrees(at.degree):.4f}".rstrip("0").rstrip(".")
+
+
+def cam_made(scene: Mechanism) -> tuple[CamMade, ...]:
+    """The cams of a scene."""
+    return tuple(CamMade(scene, one) for one in scene.cams)
+
+
+def cam_table(scene: Mechanism, step: float = STEP) -> Table:
+    """One row a step (degrees) of each cam from 0 on: cam, angle, lift, pitch curve, profile and pressure angle, points
+    in the cam's own axes from its axis."""
+    from graphkin.solver.cam_profile import cam_at
+    from graphkin.table import Column, Table, text_column
+
+    metres = scene.units.metres
+    count = max(1, round(360.0 / step))
+    degree = np.arange(count) * (360.0 / count)
+    parts = []
+    for one in scene.cams:
+        # a degree is a rotation of the law, whatever way the cam turns
+        at = cam_at(one, np.radians(degree))
+        per = math.radians(1.0) if isinstance(one.motion, SwingingFollower) else metres
+        none = np.full(count, np.nan)
+        pitch = [none, none] if one.flat else [at.pitch.real / metres, at.pitch.imag / metres]
+        profile = at.profile / metres
+        columns = [degree, at.lift / per, *pitch, profile.real, profile.imag, np.degrees(at.pressure)]
+        parts.append(([one.link] * count, columns))
+    names = ("angle_deg", "lift", "pitch_x", "pitch_y", "profile_x", "profile_y", "pressure_deg")
+    joined = [np.concatenate([columns[k] for _, columns in parts]) for k in range(len(names))]
+    links = [link for own, _ in parts for link in own]
+    return Table((text_column("cam", links), *(Column(n, v) for n, v in zip(names, joined, strict=True))))
+
+
+@dataclass(frozen=True, repr=False, eq=False)
+class Cams(Result):
+    """The cams of a scene: what is found of each, the table of their points, and their figures.
+
+    ``result["1"]`` is the cam of link 1.
+    """
+
+    scene: Mechanism
+    made: tuple[CamMade, ...]
+    step: float = STEP
+    language: str | None = None
+
+    @property
+    def ok(self) -> bool:
+        """Whether every cam keeps what is allowed, can be cut, and is drawn as it is computed."""
+        return all(one.ok for one in self.made)
+
+    def __getitem__(self, name: str) -> Any:
+        """A cam by its link, or a column of the table.  Raises CallError for an unknown one."""
+        return next((one for one in self.made if one.cam.link == name), None) or self.table[name]
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """The object that ``graphkin cam --json`` prints."""
+        return {
+            "title": self.scene.title,
+            "ok": self.ok,
+            "units": {"length": self.scene.units.length, "angle": "rad"},
+            "cams": {one.cam.link: one.data for one in self.made},
+        }
+
+    @cached_property
+    def table(self) -> Table:
+        """Points of pitch curve and profile at every step."""
+        return cam_table(self.scene, self.step)
+
+    @cached_property
+    def figures(self) -> dict[str, Drawing]:
+        """Each cam by inversion: "cam", and "cam-3" of a further one of link 3."""
+        spoken = self.language or self.scene.sheet.language
+        return {"cam" if i == 0 else f"cam-{one.cam.link}": one.figure(spoken) for i, one in enumerate(self.made)}
+
+    def write(self, folder: str | os.PathLike[str] | None = None, formats: Sequence[str] = ("svg",)) -> list[Path]:
+        """Write the figures, cam.csv, and with the format "dxf" each profile true to size as profile-LINK.dxf.
+
+        Raises
+        ------
+        CallError : an unknown format, a folder that cannot be written
+        """
+        known_words(formats)
+        files = {f"{name}.{kind}": page.content(kind) for name, page in self.figures.items() for kind in formats}
+        files["cam.csv"] = self.table.csv().encode()
+        if "dxf" in formats:
+            files |= {f"profile-{one.cam.link}.dxf": one.profile_dxf() for one in self.made}
+        return write_files(path_of(folder) if folder is not None else Path(self.scene.name), files)
+
+    def __repr__(self) -> str:
+        return f"<Cams {self.scene.name}: {', '.join(one.cam.link for one in self.made)}>"
+
+    def _repr_svg_(self) -> str:
+        return self.figures["cam"]._repr_svg_()
+
+
+def cam(
+    scene: SceneLike,
+    out: str | os.PathLike[str] | None = None,
+    formats: Sequence[str] = ("svg",),
+    language: str | None = None,
+    step: float = STEP,
+) -> Cams:
+    """Look over the cams of a scene: pressure angles, curvature, undercutting, rates; drawn by inversion.
+
+    Parameters
+    ----------
+    scene : as for `solve`
+    out : folder for cam.svg, cam.csv and with the format "dxf" the profile true to size
+    language : "en", "zh" or "both" for the figure; the scene's own if None
+    step : degrees between two rows of the table
+
+    Raises
+    ------
+    SceneError, CallError : the file or the call is wrong, or the scene has no cam
+    Unsolvable : a follower that does not come to its base circle
+
+    Examples
+    --------
+    >>> found = cam("cam-offset-roller")
+    >>> round(found.data["cams"]["1"]["pressure"]["rise"]["degree"], 4), found.ok
+    (56.3214, True)
+    """
+    from graphkin.solver import structure_of
+
+    known_words(formats, language, None, known_languages=ON_SHEETS)
+    if isinstance(step, bool) or not isinstance(step, int | float) or not FINEST <= step <= COARSEST:
+        raise CallError(Problem("step", f"found {step!r:.40}", f"degrees from {FINEST:g} to {COARSEST:g}"))
+    given = for_paper(scene)
+    if not given.cams:
+        raise CallError(Problem(given.name or "scene", "has no cam", "a cam is told by its law in [cams.LINK]"))
+    structure_of(given)
+    made = Cams(given, cam_made(given), float(step), language)
+    if out is not None:
+        made.write(out, formats)
+    return made
+

@@ -1,0 +1,308 @@
+"""The figure of a cam: the displacement diagram divided and numbered, the cam by inversion at its true scale, the
+steps, the pressure angle at each division, and what is found of it."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Sequence
+
+from graphkin.construction.cam_sheet import CamDivision, CamSheet
+from graphkin.construction.extent import Extent, fitting_scale
+from graphkin.drawing import strokes, symbols
+from graphkin.drawing.box import Box
+from graphkin.drawing.dimensions import check_bar
+from graphkin.drawing.drawing import Drawing
+from graphkin.drawing.font_widths import runs_width
+from graphkin.drawing.headings import number, term
+from graphkin.drawing.labels import Label
+from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
+from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Stroke, Text
+from graphkin.drawing.text import plain, rich, symbol, wrapped
+from graphkin.scene.cams import LawCam, SlidingFollower, SwingingFollower
+from graphkin.scene.follower_law import TURN
+from graphkin.scene.model import Mechanism
+from graphkin.version import __version__
+from graphkin.words import languages, say, word
+
+__all__ = ["cam_figure", "cam_scale"]
+
+WIDTH, MARGIN, FOOT = 210.0, 12.0, 14.0
+PANEL = (150.0, 140.0)
+"""mm that the cam may fill."""
+LETTER, LINE, SMALL = 3.0, 4.6, 2.4
+LONG = 180.0
+"""mm for a turn of the cam in the diagram."""
+HIGH = (16.0, 40.0)
+"""mm that the lifts take there."""
+PAST = 5.0
+"""mm that a ray goes on beyond what it carries."""
+PITCH, THIN, RAY = Stroke(0.25, (5.0, 1.0, 0.6, 1.0)), Stroke(0.13), Stroke(0.13)
+ROWS = 10
+
+
+def cam_scale(scene: Mechanism, cam: LawCam, natural: CamSheet) -> float:
+    """m for one mm of paper: as the scene wishes, or the finest of the series at which the cam fits the page."""
+    if scene.sheet.length_scale:
+        return scene.sheet.length_scale * 1e-3
+    far = [*natural.profile, *natural.pitch, *(d.at.point for d in natural.divisions)]
+    far += [d.at.line for d in natural.divisions] if isinstance(cam.motion, SwingingFollower) else []
+    box = Box.around(far)
+    room = PANEL[0] - 2 * PAST - 8.0, PANEL[1] - 2 * PAST - 8.0
+    per = scene.units.metres
+    return fitting_scale(Extent(box.width, box.height), room, natural.scale / per) * per
+
+
+def cam_figure(scene: Mechanism, sheet: CamSheet, told: Sequence[tuple[str, str]], language: str) -> Drawing:
+    """Draw a cam on a page of its own.
+
+    Parameters
+    ----------
+    told : what is found of it, in English and in Chinese
+    language : "en", "zh" or "both"
+    """
+    cam = sheet.cam
+    title = " / ".join(dict.fromkeys(scene.title_in(each) or scene.name for each in languages(language)))
+    head = [rich(title.replace("$", "$$"), 4.0, bold=True)]
+    head += wrapped(_given(scene, cam, language), 3.2, WIDTH - 2 * MARGIN)
+    words: list[Primitive] = [
+        Text(complex(MARGIN, MARGIN + 3.5 + 5.0 * i), runs, classes=("heading",)) for i, runs in enumerate(head)
+    ]
+    top = MARGIN + 5.0 * len(head) + 4.0
+    diagram, y = _diagram(scene, sheet, top, language)
+    drawn, y = _cam(scene, sheet, y + 6.0)
+    y += 6.0
+    for each in languages(language):
+        for i, phrase in enumerate(sheet.steps, 1):
+            lines = wrapped(say(phrase, each), LETTER, WIDTH - 2 * MARGIN - 8.0)
+            numeral = plain(str(i), LETTER, bold=True)
+            words.append(Text(complex(MARGIN + 5.0, y), numeral, "end", classes=("told",), step=i))
+            for line in lines:
+                words.append(Text(complex(MARGIN + 8.0, y), line, classes=("told",), step=i))
+                y += LINE
+        y += 2.0
+    table, y = _table(scene, sheet, language, y + 1.0)
+    for each in languages(language):
+        for note in (zh if each == "zh" else en for en, zh in told):
+            for line in wrapped(note, LETTER, WIDTH - 2 * MARGIN):
+                words.append(Text(complex(MARGIN, y), line, classes=("told",)))
+                y += LINE
+    height = y + FOOT
+    unit, per = scene.units.length, sheet.scale / scene.units.metres
+    words.append(Text(complex(MARGIN, height - 6.0), rich(f"$μ_{{l}}$ = {number(per)} {unit}/mm", 3.5)))
+    words += check_bar(complex(WIDTH - MARGIN - 50.0, height - 6.0), rich(term("check bar", language), 2.5))
+    page = joined((diagram, drawn, Piece({"labels": tuple(words), "answers": table})))
+    first = languages(language)[0]
+    spoken = " ".join(say(phrase, first) + "." for phrase in sheet.steps) + " " + " ".join(en for en, _ in told)
+    facts = {"figure": "cam", "scene": scene.name, "cam": cam.link, "units": {"length": unit, "paper": "mm"},
+             "scales": {"length": per}, "instrument": "exact", "graphkin": __version__}  # fmt: skip
+    return Drawing(WIDTH, height, layer_groups(page), f"{title}: {word('cam figure', first)}", spoken, first, facts)
+
+
+def _given(scene: Mechanism, cam: LawCam, language: str) -> str:
+    """Base circle, roller, offset, and the law, as they are given."""
+    unit, metres = scene.units.length, scene.units.metres
+    parts = [f"$r_{{0}}$ = {number(cam.base / metres)} {unit}"]
+    if cam.roller:
+        parts.append(f"$r_{{r}}$ = {number(cam.roller / metres)} {unit}")
+    if isinstance(cam.motion, SlidingFollower):
+        if cam.motion.offset:
+            parts.append(f"$e$ = {number(cam.motion.offset / metres)} {unit}")
+    else:
+        parts += [f"$l$ = {number(cam.motion.arm / metres)} {unit}",
+                  f"$a$ = {number(abs(cam.axis - cam.motion.centre) / metres)} {unit}"]  # fmt: skip
+    kind = term("cam flat" if cam.flat else "cam roller" if cam.roller else "cam edge", language)
+    sense = term("counter-clockwise" if cam.sense > 0 else "clockwise", language)
+    return f"{kind}; {',  '.join(parts)}; {term('cam turns', language)} {sense}"
+
+
+def _lift(scene: Mechanism, cam: LawCam, lift: float) -> float:
+    """A lift in the scene's unit, or degrees."""
+    return math.degrees(lift) if isinstance(cam.motion, SwingingFollower) else lift / scene.units.metres
+
+
+def _diagram(scene: Mechanism, sheet: CamSheet, top: float, language: str) -> tuple[Piece, float]:
+    """The displacement diagram, and where it ends."""
+    cam, law = sheet.cam, sheet.cam.law
+    span = _lift(scene, cam, law.greatest - law.least) or 1.0
+    own = (law.greatest - law.least) / sheet.scale
+    same = isinstance(cam.motion, SlidingFollower) and HIGH[0] <= own <= HIGH[1]
+    per = span / own if same else fitting_scale(Extent(span, span), (HIGH[1], HIGH[1]), 1.0)
+    left, floor = MARGIN + 5.0, top + (span / per) + 3.0
+    low = _lift(scene, cam, law.least)
+
+    def at(degree: float, lift: float) -> complex:
+        return complex(left + LONG * degree / TURN, floor - (_lift(scene, cam, lift) - low) / per)
+
+    curve: list[complex] = []
+    for part in law.parts:
+        count = max(2, math.ceil(120 * (part.end - part.start) / TURN))
+        degrees = [part.start + (part.end - part.start) * k / count for k in range(count + 1)]
+        curve += [at(degree, part.at(degree).lift) for degree in degrees]
+    axes = [Line(complex(left, floor), complex(left + LONG + 5.0, floor), strokes.DIMENSION),
+            Line(complex(left, floor), complex(left, floor - span / per - 5.0), strokes.DIMENSION)]  # fmt: skip
+    rules: list[Primitive] = []
+    labels: list[Primitive] = []
+    for d in (*sheet.divisions, _closing(sheet)):
+        foot = at(d.degree, law.least)
+        rules.append(Line(foot, at(d.degree, d.lift), THIN))
+        if d.degree < TURN:
+            labels.append(Text(foot + 3.2j, plain(str(d.number), SMALL), "middle", classes=("cell",)))
+    for piece in law.pieces:
+        start, end = at(piece.start, law.least) + 6.8j, at(piece.end, law.least) + 6.8j
+        said = f"{number(math.degrees(piece.end - piece.start))}°"
+        name = term(f"law {piece.by}" if piece.by else "law dwell", language)
+        text = rich(f"{said} {name}", SMALL)
+        short = rich(said, SMALL)
+        runs = text if runs_width(text) <= (end - start).real - 2.0 else short
+        labels.append(Text((start + end) / 2 + 1.0j, runs, "middle", classes=("cell",)))
+        rules += [Line(z - 1.4j, z + 1.4j, THIN) for z in (start, end)]
+    unit = "°" if isinstance(cam.motion, SwingingFollower) else f" {scene.units.length}"
+    h = "ψ" if unit == "°" else "h"
+    scale = f"$μ_{{φ}}$ = {number(360.0 / LONG)}°/mm,  $μ_{{s}}$ = {number(per)}{unit}/mm"
+    scale += f",  ${h}$ = {number(span)}{unit}"
+    labels.append(Text(complex(left, floor + 13.0), rich(scale, SMALL + 0.4), classes=("cell",)))
+    labels.append(Text(complex(left + 1.0, floor - span / per - 3.0), symbol("ψ" if unit == "°" else "s", LETTER)))
+    labels.append(Text(complex(left + LONG + 5.5, floor - 1.0), symbol("φ", LETTER)))
+    shape = Group((*axes, *rules, Polyline(tuple(curve), strokes.LINK)), id="displacement", classes=("diagram",))
+    return Piece({"construction": (shape,), "labels": tuple(labels)}), floor + 14.0
+
+
+def _closing(sheet: CamSheet) -> CamDivision:
+    first = sheet.divisions[0]
+    return CamDivision(0, TURN, first.lift, first.at, first.pressure)
+
+
+def _cam(scene: Mechanism, sheet: CamSheet, top: float) -> tuple[Piece, float]:
+    """The cam with all that finds it, its upper edge at ``top``; and where it ends."""
+    cam = sheet.cam
+    colour, other = strokes.colour_of_link(scene, cam.link), strokes.colour_of_link(scene, cam.follower)
+    lines: list[Primitive] = [Circle(0j, sheet.base, stroke=THIN)]
+    if sheet.offset > 0.3:
+        lines.append(Circle(0j, sheet.offset, stroke=THIN))
+    if cam.roller:
+        lines.append(Circle(0j, sheet.base - sheet.roller, stroke=THIN))
+    labels: list[Label] = []
+    far = max(abs(d.at.point) for d in sheet.divisions)
+    shown = _shown(sheet)
+    for d in shown:
+        part, end = _ray(sheet, d, far)
+        lines += part
+        text = Text(0j, plain(str(d.number), SMALL), id=f"label-division-{d.number}", classes=("label",))
+        labels.append(Label(text, _page(end), (cmath.phase(end),), rank=1))
+    if cam.flat:
+        half = 0.35 * sheet.base
+        faces = [(d.at.point - half * 1j * d.at.way, d.at.point + half * 1j * d.at.way) for d in shown]
+        faces = [_over(d, face) for d, face in zip(shown, faces, strict=True)]
+        lines += [Line(_page(a), _page(b), strokes.CONSTRUCTION) for a, b in faces]
+    else:
+        lines += [Circle(_page(d.at.point), sheet.roller, stroke=THIN) for d in shown if cam.roller]
+        if cam.roller:
+            lines.append(Polyline(tuple(map(_page, sheet.pitch)), PITCH))
+        for d in shown:
+            lines.append(Line(_page(d.at.contact), _page(d.at.point + 6.0 * d.at.normal), strokes.DIRECTION))
+    profile = Polygon(tuple(map(_page, sheet.profile)), strokes.tint(colour), Stroke(0.7, (), colour))
+    start = sheet.divisions[0].at
+    follower: list[Primitive] = []
+    if cam.roller:
+        follower.append(Circle(_page(start.point), sheet.roller, stroke=strokes.LINK.coloured(other)))
+    if cam.flat:
+        a, b = _over(sheet.divisions[0], (start.point - 8j * start.way, start.point + 8j * start.way))
+        follower.append(Line(_page(a), _page(b), strokes.LINK.coloured(other)))
+    end = start.line
+    if isinstance(cam.motion, SlidingFollower):
+        end = start.point + (far - abs(start.point) + 12.0) * start.way
+    follower.append(Line(_page(start.point), _page(end), strokes.LINK.coloured(other)))
+    if isinstance(cam.motion, SwingingFollower):
+        follower += symbols.fixed_pivot(_page(start.line))
+    elif not cam.flat:
+        follower += symbols.pin(_page(start.point), other)
+    axis = Group(tuple(symbols.fixed_pivot(0j)), id=f"point-{cam.point}", classes=("point",))
+    named = [(cam.point, 0j)]
+    if isinstance(cam.motion, SwingingFollower):
+        named += [(cam.motion.pivot, start.line), (cam.motion.tip, start.point)]
+    for name, z in named:
+        text = Text(0j, symbol(name), id=f"label-point-{name}", classes=("label",))
+        labels.append(Label(text, _page(z)))
+    turn = _sense(sheet)
+    piece = Piece({
+        "mechanism": (Group((profile,), id=f"cam-{cam.link}", classes=("cam",)),
+                      Group(tuple(follower), id=f"link-{cam.follower}", classes=("link",)), axis),
+        "construction": (Group((*lines, *turn), id="inversion", classes=("strokes",)),),
+    }, tuple(labels))  # fmt: skip
+    # what finds the cam lies over its tint
+    piece = Piece({"construction": (*piece.layers["mechanism"][:1], *piece.layers["construction"]),
+                   "mechanism": piece.layers["mechanism"][1:]}, piece.labels)  # fmt: skip
+    box = ink_box(piece.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
+    box = box.grown(6.0)
+    panel = Box(MARGIN, top, WIDTH - MARGIN, top + box.height)
+    origin = panel.centre - box.centre
+    return moved_piece(with_labels(piece, panel.moved(-origin)), origin), panel.bottom
+
+
+def _shown(sheet: CamSheet) -> list[CamDivision]:
+    """The divisions that are drawn: neighbours keep a millimetre and a half from each other at the base circle."""
+    found: list[CamDivision] = []
+    for d in sheet.divisions:
+        if all(abs(d.at.base - other.at.base) >= 1.5 for other in found):
+            found.append(d)
+    return found
+
+
+def _over(d: CamDivision, face: tuple[complex, complex]) -> tuple[complex, complex]:
+    """A face that reaches beyond its contact."""
+    across = 1j * d.at.way
+    ends = [((z - d.at.point) * across.conjugate()).real for z in (*face, d.at.contact)]
+    low, high = min(ends[0], ends[2] - 3.0), max(ends[1], ends[2] + 3.0)
+    return d.at.point + low * across, d.at.point + high * across
+
+
+def _ray(sheet: CamSheet, d: CamDivision, far: float) -> tuple[list[Primitive], complex]:
+    """What carries a division, turned back about the cam, and where its number stands."""
+    motion = sheet.cam.motion
+    if isinstance(motion, SlidingFollower):
+        beyond = math.sqrt(max((far + sheet.roller + PAST) ** 2 - sheet.offset**2, 0.0))
+        end = d.at.line + beyond * d.at.way
+        return [Line(_page(d.at.line), _page(end), RAY)], end
+    pivot = d.at.line
+    arm = abs(d.at.point - pivot)
+    angles = [cmath.phase(z - pivot) for z in (d.at.base, d.at.point)]
+    middle = angles[0] + math.remainder(angles[1] - angles[0], TURN) / 2
+    half = abs(math.remainder(angles[1] - angles[0], TURN)) / 2 + 3.0 / arm
+    return [Arc(_page(pivot), arm, middle - half, middle + half, RAY), Circle(_page(pivot), 0.5, stroke=RAY)], pivot
+
+
+def _sense(sheet: CamSheet) -> list[Primitive]:
+    """The sense in which the cam turns."""
+    radius = max(5.0, 0.3 * sheet.base)
+    return list(symbols.sense_arc(0j, radius, 0.6, sheet.cam.sense, math.radians(60)))
+
+
+def _page(z: complex) -> complex:
+    return z.conjugate()
+
+
+def _table(scene: Mechanism, sheet: CamSheet, language: str, y: float) -> tuple[tuple[Primitive, ...], float]:
+    """Number, cam degree, lift and pressure angle of each division, in columns beside each other."""
+    cam = sheet.cam
+    swings = isinstance(cam.motion, SwingingFollower)
+    unit = "°" if swings else scene.units.length
+    heads = ["", "$φ$ (°)", f"${'ψ' if swings else 's'}$ ({unit})", "$α$ (°)"]
+    columns = -(-len(sheet.divisions) // ROWS)
+    rows = -(-len(sheet.divisions) // columns)
+    wide = (WIDTH - 2 * MARGIN) / columns
+    parts = [0.12 * wide, 0.24 * wide, 0.30 * wide, 0.26 * wide]
+    drawn: list[Primitive] = []
+    for column in range(columns):
+        x = MARGIN + column * wide
+        some = sheet.divisions[column * rows : (column + 1) * rows]
+        cells = [[str(d.number), f"{math.degrees(d.degree):.2f}", f"{_lift(scene, cam, d.lift):.3f}",
+                  f"{math.degrees(d.pressure):.2f}"] for d in some]  # fmt: skip
+        for i, row in enumerate((heads, *cells)):
+            at, line = x, y + LINE * i + (1.2 if i else 0.0)
+            for text, width in zip(row, parts, strict=True):
+                at += width
+                if text:
+                    drawn.append(Text(complex(at, line), rich(text, 2.6), "end", classes=("cell",)))
+        drawn.append(Line(complex(x, y + 1.4), complex(x + sum(parts) + 1.0, y + 1.4), strokes.DIMENSION))
+    return tuple(drawn), y + LINE * (rows + 1) + 3.0

@@ -1,0 +1,256 @@
+"""What is to be said of a cam: pressure angles and their extremes, curvature and undercutting, rates, jumps.
+
+Extremes are found where a derivative in closed form goes through zero, and at both sides of every seam.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from graphkin.errors import Unsolvable
+from graphkin.scene.cams import LawCam
+from graphkin.scene.follower_law import Lift, SmoothPart
+from graphkin.solver.cam_profile import CamAt, cam_with
+from graphkin.solver.pose import Array
+
+__all__ = ["AtDegree", "CamStudy", "Jump", "least_base", "study_cam"]
+
+NODES = 97
+ROUNDS = 60
+SAME = 1e-9
+CORNER = 1e-9
+"""A jump of a derivative smaller than this, of the greatest, is none."""
+
+
+@dataclass(frozen=True)
+class AtDegree:
+    """A value at an angle of the law (rad)."""
+
+    value: float
+    degree: float
+
+
+@dataclass(frozen=True)
+class Jump:
+    """A jump of the follower's velocity (``order`` 1: an impact) or acceleration (2: a soft one) at a seam (rad), by
+    that much (m or rad, per rad or rad2)."""
+
+    order: int
+    degree: float
+    by: float
+
+
+@dataclass(frozen=True)
+class CamStudy:
+    """A cam looked over; rates are by the cam's angle (m or rad, per rad and rad2), angles in rad, lengths in m.
+
+    rise, fall : the greatest pressure angle while the follower rises and while it falls; None where it never does
+    velocity, acceleration : the greatest in size, with sign
+    radius : the least radius of curvature of the profile where it is convex; None where it nowhere is
+    undercut : from where to where the profile cannot be cut: the roller is larger than the pitch curve is round there,
+        or the flat face does not touch the whole of it
+    jumps : where velocity or acceleration jump
+    corners : angles at which the profile has a corner or a cusp, because the velocity jumps
+    """
+
+    cam: LawCam
+    rise: AtDegree | None
+    fall: AtDegree | None
+    velocity: AtDegree
+    acceleration: AtDegree
+    radius: AtDegree | None
+    undercut: tuple[tuple[float, float], ...]
+    jumps: tuple[Jump, ...]
+
+    @property
+    def judged(self) -> tuple[bool | None, bool | None]:
+        """Whether the pressure angles of rise and fall are within what is allowed; None where nothing is said."""
+        return _judged(self.cam, self.rise, self.fall)
+
+    @property
+    def ok(self) -> bool:
+        """Whether the cam can be made as wished."""
+        return False not in self.judged and not self.undercut
+
+
+def study_cam(cam: LawCam) -> CamStudy:
+    """Look a cam over.  Raises Unsolvable where the follower does not come to the base circle."""
+    most_rise, most_fall = _pressures(cam)
+    velocity = [a for p in cam.law.parts for a in _extremes(cam, p, _slope, lambda at, lift: lift.bend)]
+    bending = [a for p in cam.law.parts for a in _extremes(cam, p, _bend, lambda at, lift: lift.jerk)]
+    round_ = [a for p in cam.law.parts for a in _extremes(cam, p, _radius, _radius_rate)]
+    convex = [a for a in round_ if a.value + cam.roller > 0.0 or cam.flat]
+    return CamStudy(
+        cam, most_rise, most_fall, max(velocity, key=_size), max(bending, key=_size),
+        min(convex, key=_value, default=None), tuple(_undercut(cam)), tuple(_jumps(cam)),
+    )  # fmt: skip
+
+
+def _pressures(cam: LawCam) -> tuple[AtDegree | None, AtDegree | None]:
+    """The greatest pressure angles of rise and fall."""
+
+    def most(parts: Sequence[SmoothPart]) -> AtDegree | None:
+        found = (a for p in parts for a in _extremes(cam, p, lambda at, lift: at.pressure, _leaning_rate))
+        return max(found, key=_value, default=None)
+
+    return most([p for p in cam.law.parts if p.high > p.low]), most([p for p in cam.law.parts if p.high < p.low])
+
+
+def _judged(cam: LawCam, rise: AtDegree | None, fall: AtDegree | None) -> tuple[bool | None, bool | None]:
+    found: list[bool | None] = []
+    for most, allowed in zip((rise, fall), cam.allowed, strict=True):
+        found.append(None if allowed is None or most is None else most.value <= allowed * (1 + SAME))
+    return found[0], found[1]
+
+
+NEAREST = 1e-7
+"""How near, of the base radius, the nearest base circle is found."""
+LARGEST = 50.0
+"""So many base radii are looked at for one that will do."""
+
+
+def least_base(cam: LawCam) -> float | None:
+    """The nearest larger base radius of the profile (m) with which a cam keeps the allowed pressure angles and can be
+    cut; None where none does."""
+
+    def good(radius: float) -> bool:
+        larger = replace(cam, base=radius + cam.roller)
+        try:
+            rise, fall = _pressures(larger)
+        except Unsolvable:
+            return False
+        return False not in _judged(larger, rise, fall) and not any(True for _ in _undercut(larger))
+
+    low = high = cam.base_of_profile
+    while not good(high):
+        low, high = high, 1.25 * high
+        if high > LARGEST * cam.base:
+            return None
+    for _ in range(ROUNDS):
+        middle = (low + high) / 2
+        if high - low < NEAREST * cam.base:
+            break
+        low, high = (low, middle) if good(middle) else (middle, high)
+    return high
+
+
+def _value(at: AtDegree) -> float:
+    return at.value
+
+
+def _size(at: AtDegree) -> float:
+    return abs(at.value)
+
+
+Of = Callable[[CamAt, Lift], Array]
+
+
+def _slope(at: CamAt, lift: Lift) -> Array:
+    return np.asarray(lift.slope)
+
+
+def _bend(at: CamAt, lift: Lift) -> Array:
+    return np.asarray(lift.bend)
+
+
+def _radius(at: CamAt, lift: Lift) -> Array:
+    """Radius of curvature of the profile; infinite where it is straight."""
+    return np.asarray(at.radius)
+
+
+def _leaning_rate(at: CamAt, lift: Lift) -> Array:
+    """How the angle between normal and the follower's way changes: both turn."""
+    return np.asarray(at.leaning_rate)
+
+
+def _radius_rate(at: CamAt, lift: Lift) -> Array:
+    return np.asarray(at.radius_rate)
+
+
+def _at(cam: LawCam, part: SmoothPart, degree: Array) -> tuple[CamAt, Lift]:
+    lift = part.at(degree, np)
+    return cam_with(cam, degree, lift), lift
+
+
+def _extremes(cam: LawCam, part: SmoothPart, of: Of, rate: Of) -> Iterator[AtDegree]:
+    """A quantity at the ends of a part and where its rate goes through zero."""
+    nodes = np.linspace(part.start, part.end, NODES)
+    rates = np.nan_to_num(np.broadcast_to(rate(*_at(cam, part, nodes)), nodes.shape))
+    spots = [part.start, part.end]
+    for k in np.flatnonzero(rates[:-1] * rates[1:] < 0.0):
+        ends = (float(nodes[k]), float(rates[k])), (float(nodes[k + 1]), float(rates[k + 1]))
+        spots.append(_root(lambda x: float(np.ravel(rate(*_at(cam, part, np.array([x]))))[0]), *ends))
+    spots += nodes[rates == 0.0].tolist()
+    values = np.broadcast_to(of(*_at(cam, part, np.array(spots))), (len(spots),))
+    yield from (AtDegree(float(v), d) for v, d in zip(values, spots, strict=True) if not math.isnan(v))
+
+
+def _root(of: Callable[[float], float], low: tuple[float, float], high: tuple[float, float]) -> float:
+    """Where a function goes through zero between two places with their values of opposite sign (Illinois rule: Dowell
+    and Jarratt, BIT 11, 1971)."""
+    (a, fa), (b, fb) = low, high
+    for _ in range(ROUNDS):
+        x = (a * fb - b * fa) / (fb - fa)
+        if not min(a, b) < x < max(a, b):
+            break
+        fx = of(x)
+        if fx == 0.0:
+            return x
+        if fx * fb < 0.0:
+            a, fa = b, fb
+        else:
+            fa /= 2.0
+        b, fb = x, fx
+        if abs(b - a) < 1e-15:
+            break
+    return b
+
+
+def _undercut(cam: LawCam) -> Iterator[tuple[float, float]]:
+    """Stretches in which the profile is not round enough, joined across seams."""
+    stretches: list[list[float]] = []
+    for part in cam.law.parts:
+        nodes = np.linspace(part.start, part.end, 4 * NODES)
+        bad = _too_sharp(cam, *_at(cam, part, nodes))
+        edges = np.flatnonzero(bad[:-1] != bad[1:])
+        cuts = [_edge(cam, part, float(nodes[k]), float(nodes[k + 1]), bool(bad[k])) for k in edges]
+        bounds = ([part.start] if bad[0] else []) + cuts + ([part.end] if bad[-1] else [])
+        for start, end in zip(bounds[::2], bounds[1::2], strict=True):
+            if stretches and abs(stretches[-1][1] - start) < SAME:
+                stretches[-1][1] = end
+            else:
+                stretches.append([start, end])
+    yield from ((start, end) for start, end in stretches if end > start)
+
+
+def _too_sharp(cam: LawCam, at: CamAt, lift: Lift) -> Array:
+    """Where the profile turns back on itself: a flat face on a radius that is not positive, a roller larger than the
+    convex pitch curve is round."""
+    if cam.flat:
+        return np.asarray(at.radius < 0.0)
+    return np.asarray((at.radius < 0.0) & (at.radius + cam.roller > 0.0))
+
+
+def _edge(cam: LawCam, part: SmoothPart, low: float, high: float, before: bool) -> float:
+    for _ in range(ROUNDS):
+        middle = (low + high) / 2
+        here = bool(np.ravel(_too_sharp(cam, *_at(cam, part, np.array([middle]))))[0])
+        low, high = (middle, high) if here == before else (low, middle)
+    return (low + high) / 2
+
+
+def _jumps(cam: LawCam) -> Iterator[Jump]:
+    parts: Sequence[SmoothPart] = cam.law.parts
+    ends = [(part.at(part.start), part.at(part.end)) for part in parts]
+    for order in (1, 2):
+        most = max(abs(lift[order]) for pair in ends for lift in pair) or 1.0
+        middles = (abs(p.at((p.start + p.end) / 2)[order]) for p in parts)
+        most = max(most, *middles)
+        for k, part in enumerate(parts):
+            by = ends[k][0][order] - ends[k - 1][1][order]
+            if abs(by) > CORNER * most:
+                yield Jump(order, part.start, by)
