@@ -193,7 +193,10 @@ class _Forces:
         turning = max(most("moment"), largest * size)
         inertia = {r.symbol.link: abs(v) for r, v in forces if r.symbol.kind == "Fi"}
         lost = (rounding or {}).get("force", 0.0)
-        return cls(sheet, largest, turning, most("velocity"), lost, inertia, predicted)
+        # arms of what stands still are rounding beside the speeds of the links; at rest the driver has a unit rate
+        speeds = (abs(v.span) for v in sheet.vectors("velocity").values())
+        fastest = max(speeds, default=0.0) * sheet.scales.velocity or size
+        return cls(sheet, largest, turning, max(most("velocity"), fastest), lost, inertia, predicted)
 
     def row(self, reading: Reading, exact: complex | float) -> Compared:
         symbol, sheet, size = reading.symbol, self.sheet, self.sheet.scene.size
