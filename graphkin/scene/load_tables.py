@@ -40,8 +40,8 @@ class Mass(FileTable):
     """Mass of a moving link."""
 
     at: NameOrPlace = field(metadata=about("The centre of mass: a point of the link, or [x, y] in its own axes."))
-    mass: NotNegative | None = field(default=None, metadata=about("Its mass."))
-    weight: NotNegative | None = field(default=None, metadata=about("Instead of mass: its weight, a force."))
+    mass: Magnitude | None = field(default=None, metadata=about("Its mass."))
+    weight: Magnitude | None = field(default=None, metadata=about("Instead of mass: its weight, a force."))
     inertia: NotNegative = field(default=0.0, metadata=about("Moment of inertia about the centre of mass."))
 
 

@@ -16,6 +16,9 @@ from graphkin.scene.tables import SceneTables
 __all__ = ["BalanceAt", "LinkMass", "LoadOn", "Loading", "Phase", "PlacedFlywheel", "loading_of"]
 
 
+TURN = math.tau * (1 + 1e-12)
+
+
 @dataclass(frozen=True)
 class LinkMass:
     """Mass (kg) and inertia (kg m2) of a link about its centre of mass, which lies ``at`` in its own axes (m)."""
@@ -110,6 +113,8 @@ def loading_of(
     balance, flywheel = reading.balance(), None
     if file.flywheel is not None and not reading.not_moving("flywheel.on", file.flywheel.on):
         flywheel = PlacedFlywheel(file.flywheel.on, file.flywheel.delta)
+        if file.flywheel.delta >= 2.0:
+            reading.say("flywheel.delta", f"found {file.flywheel.delta:g}", "a part of the mean speed, below 2")
     if (balance or flywheel) and not (file.masses or file.loads):
         where = "balance" if balance else "flywheel"
         problems.append(Problem(where, "there is nothing to balance", "give [masses.LINK] or [loads.NAME]"))
@@ -214,6 +219,9 @@ class _LoadReading:
                 self.say(f"{where}.sense", f"found {when.sense:g}", "1 along the guide's sense, -1 against it")
             return Phase(self.pair(f"{where}.stroke", when.stroke), int(when.sense), when.start, when.end)
         assert when.driver is not None
+        for key, said in (("sense", when.sense != 1.0), ("from", when.start != 0.0), ("to", when.end != 1.0)):
+            if said:
+                self.say(f"{where}.{key}", "stands beside driver", "it is of a stroke; the driver's two values say all")
         drivers = self.file.drivers
         slides = bool(drivers) and hasattr(drivers[0], "slide")
         scale = self.file.units.metres if slides else math.pi / 180
@@ -221,6 +229,10 @@ class _LoadReading:
         if slides and start >= end:
             found = f"found {when.driver[0]:g}, {when.driver[1]:g}"
             self.say(f"{where}.driver", found, "the travel grows between them")
+        elif not slides and not 0.0 < (span := end - start if end >= start else end - start + math.tau) <= TURN:
+            found = f"found {when.driver[0]:g}, {when.driver[1]:g}"
+            wanted = "two different values" if span <= 0.0 else "at most a turn lies between them"
+            self.say(f"{where}.driver", found, f"{wanted}; a load that acts always has no when")
         return Phase("", 1, start, end if slides or end >= start else end + 2 * math.pi)
 
     def balance(self) -> BalanceAt | None:

@@ -203,6 +203,8 @@ _TABLES: tuple[tuple[tuple[str, ...], type[FileTable]], ...] = (
     (("positions", "also", "*", "<polar>"), tables.StrokeStart),
     (("printed_table",), tables.PrintedTable),
 )
+_NOUNS = {"g": "gravity", "mass": "mass", "weight": "weight", "delta": "fluctuation"}
+"""What must be positive, where it is no length."""
 _KINDS = {
     "string_type": "a text is wanted",
     "float_type": "a number is wanted",
@@ -292,7 +294,8 @@ def sentence(loc: Path, path: Path, item: dict[str, Any]) -> Problem:
     if kind == "greater_than_equal":
         if ctx["ge"] > 0:
             what = "a negative" if value < 0 else "a zero" if value == 0 else "far too small a"
-            noun = "scale" if str(path[-1]).endswith("scale") else "length"
+            last = str(path[-1])
+            noun = "scale" if last.endswith("scale") else _NOUNS.get(last, "length")
             return Problem(where, f"found {shown(value)}, {what} {noun}", f"a {noun} must be positive")
         return Problem(where, f"found {shown(value)}", f"no number of a scene may be below {ctx['ge']:g}")
     if kind == "less_than_equal":
@@ -328,6 +331,7 @@ def _about_size(loc: Path, value: Any) -> tuple[str, str]:
         "angle_on": "one number for each guide is wanted",
         "from": "two points of the link are wanted",
         "r": "two lengths are wanted, one for each point",
+        "driver": "two values of the driver are wanted",
     }
     return f"found {shown(value)}", wanted.get(str(written_path(loc)[-1]), "a place is [x, y]")
 

@@ -313,6 +313,14 @@ def test_a_cylinder_carries_what_it_lifts():
         ({"loads": {"P": {"on": "6", "moment": 9, "angle": 0}}}, "neither place nor direction"),
         ({"loads": {"P": {"on": "6", "moment": 9, "when": {"stroke": "6/1", "sense": 2}}}}, "1 along the guide"),
         ({"balance": {"on": "2", "at": "A"}}, "balance.angle: is missing"),
+        ({"masses": {"4": {"at": "S4", "mass": 0}}}, "a zero mass; a mass must be positive"),
+        ({"gravity": {"g": -9.8}}, "a negative gravity; a gravity must be positive"),
+        ({"flywheel": {"on": "2", "delta": 2.5}}, "a part of the mean speed"),
+        ({"flywheel": {"on": "1", "delta": 0.1}}, "link 1 is the frame"),
+        ({"loads": {"P": {"on": "6", "moment": 9, "when": {"driver": [1]}}}}, "two values of the driver"),
+        ({"loads": {"P": {"on": "6", "moment": 9, "when": {"driver": [40, 40]}}}}, "two different values"),
+        ({"loads": {"P": {"on": "6", "moment": 9, "when": {"driver": [0, 800]}}}}, "at most a turn"),
+        ({"loads": {"P": {"on": "6", "moment": 9, "when": {"driver": [0, 80], "sense": -1}}}}, "beside driver"),
     ],
 )
 def test_what_is_wrong_with_masses_and_loads_is_told_by_name(change, said):
