@@ -27,8 +27,9 @@ from graphkin.api.arguments import (
 )
 from graphkin.api.results import Result
 from graphkin.checking.reading_words import deviation, exact, measured, paper
-from graphkin.checking.readings import Advice, Uncertainty, advise, predict, read_off
+from graphkin.checking.readings import read_off
 from graphkin.checking.report import Compared, Report, compare
+from graphkin.checking.uncertainty import Advice, Uncertainty, advise, predict
 from graphkin.construction import EXACT, Cad, Instrument, Plan, Sheet, execute, pencil, plan
 from graphkin.construction.forces import ForceSheet, force_scale, forces_on
 from graphkin.construction.sheet import DiagramName

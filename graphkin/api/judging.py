@@ -14,9 +14,9 @@ from graphkin.api.answers import Answers
 from graphkin.api.arguments import At, driver_values, own_unit
 from graphkin.api.checked import solved_here
 from graphkin.checking.audit import Judged, drafting_bound, explained
-from graphkin.checking.readings import predict
 from graphkin.checking.slips import Evidence, ValuesElsewhere
 from graphkin.checking.table_audit import exact_rows, judged_by_digits, told_by_digits
+from graphkin.checking.uncertainty import predict
 from graphkin.construction import plan
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, Mechanism

@@ -7,7 +7,8 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from graphkin.checking.readings import Reading, Uncertainty
+from graphkin.checking.readings import Reading
+from graphkin.checking.uncertainty import Uncertainty
 from graphkin.construction.sheet import DiagramName, Scales, Sheet
 from graphkin.scene.symbol import PointRef, Symbol
 

@@ -12,7 +12,8 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from graphkin.checking.readings import Uncertainty, read_off
+from graphkin.checking.readings import read_off
+from graphkin.checking.uncertainty import Uncertainty
 from graphkin.construction import Plan, Sheet, Slip, execute
 from graphkin.construction.slip import Component
 from graphkin.errors import GraphkinError

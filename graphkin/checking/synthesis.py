@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from graphkin.checking.readings import COVERAGE
+from graphkin.checking.uncertainty import COVERAGE
 from graphkin.construction import EXACT, Instrument, nudged
 from graphkin.construction.design_sheet import DesignSheet
 from graphkin.construction.synthesis import construct
@@ -42,12 +42,12 @@ class FoundLength:
 def predict_lengths(task: DesignTask, scale: float, name: str, tools: Tools) -> dict[str, float]:
     """Standard deviation (mm on paper) of each length that is drawn with an instrument, "pencil" or "cad"; infinite
     where one act alone keeps it from being found."""
-    still = nudged(name, tools, 0)
+    still = nudged(name, tools)
     base = construct(task, scale, still).lengths
     squares = dict.fromkeys(base, 0.0)
     for act in range(1, still.acts + 1):
         try:
-            wrong: Mapping[str, float] = construct(task, scale, nudged(name, tools, act)).lengths
+            wrong: Mapping[str, float] = construct(task, scale, nudged(name, tools, {act: 1.0})).lengths
         except Unsolvable:
             wrong = dict.fromkeys(base, math.inf)
         for key, value in base.items():

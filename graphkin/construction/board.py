@@ -9,7 +9,7 @@ from __future__ import annotations
 import cmath
 import math
 import random
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Protocol
 
@@ -20,7 +20,7 @@ from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, cross_lines
 from graphkin.scene.tables import Tools
 
-__all__ = ["EXACT", "Board", "Cad", "Exact", "Instrument", "erring", "nudged", "pencil"]
+__all__ = ["EXACT", "Board", "Cad", "Exact", "Hand", "Instrument", "erring", "nudged", "pencil"]
 
 
 class Instrument(Protocol):
@@ -169,6 +169,7 @@ class Hand:
 
 _UNIFORM = math.sqrt(12)  # a value read to the nearest mark errs evenly within a mark: its width over sqrt(12)
 _SCREEN = Tools(ruler=CAD_MM, protractor=CAD_DEG)
+_NEVER: Mapping[int, float] = {}
 
 
 def pencil(tools: Tools, seed: int) -> Hand:
@@ -177,15 +178,15 @@ def pencil(tools: Tools, seed: int) -> Hand:
     return Hand(tools, lambda _: dice.gauss(0.0, 1.0))
 
 
-def nudged(name: str, tools: Tools, act: int) -> Hand:
-    """The hands of an instrument that err in one act only, by one standard deviation (act 0: never)."""
+def nudged(name: str, tools: Tools, errs: Mapping[int, float] = _NEVER) -> Hand:
+    """The hands of an instrument that err in some acts only, by so many standard deviations of each."""
     screen = name == "cad"
-    return Hand(_SCREEN if screen else tools, lambda n: float(n == act), name, screen)
+    return Hand(_SCREEN if screen else tools, lambda n: errs.get(n, 0.0), name, screen)
 
 
 def erring(name: str, tools: Tools, seed: int) -> Hand:
     """The hands of an instrument that err in every act at random, the same way for the same seed."""
-    hand = nudged(name, tools, 0)
+    hand = nudged(name, tools)
     dice = random.Random(f"together {seed}")
     return replace(hand, errs=lambda _: dice.gauss(0.0, 1.0))
 

@@ -13,7 +13,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from graphkin.construction.board import Board
+from graphkin.construction.board import Board, Instrument
 from graphkin.construction.group_moves import GroupMoves
 from graphkin.construction.group_plan import GroupPlan, Special, plan_group
 from graphkin.construction.net import Edge
@@ -110,15 +110,21 @@ class GroupPolygons(GroupMoves):
             else:
                 self.tried[order, name] = value
 
-    def _fork(self, number: int) -> GroupPolygons:
-        """The same polygons, for a trial of their own with the same hands."""
-        made = copy.copy(self)
-        made.board, made.trial = Board(self.board.instrument), number
+    def again(self, hand: Instrument) -> GroupPolygons:
+        """The same polygons as they stand here, to go on with by other hands."""
+        board, made = self.board, copy.copy(self)
+        made.board = Board(hand, [*board.steps], [*board.equations], [*board.noticed], [*board.causes])
         made.ends = {name: dict(found) for name, found in self.ends.items()}
         made.rates = {name: dict(found) for name, found in self.rates.items()}
         made.drawn = {name: dict(found) for name, found in self.drawn.items()}
-        made.tried = dict(self.tried)
+        made.tried, made.believed = dict(self.tried), set(self.believed)
         made.special, made.places, made.links = set(self.special), dict(self.places), dict(self.links)
+        return made
+
+    def _fork(self, number: int) -> GroupPolygons:
+        """The same polygons, for a trial of their own with the same hands."""
+        made = self.again(self.board.instrument)
+        made.board, made.trial = Board(self.board.instrument), number
         return made
 
     def _tried(

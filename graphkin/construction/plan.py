@@ -9,53 +9,42 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
-from functools import cached_property
 
-from graphkin.construction.asked import show
-from graphkin.construction.board import EXACT, Board, Instrument
+from graphkin.construction.board import EXACT, Instrument
 from graphkin.construction.cam_outline import outlines_on_paper
 from graphkin.construction.cams_in_place import cams_in_place
+from graphkin.construction.carried_out import carried_out, finished
 from graphkin.construction.dyads import meet
 from graphkin.construction.extent import Extent, fitting_scale
 from graphkin.construction.follow import Choices, best_reduced
 from graphkin.construction.forces.phases import acting_loads, strokes_of_loads
-from graphkin.construction.group_plan import GroupPlan
-from graphkin.construction.group_polygons import GroupPolygons
 from graphkin.construction.group_position import GroupTrial
-from graphkin.construction.held_still import Inversion, TriangleDrawn, inversions_of, opened_at_triangles, own_assembly
-from graphkin.construction.limits import limits_asked, limits_on_paper
-from graphkin.construction.net import Chain
+from graphkin.construction.held_still import Inversion, inversions_of, opened_at_triangles, own_assembly
+from graphkin.construction.limits import limits_asked
 from graphkin.construction.plot import Order
-from graphkin.construction.position import branches_at, draw_position, place
-from graphkin.construction.residues import without_residues
+from graphkin.construction.position import branches_at
 from graphkin.construction.rigid import PlacedLinks, Poses
 from graphkin.construction.sheet import (
     DIAGRAMS,
     DiagramName,
-    DrawnGroup,
-    Limits,
     Pose,
     Scales,
     Sheet,
-    Step,
     Vector,
 )
 from graphkin.construction.slip import NO_SLIP, Slip
 from graphkin.construction.steps import Asked
+from graphkin.construction.task import ORDERS, Task
 from graphkin.construction.touching import Touching
 from graphkin.construction.trial import Known, found_by_trial
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.loads import Loading
 from graphkin.scene.model import Mechanism
-from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.scene.symbol import Symbol
 from graphkin.structure import Cluster, Driven, Dyad, Element, Structure, analyse, links_of, needed
 from graphkin.structure.cams_replaced import with_cams
-from graphkin.words import Phrase
 
 __all__ = ["Plan", "Room", "draft", "drawn_sizes", "execute", "plan", "scales_for"]
-
-ORDERS: tuple[Order, ...] = ("velocity", "acceleration")
-
 
 @dataclass(frozen=True)
 class Room:
@@ -145,51 +134,6 @@ def _extents_of(sheet: Sheet) -> dict[DiagramName, Extent]:
 
 
 NATURAL = Scales(1e-3, 1e-3, 1e-3)  # 1 mm of paper for 1 mm, 1 mm/s, 1 mm/s2
-
-
-@dataclass(frozen=True)
-class Task:
-    """What is to be drawn, at which position, in which assembly, and by which equation for each dyad.
-
-    ``opened`` is the structure with groups that driven triangles turn into dyads in their parts, ``triangles`` are
-    these, each with its assembly; ``values`` are the drivers', those at the triangles' pairs included; ``limits`` are
-    the limit positions of what is asked, on paper of the mechanism's size.  ``acting`` and ``growing`` as in `Sheet`.
-    """
-
-    structure: Structure
-    opened: Structure
-    asked: tuple[Symbol, ...]
-    elements: tuple[Element, ...]
-    values: Mapping[str, float]
-    branches: Mapping[int, int]
-    trials: Mapping[Cluster, GroupTrial]
-    chains: Mapping[Dyad, Chain]
-    plans: Mapping[Cluster, GroupPlan]
-    triangles: tuple[tuple[Inversion, int], ...]
-    limits: Mapping[str, Limits]
-    acting: Mapping[str, bool | None]
-    growing: tuple[Sheet, ...]
-
-    @cached_property
-    def drawn(self) -> Mapping[Order, tuple[Element, ...]]:
-        """What each polygon needs for what is asked: accelerations only of what leads to accelerations."""
-        pushes = [s for s in self.asked if s.measure in ("acceleration", "angular acceleration")]
-        wanted = needed(self.opened, pushes) if pushes else []
-        every = not self.asked or any(s.scope == "force" for s in self.asked)
-        pushed = self.elements if every else tuple(e for e in self.elements if e in wanted)
-        return {"velocity": self.elements, "acceleration": pushed}
-
-    @cached_property
-    def left_out(self) -> tuple[Phrase, ...]:
-        """What nothing asked for needs."""
-        wanted = needed(self.opened, self.asked)
-        placed = {n for e in self.elements for n in links_of(e)}
-        pushed = {n for e in self.drawn["acceleration"] for n in links_of(e)}
-        gone = {n for e in self.opened.elements if e not in wanted for n in links_of(e)}
-        names = [link.name for link in self.structure.scene.links]
-        without = [n for n in names if n in gone], [n for n in names if n in placed - pushed]
-        keys = "left out elements", "left out accelerations"
-        return tuple(Phrase(key, (", ".join(links),)) for key, links in zip(keys, without, strict=True) if links)
 
 
 @dataclass(frozen=True)
@@ -286,14 +230,15 @@ def _known(sheet: Sheet) -> Known:
 
 
 def _planned(task: Task, room: Room | None) -> Plan:
-    polygons, assembly, held = _carried_out(task, NATURAL, EXACT, NO_SLIP)
+    made = carried_out(task, NATURAL)
+    polygons = made.polygons
     size = NATURAL.length / task.structure.scene.size
     poses = {name: pose.scaled(size) for name, pose in polygons.frame.poses.items()}
-    exact = _finished(task, polygons, assembly, held)
+    exact = finished(task, made)
     asked = (*task.asked, *strokes_of_loads(task.structure)) if exact.has_forces else task.asked
     found = limits_asked(task.structure, needed(task.structure, task.asked), asked, task.values, poses)
     task = replace(task, limits=found)
-    exact = _finished(task, polygons, assembly, held)
+    exact = finished(task, made)
     if exact.has_forces:
         growing = _growing(task, exact)
         moves = any(driver.values[1] for driver in task.structure.scene.drivers)
@@ -330,82 +275,7 @@ def execute(what: Plan, instrument: Instrument = EXACT, slip: Slip = NO_SLIP) ->
     """
     if instrument is EXACT and slip is NO_SLIP:
         return what.exact.at(what.scales)
-    return _finished(what, *_carried_out(what, what.scales, instrument, slip))
-
-
-def _carried_out(
-    task: Task, scales: Scales, instrument: Instrument, slip: Slip
-) -> tuple[GroupPolygons, Mapping[str, Phrase], tuple[Step, ...]]:
-    """Position and both polygons on a board, the words for each assembly, and what was drawn with a link held still."""
-    board = Board(instrument)
-    found: list[TriangleDrawn] = []
-    values, rates = dict(task.values), dict[str, tuple[float, float]]()
-    for inversion, branch in task.triangles:
-        carried = inversion.drawn(instrument, scales, task.values, branch)
-        values[inversion.key] = inversion.near(task.values[inversion.key], carried.value)
-        rates[inversion.key] = carried.rate, carried.second
-        found.append(carried)
-    board.causes += [cause for carried in found for cause in carried.causes]
-    before = list(board.causes)
-    told = [part for carried in found for part in carried.told()]
-    position = place(task.opened, task.elements, 1.0 / scales.length, values, task.branches, instrument, task.trials)
-    assembly = draw_position(board, task.opened, task.elements, position, task.branches, task.trials)
-    board.causes[:] = [*before, *position.causes]
-    polygons = GroupPolygons(board, task.opened, position.frame, scales, slip)
-    polygons.given.update(rates)
-    polygons.chains.update(task.chains)
-    polygons.plans.update(task.plans)
-    for name, act in told:
-        board.do(name, act)
-    for order in ORDERS:
-        for element in task.drawn[order]:
-            polygons.draw(order, element)
-    return polygons, assembly, tuple(step for carried in found for step in carried.steps)
-
-
-def _finished(
-    task: Task, polygons: GroupPolygons, assembly: Mapping[str, Phrase], held: tuple[Step, ...]
-) -> Sheet:
-    """What stands on the board as a sheet, with the vectors that only a question asks for."""
-    show(polygons, task.asked)
-    board = polygons.board
-    sheet = Sheet(
-        scene=task.structure.scene,
-        structure=task.structure,
-        instrument=board.instrument.name,
-        drivers={d.key: task.values[d.key] for d in task.structure.scene.drivers},
-        scales=polygons.scales,
-        poses=dict(polygons.frame.poses),
-        points={PointRef(p): z for p, z in polygons.places.items()},
-        ends={order: dict(ends) for order, ends in polygons.ends.items()},
-        omega=dict(polygons.rates["velocity"]),
-        alpha=dict(polygons.rates["acceleration"]),
-        steps=tuple(board.steps),
-        held_still=held,
-        equations=tuple(board.equations),
-        assembly=assembly,
-        noticed=tuple(board.noticed),
-        left_out=task.left_out,
-        groups=tuple(_drawn_groups(task, polygons)),
-        causes=tuple(board.causes) if board.instrument.acts else (),
-        asked=task.asked,
-        acting=task.acting,
-        growing=task.growing,
-        limits=limits_on_paper(
-            task.limits, task.structure, task.elements, task.values, polygons.scales,
-            EXACT if task.triangles else board.instrument,
-        ),
-    )
-    return without_residues(sheet) if board.instrument.faultless else sheet
-
-
-def _drawn_groups(task: Task, polygons: GroupPolygons) -> Iterator[DrawnGroup]:
-    for group in needed(task.structure, task.asked):
-        if group in task.trials and isinstance(group, Cluster):
-            yield polygons.drawn_group(group, task.trials[group].reduced.left_out)
-        elif isinstance(group, Cluster):
-            # with one link held still its motion relative to that link is found, and laid over that link's motion
-            yield DrawnGroup(group, "superposition", (), (), (), ())
+    return finished(what, carried_out(what, what.scales, instrument, slip))
 
 
 def draft(

@@ -13,8 +13,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
-from graphkin.checking.readings import Uncertainty
 from graphkin.checking.report import Compared, Report
+from graphkin.checking.uncertainty import Uncertainty
 from graphkin.construction.sheet import Aid, DiagramName, Equation, Ray, Sheet, Step, Vector
 from graphkin.construction.steps import (
     Direction,

@@ -12,9 +12,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from graphkin import solver
-from graphkin.checking.readings import predict, read_off
+from graphkin.checking.readings import read_off
 from graphkin.checking.report import Report, compare
 from graphkin.checking.slips import Evidence
+from graphkin.checking.uncertainty import predict
 from graphkin.construction import Plan, execute, plan
 from graphkin.construction.centres import Centres, find_centres
 from graphkin.construction.sheet import Scales, Sheet

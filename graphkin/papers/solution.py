@@ -12,8 +12,8 @@ from dataclasses import dataclass
 
 from graphkin import table
 from graphkin.checking.reading_words import exact, measured, paper
-from graphkin.checking.readings import COVERAGE
 from graphkin.checking.report import Compared
+from graphkin.checking.uncertainty import COVERAGE
 from graphkin.construction.sheet import Equation
 from graphkin.drawing.headings import FIGURE_WORDS, drivers, number, written
 from graphkin.papers.blocks import (

@@ -14,7 +14,8 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
-from graphkin.checking.readings import predict, read_off
+from graphkin.checking.readings import read_off
+from graphkin.checking.uncertainty import predict
 from graphkin.construction import Sheet, execute
 from graphkin.construction.sheet import Ray
 from graphkin.errors import GraphkinError, Problem, SceneError, Unsolvable

@@ -7,8 +7,9 @@ from typing import Any
 import pytest
 
 import graphkin
-from graphkin.checking.readings import Uncertainty, read_off
+from graphkin.checking.readings import read_off
 from graphkin.checking.report import compare
+from graphkin.checking.uncertainty import Uncertainty
 from graphkin.construction import draft
 from graphkin.construction.steps import ReadOff
 from graphkin.scene import mechanism_of

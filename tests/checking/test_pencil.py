@@ -8,7 +8,8 @@ from dataclasses import replace
 import pytest
 
 import graphkin
-from graphkin.checking.readings import COVERAGE, predict, read_off
+from graphkin.checking.readings import read_off
+from graphkin.checking.uncertainty import COVERAGE, predict
 from graphkin.construction import execute, pencil, plan
 from graphkin.scene import library, library_text, mechanism_of, mechanism_of_text
 from graphkin.scene.symbol import Symbol
@@ -16,11 +17,6 @@ from graphkin.scene.tables import Tools
 
 SIXBAR = "sixbar-guide-40deg"
 SEEDS = 40
-# what is predicted is linear in the errors of the tools; here ordinary tools leave a velocity uncertain by a third and
-# an acceleration by nearly all of it, and one drawing in twenty is off by more: with finer ones the bounds hold
-CLUMSY = ("contour-four-bars",)
-FINE = Tools(line_width=0.02, ruler=0.01, compass=0.01, set_square=0.01, protractor=0.05)
-
 
 def _series(what, tools):
     """Errors of every reading over a series of seeds (SI)."""
@@ -38,7 +34,7 @@ def test_readings_lie_within_their_bounds_and_the_bounds_are_not_lazy(name):
     what = plan(mechanism_of(name), find=())
     if not what.elements:
         pytest.skip("nothing of it is drawn with two lines")
-    tools = FINE if name in CLUMSY else Tools()
+    tools = Tools()
     predicted = predict(what, "pencil", tools)
     errors = _series(what, tools)
     inside = [e <= predicted[s].bound * (1 + 1e-9) + 1e-12 for s, es in errors.items() for e in es]

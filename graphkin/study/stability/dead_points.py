@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from graphkin import solver
-from graphkin.checking.readings import COVERAGE, predict
+from graphkin.checking.uncertainty import COVERAGE, predict
 from graphkin.construction import EXACT, execute, plan
 from graphkin.construction.remarks import SharpCrossing
 from graphkin.errors import Unsolvable
@@ -312,11 +312,10 @@ def _drawn(case: DeadPointCase, mp: MPContext, x: Sequence[float], truth: Sequen
 
 
 def _pencil(case: DeadPointCase, mp: MPContext) -> ErrorLaw:
-    """The uncertainty that is predicted for a pencil, relative.
+    """The uncertainty of first order that is predicted for a pencil, relative.
 
     A rate goes as one over the half chord h of the crossing: an error u of it is one of 2 u in the square of h, and
-    where COVERAGE times that is all of it the arcs may miss each other.  From there on the prediction is not of first
-    order but seen on drawings, and has no such law.
+    where COVERAGE times that is all of it the arcs may miss each other, and first order has no such law.
     """
     x = grid(FAR, 1e-4, 1)
     symbol = Symbol("omega", link=case.follower)
@@ -328,7 +327,7 @@ def _pencil(case: DeadPointCase, mp: MPContext) -> ErrorLaw:
         size = abs(execute(what, EXACT).omega[case.follower].value)
         if any(isinstance(r, SharpCrossing) for r in execute(what, EXACT).remarks):
             told = told or e
-        part = predict(what, "pencil", case.scene.sheet.tools)[symbol].deviation / size
+        part = predict(what, "pencil", case.scene.sheet.tools, together=False)[symbol].deviation / size
         if not math.isfinite(part):
             stops = stops or e
         error.append(part if math.isfinite(part) else math.nan)

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from graphkin import solver
-from graphkin.checking.readings import predict
+from graphkin.checking.uncertainty import predict
 from graphkin.construction import EXACT, Plan, Scales, execute, pencil, plan
 from graphkin.construction.board import Instrument
 from graphkin.construction.centres import by_centres, find_centres, speeds
@@ -158,7 +158,8 @@ def drawing_scale(mp: MPContext, samples: int = 1, name: str = "slider-crank-off
         for size in x:
             by = own / size
             scales = Scales(*(s * by for s in (what.scales.length, what.scales.velocity, what.scales.acceleration)))
-            errors.append(predict(replace(what, scales=scales), "pencil", tools)[symbol].deviation / right)
+            predicted = predict(replace(what, scales=scales), "pencil", tools, together=False)
+            errors.append(predicted[symbol].deviation / right)
         laws.append(ErrorLaw(key, tuple(x), tuple(errors), theory, lost=1.0))
     return Singularity("small scale", "crank on paper", tuple(laws), (Phrase("fate scale"),))
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from graphkin import solver
-from graphkin.checking.readings import predict
+from graphkin.checking.uncertainty import predict
 from graphkin.construction import EXACT, execute, plan
 from graphkin.construction.remarks import ShortArm
 from graphkin.errors import Unsolvable
@@ -220,7 +220,7 @@ def _pencil_sliding(scene: Mechanism, mp: MPContext, rate: float) -> list[ErrorL
     errors: dict[str, list[float]] = {key: [] for key in symbols}
     a, d = mp.mpf(scene.by_name["1"].length), mp.mpf(scene.frame.points["A"].imag)
     for e in x:
-        predicted = predict(plan(_at(scene, float(mp.pi / 2 + mp.mpf(e)))), "pencil", scene.sheet.tools)
+        predicted = predict(plan(_at(scene, float(mp.pi / 2 + mp.mpf(e)))), "pencil", scene.sheet.tools, together=False)
         slip, omega = _in_line(mp, a, d, rate, e)
         for (key, symbol), size in zip(symbols.items(), (slip, omega), strict=True):
             errors[key].append(float(predicted[symbol].deviation / abs(size)))

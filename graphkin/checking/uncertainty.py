@@ -1,0 +1,234 @@
+"""How far each reading may lie off before it is drawn, and what would make it better.
+
+Uncertainty is of first order, from every act that leads to a reading: each (a point pricked, a direction set, a length
+laid off or read) is made wrong once by one standard deviation, the rest exactly; what that does to a reading is its
+sensitivity times the deviation, and the squares add up (Guide to the expression of uncertainty in measurement, 5.1).
+Crossing angles, lengths and scales come in by the construction itself.
+
+Where readings are not in proportion to errors, first order tells too little.  So each is drawn once more with all acts
+wrong together in the way that most easily brings it three deviations off, to either side, and what it is off then is
+stated (the design point of Hasofer and Lind, Exact and invariant second-moment code format, 1974): near a dead point,
+and where trial polygons are divided, errors grow faster than they are made.  What acts do together, where each alone
+does nothing (the square of a speed that is nought, a product of two such: a mechanism at rest), is seen on some
+drawings in which all err at once.
+"""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_left
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphkin.checking.readings import Reading, read_off
+from graphkin.construction import Plan, Redrawn, Scales, erring, nudged
+from graphkin.construction.board import Hand
+from graphkin.construction.plot import Order
+from graphkin.construction.steps import Cause, ReadOff, phrase_of
+from graphkin.errors import Unsolvable
+from graphkin.scene.symbol import Symbol
+from graphkin.scene.tables import Tools
+from graphkin.words import Phrase
+
+__all__ = ["COVERAGE", "Advice", "Uncertainty", "advise", "predict"]
+
+Values = Mapping[Symbol, complex | float]
+
+
+COVERAGE = 3.0  # a stated bound is this many standard deviations
+SAMPLES = 24  # drawings in which every act errs at random
+BEYOND = 1.6  # times the deviation of first order: more than that in the samples is no accident (one in 10 000)
+BENT = 1.1  # a reading is farther off than first order tells by more than that where it is not in proportion
+ALIKE = 0.98  # cosine between the errors that bring two readings off most easily, above which one drawing tells of both
+CURVED = 1.5  # so many times the deviation of the samples is stated then: squares of errors have long tails
+
+
+@dataclass(frozen=True)
+class Uncertainty:
+    """Standard deviation of a reading (SI; of a vector, the root of the sum over both components).
+
+    ``cause`` is the step that adds most to it, ``share`` its part of the variance,
+    ``first`` the deviation of first order.
+    """
+
+    deviation: float
+    cause: Cause
+    share: float
+    first: float = 0.0
+
+    @property
+    def bound(self) -> float:
+        """What the reading keeps within at least 99 times in a hundred."""
+        return COVERAGE * self.deviation
+
+
+def predict(what: Plan, name: str, tools: Tools, together: bool = True) -> Mapping[Symbol, Uncertainty]:
+    """Uncertainty of every reading of a plan drawn with an instrument ("pencil" or "cad"); what acts do only
+    ``together``, and out of proportion, may be left out."""
+    still = nudged(name, tools)
+    drawing = Redrawn(what, what.scales, still)
+    drawn = still.acts
+    base = {r.symbol: r.value for r in read_off(drawing.sheet, (), still)}
+    marks = [acts for acts, _ in drawing.sheet.causes]
+    reading = len(drawing.sheet.causes)
+    # how far each act moves each reading, shape (readings, acts)
+    moved = np.zeros((len(base), still.acts), dtype=complex)
+    for act in range(1, still.acts + 1):
+        values = _read(drawing, nudged(name, tools, {act: 1.0}), act)
+        # so near a dead point that this act alone makes the arcs miss: nothing can be promised
+        offs = [math.inf if values is None else values.get(s, math.inf) - value for s, value in base.items()]
+        moved[:, act - 1] = offs
+    causes = np.array([bisect_left(marks, act) if act <= drawn else reading for act in range(1, still.acts + 1)])
+    samples = _samples(drawing, name, tools) if together else ()
+    bent = _bent(drawing, name, tools, base, moved) if together else np.ones(len(base))
+    found = {}
+    for row, times, (symbol, value) in zip(moved, bent.tolist(), base.items(), strict=True):
+        shares: dict[int, float] = {}
+        for cause, off in zip(causes.tolist(), (np.abs(row) ** 2).tolist(), strict=True):
+            if off:
+                shares[cause] = shares.get(cause, 0.0) + off
+        if shares and symbol.is_vector and value == 0:  # what errs away from nothing is read off the ruler then
+            order: Order = "velocity" if symbol.measure == "velocity" else "acceleration"
+            shares[reading] = shares.get(reading, 0.0) + (still.reading_error * what.scales.of(order)) ** 2
+        one = _summed(symbol, shares, drawing.sheet.causes)
+        if times > BENT:
+            one = replace(one, deviation=one.first * times)
+        seen = _spread(value, [values[symbol] for values in samples if symbol in values])
+        found[symbol] = replace(one, deviation=CURVED * seen) if seen > BEYOND * one.deviation else one
+    return found
+
+
+def _read(drawing: Redrawn, hand: Hand, first: int = 0) -> Values | None:
+    """What is read off the drawing of hands that do not err before an act; None where it cannot be drawn."""
+    try:
+        return {r.symbol: r.value for r in read_off(drawing.by(hand, first), (), hand)}
+    except (Unsolvable, ArithmeticError):
+        return None
+
+
+def _samples(drawing: Redrawn, name: str, tools: Tools) -> Sequence[Values]:
+    """The readings of some drawings in which every act errs at random; those that cannot be drawn are left out."""
+    found = (_read(drawing, erring(name, tools, seed)) for seed in range(SAMPLES))
+    return [values for values in found if values is not None]
+
+
+def _bent(
+    drawing: Redrawn, name: str, tools: Tools, base: Values, moved: NDArray[np.complex128]
+) -> NDArray[np.float64]:
+    """How many times as far as first order tells each reading is off where all acts err together in the way that most
+    easily brings it three deviations off; shape (readings,)."""
+    ways: list[tuple[NDArray[np.float64], tuple[Values, ...]]] = []
+    found = np.ones(len(base))
+    for i, (symbol, row) in enumerate(zip(base, moved, strict=True)):
+        if not np.isfinite(row).all() or not row.any():
+            continue
+        way = _easiest(row)
+        drawn = next((x for x in ways if abs(float(way @ x[0])) > ALIKE), None)
+        if drawn is None:
+            wrong = [
+                {k + 1: sense * COVERAGE * float(way[k]) for k in np.flatnonzero(way).tolist()} for sense in (1.0, -1.0)
+            ]
+            read = (_read(drawing, nudged(name, tools, errs)) for errs in wrong)
+            drawn = way, tuple(values for values in read if values is not None)
+            ways.append(drawn)
+        told = COVERAGE * abs(complex(row @ drawn[0]))
+        found[i] = max([abs(values[symbol] - base[symbol]) / told for values in drawn[1] if symbol in values] or [1.0])
+    return found
+
+
+def _easiest(row: NDArray[np.complex128]) -> NDArray[np.float64]:
+    """The errors of all acts, in deviations, that bring a reading farthest off for the sum of their squares, which is
+    1: along the principal axis of its own."""
+    parts = np.stack((row.real, row.imag))
+    axis = np.linalg.eigh(parts @ parts.T)[1][:, 1]
+    way = axis @ parts
+    return np.asarray(way / np.linalg.norm(way))
+
+
+def _spread(value: complex | float, values: Sequence[complex | float]) -> float:
+    """Root of the mean square deviation from a value."""
+    return math.sqrt(sum(abs(v - value) ** 2 for v in values) / len(values)) if values else 0.0
+
+
+def _summed(symbol: Symbol, shares: Mapping[int, float], causes: tuple[tuple[int, Cause], ...]) -> Uncertainty:
+    whole = sum(shares.values())
+    if not whole:
+        return Uncertainty(0.0, ReadOff(symbol), 0.0)
+    worst = max(shares, key=shares.__getitem__)
+    cause = causes[worst][1] if worst < len(causes) else ReadOff(symbol)
+    share = shares[worst] / whole if math.isfinite(whole) else 1.0
+    return Uncertainty(math.sqrt(whole), cause, share, math.sqrt(whole))
+
+
+SMALL = 0.05  # readings below this part of the largest of their kind are no fair measure of a drawing
+
+
+@dataclass(frozen=True)
+class Advice:
+    """The worst reading of a drawing and what would help it most.
+
+    ``relative`` is its standard deviation over its size; ``cause`` the step that adds most to it, with its ``share`` of
+    the variance; ``figure`` the one to draw twice as large, and ``gain`` what is left of the deviation then.
+    """
+
+    symbol: Symbol
+    relative: float
+    cause: Cause
+    share: float
+    figure: str
+    gain: float
+
+    def phrase(self) -> Phrase:
+        return Phrase(
+            "advice",
+            (
+                self.symbol,
+                f"{100 * self.relative:.2g}",
+                phrase_of(self.cause),
+                f"{100 * self.share:.0f}",
+                Phrase(f"figure {self.figure}"),
+                f"{100 * self.relative * self.gain:.2g}",
+            ),
+        )
+
+
+def _sort(symbol: Symbol) -> str:
+    """What readings are compared with for their size."""
+    return symbol.kind[0] if symbol.scope == "motion" else symbol.measure
+
+
+def advise(
+    what: Plan, name: str, tools: Tools, readings: Sequence[Reading], predicted: Mapping[Symbol, Uncertainty]
+) -> Advice | None:
+    """Look for the worst reading and the remedy; None where nothing is uncertain.
+
+    The remedy is found by predicting again with each of the three figures drawn twice as large.
+    """
+    largest: dict[str, float] = {}
+    for r in readings:
+        largest[_sort(r.symbol)] = max(largest.get(_sort(r.symbol), 0.0), abs(r.value))
+    worst: tuple[float, Symbol] | None = None
+    for r in readings:
+        expected = predicted.get(r.symbol)
+        if expected is None or not 0.0 < expected.deviation < math.inf:
+            continue
+        if abs(r.value) < max(SMALL * largest[_sort(r.symbol)], expected.deviation):
+            continue  # too small, or no value but noise, such as velocities at rest
+        part = expected.deviation / abs(r.value)
+        if worst is None or part > worst[0]:
+            worst = part, r.symbol
+    if worst is None:
+        return None
+    relative, symbol = worst
+    gains = {}
+    for figure in ("length", "velocity", "acceleration"):
+        scales: Scales = replace(what.scales, **{figure: getattr(what.scales, figure) / 2})
+        again = predict(replace(what, scales=scales), name, tools, together=False)
+        first = predicted[symbol].first
+        gains[figure] = math.inf if symbol not in again else again[symbol].first / first if first else 0.0
+    best = min(gains, key=gains.__getitem__)
+    expected = predicted[symbol]
+    return Advice(symbol, relative, expected.cause, expected.share, best, gains[best])

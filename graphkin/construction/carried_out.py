@@ -1,0 +1,150 @@
+"""A task carried out on a board: the position, both polygons, all of it as a sheet; and again, with other errors."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from graphkin.construction.asked import show
+from graphkin.construction.board import EXACT, Board, Hand, Instrument
+from graphkin.construction.group_polygons import GroupPolygons
+from graphkin.construction.held_still import TriangleDrawn
+from graphkin.construction.limits import limits_on_paper
+from graphkin.construction.position import draw_position, place
+from graphkin.construction.residues import without_residues
+from graphkin.construction.sheet import DrawnGroup, Scales, Sheet, Step
+from graphkin.construction.slip import NO_SLIP, Slip
+from graphkin.construction.task import Task
+from graphkin.scene.symbol import PointRef
+from graphkin.structure import Cluster, needed
+from graphkin.words import Phrase
+
+__all__ = ["OnBoard", "Redrawn", "carried_out", "finished", "positioned"]
+
+
+@dataclass(frozen=True)
+class OnBoard:
+    """What stands on a board.
+
+    assembly : the words for each assembly
+    held : what was drawn with a link held still
+    """
+
+    polygons: GroupPolygons
+    assembly: Mapping[str, Phrase]
+    held: tuple[Step, ...]
+
+
+def positioned(
+    task: Task, scales: Scales, instrument: Instrument = EXACT, slip: Slip = NO_SLIP, with_steps: bool = True
+) -> OnBoard:
+    """The position on a board, on which no polygon is begun; its steps, of which no reading is taken, only where it is
+    are wanted."""
+    board = Board(instrument)
+    found: list[TriangleDrawn] = []
+    values, rates = dict(task.values), dict[str, tuple[float, float]]()
+    for inversion, branch in task.triangles:
+        carried = inversion.drawn(instrument, scales, task.values, branch)
+        values[inversion.key] = inversion.near(task.values[inversion.key], carried.value)
+        rates[inversion.key] = carried.rate, carried.second
+        found.append(carried)
+    board.causes += [cause for carried in found for cause in carried.causes]
+    before = list(board.causes)
+    told = [part for carried in found for part in carried.told()]
+    position = place(task.opened, task.elements, 1.0 / scales.length, values, task.branches, instrument, task.trials)
+    assembly: Mapping[str, Phrase] = {}
+    if with_steps:
+        assembly = draw_position(board, task.opened, task.elements, position, task.branches, task.trials)
+    board.causes[:] = [*before, *position.causes]
+    polygons = GroupPolygons(board, task.opened, position.frame, scales, slip)
+    polygons.given.update(rates)
+    polygons.chains.update(task.chains)
+    polygons.plans.update(task.plans)
+    for name, act in told:
+        board.do(name, act)
+    return OnBoard(polygons, assembly, tuple(step for carried in found for step in carried.steps))
+
+
+def carried_out(task: Task, scales: Scales, instrument: Instrument = EXACT, slip: Slip = NO_SLIP) -> OnBoard:
+    """Position and both polygons on a board."""
+    made = positioned(task, scales, instrument, slip)
+    for order, element in task.in_order:
+        made.polygons.draw(order, element)
+    return made
+
+
+def finished(task: Task, made: OnBoard) -> Sheet:
+    """What stands on the board as a sheet, with the vectors that only a question asks for."""
+    polygons = made.polygons
+    show(polygons, task.asked)
+    board = polygons.board
+    sheet = Sheet(
+        scene=task.structure.scene,
+        structure=task.structure,
+        instrument=board.instrument.name,
+        drivers={d.key: task.values[d.key] for d in task.structure.scene.drivers},
+        scales=polygons.scales,
+        poses=dict(polygons.frame.poses),
+        points={PointRef(p): z for p, z in polygons.places.items()},
+        ends={order: dict(ends) for order, ends in polygons.ends.items()},
+        omega=dict(polygons.rates["velocity"]),
+        alpha=dict(polygons.rates["acceleration"]),
+        steps=tuple(board.steps),
+        held_still=made.held,
+        equations=tuple(board.equations),
+        assembly=made.assembly,
+        noticed=tuple(board.noticed),
+        left_out=task.left_out,
+        groups=tuple(_drawn_groups(task, polygons)),
+        causes=tuple(board.causes) if board.instrument.acts else (),
+        asked=task.asked,
+        acting=task.acting,
+        growing=task.growing,
+        limits=limits_on_paper(
+            task.limits, task.structure, task.elements, task.values, polygons.scales,
+            EXACT if task.triangles else board.instrument,
+        ),
+    )
+    return without_residues(sheet) if board.instrument.faultless else sheet
+
+
+def _drawn_groups(task: Task, polygons: GroupPolygons) -> Iterator[DrawnGroup]:
+    for group in needed(task.structure, task.asked):
+        if group in task.trials and isinstance(group, Cluster):
+            yield polygons.drawn_group(group, task.trials[group].reduced.left_out)
+        elif isinstance(group, Cluster):
+            # with one link held still its motion relative to that link is found, and laid over that link's motion
+            yield DrawnGroup(group, "superposition", (), (), (), ())
+
+
+class Redrawn:
+    """A plan that is drawn again and again by hands that err in some of their acts.
+
+    What stands before the first of these is taken from a drawing without errors.
+    """
+
+    def __init__(self, what: Task, scales: Scales, still: Hand) -> None:
+        self.what, self.scales = what, scales
+        made = positioned(what, scales, still)
+        self.kept: list[tuple[int, GroupPolygons]] = []
+        """What stood there after so many acts."""
+        for order, element in what.in_order:
+            self.kept.append((still.acts, made.polygons.again(still)))
+            made.polygons.draw(order, element)
+        self.kept.append((still.acts, made.polygons.again(still)))
+        self.sheet = finished(what, made)
+
+    def by(self, hand: Hand, first: int = 0) -> Sheet:
+        """The drawing of hands that err in no act before the ``first``; readings may be taken of it, the steps of its
+        position may be missing.  Raises as `execute`."""
+        before = [(acts, polygons) for acts, polygons in self.kept if acts < first]
+        if not before:
+            made = positioned(self.what, self.scales, hand, with_steps=False)
+            left = [*self.what.in_order]
+        else:
+            hand.acts, polygons = before[-1]
+            made = OnBoard(polygons.again(hand), {}, ())
+            left = [*self.what.in_order][len(before) - 1 :]
+        for order, element in left:
+            made.polygons.draw(order, element)
+        return finished(self.what, made)
