@@ -69,6 +69,18 @@ class Drawn(Result):
         fitting = replace(self.plan, scales=self.plan.scales_for(sheet_room(self.scene)))
         return checked(fitting, self.motion, hand_of(self.scene, self.checked.sheet.instrument, self.seed))
 
+    @cached_property
+    def with_forces(self) -> Checked | None:
+        """The check of everything, forces included; None of a scene that has neither masses nor loads."""
+        if self.checked.sheet.has_forces:
+            return self.checked
+        if not self.scene.loading:
+            return None
+        structure, values = self.plan.structure, self.checked.sheet.drivers
+        whole = replace(plan(structure, values, ()), scales=self.plan.scales)
+        hand = hand_of(self.scene, self.checked.sheet.instrument, self.seed)
+        return checked(whole, solved_here(structure, values), hand)
+
     @property
     def ok(self) -> bool:
         return self.checked.ok
@@ -194,6 +206,27 @@ def _centres(drawn: Drawn) -> Drawing:
     return centres_figure(found, speeds(found), language=drawn.language, convention=drawn.convention)
 
 
+def _forces(drawn: Drawn) -> Drawing | None:
+    from graphkin.drawing.forces import forces_figure
+
+    whole = drawn.with_forces
+    if whole is None or whole.forces is None:
+        return None
+    return forces_figure(
+        whole.sheet, whole.forces, whole.report, language=drawn.language, convention=drawn.convention
+    )
+
+
+def _lever(drawn: Drawn) -> Drawing | None:
+    from graphkin.drawing.lever import lever_figure
+
+    whole = drawn.with_forces
+    if whole is None or whole.forces is None:
+        return None
+    sheet = replace(whole.sheet, scales=whole.report.scales)
+    return lever_figure(sheet, whole.forces, language=drawn.language, convention=drawn.convention)
+
+
 def _loops(drawn: Drawn) -> Drawing | None:
     from graphkin.drawing.loops import loops_figure
 
@@ -287,6 +320,8 @@ FIGURES: Mapping[str, FigureKind] = {
     "polygons": FigureKind(lambda scene: False, _polygons),
     "cam": FigureKind(lambda scene: bool(scene.cams), _cams),
     "loops": FigureKind(lambda scene: bool(scene.loops), _loops),
+    "forces": FigureKind(lambda scene: bool(scene.loading), _forces),
+    "lever": FigureKind(lambda scene: bool(scene.loading), _lever),
 }
 """Every figure of `draw` by its name: the one place where a further figure is entered."""
 

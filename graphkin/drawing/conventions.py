@@ -15,6 +15,7 @@ from typing import Literal
 
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.construction.steps import Direction, RateTimes, Size, SquareOverRadius
+from graphkin.drawing.force_letters import force_letters
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Convention
 
@@ -92,6 +93,8 @@ class Letters:
         """The magnitude of a vector, or a rate: ``v_{B3B2}``, ``a^{n}_{CB}``, ``ω_{3}``."""
         if symbol.at:
             return f"{self.vector(symbol.here)}({symbol.at})"
+        if symbol.scope == "force":
+            return force_letters(self.convention, symbol)
         if symbol.kind in _PLACES:
             letter, mark = _PLACES[symbol.kind]
             names = "".join(self.ref(ref) for ref in (symbol.of, symbol.to) if ref) + symbol.link + symbol.other
@@ -205,15 +208,18 @@ def scale_statement(sheet: Sheet, convention: Convention, diagram: DiagramName) 
     '1 cm = 100 mm/s'
     """
     units = sheet.scene.units if diagram == "mechanism" else sheet.scene.units.rates
-    unit, per = units.length, sheet.scales.of(diagram) / units.metres
-    tail = {"mechanism": "", "velocity": "/s", "acceleration": "/s²"}[diagram]
+    unit: str = units.length
+    per = sheet.scales.of(diagram) / units.metres
+    if diagram == "force":
+        unit, per = units.force, sheet.scales.force / units.newtons
+    tail = {"mechanism": "", "velocity": "/s", "acceleration": "/s²", "force": ""}[diagram]
     if convention == "us":
         return f"1 mm = {_number(per)} {unit}{tail}"
     if convention == "british":
         return f"1 cm = {_number(10 * per)} {unit}{tail}"
-    index = {"mechanism": "l", "velocity": "v", "acceleration": "a"}[diagram]
+    index = {"mechanism": "l", "velocity": "v", "acceleration": "a", "force": "F"}[diagram]
     if convention == "russian":
-        under = {"mechanism": "mm", "velocity": "(s·mm)", "acceleration": "(s²·mm)"}[diagram]
+        under = {"mechanism": "mm", "velocity": "(s·mm)", "acceleration": "(s²·mm)", "force": "mm"}[diagram]
         return f"$μ_{{{index}}}$ = {_number(per)} {unit}/{under}"
     whole = f"({unit}{tail})" if tail else unit
     return f"$μ_{{{index}}}$ = {_number(per)} {whole}/mm"

@@ -28,7 +28,7 @@ from graphkin.drawing.text import rich, symbol, wrapped
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase, languages, say
 
-__all__ = ["Written", "equations_in_room", "write_equation", "written_lines"]
+__all__ = ["SumTerm", "Written", "equations_in_room", "write_equation", "write_sum", "written_lines"]
 
 # mm, of the letters, and columns; the first that fits is taken: sums break in narrow columns
 WAYS = ((3.2, 1), (2.9, 1), (3.2, 2), (2.9, 2), (2.6, 1), (2.6, 2))
@@ -232,8 +232,12 @@ def write_equation(
     short = _short(sheet, equation, letters)
     if short is not None:
         return _sentence(short, size, width)
+    return _written_cells(_cells(sheet, equation, letters, size), letters, language, width, size)
+
+
+def _written_cells(cells: list[_Cell], letters: Letters, language: str, width: float, size: float) -> Written:
+    """Terms and operators with their rows, broken where a line gets too long."""
     gap = 1.2 * GAP if rows_of(letters.convention) == "table" else 0.6 * GAP
-    cells = _cells(sheet, equation, letters, size)
     heads = _heads(letters, language, size)
     lead = max((runs_width(h) for h in heads), default=0.0) + (2 * GAP if heads else 0.0)
     children: list[Primitive] = []
@@ -244,6 +248,37 @@ def write_equation(
         y += block.height
         most = max(most, block.width)
     return Written(tuple(children), most, y)
+
+
+@dataclass(frozen=True)
+class SumTerm:
+    """A term of a vector sum as it is written: its symbol, what is known of size and direction, and as what."""
+
+    symbol: str
+    size_known: bool
+    direction_known: bool
+    direction: str = ""
+
+
+def write_sum(
+    terms: Sequence[SumTerm], letters: Letters, language: str, width: float, size: float = 3.2
+) -> Written:
+    """Vectors whose sum is nought, with their rows of sizes and directions, at most ``width`` mm wide."""
+    rows, small = rows_of(letters.convention), _row_size(size)
+    cells: list[_Cell] = []
+    for i, one in enumerate(terms):
+        if i:
+            cells.append(_Cell(symbol("+", size), is_term=False))
+        marks = [("√" if known else "?") for known in (one.size_known, one.direction_known)]
+        whole, way = symbol(one.symbol, size), symbol(one.direction, small) if one.direction else ()
+        if rows == "over":
+            cells.append(_Cell(whole, (), way, over=symbol("".join(marks), small)))
+        elif rows == "underlines":
+            cells.append(_Cell(whole, (), way, underlines=one.direction_known + one.size_known))
+        else:
+            cells.append(_Cell(whole, symbol(marks[0], small), way or symbol(marks[1], small)))
+    cells += [_Cell(symbol("=", size), is_term=False), _Cell(rich("0", size), is_term=True)]
+    return _written_cells(cells, letters, language, width, size)
 
 
 def _short(sheet: Sheet, equation: Equation, letters: Letters) -> str | None:

@@ -24,7 +24,7 @@ __all__ = [
 ]  # fmt: skip
 
 FIGURE_WORDS: Mapping[DiagramName, str] = {
-    "mechanism": "mechanism", "velocity": "velocity polygon", "acceleration": "acceleration polygon",
+    "mechanism": "mechanism", "velocity": "velocity polygon", "acceleration": "acceleration polygon", "force": "forces",
 }  # fmt: skip
 """What each figure is called, as a key of the table of words."""
 

@@ -27,7 +27,7 @@ __all__ = [
 ]
 
 # In the order of drawing.
-LAYERS = ("construction", "mechanism", "velocity", "acceleration", "centres", "answers", "labels")
+LAYERS = ("construction", "mechanism", "velocity", "acceleration", "forces", "centres", "answers", "labels")
 
 
 @dataclass(frozen=True)

@@ -62,9 +62,10 @@ def table_rows(sheet: Sheet, report: Report | None) -> list[TableRow]:
     """Readings to show, in the order of the table: rates that are given are left out, links that turn alike share a
     row."""
     if report is not None:
-        rows = [TableRow(row.reading, row) for row in report.rows]
+        rows = [TableRow(row.reading, row) for row in report.rows if row.symbol.scope != "force"]
     else:
-        rows = [TableRow(reading) for reading in read_off(sheet, sheet.scene.find)]
+        found = (r for r in read_off(sheet, sheet.scene.find) if r.symbol.scope != "force")
+        rows = [TableRow(reading) for reading in found]
     shown: list[TableRow] = []
     for row in rows:
         reading = row.reading

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 from graphkin.construction.board import EXACT, Instrument
 from graphkin.construction.extent import Extent, fitting_scale
+from graphkin.construction.forces.at_drivers import at_driver
 from graphkin.construction.forces.cut_free import CutFree
 from graphkin.construction.forces.force_sheet import (
     Acting,
@@ -14,7 +15,7 @@ from graphkin.construction.forces.force_sheet import (
     ForceState,
     Turning,
 )
-from graphkin.construction.forces.groups import at_driver, of_dyad
+from graphkin.construction.forces.groups import of_dyad
 from graphkin.construction.forces.images import Images
 from graphkin.construction.forces.known import from_outside, inertias
 from graphkin.construction.forces.lever import levers_of
@@ -27,7 +28,7 @@ from graphkin.structure import Driven, Dyad, Element
 
 __all__ = ["ROOM", "force_scale", "forces_on"]
 
-ROOM = (120.0, 100.0)
+ROOM = (98.0, 84.0)
 """Width and height (mm) that the largest force polygon fills at most, where the scene wishes for no scale."""
 
 

@@ -9,97 +9,26 @@ Artobolevsky, Theory of mechanisms and machines, ch. 13).
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
-from graphkin.construction.forces.cut_free import Chain, CutFree
-from graphkin.construction.forces.force_sheet import (
-    Acting,
-    ForceGroup,
-    ForceLine,
-    ForceTerm,
-    ForceVector,
-    MomentEquation,
-    Part,
-    Turning,
+from graphkin.construction.forces.at_drivers import between_welded
+from graphkin.construction.forces.cut_free import CutFree
+from graphkin.construction.forces.force_sheet import Acting, ForceGroup, ForceTerm, ForceVector, Turning
+from graphkin.construction.forces.group_figure import (
+    CutBody,
+    GroupFigure,
+    guide_name,
+    line_of_action,
+    outer_couple,
+    slide_found,
 )
 from graphkin.construction.forces.naming import opposite
 from graphkin.construction.forces.order import Balance
 from graphkin.construction.steps import Direction
 from graphkin.plane import dot, unit
-from graphkin.scene.symbol import Symbol
-from graphkin.structure import Body, Driven, Dyad, Pair, Slide, Turn, links_of
+from graphkin.structure import Dyad, Slide, Turn, links_of
 
-__all__ = ["at_driver", "of_dyad"]
-
-
-@dataclass
-class _Side:
-    """A body of a dyad with its outer pair."""
-
-    cut: CutFree
-    body: Body
-    outer: Pair
-
-    @property
-    def links(self) -> tuple[str, ...]:
-        return self.body.links
-
-    @property
-    def name(self) -> str:
-        """The link of the body that the outer pair holds."""
-        return self.outer.a if self.outer.a in self.body.links else self.outer.b
-
-    @property
-    def at(self) -> complex:
-        """Where the outer force acts (mm)."""
-        if isinstance(self.outer, Slide):
-            return self.cut.images.foot(self.outer)
-        return self.cut.images.point(self.outer.a, self.outer.point)
-
-    @property
-    def symbol(self) -> Symbol:
-        """The outer force on the body."""
-        if isinstance(self.outer, Turn):
-            return self.cut.names.of_pin(self.outer.point, self.outer.a)
-        named = self.cut.names.of_slide(self.outer)
-        return named if self.outer.a in self.body.links else opposite(named)
-
-    def outer_force(self, force: complex) -> Acting:
-        return Acting(self.symbol, self.name, force, self.at)
-
-    def guide(self) -> complex:
-        """Direction of the guide of the outer pair."""
-        assert isinstance(self.outer, Slide)
-        return self.cut.images.along(self.outer)
-
-    def found(self, force: complex) -> None:
-        """The outer force on the body is known (of a slide: with its couple later)."""
-        if isinstance(self.outer, Turn):
-            self.cut.set_pin(self.outer.point, self.outer.a, force)
-
-
-@dataclass
-class _Figure:
-    """What is drawn of a group, as it grows."""
-
-    moments: list[MomentEquation] = field(default_factory=list)
-    terms: list[ForceTerm] = field(default_factory=list)
-    chain: Chain = field(default_factory=Chain)
-    inner: dict[str, tuple[ForceVector, ...]] = field(default_factory=dict)
-    couples: list[MomentEquation] = field(default_factory=list)
-    lines: list[ForceLine] = field(default_factory=list)
-
-    def group(self, links: tuple[str, ...], kind: str, polygon: tuple[ForceVector, ...], driver: bool) -> ForceGroup:
-        return ForceGroup(
-            links, kind, "driver" if driver else "polygon", tuple(self.moments), tuple(self.terms), polygon,
-            self.inner, tuple(self.couples), tuple(self.lines),
-        )  # fmt: skip
-
-    def unknown(self, one: Acting, part: Part, way: Direction | None) -> None:
-        self.terms.append(ForceTerm(one.symbol, part, False, way is not None, way, one.turned))
-
-    def knowns(self, cut: CutFree, links: tuple[str, ...]) -> None:
-        self.terms += [ForceTerm(f.symbol, "", True, True, None, f.turned) for f in cut.forces_on(links)]
+__all__ = ["of_dyad"]
 
 
 def of_dyad(cut: CutFree, dyad: Dyad, balances: Mapping[str, Balance]) -> ForceGroup:
@@ -111,12 +40,12 @@ def of_dyad(cut: CutFree, dyad: Dyad, balances: Mapping[str, Balance]) -> ForceG
     balances : what balances at each driver, by the driver's key
     """
     cut.load_pins(links_of(dyad))
-    one, two = _Side(cut, dyad.first, dyad.outer_first), _Side(cut, dyad.second, dyad.outer_second)
-    figure = _Figure()
+    one, two = CutBody(cut, dyad.first, dyad.outer_first), CutBody(cut, dyad.second, dyad.outer_second)
+    figure = GroupFigure()
     outer, inner = _KINDS[dyad.kind](cut, dyad, one, two, figure)
     for side in (one, two):
         if side.body.welds:
-            _inside(cut, side, inner[side.name], figure, balances)
+            between_welded(cut, side, inner[side.name], figure, balances)
     cut.done |= set(links_of(dyad))
     return figure.group(dyad.links, dyad.kind, outer, False)
 
@@ -124,7 +53,7 @@ def of_dyad(cut: CutFree, dyad: Dyad, balances: Mapping[str, Balance]) -> ForceG
 _Found = tuple[tuple[ForceVector, ...], Mapping[str, tuple[Acting, ...]]]
 
 
-def _tangential(cut: CutFree, side: _Side, hinge: complex, letter: str, figure: _Figure) -> Acting:
+def _tangential(cut: CutFree, side: CutBody, hinge: complex, letter: str, figure: GroupFigure) -> Acting:
     """The part of an outer pin's force square to the bar, by moments about the inner pin."""
     square = 1j * unit(side.at - hinge)
     found = cut.by_moments(side.links, hinge, letter, side.outer_force(square), "t")
@@ -132,7 +61,7 @@ def _tangential(cut: CutFree, side: _Side, hinge: complex, letter: str, figure: 
     return side.outer_force(square * found.value)
 
 
-def _bar(side: _Side, letter: str) -> tuple[str, str]:
+def _bar(side: CutBody, letter: str) -> tuple[str, str]:
     assert isinstance(side.outer, Turn)
     return side.outer.point, letter
 
@@ -150,26 +79,25 @@ def _inner_names(cut: CutFree, dyad: Dyad) -> tuple[str, str, complex]:
     return holders[0], holders[1], cut.images.point(holders[0], point)
 
 
-def _rrr(cut: CutFree, dyad: Dyad, one: _Side, two: _Side, figure: _Figure) -> _Found:
+def _rrr(cut: CutFree, dyad: Dyad, one: CutBody, two: CutBody, figure: GroupFigure) -> _Found:
     letter = _pin(dyad).point
     hinge = _inner_names(cut, dyad)[2]
     t1, t2 = (_tangential(cut, side, hinge, letter, figure) for side in (one, two))
-    figure.unknown(t1, "n", Direction("along", _bar(one, letter)))
-    figure.terms.append(ForceTerm(t1.symbol, "t", True, True, Direction("square", _bar(one, letter))))
+    along1 = figure.parted(t1, _bar(one, letter))
     figure.knowns(cut, (*one.links, *two.links))
-    figure.terms.append(ForceTerm(t2.symbol, "t", True, True, Direction("square", _bar(two, letter))))
-    figure.unknown(t2, "n", Direction("along", _bar(two, letter)))
-    t1_found = cut.lay(figure.chain, t1, "t", False)
+    along2 = figure.parted(t2, _bar(two, letter), last=True)
+    t1_found = cut.lay(figure.chain, t1, "t", False) if t1.force else 0j
     cut.lay_known(figure.chain, one.links)
     first = len(figure.chain.vectors)
     cut.lay_known(figure.chain, two.links)
-    cut.lay(figure.chain, t2, "t", False)
+    t2_tail = figure.chain.at
+    if t2.force:
+        cut.lay(figure.chain, t2, "t", False)
     end = figure.chain.at
     start = cut.closing(dyad.links, end, two.at - hinge, 0j, one.at - hinge)
-    n2 = cut.drawn(t2.symbol, two.name, two.at, end, start, "n")
-    n1 = cut.drawn(t1.symbol, one.name, one.at, start, 0j, "n")
+    n2 = cut.drawn(t2.symbol, two.name, two.at, end, start, along2)
+    n1 = cut.drawn(t1.symbol, one.name, one.at, start, 0j, along1)
     r1 = -start * cut.per_mm + t1_found
-    t2_tail = figure.chain.vectors[-1].tail
     r2 = (start - t2_tail) * cut.per_mm
     one.found(r1)
     two.found(r2)
@@ -182,7 +110,7 @@ def _rrr(cut: CutFree, dyad: Dyad, one: _Side, two: _Side, figure: _Figure) -> _
 
 
 def _inner_force(
-    cut: CutFree, dyad: Dyad, figure: _Figure, own: list[ForceVector], start: complex, links: tuple[str, ...]
+    cut: CutFree, dyad: Dyad, figure: GroupFigure, own: list[ForceVector], start: complex, links: tuple[str, ...]
 ) -> tuple[Acting, Acting]:
     """The force of the inner pin closes the polygon of the first body: on it, and on the second."""
     first, second, at = _inner_names(cut, dyad)
@@ -201,70 +129,36 @@ def _inner_force(
     return on_first, Acting(symbol, second, -force, at)
 
 
-def _rrp(cut: CutFree, dyad: Dyad, one: _Side, two: _Side, figure: _Figure) -> _Found:
+def _rrp(cut: CutFree, dyad: Dyad, one: CutBody, two: CutBody, figure: GroupFigure) -> _Found:
     letter = _pin(dyad).point
     hinge = _inner_names(cut, dyad)[2]
     t1 = _tangential(cut, one, hinge, letter, figure)
     square = 1j * two.guide()
-    figure.unknown(t1, "n", Direction("along", _bar(one, letter)))
-    figure.terms.append(ForceTerm(t1.symbol, "t", True, True, Direction("square", _bar(one, letter))))
+    along1 = figure.parted(t1, _bar(one, letter))
     figure.knowns(cut, (*one.links, *two.links))
-    figure.unknown(two.outer_force(square), "", Direction("square", _guide_name(two.outer)))
-    t1_found = cut.lay(figure.chain, t1, "t", False)
+    figure.unknown(two.outer_force(square), "", Direction("square", guide_name(two.outer)))
+    t1_found = cut.lay(figure.chain, t1, "t", False) if t1.force else 0j
     cut.lay_known(figure.chain, one.links)
     first = len(figure.chain.vectors)
     cut.lay_known(figure.chain, two.links)
     end = figure.chain.at
     start = cut.closing(dyad.links, end, square, 0j, one.at - hinge)
     normal = cut.drawn(two.symbol, two.name, two.at, end, start)
-    n1 = cut.drawn(t1.symbol, one.name, one.at, start, 0j, "n")
+    n1 = cut.drawn(t1.symbol, one.name, one.at, start, 0j, along1)
     r1, n2 = -start * cut.per_mm + t1_found, (start - end) * cut.per_mm
     one.found(r1)
     own = [n1, *figure.chain.vectors[:first]]
     figure.chain.vectors[:] = [n1, *figure.chain.vectors, normal]
     inner = _inner_force(cut, dyad, figure, own, start, one.links)
     on_two = two.outer_force(n2)
-    couple = _outer_couple(cut, two, on_two, hinge, letter, figure, ())
-    _slide_found(cut, two, n2, couple, links_of(dyad))
+    couple = outer_couple(cut, two, on_two, hinge, letter, figure, ())
+    slide_found(cut, two, n2, couple, links_of(dyad))
     return tuple(figure.chain.vectors), {
         one.name: (inner[0], one.outer_force(r1)), two.name: (inner[1], on_two)
     }  # fmt: skip
 
 
-def _guide_name(pair: Pair) -> tuple[str, ...]:
-    assert isinstance(pair, Slide)
-    return (pair.guide.name or f"x{pair.b}",)
-
-
-def _outer_couple(
-    cut: CutFree, side: _Side, force: Acting, about: complex, letter: str, figure: _Figure, more: tuple[Acting, ...],
-    turning: tuple[Turning, ...] = (),
-) -> float:  # fmt: skip
-    """The couple of an outer sliding pair on the body, and the line of action of its force."""
-    symbol = replace(side.symbol, kind="M")
-    found = cut.couple(side.links, about, letter, symbol, (force, *more), turning)
-    figure.couples.append(found)
-    _line(cut, figure, force, found.value)
-    return found.value
-
-
-def _line(cut: CutFree, figure: _Figure, force: Acting, couple: float) -> None:
-    """Where a couple puts the line of action of its force."""
-    if not force.force:
-        return
-    shift = couple / abs(force.force)
-    at = force.at - 1j * unit(force.force) * (shift * cut.images.mm)
-    figure.lines.append(ForceLine(force.symbol, at, unit(force.force), shift))
-
-
-def _slide_found(cut: CutFree, side: _Side, force: complex, couple: float, inside: tuple[str, ...]) -> None:
-    """Force and couple of an outer sliding pair as they act on the body."""
-    assert isinstance(side.outer, Slide)
-    sign = 1.0 if side.outer.a in side.body.links else -1.0
-    cut.set_slide(side.outer, sign * force, sign * couple, inside)
-
-
-def _rpr(cut: CutFree, dyad: Dyad, one: _Side, two: _Side, figure: _Figure) -> _Found:
+def _rpr(cut: CutFree, dyad: Dyad, one: CutBody, two: CutBody, figure: GroupFigure) -> _Found:
     slide = dyad.inner
     assert isinstance(slide, Slide)
     assert isinstance(two.outer, Turn)
@@ -276,7 +170,7 @@ def _rpr(cut: CutFree, dyad: Dyad, one: _Side, two: _Side, figure: _Figure) -> _
     by = cut.by_moments(both, two.at, two.outer.point, one.outer_force(1j * along), "t", (r_along,))
     figure.moments.append(by)
     r_square = one.outer_force(1j * along * by.value)
-    guide = Direction("along", _guide_name(slide)), Direction("square", _guide_name(slide))
+    guide = Direction("along", guide_name(slide)), Direction("square", guide_name(slide))
     if held:
         figure.terms.append(ForceTerm(one.symbol, "n", True, True, guide[0]))
     figure.terms.append(ForceTerm(one.symbol, "t" if held else "", True, True, guide[1]))
@@ -299,7 +193,7 @@ def _rpr(cut: CutFree, dyad: Dyad, one: _Side, two: _Side, figure: _Figure) -> _
 
 
 def _inner_slide(
-    cut: CutFree, dyad: Dyad, slide: Slide, figure: _Figure, own: list[ForceVector], start: complex, one: _Side,
+    cut: CutFree, dyad: Dyad, slide: Slide, figure: GroupFigure, own: list[ForceVector], start: complex, one: CutBody,
     outer: Acting,
 ) -> tuple[tuple[Acting, ...], tuple[Acting, ...]]:  # fmt: skip
     """The force of the inner sliding pair closes the polygon of the first body, its couple the moments there."""
@@ -315,19 +209,19 @@ def _inner_slide(
     turned = replace(on_one.symbol, kind="M")
     found = cut.couple(one.links, one.at, one.outer.point, turned, (on_one, outer))
     figure.couples.append(found)
-    _line(cut, figure, on_one, found.value)
+    line_of_action(cut, figure, on_one, found.value)
     sign = 1.0 if mine else -1.0
     cut.set_slide(slide, sign * force, sign * found.value, links_of(dyad))
     return (on_one,), (on_two,)
 
 
-def _prp(cut: CutFree, dyad: Dyad, one: _Side, two: _Side, figure: _Figure) -> _Found:
+def _prp(cut: CutFree, dyad: Dyad, one: CutBody, two: CutBody, figure: GroupFigure) -> _Found:
     letter = _pin(dyad).point
     hinge = _inner_names(cut, dyad)[2]
     n1, n2 = one.outer_force(1j * one.guide()), two.outer_force(1j * two.guide())
-    figure.unknown(n1, "", Direction("square", _guide_name(one.outer)))
+    figure.unknown(n1, "", Direction("square", guide_name(one.outer)))
     figure.knowns(cut, (*one.links, *two.links))
-    figure.unknown(n2, "", Direction("square", _guide_name(two.outer)))
+    figure.unknown(n2, "", Direction("square", guide_name(two.outer)))
     cut.lay_known(figure.chain, one.links)
     first = len(figure.chain.vectors)
     cut.lay_known(figure.chain, two.links)
@@ -340,24 +234,24 @@ def _prp(cut: CutFree, dyad: Dyad, one: _Side, two: _Side, figure: _Figure) -> _
     inner = _inner_force(cut, dyad, figure, own, start, one.links)
     found1, found2 = one.outer_force(-start * cut.per_mm), two.outer_force((start - end) * cut.per_mm)
     for side, force in ((one, found1), (two, found2)):
-        couple = _outer_couple(cut, side, force, hinge, letter, figure, ())
-        _slide_found(cut, side, force.force, couple, links_of(dyad))
+        couple = outer_couple(cut, side, force, hinge, letter, figure, ())
+        slide_found(cut, side, force.force, couple, links_of(dyad))
     return tuple(figure.chain.vectors), {one.name: (inner[0], found1), two.name: (inner[1], found2)}
 
 
-def _rpp(cut: CutFree, dyad: Dyad, one: _Side, two: _Side, figure: _Figure) -> _Found:
+def _rpp(cut: CutFree, dyad: Dyad, one: CutBody, two: CutBody, figure: GroupFigure) -> _Found:
     slide = dyad.inner
     assert isinstance(slide, Slide)
     along = cut.images.along(slide)
     held = -cut.projected(cut.forces_on(one.links), along)
     r_along = one.outer_force(along * held)
     square = 1j * two.guide()
-    guide = Direction("along", _guide_name(slide)), Direction("square", _guide_name(slide))
+    guide = Direction("along", guide_name(slide)), Direction("square", guide_name(slide))
     figure.unknown(one.outer_force(1j * along), "t" if held else "", guide[1])
     if held:
         figure.terms.append(ForceTerm(one.symbol, "n", True, True, guide[0]))
     figure.knowns(cut, (*one.links, *two.links))
-    figure.unknown(two.outer_force(square), "", Direction("square", _guide_name(two.outer)))
+    figure.unknown(two.outer_force(square), "", Direction("square", guide_name(two.outer)))
     r1 = cut.lay(figure.chain, r_along, "n", False) if held else 0j
     cut.lay_known(figure.chain, one.links)
     first = len(figure.chain.vectors)
@@ -375,154 +269,15 @@ def _rpp(cut: CutFree, dyad: Dyad, one: _Side, two: _Side, figure: _Figure) -> _
     on_two = two.outer_force(n2)
     known = figure.couples[-1]
     back = Turning(opposite(known.symbol), inner[1][0].link, -known.value)
-    couple = _outer_couple(cut, two, on_two, two.at, _guide_name(two.outer)[0], figure, inner[1], (back,))
-    _slide_found(cut, two, n2, couple, links_of(dyad))
+    couple = outer_couple(cut, two, on_two, two.at, guide_name(two.outer)[0], figure, inner[1], (back,))
+    slide_found(cut, two, n2, couple, links_of(dyad))
     return tuple(figure.chain.vectors), {one.name: (*inner[0], one.outer_force(r1)), two.name: (*inner[1], on_two)}
 
 
-_KINDS: Mapping[str, Callable[[CutFree, Dyad, _Side, _Side, _Figure], _Found]] = {
+_KINDS: Mapping[str, Callable[[CutFree, Dyad, CutBody, CutBody, GroupFigure], _Found]] = {
     "RRR": _rrr,
     "RRP": _rrp,
     "RPR": _rpr,
     "PRP": _prp,
     "RPP": _rpp,
 }
-
-
-def _inside(
-    cut: CutFree, side: _Side, found: tuple[Acting, ...], figure: _Figure, balances: Mapping[str, Balance]
-) -> None:
-    """The forces between links of a body that drivers hold together, from the outermost link on, with what balances
-    there."""
-    extra: dict[str, list[Acting]] = {}
-    turning: dict[str, list[Turning]] = {}
-    for one in found:
-        extra.setdefault(one.link, []).append(one)
-    for weld in reversed(side.body.welds):
-        leaf, other = weld.b, weld.a
-        balance = balances[weld.driver.key]
-        acting = [*cut.forces_on((leaf,)), *extra.get(leaf, ())]
-        turns = turning.get(leaf, [])
-        pair = weld.pair
-        chain = Chain()
-        for one in acting:
-            cut.lay(chain, one)
-        force = -chain.at * cut.per_mm
-        if isinstance(pair, Turn):
-            at = cut.images.point(leaf, pair.point)
-            symbol = cut.names.of_pin(pair.point, leaf)
-            if leaf == cut.names.holders.get(pair.point, ("",))[0]:
-                symbol = cut.names.between(other, leaf, pair.point)
-            on = Acting(symbol, leaf, force, at)
-            named = balance.symbol
-            turned = balance.link != leaf
-            equation = cut.couple((leaf,), at, pair.point, named, tuple(extra.get(leaf, ())), tuple(turns))
-            value = -equation.value if turned else equation.value
-            figure.couples.append(equation)
-            cut.balances[named] = value
-            cut.set_pin(pair.point, leaf, force)
-            cut.set_pin(pair.point, other, -force)
-            extra.setdefault(other, []).append(Acting(opposite(symbol), other, -force, at))
-            turning.setdefault(other, []).append(Turning(named, other, -equation.value, not turned))
-            figure.inner[leaf] = (*chain.vectors, cut.drawn(symbol, leaf, at, chain.at, 0j))
-            continue
-        at, along = cut.images.foot(pair), cut.images.along(pair)
-        mine = pair.a == leaf
-        symbol = cut.names.of_slide(pair) if mine else opposite(cut.names.of_slide(pair))
-        push, square = along * dot(force, along), 1j * along * dot(force, 1j * along)
-        on = Acting(symbol, leaf, square, at)
-        driving = Acting(balance.symbol, leaf, push, at, not mine)
-        corner = chain.at + push / cut.per_mm
-        figure.inner[leaf] = (
-            *chain.vectors, replace(cut.drawn(balance.symbol, leaf, at, chain.at, corner), turned=not mine),
-            cut.drawn(symbol, leaf, at, corner, 0j),
-        )  # fmt: skip
-        known = (*extra.get(leaf, ()), on, driving)
-        equation = cut.couple((leaf,), at, pair.pin or f"x{pair.a}", replace(symbol, kind="M"), known, tuple(turns))
-        figure.couples.append(equation)
-        _line(cut, figure, on, equation.value)
-        sign = 1.0 if mine else -1.0
-        cut.balances[balance.symbol] = sign * push
-        cut.set_slide(pair, sign * square, sign * equation.value, side.body.links)
-        extra.setdefault(other, []).extend([
-            Acting(opposite(symbol), other, -square, at), Acting(balance.symbol, other, -push, at, mine),
-        ])  # fmt: skip
-        turning.setdefault(other, []).append(Turning(opposite(equation.symbol), other, -equation.value))
-
-
-def at_driver(cut: CutFree, element: Driven, balance: Balance) -> ForceGroup:
-    """The forces of a link that is driven from links still to come, and what balances it there."""
-    link = element.link
-    cut.load_pins((link,))
-    figure, pair = _Figure(), element.pair
-    side = _Side(cut, Body((link,)), pair)
-    chain = figure.chain
-    if isinstance(pair, Turn):
-        polygon = _at_crank(cut, side, balance, figure)
-    else:
-        balancing = _balancing(cut, balance, link)
-        square = side.outer_force(1j * side.guide())
-        figure.unknown(balancing, "", Direction("along", _guide_name(pair)))
-        figure.knowns(cut, (link,))
-        figure.unknown(square, "", Direction("square", _guide_name(pair)))
-        cut.lay_known(chain, (link,))
-        end = chain.at
-        start = cut.closing((link,), end, square.force, 0j, balancing.force)
-        found = -start * cut.per_mm
-        cut.balances[balance.symbol] = -found if balancing.turned else found
-        on = side.outer_force((start - end) * cut.per_mm)
-        push = replace(balancing, force=found)
-        about = cut.images.foot(pair)
-        letter = pair.pin or f"x{pair.a}"
-        couple = _outer_couple(cut, side, on, about, letter, figure, (push,))
-        _slide_found(cut, side, on.force, couple, (link,))
-        drawn = replace(cut.drawn(balance.symbol, link, push.at, start, 0j), turned=push.turned)
-        polygon = (drawn, *chain.vectors, cut.drawn(on.symbol, link, on.at, end, start))
-        _react(cut, balance, link, push)
-    cut.done.add(link)
-    return figure.group((link,) if link not in cut.names.blocks else (), "driver", polygon, True)
-
-
-def _balancing(cut: CutFree, balance: Balance, link: str) -> Acting:
-    """A balancing force of unit size on a link."""
-    images = cut.images
-    if balance.slide:
-        slide = cut.names.structure.slide(balance.slide)
-        along, at = images.along(slide), images.foot(slide)
-    else:
-        axis = images.sheet.poses[balance.link].axis
-        along, at = (1j * axis if balance.square else balance.along), images.place(balance.link, balance.at)
-    mine = balance.link == link
-    return Acting(balance.symbol, link, along if mine else -along, at, not mine)
-
-
-def _at_crank(cut: CutFree, side: _Side, balance: Balance, figure: _Figure) -> tuple[ForceVector, ...]:
-    assert isinstance(side.outer, Turn)
-    link, letter, chain = side.links[0], side.outer.point, figure.chain
-    if balance.is_moment:
-        mine = balance.link == link
-        equation = cut.couple((link,), side.at, letter, balance.symbol)
-        figure.couples.append(equation)
-        cut.balances[balance.symbol] = equation.value if mine else -equation.value
-        other = balance.other if mine else balance.link
-        if other != cut.names.structure.scene.frame.name:
-            cut.turn(Turning(balance.symbol, other, -equation.value, mine))
-    else:
-        push = _balancing(cut, balance, link)
-        equation = cut.by_moments((link,), side.at, letter, push, "")
-        figure.moments.append(equation)
-        found = replace(push, force=push.force * equation.value)
-        figure.terms.append(ForceTerm(balance.symbol, "", True, True, None, push.turned))
-        cut.balances[balance.symbol] = cut.lay(chain, found, "", False)
-    figure.knowns(cut, (link,))
-    figure.unknown(side.outer_force(0j), "", None)
-    cut.lay_known(chain, (link,))
-    side.found(-chain.at * cut.per_mm)
-    return (*chain.vectors, cut.drawn(side.symbol, link, side.at, chain.at, 0j))
-
-
-def _react(cut: CutFree, balance: Balance, link: str, push: Acting) -> None:
-    """What drives a link from another one loads that one."""
-    other = balance.other if balance.link == link else balance.link
-    if other != cut.names.structure.scene.frame.name:
-        cut.push(Acting(push.symbol, other, -push.force, push.at, not push.turned))

@@ -1,0 +1,171 @@
+"""What is written beside the forces of a group: why each step is taken, moment equations in numbers, the vector
+equation, and what was read off."""
+
+from __future__ import annotations
+
+import math
+from decimal import Decimal
+
+from graphkin.construction.forces.force_sheet import (
+    ForceGroup,
+    ForceSheet,
+    ForceState,
+    ForceTerm,
+    Inertia,
+    MomentEquation,
+    MomentTerm,
+)
+from graphkin.construction.sheet import Sheet
+from graphkin.drawing.conventions import Letters
+from graphkin.drawing.equations import SumTerm
+from graphkin.drawing.force_letters import force_letters
+from graphkin.drawing.headings import number, written
+from graphkin.scene.symbol import Symbol
+from graphkin.words import Phrase, say
+from graphkin.words.written import amount, on_paper, product
+
+__all__ = ["couple_lines", "group_caption", "inertia_line", "moment_lines", "read_off_line", "sum_terms"]
+
+DIGITS = 5
+ZERO = 1e-8  # mm: a shorter force is nothing but rounding
+
+
+def group_caption(sheet: Sheet, group: ForceGroup, count: int, language: str) -> str:
+    """``1. Links 5, 6 (RRP) cut free``."""
+    kind = {"driver": Phrase("force driver"), "drawn system": Phrase("force larger group")}.get(group.way, group.kind)
+    return say(Phrase("force group", (str(count), ", ".join(group.links), kind)), language)
+
+
+def inertia_line(sheet: Sheet, one: Inertia, letters: Letters, language: str) -> str:
+    """``F_I4 = -m_4 a_S4 = 22.4 kg x 2.11 m/s2 = 47.4 N; M_I4 = ...; h_4 = ...``."""
+    units, c = sheet.scene.units, letters.convention
+    size = abs(one.force) / units.newtons
+    mass = f"{number(one.mass / units.kilograms, DIGITS)} {units.mass}"
+    mass_of = next(m for m in sheet.scene.loading.masses if m.link == one.link)
+    point = next((p for p, z in sheet.scene.by_name[one.link].points.items() if z == mass_of.at), f"S{one.link}")
+    letter = "A" if c == "us" else "a"
+    said = f"${force_letters(c, Symbol('Fi', link=one.link))}$ = $m_{{{one.link}}}$ ${letter}_{{{point}}}$ = "
+    said += f"{mass} × {number(abs(one.push), DIGITS)} m/s² = {number(size, DIGITS)} {units.force}"
+    if one.inertia:
+        turned = f"{number(one.moment / units.newtons, DIGITS)} {units.force}·m"
+        name = force_letters(c, Symbol("Mi", link=one.link))
+        said += f";  ${name}$ = −$J_{{{one.link}}}$ $α_{{{one.link}}}$ = {turned}"
+        if one.h is not None:
+            shift = number(abs(one.h) / units.metres, DIGITS)
+            said += f";  $h_{{{one.link}}}$ = {shift} {units.length}"
+    return said
+
+
+def moment_lines(sheet: Sheet, group: ForceGroup, letters: Letters, language: str) -> list[str]:
+    """The moment equations that give parts of forces, each with its reason."""
+    lines = []
+    for one in group.moments:
+        links = ", ".join(one.links)
+        if not one.terms and group.way == "polygon" and group.kind != "RPR":
+            name = f"${force_letters(letters.convention, one.symbol)}$"
+            args = links, name, f"${letters.point(one.about)}$"
+            lines.append(say(Phrase("force two-force member", args), language))
+            continue
+        name = f"${force_letters(letters.convention, one.symbol, one.part if _parted(group, one) else '')}$"
+        key = "force reason driver" if group.way == "driver" else "force reason guide" if group.kind == "RPR" else (
+            "force reason pin"
+        )  # fmt: skip
+        about = f"${letters.point(one.about)}$"
+        lines.append(say(Phrase(key, (about, links, name)), language))
+        lines.append(_equation(sheet, one, letters, name))
+    return lines
+
+
+def _parted(group: ForceGroup, one: MomentEquation) -> bool:
+    """Whether both parts of a force stand in the polygon."""
+    return sum(v.symbol == one.symbol and v.part != "" for v in group.polygon) > 1
+
+
+def couple_lines(sheet: Sheet, group: ForceGroup, letters: Letters, language: str) -> list[str]:
+    """Couples of sliding pairs with the lines of their forces, and moments that balance."""
+    lines = []
+    units = sheet.scene.units
+    for one in group.couples:
+        name = f"${force_letters(letters.convention, one.symbol)}$"
+        if one.symbol.other and not one.value:
+            lines.append(say(Phrase("force no couple", (name,)), language))
+            continue
+        key = "force reason couple" if one.symbol.other else "force reason balance"
+        lines.append(say(Phrase(key, (", ".join(one.links), name)), language))
+        lines.append(_equation(sheet, one, letters, name))
+        for line in group.lines:
+            if line.symbol.link == one.symbol.link and line.symbol.other == one.symbol.other:
+                force = f"${force_letters(letters.convention, line.symbol)}$"
+                shift = number(abs(line.shifted) / units.metres, DIGITS)
+                lines.append(say(Phrase("force line shifted", (force, shift, units.length)), language))
+    return lines
+
+
+def _equation(sheet: Sheet, one: MomentEquation, letters: Letters, name: str) -> str:
+    """``ΣM_C = 0: F_G5 x 0.0488 m ... = 0, F^t_R45 = -10.7 N``."""
+    units = sheet.scene.units
+    about = one.about if not one.about.startswith("x") else one.about[1:]
+    terms = [_term(sheet, t) for t in one.terms]
+    # the result is that of the numbers as they stand there
+    total = sum((Decimal(f"{sign}1") * math.prod(map(Decimal, factors)) for sign, factors in terms), Decimal(0))
+    whole = " ".join(f"{'−' if sign == '-' else '+'} {'·'.join(map(written, factors))}" for sign, factors in terms)
+    unit = f"{units.force}·m"
+    if one.arm is None:
+        whole += f" + {name}"
+    else:
+        arm = amount(abs(one.arm.mm) * sheet.scales.length, DIGITS)
+        # its sense is that in which it comes out positive
+        whole += f" {'−' if total > 0 else '+'} {name}·{written(arm)}"
+        total = -abs(total / Decimal(arm))
+        unit = units.force
+    value = number(float(-total), DIGITS) if total else "0"
+    shown = whole.strip().removeprefix("+ ")
+    return f"$ΣM_{{{about}}}$ = {shown} = 0;  {name} = {value} {unit}"
+
+
+def _term(sheet: Sheet, one: MomentTerm) -> tuple[str, tuple[str, ...]]:
+    """The sign of a term, and its factors as they are written: force and arm (m), or a couple."""
+    newtons = sheet.scene.units.newtons
+    if one.arm is None:
+        return ("-" if one.size < 0 else "+"), (amount(abs(one.size) / newtons, DIGITS),)
+    arm = amount(abs(one.arm.mm) * sheet.scales.length, DIGITS)
+    return ("-" if one.arm.mm < 0 else "+"), (amount(one.size / newtons, DIGITS), arm)
+
+
+def sum_terms(sheet: Sheet, group: ForceGroup, letters: Letters) -> list[SumTerm]:
+    """The terms of the group's vector equation."""
+    return [_sum_term(sheet, one, letters) for one in group.equation]
+
+
+def _sum_term(sheet: Sheet, one: ForceTerm, letters: Letters) -> SumTerm:
+    markup = force_letters(letters.convention, one.symbol, one.part)
+    bold = ("−" if one.turned else "") + rf"\mathbf{{{markup[0]}}}{markup[1:]}"
+    way = letters.direction(one.direction, sheet.scene.frame.name)
+    return SumTerm(bold, one.size_known, one.direction_known, way)
+
+
+def read_off_line(
+    sheet: Sheet, forces: ForceSheet, state: ForceState, group: ForceGroup, letters: Letters, language: str
+) -> str:
+    """``F_R45 = 43.33 mm x 200 N/mm = 8666.4 N``, for each force that was found here."""
+    units = sheet.scene.units
+    per = amount(forces.per_mm / units.newtons, 12)
+    found = []
+    seen: set[Symbol] = set()
+    vectors = [*group.polygon, *(v for polygon in group.inner.values() for v in polygon)]
+    for vector in vectors:
+        back = Symbol(vector.symbol.kind, vector.symbol.of, link=vector.symbol.other, other=vector.symbol.link)
+        if vector.known or vector.symbol in seen or (vector.symbol.other and back in seen):
+            continue
+        seen.add(vector.symbol)
+        span = state.vectors.get(vector.symbol, state.vectors.get(back))
+        if span is None:
+            span = vector.span
+        size = abs(span)
+        name = f"${force_letters(letters.convention, vector.symbol)}$"
+        if size < ZERO:
+            found.append(f"{name} = 0")
+            continue
+        value = written(product(on_paper(size), per))
+        found.append(f"{name} = {written(on_paper(size))} mm × {written(per)} {units.force}/mm = {value} {units.force}")
+    return ";  ".join(found)

@@ -1,0 +1,253 @@
+"""The sheet of forces: given masses and loads, each group cut free with its polygon, its equations and readings, in the
+order in which they are found, and the readings with their check; on as many pages as it takes."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from graphkin.checking.report import Report
+from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceState
+from graphkin.construction.sheet import Sheet
+from graphkin.drawing import strokes
+from graphkin.drawing.box import Box
+from graphkin.drawing.conventions import Letters, letters_of, scale_statement
+from graphkin.drawing.dimensions import check_bar
+from graphkin.drawing.drawing import Drawing
+from graphkin.drawing.equations import write_sum
+from graphkin.drawing.force_polygon import drawn_polygon, extent_of, polygons_of
+from graphkin.drawing.force_words import (
+    couple_lines,
+    group_caption,
+    inertia_line,
+    moment_lines,
+    read_off_line,
+    sum_terms,
+)
+from graphkin.drawing.free_body import free_body, sketch_height
+from graphkin.drawing.given_loads import given_loads
+from graphkin.drawing.headings import facts, figure_title, term
+from graphkin.drawing.overleaf import heading
+from graphkin.drawing.piece import Piece, joined, layer_groups, moved_piece
+from graphkin.drawing.primitives import Group, Polygon, Primitive, Run, Text
+from graphkin.drawing.tables import TableRow, readings_table
+from graphkin.drawing.text import fitted, plain, rich, wrapped
+from graphkin.words import Phrase, languages, say, word
+
+__all__ = ["forces_figure"]
+
+MARGIN, HEAD, FOOT = 10.0, 13.0, 12.0  # mm of the page
+SKETCH = 64.0  # mm, width of a sketch
+AROUND, LEAST, SMALLEST = 11.0, 46.0, 26.0  # mm of room around a polygon; least heights of panels
+GAP, LINE, SIZE = 4.0, 4.3, 2.8
+
+
+@dataclass(frozen=True)
+class _Block:
+    """Part of the sheet, about its left upper corner."""
+
+    piece: Piece
+    height: float
+
+
+def forces_figure(
+    sheet: Sheet, forces: ForceSheet, report: Report | None = None, *, language: str | None = None,
+    convention: str | None = None,
+) -> Drawing:  # fmt: skip
+    """The forces of a drawn position on pages of the scene's paper.
+
+    Parameters
+    ----------
+    sheet, forces : what is drawn of motion and of forces
+    report : readings held against the exact values; without it there is no table
+    language : "en", "zh" or "both"; the scene's own if None
+    convention : "chinese", "us", "british" or "russian"; the scene's own if None
+    """
+    spoken = language or sheet.scene.sheet.language
+    sheet = replace(sheet, scales=replace(sheet.scales, force=forces.per_mm))
+    letters = letters_of(sheet, convention or sheet.scene.sheet.convention)  # type: ignore[arg-type]
+    width, height = sheet.scene.sheet.size
+    page = Box(MARGIN, MARGIN, width - MARGIN, height - MARGIN)
+    blocks = [*_given(sheet, forces, letters, spoken, page.width)]
+    names: Counter[str] = Counter()
+    count = 0
+    for number, state in enumerate(forces.states):
+        shown = state.groups
+        if number:
+            blocks.append(_said("force with load", spoken, page.width))
+            shown = tuple(g for g, old in zip(shown, forces.states[0].groups, strict=True) if g != old)
+        elif len(forces.states) > 1:
+            blocks.append(_said("force without load", spoken, page.width))
+        for group in shown:
+            count += 1
+            blocks += _group(sheet, forces, state, group, letters, spoken, page.width, names, count, bool(number))
+    if report is not None:
+        rows = [TableRow(row.reading, row) for row in report.rows if row.symbol.scope == "force"]
+        blocks += _tables(replace(sheet, scales=report.scales), rows, letters, spoken, page)
+    return _pages(sheet, blocks, letters, spoken, page)
+
+
+def _pages(sheet: Sheet, blocks: Sequence[_Block], letters: Letters, spoken: str, page: Box) -> Drawing:
+    """Blocks below each other, as many to a page as it holds."""
+    inside = Box(page.left, page.top + HEAD, page.right, page.bottom - FOOT)
+    pages: list[list[Piece]] = [[]]
+    y = inside.top
+    for block in blocks:
+        if y + block.height > inside.bottom and pages[-1]:
+            pages.append([])
+            y = inside.top
+        pages[-1].append(moved_piece(block.piece, complex(page.left, y)))
+        y += block.height + GAP
+    made = []
+    for number, pieces in enumerate(pages, 1):
+        whole = joined((heading(sheet, letters, spoken, page), *pieces, _foot(sheet, letters, spoken, page, number)))
+        title = figure_title(sheet, "forces", spoken) + (f" ({number})" if number > 1 else "")
+        made.append(
+            Drawing(
+                page.left + page.right, page.top + page.bottom, layer_groups(whole), title,
+                say(Phrase("force described"), languages(spoken)[0]), languages(spoken)[0], _facts(sheet),
+            )
+        )  # fmt: skip
+    first, *further = made
+    return replace(first, further=tuple(further))
+
+
+def _facts(sheet: Sheet) -> dict[str, object]:
+    units = sheet.scene.units
+    return facts(sheet, "forces") | {
+        "scales": {
+            "length": float(f"{sheet.scales.length * 1e3:.12g}"),
+            "force": float(f"{sheet.scales.force / units.newtons:.12g}"),
+        }
+    }
+
+
+def _foot(sheet: Sheet, letters: Letters, spoken: str, page: Box, number: int) -> Piece:
+    told = term("forces", spoken) + ",  " + scale_statement(sheet, letters.convention, "force")
+    words: list[Primitive] = [Text(complex(page.left, page.bottom - 2.0), fitted(told, 3.2, page.width - 70.0))]
+    words += check_bar(complex(page.right - 50.0, page.bottom - 3.0), rich(term("check bar", spoken), 2.4))
+    if number > 1:
+        text = plain(say(Phrase("sheet number", (number,)), languages(spoken)[0]), 2.6)
+        words.append(Text(complex(page.right, page.bottom + 4.0), text, "end"))
+    return Piece({"labels": tuple(words)})
+
+
+def _words(lines: Sequence[tuple[str, bool]], width: float, size: float = SIZE) -> _Block:
+    """Lines of words with symbols, bold where that is said."""
+    rows: list[tuple[Run, ...]] = [runs for text, bold in lines for runs in wrapped(text, size, width, bold=bold)]
+    height = LINE * size / SIZE
+    texts = tuple(Text(complex(0.0, height * (k + 0.75)), runs) for k, runs in enumerate(rows))
+    return _Block(Piece({"labels": texts}), height * len(rows))
+
+
+def _said(key: str, spoken: str, width: float) -> _Block:
+    return _words([(say(Phrase(key), each), True) for each in languages(spoken)], width)
+
+
+def _given(sheet: Sheet, forces: ForceSheet, letters: Letters, spoken: str, width: float) -> Iterator[_Block]:
+    lines: list[tuple[str, bool]] = []
+    for each in languages(spoken):
+        lines.append((word("given", each), True))
+        lines += [(text, False) for text in given_loads(sheet, letters, each)]
+    if forces.inertias:
+        for each in languages(spoken):
+            lines.append((say(Phrase("force inertia"), each), True))
+        lines += [(inertia_line(sheet, one, letters, spoken), False) for one in forces.inertias.values()]
+    yield _words(lines, width)
+
+
+def _group(
+    sheet: Sheet, forces: ForceSheet, state: ForceState, group: ForceGroup, letters: Letters, spoken: str, width: float,
+    names: Counter[str], count: int, again: bool,
+) -> Iterator[_Block]:  # fmt: skip
+    """A group: its caption, its sketch beside its polygon, and what is written below."""
+    spoke = languages(spoken)
+    caption = _words([(group_caption(sheet, group, count, each), True) for each in spoke], width, 3.2)
+    room = width - SKETCH - GAP
+    suffix = "-with" if again else ""
+    polygons = polygons_of(group)
+    columns = [(link, vectors, inside, extent_of((*vectors, *inside))) for link, vectors, inside in polygons]
+    placed: list[Piece] = []
+    before = Counter(names)
+    x, y, row = SKETCH + GAP, 0.0, 0.0
+    for link, vectors, inside, box in columns:
+        wide = room if len(columns) == 1 else min(room, max(box.width + 2 * AROUND, 40.0))
+        high = max(box.height + 2 * AROUND, SMALLEST if len(columns) > 1 else LEAST)
+        if x + wide > width + 0.1:
+            x, y, row = SKETCH + GAP, y + row + 2.0, 0.0
+        panel = Box(x, y, x + wide, y + high)
+        piece = drawn_polygon(sheet, vectors, inside, letters, panel.grown(-0.6), names, suffix)
+        placed += [piece, _frame(panel)]
+        if link:
+            said = " / ".join(say(Phrase("force on link", (link,)), each) for each in spoke)
+            placed.append(Piece({"labels": (Text(complex(panel.left + 1.0, panel.top + 3.2), rich(said, 2.4)),)}))
+        x, row = x + wide + 2.0, max(row, high)
+    height = max(y + row, LEAST, sketch_height(sheet, group, SKETCH))
+    if len(columns) == 1:  # the polygon in the middle of its panel, beside the sketch
+        link, vectors, inside, box = columns[0]
+        panel = Box(SKETCH + GAP, 0.0, width, height)
+        inner = panel.grown(-0.6)
+        placed = [drawn_polygon(sheet, vectors, inside, letters, inner, Counter(before), suffix), _frame(panel)]
+    panel = Box(0.0, 0.0, SKETCH, min(height, 90.0))
+    tag = "-".join(group.links) + suffix
+    sketch = free_body(sheet, forces, state, group, letters, panel.grown(-0.6), tag)
+    figures = joined((sketch, _frame(panel), *placed))
+    lower = _below(sheet, forces, state, group, letters, spoken, width)
+    if height + caption.height + lower.height > 240.0:
+        yield _stacked((caption, _Block(figures, height)))
+        yield lower
+    else:
+        yield _stacked((caption, _Block(figures, height), lower))
+
+
+def _stacked(blocks: Sequence[_Block]) -> _Block:
+    pieces, y = [], 0.0
+    for block in blocks:
+        pieces.append(moved_piece(block.piece, complex(0.0, y)))
+        y += block.height + 1.6
+    return _Block(joined(pieces), y)
+
+
+def _below(
+    sheet: Sheet, forces: ForceSheet, state: ForceState, group: ForceGroup, letters: Letters, spoken: str, width: float
+) -> _Block:
+    """Moments with their reasons, the vector equation with its rows, and what was read off."""
+    blocks = []
+    for each in languages(spoken):
+        lines = [(text, False) for text in moment_lines(sheet, group, letters, each)]
+        if group.way == "drawn system":
+            lines.append((say(Phrase("force reason system", (", ".join(group.links),)), each), False))
+        elif len(group.equation) > 1 and group.way == "polygon":
+            lines.append((say(Phrase("force reason polygon", (", ".join(group.links),)), each), False))
+        if lines:
+            blocks.append(_words(lines, width))
+    if group.way != "drawn system" and len(group.equation) > 1:
+        written = write_sum(sum_terms(sheet, group, letters), letters, languages(spoken)[0], width)
+        blocks.append(_Block(Piece({"labels": (Group(written.children, id=""),)}), written.height))
+    for each in languages(spoken):
+        lines = [(text, False) for text in couple_lines(sheet, group, letters, each)]
+        read = read_off_line(sheet, forces, state, group, letters, each) if each == languages(spoken)[0] else ""
+        lines += [(read, False)] if read else []
+        if lines:
+            blocks.append(_words(lines, width))
+    return _stacked(blocks)
+
+
+def _frame(panel: Box) -> Piece:
+    return Piece({"construction": (Group((Polygon(panel.corners, "", strokes.DIMENSION),), classes=("panel",)),)})
+
+
+def _tables(sheet: Sheet, rows: Sequence[TableRow], letters: Letters, spoken: str, page: Box) -> Iterator[_Block]:
+    """The readings with their check, parted where they do not fit one page."""
+    left = list(rows)
+    caption = Text(complex(0.0, 3.0), rich(term("readings", spoken), 3.2, bold=True))
+    while left:
+        most = min(len(left), 80)
+        height = 10.0 + 4.2 * -(-most // 2) + 3.7 * (len(languages(spoken)) - 1)
+        area = Box(0.0, 5.0, page.width, 5.0 + height)
+        table, shown = readings_table(sheet, left[:most], letters, spoken, area)
+        yield _Block(Piece({"labels": (caption,), "answers": table}), height + 6.0)
+        if shown == 0:
+            return
+        left = left[shown:]

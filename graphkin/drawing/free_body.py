@@ -1,0 +1,215 @@
+"""A group cut free: its links where they lie, with every force and couple that acts on it, and the arms of the moments
+that were taken."""
+
+from __future__ import annotations
+
+from cmath import phase
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceState, ForceVector
+from graphkin.construction.sheet import Sheet
+from graphkin.drawing import strokes, symbols
+from graphkin.drawing.box import Box
+from graphkin.drawing.conventions import Letters
+from graphkin.drawing.force_letters import force_letters
+from graphkin.drawing.labels import Label
+from graphkin.drawing.mechanism_on_paper import MechanismOnPaper, page
+from graphkin.drawing.piece import Piece, ink_box, moved_piece, with_labels
+from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Primitive, Text
+from graphkin.drawing.symbols import COMPONENT, JOINT_RADIUS, RESULTANT, arrow
+from graphkin.drawing.text import plain, symbol
+from graphkin.plane import unit
+
+__all__ = ["colour_of_force", "free_body", "letters_of_force", "links_cut_free", "sketch_height"]
+
+ARROW, NEXT = 11.0, 4.0  # mm of an arrow that only shows a direction, and how much longer the next along the same line
+NEAR = 0.5
+ROOM = 2 * ARROW + 6.0  # mm around the links for arrows
+HIGHEST = 82.0  # mm of a sketch
+
+
+def links_cut_free(group: ForceGroup) -> tuple[str, ...]:
+    """The links of a group with the blocks among them."""
+    return tuple(dict.fromkeys((*group.links, *(v.link for v in group.polygon))))
+
+
+def free_body(
+    sheet: Sheet, forces: ForceSheet, state: ForceState, group: ForceGroup, letters: Letters, panel: Box, tag: str
+) -> Piece:
+    """The sketch of a group in a panel, not larger than the mechanism is drawn."""
+    links = set(links_cut_free(group))
+    box = _extent(sheet, group)
+    times = min((panel.width - ROOM) / max(box.width, 1e-6), (panel.height - ROOM) / max(box.height, 1e-6), 1.0)
+    small = replace(
+        sheet, scales=replace(sheet.scales, length=sheet.scales.length / times), steps=(),
+        poses={name: pose.scaled(times) for name, pose in sheet.poses.items()},
+        points={ref: z * times for ref, z in sheet.points.items()},
+    )  # fmt: skip
+    here = MechanismOnPaper(small, letters)
+    parts, labels = _links(here, links)
+    more = _arms(group, times, letters)
+    arrows, named = _arrows(sheet, group, state, letters, times, tag)
+    shifted = list(shifted_lines(forces, links, times))
+    more += [line for line, _ in shifted]
+    named += [label for _, label in shifted]
+    piece = Piece(
+        {"mechanism": (Group(tuple(parts), id=f"free-body-{tag}"),), "construction": tuple(more), "forces": arrows},
+        (*named, *labels),
+    )
+    ink = ink_box(piece.drawn) or panel
+    return with_labels(moved_piece(piece, panel.centre - ink.centre), panel)
+
+
+def sketch_height(sheet: Sheet, group: ForceGroup, width: float) -> float:
+    """How high a sketch wants to be that is so wide (mm)."""
+    box = _extent(sheet, group)
+    times = min((width - ROOM) / max(box.width, 1e-6), 1.0)
+    return min(HIGHEST, box.height * times + ROOM)
+
+
+def _extent(sheet: Sheet, group: ForceGroup) -> Box:
+    return Box.around([v.at for v in _forces(group)] + _points(sheet, set(links_cut_free(group))))
+
+
+def _points(sheet: Sheet, links: set[str]) -> list[complex]:
+    found = [sheet.poses[name].origin for name in links if name in sheet.poses]
+    for ref, z in sheet.points.items():
+        if not ref.link and any(ref.point in sheet.structure.links[n].points for n in links):
+            found.append(z)
+    return found
+
+
+def _links(here: MechanismOnPaper, links: set[str]) -> tuple[list[Primitive], list[Label]]:
+    parts: list[Primitive] = []
+    labels: list[Label] = []
+    for shape in here.shapes:
+        if shape.link not in links:
+            continue
+        colour = here.colour(shape.link)
+        stroke = strokes.LINK.coloured(colour)
+        if shape.corners:
+            parts.append(Polygon(tuple(map(page, shape.corners)), strokes.tint(colour), stroke))
+        parts += [Line(page(a), page(b), stroke) for a, b in shape.bars]
+        if shape.longest:
+            text = Text(0j, plain(shape.link, bold=True), "start", colour, classes=("label",))
+            labels.append(Label(text, (page(shape.longest[0]), page(shape.longest[1])), rank=2))
+    for one in here.sliders:
+        if one.slide.a in links:
+            parts += symbols.block(page(one.at), phase(one.along), here.colour(one.slide.a))
+    for point, z in here.places.items():
+        known = here.sheet.structure.links
+        if any(point in known[n].points for n in links if n in known):
+            joint = point in here.sheet.structure.hinges
+            size = JOINT_RADIUS * 0.85 if joint else JOINT_RADIUS * 0.5
+            parts.append(Circle(page(z), size, fill=strokes.WHITE if joint else strokes.BLACK, stroke=strokes.OUTLINE))
+            text = Text(0j, symbol(here.letters.point(point), 3.0), "start", classes=("label",))
+            labels.append(Label(text, page(z), rank=1))
+    return parts, labels
+
+
+def _forces(group: ForceGroup) -> Sequence[ForceVector]:
+    """What acts on the group from outside; of a group drawn link by link everything."""
+    if group.polygon:
+        return [v for v in group.polygon if v.span]
+    return [v for polygon in group.inner.values() for v in polygon if v.span]
+
+
+def _arrows(
+    sheet: Sheet, group: ForceGroup, state: ForceState, letters: Letters, times: float, tag: str
+) -> tuple[tuple[Primitive, ...], list[Label]]:
+    """An arrow for each force at its place, all of one length, and an arc for each couple."""
+    drawn: list[Primitive] = []
+    labels: list[Label] = []
+    taken: list[tuple[complex, complex]] = []
+    lines = {line.symbol: line.at for line in group.lines}
+    outside = set(links_cut_free(group))
+    for n, vector in enumerate(_forces(group)):
+        if not group.polygon and _within(vector, outside):
+            continue
+        along = unit(vector.span)
+        at = lines.get(vector.symbol, vector.at) * times
+        again = sum(abs(at - z) < NEAR and abs(along - e) < 0.1 for z, e in taken)
+        taken.append((at, along))
+        tail, tip = page(at), page(at + along * (ARROW + NEXT * again))
+        kind = COMPONENT if vector.known or vector.part else RESULTANT
+        colour = colour_of_force(sheet, vector)
+        group_id = f"acts-{tag}-{n}"
+        drawn.append(Group(arrow(tail, tip, kind, colour), id=group_id, classes=("acting",)))
+        markup = letters_of_force(letters, vector)
+        label = Text(0j, symbol(markup, 3.0), "start", colour, f"label-{group_id}", ("label",))
+        labels.append(Label(label, (tail, tip), rank=0))
+    turning = [(t.symbol, t.link, t.moment) for t in state.turning]
+    for one in group.couples:
+        on = one.symbol.other or one.symbol.link
+        if (on in outside and one.symbol.link not in outside) or not one.symbol.other:
+            turning.append((one.symbol, on if one.symbol.other else one.links[0], one.value))
+    places: list[complex] = []
+    for named, link, moment in turning:
+        if link not in outside or not moment:
+            continue
+        at = _middle(sheet, link) * times
+        radius = 4.2 + 2.0 * sum(abs(at - z) < NEAR for z in places)
+        places.append(at)
+        arc = symbols.sense_arc(page(at), radius, 0.9, 1 if moment > 0 else -1)
+        group_id = f"acts-{tag}-{named.id}"
+        drawn.append(Group(arc, id=group_id, classes=("acting",)))
+        text = Text(0j, symbol(force_letters(letters.convention, named), 3.0), "start", strokes.BLACK,
+                    f"label-{group_id}", ("label",))  # fmt: skip
+        labels.append(Label(text, page(at + radius * 0.7 * (1 + 1j)), rank=0))
+    return tuple(drawn), labels
+
+
+def shifted_lines(forces: ForceSheet, links: set[str], times: float) -> Iterator[tuple[Primitive, Label]]:
+    """Where inertia forces act together with their couples: lines at the distance h from the centres of mass."""
+    for link, one in forces.inertias.items():
+        if link not in links or one.shifted is None or not one.h:
+            continue
+        along, at, centre = unit(one.force), one.shifted * times, one.centre * times
+        if abs(at - centre) < 1.0:
+            continue
+        line = Line(page(at - 5.0 * along), page(at + ARROW * along), strokes.DIRECTION)
+        across = Line(page(centre), page(at), strokes.DIMENSION)
+        text = Text(0j, symbol(f"h_{{{link}}}", 2.8), "start", strokes.GREY, classes=("label",))
+        yield Group((line, across), classes=("shifted",)), Label(text, (page(centre), page(at)), rank=2)
+
+
+def colour_of_force(sheet: Sheet, vector: ForceVector) -> str:
+    """Black for what was known; else that of the link that a force comes from or, of the frame's, acts on."""
+    if vector.known:
+        return strokes.BLACK
+    names = vector.symbol.link, vector.symbol.other, vector.link
+    moving = (n for n in names if n != sheet.scene.frame.name and n in sheet.scene.order)
+    return strokes.colour_of_link(sheet.scene, next(moving, vector.link))
+
+
+def _within(vector: ForceVector, links: set[str]) -> bool:
+    """Whether a force is one between two links of the group."""
+    return vector.symbol.kind == "F" and {vector.symbol.link, vector.symbol.other} <= links
+
+
+def letters_of_force(letters: Letters, vector: ForceVector) -> str:
+    r"""A force as a vector: bold, with its part; ``−`` before the opposite of what its symbol says."""
+    markup = force_letters(letters.convention, vector.symbol, vector.part)
+    return ("−" if vector.turned else "") + rf"\mathbf{{{markup[0]}}}{markup[1:]}"
+
+
+def _middle(sheet: Sheet, link: str) -> complex:
+    mass = next((m for m in sheet.scene.loading.masses if m.link == link), None)
+    pose = sheet.poses[link]
+    at = mass.at if mass is not None else sum(sheet.structure.links[link].points.values(), 0j) / max(
+        1, len(sheet.structure.links[link].points)
+    )
+    return pose.origin + pose.axis * at / sheet.scales.length
+
+
+def _arms(group: ForceGroup, times: float, letters: Letters) -> list[Primitive]:
+    """Arms of the moments by which parts were found, from the point to the line of each force."""
+    found: list[Primitive] = []
+    for equation in (*group.moments, *(c for c in group.couples if c.symbol.kind == "M" and not c.symbol.other)):
+        for one in equation.terms:
+            if one.arm is None or abs(one.arm.mm) * times < 1.0:
+                continue
+            a, b = page(one.arm.about * times), page(one.arm.foot * times)
+            found.append(Line(a, b, strokes.DIRECTION))
+    return [Group(tuple(found), classes=("arms",))] if found else []

@@ -1,0 +1,99 @@
+"""The figures of forces: lengths are those stated, polygons close on paper, every letter has its place."""
+
+from __future__ import annotations
+
+import re
+import xml.etree.ElementTree as ET
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+import graphkin
+from graphkin.drawing import svg_bytes
+from graphkin.drawing.force_letters import force_letters
+from graphkin.scene.symbol import Symbol
+from tests.solver.test_forces import loaded, scene_of
+
+SHAPER, ENGINE = scene_of("shaper-scheme-2"), scene_of("engine")
+FIGURES = ["forces", "lever"]
+LABELLED = [
+    (SHAPER, 14.9, "zh", "chinese"), (SHAPER, 104.9, "both", "russian"), (ENGINE, 60, "en", "us"),
+    (ENGINE, 180, "zh", "british"), (scene_of("fourbar-moment"), 150, "en", "chinese"),
+]  # fmt: skip
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+def vectors(svg: bytes) -> dict[str, complex]:
+    """Every vector of a figure by its id, mm with y up."""
+    found = {}
+    for group in ET.fromstring(svg).iter(f"{SVG}g"):
+        if "vector" in group.get("class", "").split():
+            line = next(iter(group.iter(f"{SVG}line")))
+            x1, y1, x2, y2 = (float(line.get(key, "0")) for key in ("x1", "y1", "x2", "y2"))
+            found[group.get("id", "")] = complex(x2 - x1, y1 - y2)
+    return found
+
+
+def test_a_vector_is_as_long_as_the_scale_says_in_its_direction() -> None:
+    drawn = graphkin.draw(SHAPER, figures=["forces"])
+    pages = drawn.figures
+    found = {name: v for page in pages.values() for name, v in vectors(svg_bytes(page)).items()}
+    per = drawn.checked.data["scales"]["force"]
+    for name, key in (("F_4-5", "F_4/5"), ("F_1-6", "F_1/6"), ("F_2-3", "F_2/3"), ("F_1-4", "F_1/4"), ("P_P", "P_P")):
+        exact = drawn[key].exact
+        assert complex(exact) / per == pytest.approx(found[name], abs=2e-3), name
+
+
+def test_the_scale_stands_in_the_facts_of_the_figure() -> None:
+    facts = graphkin.draw(SHAPER, figures=["forces"]).figures["forces"].metadata
+    assert 200.0 == facts["scales"]["force"]  # type: ignore[index]
+
+
+def test_a_wished_scale_is_kept() -> None:
+    scene = graphkin.read(SHAPER).replace("sheet", {"force_scale": 100})
+    assert 127.66 == pytest.approx(graphkin.check(scene)["F_4/3"].on_paper, abs=5e-3)
+
+
+@pytest.mark.parametrize(("scene", "at", "language", "convention"), LABELLED)
+def test_no_label_of_a_force_is_overlapped_crossed_or_cut(
+    scene: Path, at: float, language: str, convention: str, violations: Callable[[bytes], list[str]]
+) -> None:
+    drawn = graphkin.draw(scene, at=at, figures=FIGURES, language=language, convention=convention).figures
+    assert {name: [] for name in drawn} == {name: violations(svg_bytes(page)) for name, page in drawn.items()}
+
+
+def test_a_scene_with_loads_has_both_figures_by_itself() -> None:
+    wanted = ("mechanism", "velocity", "acceleration", "sheet", "centres", "forces", "lever")
+    assert wanted == graphkin.draw(SHAPER).wanted
+
+
+def test_without_loads_there_is_nothing_to_draw() -> None:
+    assert {} == graphkin.draw("shaper-scheme-2", figures=FIGURES).figures
+
+
+@pytest.mark.parametrize(
+    ("convention", "letters"),
+    [("chinese", "F_{R56}"), ("us", "F_{56}"), ("british", "F_{56}"), ("russian", "R_{56}")],
+)
+def test_each_school_writes_a_joint_force_in_its_way(convention: str, letters: str) -> None:
+    assert letters == force_letters(convention, Symbol.parse("F_5/6"))  # type: ignore[arg-type]
+
+
+def test_a_larger_group_is_drawn_link_by_link() -> None:
+    scene = loaded(graphkin.read("double-butterfly").to_dict(), 5)
+    pages = graphkin.draw(scene, figures=["forces"]).figures
+    text = " ".join("".join(ET.fromstring(svg_bytes(page)).itertext()) for page in pages.values())
+    assert "are one system" in re.sub(r"\s+", " ", text)
+
+
+def test_both_polygons_stand_where_a_load_ends() -> None:
+    pages = graphkin.draw(ENGINE, at=180, figures=["forces"]).figures
+    found = {name for page in pages.values() for name in vectors(svg_bytes(page))}
+    assert {"F_2-3", "F_2-3-with"} <= found
+
+
+def test_the_lever_tells_both_values() -> None:
+    page = graphkin.draw(SHAPER, figures=["lever"]).figures["lever"]
+    text = "".join(ET.fromstring(svg_bytes(page)).itertext())
+    assert 2 == text.count("−539.79")
