@@ -28,10 +28,10 @@ from graphkin.errors import CallError, Problem, as_text, did_you_mean
 from graphkin.files import path_of
 from graphkin.papers.exports import PLATFORMS, Question, files_for, question_of
 from graphkin.papers.lesson import Lesson
-from graphkin.papers.page import Progress
 from graphkin.papers.paper import paper_plan
 from graphkin.papers.pdf import can_typeset
 from graphkin.papers.prepare import FORMATS, Papers, evidence_of, handout_files, lesson_of, usual_count, views_of
+from graphkin.papers.screen_positions import Progress
 from graphkin.papers.solution import KeyRow, key_rows
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
@@ -97,8 +97,8 @@ class Handout(Result):
 
     @cached_property
     def files(self) -> Mapping[str, bytes]:
-        """Content of each file: problem.html, handout.html, problem.pdf, solution.pdf, key.html, key.pdf, key.csv, and
-        those for learning platforms."""
+        """Content of each file: problem.html, handout.html, problem.pdf, solution.pdf, key.html, key.pdf, key.csv,
+        answers_template.csv for a class to fill in, and those for learning platforms."""
         return {**self._papers, **(files_for(self.question, self.exports) if self.question is not None else {})}
 
     @property
@@ -110,7 +110,7 @@ class Handout(Result):
         views, start = views_of(
             lesson.sheet.structure, self.values, asked, language, convention, scales, self.count, self._half(0)
         )
-        return handout_files(lesson, views, start, self.formats, self._half(1))
+        return handout_files(lesson, views, start, self.formats, self._half(1), self.values)
 
     def _half(self, done: int) -> Progress | None:
         """Progress of one half of the work: placing every position, and then drawing it."""
@@ -157,7 +157,7 @@ def handout(
     formats : "html", "pdf" or both
     language : "en", "zh" or "both"; the scene's own if None
     convention : "chinese", "us", "british" or "russian"; the scene's own if None
-    positions : of the driver, for the second slider of the page; 24 if None, 12 with more than 10 moving links
+    positions : of the driver, for the second slider of the page; 12 if None, 6 with more than 10 moving links
     progress : called with the parts of the page done and the number of all, while its files are made
     exports : "moodle", "gift", "prairielearn": questions with tolerances and feedback for learning platforms
 

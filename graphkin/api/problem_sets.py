@@ -29,6 +29,7 @@ from graphkin.jobs import Progress, Workers
 from graphkin.papers.data_rows import Columns, columns_of, replaced
 from graphkin.papers.exports import BANKED, bank
 from graphkin.papers.problem_set import Job, MadeSet, Render, jobs_of_rows, jobs_of_seed, make
+from graphkin.papers.solution import answers_template
 from graphkin.papers.variants import Answer, Spread, Variant, asked_of, varied_keys
 from graphkin.scene.model import Mechanism
 from graphkin.scene.source import written
@@ -166,6 +167,9 @@ def problem_set(
     def finish(made: MadeSet) -> None:
         if folder is not None:
             ProblemSet(given, made, unused).write(folder)
+            if made.names:
+                blank = answers_template(asked_of(given), given.units, made.names)
+                write_files(folder, {"answers_template.csv": blank.csv().encode("utf-8-sig")})
             names = [[f"{name}-{variant}-{file}" for file in BANKED] for variant in made.names]
             here = [{n[-len(f) :]: (folder / n).read_bytes() for n, f in zip(own, BANKED, strict=True)
                      if (folder / n).is_file()} for own in names]  # fmt: skip

@@ -41,7 +41,7 @@ def handout(
         typer.Option(
             "--positions",
             metavar="N",
-            help="Positions of the driver on the page; 24 if not given, 12 with more than ten moving links.",
+            help="Positions of the driver on the page; 12 if not given, 6 with more than ten moving links.",
         ),
     ] = None,
     variants: Annotated[

@@ -163,8 +163,13 @@ def plan(
     find: Iterable[Symbol] | None = None,
     room: Room | None = None,
     near: Sheet | None = None,
+    follows: Plan | None = None,
 ) -> Plan:
-    """Decide what to draw, and carry it out exactly; parameters and errors as for `draft`."""
+    """Decide what to draw, and carry it out exactly; parameters and errors as for `draft`.
+
+    ``follows`` is the same task at another position: the assembly is followed from there, which is shorter than from
+    the scene's own.
+    """
     structure = analyse(with_cams(scene))
     scene = structure.scene
     asked = tuple(scene.find if find is None else find)
@@ -190,6 +195,8 @@ def plan(
         triangles = tuple((v, v.branch(own, values, taken[v.key])) for v in inversions if v.key in taken)
         values |= {v.key: v.near(own[v.key], v.value(values, branch)) for v, branch in triangles}
     keys = [d.key for d in opened.scene.drivers]
+    if follows is not None and not inversions and follows.elements == elements:
+        own, chosen = dict(follows.values), dict(follows.branches)
     branches = branches_at(opened, elements, {k: values[k] for k in keys}, {k: own[k] for k in keys}, chosen)
     return _planned(Task(structure, opened, asked, elements, values, branches, {}, {}, {}, triangles, {}, {}, ()), room)
 

@@ -170,4 +170,5 @@ def _table(table: TableBlock) -> str:
         asked = ' class="asked"' if i in table.bold else ""
         rows.append(f"<tr{asked}>{first}{cells}</tr>")
     kind = ' class="roomy"' if table.roomy else ""
-    return f"<table{kind}><thead><tr>{heads}</tr></thead><tbody>{''.join(rows)}</tbody></table>"
+    inside = f"<table{kind}><thead><tr>{heads}</tr></thead><tbody>{''.join(rows)}</tbody></table>"
+    return f'<div class="wide" tabindex="0">{inside}</div>'

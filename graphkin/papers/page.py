@@ -7,202 +7,24 @@ from __future__ import annotations
 import base64
 import hashlib
 import json
-import math
 import re
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+import zlib
+from collections.abc import Iterable, Mapping, Sequence
 from functools import lru_cache
 from html import escape
 from importlib.resources import files
-from typing import Literal, TypeAlias
 
-from graphkin.construction import Plan, execute
-from graphkin.construction.centres import Centres
-from graphkin.construction.sheet import DiagramName, Scales, Sheet
-from graphkin.drawing.box import Box
-from graphkin.drawing.centre_marks import centre_marks, near_box
-from graphkin.drawing.centres import background
-from graphkin.drawing.conventions import scale_statement
-from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.embedded import face_rules, families
-from graphkin.drawing.headings import FIGURE_WORDS, drivers, term
-from graphkin.drawing.insets import polygon_with_insets, strip_height
-from graphkin.drawing.mechanism import mechanism_piece
-from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
-from graphkin.drawing.polygon_on_page import extent
-from graphkin.drawing.stepwise import births, stepped
-from graphkin.papers.blocks import Document, Heading, Said, clean, said
-from graphkin.papers.html import blocks_html, figure_svg, said_html, used_characters, words_html
-from graphkin.papers.lesson import Lesson, Stage, plain_words
-from graphkin.papers.pictures import ROOM, equation_picture
+from graphkin.papers.blocks import Block, Document, Heading, Said, clean, said
+from graphkin.papers.html import blocks_html, said_html, used_characters
+from graphkin.papers.lesson import Lesson
 from graphkin.papers.problem import given, scene_title
-from graphkin.papers.solution import equation_words, results_blocks, solution, solution_blocks, stage_title, step_items
-from graphkin.words import languages, word
+from graphkin.papers.screen_positions import Progress, View, positions_data
+from graphkin.papers.solution import results_blocks, solution, solution_blocks
+from graphkin.papers.trial import tolerances
+from graphkin.words import word
 
-__all__ = ["POSITIONS", "Progress", "View", "common_scales", "document_page", "handout_page", "positions_data"]
-
-Progress = Callable[[int, int], None]  # positions done, and all of them
-POSITIONS = 24
-MECHANISM, POLYGON = (160.0, 218.0), 190.0  # mm that the mechanism in all positions and a polygon may fill
-SERIES = (1.0, 2.0, 2.5, 5.0)
-POLYGONS: tuple[DiagramName, ...] = ("velocity", "acceleration")
-FigureName: TypeAlias = Literal["mechanism", "velocity", "acceleration", "centres", "force"]
-
-
-@dataclass(frozen=True)
-class View:
-    """One position on the screen: its drawing, and its centres where they can be had."""
-
-    lesson: Lesson
-    centres: Centres | None = None
-
-
-def common_scales(plans: Sequence[Plan], paper: Scales) -> list[Scales]:
-    """Scales for several positions: those of the paper, and coarser ones for the polygons that would be too large.
-
-    The mechanism has one scale in all positions.
-    """
-    sheets = [execute(plan) for plan in plans]
-    metres = sheets[0].scene.units.rates.metres
-    whole = _joined(Box.around(sheet.points.values()) for sheet in sheets)
-    on_paper = sheets[0].scales.length / paper.length
-    length = (
-        _coarser(paper.length * 1e3, on_paper * max(whole.width / MECHANISM[0], whole.height / MECHANISM[1])) * 1e-3
-    )
-
-    def fitting(sheet: Sheet, diagram: DiagramName) -> float:
-        own = paper.of(diagram)
-        size = _size(extent(sheet, diagram)) * sheet.scales.of(diagram)
-        return _coarser(own / metres, size / own / POLYGON) * metres
-
-    return [Scales(length, fitting(sheet, "velocity"), fitting(sheet, "acceleration")) for sheet in sheets]
-
-
-def _size(box: Box) -> float:
-    return max(box.width, box.height)
-
-
-def _coarser(scale: float, factor: float) -> float:
-    """The scale itself where it is coarse enough, else the first of the series so many times coarser."""
-    if factor <= 1.0:
-        return scale
-    power = 10.0 ** math.floor(math.log10(scale * factor))
-    return next(s * power for s in (*SERIES, 10.0) if s * power >= scale * factor * (1 - 1e-9))
-
-
-def positions_data(views: Sequence[View], progress: Progress | None = None) -> dict[str, object]:
-    """For each position its name, figures and steps, ready for the page, and the stages of all of them, each once."""
-    frames = _Frames(views)
-    positions = []
-    for done, view in enumerate(views, 1):
-        positions.append(frames.data(view))
-        if progress is not None:
-            progress(done, len(views))
-    return {"positions": positions, "stages": frames.stages}
-
-
-class _Frames:
-    """The frames that hold the figures of all positions: equally large, and the fixed pivots always at their places."""
-
-    def __init__(self, views: Sequence[View]) -> None:
-        self.pieces = [
-            mechanism_piece(v.lesson.sheet, v.lesson.letters, (MECHANISM[0] + 20, MECHANISM[1] + 20)) for v in views
-        ]
-        self.mechanism = _joined(box for _, box in self.pieces).grown(ROOM)
-        self.polygons = {d: self._largest(views, d) for d in POLYGONS}
-        self.views = list(views)
-        self.stages: list[dict[str, str]] = []
-        backs = [ink_box(background(piece).drawn) or box for piece, box in self.pieces]
-        shown = [(v.centres, back) for v, back in zip(views, backs, strict=True) if v.centres is not None]
-        self.centres = _joined(near_box(c, back, MECHANISM) for c, back in shown).grown(ROOM) if shown else None
-
-    def data(self, view: View) -> dict[str, object]:
-        lesson = view.lesson
-        born = births(lesson.sheet)
-        figures = []
-        for name, drawing in self._figures(view):
-            layers = replace(drawing, children=stepped(drawing.children, born)) if name != "centres" else drawing
-            caption = f"{words_html(_title(lesson, name))} "
-            figures.append({
-                "name": name,
-                "svg": figure_svg(layers, named=name != "centres"),
-                "caption": caption + f'<span class="scale">{words_html(self._scale(lesson, name))}</span>',
-            })  # fmt: skip
-        stages = lesson.stages
-        return {
-            "name": plain_words(drivers(lesson.sheet, lesson.letters)),
-            "label": words_html(drivers(lesson.sheet, lesson.letters)),
-            "figures": figures,
-            "stages": [self._stage(lesson, stage) for stage in stages],
-            "steps": [
-                {"d": stage.diagram, "e": number, "n": item.number, "html": said_html(item.words, "p")
-                 + "".join(f'<p class="work">{words_html(line)}</p>' for line in item.work),
-                 "text": " ".join(plain_words(markup) for _, markup in item.words)}
-                for number, stage in enumerate(stages) for item in step_items(lesson, stage)
-            ],
-        }  # fmt: skip
-
-    def _stage(self, lesson: Lesson, stage: Stage) -> int:
-        """Place of a stage in the table of all: most of them are the same in every position."""
-        svg = ""
-        if stage.equation is not None:
-            words = equation_words(lesson, stage.equation)
-            svg = figure_svg(equation_picture(lesson.sheet, stage.equation, lesson.letters, lesson.language, words))
-        whole = {"title": said_html(stage_title(lesson, stage)), "svg": svg}
-        if whole not in self.stages:
-            self.stages.append(whole)
-        return self.stages.index(whole)
-
-    def _scale(self, lesson: Lesson, name: FigureName) -> str:
-        return scale_statement(lesson.sheet, lesson.letters.convention, "mechanism" if name == "centres" else name)
-
-    def _figures(self, view: View) -> Iterator[tuple[FigureName, Drawing]]:
-        lesson = view.lesson
-        sheet, letters = lesson.sheet, lesson.letters
-        piece, _ = self.pieces[self.views.index(view)]
-        yield "mechanism", self._page(lesson, "mechanism", with_labels(piece, self.mechanism), self.mechanism)
-        for diagram in POLYGONS:
-            if not sheet.vectors(diagram):
-                continue
-            half = self.polygons[diagram] / 2
-            middle = extent(sheet, diagram).centre
-            panel = Box.around((middle - half, middle + half))
-            strip = Box(panel.left, panel.bottom, panel.right, panel.bottom + self._strip(diagram))
-            made, _ = polygon_with_insets(sheet, diagram, letters, lesson.language, panel, 0j, strip)
-            yield diagram, self._page(lesson, diagram, made, panel.joined(strip))
-        if view.centres is not None and self.centres is not None:
-            back = background(piece)
-            marks = centre_marks(view.centres, letters, self.centres, back.drawn)
-            piece = with_labels(joined((back, marks)), self.centres)
-            yield "centres", self._page(lesson, "centres", piece, self.centres)
-
-    def _largest(self, views: Sequence[View], diagram: DiagramName) -> complex:
-        """Width and height (mm) in which the polygon of every position has room: all are shown equally large."""
-        boxes = [extent(v.lesson.sheet, diagram).grown(ROOM) for v in views]
-        return complex(max(max(b.width for b in boxes), 70.0), max(b.height for b in boxes))
-
-    def _strip(self, diagram: DiagramName) -> float:
-        width = self.polygons[diagram].real
-        return max(strip_height(v.lesson.sheet, diagram, width) for v in self.views)
-
-    def _page(self, lesson: Lesson, name: FigureName, piece: Piece, panel: Box) -> Drawing:
-        moved = moved_piece(piece, -panel.corners[0])
-        title = _title(lesson, name)
-        desc = drivers(lesson.sheet, lesson.letters)
-        return Drawing(
-            panel.width, panel.height, layer_groups(moved), title, plain_words(desc), languages(lesson.language)[0]
-        )
-
-
-def _title(lesson: Lesson, figure: FigureName) -> str:
-    return term(figure if figure == "centres" else FIGURE_WORDS[figure], lesson.language)
-
-
-def _joined(boxes: Iterable[Box]) -> Box:
-    first, *rest = list(boxes)
-    for box in rest:
-        first = first.joined(box)
-    return first
+__all__ = ["document_page", "handout_page"]
 
 
 def document_page(document: Document) -> str:
@@ -210,7 +32,14 @@ def document_page(document: Document) -> str:
     return _page(document, f"<main>\n{blocks_html(document.blocks)}\n</main>")
 
 
-def handout_page(lesson: Lesson, views: Sequence[View], start: int = 0, progress: Progress | None = None) -> str:
+def handout_page(
+    lesson: Lesson,
+    views: Sequence[View],
+    start: int = 0,
+    progress: Progress | None = None,
+    moving: Mapping[str, object] | None = None,
+    worked: Iterable[Block] | None = None,
+) -> str:
     """The worked solution as a page to step through.
 
     Parameters
@@ -219,8 +48,11 @@ def handout_page(lesson: Lesson, views: Sequence[View], start: int = 0, progress
     views : the positions of the driver that the screen shows
     start : which of them is the given one
     progress : called with the number of positions done and the number of all
+    moving : what the page plays (`graphkin.papers.moving`)
+    worked : the stages of the solution, where they are there already
     """
-    whole = solution(lesson)
+    stages = tuple(solution_blocks(lesson, tuple(given(lesson))) if worked is None else worked)
+    whole = solution(lesson, stages)
 
     def words(key: str, *args: object) -> str:
         return said_html(said(key, lesson.language, *args))
@@ -229,7 +61,9 @@ def handout_page(lesson: Lesson, views: Sequence[View], start: int = 0, progress
     data = {
         **positions_data(views, progress),
         "start": start,
-        "words": {"stepOf": _plain(said("step of", lesson.language, "{0}", "{1}"))},
+        "moving": dict(moving or {}),
+        "room": tolerances(lesson),
+        "words": {key: _plain(said(of, lesson.language, *gaps)) for key, of, gaps in SPOKEN},
     }
     buttons = "".join(
         f'<button type="button" data-go="{go}"><span aria-hidden="true">{sign}</span> {words(key)}</button>'
@@ -238,41 +72,72 @@ def handout_page(lesson: Lesson, views: Sequence[View], start: int = 0, progress
             ("last", "▶|", "last step"), ("equation", "▶▶", "next equation"),
         )
     )  # fmt: skip
+    names = _attribute(said("the figures", lesson.language))
     body = f"""<header>
 <h1>{said_html(scene_title(lesson))}</h1>
-<div class="given">{blocks_html(given(lesson))}</div>
+<div class="given" id="given">{blocks_html(given(lesson))}</div>
 </header>
 <main>
-<section id="viewer" class="viewer" aria-label="{_attribute(said("step by step", lesson.language))}" hidden>
+<section id="viewer" class="viewer" aria-labelledby="steps-title" hidden>
+<h2 id="steps-title">{words("step by step")}</h2>
 <div class="controls">
-<div class="buttons" role="group" aria-label="{_attribute(said("step slider", lesson.language))}">{buttons}</div>
+<div class="buttons" role="group" aria-label="{_attribute(said("step slider", lesson.language))}">{buttons}
+<button type="button" id="play" aria-pressed="false" hidden>{words("play")}</button>
+<label class="choice"><input type="checkbox" id="try"> {words("try first")}</label></div>
 <label for="step">{words("step slider")}</label>
 <input type="range" id="step" min="1" max="1" step="1" value="1"><output id="step-out" for="step"></output>
 <label for="place">{words("position slider")}</label>
 <input type="range" id="place" min="0" max="0" step="1" value="0"><output id="place-out" for="place"></output>
 <div id="live" class="live" role="status" aria-live="polite"></div>
+<form id="trial" class="trial" hidden>
+<label>{words("size")} <input id="trial-size" inputmode="decimal" autocomplete="off"></label>
+<output id="trial-unit"></output>
+<label>{words("trial way")} <input id="trial-way" autocomplete="off"></label>
+<button type="submit">{words("try it")}</button> <button type="button" id="trial-hint">{words("hint")}</button>
+<button type="button" id="trial-show">{words("show step")}</button>
+<output id="trial-said" aria-live="polite"></output>
+</form>
 </div>
 <p class="hint">{words("keys")} {words("positions words", len(views))} {words("print hint", paper)}</p>
 <div class="stage">
 <div id="list" class="list" role="region" aria-label="{_attribute(said("steps", lesson.language))}"></div>
-<div id="figures" class="figures" role="region" aria-label="{_attribute(said("the figures", lesson.language))}"></div>
+<div class="pinned"><div id="tabs" class="tabs" role="group" aria-label="{names}"></div>
+<div id="figures" class="figures" role="region" aria-label="{names}"></div></div>
+</div>
+<div id="motion" class="motion" role="region" aria-labelledby="motion-title" hidden>
+<h3 id="motion-title">{words("motion")}</h3>
+<p class="hint">{words("motion words")}</p>
+<div class="choices"><label class="choice"><input type="checkbox" id="traces" checked> {words("traces")}</label>
+<label class="choice"><input type="checkbox" id="poles" checked> {words("instant centres shown")}</label></div>
+<label for="turn">{words("position slider")}</label>
+<input type="range" id="turn" min="0" max="0" step="1" value="0"><output id="turn-out" for="turn"></output>
+<div id="moving" class="moving"></div>
 </div>
 </section>
-<article class="paper">
-{blocks_html((Heading(scene_title(lesson), 2), *solution_blocks(lesson, tuple(given(lesson)))))}
+<article class="paper" id="paper">
+{blocks_html((Heading(scene_title(lesson), 2), *stages))}
 </article>
-<section class="results">
+<section class="results" id="results">
 {blocks_html(results_blocks(lesson))}
 </section>
 </main>
-<script type="application/json" id="positions">{_json(data)}</script>"""
-    return _page(whole, body, _file("viewer.js"))
+"""
+    return _page(whole, body, _file("viewer.js"), _json(data))
 
 
-def _page(document: Document, body: str, script: str = "") -> str:
+SPOKEN = (
+    ("stepOf", "step of", ("{0}", "{1}")), ("right", "trial right", ()), ("off", "trial off", ()),
+    ("turned", "trial turned", ()), ("enter", "trial enter", ()), ("hint1", "hint equation", ("{0}",)),
+    ("hint2", "hint direction", ("{0}",)), ("hint3", "hint size", ("{0}", "{1}")), ("play", "play", ()),
+    ("pause", "pause", ()), ("ccw", "counter-clockwise", ()), ("cw", "clockwise", ()), ("hidden", "step hidden", ()),
+    ("velocity", "velocity polygon", ()), ("acceleration", "acceleration polygon", ()), ("mechanism", "mechanism", ()),
+)  # fmt: skip
+
+
+def _page(document: Document, body: str, script: str = "", data: str = "") -> str:
     paper = document.paper
     # in millimetres, since CSS has no names for papers larger than A3
-    name, rules = face_rules(used_characters(body))
+    name, rules = face_rules(used_characters(body + data))
     style = rules + _file("page.css").replace("FAMILIES", families(name).replace("'", '"'))
     style += f"@page {{ size: {paper.width:g}mm {paper.height:g}mm }}\n"
     allowed = f"'{_hash(script)}'" if script else "'none'"
@@ -280,7 +145,10 @@ def _page(document: Document, body: str, script: str = "") -> str:
         f"default-src 'none'; style-src '{_hash(style)}'; script-src {allowed}; "
         "font-src data:; img-src data:; base-uri 'none'; form-action 'none'"
     )
-    tail = f"\n<script>{script}</script>" if script else ""
+    # the positions are much alike: packed they take an eighth of the room
+    packed = base64.b64encode(zlib.compress(data.encode(), 9)).decode() if data else ""
+    tail = f'\n<script type="text/plain" id="positions">{packed}</script>' if data else ""
+    tail += f"\n<script>{script}</script>" if script else ""
     return f"""<!DOCTYPE html>
 <html lang="{word("code in pages", document.languages[0])}">
 <head>

@@ -6,6 +6,7 @@ The files of a handout, by name.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass, replace
 
@@ -13,7 +14,7 @@ import numpy as np
 
 from graphkin import solver
 from graphkin.checking.readings import read_off
-from graphkin.checking.report import Report, compare
+from graphkin.checking.report import compare
 from graphkin.checking.slips import Evidence
 from graphkin.checking.uncertainty import predict
 from graphkin.construction import Plan, execute, plan
@@ -21,13 +22,16 @@ from graphkin.construction.centres import Centres, find_centres
 from graphkin.construction.sheet import Scales, Sheet
 from graphkin.drawing import figures
 from graphkin.errors import Unsolvable
+from graphkin.papers.blocks import Block, Document
 from graphkin.papers.exports import files_for, question_of
 from graphkin.papers.lesson import Lesson
-from graphkin.papers.page import POSITIONS, Progress, View, common_scales, document_page, handout_page
+from graphkin.papers.moving import motion_data
+from graphkin.papers.page import document_page, handout_page
 from graphkin.papers.paper import paper_plan
 from graphkin.papers.pdf import can_typeset, pdf
-from graphkin.papers.problem import problem
-from graphkin.papers.solution import answer_key, key_table, solution
+from graphkin.papers.problem import given, problem
+from graphkin.papers.screen_positions import POSITIONS, Progress, View, common_scales
+from graphkin.papers.solution import answer_key, answers_template, key_table, solution, solution_blocks
 from graphkin.papers.variants import Variant, asked_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
@@ -104,25 +108,31 @@ def views_of(
     out.
     """
     rows, start = positions(structure, values, count)
-    plans: list[Plan] = []
-    given = 0
-    for i, row in enumerate(rows):
-        try:
-            found = plan(structure, row, asked)
-        except Unsolvable:
-            if i == start:
-                raise
-            continue
-        if i == start:
-            given = len(plans)
-        plans.append(found)
+    made = {start: plan(structure, rows[start], asked)}
+    for way in (range(start + 1, len(rows)), range(start - 1, -1, -1)):
+        last = made[start]
+        for i in way:
+            with suppress(Unsolvable):
+                made[i] = last = _followed(structure, rows[i], asked, last)
+    given = sum(i < start for i in made)
+    plans = [made[i] for i in sorted(made)]
     sheets = [execute(replace(w, scales=s)) for w, s in zip(plans, common_scales(plans, paper), strict=True)]
     centres = _centres(structure, sheets, given, progress or _silent)
     views = []
     for sheet, here in zip(sheets, centres, strict=True):
-        empty = Report(sheet.instrument, sheet.scales, ())
-        views.append(View(Lesson(sheet, empty, {}, language, convention, tuple(asked)), here))
+        motion = solver.as_drawn(solver.solve(structure, at=sheet.drivers), sheet.structure)
+        exact = solver.exact_values(motion, tuple(asked))
+        report = compare(sheet, read_off(sheet), exact, tuple(asked))
+        views.append(View(Lesson(sheet, report, {}, language, convention, tuple(asked)), here))
     return views, given
+
+
+def _followed(structure: Structure, row: Mapping[str, float], asked: Sequence[Symbol], last: Plan) -> Plan:
+    """A plan reached from its neighbour, or where the way from there is barred from the scene's own position."""
+    try:
+        return plan(structure, row, asked, follows=last)
+    except Unsolvable:
+        return plan(structure, row, asked)
 
 
 def _silent(done: int, count: int) -> None:
@@ -155,6 +165,7 @@ def handout_files(
     start: int = 0,
     formats: Sequence[str] = FORMATS,
     progress: Progress | None = None,
+    values: Mapping[str, float] | None = None,
 ) -> Mapping[str, bytes]:
     """Everything to be written for a lesson.
 
@@ -168,25 +179,56 @@ def handout_files(
         one alone
     formats : "html", "pdf" or both
     progress : called with the number of positions done for the screen and the number of all
+    values : of the drivers, from which the motion on the screen goes on
     """
-    made: dict[str, bytes] = {}
-    if "html" in formats:
-        made["problem.html"] = document_page(problem(lesson)).encode()
-        made["handout.html"] = handout_page(lesson, views or (View(lesson),), start, progress).encode()
-        made["key.html"] = document_page(answer_key(lesson)).encode()
-    if "pdf" in formats:
-        made |= _typeset(lesson)
+    papers = _Documents.of(lesson)
+    # typesetting runs beside Python
+    with ThreadPoolExecutor(1) as beside:
+        typeset = beside.submit(_typeset, lesson, papers) if "pdf" in formats else None
+        made: dict[str, bytes] = {}
+        if "html" in formats:
+            shown = views or (View(lesson),)
+            moving = motion_data(lesson.sheet, lesson.letters, values)
+            page = handout_page(lesson, shown, start, progress, moving, papers.worked)
+            made |= {**_pages(papers), "handout.html": page.encode()}
+        if typeset is not None:
+            made |= typeset.result()
     made["key.csv"] = key_table(lesson).csv().encode()
+    template = answers_template(lesson.questions, lesson.sheet.scene.units)
+    made["answers_template.csv"] = template.csv().encode("utf-8-sig")
     return made
 
 
-def _typeset(lesson: Lesson) -> dict[str, bytes]:
+@dataclass(frozen=True)
+class _Documents:
+    """The papers of a lesson, each made once, whatever it is written as."""
+
+    problem: Document
+    key: Document
+    worked: tuple[Block, ...]
+    solution: Document
+
+    @classmethod
+    def of(cls, lesson: Lesson) -> _Documents:
+        worked = tuple(solution_blocks(lesson, tuple(given(lesson))))
+        return cls(problem(lesson), answer_key(lesson), worked, solution(lesson, worked))
+
+
+def _pages(papers: _Documents) -> dict[str, bytes]:
+    """Problem sheet and key as pages."""
+    return {
+        "problem.html": document_page(papers.problem).encode(),
+        "key.html": document_page(papers.key).encode(),
+    }
+
+
+def _typeset(lesson: Lesson, papers: _Documents) -> dict[str, bytes]:
     """The typeset papers, or the figure sheets where nothing can be typeset."""
     if can_typeset():
         return {
-            "problem.pdf": pdf(problem(lesson)),
-            "solution.pdf": pdf(solution(lesson)),
-            "key.pdf": pdf(answer_key(lesson)),
+            "problem.pdf": pdf(papers.problem),
+            "solution.pdf": pdf(papers.solution),
+            "key.pdf": pdf(papers.key),
         }
     drawn = figures(lesson.sheet, language=lesson.language, convention=lesson.convention)
     return {f"{name}.pdf": figure.content("pdf") for name, figure in drawn.items()}
@@ -211,11 +253,11 @@ class Papers:
         what = paper_plan(motion.structure, None, asked)
         lesson = lesson_of(what, motion, self.language, self.convention)
         made = {"key.csv": key_table(lesson).csv().encode()}
+        papers = _Documents.of(lesson)
         if "html" in self.formats:
-            made["problem.html"] = document_page(problem(lesson)).encode()
-            made["key.html"] = document_page(answer_key(lesson)).encode()
+            made |= _pages(papers)
         if "pdf" in self.formats:
-            made |= _typeset(lesson)
+            made |= _typeset(lesson, papers)
         if self.exports:
             question = question_of(lesson, evidence_of(what, motion, lesson), f"{scene.name}-{variant.name}")
             made |= files_for(question, self.exports)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from graphkin import table
@@ -36,11 +36,14 @@ from graphkin.papers.lesson import Lesson, Stage, plain_words
 from graphkin.papers.paper import paper_of
 from graphkin.papers.pictures import Layers, equation_picture, parts, stage_picture
 from graphkin.papers.problem import given, paper_title, reach, scene_title
+from graphkin.scene.symbol import Symbol
+from graphkin.scene.tables import Units
 from graphkin.words import Phrase, languages, say, word
 
 __all__ = [
     "KeyRow",
     "answer_key",
+    "answers_template",
     "equation_words",
     "key_rows",
     "key_table",
@@ -144,13 +147,22 @@ def key_table(lesson: Lesson) -> table.Table:
     return table.Table.of(heads, rows, ("", "", "", ".3f", ".9g", ".3g", ".3f"))
 
 
-def solution(lesson: Lesson) -> Document:
-    """The worked solution of a lesson."""
-    blocks = (
-        Heading(scene_title(lesson), 1),
-        *solution_blocks(lesson, tuple(given(lesson))),
-        *results_blocks(lesson),
-    )
+def answers_template(asked: Sequence[Symbol], units: Units, variants: Iterable[str] = ()) -> table.Table:
+    """A table for a class to fill in, as ``audit`` reads it: a column for each quantity asked for, and for a vector its
+    direction; with ``variants`` a row for each of them."""
+    names = tuple(variants)
+    columns = [f"{s} ({s.unit(units)})" if s.unit(units) else str(s) for s in asked]
+    heads = ["name", "id", *(["variant"] if names else [])]
+    for symbol, column in zip(asked, columns, strict=True):
+        heads += [column, f"{symbol} direction"] if symbol.is_vector else [column]
+    blank = [""] * (len(heads) - 2 - bool(names))
+    return table.Table.of(heads, [["", "", name, *blank] for name in names] or [["", "", *blank]])
+
+
+def solution(lesson: Lesson, worked: Iterable[Block] | None = None) -> Document:
+    """The worked solution of a lesson; ``worked`` are its stages, where they are there already."""
+    stages = solution_blocks(lesson, tuple(given(lesson))) if worked is None else worked
+    blocks = (Heading(scene_title(lesson), 1), *stages, *results_blocks(lesson))
     title = paper_title(lesson, "worked solution")
     return Document(title, languages(lesson.language), blocks, paper_of(lesson.sheet.scene))
 

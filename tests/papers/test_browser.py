@@ -8,6 +8,7 @@ from __future__ import annotations
 import os
 import shutil
 import subprocess
+from itertools import pairwise
 
 import pytest
 
@@ -53,6 +54,7 @@ def page(browser, file):
     tab.on("pageerror", lambda error: tab.said.append(str(error)))
     tab.on("request", lambda request: tab.asked.append(request.url))
     tab.goto(file.as_uri())
+    tab.wait_for_selector("html.ready")
     yield tab
     tab.close()
 
@@ -164,8 +166,9 @@ def test_every_control_is_reached_by_tab_and_has_a_name(page):
         }""")
         )
     reached = dict(seen)
-    assert ["first", "previous", "next", "last", "equation", "step", "place", "1"] == [name for name, _ in seen[:8]]
-    assert all(reached[name] for name in ("first", "previous", "next", "last", "equation", "step", "place", "1"))
+    names = ["first", "previous", "next", "last", "equation", "play", "try", "step", "place", "1"]
+    assert names == [name for name, _ in seen]
+    assert all(reached[name] for name in names)
 
 
 def test_a_step_in_the_list_is_taken_with_the_keyboard(page):
@@ -213,3 +216,67 @@ def test_without_scripts_the_worked_solution_stands_there(browser, file):
 def test_nothing_runs_off_a_narrow_screen(page):
     page.set_viewport_size({"width": 380, "height": 800})
     assert 380 >= page.evaluate("document.documentElement.scrollWidth")
+
+
+def test_the_space_bar_plays_polygons_centres_and_traces_together(page):
+    def places():
+        return page.evaluate(
+            "[...document.querySelectorAll('#moving .bar, #moving .vector, #moving .centre')].map((e) => e.outerHTML)"
+        )
+
+    before = places()
+    page.keyboard.press(" ")
+    page.wait_for_timeout(500)
+    page.keyboard.press(" ")
+    after = places()
+    assert 3 == page.locator("#moving svg").count()
+    assert page.locator("#moving .traces polyline").count()
+    assert len(before) / 2 < sum(one != two for one, two in zip(before, after, strict=True))
+
+
+def test_moving_the_driver_moves_results_and_the_printed_page(page):
+    def texts():
+        return [page.locator(f"#{name}").text_content() for name in ("results", "paper", "given")]
+
+    before = texts()
+    page.locator("#place").fill("1")
+    assert all(one != two for one, two in zip(before, texts(), strict=True))
+    page.locator("#place").fill("0")
+    assert before == texts()
+
+
+def test_try_first_hides_the_step_checks_what_is_entered_and_shows_it_when_right(page):
+    page.locator("#step").fill("13")
+    page.locator("#try").check()
+    page.locator("#step").fill("13")
+    page.keyboard.press("ArrowRight")
+    page.locator("#trial-size").fill("300")
+    page.locator("#trial-way").fill("-13")
+    page.get_by_role("button", name="Try", exact=True).click()
+    assert ("The size is off.", 13) == (page.locator("#trial-said").inner_text(), _step(page))
+    page.locator("#trial-hint").click()
+    assert "Equation 2" in page.locator("#trial-said").inner_text()
+    page.locator("#trial-size").fill("285,1")
+    page.get_by_role("button", name="Try", exact=True).click()
+    assert 14 == _step(page)
+
+
+@pytest.mark.parametrize("width", [360, 1024, 1920])
+def test_letters_of_figures_have_12_pixels(page, width):
+    page.set_viewport_size({"width": width, "height": 800})
+    page.keyboard.press("End")
+    sizes = page.evaluate("""() => [...document.querySelectorAll("#figures svg")].flatMap((svg) => {
+      const scale = svg.getBoundingClientRect().width / svg.viewBox.baseVal.width;
+      return [...svg.querySelectorAll("text")].filter((t) => t.getClientRects().length && scale)
+        .map((t) => scale * parseFloat(t.getAttribute("font-size") ?? 99));
+    })""")
+    assert sizes
+    assert min(sizes) >= 11.5
+
+
+def test_headings_follow_their_order_and_tables_take_the_focus(page):
+    levels = page.evaluate("""() => [...document.querySelectorAll("h1, h2, h3, h4")]
+      .filter((e) => e.getClientRects().length).map((e) => Number(e.tagName[1]))""")
+    assert 1 == levels[0]
+    assert all(after - before <= 1 for before, after in pairwise(levels))
+    assert page.locator("#results .wide[tabindex='0'] table").count()

@@ -13,10 +13,11 @@ def run(*args, cwd):
     return command.run("handout", *args, cwd=cwd)
 
 
-def test_the_command_writes_seven_files_and_nothing_else(tmp_path):
+def test_the_command_writes_eight_files_and_nothing_else(tmp_path):
     done = run("slotter-75-150", "-o", "out", "--lang", "both", "--positions", "2", cwd=tmp_path)
     names = {str(p.relative_to(tmp_path)) for p in tmp_path.rglob("*") if p.is_file()}
     expected = {"problem.html", "handout.html", "problem.pdf", "solution.pdf", "key.html", "key.pdf", "key.csv"}
+    expected |= {"answers_template.csv"}
     assert {f"out/{name}" for name in expected} == names
     assert 0 == done.returncode, done.stderr
 

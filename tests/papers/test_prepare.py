@@ -22,4 +22,4 @@ def test_centres_followed_from_a_neighbour_are_those_found_afresh():
 
 
 def test_a_mechanism_of_many_links_is_shown_in_fewer_positions():
-    assert 24 == usual_count(mechanism_of("double-butterfly"))
+    assert 12 == usual_count(mechanism_of("double-butterfly"))

@@ -1,0 +1,209 @@
+"""The figures and steps of every position of the driver, for a screen: drawn in the same frames, every part with its
+step.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Literal, TypeAlias
+
+from graphkin.construction import Plan, execute
+from graphkin.construction.centres import Centres
+from graphkin.construction.sheet import DiagramName, Scales, Sheet
+from graphkin.drawing.box import Box
+from graphkin.drawing.centre_marks import centre_marks, near_box
+from graphkin.drawing.centres import background
+from graphkin.drawing.conventions import scale_statement
+from graphkin.drawing.drawing import Drawing
+from graphkin.drawing.headings import FIGURE_WORDS, drivers, term
+from graphkin.drawing.insets import polygon_with_insets, strip_height
+from graphkin.drawing.mechanism import mechanism_piece
+from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
+from graphkin.drawing.polygon_on_page import extent
+from graphkin.drawing.stepwise import births, stepped
+from graphkin.papers.html import blocks_html, figure_svg, said_html, words_html
+from graphkin.papers.lesson import Lesson, Stage, plain_words
+from graphkin.papers.pictures import ROOM, equation_picture
+from graphkin.papers.problem import given
+from graphkin.papers.solution import equation_words, results_blocks, stage_title, step_items
+from graphkin.papers.trial import found_in
+from graphkin.scene.model import AngleDriver
+from graphkin.words import languages
+
+__all__ = ["POSITIONS", "Progress", "View", "common_scales", "positions_data"]
+
+Progress = Callable[[int, int], None]  # positions done, and all of them
+POSITIONS = 12
+MECHANISM, POLYGON = (160.0, 218.0), 190.0  # mm that the mechanism in all positions and a polygon may fill
+SERIES = (1.0, 2.0, 2.5, 5.0)
+POLYGONS: tuple[DiagramName, ...] = ("velocity", "acceleration")
+FigureName: TypeAlias = Literal["mechanism", "velocity", "acceleration", "centres", "force"]
+
+
+@dataclass(frozen=True)
+class View:
+    """One position on the screen: its drawing, and its centres where they can be had."""
+
+    lesson: Lesson
+    centres: Centres | None = None
+
+
+def common_scales(plans: Sequence[Plan], paper: Scales) -> list[Scales]:
+    """Scales for several positions: those of the paper, and coarser ones for the polygons that would be too large.
+
+    The mechanism has one scale in all positions.
+    """
+    sheets = [execute(plan) for plan in plans]
+    metres = sheets[0].scene.units.rates.metres
+    whole = _joined(Box.around(sheet.points.values()) for sheet in sheets)
+    on_paper = sheets[0].scales.length / paper.length
+    length = (
+        _coarser(paper.length * 1e3, on_paper * max(whole.width / MECHANISM[0], whole.height / MECHANISM[1])) * 1e-3
+    )
+
+    def fitting(sheet: Sheet, diagram: DiagramName) -> float:
+        own = paper.of(diagram)
+        size = _size(extent(sheet, diagram)) * sheet.scales.of(diagram)
+        return _coarser(own / metres, size / own / POLYGON) * metres
+
+    return [Scales(length, fitting(sheet, "velocity"), fitting(sheet, "acceleration")) for sheet in sheets]
+
+
+def _size(box: Box) -> float:
+    return max(box.width, box.height)
+
+
+def _coarser(scale: float, factor: float) -> float:
+    """The scale itself where it is coarse enough, else the first of the series so many times coarser."""
+    if factor <= 1.0:
+        return scale
+    power = 10.0 ** math.floor(math.log10(scale * factor))
+    return next(s * power for s in (*SERIES, 10.0) if s * power >= scale * factor * (1 - 1e-9))
+
+
+def positions_data(views: Sequence[View], progress: Progress | None = None) -> dict[str, object]:
+    """For each position its name, figures and steps, ready for the page, and the stages of all of them, each once."""
+    frames = _Frames(views)
+    positions = []
+    for done, view in enumerate(views, 1):
+        positions.append(frames.data(view))
+        if progress is not None:
+            progress(done, len(views))
+    return {"positions": positions, "stages": frames.stages}
+
+
+class _Frames:
+    """The frames that hold the figures of all positions: equally large, and the fixed pivots always at their places."""
+
+    def __init__(self, views: Sequence[View]) -> None:
+        self.pieces = [
+            mechanism_piece(v.lesson.sheet, v.lesson.letters, (MECHANISM[0] + 20, MECHANISM[1] + 20)) for v in views
+        ]
+        self.mechanism = _joined(box for _, box in self.pieces).grown(ROOM)
+        self.polygons = {d: self._largest(views, d) for d in POLYGONS}
+        self.views = list(views)
+        self.stages: list[dict[str, str]] = []
+        backs = [ink_box(background(piece).drawn) or box for piece, box in self.pieces]
+        shown = [(v.centres, back) for v, back in zip(views, backs, strict=True) if v.centres is not None]
+        self.centres = _joined(near_box(c, back, MECHANISM) for c, back in shown).grown(ROOM) if shown else None
+
+    def data(self, view: View) -> dict[str, object]:
+        lesson = view.lesson
+        born = births(lesson.sheet)
+        figures = []
+        for name, drawing in self._figures(view):
+            layers = replace(drawing, children=stepped(drawing.children, born)) if name != "centres" else drawing
+            caption = f"{words_html(_title(lesson, name))} "
+            figures.append({
+                "name": name,
+                "svg": figure_svg(layers, named=name != "centres"),
+                "caption": caption + f'<span class="scale">{words_html(self._scale(lesson, name))}</span>',
+            })  # fmt: skip
+        stages = lesson.stages
+        return {
+            "name": plain_words(drivers(lesson.sheet, lesson.letters)),
+            "label": words_html(drivers(lesson.sheet, lesson.letters)),
+            "at": _at(lesson.sheet),
+            "figures": figures,
+            "stages": [self._stage(lesson, stage) for stage in stages],
+            "results": blocks_html(results_blocks(lesson)) if lesson.report.rows else "",
+            "given": blocks_html(given(lesson)),
+            "steps": [
+                {"d": stage.diagram, "e": number, "n": item.number, "html": said_html(item.words, "p")
+                 + "".join(f'<p class="work">{words_html(line)}</p>' for line in item.work),
+                 "text": " ".join(plain_words(markup) for _, markup in item.words), **found_in(lesson, step)}
+                for number, stage in enumerate(stages)
+                for step, item in zip(stage.steps, step_items(lesson, stage), strict=True)
+            ],
+        }  # fmt: skip
+
+    def _stage(self, lesson: Lesson, stage: Stage) -> int:
+        """Place of a stage in the table of all: most of them are the same in every position."""
+        svg = ""
+        if stage.equation is not None:
+            words = equation_words(lesson, stage.equation)
+            svg = figure_svg(equation_picture(lesson.sheet, stage.equation, lesson.letters, lesson.language, words))
+        whole = {"title": said_html(stage_title(lesson, stage)), "svg": svg}
+        if whole not in self.stages:
+            self.stages.append(whole)
+        return self.stages.index(whole)
+
+    def _scale(self, lesson: Lesson, name: FigureName) -> str:
+        return scale_statement(lesson.sheet, lesson.letters.convention, "mechanism" if name == "centres" else name)
+
+    def _figures(self, view: View) -> Iterator[tuple[FigureName, Drawing]]:
+        lesson = view.lesson
+        sheet, letters = lesson.sheet, lesson.letters
+        piece, _ = self.pieces[self.views.index(view)]
+        yield "mechanism", self._page(lesson, "mechanism", with_labels(piece, self.mechanism), self.mechanism)
+        for diagram in POLYGONS:
+            if not sheet.vectors(diagram):
+                continue
+            half = self.polygons[diagram] / 2
+            middle = extent(sheet, diagram).centre
+            panel = Box.around((middle - half, middle + half))
+            strip = Box(panel.left, panel.bottom, panel.right, panel.bottom + self._strip(diagram))
+            made, _ = polygon_with_insets(sheet, diagram, letters, lesson.language, panel, 0j, strip)
+            yield diagram, self._page(lesson, diagram, made, panel.joined(strip))
+        if view.centres is not None and self.centres is not None:
+            back = background(piece)
+            marks = centre_marks(view.centres, letters, self.centres, back.drawn)
+            piece = with_labels(joined((back, marks)), self.centres)
+            yield "centres", self._page(lesson, "centres", piece, self.centres)
+
+    def _largest(self, views: Sequence[View], diagram: DiagramName) -> complex:
+        """Width and height (mm) in which the polygon of every position has room: all are shown equally large."""
+        boxes = [extent(v.lesson.sheet, diagram).grown(ROOM) for v in views]
+        return complex(max(max(b.width for b in boxes), 70.0), max(b.height for b in boxes))
+
+    def _strip(self, diagram: DiagramName) -> float:
+        width = self.polygons[diagram].real
+        return max(strip_height(v.lesson.sheet, diagram, width) for v in self.views)
+
+    def _page(self, lesson: Lesson, name: FigureName, piece: Piece, panel: Box) -> Drawing:
+        moved = moved_piece(piece, -panel.corners[0])
+        title = _title(lesson, name)
+        desc = drivers(lesson.sheet, lesson.letters)
+        return Drawing(
+            panel.width, panel.height, layer_groups(moved), title, plain_words(desc), languages(lesson.language)[0]
+        )
+
+
+def _at(sheet: Sheet) -> float:
+    """The value of the first driver: degrees, or travel in scene units."""
+    driver = sheet.scene.drivers[0]
+    value = sheet.drivers[driver.key]
+    return round(math.degrees(value) if isinstance(driver, AngleDriver) else value / sheet.scene.units.metres, 3)
+
+
+def _title(lesson: Lesson, figure: FigureName) -> str:
+    return term(figure if figure == "centres" else FIGURE_WORDS[figure], lesson.language)
+
+
+def _joined(boxes: Iterable[Box]) -> Box:
+    first, *rest = list(boxes)
+    for box in rest:
+        first = first.joined(box)
+    return first
