@@ -18,8 +18,9 @@ from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
 from graphkin.scene.source import SceneLike, mechanism_of
 from graphkin.scene.symbol import Symbol, missing_names
 from graphkin.scene.tables import Convention
+from graphkin.structure.assembly import ChangePoint
 from graphkin.table import have
-from graphkin.words import BOTH, LANGUAGES
+from graphkin.words import BOTH, LANGUAGES, Phrase
 
 __all__ = [
     "CHART_FORMATS",
@@ -36,6 +37,7 @@ __all__ = [
     "known_words",
     "may_be_called",
     "own_unit",
+    "passed_words",
     "value_at",
     "whole_number",
     "write_files",
@@ -188,6 +190,16 @@ def _driver(scene: Mechanism, name: str) -> AnyDriver:
         if name == driver.key or name == driver.key.split("/")[0]:
             return driver
     raise CallError(Problem(f"at {name}", "no driver of that name", did_you_mean(name, [d.key for d in scene.drivers])))
+
+
+def passed_words(scene: Mechanism, passed: Iterable[ChangePoint]) -> list[Phrase]:
+    """What to say of change points on the way: which branch was kept, why, and how to ask for the other."""
+    said = []
+    for links in dict.fromkeys(one.links for one in passed):
+        at = [zip(scene.drivers, one.values, strict=True) for one in passed if one.links == links]
+        places = (", ".join(f"{d.key} = {own_unit(scene, d, v)}" for d, v in values) for values in at)
+        said.append(Phrase("passed change point", (", ".join(links), "; ".join(dict.fromkeys(places)))))
+    return said
 
 
 def own_unit(scene: Mechanism, driver: AnyDriver, value: float) -> str:

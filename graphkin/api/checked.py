@@ -39,6 +39,7 @@ from graphkin.files import path_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Structure, part_of
+from graphkin.structure.assembly import ChangePoint
 from graphkin.words import Phrase, say
 
 if TYPE_CHECKING:
@@ -62,13 +63,14 @@ class Checked(Result):
     """A drawing, its readings, and how they compare with the exact values.
 
     ``advice`` names the least certain reading of a drawing with finite tools, and what would help it; ``asked`` is
-    what the drawing was limited to, empty where it was not.
+    what the drawing was limited to, empty where it was not; ``passed`` are the change points on the way to it.
     """
 
     sheet: Sheet
     report: Report
     advice: Advice | None = None
     asked: tuple[Symbol, ...] = ()
+    passed: tuple[ChangePoint, ...] = ()
 
     @property
     def scene(self) -> Mechanism:
@@ -298,7 +300,7 @@ def checked(what: Plan, motion: Motion, hand: Instrument) -> Checked:
 
     from graphkin.solver import as_drawn, exact_values, force_values
 
-    motion = as_drawn(motion, what.structure)
+    passed, motion = motion.passed, as_drawn(motion, what.structure)
     value = exact_values(motion, what.asked)
     sheet = execute(what, hand)
     scale = lost = 0.0
@@ -319,12 +321,12 @@ def checked(what: Plan, motion: Motion, hand: Instrument) -> Checked:
     }
     if hand is EXACT:
         report = compare(sheet, readings, value, what.asked, rounding=rounding, force_scale=scale)
-        return Checked(sheet, report, None, what.asked)
+        return Checked(sheet, report, None, what.asked, passed)
     tools = what.structure.scene.sheet.tools
     predicted = predict(what, hand.name, tools)
     advice = advise(what, hand.name, tools, readings, predicted)
     report = compare(sheet, readings, value, what.asked, predicted, rounding, scale)
-    return Checked(sheet, report, advice, what.asked)
+    return Checked(sheet, report, advice, what.asked, passed)
 
 
 def drawn_symbols(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tuple[Symbol, ...]:

@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from graphkin.api.arguments import own_unit
+from graphkin.api.arguments import own_unit, passed_words
 from graphkin.api.checked import Checked, reading_words
 from graphkin.construction.sheet import Equation, Sheet, Term
 from graphkin.construction.steps import Direction
@@ -48,6 +48,7 @@ def report_text(checked: Checked, language: str) -> str:
     lines.append(f"{word('driver', language)}{colon}{', '.join(drivers)}")
     for links, phrase in sheet.assembly.items():
         lines.append(f"{word('group', language)} {links}{colon}{say(phrase, language, show)}")
+    lines += [say(said, language) for said in passed_words(scene, checked.passed)]
     unit, scales = scene.units.rates.length, checked.scales
     lines += [
         "",
@@ -144,6 +145,7 @@ def turn_text(turn: TurnStudy, language: str) -> list[str]:
     else:
         said = _between(scene, own.low, own.high, own.open_low, own.open_high)
     lines.append(f"{word('range', language)} {driver.key}{colon}{said}")
+    lines += ["  " + say(one, language) for one in passed_words(scene, turn.reach.change_points)]
     for other in turn.ranges[1:]:
         between = _between(scene, other.low, other.high, other.open_low, other.open_high)
         lines.append("  " + say(Phrase("also assembles", (between,)), language))

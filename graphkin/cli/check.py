@@ -85,6 +85,7 @@ def print_check(checked: Checked, language: str, as_json: bool, quiet: bool) -> 
 
 
 def _print_readings(checked: Checked, language: str) -> None:
+    from graphkin.api.arguments import passed_words
     from graphkin.api.checked import reading_words
     from graphkin.api.report_text import show, verdict
     from graphkin.words import say, word
@@ -99,6 +100,8 @@ def _print_readings(checked: Checked, language: str) -> None:
         tell(say(note, language, show))
     if checked.advice:
         tell(say(checked.advice.phrase(), language, show))
+    for said in passed_words(checked.scene, checked.passed):
+        tell(say(said, language))
     tell(verdict(checked, language))
 
 

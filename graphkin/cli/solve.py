@@ -166,6 +166,7 @@ def solve(
 
 
 def _print_solution(solved: Solved, lang: str | None) -> None:
+    from graphkin.api.arguments import passed_words
     from graphkin.words import Phrase, class_of, say
 
     data, scene = solved.data, solved.motion.scene
@@ -175,6 +176,8 @@ def _print_solution(solved: Solved, lang: str | None) -> None:
         links = ", ".join(group["links"])
         args = links, group["kind"], class_of(group["class"]), group["assembly"]
         tell(say(Phrase("solved group", args), language))
+    for said in passed_words(scene, solved.motion.passed):
+        tell(say(said, language))
     for number, position in enumerate(data["positions"]):
         tell("")
         values = ", ".join(f"{k} = {v:.6g}" for k, v in position["driver"].items())

@@ -25,7 +25,7 @@ from graphkin.solver.path import FAR, Path, follow_path
 from graphkin.solver.pose import Array, Pose, rest
 from graphkin.solver.redundant import all_slides, place_redundant
 from graphkin.structure import Structure
-from graphkin.structure.assembly import MOST_TURNS, ways
+from graphkin.structure.assembly import MOST_TURNS, ChangePoint, ways
 
 __all__ = ["DriverRange", "driver_range", "goal_values", "motion_of", "range_from", "stopped_why", "way_to"]
 
@@ -159,6 +159,11 @@ class DriverRange:
         return {i: f[0] for i, f in self.ahead.form(np.zeros(1)).items()}
 
     @cached_property
+    def change_points(self) -> tuple[ChangePoint, ...]:
+        """Where two assemblies of a group meet in the range, and the motion goes smoothly on."""
+        return self.ahead.change_points + (() if self.full else self.behind.change_points)
+
+    @cached_property
     def assembly(self) -> tuple[str, ...]:
         """For each group which assembly was taken."""
         return assembly_words(self.structure, self._own_forms)
@@ -191,7 +196,8 @@ class DriverRange:
         """The motion at n positions: over a full turn from the start on, or, by increasing travel, spread evenly inside
         the range of a driver that slides."""
         offset = self.table_offsets(n)
-        return self.motion(offset if isinstance(self.driver, AngleDriver) or self.sense > 0 else offset[::-1])
+        found = self.motion(offset if isinstance(self.driver, AngleDriver) or self.sense > 0 else offset[::-1])
+        return replace(found, passed=self.change_points)
 
     def _motion(self, part: Array, values: Array, drive: Drive, good: Array, fine: bool = True) -> Motion:
         why = "" if good.all() or not fine else self.limit_why

@@ -17,6 +17,7 @@ from graphkin.solver.error_bound import ErrorBound
 from graphkin.solver.places import position
 from graphkin.solver.pose import Array, Pose
 from graphkin.structure import Slide, Structure
+from graphkin.structure.assembly import ChangePoint
 
 __all__ = ["Motion", "Sliding", "evaluate"]
 
@@ -180,6 +181,7 @@ class Motion:
     assembly : for each group, in the order of ``structure.groups``, which assembly was taken
     bound : how far rounding may have moved any point, and the angles of links and their rates; NaN where not ok
     rough : what the bounds of velocity and acceleration would be if all were computed in 16 digits, as a drawing is
+    passed : the change points on the way here from the scene's own position
     turned : over a sweep how far each link has turned since its start, to a few degrees (rad): tells whole turns
     """
 
@@ -193,6 +195,7 @@ class Motion:
     bound: ErrorBound[Array]
     rough: tuple[Array, Array]
     turned: Mapping[str, Array] = field(default_factory=dict)
+    passed: tuple[ChangePoint, ...] = ()
 
     @property
     def scene(self) -> Mechanism:

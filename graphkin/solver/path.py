@@ -20,7 +20,7 @@ from graphkin.solver.joints import Drive
 from graphkin.solver.larger_groups import ClusterSolved
 from graphkin.solver.pose import Array
 from graphkin.structure import Cluster, Dyad, Structure, in_stages
-from graphkin.structure.assembly import Passage, follow
+from graphkin.structure.assembly import ChangePoint, Passage, follow
 
 __all__ = ["FAR", "Path", "follow_path"]
 
@@ -192,6 +192,7 @@ class Path:
     limit: float | None = None
     by: int | None = None
     nodes: Array = field(default_factory=lambda: np.zeros(1))
+    passed: tuple[tuple[int, float], ...] = ()
 
     @property
     def reach(self) -> float:
@@ -212,12 +213,23 @@ class Path:
             forms=forms,
             flips=flips[flips < 1.0],
             limit=None if self.limit is None else self.limit / by,
+            passed=tuple((i, t / by) for i, t in self.passed if t / by < 1.0),
             nodes=np.append(nodes[nodes < 1.0], 1.0) if by < 1.0 else nodes,
         )
 
     def form(self, t: Array) -> dict[int, Array]:
         """The form of each group at these parameters, for ``positions``."""
         return {i: form(t) for i, form in self.forms.items()}
+
+    @cached_property
+    def change_points(self) -> tuple[ChangePoint, ...]:
+        """Where two assemblies of a group meet on the way, and the motion went smoothly on, in the order of the way."""
+        found = []
+        for i, t in sorted(self.passed, key=lambda one: one[1]):
+            element = self.structure.elements[i]
+            if t < self.reach and isinstance(element, Dyad | Cluster):
+                found.append(ChangePoint(element.links, tuple(self.values(np.array([t]))[0].tolist())))
+        return tuple(found)
 
     @cached_property
     def last_forms(self) -> dict[int, Array]:
@@ -291,7 +303,9 @@ def _follow_dyad(path: Path, i: int, dyad: Dyad, sign: float, grid: Array) -> Pa
     passage = follow(discriminant, grid, flips=not dyad.is_two_lines, least_closes=least)
     limit, by = (path.limit, path.by) if passage.limit is None else (passage.limit, i)
     flips = np.sort(np.append(path.flips, passage.flips))
-    return replace(path, forms={**path.forms, i: _signed(sign, passage)}, flips=flips, limit=limit, by=by)
+    passed = (*path.passed, *((i, t) for t in passage.flips.tolist()))
+    form = _signed(sign, passage)
+    return replace(path, forms={**path.forms, i: form}, flips=flips, limit=limit, by=by, passed=passed)
 
 
 def _signed(sign: float, passage: Passage) -> Callable[[Array], Array]:
@@ -332,4 +346,5 @@ def _follow_cluster(path: Path, i: int, group: Cluster, place: Array) -> Path:
     walk = _walk_cluster(solved, place, path.structure.scene.size, path.reach, most)
     limit, by = (path.limit, path.by) if walk.end is None else (walk.end, i)
     flips = np.sort(np.append(path.flips, walk.flips))
-    return replace(path, forms={**path.forms, i: walk.start}, flips=flips, limit=limit, by=by)
+    passed = (*path.passed, *((i, t) for t in walk.flips))
+    return replace(path, forms={**path.forms, i: walk.start}, flips=flips, limit=limit, by=by, passed=passed)

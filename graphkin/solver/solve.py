@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 
@@ -17,6 +18,7 @@ from graphkin.solver.motion import Motion
 from graphkin.solver.pose import Array, rest
 from graphkin.solver.redundant import all_slides
 from graphkin.structure import Structure
+from graphkin.structure.assembly import ChangePoint
 
 __all__ = ["solve"]
 
@@ -55,16 +57,17 @@ def solve(
         forms = choose_forms(structure)
     except Unsolvable as stop:
         return _nowhere(structure, goal, sweep, stop.status, stop.why)
-    own = own_values(structure.scene)
+    own, passed = own_values(structure.scene), tuple[ChangePoint, ...]()
     if not np.array_equal(own, goal):
         path = way_to(structure, forms, goal)
         if path.limit is not None:
             return _nowhere(structure, goal, sweep, "not assembled", stopped_why(structure, forms, own, path))
-        forms = path.last_forms
+        forms, passed = path.last_forms, path.change_points
     if sweep is not None:
         return range_from(structure, forms, goal).sweep(sweep)
     drive, here = Drive.at(structure, goal[None]), {i: f[None] for i, f in forms.items()}
-    return motion_of(structure, drive, here, assembly_words(structure, forms), np.ones(1, dtype=bool))
+    found = motion_of(structure, drive, here, assembly_words(structure, forms), np.ones(1, dtype=bool))
+    return replace(found, passed=passed)
 
 
 def _nowhere(structure: Structure, goal: Array, sweep: int | None, status: str, why: str) -> Motion:

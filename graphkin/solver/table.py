@@ -20,6 +20,7 @@ from graphkin.solver.forces import Forces
 from graphkin.solver.motion import Motion
 from graphkin.solver.pose import Array
 from graphkin.structure import Cluster, Dyad, Slide
+from graphkin.structure.assembly import ChangePoint
 
 __all__ = ["json_text", "listed_points", "own_slides", "to_json"]
 
@@ -76,8 +77,16 @@ def _head(motion: Motion) -> dict[str, Any]:
         "title": scene.title,
         "units": {"length": scene.units.length, **speed, "time": "s", "angle": "rad", **force},
         "mobility": motion.structure.mobility.value,
+        **({"passed": [_change_point(motion.scene, one) for one in motion.passed]} if motion.passed else {}),
         "groups": [_group(g, words) for g, words in zip(motion.structure.groups, motion.assembly, strict=True)],
     }
+
+
+def _change_point(scene: Mechanism, one: ChangePoint) -> dict[str, Any]:
+    """A change point on the way: the links whose two assemblies meet, and the drivers' values there."""
+    values = zip(scene.drivers, one.values, strict=True)
+    at = {d.key: v / (scene.units.metres if isinstance(d, SlideDriver) else 1.0) for d, v in values}
+    return {"links": list(one.links), "driver": at}
 
 
 def _positions(motion: Motion, forces: Forces | None) -> Iterator[list[dict[str, Any]]]:

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from graphkin.errors import Problem, SceneError
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
 
-__all__ = ["MOST_TURNS", "TOUCH", "Choice", "Passage", "follow", "last_true", "pick", "ways"]
+__all__ = ["MOST_TURNS", "TOUCH", "ChangePoint", "Choice", "Passage", "follow", "last_true", "pick", "ways"]
 
 
 @dataclass(frozen=True)
@@ -120,6 +120,14 @@ def ways(drivers: Sequence[AnyDriver], start: Sequence[float], goal: Sequence[fl
 
 
 SAME_ANGLE = 1e-9
+
+
+@dataclass(frozen=True)
+class ChangePoint:
+    """Where two assemblies of the group of some ``links`` meet: the drivers' ``values`` there (rad, m)."""
+
+    links: tuple[str, ...]
+    values: tuple[float, ...]
 
 
 Reals = NDArray[np.float64]

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 
+import graphkin
+from graphkin.api.report_text import report_text
 from graphkin.errors import CallError, Unsolvable
 from graphkin.scene import library, mechanism_of, mechanism_of_text
 from graphkin.solver import Motion, solve
@@ -192,3 +196,30 @@ def test_a_larger_group_at_its_change_point_is_dead() -> None:
 def test_a_sweep_of_a_larger_group_never_leaves_its_assembly() -> None:
     motion = solve(mechanism_of_text(scenes.MOVED_PARALLELOGRAM, "moved"), sweep=60)
     assert np.abs(motion.omega("2")[motion.ok]).max() < 1e-9
+
+
+def _parallelogram() -> dict[str, object]:
+    return {
+        "frame": {"points": {"A": [0, 0], "D": [300, 0]}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 100},
+            "2": {"points": ["B", "C"], "length": 300},
+            "3": {"points": ["D", "C"], "length": 100},
+        },
+        "driver": {"link": "1", "angle": 50, "omega": 5},
+        "sketch": {"C": [364, 76]},
+    }
+
+
+@pytest.mark.parametrize(("at", "places"), [(60, []), (200, [180]), (-60, [0]), (420, [180, 360])])
+def test_where_two_assemblies_meet_on_the_way_is_told(at: float, places: list[float]) -> None:
+    data = graphkin.solve(_parallelogram(), at=at).data
+    assert [["2", "3"]] * len(places) == [one["links"] for one in data.get("passed", [])]
+    found = [math.degrees(one["driver"]["1"]) for one in data.get("passed", [])]
+    assert places == pytest.approx(found, abs=1e-6)
+
+
+def test_a_report_says_which_branch_was_kept_and_how_to_ask_for_the_other() -> None:
+    said = "links 2, 3: at 1 = 180° their two assemblies meet; the motion was kept smooth through it."
+    assert said in report_text(graphkin.check(_parallelogram(), at=200), "en")
+    assert "在 1 = 180° 处两种装配形式重合" in report_text(graphkin.check(_parallelogram(), at=200), "zh")
