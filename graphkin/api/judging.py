@@ -111,14 +111,14 @@ def evidence_at(
     values = driver_values(scene, at)
     motion = solved_here(scene, values)
     structure = motion.structure
-    what = plan(structure, values, [symbol for symbol in asked if symbol.scope not in ("force", "cycle")])
+    what = plan(structure, values, [symbol for symbol in asked if symbol.scope != "cycle"])
     # everything is drawn, so that slips in what leads to the asked and beside it are found
     whole = plan(structure, values, ())
     drawn = what if set(what.elements) == set(whole.elements) else whole
 
     predicted = predict(what, "pencil", scene.sheet.tools)
     exact = exact_values(as_drawn(motion, what.structure), asked)
-    return Evidence(drawn, exact, predicted, _elsewhere(scene, values), variants)
+    return Evidence(drawn, exact, predicted, _elsewhere(scene, values), variants, motion)
 
 
 def _elsewhere(scene: Mechanism, values: dict[str, float] | None) -> ValuesElsewhere:

@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
+from graphkin.checking.force_slips import SlippedForces, slipped_forces
 from graphkin.checking.readings import read_off
 from graphkin.checking.uncertainty import Uncertainty
 from graphkin.construction import Plan, Sheet, Slip, execute
@@ -19,6 +20,7 @@ from graphkin.construction.slip import Component
 from graphkin.errors import GraphkinError
 from graphkin.plane import unit
 from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.solver import Motion
 from graphkin.structure import Slide
 from graphkin.words import Phrase
 
@@ -102,6 +104,12 @@ class Evidence:
     predicted: Mapping[Symbol, Uncertainty]
     elsewhere: ValuesElsewhere
     variants: ValuesElsewhere = lambda symbol: ()
+    motion: Motion | None = None
+
+    @cached_property
+    def slipped_forces(self) -> tuple[SlippedForces, ...]:
+        """The forces with each of their usual slips."""
+        return slipped_forces(self.motion) if self.motion is not None else ()
 
     @cached_property
     def sheet(self) -> Sheet:
@@ -172,6 +180,8 @@ def _suspects(case: Evidence, symbol: Symbol) -> Iterator[Suspect]:
     """Every explanation for a wrong value of a symbol."""
     exact = case.exact(symbol)
     yield Suspect(Phrase("slip sign"), -exact, 0.15)
+    if symbol.scope == "force":
+        yield from _of_forces(case, symbol, exact)
     if symbol.kind == "ak":
         yield Suspect(Phrase("slip coriolis factor", (str(symbol),)), exact / 2, 0.1)
     for phrase, share, values in case.altered:
@@ -187,6 +197,18 @@ def _suspects(case: Evidence, symbol: Symbol) -> Iterator[Suspect]:
     places = case.elsewhere(symbol)
     for name, value in places:
         yield Suspect(Phrase("slip position", (name,)), value, 0.05 / len(places), drawn=False)
+
+
+def _of_forces(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
+    """The values of forces with their usual slips; of weights and inertia forces kg and N confused."""
+    for slipped in case.slipped_forces:
+        value = slipped.value(symbol)
+        if value is not None and abs(value - exact) > 1e-9 * abs(exact):
+            yield Suspect(slipped.phrase, value, slipped.share)
+    gravity = abs(case.plan.structure.scene.loading.gravity)
+    if gravity and symbol.kind in ("G", "Fi", "Mi"):
+        yield Suspect(Phrase("slip kg for N"), exact / gravity, 0.08)
+        yield Suspect(Phrase("slip N for kg"), exact * gravity, 0.08)
 
 
 def _factors(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]:

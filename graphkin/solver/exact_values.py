@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 
@@ -14,6 +15,7 @@ from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import Symbol
 from graphkin.solver.driver_range import DriverRange, driver_range
 from graphkin.solver.flywheel import flywheel_of
+from graphkin.solver.force_values import force_values
 from graphkin.solver.forces import forces_of
 from graphkin.solver.motion import Motion
 from graphkin.solver.pose import Array
@@ -58,9 +60,15 @@ def exact_values(motion: Motion, asked: Sequence[Symbol] = ()) -> Callable[[Symb
         reach = driver_range(motion.structure, values)
         of_turn = {s: _of_turn(reach, s) for s in asked if s.scope == "turn"}
 
+    @cache
+    def of_forces() -> Callable[[Symbol], Value]:
+        return force_values(motion)[0]
+
     def value(symbol: Symbol) -> Value:
         if symbol in of_turn:
             return of_turn[symbol]
+        if symbol.scope == "force" and no_force(scene, str(symbol), symbol) is None:
+            return of_forces()(symbol)
         found = value_of(motion, symbol)[0]
         if symbol.kind == "d" and math.isnan(found):  # the centre of links at rest: that of any motion
             found = _in_motion(motion, values).value(symbol)[0]

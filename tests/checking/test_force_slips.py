@@ -1,0 +1,68 @@
+"""Wrong forces are called by the slip that gives them."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import pytest
+
+import graphkin
+from graphkin import solver
+from graphkin.checking.force_slips import slipped_forces
+from graphkin.scene import mechanism_of
+from graphkin.scene.symbol import Symbol
+
+SHAPER = Path(__file__).parent.parent / "validation" / "forces" / "shaper-scheme-2.toml"
+AT = {"7": 14.900596687829875, "10": -75.09940331217012}
+
+
+def by_hand(**tables):
+    """The balance of the shaper at position 10 with other tables."""
+    scene = graphkin.read(SHAPER).to_dict()
+    for path, value in tables.items():
+        *where, last = path.split("__")
+        table = scene
+        for key in where:
+            table = table[key]
+        if value is None:
+            del table[last]
+        else:
+            table[last] = value
+    return graphkin.solve(scene, at=AT["10"])["M_2"][0]
+
+
+SLIPS = {
+    "slip kg for N": None,
+    "slip load not here": by_hand(loads__P__when=None),
+    "slip inertia left out": by_hand(masses__4__inertia=0.0),
+    "slip weight left out": by_hand(gravity__g=1e-12, masses__4={"at": "S4", "mass": 220 / 9.8, "inertia": 1.2},
+                                    masses__6={"at": "C", "mass": 800 / 9.8}),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("slip", [name for name, value in SLIPS.items() if value is not None])
+def test_a_slip_gives_what_the_scene_with_it_gives(slip):
+    motion = solver.solve(mechanism_of(SHAPER), at={"2": math.radians(AT["10"])})
+    values = [one.value(Symbol.parse("M_2")) for one in slipped_forces(motion) if one.phrase.key == slip]
+    assert any(SLIPS[slip] == pytest.approx(value, rel=1e-8) for value in values)
+
+
+def test_a_wrong_force_of_the_frame_is_called_by_its_slip():
+    # position 7, by hand: the guide carries the ram's weight and the moments of the rod
+    scene = graphkin.read(SHAPER).to_dict()
+    right = graphkin.solve(scene)
+    push, cut = right["Fi_6"][0].real, -9000.0
+    slope = right["F_5/6"][0].imag / right["F_5/6"][0].real
+    scene["printed"] = {"F_1/6": f"{abs(800 + (cut - push) * slope):.4f}", "by": "computation"}
+    (value,) = graphkin.audit(scene).data["values"]
+    assert "wrong" == value["verdict"]
+    assert "inertia force in the sense of the acceleration (link 6)" == value["looks_like"]
+
+
+def test_drawn_forces_are_right_within_what_a_pencil_keeps():
+    scene = graphkin.read(SHAPER.parent / "engine.toml").to_dict()
+    exact = abs(graphkin.solve(scene)["F_2/3"][0])
+    scene["printed"] = {"F_2/3": round(exact * 1.004)}
+    (value,) = graphkin.audit(scene).data["values"]
+    assert "within drafting accuracy" == value["verdict"]
