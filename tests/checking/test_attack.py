@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import os
-
 import pytest
 
 import graphkin
+from tests import EVERYTHING
 from tests.bench.attack import attack, mechanism
 
-MANY = 10 if os.environ.get("GRAPHKIN_ALL_POSITIONS") else 1
+MANY = 10 if EVERYTHING else 1
 DEAD = ("refused: links", "refused: driver")
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import cmath
 import math
-import os
 from dataclasses import replace
 
 import numpy as np
@@ -21,12 +20,13 @@ from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import Symbol
 from graphkin.solver.driver_range import driver_range
 from graphkin.structure import Cluster
+from tests import EVERYTHING
 from tests.mechanisms import KINDS, random_scene
 from tests.scenes import four_bar
 
 SIXBAR = "sixbar-guide-40deg"
 # larger groups take their time; at twelve positions like the others where all are asked for
-LARGER = 12 if os.environ.get("GRAPHKIN_ALL_POSITIONS") else 4
+LARGER = 12 if EVERYTHING else 4
 
 
 def over_its_range(name: str) -> tuple[list[float], float | None]:

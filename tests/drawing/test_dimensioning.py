@@ -31,7 +31,7 @@ def test_fixed_points_are_dimensioned_from_the_pivot_of_the_driver():
 # eight-bars are too crowded for some of theirs
 @pytest.mark.parametrize("name", sorted({*library()} - {"double-butterfly", "single-flier"}))
 def test_every_bar_has_its_length(name):
-    drawn = draw(name)
+    drawn = draw(name, figures=["mechanism"])
     scene = drawn.checked.sheet.scene
     lengths = {f"{link.length / scene.units.metres:.5g}" for link in scene.links if link.length and not link.redundant}
     assert lengths - set(words(drawn.figures["mechanism"])) == set()

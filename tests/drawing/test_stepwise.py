@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+from functools import cache
+
 import pytest
 
 from graphkin.construction import draft
@@ -10,8 +12,13 @@ from graphkin.papers.pictures import parts
 from graphkin.scene import library, mechanism_of
 
 
+@cache
+def _drafted(name):
+    return draft(mechanism_of(name))
+
+
 def _layers(name, diagram):
-    sheet = draft(mechanism_of(name))
+    sheet = _drafted(name)
     return sheet, parts(sheet, diagram, letters_of(sheet, "chinese"), "en")
 
 

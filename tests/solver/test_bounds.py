@@ -7,14 +7,16 @@ from functools import cache
 
 import pytest
 
+from tests import EVERYTHING
 from tests.bench.accuracy import measure
 from tests.bench.larger import measure_larger
 from tests.bench.tally import KINDS, Tally
 
+MANY = 20 if EVERYTHING else 1
 RUNS: dict[str, Callable[[], Tally]] = {
-    "16 digits throughout": lambda: measure(600, 7, False, each=3),
-    "as given out": lambda: measure(600, 7, True, each=3),
-    "larger groups": lambda: measure_larger(120, 3, each=16),
+    "16 digits throughout": lambda: measure(MANY * 300, 7, False, each=3),
+    "as given out": lambda: measure(MANY * 300, 7, True, each=3),
+    "larger groups": lambda: measure_larger(MANY * 80, 3, each=16),
 }
 
 

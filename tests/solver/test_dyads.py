@@ -9,7 +9,9 @@ from hypothesis import strategies as st
 
 from graphkin.solver.dyads import DyadSolution, Joints, solve_dyad
 from graphkin.solver.pose import Pose
+from tests import EVERYTHING
 
+EXAMPLES = 600 if EVERYTHING else 25
 KINDS = ("RRR", "RRP", "RPR", "PRP", "RPP")
 number = st.floats(-1.0, 1.0).map(lambda x: round(x, 3))
 
@@ -57,7 +59,7 @@ def scale(found: DyadSolution) -> float:
 
 @pytest.mark.parametrize("what", ["position", "velocity", "acceleration"])
 @pytest.mark.parametrize("kind", KINDS)
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=EXAMPLES, deadline=None)
 @given(j=joints(), sign=st.sampled_from([1.0, -1.0]))
 def test_every_pair_of_a_random_dyad_stays_closed(kind: str, what: str, j: Joints, sign: float) -> None:
     found = solved(kind, j, sign)
@@ -65,7 +67,7 @@ def test_every_pair_of_a_random_dyad_stays_closed(kind: str, what: str, j: Joint
     assert max(gaps(kind, j, found)[what]) < 1e-14 * gain
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=EXAMPLES, deadline=None)
 @given(j=joints())
 def test_the_inner_point_of_rrr_lies_left_of_the_line_between_the_outer_ones(j: Joints) -> None:
     found = solved("RRR", j, 1.0)
@@ -73,7 +75,7 @@ def test_the_inner_point_of_rrr_lies_left_of_the_line_between_the_outer_ones(j: 
     assert ((j.known2.z - j.known1.z).conj() * inner).imag[0] > 0
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=EXAMPLES, deadline=None)
 @given(j=joints())
 def test_the_first_form_of_rrp_has_the_greater_travel(j: Joints) -> None:
     one, two = solved("RRP", j, 1.0), solved("RRP", j, -1.0)
@@ -85,7 +87,7 @@ def test_the_first_form_of_rrp_has_the_greater_travel(j: Joints) -> None:
     assert travel(one) > travel(two)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=EXAMPLES, deadline=None)
 @given(j=joints())
 def test_the_first_form_of_rpr_has_the_greater_travel_of_the_sliding_body(j: Joints) -> None:
     one, two = solved("RPR", j, 1.0), solved("RPR", j, -1.0)

@@ -11,6 +11,7 @@ from __future__ import annotations
 import cmath
 import json
 import re
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -27,12 +28,18 @@ TOLERANCE = 1e-9
 NO_SIZE = 1e-12
 
 
+@cache
 def expected(name):
     return json.loads((HERE / f"{name}.json").read_text())
 
 
+@cache
+def _solved(name, at):
+    return graphkin.solve(HERE / f"{name}.toml", at=dict(at)).data
+
+
 def solved(name, at):
-    return graphkin.solve(HERE / f"{name}.toml", at=at or None).data
+    return _solved(name, tuple((at or {}).items()))
 
 
 def value(entry):
