@@ -99,7 +99,20 @@ class Handout(Result):
     def files(self) -> Mapping[str, bytes]:
         """Content of each file: problem.html, handout.html, problem.pdf, solution.pdf, key.html, key.pdf, key.csv,
         answers_template.csv for a class to fill in, and those for learning platforms."""
-        return {**self._papers, **(files_for(self.question, self.exports) if self.question is not None else {})}
+        questions = files_for(self.question, self.exports) if self.question is not None else {}
+        return {**self._papers, **self._of_cams, **questions}
+
+    @property
+    def _of_cams(self) -> Mapping[str, bytes]:
+        """Problem, solution and key of each cam drawn by inversion."""
+        from graphkin.api.cams import cam_made
+        from graphkin.api.task_papers import cam_papers
+
+        found: dict[str, bytes] = {}
+        for i, one in enumerate(cam_made(self.scene)):
+            prefix = f"cam-{one.cam.link}-" if i else "cam-"
+            found |= cam_papers(one, self.formats, self.lesson.language, prefix)
+        return found
 
     @property
     def _papers(self) -> Mapping[str, bytes]:

@@ -23,6 +23,7 @@ from graphkin.cli.options import (
 )
 from graphkin.cli.output import print_json, print_paths, progress_bar, short_bar, tell, tell_unused
 from graphkin.errors import CallError, Problem
+from graphkin.scene.design_file import is_design
 
 __all__ = ["handout"]
 
@@ -65,6 +66,17 @@ def handout(
     from graphkin.words import languages, say
 
     wanted = listed(formats)
+    if is_design(scene):
+        from graphkin.api.designed import design as designing
+        from graphkin.api.task_papers import write_design_papers
+
+        designed = designing(scene, None, ("svg",), lang)
+        files = write_design_papers(designed, out, wanted)
+        if as_json:
+            print_json(designed.data | {"files": [str(path) for path in files]})
+        elif not quiet:
+            print_paths(files)
+        return
     if variants is not None or rows is not None:
         if at or positions is not None:
             raise CallError(

@@ -25,7 +25,7 @@ from graphkin.scene.model import Mechanism
 from graphkin.version import __version__
 from graphkin.words import languages, say, word
 
-__all__ = ["cam_figure", "cam_scale"]
+__all__ = ["cam_figure", "cam_given", "cam_pictures", "cam_scale"]
 
 WIDTH, MARGIN, FOOT = 210.0, 12.0, 14.0
 PANEL = (150.0, 140.0)
@@ -99,6 +99,37 @@ def cam_figure(scene: Mechanism, sheet: CamSheet, told: Sequence[tuple[str, str]
     return Drawing(WIDTH, height, layer_groups(page), f"{title}: {word('cam figure', first)}", spoken, first, facts)
 
 
+def cam_pictures(scene: Mechanism, sheet: CamSheet, language: str, begun: bool = False) -> tuple[Drawing, Drawing]:
+    """The displacement diagram and the cam, each by itself; ``begun`` leaves out all that is to be found."""
+    first = languages(language)[0]
+    diagram, low = _diagram(scene, sheet, 5.0, language, begun)
+    drawn, bottom = _cam(scene, sheet, 2.0, begun)
+    unit, per = scene.units.length, sheet.scale / scene.units.metres
+    foot: list[Primitive] = [Text(complex(MARGIN, bottom + 5.0), rich(f"$μ_{{l}}$ = {number(per)} {unit}/mm", 3.0))]
+    foot += check_bar(complex(WIDTH - MARGIN - 50.0, bottom + 5.0), rich(term("check bar", language), 2.5))
+    drawn = joined((drawn, Piece({"labels": tuple(foot)})))
+    facts = {"figure": "cam", "scene": scene.name, "cam": sheet.cam.link, "graphkin": __version__}
+    told = word("cam figure", first)
+    pages = []
+    for piece, height in ((diagram, low + 2.0), (drawn, bottom + 9.0)):
+        piece = moved_piece(piece, -complex(MARGIN - 2.0, 0.0))
+        pages.append(Drawing(WIDTH - 2 * MARGIN + 4.0, height, layer_groups(piece), told, told, first, facts))
+    return pages[0], pages[1]
+
+
+def cam_given(scene: Mechanism, cam: LawCam, language: str) -> str:
+    """What is given of a cam, the pieces of its law among it, in one language."""
+    swings = isinstance(cam.motion, SwingingFollower)
+    unit = "°" if swings else f" {scene.units.length}"
+    told = []
+    for piece in cam.law.pieces:
+        said = f"{number(math.degrees(piece.start))}°–{number(math.degrees(piece.end))}°"
+        way = _lift(scene, cam, piece.high - piece.low)
+        law = term(f"law {piece.by}" if piece.by else "law dwell", language)
+        told.append(f"{said} {law}" + (f" {'+' if way > 0 else '−'}{number(abs(way))}{unit}" if piece.by else ""))
+    return f"{_given(scene, cam, language)}; {', '.join(told)}"
+
+
 def _given(scene: Mechanism, cam: LawCam, language: str) -> str:
     """Base circle, roller, offset, and the law, as they are given."""
     unit, metres = scene.units.length, scene.units.metres
@@ -121,8 +152,10 @@ def _lift(scene: Mechanism, cam: LawCam, lift: float) -> float:
     return math.degrees(lift) if isinstance(cam.motion, SwingingFollower) else lift / scene.units.metres
 
 
-def _diagram(scene: Mechanism, sheet: CamSheet, top: float, language: str) -> tuple[Piece, float]:
-    """The displacement diagram, and where it ends."""
+def _diagram(
+    scene: Mechanism, sheet: CamSheet, top: float, language: str, begun: bool = False
+) -> tuple[Piece, float]:
+    """The displacement diagram, and where it ends; only ``begun``, its axes with the pieces of the law."""
     cam, law = sheet.cam, sheet.cam.law
     span = _lift(scene, cam, law.greatest - law.least) or 1.0
     own = (law.greatest - law.least) / sheet.scale
@@ -143,7 +176,7 @@ def _diagram(scene: Mechanism, sheet: CamSheet, top: float, language: str) -> tu
             Line(complex(left, floor), complex(left, floor - span / per - 5.0), strokes.DIMENSION)]  # fmt: skip
     rules: list[Primitive] = []
     labels: list[Primitive] = []
-    for d in (*sheet.divisions, _closing(sheet)):
+    for d in () if begun else (*sheet.divisions, _closing(sheet)):
         foot = at(d.degree, law.least)
         rules.append(Line(foot, at(d.degree, d.lift), THIN))
         if d.degree < TURN:
@@ -164,7 +197,8 @@ def _diagram(scene: Mechanism, sheet: CamSheet, top: float, language: str) -> tu
     labels.append(Text(complex(left, floor + 13.0), rich(scale, SMALL + 0.4), classes=("cell",)))
     labels.append(Text(complex(left + 1.0, floor - span / per - 3.0), symbol("ψ" if unit == "°" else "s", LETTER)))
     labels.append(Text(complex(left + LONG + 5.5, floor - 1.0), symbol("φ", LETTER)))
-    shape = Group((*axes, *rules, Polyline(tuple(curve), strokes.LINK)), id="displacement", classes=("diagram",))
+    found = () if begun else (Polyline(tuple(curve), strokes.LINK),)
+    shape = Group((*axes, *rules, *found), id="displacement", classes=("diagram",))
     return Piece({"construction": (shape,), "labels": tuple(labels)}), floor + 14.0
 
 
@@ -173,8 +207,9 @@ def _closing(sheet: CamSheet) -> CamDivision:
     return CamDivision(0, TURN, first.lift, first.at, first.pressure)
 
 
-def _cam(scene: Mechanism, sheet: CamSheet, top: float) -> tuple[Piece, float]:
-    """The cam with all that finds it, its upper edge at ``top``; and where it ends."""
+def _cam(scene: Mechanism, sheet: CamSheet, top: float, begun: bool = False) -> tuple[Piece, float]:
+    """The cam with all that finds it, its upper edge at ``top``; and where it ends.  Only ``begun``, the circles and
+    the follower where it starts."""
     cam = sheet.cam
     colour, other = strokes.colour_of_link(scene, cam.link), strokes.colour_of_link(scene, cam.follower)
     lines: list[Primitive] = [Circle(0j, sheet.base, stroke=THIN)]
@@ -184,7 +219,7 @@ def _cam(scene: Mechanism, sheet: CamSheet, top: float) -> tuple[Piece, float]:
         lines.append(Circle(0j, sheet.base - sheet.roller, stroke=THIN))
     labels: list[Label] = []
     far = max(abs(d.at.point) for d in sheet.divisions)
-    shown = _shown(sheet)
+    shown = [] if begun else _shown(sheet)
     for d in shown:
         part, end = _ray(sheet, d, far)
         lines += part
@@ -197,7 +232,7 @@ def _cam(scene: Mechanism, sheet: CamSheet, top: float) -> tuple[Piece, float]:
         lines += [Line(_page(a), _page(b), strokes.CONSTRUCTION) for a, b in faces]
     else:
         lines += [Circle(_page(d.at.point), sheet.roller, stroke=THIN) for d in shown if cam.roller]
-        if cam.roller:
+        if cam.roller and not begun:
             lines.append(Polyline(tuple(map(_page, sheet.pitch)), PITCH))
         for d in shown:
             lines.append(Line(_page(d.at.contact), _page(d.at.point + 6.0 * d.at.normal), strokes.DIRECTION))
@@ -226,7 +261,7 @@ def _cam(scene: Mechanism, sheet: CamSheet, top: float) -> tuple[Piece, float]:
         labels.append(Label(text, _page(z)))
     turn = _sense(sheet)
     piece = Piece({
-        "mechanism": (Group((profile,), id=f"cam-{cam.link}", classes=("cam",)),
+        "mechanism": (Group(() if begun else (profile,), id=f"cam-{cam.link}", classes=("cam",)),
                       Group(tuple(follower), id=f"link-{cam.follower}", classes=("link",)), axis),
         "construction": (Group((*lines, *turn), id="inversion", classes=("strokes",)),),
     }, tuple(labels))  # fmt: skip
@@ -234,7 +269,7 @@ def _cam(scene: Mechanism, sheet: CamSheet, top: float) -> tuple[Piece, float]:
     piece = Piece({"construction": (*piece.layers["mechanism"][:1], *piece.layers["construction"]),
                    "mechanism": piece.layers["mechanism"][1:]}, piece.labels)  # fmt: skip
     box = ink_box(piece.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
-    box = box.grown(6.0)
+    box = box.joined(Box.around(map(_page, sheet.profile))).grown(6.0)
     panel = Box(MARGIN, top, WIDTH - MARGIN, top + box.height)
     origin = panel.centre - box.centre
     return moved_piece(with_labels(piece, panel.moved(-origin)), origin), panel.bottom

@@ -38,7 +38,10 @@ from graphkin.words import Phrase, languages, say, word
 if TYPE_CHECKING:
     from graphkin.drawing.chart import Figure
 
-__all__ = ["Confirmed", "choice_chart", "design_figure", "design_scale"]
+__all__ = [
+    "Confirmed", "asked_words", "choice_chart", "construction_picture", "design_figure", "design_scale",
+    "step_words",
+]  # fmt: skip
 
 WIDTH, MARGIN, ROOM = 210.0, 12.0, 9.0
 PANEL = (168.0, 128.0)  # mm that the construction may fill
@@ -107,7 +110,8 @@ def design_figure(
     content = _content(sheet)
     content = Box(content.left, -content.bottom, content.right, -content.top)  # y down
     title = " / ".join(dict.fromkeys(design.title_in(each) or design.name for each in languages(language)))
-    head = [rich(title.replace("$", "$$"), 4.0, bold=True), *wrapped(_asked(design, language), 3.2, WIDTH - 2 * MARGIN)]
+    head = [rich(title.replace("$", "$$"), 4.0, bold=True)]
+    head += wrapped(asked_words(design, language), 3.2, WIDTH - 2 * MARGIN)
     top = MARGIN + 5.0 * len(head) + 1.0
     panel = Box(MARGIN, top, WIDTH - MARGIN, top + max(content.height, 40.0) + 2 * ROOM)
     origin = panel.centre - content.centre
@@ -120,7 +124,7 @@ def design_figure(
     y = panel.bottom + 5.0
     for each in languages(language):
         for step in sheet.steps:
-            lines = wrapped(_SYMBOLS.sub(r"$\g<0>$", say(step.phrase, each)), LETTER, WIDTH - 2 * MARGIN - 8.0)
+            lines = wrapped(step_words(step.phrase, each), LETTER, WIDTH - 2 * MARGIN - 8.0)
             words.append(Text(complex(MARGIN + 5.0, y), plain(str(step.number), LETTER, bold=True), "end",
                               classes=("told",), step=step.number))  # fmt: skip
             for line in lines:
@@ -149,7 +153,30 @@ def design_figure(
                    first, facts)  # fmt: skip
 
 
-def _asked(design: Design, language: str) -> str:
+def step_words(phrase: Phrase, language: str) -> str:
+    """A step in words, its symbols between dollar signs."""
+    return _SYMBOLS.sub(r"$\g<0>$", say(phrase, language))
+
+
+def construction_picture(design: Design, sheet: DesignSheet, language: str, upto: int | None = None) -> Drawing:
+    """The construction by itself, as far as a step, on a figure as large as all of it."""
+    content = _content(sheet)
+    content = Box(content.left, -content.bottom, content.right, -content.top)  # y down
+    panel = Box(0.0, 0.0, PANEL[0] + 2 * ROOM, max(content.height, 40.0) + 2 * ROOM)
+    origin = panel.centre - content.centre
+    around = panel.moved(-origin)
+    shown = [step for step in sheet.steps if upto is None or step.number <= upto]
+    piece = with_labels(joined([_strokes(step.strokes, step.number, around) for step in shown]), around)
+    unit, first = design.units.length, languages(language)[0]
+    foot: list[Primitive] = [Text(complex(2.0, panel.bottom + 5.0), rich(f"1 mm = {number(sheet.scale)} {unit}", 3.0))]
+    foot += check_bar(complex(panel.right - 52.0, panel.bottom + 5.0), rich(term("check bar", language), 2.5))
+    page = joined((moved_piece(piece, origin), Piece({"labels": tuple(foot)})))
+    told = word("design figure", first)
+    facts = {"figure": "design", "design": design.name, "scales": {"length": sheet.scale}, "graphkin": __version__}
+    return Drawing(panel.width, panel.height + 9.0, layer_groups(page), told, told, first, facts)
+
+
+def asked_words(design: Design, language: str) -> str:
     """What the file asks, in its own names."""
     task, unit = design.task, design.units.length
     parts = []

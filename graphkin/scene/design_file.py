@@ -16,7 +16,7 @@ from graphkin.scene import source as scenes
 from graphkin.scene.synthesis import KINDS, BarPlace, BarPositionsTask, Design, DesignTask
 from graphkin.scene.written import safe_name
 
-__all__ = ["DesignLike", "design_of", "designs"]
+__all__ = ["DesignLike", "design_of", "designs", "is_design"]
 
 LARGEST, SMALLEST = 1e15, 1e-15
 
@@ -30,6 +30,22 @@ def _shelf() -> Any:
 def designs() -> tuple[str, ...]:
     """Names of the design files that come along, sorted."""
     return tuple(sorted(f.name.removesuffix(".toml") for f in _shelf().iterdir() if f.name.endswith(".toml")))
+
+
+def is_design(source: object) -> bool:
+    """Whether this is a design file, the name of one that comes along, or a mapping of the same shape, and no scene."""
+    if isinstance(source, Mapping):
+        return "design" in source and "links" not in source
+    if not isinstance(source, str | os.PathLike):
+        return isinstance(source, Design)
+    text = os.fspath(source)
+    if os.path.isfile(text):
+        try:
+            raw = scenes.parsed(scenes.file_text(text))
+        except SceneError:
+            return False
+        return is_design(raw)
+    return text in designs() and text not in scenes.library()
 
 
 def design_of(source: DesignLike) -> Design:

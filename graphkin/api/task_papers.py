@@ -1,0 +1,131 @@
+"""The papers of what is solved by one construction: a synthesis, a cam."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+from pathlib import Path
+
+from graphkin.api.arguments import known_words, write_files
+from graphkin.api.cams import CamMade
+from graphkin.api.designed import Designed
+from graphkin.checking.synthesis import predict_lengths
+from graphkin.checking.uncertainty import COVERAGE
+from graphkin.drawing.cam import cam_given, cam_pictures
+from graphkin.drawing.headings import number
+from graphkin.drawing.synthesis import asked_words, construction_picture, step_words
+from graphkin.files import path_of
+from graphkin.papers.blocks import Said
+from graphkin.papers.drawn_task import DrawnTask, Result, papers_of_task
+from graphkin.papers.paper import Paper
+from graphkin.scene.cams import SwingingFollower
+from graphkin.words import languages, say, word
+
+__all__ = ["cam_papers", "design_papers", "write_design_papers"]
+
+PROTRACTOR = 1.0
+"""Degrees that a pressure angle read off a pencil drawing may be off."""
+
+
+def _each(language: str, text: Callable[[str], str]) -> Said:
+    return tuple((each, text(each)) for each in languages(language))
+
+
+def _plain(text: str) -> str:
+    return text.replace("$", "$$")
+
+
+def _line(key: str, text: str, language: str) -> str:
+    return word(key, language) + word("colon", language) + text + word("full stop", language)
+
+
+def design_papers(designed: Designed, formats: Sequence[str]) -> Mapping[str, bytes]:
+    """Problem sheet, worked solution and key of a synthesis, as files."""
+    given, sheet = designed.given, designed.sheet
+    language, unit = designed.language or given.sheet.language, given.units.length
+    spread = predict_lengths(given.task, sheet.scale, "pencil", given.sheet.tools)
+    results = []
+    for row in designed.rows:
+        off = COVERAGE * spread.get(row.symbol, math.inf) * sheet.scale
+        near = off if math.isfinite(off) else None
+        within = "" if near is None else f"{number(max(row.exact - near, 0.0), 4)} … {number(row.exact + near, 4)}"
+        name = row.symbol if row.symbol == "ram" else f"${row.symbol}$"
+        results.append(Result(name, unit, number(row.measured), number(row.exact), within))
+    find = ", ".join(result.name for result in results)
+    task = DrawnTask(
+        title=_each(language, lambda each: _plain(given.title_in(each) or given.name)),
+        given=(_each(language, lambda each: asked_words(given, each)),
+               _each(language, lambda each: _line("find", find, each))),
+        start=(construction_picture(given, sheet, language, 1),),
+        whole=(construction_picture(given, sheet, language),),
+        steps=tuple(_each(language, partial(step_words, step.phrase)) for step in sheet.steps),
+        results=tuple(results),
+        notes=tuple(_notes(designed, language)),
+        language=language,
+        paper=Paper(*given.sheet.size),
+    )  # fmt: skip
+    return papers_of_task(task, formats)
+
+
+def write_design_papers(
+    designed: Designed, folder: str | os.PathLike[str] | None = None, formats: Sequence[str] = ("html", "pdf")
+) -> list[Path]:
+    """Write the papers of a synthesis; returns their paths.
+
+    Raises
+    ------
+    CallError : an unknown format, a folder that cannot be written
+    """
+    known_words(formats, known_formats=("html", "pdf"))
+    target = path_of(folder) if folder is not None else Path(designed.given.name)
+    return write_files(target, design_papers(designed, formats))
+
+
+def _notes(designed: Designed, language: str) -> list[Said]:
+    """What a turn of the found mechanism confirms, and what else is said of it."""
+    made: list[Said] = []
+    told = "; ".join(f"{one.what}: {number(one.found)}" for one in designed.confirmed if math.isfinite(one.found))
+    if told:
+        made.append(_each(language, lambda each: _line("confirmed", told, each)))
+    spoken = {each: designed.sentences(each) for each in languages(language)}
+    return [*made, *_by_sentence(spoken)]
+
+
+def _by_sentence(spoken: Mapping[str, Sequence[str]]) -> list[Said]:
+    """Sentences of each language, put together one by one."""
+    told = ([(each, _plain(text)) for text in texts] for each, texts in spoken.items())
+    return [tuple(pairs) for pairs in zip(*told, strict=True)]
+
+
+def cam_papers(made: CamMade, formats: Sequence[str], language: str, prefix: str = "cam-") -> Mapping[str, bytes]:
+    """Problem sheet, worked solution and key of a cam drawn by inversion, as files."""
+    scene, sheet, cam = made.scene, made.sheet, made.cam
+    swings = isinstance(cam.motion, SwingingFollower)
+    results = []
+    for d in sheet.divisions if not cam.flat else ():
+        angle = math.degrees(d.pressure)
+        within = f"{max(angle - PROTRACTOR, 0.0):.1f} … {angle + PROTRACTOR:.1f}"
+        results.append(Result(f"$α_{{{d.number}}}$", "°", f"{angle:.1f}", f"{angle:.3f}", within))
+    metres = scene.units.metres
+    for d in sheet.divisions:
+        value = math.degrees(d.lift) if swings else d.lift / metres
+        letter, unit = ("ψ", "°") if swings else ("s", scene.units.length)
+        shown = number(value, 5)
+        results.append(Result(f"${letter}_{{{d.number}}}$", unit, shown, shown))
+    spoken = {each: made.sentences(each) for each in languages(language)}
+    notes = tuple(_by_sentence(spoken))
+    task = DrawnTask(
+        title=_each(language, lambda each: _plain(scene.title_in(each) or scene.name)),
+        given=(_each(language, lambda each: cam_given(scene, cam, each)),
+               _each(language, lambda each: _line("find", word("cam find", each), each))),
+        start=cam_pictures(scene, sheet, language, begun=True),
+        whole=cam_pictures(scene, sheet, language),
+        steps=tuple(_each(language, partial(say, phrase)) for phrase in sheet.steps),
+        results=tuple(results),
+        notes=notes,
+        language=language,
+        paper=Paper(*scene.sheet.size),
+    )  # fmt: skip
+    return papers_of_task(task, formats, prefix)

@@ -1,0 +1,58 @@
+"""The papers of a synthesis and of a cam: problem without the answer, solution with every step, key."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+import graphkin
+from graphkin.api.task_papers import cam_papers, design_papers
+from graphkin.scene.design_file import designs, is_design
+from tests.command import run
+
+PAPERS = {"problem.html", "solution.html", "key.html"}
+
+
+def text_of(page: bytes) -> str:
+    return re.sub(r"<[^>]+>", " ", page.decode())
+
+
+def steps_in(page: bytes) -> int:
+    return len(re.findall(r"<li[ >]", page.decode()))
+
+
+@pytest.mark.parametrize("name", designs())
+def test_a_synthesis_has_its_papers(name):
+    designed = graphkin.design(name)
+    papers = design_papers(designed, ["html"])
+    assert PAPERS == papers.keys()
+    assert len(designed.sheet.steps) == steps_in(papers["solution.html"])
+    assert 0 == steps_in(papers["problem.html"])
+
+
+def test_the_problem_does_not_tell_the_answer():
+    papers = design_papers(graphkin.design("slider-crank-stroke-50"), ["html"])
+    told = {name: "58.37" in text_of(page) for name, page in papers.items()}
+    assert {"problem.html": False, "solution.html": True, "key.html": True} == told
+
+
+def test_the_papers_of_a_synthesis_are_typeset(tmp_path):
+    done = run("handout", "rocker-limits", "-o", str(tmp_path), "--lang", "both")
+    assert 0 == done.returncode
+    assert {f"{name}.{kind}" for name in ("problem", "solution", "key") for kind in ("html", "pdf")} == {
+        path.name for path in tmp_path.iterdir()
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize("name", ["cam-offset-roller", "cam-flat-face"])
+def test_a_cam_has_its_papers(name):
+    one = graphkin.cam(name)["1"]
+    papers = cam_papers(one, ["html"], "en")
+    assert {f"cam-{name}" for name in PAPERS} == papers.keys()
+    assert len(one.sheet.steps) == steps_in(papers["cam-solution.html"])
+    assert [2, 2] == [papers[f"cam-{name}.html"].count(b"<svg") for name in ("problem", "solution")]
+
+
+def test_a_design_is_told_from_a_scene():
+    assert [True, False] == [is_design("rocker-limits"), is_design("shaper-scheme-2")]
