@@ -100,6 +100,8 @@ def _phrase(centre: Centre, name: Callable[[object], str], kept: str) -> Phrase:
     if centre.kind == "undetermined":
         return Phrase("centre none", (centre.pair,))
     if centre.kind == "permanent":
+        if centre.rolls:
+            return Phrase("centre rolling", (centre.pair, centre.joint))
         return Phrase("centre joint" if centre.point is not None else "centre guide", (centre.pair, centre.joint))
     if centre.way:
         return Phrase(f"centre {centre.way}", (centre.pair, kept))

@@ -49,7 +49,8 @@ def moved_to(
     """
     drivers = choices.structure.scene.drivers
     last: Unsolvable | None = None
-    for way in ways(drivers, [own[d.key] for d in drivers], [values[d.key] for d in drivers]):
+    first, goal = [own[d.key] for d in drivers], [values[d.key] for d in drivers]
+    for way in ways(drivers, first, goal, bool(choices.structure.followers)):
         try:
             return _walk(choices, elements, own, dict(zip((d.key for d in drivers), way, strict=True)), poses)
         except Unsolvable as stop:
@@ -105,6 +106,7 @@ def found_near(
     None where nothing fits near by."""
     structure = choices.structure
     ground = structure.scene.frame.name
+    values = structure.followed(values)
     frame = PlacedLinks(structure.links, 1.0 / structure.scene.size, values, {ground: Pose(0j, 1 + 0j)})
     for element in elements:
         if isinstance(element, Driven):

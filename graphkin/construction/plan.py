@@ -210,7 +210,8 @@ def _by_trial(
     scene = structure.scene
     branches: dict[int, int] = {}
     trials: dict[Cluster, GroupTrial] = {}
-    frame = PlacedLinks(structure.links, 1.0 / scene.size, values, {scene.frame.name: Pose(0j, 1 + 0j)})
+    placed = structure.followed(values)
+    frame = PlacedLinks(structure.links, 1.0 / scene.size, placed, {scene.frame.name: Pose(0j, 1 + 0j)})
     for i, element in enumerate(elements):
         if isinstance(element, Dyad):
             found = meet(frame, element).poses

@@ -39,7 +39,7 @@ class Plot:
         self, board: Board, structure: Structure, frame: PlacedLinks, scales: Scales, slip: Slip = NO_SLIP
     ) -> None:
         self.board, self.structure, self.frame, self.scales, self.slip = board, structure, frame, scales, slip
-        self.given = {d.key: d.values[1:] for d in structure.scene.drivers}  # rates of the drivers
+        self.given = {d.key: d.values[1:] for d in structure.drivers}  # rates of the drivers
         self.believed: set[tuple[Order, str]] = set()  # rates of links that a slip has put in place of the measured
         self.links = dict(structure.links)  # with the special points that larger groups get
         self.special: set[str] = set()

@@ -27,11 +27,12 @@ from graphkin.construction.steps import (
     LinesMeet,
     MeasuredRate,
     PutBack,
+    RolledRate,
 )
 from graphkin.construction.terms import bar, parts_of, symbol_of, turn_sign
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross
-from graphkin.scene.model import AngleDriver
+from graphkin.scene.model import AngleDriver, Follower
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Cluster, Driven, Dyad, Slide, Structure, Turn, links_of
 
@@ -66,6 +67,8 @@ class Polygons(Plot):
             other, sign = (driver.relative_to, 1) if driver.link == name else (driver.link, -1)
             base = self.rates[order][other].value
             self.rates[order][name] = Rate(name, base + sign * rate)
+            if isinstance(driver, Follower) and name in self.structure.scene.by_name:
+                self._rolled(order, name, driver, base + sign * rate)
             assert isinstance(pair, Turn)
             pivot = PointRef(pair.point)
             for end in self._first_ends(name, pair.point):
@@ -79,6 +82,13 @@ class Polygons(Plot):
         if point:
             edge = self._slide_edge(pair, point)
             self._lay_off(order, (edge if name == pair.a else edge.reversed(),), element)
+
+    def _rolled(self, order: Order, name: str, driver: Follower, value: float) -> None:
+        """Say how the rate of a wheel follows from those of the drivers."""
+        drivers = zip(self.structure.scene.drivers, driver.ratios, strict=True)
+        by = [(d.link, f) for d, f in drivers if f and isinstance(d, AngleDriver) and d.relative_to == self.ground]
+        if len(by) == sum(f != 0.0 for f in driver.ratios):
+            self.board.do(order, RolledRate(RATE[order], name, tuple(by), value))
 
     def _first_ends(self, name: str, hinge: str) -> list[PointRef]:
         """With which points of a driven link a drawing begins: one of its own, else those under what slides on it."""

@@ -93,7 +93,7 @@ def start_board(
 ) -> PlacedLinks:
     """The empty sheet with the fixed points pricked."""
     ground = structure.scene.frame.name
-    frame = PlacedLinks(structure.links, mm, values, {ground: Pose(0j, 1 + 0j)}, instrument)
+    frame = PlacedLinks(structure.links, mm, structure.followed(values), {ground: Pose(0j, 1 + 0j)}, instrument)
     if not instrument.faultless:
         frame.pricked.update({p: instrument.point(z * mm) for p, z in structure.links[ground].points.items()})
     return frame
@@ -149,7 +149,7 @@ def branches_at(
     if all(values[k] == v for k, v in own.items()):
         return chosen
     limits = []
-    for way in ways(structure.scene.drivers, [*own.values()], [values[k] for k in own]):
+    for way in ways(structure.scene.drivers, [*own.values()], [values[k] for k in own], bool(structure.followers)):
         target = dict(zip(own, way, strict=True))
         branches, limit = _follow(structure, elements, own, target, chosen)
         if limit is None:

@@ -47,6 +47,7 @@ __all__ = [
     "RateTimes",
     "ReadOff",
     "Resultant",
+    "RolledRate",
     "SamePlace",
     "Size",
     "SlidToMeet",
@@ -365,6 +366,25 @@ class MeasuredRate:
 
 
 @dataclass(frozen=True)
+class RolledRate:
+    """An angular rate (rad/s, rad/s2) that follows from others by rolling: by which factor from that of each driven
+    link (``by``: link, factor)."""
+
+    rate: Literal["omega", "alpha"]
+    link: str
+    by: tuple[tuple[str, float], ...]
+    value: float
+
+    @property
+    def rule(self) -> str:
+        """``0.3 ω_1``: the sum that gives it, between dollar signs."""
+        letter = "ω" if self.rate == "omega" else "α"
+        parts = [f"{'−' if f < 0 else '+'} {amount(abs(f), 6)} ${letter}_{{{link}}}$" for link, f in self.by]
+        said = " ".join(parts).removeprefix("+ ")
+        return said.replace("− ", "−", 1) if said.startswith("− ") else said
+
+
+@dataclass(frozen=True)
 class SpecialPoint:
     """The special point of a link, where the lines of two legs with these joints cross (Assur)."""
 
@@ -396,7 +416,7 @@ OnMechanism = (
 )  # fmt: skip
 InPolygon = (
     LaidOff | FoundVector | DirectionLine | Carried | PutBack | Resultant | Asked | LinesMeet | Named | SamePlace
-    | ByRate | ByImage | Translated | MeasuredRate | TrialDrawn | Superposed
+    | ByRate | ByImage | Translated | MeasuredRate | RolledRate | TrialDrawn | Superposed
 )  # fmt: skip
 Act = OnMechanism | InPolygon
 
@@ -525,6 +545,9 @@ def _in_polygon(act: InPolygon) -> Phrase:
         case Superposed(found, closing, apart):
             rows = "; ".join(", ".join(f"{mm:.2f}" for mm in row) for row in apart).replace("-", "−")
             return Phrase("superposed", (", ".join(closing), rows, *_assumed(found)))
+        case RolledRate(rate, link, _, value):
+            turning = "cw" if value < 0.0 else "ccw" if value > 0.0 else "zero"
+            return Phrase(f"rolled {rate} {turning}", (link, act.rule.replace("$", ""), amount(abs(value), 4)))
         case MeasuredRate(rate, link, vector, bar, value):
             turning = "cw" if value < 0.0 else "ccw" if value > 0.0 else "zero"
             return Phrase(f"{rate} {turning}", (link, vector, "".join(bar), amount(abs(value), 4)))

@@ -64,7 +64,8 @@ def found_by_trial(
 def _own_position(choices: Choices, elements: Sequence[Element], own: Mapping[str, float]) -> dict[str, Pose]:
     structure = choices.structure
     scene = structure.scene
-    frame = PlacedLinks(structure.links, 1.0 / scene.size, own, {scene.frame.name: Pose(0j, 1 + 0j)})
+    placed = structure.followed(own)
+    frame = PlacedLinks(structure.links, 1.0 / scene.size, placed, {scene.frame.name: Pose(0j, 1 + 0j)})
     for element in elements:
         if isinstance(element, Driven):
             frame.poses[element.link], _ = drive(frame, element)

@@ -12,6 +12,7 @@ from graphkin.construction.steps import (
     Given,
     LaidOff,
     MeasuredRate,
+    RolledRate,
     SpecialPoint,
     Superposed,
     TrialDrawn,
@@ -118,6 +119,8 @@ def written_lines(sheet: Sheet, letters: Letters, language: str) -> list[Written
             lines += _products(sheet, equation, letters)
         if isinstance(step.act, MeasuredRate):
             lines.append(_measured(sheet, step.act, letters, language))
+        elif isinstance(step.act, RolledRate):
+            lines.append(_rolled(step.act, language))
         elif isinstance(step.act, SpecialPoint):
             act = step.act
             lines.append(say(Phrase("written special", _in_dollars(act.point, *act.joints)), spoken))
@@ -165,6 +168,13 @@ def _measured(sheet: Sheet, act: MeasuredRate, letters: Letters, language: str) 
     way = "" if rate.value == 0.0 else f",  {term('clockwise' if rate.value < 0 else 'counter-clockwise', language)}"
     value = _bound(rate_sum(sheet, act, units=False)) or f"{number(abs(rate.value), 5)} {unit}"
     return " = ".join((*(_rate_name(act.rate, n) for n in names), rule, value)) + way
+
+
+def _rolled(act: RolledRate, language: str) -> str:
+    """``ω_3 = −0.75 ω_1 = 7.5 rad/s, clockwise``: by rolling."""
+    unit = "rad/s" if act.rate == "omega" else "rad/s²"
+    way = "" if act.value == 0.0 else f",  {term('clockwise' if act.value < 0 else 'counter-clockwise', language)}"
+    return f"{_rate_name(act.rate, act.link)} = {act.rule} = {number(act.value, 5)} {unit}{way}"
 
 
 def _bound(text: str) -> str:

@@ -21,7 +21,10 @@ from graphkin.plane import degrees
 from graphkin.scene.model import Mechanism, PlacedLink
 from graphkin.words import languages, word
 
-__all__ = ["TableRow", "given_data", "given_lengths", "given_lines", "readings_table", "set_lines", "table_rows"]
+__all__ = [
+    "TableRow", "given_data", "given_lengths", "given_lines", "given_teeth", "readings_table", "set_lines",
+    "table_rows",
+]  # fmt: skip
 
 ROW, LEAST_ROW = 4.2, 3.75  # mm
 _LETTERS = {"v": 0, "omega": 1, "a": 2, "alpha": 4}
@@ -167,6 +170,7 @@ def given_lines(sheet: Sheet, letters: Letters, language: str, width: float, siz
     scene = sheet.scene
     unit = scene.units.length
     items = drivers(sheet, letters).split(",  ")
+    items += given_teeth(scene)
     items += [f"${name}$ = {number(value)} {unit}" for name, value in given_lengths(scene, letters)]
     fixed = [f"${letters.point(p)}$ ({_pair(z, scene)}) {unit}" for p, z in scene.frame.points.items()]
     for guide in scene.frame.guides.values():
@@ -221,6 +225,20 @@ def given_lengths(scene: Mechanism, letters: Letters) -> list[tuple[str, float]]
     metres = scene.units.metres
     found += [(f"r_{{{d.name}}}", abs(d.radius) / metres) for link in (*scene.links, scene.frame) for d in link.discs]
     return found
+
+
+def given_teeth(scene: Mechanism) -> list[str]:
+    """The numbers of teeth, each wheel once; of one that has several, with the gear."""
+    found: dict[str, str] = {}
+    for gear in scene.gears:
+        for wheel, teeth in zip(gear.wheels, gear.teeth, strict=True):
+            if teeth is None:
+                continue
+            text = number(teeth).replace("-", "−")
+            said = f"$z_{{{wheel}}}$ = {text}"
+            if found.setdefault(wheel, said) != said:
+                found[f"{wheel} {gear.name}"] = f"$z_{{{wheel}}}$ = {text} ({gear.name})"
+    return list(found.values())
 
 
 def _further(link: PlacedLink, scene: Mechanism, letters: Letters) -> list[tuple[str, float]]:

@@ -25,7 +25,7 @@ FACE = 16.0
 """mm of a face of the frame to either side of a contact."""
 PITCH = Stroke(0.25, (4.0, 0.8, 0.6, 0.8))
 AXIS = Stroke(0.18, (4.0, 0.8, 0.6, 0.8))
-HATCHES = 6.0
+HATCHES = 2.6
 """mm of outline between two hatches of a hatched ring."""
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from graphkin.drawing.conventions import pole
 from graphkin.drawing.headings import FIGURE_WORDS, drivers, number, titles
-from graphkin.drawing.tables import given_lengths
+from graphkin.drawing.tables import given_lengths, given_teeth
 from graphkin.papers.blocks import (
     Beside,
     Block,
@@ -80,7 +80,8 @@ def given(lesson: Lesson) -> Iterator[Paragraph]:
     """What is given, in sentences: lengths, fixed points, guides, drivers; then what is asked, and the source."""
     scene, letters = lesson.sheet.scene, lesson.letters
     unit, metres = scene.units.length, scene.units.metres
-    lengths = ", ".join(f"${name}$ = {number(value)}{BOUND}{unit}" for name, value in given_lengths(scene, letters))
+    given = [f"${name}$ = {number(value)}{BOUND}{unit}" for name, value in given_lengths(scene, letters)]
+    lengths = ", ".join((*given, *given_teeth(scene)))
     fixed = ", ".join(
         f"${letters.point(p)}$ ({number(z.real / metres)}, {number(z.imag / metres)}){BOUND}{unit}"
         for p, z in scene.frame.points.items()

@@ -21,8 +21,10 @@ from graphkin.scene.tables import SheetWishes, Units
 
 __all__ = [
     "AngleDriver",
+    "AngleFollower",
     "AnyDriver",
     "CircularSlot",
+    "Follower",
     "FromDeadPoint",
     "Mechanism",
     "NamedPositions",
@@ -31,6 +33,7 @@ __all__ = [
     "PlacedGuide",
     "PlacedLink",
     "SlideDriver",
+    "SlideFollower",
     "SlidingPair",
     "StatedValues",
 ]
@@ -172,6 +175,26 @@ class SlideDriver:
         return replace(self, velocity=rate, acceleration=0.0)
 
 
+@dataclass(frozen=True)
+class AngleFollower(AngleDriver):
+    """A link that rolling makes turn in constant ratios to the drivers: as good as driven.
+
+    ``ratios`` are its rate by that of each driver; ``through`` are the links that pass the motion on.
+    """
+
+    ratios: tuple[float, ...] = ()
+    through: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class SlideFollower(SlideDriver):
+    """The same of a sliding pair (m, m/rad)."""
+
+    ratios: tuple[float, ...] = ()
+    through: tuple[str, ...] = ()
+
+
+Follower = AngleFollower | SlideFollower
 AnyDriver = AngleDriver | SlideDriver
 
 

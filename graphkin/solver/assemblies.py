@@ -128,6 +128,7 @@ def _places(structure: Structure, i: int, links: Sequence[str], state: State) ->
 
 def _choose_place(structure: Structure, i: int, group: Cluster, drive: Drive, known: Mapping[str, Pose]) -> Array:
     """All assemblies of a larger group by Newton's method from many starts, and the one that is meant."""
+    drive = drive.followed(structure)
     found = _assemblies(structure, group, drive, known)
     if not len(found):
         raise Unsolvable(

@@ -49,7 +49,7 @@ class State:
     bounds : how far rounding may have moved any point of any link, and their turning; None where rates were left out
     rough : bounds of velocity and acceleration, of points as far off as the mechanism is large, for a computation in 16
         digits throughout, such as a drawing; greater where more digits were used
-    lifted : what the formulas take of followers, by name, shape (n,)
+    lifted : what the formulas take of followers of cams and of what rolls, by name, shape (n,)
     singular : the sine below which a group is at a dead point, smaller where the driver is given from a dead point
     """
 
@@ -118,6 +118,7 @@ class _Run:
         sure: bool,
         fine: bool = True,
     ) -> None:
+        drive = drive.followed(structure)
         self.structure, self.drive, self.forms = structure, drive, forms
         self.rates, self.sure, self.fine = rates, sure, fine
         self.n = len(drive)
@@ -136,7 +137,7 @@ class _Run:
 
     def _drivers(self) -> dict[Name, Array]:
         given: dict[Name, Array] = {}
-        for k, driver in enumerate(self.structure.scene.drivers):
+        for k, driver in enumerate(self.structure.drivers):
             value = self.drive.value[:, k]
             if isinstance(driver, AngleDriver):
                 u = turned(value)
@@ -191,7 +192,9 @@ class _Run:
             found = [*bounds_together(self.structure, poses, self.drive, self._known)]
             rough = _rough(found, size)
         bounds = ErrorBound(*(_sure(b) for b in found)) if sure else None
-        lifted = {name: column for name, column in self.given.items() if name[0] == "lift"}
+        count = len(self.structure.scene.drivers)
+        rolled = {n for n in self.given if n[0] in ("cos", "sin", "travel") and isinstance(n[1], int) and n[1] >= count}
+        lifted = {name: column for name, column in self.given.items() if name in rolled or name[0] == "lift"}
         return State(poses, dict(sorted(groups.items())), bounds, rough, np.where(fine, TINY, SINGULAR), lifted)
 
     def _lift(self, i: int, cam: LawCam) -> None:
@@ -249,7 +252,7 @@ class _Run:
 
     def _extended(self, code: Code) -> ExtendedPrecision:
         signs = {name: column for name, column in self.given.items() if name[0] == "sign"}
-        drivers = self.structure.scene.drivers
+        drivers = self.structure.drivers
         return ExtendedPrecision(self.dimensioned, code, drivers, self.drive.value, self.rate, self.second, signs)
 
     def _one_by_one(self, code: Code, params: list[float], inputs: list[Array]) -> list[Array]:

@@ -201,7 +201,7 @@ class _Rows:
             else:
                 rows += [_turning(one, two, order), _sliding(one, two, order) / size]
         for driver in self.system.group.drivers:
-            i = structure.scene.drivers.index(driver)
+            i = structure.drivers.index(driver)
             turns = isinstance(driver, AngleDriver)
             given = self.given(("error", ("angle" if turns else "travel", "rate", "second")[order], i))
             if isinstance(driver, AngleDriver):

@@ -35,6 +35,16 @@ class Drive:
     def __len__(self) -> int:
         return len(self.value)
 
+    def followed(self, structure: Structure) -> Drive:
+        """With the columns of what follows the drivers by rolling."""
+        if self.value.shape[1] == len(structure.drivers):
+            return self
+        ratios = np.array([f.ratios for f in structure.followers]).T
+        own = np.array([d.values[0] for d in structure.scene.drivers])
+        start = np.array([f.values[0] for f in structure.followers])
+        columns = (self.value, start + (self.value - own) @ ratios), (self.rate, self.rate @ ratios)
+        return Drive(*(np.concatenate(pair, axis=1) for pair in (*columns, (self.second, self.second @ ratios))))
+
     def __getitem__(self, which: Array | slice) -> Drive:
         return Drive(self.value[which], self.rate[which], self.second[which])
 

@@ -63,7 +63,7 @@ class _Layout:
     """What stands where among the constraints of a group: the rows of its pairs, then of its drivers."""
 
     def __init__(self, structure: Structure, group: Cluster) -> None:
-        drivers = structure.scene.drivers
+        drivers = structure.drivers
         self.names = (*group.members, *dict.fromkeys(n for n in self._used(group) if n not in group.members))
         self.link = {name: k for k, name in enumerate(self.names)}
         self.members = len(group.members)
@@ -182,7 +182,7 @@ class System:
                 pairs += e.pairs
         frame = structure.scene.frame.name
         members = tuple(name for name in structure.links if name != frame)
-        every = Cluster(members, tuple(pairs), structure.scene.drivers, members, 0)
+        every = Cluster(members, tuple(pairs), structure.drivers, members, 0)
         return cls(structure, every, {frame: rest()}, drive)
 
     def at(self, place: Array, rate: Array | None = None, second: Array | None = None) -> Pose:

@@ -112,14 +112,19 @@ class PreparedMechanism:
     def _held(self) -> dict[Name, float]:
         """Units, rates of the drivers, values of those but the first; and how far each of these may be off."""
         held: dict[Name, float] = dict(zip(_PER, self.units, strict=True))
-        for k, driver in enumerate(self.structure.scene.drivers):
+        count = len(self.structure.scene.drivers)
+        for k, driver in enumerate(self.structure.drivers):
             _, rate, second = driver.values
             held["rate", k], held["second", k] = rate, second
             held["error", "rate", k], held["error", "second", k] = GIVEN * abs(rate), GIVEN * abs(second)
-            far = abs(self.range.start[k]) + (0.0 if k else abs(self.range.wide))
+            if k < count:
+                far = abs(self.range.start[k]) + (0.0 if k else abs(self.range.wide))
+            else:  # what rolls goes as far as its ratios make it
+                ends = np.abs(self.range.start) + abs(self.range.wide) * (np.arange(count) == 0)
+                far = abs(driver.values[0]) + float(np.abs(getattr(driver, "ratios", (0.0,))) @ ends)
             held["error", "angle", k] = GIVEN * far + PRODUCTS * UNIT
             held["error", "travel", k] = GIVEN * far
-            if k:
+            if 0 < k < count:
                 u = complex(turned(self.range.start[k : k + 1])[0])
                 held["cos", k], held["sin", k], held["travel", k] = u.real, u.imag, float(self.range.start[k])
         return held
@@ -404,7 +409,7 @@ def prepare(
     structure = structure_of(scene)
     loads = tuple(name for name in asked if force_heads(structure.scene, name))
     asked = [name for name in asked if name not in loads]
-    dimensioned = program_of(structure, tuple(d.values[2] != 0 for d in structure.scene.drivers))
+    dimensioned = program_of(structure, tuple(d.values[2] != 0 for d in structure.drivers))
     found = formulas(dimensioned.program, structure, asked, units)
     names = (*found, *(column for name in loads for column in force_heads(structure.scene, name)))
     formed = [*found.values(), *(bounds(dimensioned.program, structure, asked, units).values() if bounded else ())]

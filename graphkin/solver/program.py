@@ -83,20 +83,20 @@ class Program:
         return self.poses[slide.b].fixed(self.number("through", slide.key), self.number("direction", slide.key))
 
     def _rates(self, driver: AnyDriver) -> tuple[Real, Real]:
-        k = self.structure.scene.drivers.index(driver)
+        k = self.structure.drivers.index(driver)
         second = self.graph.param(("second", k)) if self._moving[k] else self.graph.const(0)
         return self.graph.param(("rate", k)), second
 
     def turn(self, driver: AngleDriver) -> Pose:
         """The rotation that an angle driver gives."""
-        k = self.structure.scene.drivers.index(driver)
+        k = self.structure.drivers.index(driver)
         rate, second = self._rates(driver)
         none = Vec(self.graph.const(0), self.graph.const(0))
         return Pose(none, Vec(self.graph.input(("cos", k)), self.graph.input(("sin", k))), none, rate, none, second)
 
     def travel(self, driver: AnyDriver) -> tuple[Real, Real, Real]:
         """Value, rate and second rate of a slide driver."""
-        k = self.structure.scene.drivers.index(driver)
+        k = self.structure.drivers.index(driver)
         return self.graph.input(("travel", k)), *self._rates(driver)
 
     def lift(self, cam: LawCam) -> tuple[Real | Vec, Real, Real]:
@@ -156,7 +156,7 @@ def _numbers(structure: Structure) -> dict[Name, complex]:
 
 def _form(structure: Structure, open_: Container[Name]) -> Hashable:
     """What a program depends on: elements, joints and drivers by name, and which numbers are 0, 1 or -1."""
-    drivers = tuple((type(d).__name__, d.key, getattr(d, "relative_to", "")) for d in structure.scene.drivers)
+    drivers = tuple((type(d).__name__, d.key, getattr(d, "relative_to", "")) for d in structure.drivers)
     special = tuple(
         (*name, axis, x if x in SPECIAL and (*name, axis) not in open_ else None)
         for name, z in _numbers(structure).items()

@@ -48,6 +48,13 @@ def _wrong_count(system: Constraints, mobility: Mobility) -> Problem:
     return Problem("mobility", f"{count}, but {drivers} given", wanted)
 
 
+def _rolled_by_lengths(system: Constraints) -> Problem:
+    relation = system.relations[0]
+    links = ", ".join(n for n in relation.links if n in system.scene.by_name)
+    found = f"what rolls here turns as links {links} do, whose angles do not follow the driver in a constant ratio"
+    return Problem(relation.name, found, "let a driver or another wheel turn them")
+
+
 def _sliding_loop(system: Constraints) -> list[str]:
     """Links of a closed loop of sliding pairs only, if there is one."""
     group: dict[str, set[str]] = {name: {name} for name in system.links}
@@ -120,13 +127,17 @@ def analyse(scene: Mechanism | Structure) -> Structure:
     if mobility.value != len(scene.drivers):
         loose = loose_ends(system) if mobility.value > len(scene.drivers) else ()
         raise Unsolvable("mobility", _wrong_count(system, mobility), *loose)
+    if system.relations:
+        raise Unsolvable("mobility", _rolled_by_lengths(system))
     equations = system.equations()
     unknowns = [sorted(e) for e in equations]
     given = match(unknowns)
     if len(given) < len(equations):
         raise Unsolvable("mobility", _wrong_part(system, unknowns, given), *loose_ends(system))
     elements = _in_order(system, system.nodes(), unknowns, given, {scene.frame.name})
-    return _in_parts(Structure(scene, system.links, system.slides, system.hinges, mobility, elements))
+    return _in_parts(Structure(
+        scene, system.links, system.slides, system.hinges, mobility, elements, system.followers
+    ))
 
 
 def _in_order(
@@ -154,7 +165,7 @@ def _in_order(
 
 def _in_parts(structure: Structure) -> Structure:
     """Larger groups that driven triangles turn into dyads, told as such: of class II."""
-    taken = {d.key for d in structure.scene.drivers}
+    taken = {d.key for d in structure.drivers}
     found: dict[Element, tuple[DrivenTriangle, ...]] = {}
     for e in structure.elements:
         if isinstance(e, Cluster) and (triangles := triangles_of(e, structure.links, structure.hinges, taken)):

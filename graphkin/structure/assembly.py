@@ -103,10 +103,16 @@ FOLD = 12 * 2 * math.pi
 """After so much every motion that closes within the most turns stands where it stood."""
 
 
-def ways(drivers: Sequence[AnyDriver], start: Sequence[float], goal: Sequence[float]) -> Iterator[tuple[float, ...]]:
+def ways(
+    drivers: Sequence[AnyDriver], start: Sequence[float], goal: Sequence[float], direct: bool = False
+) -> Iterator[tuple[float, ...]]:
     """Driver values (rad, m) to which the motion may be followed to come to a goal: straight on to the goal itself,
     whole turns included; then, for drivers that turn, to where they stand the same way within a turn, the nearer first.
+    Only the first where it must be ``direct``, for what rolls does not close with the turn.
     """
+    if direct:
+        yield tuple(goal)
+        return
     choices: list[tuple[float, ...]] = []
     for driver, a, b in zip(drivers, start, goal, strict=True):
         if not isinstance(driver, AngleDriver) or a == b:
@@ -116,7 +122,7 @@ def ways(drivers: Sequence[AnyDriver], start: Sequence[float], goal: Sequence[fl
         near = math.remainder(b - a, 2 * math.pi)
         around = (a + near, a + near - math.copysign(2 * math.pi, near)) if abs(near) > SAME_ANGLE else (a,)
         choices.append((here, *(x for x in around if abs(x - here) > SAME_ANGLE)))
-    return product(*choices)
+    yield from product(*choices)
 
 
 SAME_ANGLE = 1e-9

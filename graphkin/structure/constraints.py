@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 
 from graphkin.scene.cams import LawCam, SlidingFollower
-from graphkin.scene.model import AngleDriver, Mechanism, PlacedGuide, PlacedLink
+from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedGuide, PlacedLink
 from graphkin.structure.model import Mobility, Slide
 from graphkin.structure.replacement import stand_in
+from graphkin.structure.rolling import followers_of, relations_of
 
 __all__ = ["Constraints", "Node", "Unknown"]
 
@@ -48,6 +49,9 @@ class Constraints:
         self.cams: tuple[LawCam, ...] = tuple(
             cam for cam in scene.cams if scene.instead_of is None and {cam.link, cam.follower} <= links.keys()
         )
+        relations = relations_of(scene, self.contacts, self.gears, links)
+        self.followers, self.relations = followers_of(scene, relations, links, self.slides)
+        self.drivers: tuple[AnyDriver, ...] = (*scene.drivers, *self.followers)
         self._place = {name: i for i, name in enumerate(links)}
 
     def place(self, node: Node) -> tuple[int, int, str]:
@@ -83,7 +87,16 @@ class Constraints:
         for cam in self.cams:
             moved = "xy" if isinstance(cam.motion, SlidingFollower) else "t"
             rows.append({*self._coordinates(cam.link, "t"), *self._coordinates(cam.follower, moved)})
-        for driver in self.scene.drivers:
+        for relation in self.relations:
+            row: set[Unknown] = set()
+            for kind, name in relation.terms:
+                if kind == "angle":
+                    row.update(self._coordinates(name, "t"))
+                else:
+                    s = next(s for s in self.slides if s.key == name)
+                    row.update((*self._coordinates(s.a, "xy"), *self._coordinates(s.b, "xyt")))
+            rows.append(row)
+        for driver in self.drivers:
             if isinstance(driver, AngleDriver):
                 rows.append({*self._coordinates(driver.link, "t"), *self._coordinates(driver.relative_to, "t")})
             else:

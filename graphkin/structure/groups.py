@@ -111,7 +111,7 @@ _KINDS = {"RRR": "RRR", "RRP": "RRP", "PRR": "RRP", "RPR": "RPR", "PRP": "PRP", 
 def element_of(system: Constraints, members: list[str], known: set[str]) -> Element:
     scene = system.scene
     inside = set(members)
-    drivers = [d for d in scene.drivers if _ends(d, system) & inside and not (_ends(d, system) - inside - known)]
+    drivers = [d for d in system.drivers if _ends(d, system) & inside and not (_ends(d, system) - inside - known)]
     pairs = _pairs(system, members, known)
     for cam in system.cams:
         if members == [cam.follower] and cam.link in known and len(pairs) == 1 and not drivers:

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from graphkin.scene.cams import LawCam
-from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedGuide, PlacedLink, SlideDriver
+from graphkin.scene.model import AngleDriver, AnyDriver, Follower, Mechanism, PlacedGuide, PlacedLink, SlideDriver
 
 __all__ = [
     "Body",
@@ -189,7 +189,7 @@ class Structure:
     """The mechanism in the order of solution.
 
     ``links`` holds every link that takes part, the frame and the blocks of pins included, redundant links left out;
-    ``hinges`` maps each point shared by links to those links.
+    ``hinges`` maps each point shared by links to those links.  ``followers`` are what rolling makes follow the drivers.
     """
 
     scene: Mechanism
@@ -198,6 +198,20 @@ class Structure:
     hinges: Mapping[str, tuple[str, ...]]
     mobility: Mobility
     elements: tuple[Element, ...]
+    followers: tuple[Follower, ...] = ()
+
+    @property
+    def drivers(self) -> tuple[AnyDriver, ...]:
+        """The drivers of the scene, then what follows them by rolling."""
+        return (*self.scene.drivers, *self.followers)
+
+    def followed(self, values: Mapping[str, float]) -> dict[str, float]:
+        """Driver values by key (rad, m), with those of what follows them."""
+        own = self.scene.drivers
+        moved = [values[d.key] - d.values[0] for d in own]
+        return {**values, **{
+            f.key: f.values[0] + sum(r * way for r, way in zip(f.ratios, moved, strict=True)) for f in self.followers
+        }}  # fmt: skip
 
     @property
     def groups(self) -> tuple[Dyad | Cluster, ...]:

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.scene.cams import LawCam
-from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
+from graphkin.scene.model import AngleDriver, AnyDriver, Follower, Mechanism
 from graphkin.scene.symbol import Symbol, centre_links
 from graphkin.structure.model import Cluster, Driven, Element, Structure
 
@@ -27,17 +27,19 @@ def needed(structure: Structure, asked: Sequence[Symbol]) -> list[Element]:
     for symbol in asked:
         wanted.update(_links_for(structure, symbol))
     kept: list[Element] = []
-    for element in reversed(structure.elements):
-        if wanted.intersection(links_of(element)):
-            kept.append(element)
+    while True:  # what rolls may follow through links that come later
+        before = len(wanted)
+        kept = [e for e in structure.elements if wanted.intersection(links_of(e))]
+        for element in kept:
             wanted |= _outside(element)
-    return kept[::-1]
+        if len(wanted) == before:
+            return kept
 
 
 def in_stages(elements: Sequence[Element]) -> bool:
     """Whether some elements are not given by formulas of the drivers alone: larger groups, found by Newton's method,
-    and followers, whose law has pieces."""
-    followers = (isinstance(e, Driven) and isinstance(e.driver, LawCam) for e in elements)
+    followers of cams, whose law has pieces, and what rolls."""
+    followers = (isinstance(e, Driven) and isinstance(e.driver, LawCam | Follower) for e in elements)
     return any(isinstance(e, Cluster) or follows for e, follows in zip(elements, followers, strict=True))
 
 
@@ -127,4 +129,6 @@ def _outside(element: Element) -> set[str]:
         pairs, drivers = [element.outer_first, element.outer_second], []
     names = {n for pair in pairs for n in (pair.a, pair.b)}
     names |= {n for d in drivers if isinstance(d, AngleDriver) for n in (d.link, d.relative_to)}
+    held = () if isinstance(element, Driven | Cluster) else (w.driver for body in element.bodies for w in body.welds)
+    names |= {n for d in (*drivers, *held) if isinstance(d, Follower) for n in d.through}
     return names.difference(links_of(element))

@@ -1,4 +1,4 @@
-"""Outlines that touch: the solver beside another one in 50 digits, and beside what the figure itself must keep."""
+"""Outlines that touch, and wheels: the solver beside another one in 50 digits, and beside what figures must keep."""
 
 import numpy as np
 import pytest
@@ -79,3 +79,72 @@ def test_a_hollow_outline_holds_a_smaller_disc():
     o, b, k = (complex(*here["points"][p]["position"]) for p in ("O@1", "B@2", "K@1"))
     assert [60, 75, 15] == pytest.approx([abs(b - o), abs(k - o), abs(k - b)], rel=1e-12)
     assert 1.0 == pytest.approx((complex(*here["contacts"]["K"]["normal"]) / ((o - k) / abs(o - k))).real, rel=1e-12)
+
+
+def test_willis_formula_holds_in_an_epicyclic_train():
+    here = frame_of(solve("gears-epicyclic").data)
+    assert 3 == pytest.approx(here["links"]["2"]["omega"], rel=1e-14)
+    assert -7.5 == pytest.approx(here["links"]["3"]["omega"], rel=1e-14)
+    assert [70, 0] == pytest.approx(here["gears"]["ring"]["pitch_point"])
+    assert [20, -70] == pytest.approx(here["gears"]["ring"]["radii"])
+
+
+def test_wheels_go_the_direct_way_over_more_than_one_turn():
+    train = {
+        "frame": {"points": {"A": [0, 0], "B": [50, 0], "C": [120, 0]}},
+        "links": {
+            "1": {"points": ["A"]},
+            "2": {"points": ["B"]},
+            "3": {"points": ["C", "P"], "length": 35, "start": 90},
+        },
+        "gears": {"g": {"between": ["1", "2"], "teeth": [20, 30]}, "h": {"between": ["2", "3"], "teeth": [30, 40]}},
+        "driver": {"link": "1", "angle": 0, "omega": 12, "alpha": 3},
+    }
+    here = frame_of(solve(train, at=450).data)
+    turned = np.exp(1j * np.radians(90 + 450 / 2))
+    assert [35 * turned.real + 120, 35 * turned.imag] == pytest.approx(here["points"]["P@3"]["position"])
+    assert 1.5 == pytest.approx(here["links"]["3"]["alpha"], rel=1e-14)
+
+
+def test_a_rim_point_of_a_rolling_wheel_runs_on_a_cycloid():
+    turn = sweep("wheel-on-rail", positions=24, find=["P", "v_K@1"])
+    rolled = 2 * np.pi * np.arange(24) / 24
+    assert 30 * (rolled + np.sin(rolled)) == pytest.approx(turn["P"].real, abs=1e-10)
+    assert 30 * (1 + np.cos(rolled)) == pytest.approx(turn["P"].imag, abs=1e-10)
+    assert np.zeros(24) == pytest.approx(np.abs(turn["v_K@1"]), abs=1e-10)
+
+
+def test_a_point_of_a_wheel_in_a_ring_twice_as_large_runs_on_a_straight_line():
+    turn = sweep("hypocycloid-straight-line", positions=36, find=["P"])
+    assert np.zeros(36) == pytest.approx(turn["P"].imag, abs=1e-11)
+
+
+@pytest.mark.parametrize("scene", ["gears-epicyclic", "wheel-on-rail", "geared-five-bar", "hypocycloid-straight-line"])
+@pytest.mark.parametrize("turned", [0, 130, 500])
+def test_the_drawing_agrees_with_the_solver_on_what_rolls(scene, turned):
+    driver = mechanism_of(scene).drivers[0]
+    result = check(scene, at=np.degrees(driver.values[0]) + turned)
+    assert result.ok
+    for row in result.report.rows:
+        assert row.exact == pytest.approx(row.reading.value, rel=1e-9, abs=1e-9)
+
+
+def test_a_rack_goes_as_far_as_the_pitch_circle_rolls():
+    rack = {
+        "frame": {"points": {"A": [0, 0]}, "guides": {"h": {"through": [0, 40], "angle": 0}}},
+        "links": {"1": {"points": ["A"]}, "2": {"points": ["B"], "on": "0.h", "start": 10}},
+        "gears": {"g": {"between": ["1", "2"], "teeth": [20, "rack"]}},
+        "driver": {"link": "1", "angle": 0, "omega": 4},
+    }
+    here = frame_of(solve(rack, at=90).data)
+    assert 10 - 40 * np.pi / 2 == pytest.approx(here["slides"]["2/0"]["travel"], rel=1e-13)
+    assert {"pitch_point": [0, 40], "radii": [40, None]} == here["gears"]["g"]
+
+
+def test_prepared_wheels_move_as_solved_ones():
+    from graphkin import prepare
+
+    ready, turn = prepare("geared-five-bar", ["C", "a_C"]), sweep("geared-five-bar", positions=36, find=["C", "a_C"])
+    prepared = ready.sweep(36)
+    assert turn["C"] == pytest.approx(prepared["C"], rel=1e-12)
+    assert turn["a_C"] == pytest.approx(prepared["a_C"], rel=1e-11)

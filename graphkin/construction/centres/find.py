@@ -47,6 +47,7 @@ class Centre:
     direction: complex | None = None
     number: int = 0
     joint: str = ""
+    rolls: bool = False
     lines: tuple[Relation, ...] = ()
     way: Way | Literal[""] = ""
     why: Phrase | None = None
@@ -152,7 +153,7 @@ def _search(
     table: dict[LinkPair, Centre] = {}
     for p in permanent(links, chart).values():
         direction = chart.direction(p.place) if p.point is None else None
-        table[p.pair] = Centre(p.pair, "permanent", p.place, p.point, direction, joint=p.joint)
+        table[p.pair] = Centre(p.pair, "permanent", p.place, p.point, direction, joint=p.joint, rolls=p.rolls)
         search.learn(p.pair, Known(p.place))
     number = 0
     reach = _Reach(links, [normal.pair for normal in slots], motions, set(table))

@@ -175,12 +175,13 @@ class Links:
 
 @dataclass(frozen=True)
 class Permanent:
-    """A centre that a joint gives: at a point (mm), or at infinity square to a guide."""
+    """A centre that a joint gives: at a point (mm), or at infinity square to a guide; or where two links roll."""
 
     pair: LinkPair
     place: Place
     point: complex | None
     joint: str
+    rolls: bool = False
 
 
 @dataclass(frozen=True)
@@ -224,7 +225,7 @@ def permanent(links: Links, chart: ProjectiveChart) -> dict[LinkPair, Permanent]
             pair = links.pair(s.link, s.on)
             found.setdefault(pair, Permanent(pair, chart.towards(square), None, s.key))
     for a, b, z, name in links.touching.rolling():
-        found.setdefault(links.pair(a, b), Permanent(links.pair(a, b), chart.at(z), z, name))
+        found.setdefault(links.pair(a, b), Permanent(links.pair(a, b), chart.at(z), z, name, True))
     return found
 
 

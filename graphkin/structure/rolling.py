@@ -1,0 +1,180 @@
+"""What rolls without slip: relations between the angles of links and the travels of slides, and what follows from the
+drivers by them alone.
+
+A gear gives z1 (w1 - wc) + z2 (w2 - wc) = 0 (Willis 1841), with internal teeth negative, two rolling discs the same
+with their radii, a rack or a rolling disc on a face s' + r (w1 - w2) = 0 along the pitch line.  Angles that these
+determine from the drivers' are as good as driven: their drivers are found here, in exact fractions.
+"""
+
+from __future__ import annotations
+
+import cmath
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import chain
+from typing import Any
+
+from graphkin.scene.contacts import Contact, Gear
+from graphkin.scene.model import AngleDriver, AngleFollower, Follower, Mechanism, PlacedLink, SlideFollower
+from graphkin.scene.touching import rack_place
+from graphkin.structure.model import Slide
+
+__all__ = ["Coordinate", "Relation", "followers_of", "relations_of"]
+
+Coordinate = tuple[str, str]
+"""("angle", link) or ("travel", sliding pair)."""
+
+
+@dataclass(frozen=True)
+class Relation:
+    """A sum of coordinates with factors that keeps its value; ``links`` are all that it is between."""
+
+    name: str
+    terms: Mapping[Coordinate, Fraction]
+    links: tuple[str, ...]
+
+
+def relations_of(
+    scene: Mechanism, contacts: Iterable[Contact], gears: Iterable[Gear], links: Mapping[str, PlacedLink]
+) -> tuple[Relation, ...]:
+    """The relations of everything that rolls."""
+    found = []
+    for contact in contacts:
+        if contact.rolling and contact.flat:
+            (disc,) = contact.round
+            r = Fraction(disc.radius if contact.left else -disc.radius)
+            found.append(_relation(scene, contact.name, (*contact.links, contact.block), (
+                (("travel", contact.block), Fraction(1)), (("angle", disc.link), r),
+                (("angle", contact.face), -r))))  # fmt: skip
+        elif contact.rolling:
+            r1, r2 = (Fraction(d.radius) for d in contact.round)
+            found.append(_wheels(scene, contact.name, contact.links, contact.carrier or contact.block, r1, r2))
+    for gear in gears:
+        if gear.teeth[1] is not None:
+            z1, z2 = Fraction(gear.teeth[0]), Fraction(gear.teeth[1])
+            found.append(_wheels(scene, gear.name, gear.wheels, gear.carrier, z1, z2))
+            continue
+        height, _, _ = rack_place(
+            gear, scene.slidings, {n: k.points for n, k in links.items()}, {n: k.guides for n, k in links.items()}
+        )
+        sense = 1 if next(s for s in scene.slidings if s.key == gear.slide).link == gear.wheels[1] else -1
+        r = Fraction(height)
+        found.append(_relation(scene, gear.name, (*gear.wheels, gear.carrier), (
+            (("travel", gear.slide), Fraction(sense)), (("angle", gear.wheels[0]), r),
+            (("angle", gear.carrier), -r))))  # fmt: skip
+    return tuple(found)
+
+
+def _wheels(
+    scene: Mechanism, name: str, wheels: tuple[str, str], carrier: str, one: Fraction, two: Fraction
+) -> Relation:
+    terms = (("angle", wheels[0]), one), (("angle", wheels[1]), two), (("angle", carrier), -one - two)
+    return _relation(scene, name, (*wheels, carrier), terms)
+
+
+def _relation(
+    scene: Mechanism, name: str, links: Sequence[str], terms: Sequence[tuple[Coordinate, Fraction]]
+) -> Relation:
+    summed: dict[Coordinate, Fraction] = {}
+    for coordinate, factor in terms:
+        if coordinate != ("angle", scene.frame.name):
+            summed[coordinate] = summed.get(coordinate, Fraction(0)) + factor
+    return Relation(name, {c: f for c, f in summed.items() if f}, tuple(dict.fromkeys(links)))
+
+
+class _Rows:
+    """Linear equations in reduced echelon form: coordinates by the rates of the drivers."""
+
+    def __init__(self) -> None:
+        self.rows: dict[Any, dict[Any, Fraction]] = {}
+
+    def add(self, terms: Mapping[Any, Fraction]) -> bool:
+        """Take one more equation, a sum that is 0; False where it says nothing new.  Numbers stand for drivers."""
+        rest = dict(terms)
+        for key in [k for k in rest if k in self.rows]:
+            factor = rest[key]
+            for k, f in self.rows[key].items():
+                rest[k] = rest.get(k, Fraction(0)) - factor * f
+        rest = {k: f for k, f in rest.items() if f}
+        lead = next((k for k in rest if not isinstance(k, int)), None)
+        if lead is None:
+            return False
+        row = {k: f / rest[lead] for k, f in rest.items()}
+        for other, own in self.rows.items():
+            if lead in own:
+                factor = own[lead]
+                mixed = {k: own.get(k, Fraction(0)) - factor * row.get(k, Fraction(0)) for k in {**own, **row}}
+                self.rows[other] = {k: f for k, f in mixed.items() if f}
+        self.rows[lead] = row
+        return True
+
+    def ratios(self, coordinate: Coordinate, drivers: int) -> tuple[Fraction, ...] | None:
+        """A coordinate's rate by those of the drivers; None where they do not determine it."""
+        row = self.rows.get(coordinate)
+        if row is None or any(k != coordinate and not isinstance(k, int) for k in row):
+            return None
+        return tuple(-row.get(k, Fraction(0)) for k in range(drivers))
+
+
+def followers_of(
+    scene: Mechanism, relations: Sequence[Relation], links: Mapping[str, PlacedLink], slides: Sequence[Slide]
+) -> tuple[tuple[Follower, ...], tuple[Relation, ...]]:
+    """What rolling makes follow the drivers in constant ratios, as drivers of their own; and the relations that are
+    left, between coordinates that also depend on lengths."""
+    if not relations:
+        return (), ()
+    frame, count = scene.frame.name, len(scene.drivers)
+    base, whole = _Rows(), _Rows()
+    for system in (base, whole):
+        for s in slides:
+            system.add(_angles(frame, s.a, s.b))
+        for k, driver in enumerate(scene.drivers):
+            given: dict[Any, Fraction] = {("travel", driver.key): Fraction(1)}
+            if isinstance(driver, AngleDriver):
+                given = _angles(frame, driver.link, driver.relative_to)
+            system.add({**given, k: Fraction(-1)})
+    for relation in relations:
+        whole.add(relation.terms)
+    candidates: list[Coordinate] = [("angle", name) for name in links if name != frame]
+    candidates += [("travel", s.key) for s in slides]
+    followers: list[Follower] = []
+    settled = [r for r in relations if all(whole.ratios(c, count) is not None for c in r.terms)]
+    through = tuple(dict.fromkeys(chain.from_iterable(r.links for r in settled)))
+    for coordinate in candidates:
+        ratios = whole.ratios(coordinate, count)
+        if ratios is None or base.ratios(coordinate, count) is not None:
+            continue
+        followers.append(_follower(scene, coordinate, tuple(map(float, ratios)), through, links))
+        base.add({coordinate: Fraction(1), **{k: -f for k, f in enumerate(ratios)}})
+    left = tuple(r for r in relations if r not in settled and base.add(r.terms))
+    return tuple(followers), left
+
+
+def _angles(frame: str, one: str, two: str) -> dict[Any, Fraction]:
+    found: dict[Any, Fraction] = {}
+    for name, sign in ((one, 1), (two, -1)):
+        if name != frame:
+            found["angle", name] = Fraction(sign)
+    return found
+
+
+def _follower(
+    scene: Mechanism, coordinate: Coordinate, ratios: tuple[float, ...], through: tuple[str, ...],
+    links: Mapping[str, PlacedLink],
+) -> Follower:
+    kind, name = coordinate
+    rate, second = (sum((r * d.values[k] for r, d in zip(ratios, scene.drivers, strict=True)), 0.0) for k in (1, 2))
+    if kind == "travel":
+        return SlideFollower(name, scene.starts.get(name, 0.0), rate, second, ratios=ratios, through=through)
+    start = scene.starts.get(name)
+    if start is None:
+        start = _drawn_angle(scene, links[name])
+    return AngleFollower(name, scene.frame.name, start, rate, second, ratios=ratios, through=through)
+
+
+def _drawn_angle(scene: Mechanism, link: PlacedLink) -> float:
+    """The angle of a bar whose ends are given, in the frame or drawn or else sketched; 0 where they are not."""
+    given = {**scene.sketch, **scene.drawn, **scene.frame.points}
+    ends = [given[p] for p in link.bar if p in given]
+    return cmath.phase(ends[1] - ends[0]) if len(ends) == 2 and ends[0] != ends[1] else 0.0
