@@ -64,6 +64,7 @@ if TYPE_CHECKING:
     from graphkin.api.solved import Solved, solve
     from graphkin.api.studied import SpeedAccuracy, Stability, speed_accuracy, stability
     from graphkin.api.swept import Swept, sweep
+    from graphkin.board.notebook import open_board
     from graphkin.scene.source import read
     from graphkin.scene.tables import (
         Compass,
@@ -127,6 +128,7 @@ __all__ = [
     "draw",
     "explain",
     "handout",
+    "open_board",
     "prepare",
     "problem_set",
     "read",
@@ -140,6 +142,7 @@ __all__ = [
 _PLACES = {
     "api.audited": "Audited audit",
     "api.cams": "Cams cam",
+    "board.notebook": "open_board",
     "api.centred": "Centred centres",
     "api.centroded": "Centroded centrodes",
     "api.checked": "Checked check",

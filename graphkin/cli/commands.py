@@ -20,6 +20,7 @@ from graphkin.cli.convert import convert
 from graphkin.cli.design import design
 from graphkin.cli.explain import explain
 from graphkin.cli.handout import handout
+from graphkin.cli.open import open_page
 from graphkin.cli.output import tell
 from graphkin.cli.solve import scenes, solve
 from graphkin.cli.streams import Unwritable, own_streams
@@ -40,6 +41,7 @@ app = typer.Typer(
 )
 for command in (scenes, draw, check, solve, centres, audit, sweep, handout, design, cam, convert, explain):
     app.command()(command)
+app.command("open")(open_page)
 app.add_typer(study, name="study")
 
 

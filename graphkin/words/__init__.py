@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-__all__ = ["BOTH", "LANGUAGES", "Phrase", "class_of", "languages", "say", "word"]
+__all__ = ["BOTH", "LANGUAGES", "Phrase", "area", "class_of", "languages", "say", "word"]
 
 
 _TABLES = {path.stem: path for path in Path(__file__).parent.glob("*.toml")}
@@ -23,11 +23,20 @@ BOTH = "both"
 
 
 @cache
-def _table(language: str) -> Mapping[str, str]:
+def _areas(language: str) -> Mapping[str, Mapping[str, str]]:
     import tomllib  # here, since ``graphkin --help`` wants to know the languages only
 
-    areas = tomllib.loads(_TABLES[language].read_text(encoding="utf-8"))
-    return {key: text for area in areas.values() for key, text in area.items()}
+    return tomllib.loads(_TABLES[language].read_text(encoding="utf-8"))
+
+
+@cache
+def _table(language: str) -> Mapping[str, str]:
+    return {key: text for area in _areas(language).values() for key, text in area.items()}
+
+
+def area(name: str, language: str = "en") -> Mapping[str, str]:
+    """All words of an area of the table by their keys, as a page takes them along."""
+    return _areas(language)[name]
 
 
 @dataclass(frozen=True)

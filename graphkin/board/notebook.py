@@ -1,0 +1,62 @@
+"""The board in a notebook: the same page as a widget, whose questions the notebook's own Python answers."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any
+
+from graphkin.board.answers import Desk, answer
+from graphkin.board.server import STATIC
+from graphkin.errors import CallError, Problem
+from graphkin.scene.source import SceneLike, library, library_text, written
+from graphkin.scene.written import toml_text
+
+__all__ = ["open_board"]
+
+
+def open_board(scene: SceneLike | None = None) -> Any:
+    """Show the drawing board in a notebook, with a scene on it.
+
+    Parameters
+    ----------
+    scene : in any of its forms; None begins with the choice of the scenes that come along
+
+    Returns
+    -------
+    a widget, whose ``text`` is the text of the scene as it stands on the board
+
+    Raises
+    ------
+    SceneError : there is no such scene; CallError : anywidget is not installed (extra ``live``)
+    """
+    if isinstance(scene, str) and scene in library():
+        text = library_text(scene)
+    else:
+        text = "" if scene is None else toml_text(written(scene)[0])
+    try:
+        return _widget_class()(Desk(text=text))
+    except ImportError:
+        raise CallError(Problem("open_board", "needs anywidget", 'pip install "graphkin[live]"')) from None
+
+
+@cache
+def _widget_class() -> Any:
+    import anywidget
+    import traitlets
+
+    class Board(anywidget.AnyWidget):  # type: ignore[misc]
+        """The board as a widget."""
+
+        _esm = STATIC / "board.js"
+        _css = STATIC / "board.css"
+        text = traitlets.Unicode("").tag(sync=True)
+
+        def __init__(self, desk: Desk) -> None:
+            super().__init__(text=desk.text)
+            self._desk = desk
+            self.on_msg(self._asked)
+
+        def _asked(self, widget: object, content: object, buffers: object) -> None:
+            self.send(answer(self._desk, content))
+
+    return Board

@@ -1,0 +1,270 @@
+"""What the page shows of a scene at one position: figures, readings, steps, where its points lie, how far it moves."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from graphkin import solver
+from graphkin.api.arguments import driver_values, known_words, own_unit
+from graphkin.api.checked import checked, hand_of, here, reading_words, solved_here
+from graphkin.api.drawn import FIGURES, Drawn, known_figures
+from graphkin.api.report_text import show
+from graphkin.board.moving import movable
+from graphkin.construction import execute, plan
+from graphkin.construction.sheet import DiagramName, Scales, Sheet
+from graphkin.drawing.conventions import letters_of
+from graphkin.drawing.in_motion import figure_in_motion
+from graphkin.errors import GraphkinError, Unsolvable
+from graphkin.papers.html import figure_svg, words_html
+from graphkin.papers.lesson import Speaker
+from graphkin.scene.model import AngleDriver, Mechanism, SlideDriver
+from graphkin.scene.source import mechanism_of_text
+from graphkin.solver import Motion
+from graphkin.solver.driver_range import DriverRange, driver_range
+from graphkin.structure import Structure, mobility_of
+from graphkin.words import Phrase, languages, say
+
+__all__ = ["Wishes", "drawn_at", "mobility_text", "motion_at", "scene_of", "shown", "thumbnail"]
+
+NEAR_END = 1e-6  # of the range: so far from its end the drawing is whole
+
+
+@dataclass(frozen=True)
+class Wishes:
+    """How the page wants its figures."""
+
+    figures: tuple[str, ...] = ("mechanism", "velocity", "acceleration")
+    language: str | None = None
+    convention: str | None = None
+    instrument: str = "exact"
+    seed: int = 0
+    scales: Scales | None = None
+
+    @classmethod
+    def of(cls, message: Mapping[str, Any]) -> Wishes:
+        """The wishes of a message.  Raises CallError for words that mean nothing."""
+        language, convention = message.get("language") or None, message.get("convention") or None
+        instrument = message.get("instrument") or "exact"
+        known_words(language=language, convention=convention, instrument=instrument)
+        figures = message.get("figures")
+        names = [str(f) for f in figures] if isinstance(figures, list) else list(cls.figures)
+        seed = message.get("seed")
+        given = message.get("scales")
+        scales = None
+        if isinstance(given, list) and len(given) == 3 and all(isinstance(x, float | int) and x > 0 for x in given):
+            scales = Scales(*map(float, given))
+        return cls(tuple(names), language, convention, instrument, seed if isinstance(seed, int) else 0, scales)
+
+
+@lru_cache(maxsize=16)
+def scene_of(text: str, name: str) -> Mechanism:
+    """What the text of a scene says.  Raises SceneError."""
+    return mechanism_of_text(text, name)
+
+
+@lru_cache(maxsize=16)
+def _range_of(scene: Mechanism) -> DriverRange:
+    return driver_range(scene)
+
+
+def mobility_text(scene: Mechanism, language: str, drivers: int | None = None) -> str:
+    """The mobility with its numbers, as it is told everywhere; ``drivers`` where the scene's own are only a trial."""
+    found, count = mobility_of(scene), len(scene.drivers) if drivers is None else drivers
+    numbers = (str(found.links), str(found.lower), str(found.higher), str(found.value))
+    if not count:
+        return say(Phrase("page freedom", numbers), language, show)
+    if found.value == count:
+        return say(Phrase("explained count", numbers), language, show)
+    return say(Phrase("explained miscount", (*numbers, str(count))), language, show)
+
+
+def reach(scene: Mechanism) -> dict[str, Any]:
+    """How far the first driver moves: its least and greatest value in its own unit, whether it turns on and on, and
+    why it ends."""
+    over = _range_of(scene)
+    values = sorted(float(v) for v in over.value(np.array(over.ends)))
+    unit = np.pi / 180 if isinstance(over.driver, AngleDriver) else scene.units.metres
+    low, high = (v / unit for v in values)
+    if over.full:
+        low, high = 0.0, 360.0
+    return {"low": low, "high": high, "turns": over.full, "why": over.limit_why}
+
+
+def motion_at(scene: Mechanism, at: Mapping[str, float] | None) -> Motion:
+    """The exact motion at a position of the drivers.  Raises Unsolvable where it cannot be had."""
+    return solved_here(scene, driver_values(scene, at or None))
+
+
+def drawn_at(structure: Structure, at: Mapping[str, float] | None, wishes: Wishes) -> tuple[Drawn, Motion]:
+    """A scene drawn at a position of its drivers, with its exact motion.
+
+    Raises
+    ------
+    CallError : unknown figures or drivers; Unsolvable : a position that cannot be had
+    """
+    scene = structure.scene
+    values = driver_values(scene, at or None)
+    asked = tuple(scene.find)
+    motion = solved_here(structure, values, here(asked))
+    what = plan(structure, values, here(asked))
+    if wishes.scales is not None:
+        what = replace(what, scales=wishes.scales)
+    made = checked(what, motion, hand_of(scene, wishes.instrument, wishes.seed))
+    names = known_figures(scene, wishes.figures)
+    return Drawn(made, what, motion, names, wishes.seed, wishes.language, wishes.convention), motion
+
+
+def shown(scene: Mechanism, at: Mapping[str, float] | None, wishes: Wishes, quick: bool = False) -> dict[str, Any]:
+    """A scene at a position, as the page takes it; where it does not reach there, at the end of its range with the
+    reason.
+
+    Parameters
+    ----------
+    at : values of drivers in their own units; the scene's own if None
+    quick : figures and places alone, while a hand moves
+
+    Raises
+    ------
+    Unsolvable : not even the scene's own position can be had
+    """
+    structure = solver.structure_of(scene)
+    if quick and wishes.instrument == "exact":
+        answer = _in_motion(structure, at, wishes)
+        rest = tuple(name for name in wishes.figures if name not in _IN_MOTION)
+        if rest and not answer["limit"]:
+            answer["figures"] |= _figures(drawn_at(structure, at, replace(wishes, figures=rest))[0])
+        return answer
+    said = ""
+    try:
+        drawn, motion = drawn_at(structure, at, wishes)
+    except Unsolvable as error:
+        if not at or len(scene.drivers) != 1 or error.status not in ("not assembled", "dead point"):
+            raise
+        at, said = _last(scene, at), error.why
+        drawn, motion = drawn_at(structure, at, wishes)
+    answer = {
+        "figures": _figures(drawn),
+        "points": _points(motion),
+        "at": {d.key: _own(scene, d, float(v)) for d, v in zip(scene.drivers, motion.values[0], strict=True)},
+        "scales": [drawn.plan.scales.length, drawn.plan.scales.velocity, drawn.plan.scales.acceleration],
+        "perMm": drawn.plan.scales.length / scene.units.metres,
+        "limit": said,
+    }
+    return answer if quick else {**answer, **_whole(drawn, wishes)}
+
+
+_IN_MOTION: Mapping[str, DiagramName] = {n: n for n in ("mechanism", "velocity", "acceleration")}
+
+
+def _in_motion(structure: Structure, at: Mapping[str, float] | None, wishes: Wishes) -> dict[str, Any]:
+    """The same while a hand moves: nothing is checked, and names stand where there may be others."""
+    scene = structure.scene
+    values = driver_values(scene, at or None)
+    said = ""
+    try:
+        what = plan(structure, values, here(tuple(scene.find)))
+    except Unsolvable as error:
+        if not at or len(scene.drivers) != 1:
+            raise
+        values, said = driver_values(scene, _last(scene, at)), error.why
+        what = plan(structure, values, here(tuple(scene.find)))
+    sheet = execute(replace(what, scales=wishes.scales or what.scales))
+    words = {"language": wishes.language, "convention": wishes.convention}
+    there = [name for name in wishes.figures if name in _IN_MOTION and _is_there(sheet, name)]
+    drawn = {name: figure_in_motion(sheet, _IN_MOTION[name], **words) for name in there}
+    unit = sheet.scales.length / scene.units.metres
+    pulls = movable(scene)
+    points = {ref.point: z * unit for ref, z in sheet.points.items() if not ref.link}
+    return {
+        "figures": {name: figure_svg(figure, named=True) for name, figure in drawn.items()},
+        "points": {p: {"x": z.real, "y": z.imag, "pull": pulls.get(p, "")} for p, z in points.items()},
+        "at": {d.key: _own(scene, d, float(sheet.drivers[d.key])) for d in scene.drivers},
+        "scales": [sheet.scales.length, sheet.scales.velocity, sheet.scales.acceleration],
+        "perMm": unit,
+        "limit": said,
+    }
+
+
+def _is_there(sheet: Sheet, figure: str) -> bool:
+    return figure != "acceleration" or bool(sheet.vectors("acceleration"))
+
+
+def _last(scene: Mechanism, at: Mapping[str, float]) -> dict[str, float]:
+    """The last position on the way to one that is not reached.  Raises Unsolvable where there is no way."""
+    found = reach(scene)
+    key, wanted = next(iter(at.items()))
+    inside = NEAR_END * (found["high"] - found["low"])
+    if isinstance(scene.drivers[0], AngleDriver) and not found["low"] <= wanted <= found["high"]:
+        middle = (found["low"] + found["high"]) / 2
+        wanted = middle + (wanted - middle + 180.0) % 360.0 - 180.0
+    return {key: min(max(wanted, found["low"] + inside), found["high"] - inside)}
+
+
+def _own(scene: Mechanism, driver: AngleDriver | SlideDriver, value: float) -> float:
+    return float(np.degrees(value)) if isinstance(driver, AngleDriver) else value / scene.units.metres
+
+
+def _figures(drawn: Drawn) -> dict[str, str]:
+    """The figures as elements of the page, which has their letters; a figure that cannot be drawn says why."""
+    found = {}
+    for name in drawn.wanted:
+        try:
+            made = FIGURES[name].make(drawn)
+        except GraphkinError as error:
+            found[name] = f"<p>{words_html(str(error).replace('$', '$$'))}</p>"
+            continue
+        if made is not None:
+            found[name] = figure_svg(made, named=True)
+            for number, page in enumerate(made.further, 2):
+                found[f"{name}-{number}"] = figure_svg(page, named=True)
+    return found
+
+
+def _points(motion: Motion) -> dict[str, dict[str, Any]]:
+    scene, pulls = motion.scene, movable(motion.scene)
+    places = {}
+    for point, holders in scene.holders.items():
+        if holders:
+            z = complex(motion.position(point)[0]) / scene.units.metres
+            places[point] = {"x": z.real, "y": z.imag, "pull": pulls.get(point, "")}
+    return places
+
+
+def _whole(drawn: Drawn, wishes: Wishes) -> dict[str, Any]:
+    scene, sheet = drawn.scene, drawn.checked.sheet
+    spoken = languages(wishes.language or scene.sheet.language)[0]
+    speaker = Speaker(sheet, letters_of(sheet, wishes.convention or scene.sheet.convention))  # type: ignore[arg-type]
+    try:
+        limits = reach(scene)
+    except GraphkinError as error:
+        limits = {"low": None, "high": None, "turns": False, "why": str(error)}
+    return {
+        "readings": [list(row) for row in reading_words(drawn.checked)],
+        "agrees": drawn.ok,
+        "steps": [
+            {"n": step.number, "figure": step.diagram, "html": words_html(speaker.step(step, spoken)),
+             "work": [words_html(line) for line in speaker.work(step)]}
+            for step in sheet.steps
+        ],
+        "range": limits,
+        "drivers": [
+            {"key": d.key, "angle": isinstance(d, AngleDriver), "now": own_unit(scene, d, drawn.motion.values[0][i])}
+            for i, d in enumerate(scene.drivers)
+        ],
+        "mobility": mobility_text(scene, spoken),
+        "title": scene.title_in(spoken),
+        "unit": scene.units.length,
+    }  # fmt: skip
+
+
+def thumbnail(scene: Mechanism, language: str | None) -> str:
+    """The mechanism figure of a scene at its own position."""
+    drawn, _ = drawn_at(solver.structure_of(scene), None, Wishes(("mechanism",), language))
+    return next(iter(_figures(drawn).values()))
+
+

@@ -1,0 +1,278 @@
+"""The text of a scene, changed by key: comments, order and layout of the rest stay as they were written."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+from itertools import pairwise
+from typing import Any
+
+from graphkin.errors import CallError, Problem, SceneError
+from graphkin.scene.source import LARGEST_FILE, parsed
+
+__all__ = ["changed", "completions", "line_of", "places"]
+
+MOST_CHANGES = 500
+
+
+def changed(text: str, changes: Mapping[str, Any]) -> str:
+    """The text with values put at keys (with dots, list items counted from 1: ``frame.points.D.1``).
+
+    Parameters
+    ----------
+    text : of a scene file
+    changes : value by key; None takes the entry out.  Tables that are not there are made.
+
+    Raises
+    ------
+    SceneError : the text is no TOML; CallError : a key that leads through a value
+    """
+    import tomlkit
+    from tomlkit.exceptions import TOMLKitError
+
+    parsed(text)  # its sentences name the line
+    if len(changes) > MOST_CHANGES:
+        raise CallError(Problem("changes", f"found {len(changes)}", f"at most {MOST_CHANGES} at once"))
+    try:
+        document = tomlkit.parse(text)
+        for key, value in changes.items():
+            _put(document, key, value)
+        made = _laid_out(tomlkit.dumps(document), text)
+    except (TOMLKitError, TypeError, ValueError, KeyError) as error:
+        raise CallError(Problem(", ".join(changes)[:80], f"cannot be changed: {error}"[:200])) from None
+    if len(made) > LARGEST_FILE:
+        raise CallError(Problem("the file", f"would be larger than {LARGEST_FILE // 1000} kB"))
+    return made
+
+
+def _put(document: Any, key: str, value: Any) -> None:
+    import tomlkit
+
+    parts = key.split(".")
+    place: Any = document
+    for depth, part in enumerate(parts[:-1]):
+        if isinstance(place, list):
+            place = place[_index(place, part, key)]
+        elif hasattr(place, "keys"):
+            if part not in place:
+                if value is None:
+                    return
+                short = depth > 0 and (parts[0] not in _HOLDERS or depth > 1)
+                holder = depth == 0 and part in _HOLDERS
+                place[part] = tomlkit.inline_table() if short else tomlkit.table(is_super_table=holder)
+            place = place[part]
+        else:
+            raise CallError(Problem(key, f"{'.'.join(parts[:depth])} has nothing inside"))
+    last = parts[-1]
+    if isinstance(place, list):
+        place[_index(place, last, key)] = value
+    elif not hasattr(place, "keys"):
+        raise CallError(Problem(key, f"{'.'.join(parts[:-1])} has nothing inside"))
+    elif value is None:
+        if last in place:
+            del place[last]
+    else:
+        _set(place, last, value, top=len(parts) == 1)
+
+
+def _set(place: Any, last: str, value: Any, top: bool = False) -> None:
+    """Put a value, its comment kept; short tables stand on one line."""
+    import tomlkit
+
+    if isinstance(value, Mapping):
+        short = _is_inline(place) or (_is_small(value) and not top)
+        table = tomlkit.inline_table() if short else tomlkit.table()
+        for name, item in value.items():
+            _set(table, str(name), item)
+        place[last] = table
+        return
+    old = place.get(last)
+    item = tomlkit.item(value)
+    if old is not None and hasattr(old, "trivia"):
+        trivia = old.trivia
+        item.trivia.indent, item.trivia.comment_ws = trivia.indent, trivia.comment_ws
+        item.trivia.comment, item.trivia.trail = trivia.comment, trivia.trail
+    place[last] = item
+
+
+def _is_inline(place: Any) -> bool:
+    from tomlkit.items import InlineTable
+
+    return isinstance(place, InlineTable)
+
+
+def _is_small(value: Mapping[str, Any]) -> bool:
+    return len(value) <= 4 and not any(isinstance(item, Mapping) for item in value.values()) and "points" not in value
+
+
+_HOLDERS = ("links", "masses", "loads")  # tables of tables, each with a head of its own
+_CLOSE = re.compile(r"""("[^"]*"|#.*)|,(?=[^\s])""")
+
+
+def _laid_out(made: str, before: str) -> str:
+    """Heads of tables with a line free before them, new lists with a blank after each comma."""
+    written = before.splitlines()
+    old, tight = set(written), {b for a, b in pairwise(written) if a.strip() and _HEAD.match(b)}
+    lines: list[str] = []
+    for line in made.splitlines():
+        if line not in tight and _HEAD.match(line) and lines and lines[-1].strip() and not lines[-1].startswith("#"):
+            lines.append("")
+        lines.append(line if line in old else _CLOSE.sub(lambda found: found[1] or ", ", line))
+    return "\n".join(lines) + "\n"
+
+
+def _index(place: list[Any], part: str, key: str) -> int:
+    index = {"x": 0, "y": 1}.get(part, int(part) - 1 if part.isdecimal() else -1)
+    if not 0 <= index < len(place):
+        raise CallError(Problem(key, f"there is no item {part}", f"it has {len(place)}, counted from 1"))
+    return index
+
+
+# -- where things stand ---------------------------------------------------------------------------------------------
+
+_KEY = r"""(?:[A-Za-z0-9_-]+|"[^"]*"|'[^']*')"""
+_HEAD = re.compile(rf"^\s*\[\[?\s*({_KEY}(?:\s*\.\s*{_KEY})*)\s*\]\]?")
+_ENTRY = re.compile(rf"^(\s*)({_KEY}(?:\s*\.\s*{_KEY})*)\s*=")
+_LINE = re.compile(r"line (\d+)")
+
+
+def places(text: str) -> dict[str, int]:
+    """The line (from 1) at which each key of a TOML text stands; keys with dots, the second driver is ``driver.2``.
+
+    Texts that are no TOML are followed as far as their lines can be read.
+
+    >>> places('[links.1]\\npoints = ["A", "B"]\\nlength = 150')
+    {'links.1': 1, 'links.1.points': 2, 'links.1.length': 3}
+    """
+    found: dict[str, int] = {}
+    head: tuple[str, ...] = ()
+    counts: dict[str, int] = {}
+    for number, line in enumerate(text.splitlines(), 1):
+        if table := _HEAD.match(line):
+            head = _parts(table[1])
+            if line.lstrip().startswith("[["):
+                name = ".".join(head)
+                counts[name] = counts.get(name, 0) + 1
+                if counts[name] > 1:
+                    head = (*head, str(counts[name]))
+            found.setdefault(".".join(head), number)
+            continue
+        if entry := _ENTRY.match(line):
+            path = (*head, *_parts(entry[2]))
+            found.setdefault(".".join(path), number)
+            opened = line.find("{", entry.end())
+            if opened >= 0:
+                _inside(line[opened:], path, number, found)
+    return found
+
+
+def _parts(name: str) -> tuple[str, ...]:
+    return tuple(part.strip().strip("\"'") for part in re.findall(_KEY, name))
+
+
+def _inside(line: str, path: tuple[str, ...], number: int, found: dict[str, int]) -> None:
+    """Keys of tables in braces, which stand on one line."""
+    stack = [path]
+    for piece in re.finditer(rf"({_KEY}(?:\s*\.\s*{_KEY})*)\s*=\s*(\{{)?|[{{}}]|\"[^\"]*\"", line):
+        if piece[1]:
+            inner = (*stack[-1], *_parts(piece[1]))
+            found.setdefault(".".join(inner), number)
+            if piece[2]:
+                stack.append(inner)
+        elif piece[0] == "}" and len(stack) > 1:
+            stack.pop()
+
+
+def line_of(problem: Problem, text: str) -> int:
+    """The line (from 1) that a problem is about: that of its key, or of the nearest table that holds it; 0 where it is
+    about the whole."""
+    if line := _LINE.match(problem.where):
+        return int(line[1])
+    known = places(text)
+    name = re.split(r"[:,]| and ", problem.where)[0].strip()
+    for word in (name, *_named(name)):
+        parts = word.split(".")
+        for n in range(len(parts), 0, -1):
+            if ".".join(parts[:n]) in known:
+                return known[".".join(parts[:n])]
+    return 0
+
+
+def _named(where: str) -> Iterable[str]:
+    """Keys that a place said in words stands for: ``link 3``, ``point D``, ``driver 1 at 30``."""
+    kind, _, name = where.partition(" ")
+    name = name.split(" ")[0]
+    if kind in ("link", "links"):
+        return (f"links.{name}",)
+    if kind == "point":
+        return (f"sketch.{name}", f"frame.points.{name}", "frame")
+    if kind == "driver":
+        return ("driver",)
+    if kind == "mobility":
+        return ("links",)
+    return ()
+
+
+# -- what may be written --------------------------------------------------------------------------------------------
+
+
+def completions(text: str, line: int, column: int) -> list[dict[str, str]]:
+    """What may stand at a place of the text: keys of the table there, or names of tables, points, links, guides.
+
+    Parameters
+    ----------
+    line, column : from 1 and from 0, of the cursor
+
+    Returns
+    -------
+    label and detail of each
+    """
+    from graphkin.scene.reading import keys_at
+
+    lines = text.split("\n")
+    before = lines[line - 1][:column] if 0 < line <= len(lines) else ""
+    head: tuple[str, ...] = ()
+    for above in lines[: line - 1]:
+        if table := _HEAD.match(above):
+            head = _parts(table[1])
+    if re.match(r"^\s*\[\[?[^\]]*$", before):
+        tables = keys_at(())
+        return [{"label": name, "detail": tables[name]} for name in sorted(tables)]
+    entry = _ENTRY.match(before)
+    if entry is None:
+        return [{"label": key, "detail": detail} for key, detail in _keys_of(head).items()]
+    return [{"label": name, "detail": ""} for name in _names(text, _parts(entry[2])[-1], before.count('"') % 2 == 1)]
+
+
+def _keys_of(head: tuple[str, ...]) -> dict[str, str]:
+    from graphkin.scene.reading import keys_at
+
+    if head[:1] == ("driver",):
+        return {k: d for kind in ("<angle>", "<slide>") for k, d in keys_at(("driver", "<one>", kind)).items()}
+    return keys_at(head)
+
+
+def _names(text: str, key: str, quoted: bool) -> list[str]:
+    try:
+        made = parsed(text)
+    except SceneError:
+        made = {}
+    links = made.get("links")
+    links = {str(k): v for k, v in links.items() if isinstance(v, dict)} if isinstance(links, dict) else {}
+    frame = made.get("frame")
+    frame = frame if isinstance(frame, dict) else {}
+    fixed = str(frame.get("name", "0"))
+    if key in ("points", "from", "through", "toward"):
+        found = {p for link in links.values() for p in link.get("points", ()) if isinstance(p, str)}
+        found |= set(frame.get("points") or {}) | {p for link in links.values() for p in link.get("at") or {}}
+    elif key in ("on", "in"):
+        found = set(links) | {f"{fixed}.{g}" for g in frame.get("guides") or {}}
+        found |= {f"{name}.{g}" for name, link in links.items() for g in link.get("guides") or {}}
+    elif key in ("link", "of", "relative_to"):
+        found = set(links)
+    elif key == "length" and "units" in text:
+        found = {"mm", "cm", "m", "in", "ft"}
+    else:
+        found = {"convention": {"chinese", "us", "british", "russian"}, "language": {"en", "zh"},
+                 "sense": {"clockwise", "counter-clockwise"}}.get(key, set())
+    return sorted(found if quoted else {f'"{name}"' for name in found})

@@ -1,0 +1,216 @@
+"""The board as a local page: a server for one user on one machine.
+
+It listens on 127.0.0.1 only.  The address holds a secret; whoever does not know it, and every page of another origin,
+is refused.  The page may load nothing from elsewhere.
+"""
+
+from __future__ import annotations
+
+import json
+import secrets
+import traceback
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from graphkin.board.answers import Desk, answer
+from graphkin.errors import CallError, Problem
+
+__all__ = ["LARGEST_MESSAGE", "Address", "application", "needs_live", "serve"]
+
+LARGEST_MESSAGE = 2_000_000
+STATIC = Path(__file__).parent / "static"
+FONTS = Path(__file__).parent.parent / "drawing" / "fonts"
+_FILES = {
+    "board.js": (STATIC, "text/javascript"), "board.css": (STATIC, "text/css"),
+    "regular.ttf": (FONTS, "font/ttf"), "italic.ttf": (FONTS, "font/ttf"), "bold.ttf": (FONTS, "font/ttf"),
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Address:
+    """Where the page is: the port, and the secret that its address holds."""
+
+    port: int
+    secret: str
+
+    @classmethod
+    def new(cls, port: int) -> Address:
+        """An address with a secret of its own."""
+        return cls(port, secrets.token_urlsafe(24))
+
+    @property
+    def url(self) -> str:
+        return f"http://127.0.0.1:{self.port}/{self.secret}/"
+
+    @property
+    def hosts(self) -> tuple[str, ...]:
+        return f"127.0.0.1:{self.port}", f"localhost:{self.port}"
+
+    def knows(self, secret: str) -> bool:
+        """Whether a secret is that of the address; compared in the same time whatever it is."""
+        return secrets.compare_digest(secret.encode(), self.secret.encode())
+
+
+def needs_live() -> None:
+    """Raises CallError where the extra is not installed that the page needs."""
+    from graphkin.table import have
+
+    missing = [name for name in ("starlette", "uvicorn", "websockets") if not have(name)]
+    if missing:
+        raise CallError(Problem("open", f"needs {', '.join(missing)}", 'pip install "graphkin[live]"'))
+
+
+@cache
+def _file(name: str) -> bytes:
+    return (_FILES[name][0] / name).read_bytes()
+
+
+def _policy(nonce: str, address: Address) -> str:
+    sockets = " ".join(f"ws://{host}" for host in address.hosts)
+    return (
+        f"default-src 'none'; script-src 'self'; style-src 'self' 'nonce-{nonce}'; img-src 'self' data: blob:; "
+        f"font-src 'self'; connect-src 'self' {sockets}; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+    )
+
+
+def application(desk: Desk, address: Address) -> Any:
+    """The ASGI application of the page.
+
+    Parameters
+    ----------
+    desk : what the page may reach
+    address : where it listens, and the secret that it asks for
+    """
+    from starlette.applications import Starlette
+    from starlette.concurrency import run_in_threadpool
+    from starlette.requests import HTTPConnection, Request
+    from starlette.responses import PlainTextResponse, Response
+    from starlette.routing import Route, WebSocketRoute
+    from starlette.websockets import WebSocket, WebSocketDisconnect
+
+    origins = tuple(f"http://{host}" for host in address.hosts)
+
+    def refused(call: HTTPConnection) -> str:
+        """Why a call is refused, "" where it is not."""
+        if call.headers.get("host", "") not in address.hosts:
+            return "this page is served to this machine only"
+        origin = call.headers.get("origin")
+        if origin is not None and origin not in origins:
+            return "calls of other pages are refused"
+        if not address.knows(call.path_params.get("secret", "")):
+            return "the secret of this address is wrong: open the one that graphkin printed"
+        return ""
+
+    def headed(response: Response, nonce: str = "") -> Response:
+        response.headers.update({
+            "Content-Security-Policy": _policy(nonce, address), "X-Content-Type-Options": "nosniff",
+            "Referrer-Policy": "no-referrer", "Cross-Origin-Resource-Policy": "same-origin",
+            "Cross-Origin-Opener-Policy": "same-origin", "Cache-Control": "no-store",
+        })  # fmt: skip
+        return response
+
+    async def page(request: Request) -> Response:
+        if why := refused(request):
+            return headed(PlainTextResponse(why, 403))
+        nonce = secrets.token_urlsafe(16)
+        body = _file_of_page().replace("NONCE", nonce)
+        return headed(Response(body, media_type="text/html"), nonce)
+
+    async def static(request: Request) -> Response:
+        if why := refused(request):
+            return headed(PlainTextResponse(why, 403))
+        name = request.path_params["name"]
+        if name not in _FILES:
+            return headed(PlainTextResponse("there is no such file", 404))
+        return headed(Response(_file(name), media_type=_FILES[name][1]))
+
+    async def talk(socket: WebSocket) -> None:
+        if refused(socket) or socket.headers.get("origin") not in origins:
+            await socket.close(1008)
+            return
+        await socket.accept()
+        try:
+            while True:
+                text = await socket.receive_text()
+                told = await run_in_threadpool(_answered, desk, text)
+                await socket.send_text(told)
+        except (WebSocketDisconnect, KeyError, RuntimeError):  # KeyError: bytes instead of a text
+            return
+
+    async def elsewhere(request: Request) -> Response:
+        return headed(PlainTextResponse("open the address that graphkin printed", 403))
+
+    routes = [
+        Route("/{secret}/", page), WebSocketRoute("/{secret}/talk", talk), Route("/{secret}/{name}", static),
+        Route("/{path:path}", elsewhere, methods=["GET", "HEAD", "POST", "PUT", "DELETE", "OPTIONS", "PATCH"]),
+    ]  # fmt: skip
+    return Starlette(routes=routes)
+
+
+def _file_of_page() -> str:
+    return (STATIC / "board.html").read_text(encoding="utf-8")
+
+
+def _answered(desk: Desk, text: str) -> str:
+    """The answer to a message as it came; one that is no JSON is told so, and one that nobody foresaw ends neither the
+    page nor the server."""
+    message: object = None
+    with suppress(ValueError, RecursionError):
+        message = json.loads(text)
+    try:
+        return json.dumps(answer(desk, message), ensure_ascii=False, allow_nan=False, default=str)
+    except Exception as error:
+        traceback.print_exc()
+        number = message.get("id") if isinstance(message, dict) else None
+        said = f"this could not be answered ({type(error).__name__}); the terminal says more"
+        return json.dumps({"id": number, "ok": False, "problems": [{"text": said, "line": 0}], "kind": "Defect"})
+
+
+def serve(desk: Desk, port: int = 0, ready: Callable[[Address], None] | None = None) -> None:
+    """Serve the page until it is interrupted.
+
+    Parameters
+    ----------
+    port : to listen on; a free one if 0
+    ready : called with the address when the page can be opened
+
+    Raises
+    ------
+    CallError : the extra ``live`` is not installed, or the port is taken
+    """
+    needs_live()
+    import asyncio
+    import socket
+
+    listening = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
+    listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    try:
+        listening.bind(("127.0.0.1", port))
+    except (OSError, OverflowError) as error:
+        listening.close()
+        raise CallError(Problem("port", f"{port} cannot be used: {error}", "give another one, or none")) from None
+    address = Address.new(listening.getsockname()[1])
+    try:
+        asyncio.run(_run(application(desk, address), listening, lambda: ready(address) if ready else None))
+    finally:
+        listening.close()
+
+
+async def _run(app: Any, listening: Any, ready: Callable[[], None]) -> None:
+    import uvicorn
+
+    config = uvicorn.Config(
+        app, log_level="error", access_log=False, ws="websockets-sansio", ws_max_size=LARGEST_MESSAGE, lifespan="off",
+        server_header=False, timeout_graceful_shutdown=1,
+    )  # fmt: skip
+
+    class Server(uvicorn.Server):  # type: ignore[misc]
+        async def startup(self, sockets: list[Any] | None = None) -> None:
+            await super().startup(sockets)
+            ready()
+
+    await Server(config).serve(sockets=[listening])

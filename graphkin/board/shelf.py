@@ -1,0 +1,126 @@
+"""The scenes that a page may open and the files that it may write: those of one folder, one file, or none.
+
+A file is written whole or not at all, the version before it is kept beside it (``name.toml~``), and what somebody else
+has changed in the meantime is not overwritten unasked.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+from graphkin.errors import CallError, GraphkinError, Problem, did_you_mean
+from graphkin.files import whole_file
+from graphkin.scene.source import LARGEST_FILE, file_text, library, library_text
+
+__all__ = ["Shelf", "mark_of"]
+
+_NAME = re.compile(r"[^\W_][\w .-]{0,80}\.toml")
+
+
+def mark_of(text: str) -> str:
+    """A mark by which a version of a text is known again."""
+    return sha256(text.encode()).hexdigest()[:16]
+
+
+@dataclass(frozen=True)
+class Shelf:
+    """Scenes that come along, and the scene files of a folder or one file.
+
+    folder : where files are; None where there are none
+    only : the one file of it that may be opened and written; any scene file of the folder if empty
+    """
+
+    folder: Path | None = None
+    only: str = ""
+
+    @classmethod
+    def of(cls, place: str | None) -> tuple[Shelf, str]:
+        """The shelf of a file, a folder, or the name of a scene that comes along, and the scene that is opened first.
+
+        Raises
+        ------
+        SceneError : there is no such file or scene
+        """
+        if not place:
+            return cls(), ""
+        path = Path(place)
+        if path.is_dir():
+            return cls(path.resolve()), ""
+        if place in library() and not path.is_file():
+            return cls(), place
+        file_text(place)  # or a sentence
+        return cls(path.resolve().parent, path.name), path.name
+
+    def files(self) -> list[str]:
+        """Names of the scene files, sorted."""
+        if self.folder is None:
+            return []
+        if self.only:
+            return [self.only]
+        return sorted(p.name for p in self.folder.glob("*.toml") if _NAME.fullmatch(p.name) and p.is_file())[:500]
+
+    def listing(self) -> list[dict[str, Any]]:
+        """All that can be opened: own files first, then the scenes that come along."""
+        own: list[dict[str, Any]] = [{"name": name, "own": True} for name in self.files()]
+        return own + [{"name": name, "own": False} for name in library()]
+
+    def text(self, name: str) -> str:
+        """The text of a scene.  Raises SceneError, CallError for one that is not here."""
+        if name in self.files():
+            return file_text(str(self._path(name)))
+        if name in library():
+            return library_text(name)
+        known = [*self.files(), *library()]
+        raise CallError(Problem(f'"{name[:60]}"', "there is no such scene here", did_you_mean(name[:60], known)))
+
+    def save(self, name: str, text: str, mark: str) -> str:
+        """Write a file, and return the mark of its new version.
+
+        Parameters
+        ----------
+        mark : of the version that was opened; "" for a new file
+
+        Raises
+        ------
+        CallError : a file that may not be written, one that has changed since, a place that takes nothing
+        """
+        path = self._path(name)
+        if len(text) > LARGEST_FILE:
+            raise CallError(Problem(name, f"is larger than {LARGEST_FILE // 1000} kB"))
+        try:
+            before = path.read_bytes() if path.is_file() else None
+            if before is not None and mark_of(before.decode("utf-8-sig", "replace")) != mark:
+                raise CallError(Problem(name, "has been changed by somebody else since it was opened",
+                                        "open it again, or save under another name"))
+            if before is not None:
+                with whole_file(path.with_name(f"{path.name}~")) as kept:
+                    kept.write(before)
+            with whole_file(path) as out:
+                out.write(text.encode())
+        except OSError as error:
+            raise CallError(Problem(name, f"cannot be written: {error.strerror or error}")) from None
+        return mark_of(text)
+
+    def changed(self, name: str, mark: str) -> str | None:
+        """The text of a file that somebody else has changed since the version of a mark; None where nobody has."""
+        try:
+            text = self.text(name)
+        except GraphkinError:
+            return None
+        return None if mark_of(text) == mark else text
+
+    def _path(self, name: str) -> Path:
+        if self.folder is None:
+            raise CallError(Problem(name[:60] or "the file", "no file was opened that could be written",
+                                    "start with a folder: graphkin open FOLDER"))
+        if name != self.only and (self.only or not _NAME.fullmatch(name)):
+            wanted = f"only {self.only} may be written here" if self.only else "a name like four-bar.toml is wanted"
+            raise CallError(Problem(f'"{name[:60]}"', "cannot be written", wanted))
+        path = self.folder / name
+        if path.is_symlink() and self.only != name:
+            raise CallError(Problem(name, "is a link to another place", "open that file itself"))
+        return path

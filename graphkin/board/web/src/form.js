@@ -1,0 +1,82 @@
+// The scene as a form: every table of the file with its entries, for those who do not want the text.
+import { button, h } from "./dom.js";
+
+/** Shows `form` (the tables of the file); `change(changes)` is told what is put where. */
+export function sceneForm(parent, { word, change }) {
+  const field = (path, value) => {
+    const id = `field-${path}`;
+    const label = path.split(".").slice(1).join(" ") || path;
+    const kind = typeof value === "number" ? "number" : "text";
+    const looks = { id, name: path, value: typeof value === "object" ? JSON.stringify(value) : String(value) };
+    if (typeof value === "boolean") {
+      const box = h("input", { id, name: path, type: "checkbox", checked: value, onchange: (e) => change({ [path]: e.target.checked }) });
+      return h("div.field", {}, h("label", { for: id }, label), box);
+    }
+    const input = h("input", { ...looks, type: kind, step: "any", onchange: (e) => read(path, value, e.target) });
+    return h("div.field", {}, h("label", { for: id }, label), input);
+  };
+  const read = (path, before, input) => {
+    let value = input.value;
+    if (typeof before === "number") value = Number(value);
+    else if (typeof before === "object") {
+      try {
+        value = JSON.parse(value);
+      } catch {
+        value = null;
+      }
+      if (!Array.isArray(value)) {
+        input.setCustomValidity(word("wants list"));
+        input.reportValidity();
+        return;
+      }
+    }
+    if (typeof value === "number" && !Number.isFinite(value)) return;
+    input.setCustomValidity("");
+    change({ [path]: value });
+  };
+  const fields = (path, value) => {
+    if (Array.isArray(value) && value.length && value.every((one) => typeof one === "number")) {
+      const names = value.length === 2 ? ["x", "y"] : value.map((_, i) => i + 1);
+      return value.map((one, i) => field(`${path}.${names[i]}`, one));
+    }
+    if (Array.isArray(value) && value.some((one) => one && typeof one === "object" && !Array.isArray(one))) {
+      return value.map((one, i) => h("fieldset", {}, h("legend", {}, `${path.split(".").at(-1)} ${i + 1}`), ...fields(`${path}.${i + 1}`, one)));
+    }
+    if (value && typeof value === "object" && !Array.isArray(value)) {
+      return Object.entries(value).flatMap(([key, inner]) => {
+        const made = fields(`${path}.${key}`, inner);
+        const deep = inner && typeof inner === "object" && !Array.isArray(inner) && path === "links";
+        return deep ? [h("fieldset", {}, h("legend", {}, `${word("link")} ${key}`), ...made)] : made;
+      });
+    }
+    return [field(path, value)];
+  };
+  let before = "";
+  return {
+    show(form) {
+      const now = JSON.stringify(form);
+      if (!form || now === before) return;
+      before = now;
+      const focus = document.activeElement?.id;
+      const plain = Object.entries(form).filter(([, value]) => typeof value !== "object" || (Array.isArray(value) && typeof value[0] !== "object"));
+      const tables = Object.entries(form).filter(([key]) => !plain.some(([name]) => name === key));
+      const made = [
+        h("fieldset", {}, h("legend", {}, word("scene")), ...plain.flatMap(([key, value]) => [field(key, value)])),
+        ...tables.map(([key, value]) => h("fieldset", {}, h("legend", {}, key), ...fields(key, value))),
+      ];
+      parent.replaceChildren(...made);
+      if (focus?.startsWith("field-")) document.getElementById(focus)?.focus();
+    },
+    /** Values that a hand changes now, before the text says them. */
+    follow(changes) {
+      for (const [path, value] of Object.entries(changes ?? {})) {
+        const list = Array.isArray(value);
+        const parts = list ? value.map((one, i) => [`${path}.${["x", "y"][i]}`, one]) : [[path, value]];
+        for (const [name, one] of parts) {
+          const input = document.getElementById(`field-${name}`);
+          if (input && input !== document.activeElement) input.value = one;
+        }
+      }
+    },
+  };
+}

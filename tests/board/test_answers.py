@@ -1,0 +1,296 @@
+"""The page's questions and their answers, without a browser: texts changed by key, points pulled, mechanisms built."""
+
+from __future__ import annotations
+
+import tomllib
+
+import pytest
+
+import graphkin
+from graphkin.board.answers import QUESTIONS, Desk, answer, scene_link, text_of_link
+from graphkin.board.scene_text import changed, line_of, places
+from graphkin.board.shelf import Shelf, mark_of
+from graphkin.errors import CallError, Problem
+from graphkin.scene.source import library_text
+
+pytestmark = pytest.mark.quick
+
+SIXBAR = library_text("sixbar-420rpm")
+DESK = Desk(first="sixbar-420rpm")
+
+
+def asked(question: str, **message: object) -> dict:
+    return answer(DESK, {"do": question, "text": SIXBAR, **message})
+
+
+def told(question: str, **message: object) -> dict:
+    found = asked(question, **message)
+    assert found["ok"], found
+    return found
+
+
+def test_every_change_keeps_the_comments_and_the_rest_of_the_text() -> None:
+    made = changed(SIXBAR, {"links.2.length": 0.35, "frame.points.D.x": 0.41})
+    assert SIXBAR.replace("length = 0.34", "length = 0.35").replace("D = [0.4,", "D = [0.41,") == made
+
+
+def test_an_entry_is_taken_out_and_a_table_made() -> None:
+    made = tomllib.loads(changed(SIXBAR, {"source": None, "sketch.C": [1, 2]}))
+    assert "source" not in made
+    assert {"C": [1, 2]} == made["sketch"]
+
+
+def test_lines_of_keys_are_known_in_tables_and_braces() -> None:
+    text = '[frame]\npoints = { A = [0, 0], B = { from = "A", r = 2 } }\n[[driver]]\nlink = "1"\n[[driver]]\nlink = "2"'
+    found = places(text)
+    assert [2, 2, 4, 6] == [found[k] for k in ("frame.points.A", "frame.points.B.r", "driver.link", "driver.2.link")]
+
+
+@pytest.mark.parametrize(("where", "line"), [
+    ("links.2.length", 19), ("link 3", 21), ("line 7", 7), ("links.2.nothing", 17), ("point A", 10), ("nowhere", 0),
+])  # fmt: skip
+def test_a_problem_stands_at_the_line_it_is_about(where: str, line: int) -> None:
+    assert line == line_of(Problem(where, "is wrong"), SIXBAR)
+
+
+def test_a_wrong_length_is_told_at_its_line() -> None:
+    wrong = asked("show", text=SIXBAR.replace("length = 0.34", "length = -0.34"))
+    assert not wrong["ok"]
+    assert [19] == [one["line"] for one in wrong["problems"]]
+    assert "a length must be positive" in wrong["problems"][0]["text"]
+
+
+def test_a_scene_is_shown_whole_with_its_readings_and_steps() -> None:
+    found = told("show", figures=["mechanism", "velocity", "centres"])
+    assert {"mechanism", "velocity", "centres"} == set(found["figures"])
+    assert found["agrees"]
+    assert 'id="point-B"' in found["figures"]["mechanism"]
+    assert {"A": "frame", "B": "driver", "C": "lengths"} == {p: found["points"][p]["pull"] for p in "ABC"}
+    assert (0.0, 360.0, True) == (found["range"]["low"], found["range"]["high"], found["range"]["turns"])
+    assert list(range(1, len(found["steps"]) + 1)) == [step["n"] for step in found["steps"]]
+
+
+def test_a_pulled_crank_pin_turns_the_driver_and_leaves_the_text() -> None:
+    found = told("pull", point="B", x=0.0, y=3.0, final=True)
+    assert pytest.approx(90.0) == found["at"]["1"]
+    assert found["text"] == SIXBAR
+
+
+def test_while_a_hand_moves_the_figures_follow_at_the_same_scale() -> None:
+    still = told("show")
+    moved = told("pull", point="B", x=0.0, y=3.0, final=False, quick=True, scales=still["scales"])
+    assert still["scales"] == moved["scales"]
+    exact = graphkin.solve("sixbar-420rpm", at=90).motion
+    for point in "BCEF":
+        z = complex(exact.position(point)[0])
+        assert pytest.approx(z) == complex(moved["points"][point]["x"], moved["points"][point]["y"])
+    assert 'id="v_C"' in moved["figures"]["velocity"]
+
+
+@pytest.mark.parametrize("final", [True, False])
+def test_a_pulled_joint_changes_the_lengths_so_that_it_lies_there(final: bool) -> None:
+    found = told("pull", point="C", x=0.43, y=0.12, final=final, quick=not final)
+    assert pytest.approx((0.43, 0.12), abs=2e-4) == (found["points"]["C"]["x"], found["points"]["C"]["y"])
+    b = graphkin.solve("sixbar-420rpm").motion.position("B")[0]
+    if final:
+        links = tomllib.loads(found["text"])["links"]
+        assert pytest.approx(abs(0.43 + 0.12j - b), abs=1e-4) == links["2"]["length"]
+        assert "# coupler" in found["text"]
+    else:
+        assert {"links.2.length", "links.3.length"} == set(found["changes"])
+
+
+def test_a_pulled_point_of_the_frame_moves() -> None:
+    found = told("pull", point="D", x=0.42, y=-0.21, final=True)
+    assert [0.42, -0.21] == tomllib.loads(found["text"])["frame"]["points"]["D"]
+
+
+@pytest.mark.parametrize("name", [
+    "four-bar-coupler-point", "shaper-scheme-2", "whitworth", "hydraulic-cylinder", "single-flier", "sixbar-AE70",
+    "elliptic-trammel", "cam-eccentric-flat-rocker", "double-butterfly",
+])  # fmt: skip
+def test_each_point_that_says_so_can_be_pulled_in_every_kind_of_mechanism(name: str) -> None:
+    desk, text = Desk(first=name), library_text(name)
+    start = answer(desk, {"do": "show", "text": text, "figures": ["mechanism"]})
+    for point, at in start["points"].items():
+        if at["pull"]:
+            there = {"x": at["x"] + 2e-3 * start["perMm"], "y": at["y"] + 1e-3 * start["perMm"]}
+            found = answer(desk, {"do": "pull", "text": text, "point": point, **there, "quick": True, "figures": []})
+            assert found["ok"], (point, found)
+
+
+def test_where_the_mechanism_does_not_reach_its_last_position_is_drawn_and_the_reason_said() -> None:
+    text = library_text("sixbar-AE70")
+    found = answer(Desk(), {"do": "show", "text": text, "at": {"1": 100.0}, "figures": ["mechanism"]})
+    assert found["ok"]
+    assert pytest.approx(58.997, abs=0.01) == found["at"]["1"]
+    assert "not assembled" in found["limit"]
+
+
+def test_a_position_is_kept_in_the_file_with_its_assembly() -> None:
+    text = told("keep", at={"1": 200.0})["text"]
+    assert 200.0 == tomllib.loads(text)["driver"]["angle"]
+    kept = graphkin.solve(tomllib.loads(text)).motion
+    there = graphkin.solve("sixbar-420rpm", at=200).motion
+    assert pytest.approx(complex(there.position("F")[0])) == complex(kept.position("F")[0])
+
+
+def built(*steps: dict) -> str:
+    text = ""
+    for step in steps:
+        found = answer(Desk(), {"do": "build", "text": text, "step": step})
+        assert found["ok"], found
+        text = found["text"]
+    return text
+
+
+def test_a_four_bar_is_built_from_nothing_and_agrees_with_its_check() -> None:
+    text = built(
+        {"what": "pivot", "at": [0, 0]}, {"what": "pivot", "at": [100, 0]},
+        {"what": "bar", "from": "A", "to": [20, 30]}, {"what": "bar", "from": "C", "to": [110, 80]},
+        {"what": "bar", "from": "B", "to": "D"},
+        {"what": "point", "link": "2", "at": [60, 90]}, {"what": "drive", "link": "1"},
+    )  # fmt: skip
+    scene = tomllib.loads(text)
+    assert graphkin.check(scene).ok
+    motion = graphkin.solve(scene).motion
+    assert pytest.approx(0.06 + 0.09j, abs=1e-6) == complex(motion.position("E")[0])
+
+
+def test_a_slider_crank_and_a_quick_return_are_built() -> None:
+    slider = built(
+        {"what": "pivot", "at": [0, 0]}, {"what": "bar", "from": "A", "to": [30, 40]},
+        {"what": "bar", "from": "B", "to": [150, 10]}, {"what": "slider", "point": "C", "angle": 0},
+        {"what": "drive", "link": "1"},
+    )  # fmt: skip
+    assert graphkin.check(tomllib.loads(slider)).ok
+    whitworth = built(
+        {"what": "pivot", "at": [0, 0]}, {"what": "pivot", "at": [0, -100]},
+        {"what": "bar", "from": "A", "to": [40, 30]},
+        {"what": "slotted", "point": "B"}, {"what": "block", "point": "C", "link": "2"}, {"what": "drive", "link": "1"},
+    )  # fmt: skip
+    assert graphkin.check(tomllib.loads(whitworth)).ok
+
+
+def test_what_is_built_so_far_shows_its_mobility_and_its_sketch() -> None:
+    text = built({"what": "pivot", "at": [0, 0]}, {"what": "bar", "from": "A", "to": [20, 30]})
+    found = answer(Desk(), {"do": "show", "text": text})
+    assert (False, 1) == (found["ok"], found["freedom"])
+    assert {"A": [0.0, 0.0], "B": [20.0, 30.0]} == found["draft"]["points"]
+
+
+def test_what_is_deleted_takes_along_what_hung_on_it() -> None:
+    text = built(
+        {"what": "pivot", "at": [0, 0]}, {"what": "bar", "from": "A", "to": [20, 30]}, {"what": "drive", "link": "1"},
+        {"what": "delete", "link": "1"},
+    )  # fmt: skip
+    assert not {"driver", "sketch"} & {k for k, v in tomllib.loads(text).items() if v}
+
+
+def test_keys_and_names_are_completed() -> None:
+    keys = [one["label"] for one in told("complete", line=18, column=0)["options"]]
+    assert {"points", "length", "on"} <= set(keys)
+    line = SIXBAR.splitlines().index('on     = "6.h"') + 1
+    assert {"6.h", "3"} <= {one["label"] for one in told("complete", line=line, column=10)["options"]}
+
+
+def test_a_link_carries_the_scene() -> None:
+    assert SIXBAR == text_of_link(told("link")["link"])
+    assert SIXBAR == told("open", link=scene_link(SIXBAR))["text"]
+
+
+@pytest.mark.parametrize("link", ["graphkin:", "graphkin:%%%", "graphkin:eJw", "x" * 5000])
+def test_a_broken_link_is_refused_in_a_sentence(link: str) -> None:
+    with pytest.raises(CallError, match="carries no scene"):
+        text_of_link(link)
+
+
+def test_a_link_that_would_unpack_to_gigabytes_is_refused() -> None:
+    with pytest.raises(CallError, match="carries no scene"):
+        text_of_link(scene_link("a" * 30_000_000))
+
+
+@pytest.mark.parametrize("kind", ["svg", "pdf", "png", "dxf", "scene"])
+def test_figures_and_scene_are_handed_out(kind: str) -> None:
+    found = told("export", kind=kind, figures=["velocity"])
+    assert found["name"].endswith("toml" if kind == "scene" else kind)
+    assert len(found["data"]) > 500
+
+
+@pytest.mark.parametrize("message", [
+    None, 5, [], {}, {"do": 7}, {"do": "show"}, {"do": "show", "text": 5}, {"do": "show", "text": "x = ["},
+    {"do": "show", "text": SIXBAR, "at": {"1": "x"}}, {"do": "show", "text": SIXBAR, "at": {"9": 1.0}},
+    {"do": "show", "text": SIXBAR, "figures": ["x"]}, {"do": "show", "text": SIXBAR, "language": "xx"},
+    {"do": "pull", "text": SIXBAR, "point": "Q", "x": 0, "y": 0},
+    {"do": "pull", "text": SIXBAR, "point": "B", "x": "a"}, {"do": "change", "text": SIXBAR, "changes": 7},
+    {"do": "change", "text": SIXBAR, "changes": {"links.2.length.x": 5}},
+    {"do": "build", "text": SIXBAR, "step": {"what": "rocket"}},
+    {"do": "build", "text": SIXBAR, "step": {"what": "bar"}},
+    {"do": "open", "name": "../../etc/passwd"}, {"do": "save", "text": "", "name": "../x.toml"},
+    {"do": "export", "text": SIXBAR, "kind": "exe"},
+    {"do": "export", "text": SIXBAR, "kind": "variants", "count": 10**9},
+    {"do": "complete", "text": SIXBAR, "line": -5, "column": 10**9}, {"do": "watch"}, {"do": "thumbnail"},
+])  # fmt: skip
+def test_every_wrong_message_is_told_what_is_wrong(message: object) -> None:
+    found = answer(DESK, message)
+    if isinstance(message, dict) and message.get("do") in ("complete", "watch"):
+        assert found["ok"]
+        return
+    assert not found["ok"]
+    assert all(one["text"] for one in found["problems"])
+
+
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_every_figure_has_its_name_on_the_page(language: str) -> None:
+    found = told("names", language=language)
+    assert all(f"figure {name}" in found["words"] for name in found["figures"])
+
+
+def test_questions_of_the_page_are_those_that_are_answered() -> None:
+    assert {"show", "pull", "save"} <= set(QUESTIONS)
+
+
+# -- files ----------------------------------------------------------------------------------------------------------
+
+
+def test_a_file_is_saved_whole_with_the_version_before_beside_it(tmp_path) -> None:
+    path = tmp_path / "my.toml"
+    path.write_text(SIXBAR, encoding="utf-8")
+    shelf, first = Shelf.of(str(path))
+    assert "my.toml" == first
+    mark = shelf.save("my.toml", "title = 'x'\n", mark_of(SIXBAR))
+    assert ("title = 'x'\n", SIXBAR) == (path.read_text(), (tmp_path / "my.toml~").read_text())
+    assert mark == mark_of("title = 'x'\n")
+
+
+def test_what_somebody_else_has_changed_is_not_overwritten(tmp_path) -> None:
+    path = tmp_path / "my.toml"
+    path.write_text(SIXBAR, encoding="utf-8")
+    shelf, _ = Shelf.of(str(path))
+    path.write_text("title = 'theirs'\n", encoding="utf-8")
+    assert "title = 'theirs'\n" == shelf.changed("my.toml", mark_of(SIXBAR))
+    with pytest.raises(CallError, match="changed by somebody else"):
+        shelf.save("my.toml", "title = 'mine'\n", mark_of(SIXBAR))
+    assert "title = 'theirs'\n" == path.read_text()
+
+
+@pytest.mark.parametrize("name", [
+    "other.toml", "../my.toml", "my.toml~", ".hidden.toml", "a/b.toml", "/etc/x.toml", "",
+])  # fmt: skip
+def test_nothing_but_the_opened_file_is_written(tmp_path, name: str) -> None:
+    (tmp_path / "my.toml").write_text(SIXBAR, encoding="utf-8")
+    with pytest.raises(CallError):
+        Shelf.of(str(tmp_path / "my.toml"))[0].save(name, "x = 1\n", "")
+    with pytest.raises(CallError):
+        Shelf().save("my.toml", "x = 1\n", "")
+    assert ["my.toml"] == [p.name for p in tmp_path.iterdir()]
+
+
+def test_a_folder_takes_new_scene_files_but_no_path_out_of_it(tmp_path) -> None:
+    shelf, _ = Shelf.of(str(tmp_path))
+    shelf.save("new.toml", SIXBAR, "")
+    assert SIXBAR == (tmp_path / "new.toml").read_text()
+    (tmp_path / "out.toml").symlink_to(tmp_path.parent / "elsewhere.toml")
+    for name in ("../x.toml", "out.toml", "x.txt"):
+        with pytest.raises(CallError):
+            shelf.save(name, "x = 1\n", "")

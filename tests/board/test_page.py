@@ -1,0 +1,245 @@
+"""The board in a real browser: points pulled, text typed, mechanisms built by mouse and by keys."""
+
+from __future__ import annotations
+
+import time
+import tomllib
+
+import pytest
+
+import graphkin
+from graphkin.scene.source import library_text
+from tests.board.served import served
+from tests.papers.test_browser import browser  # noqa: F401
+
+pytest.importorskip("uvicorn", reason="the extra live is not installed")
+
+
+@pytest.fixture(scope="module")
+def url(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("page")
+    (folder / "mine.toml").write_text(library_text("sixbar-420rpm"), encoding="utf-8")
+    with served(".", cwd=folder) as (address, _):
+        yield address
+
+
+@pytest.fixture
+def page(browser, url):  # noqa: F811
+    context = browser.new_context(viewport={"width": 1400, "height": 1000})
+    tab = context.new_page()
+    tab.said, tab.asked = [], []
+    tab.on("console", lambda message: tab.said.append(message.text))
+    tab.on("pageerror", lambda error: tab.said.append(str(error)))
+    tab.on("request", lambda request: tab.asked.append(request.url))
+    tab.goto(url)
+    tab.wait_for_selector("dialog[open] [data-new]")
+    yield tab
+    assert [] == tab.said
+    assert all(address.startswith((url, "data:", "blob:")) for address in tab.asked)
+    context.close()
+
+
+def open_scene(page, name: str = "mine.toml") -> None:
+    page.click(f'[data-scene="{name}"]')
+    page.wait_for_selector("[data-figure=velocity] svg")
+
+
+def text_of(page) -> str:
+    return page.evaluate("document.getElementById('board').board.editor.text")
+
+
+def until(page, expression: str, arg: object = None):
+    """What an expression of the page gives as soon as it is true; asked from outside, since the page forbids eval."""
+    end = time.monotonic() + 15
+    while not (found := page.evaluate(expression, arg)):
+        assert time.monotonic() < end, expression
+        page.wait_for_timeout(30)
+    return found
+
+
+def middle(page, selector: str) -> tuple[float, float]:
+    """Where an element stands, also while figures are drawn anew."""
+    return tuple(until(
+        page,
+        """selector => { const one = document.querySelector(selector);
+           if (!one) return null; const box = one.getBoundingClientRect();
+           return box.width ? [box.x + box.width / 2, box.y + box.height / 2] : null; }""", arg=selector,
+    ))  # fmt: skip
+
+
+def pull(page, start: tuple[float, float], end: tuple[float, float], let_go: bool = True) -> None:
+    page.mouse.move(*start)
+    page.mouse.down()
+    for i in range(1, 6):
+        page.mouse.move(start[0] + (end[0] - start[0]) * i / 5, start[1] + (end[1] - start[1]) * i / 5)
+    if let_go:
+        page.mouse.up()
+
+
+def agrees(page) -> None:
+    page.wait_for_selector(".agrees")
+
+
+def test_the_image_b_follows_when_B_is_pulled_and_all_is_checked_when_it_rests(page) -> None:
+    open_scene(page)
+    before = page.evaluate("document.querySelector('[id=v_B] line').outerHTML")
+    x, y = middle(page, "[data-point=B]")
+    pull(page, (x, y), (x - 40, y + 15), let_go=False)
+    until(page, """before => { const v = document.querySelector('[id=v_B] line');
+                   return v && v.outerHTML !== before }""", arg=before)
+    page.mouse.up()
+    until(page, "document.getElementById('board').board.state.at?.['1'] > 60")
+    agrees(page)
+    assert text_of(page) == library_text("sixbar-420rpm")
+
+
+def test_a_pulled_joint_is_written_into_the_text_and_undone(page) -> None:
+    open_scene(page)
+    x, y = middle(page, "[data-point=C]")
+    pull(page, (x, y), (x + 12, y - 9))
+    until(page, "!document.getElementById('board').board.editor.text.includes('length = 0.34\\n')")
+    agrees(page)
+    assert "# coupler" in text_of(page)
+    page.click("button:has-text('Undo')")
+    until(page, "document.getElementById('board').board.editor.text.includes('length = 0.34\\n')")
+    assert library_text("sixbar-420rpm") == text_of(page)
+
+
+def test_points_are_pulled_with_the_keys(page) -> None:
+    open_scene(page)
+    page.focus("[data-point=D]")
+    page.keyboard.press("ArrowRight")
+    until(page, "!document.getElementById('board').board.editor.text.includes('D = [0.4, -0.2]')")
+    assert pytest.approx(0.405) == tomllib.loads(text_of(page))["frame"]["points"]["D"][0]
+    until(page, "document.activeElement.getAttribute('data-point') === 'D'")
+
+
+def test_a_wrong_length_is_told_at_its_line_and_the_figures_stay(page) -> None:
+    open_scene(page)
+    page.click(".cm-line:has-text('length = 0.34')")
+    page.keyboard.press("End")
+    for _ in "0.34":
+        page.keyboard.press("Backspace")
+    page.keyboard.type("-3")
+    told = page.wait_for_selector(".problems li")
+    assert "line 19: links.2.length: found -3" in told.inner_text()
+    page.wait_for_selector(".cm-lint-marker-error")
+    assert page.query_selector("[data-figure=velocity] svg") is not None
+    page.keyboard.press("Backspace")
+    page.keyboard.press("Backspace")
+    page.keyboard.type("0.36")
+    agrees(page)
+
+
+def test_the_form_changes_the_text(page) -> None:
+    open_scene(page)
+    page.click("[data-tab=form]")
+    page.fill("[name='links.3.length']", "0.31")
+    page.keyboard.press("Enter")
+    until(page, "document.getElementById('board').board.editor.text.includes('length = 0.31\\n')")
+    agrees(page)
+
+
+def place_of(page, name: str) -> tuple[float, float]:
+    return tuple(until(
+        page,
+        """name => { const all = [...document.querySelectorAll('.sketch .point-name')];
+           const i = all.findIndex(one => one.textContent === name); if (i < 0) return null;
+           const box = document.querySelectorAll('.sketch .joint')[i].getBoundingClientRect();
+           return [box.x + box.width / 2, box.y + box.height / 2]; }""", arg=name,
+    ))  # fmt: skip
+
+
+def test_a_four_bar_is_built_by_mouse_and_gets_its_checked_sheet(page) -> None:
+    page.click("[data-new=empty]")
+    box = page.wait_for_selector(".sketch").bounding_box()
+    page.mouse.click(box["x"] + 0.3 * box["width"], box["y"] + 0.7 * box["height"])
+    place_of(page, "A")
+    page.mouse.click(box["x"] + 0.8 * box["width"], box["y"] + 0.7 * box["height"])
+    place_of(page, "B")
+    page.click("[data-tool=bar]")
+    a, b = place_of(page, "A"), place_of(page, "B")
+    wide = b[0] - a[0]
+    pull(page, a, (a[0] + 0.15 * wide, a[1] - 0.25 * wide))
+    c = place_of(page, "C")
+    pull(page, c, (place_of(page, "B")[0] + 0.1 * wide, c[1] - 0.3 * wide))
+    place_of(page, "D")
+    pull(page, place_of(page, "B"), place_of(page, "D"))
+    until(page, "document.getElementById('board').board.editor.text.includes('[links.3]')")
+    until(page, "document.querySelector('.count').textContent.startsWith('F = 3·3 - 2·4 - 0 = 1')")
+    page.click("[data-tool=drive]")
+    ends = place_of(page, "A"), place_of(page, "C")
+    page.mouse.click(*(sum(x) / 2 for x in zip(*ends, strict=True)))
+    agrees(page)
+    page.check(".wishes [data-figure=sheet]")
+    page.wait_for_selector(".figure[data-figure=sheet] svg")
+    assert graphkin.check(tomllib.loads(text_of(page))).ok
+
+
+def test_a_four_bar_is_built_by_keys_alone(page) -> None:
+    page.focus("[data-new=empty]")
+    page.keyboard.press("Enter")
+    page.wait_for_selector(".sketch")
+
+    def piece(tool: str, **values: str) -> None:
+        before = text_of(page)
+        page.focus(f"[data-tool={tool}]")
+        page.keyboard.press("Enter")
+        for name, value in values.items():
+            field = page.locator(f".piece [name='{name}']")
+            if field.evaluate("one => one.tagName") == "SELECT":
+                field.select_option(value)
+            else:
+                field.fill(value)
+        page.focus(".piece button[type=submit]")
+        page.keyboard.press("Enter")
+        until(page, "before => document.getElementById('board').board.editor.text !== before", arg=before)
+        page.wait_for_timeout(150)
+
+    piece("pivot", x="0", y="0")
+    piece("pivot", x="100", y="0")
+    piece("bar", **{"from": "A", "to": "", "tox": "20", "toy": "30"})
+    piece("bar", **{"from": "C", "to": "", "tox": "110", "toy": "80"})
+    piece("bar", **{"from": "B", "to": "D"})
+    piece("drive", link="1")
+    agrees(page)
+    links = tomllib.loads(text_of(page))["links"]
+    assert {"1": ["A", "C"], "2": ["C", "D"], "3": ["B", "D"]} == {name: link["points"] for name, link in links.items()}
+
+
+def test_nothing_is_lost_when_the_page_is_loaded_again(page) -> None:
+    open_scene(page)
+    page.click(".cm-content")
+    page.keyboard.press("Control+Home")
+    page.keyboard.type("# mine\n")
+    page.wait_for_timeout(300)
+    page.reload()
+    page.wait_for_selector("[data-figure=velocity] svg")
+    assert text_of(page).startswith("# mine\n")
+
+
+@pytest.mark.parametrize("width", [360, 1024, 1920])
+def test_nothing_stands_beside_the_screen(page, width: int) -> None:
+    page.set_viewport_size({"width": width, "height": 800})
+    open_scene(page)
+    assert width == page.evaluate("document.documentElement.scrollWidth")
+
+
+def test_the_driver_turns_by_slider_number_and_playing(page) -> None:
+    open_scene(page)
+    page.fill("input[aria-label='Driver value']", "120")
+    page.keyboard.press("Enter")
+    until(page, "Math.abs(document.getElementById('board').board.state.at?.['1'] - 120) < 1e-9")
+    page.click("button:has-text('Play')")
+    until(page, "document.getElementById('board').board.state.at['1'] > 125")
+    page.click("button:has-text('Stop')")
+    agrees(page)
+
+
+def test_the_page_speaks_chinese_and_keeps_the_scene(page) -> None:
+    open_scene(page)
+    page.select_option("select >> nth=0", "zh")
+    page.wait_for_selector("button:has-text('撤销')")
+    page.wait_for_selector("[data-figure=velocity] svg")
+    assert library_text("sixbar-420rpm") == text_of(page)
+    assert "zh" == page.evaluate("document.documentElement.lang")
