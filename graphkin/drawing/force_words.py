@@ -4,6 +4,7 @@ equation, and what was read off."""
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from decimal import Decimal
 
 from graphkin.construction.forces.force_sheet import (
@@ -60,7 +61,7 @@ def moment_lines(sheet: Sheet, group: ForceGroup, letters: Letters, language: st
     """The moment equations that give parts of forces, each with its reason."""
     lines = []
     for one in group.moments:
-        links = ", ".join(one.links)
+        links = _links(one.links)
         if not one.terms and group.way == "polygon" and group.kind != "RPR":
             name = f"${force_letters(letters.convention, one.symbol)}$"
             args = links, name, f"${letters.point(one.about)}$"
@@ -74,6 +75,11 @@ def moment_lines(sheet: Sheet, group: ForceGroup, letters: Letters, language: st
         lines.append(say(Phrase(key, (about, links, name)), language))
         lines.append(_equation(sheet, one, letters, name))
     return lines
+
+
+def _links(names: Sequence[str]) -> str:
+    """Links by name, blocks of pins left out where they are not alone."""
+    return ", ".join([name for name in names if "/" not in name] or names)
 
 
 def _parted(group: ForceGroup, one: MomentEquation) -> bool:
@@ -91,7 +97,7 @@ def couple_lines(sheet: Sheet, group: ForceGroup, letters: Letters, language: st
             lines.append(say(Phrase("force no couple", (name,)), language))
             continue
         key = "force reason couple" if one.symbol.other else "force reason balance"
-        lines.append(say(Phrase(key, (", ".join(one.links), name)), language))
+        lines.append(say(Phrase(key, (_links(one.links), name)), language))
         lines.append(_equation(sheet, one, letters, name))
         for line in group.lines:
             if line.symbol.link == one.symbol.link and line.symbol.other == one.symbol.other:
@@ -104,7 +110,7 @@ def couple_lines(sheet: Sheet, group: ForceGroup, letters: Letters, language: st
 def _equation(sheet: Sheet, one: MomentEquation, letters: Letters, name: str) -> str:
     """``ΣM_C = 0: F_G5 x 0.0488 m ... = 0, F^t_R45 = -10.7 N``."""
     units = sheet.scene.units
-    about = one.about if not one.about.startswith("x") else one.about[1:]
+    about = one.about if one.about in sheet.scene.holders else f"({one.about})"
     terms = [_term(sheet, t) for t in one.terms]
     # the result is that of the numbers as they stand there
     total = sum((Decimal(f"{sign}1") * math.prod(map(Decimal, factors)) for sign, factors in terms), Decimal(0))

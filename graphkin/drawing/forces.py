@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from graphkin.checking.report import Report
-from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceState
+from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceState, ForceVector
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
@@ -162,43 +162,54 @@ def _group(
     names: Counter[str], count: int, again: bool,
 ) -> Iterator[_Block]:  # fmt: skip
     """A group: its caption, its sketch beside its polygon, and what is written below."""
-    spoke = languages(spoken)
-    caption = _words([(group_caption(sheet, group, count, each), True) for each in spoke], width, 3.2)
-    room = width - SKETCH - GAP
+    caption = _words([(group_caption(sheet, group, count, each), True) for each in languages(spoken)], width, 3.2)
     suffix = "-with" if again else ""
-    polygons = polygons_of(group)
-    columns = [(link, vectors, inside, extent_of((*vectors, *inside))) for link, vectors, inside in polygons]
-    placed: list[Piece] = []
-    before = Counter(names)
-    x, y, row = SKETCH + GAP, 0.0, 0.0
-    for link, vectors, inside, box in columns:
-        wide = room if len(columns) == 1 else min(room, max(box.width + 2 * AROUND, 40.0))
-        high = max(box.height + 2 * AROUND, SMALLEST if len(columns) > 1 else LEAST)
-        if x + wide > width + 0.1:
-            x, y, row = SKETCH + GAP, y + row + 2.0, 0.0
-        panel = Box(x, y, x + wide, y + high)
-        piece = drawn_polygon(sheet, vectors, inside, letters, panel.grown(-0.6), names, suffix)
-        placed += [piece, _frame(panel)]
-        if link:
-            said = " / ".join(say(Phrase("force on link", (link,)), each) for each in spoke)
-            placed.append(Piece({"labels": (Text(complex(panel.left + 1.0, panel.top + 3.2), rich(said, 2.4)),)}))
-        x, row = x + wide + 2.0, max(row, high)
-    height = max(y + row, LEAST, sketch_height(sheet, group, SKETCH))
-    if len(columns) == 1:  # the polygon in the middle of its panel, beside the sketch
-        link, vectors, inside, box = columns[0]
-        panel = Box(SKETCH + GAP, 0.0, width, height)
-        inner = panel.grown(-0.6)
-        placed = [drawn_polygon(sheet, vectors, inside, letters, inner, Counter(before), suffix), _frame(panel)]
-    panel = Box(0.0, 0.0, SKETCH, min(height, 90.0))
-    tag = "-".join(group.links) + suffix
-    sketch = free_body(sheet, forces, state, group, letters, panel.grown(-0.6), tag)
-    figures = joined((sketch, _frame(panel), *placed))
+    polygons = [(link, vectors, inside, extent_of((*vectors, *inside))) for link, vectors, inside in polygons_of(group)]
     lower = _below(sheet, forces, state, group, letters, spoken, width)
-    if height + caption.height + lower.height > 240.0:
-        yield _stacked((caption, _Block(figures, height)))
+    alone = len(polygons) == 1
+    wide = SKETCH if alone else width
+    height = max(LEAST, sketch_height(sheet, group, wide))
+    if alone:
+        height = max(height, polygons[0][3].height + 2 * AROUND)
+    panel = Box(0.0, 0.0, wide, height)
+    sketch = free_body(sheet, forces, state, group, letters, panel.grown(-0.6), "-".join(group.links) + suffix)
+    drawn = joined((sketch, _frame(panel)))
+    if not alone:
+        yield _stacked((caption, _Block(drawn, height)))
+        yield from _rows(sheet, polygons, letters, spoken, width, names, suffix)
+        yield lower
+        return
+    _, vectors, inside, _ = polygons[0]
+    panel = Box(SKETCH + GAP, 0.0, width, height)
+    polygon = drawn_polygon(sheet, vectors, inside, letters, panel.grown(-0.6), names, suffix)
+    above = _stacked((caption, _Block(joined((drawn, polygon, _frame(panel))), height)))
+    if above.height + lower.height > sheet.scene.sheet.size[1] - 2 * MARGIN - HEAD - FOOT:
+        yield above
         yield lower
     else:
-        yield _stacked((caption, _Block(figures, height), lower))
+        yield _stacked((above, lower))
+
+
+def _rows(
+    sheet: Sheet, polygons: Sequence[tuple[str, Sequence[ForceVector], Sequence[ForceVector], Box]], letters: Letters,
+    spoken: str, width: float, names: Counter[str], suffix: str,
+) -> Iterator[_Block]:  # fmt: skip
+    """Polygons of single links beside each other, row by row."""
+    placed: list[Piece] = []
+    x = row = 0.0
+    for link, vectors, inside, box in polygons:
+        wide, high = max(box.width + 2 * AROUND, 40.0), max(box.height + 2 * AROUND, SMALLEST)
+        if placed and x + wide > width + 0.1:
+            yield _Block(joined(placed), row + LINE)
+            placed, x, row = [], 0.0, 0.0
+        panel = Box(x, LINE, x + wide, LINE + high)
+        placed += [drawn_polygon(sheet, vectors, inside, letters, panel.grown(-0.6), names, suffix), _frame(panel)]
+        if link:
+            said = " / ".join(say(Phrase("force on link", (link,)), each) for each in languages(spoken))
+            placed.append(Piece({"labels": (Text(complex(x + 1.0, LINE - 1.0), rich(said, 2.4)),)}))
+        x, row = x + wide + 2.0, max(row, high)
+    if placed:
+        yield _Block(joined(placed), row + LINE)
 
 
 def _stacked(blocks: Sequence[_Block]) -> _Block:

@@ -15,7 +15,7 @@ from graphkin.drawing.conventions import Letters
 from graphkin.drawing.force_letters import force_letters
 from graphkin.drawing.labels import Label
 from graphkin.drawing.mechanism_on_paper import MechanismOnPaper, page
-from graphkin.drawing.piece import Piece, ink_box, moved_piece, with_labels
+from graphkin.drawing.piece import Piece, cut_to, ink_box, joined, middle_of, moved_piece, with_labels
 from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Primitive, Text
 from graphkin.drawing.symbols import COMPONENT, JOINT_RADIUS, RESULTANT, arrow
 from graphkin.drawing.text import plain, symbol
@@ -27,6 +27,8 @@ ARROW, NEXT = 11.0, 4.0  # mm of an arrow that only shows a direction, and how m
 NEAR = 0.5
 ROOM = 2 * ARROW + 6.0  # mm around the links for arrows
 HIGHEST = 82.0  # mm of a sketch
+EDGE = 9.0  # mm of its panel for names
+TRIES = 6
 
 
 def links_cut_free(group: ForceGroup) -> tuple[str, ...]:
@@ -38,9 +40,28 @@ def free_body(
     sheet: Sheet, forces: ForceSheet, state: ForceState, group: ForceGroup, letters: Letters, panel: Box, tag: str
 ) -> Piece:
     """The sketch of a group in a panel, not larger than the mechanism is drawn."""
-    links = set(links_cut_free(group))
     box = _extent(sheet, group)
     times = min((panel.width - ROOM) / max(box.width, 1e-6), (panel.height - ROOM) / max(box.height, 1e-6), 1.0)
+    for _ in range(TRIES):
+        piece = _sketch(sheet, forces, state, group, letters, times, tag)
+        solid = joined(Piece({name: things}) for name, things in piece.layers.items() if name != "construction")
+        ink = ink_box(solid.drawn) or panel
+        over = max(ink.width / (panel.width - EDGE), ink.height / (panel.height - EDGE))
+        if over <= 1.0:
+            break
+        times *= min(0.95 / over, 0.9)
+    placed = moved_piece(piece, panel.centre - ink.centre)
+    inside = panel.grown(-1.0)
+    layers = {name: cut_to(things, inside) for name, things in placed.layers.items()}
+    labels = tuple(label for label in placed.labels if inside.holds(Box.around([middle_of(label.mark)])))
+    return with_labels(Piece(layers, labels), panel)
+
+
+def _sketch(
+    sheet: Sheet, forces: ForceSheet, state: ForceState, group: ForceGroup, letters: Letters, times: float, tag: str
+) -> Piece:
+    """The sketch at so many times the size of the mechanism as it is drawn, about the mechanism's own origin."""
+    links = set(links_cut_free(group))
     small = replace(
         sheet, scales=replace(sheet.scales, length=sheet.scales.length / times), steps=(),
         poses={name: pose.scaled(times) for name, pose in sheet.poses.items()},
@@ -53,12 +74,10 @@ def free_body(
     shifted = list(shifted_lines(forces, links, times))
     more += [line for line, _ in shifted]
     named += [label for _, label in shifted]
-    piece = Piece(
+    return Piece(
         {"mechanism": (Group(tuple(parts), id=f"free-body-{tag}"),), "construction": tuple(more), "forces": arrows},
         (*named, *labels),
     )
-    ink = ink_box(piece.drawn) or panel
-    return with_labels(moved_piece(piece, panel.centre - ink.centre), panel)
 
 
 def sketch_height(sheet: Sheet, group: ForceGroup, width: float) -> float:
@@ -69,7 +88,9 @@ def sketch_height(sheet: Sheet, group: ForceGroup, width: float) -> float:
 
 
 def _extent(sheet: Sheet, group: ForceGroup) -> Box:
-    return Box.around([v.at for v in _forces(group)] + _points(sheet, set(links_cut_free(group))))
+    """The box around the places of a group, as on a page (mm, y down)."""
+    spots = [v.at for v in _forces(group)] + _points(sheet, set(links_cut_free(group)))
+    return Box.around([page(z) for z in spots])
 
 
 def _points(sheet: Sheet, links: set[str]) -> list[complex]:
@@ -122,7 +143,8 @@ def _arrows(
     drawn: list[Primitive] = []
     labels: list[Label] = []
     taken: list[tuple[complex, complex]] = []
-    lines = {line.symbol: line.at for line in group.lines}
+    near = _extent(sheet, group).grown(ARROW / times)
+    lines = {line.symbol: line.at for line in group.lines if near.holds(Box.around([line.at.conjugate()]))}
     outside = set(links_cut_free(group))
     for n, vector in enumerate(_forces(group)):
         if not group.polygon and _within(vector, outside):

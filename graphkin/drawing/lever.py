@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from graphkin.construction.extent import Extent, fitting_scale
 from graphkin.construction.forces.force_sheet import ForceSheet, ForceState, Lever, LeverRow
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing import strokes
@@ -16,7 +17,7 @@ from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.force_letters import force_letters
 from graphkin.drawing.headings import drivers, facts, figure_title, number, term, titles, written
 from graphkin.drawing.labels import Label
-from graphkin.drawing.piece import Piece, joined, layer_groups, moved_piece, with_labels
+from graphkin.drawing.piece import Piece, cut_to, joined, layer_groups, middle_of, moved_piece, with_labels
 from graphkin.drawing.primitives import Circle, Group, Line, Primitive, Run, Text
 from graphkin.drawing.symbols import COMPONENT, RESULTANT, arrow
 from graphkin.drawing.text import fitted, rich, symbol, wrapped
@@ -28,6 +29,7 @@ from graphkin.words.written import amount, on_paper, product
 __all__ = ["lever_figure"]
 
 WIDTH, MARGIN = 190.0, 8.0
+HIGHEST = 130.0  # mm of a lever
 ARROW, ROOM = 14.0, 20.0  # mm of an arrow that only shows a direction, and around the lever
 ROW, SIZE = 4.6, 2.8
 SHORT = 0.3  # mm: a nearer end point is at the pole
@@ -99,19 +101,21 @@ def lever_figure(
 
 def _at_scale(sheet: Sheet, lever: Lever) -> tuple[Lever, float]:
     """A lever of a size that a page shows, and m/s for one of its mm: the sheet's own where it is no virtual one."""
-    ends = [abs(z) for z in lever.ends.values()]
-    times = 1.0
-    if lever.virtual and max(ends, default=0.0) > 0.0:
-        times = 80.0 / max(ends)
-    if times == 1.0:
+    box = _extent(lever)
+    wide, high = WIDTH - 2 * (MARGIN + ROOM), HIGHEST
+    if not lever.virtual and box.width <= wide and box.height <= high:
         return lever, lever.per_mm
+    metres = sheet.scene.units.rates.metres
+    extent = Extent(box.width * lever.per_mm, box.height * lever.per_mm)
+    per_mm = fitting_scale(extent, (wide, high), 1.0 / metres) * metres
+    times = lever.per_mm / per_mm
 
     def larger(row: LeverRow) -> LeverRow:
         pair = None if row.pair is None else (row.pair[0] * times, row.pair[1] * times)
         return replace(row, at=row.at * times, arm=row.arm * times, moment=row.moment * times, pair=pair)
 
     made = replace(
-        lever, per_mm=lever.per_mm / times, ends={name: z * times for name, z in lever.ends.items()},
+        lever, per_mm=per_mm, ends={name: z * times for name, z in lever.ends.items()},
         rows=tuple(map(larger, lever.rows)), unknown=larger(lever.unknown),
     )  # fmt: skip
     return made, made.per_mm
@@ -168,7 +172,10 @@ def _drawn(sheet: Sheet, lever: Lever, letters: Letters, panel: Box, origin: com
             labels.append(Label(label, (0j, foot.conjugate()), rank=2))
     thin.append(Circle(0j, 0.9, fill=strokes.WHITE, stroke=strokes.OUTLINE))
     piece = Piece({"velocity": tuple(thin), "forces": tuple(arrows)}, tuple(labels))
-    return with_labels(moved_piece(piece, origin), panel)
+    placed = moved_piece(piece, origin)
+    layers = {name: cut_to(things, panel) for name, things in placed.layers.items()}
+    labels_in = tuple(label for label in placed.labels if panel.holds(Box.around([middle_of(label.mark)])))
+    return with_labels(Piece(layers, labels_in), panel)
 
 
 def _end(letters: Letters, name: str) -> str:

@@ -10,6 +10,7 @@ from graphkin.construction.forces.force_sheet import Acting, ForceGroup, ForceTe
 from graphkin.construction.forces.group_figure import (
     CutBody,
     GroupFigure,
+    foot_name,
     guide_name,
     line_of_action,
     outer_couple,
@@ -73,7 +74,7 @@ def between_welded(
             cut.drawn(symbol, leaf, at, corner, 0j),
         )  # fmt: skip
         known = (*extra.get(leaf, ()), on, driving)
-        equation = cut.couple((leaf,), at, pair.pin or f"x{pair.a}", replace(symbol, kind="M"), known, tuple(turns))
+        equation = cut.couple((leaf,), at, foot_name(pair), replace(symbol, kind="M"), known, tuple(turns))
         figure.couples.append(equation)
         line_of_action(cut, figure, on, equation.value)
         sign = 1.0 if mine else -1.0
@@ -108,7 +109,7 @@ def at_driver(cut: CutFree, element: Driven, balance: Balance) -> ForceGroup:
         on = side.outer_force((start - end) * cut.per_mm)
         push = replace(balancing, force=found)
         about = cut.images.foot(pair)
-        letter = pair.pin or f"x{pair.a}"
+        letter = foot_name(pair)
         couple = outer_couple(cut, side, on, about, letter, figure, (push,))
         slide_found(cut, side, on.force, couple, (link,))
         drawn = replace(cut.drawn(balance.symbol, link, push.at, start, 0j), turned=push.turned)

@@ -21,7 +21,7 @@ from graphkin.plane import unit
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Body, Pair, Slide, Turn
 
-__all__ = ["CutBody", "GroupFigure", "guide_name", "line_of_action", "outer_couple", "slide_found"]
+__all__ = ["CutBody", "GroupFigure", "foot_name", "guide_name", "line_of_action", "outer_couple", "slide_found"]
 
 
 @dataclass
@@ -108,6 +108,12 @@ class GroupFigure:
 def guide_name(pair: Pair) -> tuple[str, ...]:
     assert isinstance(pair, Slide)
     return (pair.guide.name or f"x{pair.b}",)
+
+
+def foot_name(pair: Pair) -> str:
+    """The letter of the point where a sliding pair's force acts, or the link at whose origin it does."""
+    assert isinstance(pair, Slide)
+    return pair.pin or pair.a
 
 
 def outer_couple(

@@ -17,6 +17,7 @@ from graphkin.construction.forces.force_sheet import Acting, ForceGroup, ForceTe
 from graphkin.construction.forces.group_figure import (
     CutBody,
     GroupFigure,
+    foot_name,
     guide_name,
     line_of_action,
     outer_couple,
@@ -269,7 +270,7 @@ def _rpp(cut: CutFree, dyad: Dyad, one: CutBody, two: CutBody, figure: GroupFigu
     on_two = two.outer_force(n2)
     known = figure.couples[-1]
     back = Turning(opposite(known.symbol), inner[1][0].link, -known.value)
-    couple = outer_couple(cut, two, on_two, two.at, guide_name(two.outer)[0], figure, inner[1], (back,))
+    couple = outer_couple(cut, two, on_two, two.at, foot_name(two.outer), figure, inner[1], (back,))
     slide_found(cut, two, n2, couple, links_of(dyad))
     return tuple(figure.chain.vectors), {one.name: (*inner[0], one.outer_force(r1)), two.name: (*inner[1], on_two)}
 
