@@ -137,12 +137,15 @@ class Checked(Result):
     @property
     def _construction(self) -> dict[str, Any]:
         """How groups larger than a dyad were drawn: one word for all of them, and each by itself."""
-        groups = self.sheet.groups
+        groups, forces = self.sheet.groups, {}
+        if self.forces is not None:
+            forces = {"forces": ["drawn system" if way == "drawn system" else "moments and polygon"
+                                 for way in self.forces.ways if way != "driver"]}  # fmt: skip
         if not groups:
-            return {}
+            return forces
         ways = ", ".join(dict.fromkeys(g.way for g in groups))
         rows = [{"links": list(g.group.links), "class": g.group.order, "construction": g.way} for g in groups]
-        return {"construction": ways, "groups": rows}
+        return {"construction": ways, "groups": rows, **forces}
 
     @property
     def scales(self) -> dict[str, float]:

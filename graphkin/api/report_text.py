@@ -5,6 +5,7 @@ of the study of a turn.
 from __future__ import annotations
 
 import math
+import re
 from typing import TYPE_CHECKING
 
 from graphkin.api.arguments import own_unit, passed_words
@@ -14,12 +15,13 @@ from graphkin.construction.steps import Direction
 from graphkin.errors import Unsolvable
 from graphkin.scene.model import Mechanism
 from graphkin.words import Phrase, say, word
+from graphkin.words.written import MOST, amount
 
 if TYPE_CHECKING:
     from graphkin.study.trace import Extreme
     from graphkin.study.turn import Output, TurnStudy
 
-__all__ = ["report_text", "show", "turn_text"]
+__all__ = ["lever_lines", "report_text", "show", "turn_text"]
 
 _SIGNS = {"square": "⊥", "along": "∥"}
 
@@ -62,16 +64,59 @@ def report_text(checked: Checked, language: str) -> str:
     ]
     for equation in sheet.equations:
         lines += [*_rows(equation, language), ""]
+    lines += _forces(checked, language)
     lines.append(word("readings", language))
     head = (word("quantity", language), word("on paper", language), word("measured", language), word("exact", language))
     lines.append(f"{head[0]:<16}{head[1]:>12}{head[2]:>16}{head[3]:>16}")
     for symbol, length, measured, exact, ok in reading_words(checked):
         mark = {True: "", False: "  !", None: "  ?"}[ok]
         lines.append(f"{symbol:<16}{length:>12}{measured:>16}{exact:>16}{mark}")
-    lines.append("")
+    lines += ["", *lever_lines(checked, language)]
     lines += [say(note, language, show) for note in (*sheet.left_out, *sheet.notes)]
     lines.append(verdict(checked, language))
     return "\n".join(lines) + "\n"
+
+
+def _forces(checked: Checked, language: str) -> list[str]:
+    """How the forces were found, group by group, with the reason of each step."""
+    if checked.forces is None:
+        return []
+    from graphkin.drawing.conventions import letters_of
+    from graphkin.drawing.force_words import couple_lines, group_caption, inertia_line, moment_lines
+
+    sheet, forces = checked.sheet, checked.forces
+    letters = letters_of(sheet, sheet.scene.sheet.convention)
+    per = f"1 mm = {checked.scales['force']:g} {sheet.scene.units.force}"
+    lines = [word("forces", language), per]
+    lines += [inertia_line(sheet, one, letters, language) for one in forces.inertias.values()]
+    for number, state in enumerate(forces.states):
+        if len(forces.states) > 1:
+            lines.append(word("force with load" if number else "force without load", language))
+        for count, group in enumerate(state.groups, 1):
+            lines.append(group_caption(sheet, group, count, language))
+            lines += [f"    {line}" for line in moment_lines(sheet, group, letters, language)]
+            if group.way == "drawn system":
+                lines.append(f"    {say(Phrase('force reason system', (', '.join(group.links),)), language)}")
+            lines += [f"    {line}" for line in couple_lines(sheet, group, letters, language)]
+    return [*(re.sub(r"[${}]", "", line) for line in lines), ""]
+
+
+def lever_lines(checked: Checked, language: str) -> list[str]:
+    """What balances by Zhukovsky's lever, beside what the polygons give."""
+    found = []
+    units = checked.scene.units
+    rows = {str(row.symbol): row for row in checked.report.rows}
+    for number, levers in enumerate(checked.forces.levers if checked.forces else ()):
+        for lever in levers:
+            row = rows.get(f"{lever.balance}+" if number else "", rows.get(str(lever.balance)))
+            if row is None:
+                continue
+            moment = lever.balance.kind == "M"
+            unit = f"{units.force} m" if moment else units.force
+            values = lever.value if moment else abs(lever.vector), row.measured if moment else abs(row.measured)
+            shown = (f"{amount(float(v.real) / units.newtons, MOST)} {unit}" for v in values)
+            found.append(say(Phrase("lever balance", (str(row.symbol), *shown)), language))
+    return list(dict.fromkeys(found))
 
 
 def _held_still(sheet: Sheet, language: str) -> list[str]:

@@ -60,6 +60,10 @@ def inertia_line(sheet: Sheet, one: Inertia, letters: Letters, language: str) ->
 def moment_lines(sheet: Sheet, group: ForceGroup, letters: Letters, language: str) -> list[str]:
     """The moment equations that give parts of forces, each with its reason."""
     lines = []
+    held = next((v for v in group.polygon if v.part == "n"), None) if group.kind in ("RPP", "RPR") else None
+    if held is not None:
+        name = f"${force_letters(letters.convention, held.symbol, 'n')}$"
+        lines.append(say(Phrase("force reason along", (held.link.split("/")[0], name)), language))
     for one in group.moments:
         links = _links(one.links)
         if not one.terms and group.way == "polygon" and group.kind != "RPR":

@@ -82,13 +82,11 @@ def lever_figure(
         panel = Box(MARGIN, y, WIDTH - MARGIN, y + box.height + 2 * ROOM)
         pieces.append(_drawn(sheet, scaled, letters, panel, panel.centre - box.centre, str(number_ or "")))
         y = panel.bottom
+        at_scale = replace(sheet, scales=replace(sheet.scales, velocity=per_mm))
+        told = scale_statement(at_scale, letters.convention, "velocity")
+        words.append(Text(complex(MARGIN, y - 2.0), fitted(told, 3.2, 100.0)))
         y = _table(words, sheet, state, scaled, per_mm, letters, spoken, y + 2.0)
         y += 4.0
-    told = scale_statement(
-        replace(sheet, scales=replace(sheet.scales, velocity=_at_scale(sheet, shown[0][2])[1])), letters.convention,
-        "velocity",
-    )  # fmt: skip
-    words.append(Text(complex(MARGIN, y + 3.0), fitted(told, 3.2, 100.0)))
     words += check_bar(complex(WIDTH - MARGIN - 50.0, y + 3.0), rich(term("check bar", spoken), 2.4))
     page = joined((*pieces, Piece({"labels": tuple(words)})))
     per = _at_scale(sheet, shown[0][2])[1] / sheet.scene.units.rates.metres

@@ -140,6 +140,37 @@ def test_a_balance_that_does_no_work_is_a_dead_point():
         graphkin.check(scene)
 
 
+def test_the_report_tells_how_forces_were_found_and_the_lever_beside_it():
+    from graphkin.api.report_text import report_text
+
+    told = report_text(graphkin.check(SHAPER), "en")
+    assert "F_R23 = 12767 N" in told
+    assert "M_2 = -539.79 N m by the lever, -539.79 N m by the polygons" in told
+
+
+WAYS = [("double-butterfly", "drawn system"), ("toggle-press", "moments and polygon")]
+
+
+@pytest.mark.parametrize(("name", "way"), WAYS)
+def test_the_way_in_which_forces_were_found_is_told_to_programs(name, way):
+    assert way in graphkin.check(loaded(graphkin.read(name).to_dict(), 5)).data["forces"]
+
+
+def test_forces_may_be_asked_for_alone_and_from_either_side():
+    rows = {r["symbol"]: r for r in graphkin.check(SHAPER, find=["F_6/5", "M_2"]).data["readings"]}
+    assert 8666.40176661 == pytest.approx(rows["F_6/5"]["measured"], rel=1e-10)
+    assert rows["F_6/5"]["ok"]
+
+
+def test_what_is_asked_of_motion_alone_draws_no_forces():
+    assert "F_5/6" not in {r["symbol"] for r in graphkin.check(SHAPER, find=["v_C"]).data["readings"]}
+
+
+def test_a_wish_of_the_scene_for_motion_leaves_forces_drawn():
+    scene = graphkin.read(SHAPER).to_dict() | {"find": ["v_C"]}
+    assert {"v_C", "F_5/6"} <= {r["symbol"] for r in graphkin.check(scene).data["readings"]}
+
+
 def test_a_scene_without_masses_and_loads_draws_no_forces():
     assert not graphkin.check("shaper-scheme-2").data["scales"].get("force")
 
