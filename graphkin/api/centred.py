@@ -310,7 +310,10 @@ def _error(centres: Centres, motion: Motion, centre: Centre) -> tuple[float, flo
         return None
     _, sine = wedge(normal((away.real, away.imag, float(omega[0]))), normal(centre.place))
     # what rounding does to the exact one grows as the relative motion gets small beside the motions themselves
-    return sine, TOLERANCE + 1e-14 * largest / strength
+    unit = chart.unit / mm
+    places = float(motion.bound.position[0]) / unit + float(motion.rough[0][0]) / (unit * strength)
+    # as do the numbers of the file, where they lie far apart
+    return sine, TOLERANCE + 1e-14 * largest / strength + (places if math.isfinite(places) else 0.0)
 
 
 def velocities_by_centres(centres: Centres, turning: Mapping[str, Turning], motion: Motion) -> tuple[Velocity, ...]:

@@ -159,6 +159,8 @@ def compare(
         tolerance = max(_allowed(predicted, expected), max(EXACT_TOLERANCE, grain) * most, rounded)
         least = ON_PAPER.get(sheet.instrument, HAND) * sheet.scales.of(reading.diagram) / by
         floor = _floor(sheet, reading, rounding or {}, EXACT_TOLERANCE * most)
+        if not reading.symbol.is_vector and math.isfinite(floor):  # over its own bar, which may be short
+            tolerance = max(tolerance, floor)
         fair = _fair(sheet, tolerance, most, least)
         rows.append(Compared(reading, value, error, tolerance, turned, expected, floor, fair))
     have = {r.symbol for r in readings}

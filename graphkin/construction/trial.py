@@ -18,6 +18,7 @@ from graphkin.construction.reduced_mechanism import ReducedMechanism
 from graphkin.construction.rigid import PlacedLinks, Poses
 from graphkin.construction.sheet import Pose
 from graphkin.errors import Problem, Unsolvable
+from graphkin.plane import dot
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.structure import Cluster, Driven, Dyad, Element, Slide, Structure, pick
 
@@ -27,6 +28,7 @@ GRID = 360  # trial values looked at over a turn
 TRIALS = 3  # trial drivers used, one after the other, to find all assemblies
 # to either side of a sketch, looked at one after the other
 WINDOWS = (*map(math.radians, (3.0, 10.0, 30.0, 90.0)), math.pi)
+TWINS = 1e-6  # of the size: as near as this places are the same
 COARSE = 12  # values of each of several trial drivers
 
 Branches = tuple[int, ...]  # which assembly each dyad of a reduced mechanism takes, in the order of drawing
@@ -112,8 +114,29 @@ def _cluster_by_sketch(choices: Choices, frame: PlacedLinks, cluster: Cluster) -
     if not found:
         names = ", ".join(cluster.links)
         raise Unsolvable("not assembled", Problem(f"links {names}", "no trial position closes this group here"))
+    found = _without_twins(structure, frame, cluster, found)
     candidates = [_fresh(structure, frame, poses) for poses in found]
     frame.poses.update(found[pick(structure.scene, cluster.links, candidates, None).index])
+
+
+def _without_twins(
+    structure: Structure, frame: PlacedLinks, cluster: Cluster, found: Sequence[dict[str, Pose]]
+) -> list[dict[str, Pose]]:
+    """Of positions whose points all lie in the same places, which differ only in the sense of a bar without length, the
+    one where what slides lies on the positive side."""
+    slides = [p for p in cluster.pairs if isinstance(p, Slide) and p.a in cluster.members and p.b in cluster.members]
+
+    def positive(poses: Poses) -> float:
+        ways = ((poses[s.a].origin - poses[s.b].origin) / poses[s.b].axis - frame.mm * s.guide.through for s in slides)
+        return sum(dot(s.guide.direction, way) for s, way in zip(slides, ways, strict=True))
+
+    kept: list[tuple[dict[str, Pose], dict[str, complex]]] = []
+    for poses in sorted(found, key=positive, reverse=True):
+        places = _fresh(structure, frame, poses)
+        twins = (max((abs(z - other[p]) for p, z in places.items()), default=math.inf) for _, other in kept)
+        if all(apart > TWINS * structure.scene.size for apart in twins):
+            kept.append((poses, places))
+    return [poses for poses in found if any(poses is one for one, _ in kept)]
 
 
 def _nearest_fits(

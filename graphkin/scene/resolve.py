@@ -26,6 +26,7 @@ from graphkin.scene.rules import (
     not_held,
     nowhere_placed,
     placed_twice,
+    too_far_apart,
     unwritable_texts,
     wrong_own_points,
 )
@@ -113,6 +114,7 @@ def resolve(file: SceneTables, name: str, problems: list[Problem], flaws: Flaws)
         problems += disagreements(position)
     if not problems:
         problems += _not_found(position)
+        problems += too_far_apart(position)
     cams = _cams(file, names, flaws, position, problems) if file.cams else ()
     if not problems:
         places, rails = {n: b.local for n, b in bodies.items()}, {n: b.guides for n, b in bodies.items()}

@@ -14,7 +14,15 @@ from graphkin.scene.names import Flaws, Names
 from graphkin.scene.placing import Placement, circle_of_references, place_of
 from graphkin.scene.tables import Compass, Polar, SceneTables
 
-__all__ = ["disagreements", "not_held", "nowhere_placed", "placed_twice", "unwritable_texts", "wrong_own_points"]
+__all__ = [
+    "disagreements",
+    "not_held",
+    "nowhere_placed",
+    "placed_twice",
+    "too_far_apart",
+    "unwritable_texts",
+    "wrong_own_points",
+]
 
 
 def unwritable_texts(file: SceneTables) -> list[Problem]:
@@ -154,6 +162,29 @@ def placed_twice(position: DrawnPosition) -> list[Problem]:
                     )
                 )
     return found
+
+
+FARTHEST = 4e10
+"""So many times the shortest bar places may lie away: beyond, sixteen digits leave less than five of the bar."""
+
+
+def too_far_apart(position: DrawnPosition) -> list[Problem]:
+    """Places so far away that the digits of a number do not hold a bar of the mechanism beside them."""
+    bars = [(b.length, b) for b in position.bodies.values() if b.length]
+    if not bars:
+        return []
+    short, body = min(bars, key=lambda bar: bar[0])
+    places = [(abs(z), f"{b.where}.at.{p}" if b.where != "frame" else f"frame.points.{p}")
+              for b in position.bodies.values() for p, z in b.local.items() if p not in b.own]  # fmt: skip
+    places += [(abs(g.through), f"{b.where}.guides.{n}") for b in position.bodies.values()
+               for n, g in b.guides.items() if n]  # fmt: skip
+    places += [(length, f"links.{b.name}.length") for length, b in bars]
+    far, where = max(places, key=lambda place: place[0])
+    if far <= FARTHEST * short:
+        return []
+    metres = position.metres
+    said = f"lies {far / metres:.3g} away, beside a bar of {short / metres:.3g} (link {body.name})"
+    return [Problem(where, said, f"too far apart: sixteen digits hold at most {FARTHEST:.0e} times the shortest bar")]
 
 
 def disagreements(position: DrawnPosition) -> list[Problem]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import pytest
 
 import graphkin
@@ -61,3 +63,35 @@ def test_a_driven_slide_with_a_pin_in_an_arm_of_no_length_is_drawn(at: float | N
         "driver": {"slide": "1", "travel": 60, "velocity": 10, "acceleration": 5},
     }
     assert graphkin.check(scene, at=at).ok
+
+
+def test_check_and_solve_take_the_same_assembly_of_a_bar_without_length_in_a_larger_group() -> None:
+    scene = graphkin.read("sixbar-guide-40deg").to_dict()
+    scene["links"]["3"]["points"], scene["links"]["4"]["points"] = ["D"], ["C"]
+    assert graphkin.check(scene).ok
+    assert graphkin.centres(scene).ok
+
+
+def far(away: float, slope: float = 0.0) -> dict[str, object]:
+    guide = {"through": [away, -20 + away * math.tan(math.radians(slope))], "angle": slope}
+    return {
+        "frame": {"points": {"A": [0, 0]}, "guides": {"h": guide}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 50},
+            "2": {"points": ["B", "C"], "length": 150},
+            "3": {"points": ["C"], "on": "0.h"},
+        },
+        "driver": {"link": "1", "angle": 60, "omega": 10},
+        "sketch": {"C": [170, -20]},
+    }
+
+
+@pytest.mark.parametrize("scene", [far(1e9), far(1e9, 17.0), far(1e12), far(1e12, 17.0)])
+def test_a_guide_through_a_point_far_away_is_judged_by_the_digits_of_the_file(scene: dict[str, object]) -> None:
+    assert not [row for row in graphkin.check(scene).report.rows if row.ok is False]
+    assert graphkin.centres(scene).ok
+
+
+def test_places_too_far_apart_for_sixteen_digits_are_refused() -> None:
+    with pytest.raises(graphkin.SceneError, match=r"frame\.guides\.h: lies 1e\+14 away, beside a bar of 50 \(link 1\)"):
+        graphkin.read(far(1e14))
