@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 from cmath import phase
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from itertools import pairwise
+from itertools import pairwise, product
 
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing import strokes
@@ -33,6 +33,8 @@ LINES = 4  # of dimensions beside each other that are tried
 NEAR = 0.5  # mm: so near to its given place a hand has drawn what is fixed
 SIZE = 2.8
 ANGLE_RADII = (10.0, 13.0, 16.0, 20.0, 25.0, 31.0)
+CLOSE_RADII = (8.0, 10.0, 13.0, 16.0, 20.0, 6.5)
+SHARES = (0.5, 0.3, 0.7, 0.15, 0.85)  # of the arc, where its number may stand
 LEAST_ANGLE = math.radians(0.5)
 
 
@@ -92,7 +94,7 @@ def _bars(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts | Label]:
                 yield parts
             else:
                 text = Text(0j, runs, "start", strokes.BLACK, f"label-length-{one}{other}", ("label", "length"))
-                yield Label(text, (start, end), rank=2)
+                yield Label(text, (start, end), rank=1)
 
 
 def _spans(link: PlacedLink, metres: float) -> tuple[list[tuple[str, str]], list[tuple[str, str, str]]]:
@@ -229,7 +231,7 @@ def _given(level: float, given: Sequence[float]) -> float:
     return near if abs(near - level) < NEAR else level
 
 
-def _angles(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts]:
+def _angles(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts | Label]:
     """The angles of drivers, from the x axis or from the axis of another link."""
     for driver in sheet.scene.drivers:
         if not isinstance(driver, AngleDriver) or driver.link not in sheet.poses:
@@ -241,18 +243,25 @@ def _angles(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts]:
         value = sheet.drivers[driver.key]
         turn = math.remainder(value, 2 * math.pi)
         base = sheet.poses.get(driver.relative_to)
-        if pivot is None or abs(turn) < LEAST_ANGLE:
+        if pivot is None:
             continue
         start = phase(base.axis) if base is not None else 0.0
         runs = rich(f"{number(math.degrees(turn), 5)}°", SIZE)
         at, way = pivot.conjugate(), complex(math.cos(start), -math.sin(start))
-        for radius in ANGLE_RADII:
-            line = Line(at + 2.2 * way, at + (radius + 3.0) * way, strokes.DIMENSION)
-            choice = (line, *angle_dimension(at, radius, start, start + turn, runs))
-            parts = room.take(choice, 1, over=True, ends_on_line=True)
-            if parts is not None:
-                yield parts
-                break
+        found = None
+        for crossing in (False, True):  # rather an arc over the links than none
+            if abs(turn) < LEAST_ANGLE:
+                break  # no arc shows it
+            for radius, share in product(ANGLE_RADII if not crossing else CLOSE_RADII, SHARES):
+                line = Line(at + 2.2 * way, at + (radius + 3.0) * way, strokes.DIMENSION)
+                choice = (line, *angle_dimension(at, radius, start, start + turn, runs, share))
+                found = found or room.take(choice, 1, over=True, ends_on_line=True, crossing=crossing)
+        if found is not None:
+            yield found
+            continue
+        index = driver.link if driver.relative_to == sheet.scene.frame.name else driver.link + driver.relative_to
+        told = rich(f"$φ_{{{index}}}$ = {number(math.degrees(turn), 5)}°", SIZE)
+        yield Label(Text(0j, told, "start", strokes.BLACK, f"label-angle-{driver.link}", ("label",)), at, rank=1)
 
 
 def _extension(start: complex, end: complex) -> Line:

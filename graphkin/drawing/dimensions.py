@@ -63,16 +63,16 @@ def dimension(start: complex, end: complex, offset: float, runs: tuple[Run, ...]
 
 
 def angle_dimension(
-    centre: complex, radius: float, start: float, end: float, runs: tuple[Run, ...]
+    centre: complex, radius: float, start: float, end: float, runs: tuple[Run, ...], share: float = 0.5
 ) -> Parts:
     """The angle from one direction to another (rad) about a point: an arc with an arrowhead at ``end``, its number
-    outside the middle of the arc, or outside its beginning where it is short."""
+    outside the arc at a ``share`` of it, or outside its beginning where it is short."""
     sense = math.copysign(1.0, end - start)
     turn = min(POINTER.head_length / radius, abs(end - start) * 0.75)
     tip = centre + radius * page_direction(end)
     chord = tip - (centre + radius * page_direction(end - sense * turn))
     short = abs(end - start) * radius < SHORT_ARC
-    outward = page_direction(start - sense * SHORT_ARC / radius if short else (start + end) / 2)
+    outward = page_direction(start - sense * SHORT_ARC / radius if short else start + share * (end - start))
     box = text_box(_centred(runs, 0j))
     reach = abs(outward.real) * box.width / 2 + abs(outward.imag) * box.height / 2
     return (
@@ -120,15 +120,19 @@ class DimensionClearance:
         self.panel = panel
         self.segments = np.array(obstacles.solid, dtype=complex).reshape(-1, 2)
         self.middles, self.halves = _arrays(obstacles.areas)
+        self.numbers = _arrays(())  # of dimensions, over which nothing runs
         self.heads = _arrays(())  # arrowheads of dimensions, over which extension lines of others may run
         corners = [z for box in obstacles.areas for z in box.corners] + [z for s in obstacles.solid for z in s]
         self.content = Box.around(corners) if corners else Box(0, 0, 0, 0)
 
-    def take(self, parts: Parts, extensions: int = 2, over: bool = False, ends_on_line: bool = False) -> Parts | None:
+    def take(
+        self, parts: Parts, extensions: int = 2, over: bool = False, ends_on_line: bool = False, crossing: bool = False
+    ) -> Parts | None:
         """The dimension, added to what is drawn, if it is clear of everything; None if not.
 
         Its first lines are extension lines: they begin beyond what stands around the point they come from, and run
-        over other lines where that is allowed.  The arrowhead of an angle ends on a line that is drawn.
+        over other lines where that is allowed.  The arrowhead of an angle ends on a line that is drawn, and its arc
+        may run over what is drawn where it is given leave to (``crossing``), its number not.
         """
         numbers = [text_box(part) for part in parts if isinstance(part, Text)]
         heads = [Box.around(part.points) for part in parts if isinstance(part, Polygon)]
@@ -144,13 +148,16 @@ class DimensionClearance:
             course = [arc.at(arc.start + (arc.end - arc.start) * (0.06 + 0.11 * i)) for i in range(9)]
             ends += pairwise(course)
         own = np.array(ends, dtype=complex).reshape(-1, 2)
-        if self._over_areas(own) or len(_crossings(own, self.segments)[0]):
+        if not crossing and (self._over_areas(own) or len(_crossings(own, self.segments)[0])):
             return None
-        if meets(own[:, None], self.heads[0][None], self.heads[1][None] + 0.4 * (1 + 1j)).any():
+        if not crossing and meets(own[:, None], self.heads[0][None], self.heads[1][None] + 0.4 * (1 + 1j)).any():
             return None
         trimmed = [self._trimmed(line) for line in lines[:extensions]]
         beyond = np.array([(line.start, line.end) for line in trimmed if line is not None], dtype=complex)
-        if len(beyond) < extensions or (extensions and self._over_areas(beyond)):
+        if crossing:
+            trimmed = [own_line or line for own_line, line in zip(trimmed, lines, strict=False)]
+            beyond = np.array([(line.start, line.end) for line in trimmed if line is not None], dtype=complex)
+        elif len(beyond) < extensions or (extensions and self._over_areas(beyond)):
             return None
         if extensions and not over and len(_crossings(beyond, self.segments)[0]):
             return None
@@ -158,6 +165,10 @@ class DimensionClearance:
         lines_of_it = np.concatenate((own, beyond.reshape(-1, 2)))
         if meets(lines_of_it[:, None], words[None], sizes[None]).any():
             return None  # a number past the end of a short dimension stands on the next one
+        spots, room = self.numbers[0][None], self.numbers[1][None] + 0.3 * (1 + 1j)
+        if crossing and meets(lines_of_it[:, None], spots, room).any():
+            return None
+        self.numbers = np.concatenate((self.numbers[0], words)), np.concatenate((self.numbers[1], sizes))
         self.segments = np.concatenate((self.segments, lines_of_it))
         self.middles, self.halves = np.concatenate((self.middles, words)), np.concatenate((self.halves, sizes))
         more = _arrays(heads)

@@ -70,3 +70,14 @@ def test_links_differ_in_black_and_white():
     links = [thing for thing in drawn if isinstance(thing, Group) and "link" in thing.classes]
     looks = [tuple(p.stroke.dash for p in walk(g.children) if not isinstance(p, Text) and p.stroke) for g in links]
     assert len(links) == len({frozenset(look) for look in looks})
+
+
+@pytest.mark.parametrize(("name", "degrees"), [
+    ("toggle-press", 235), ("whitworth", 195), ("sixbar-coupler-2B", 285), ("double-butterfly", 105),
+    ("slotter-75-150", 0),
+])  # fmt: skip
+def test_the_angle_of_the_crank_stands_on_every_mechanism(name: str, degrees: float) -> None:
+    texts = words(draw(name, at=degrees, figures=["mechanism"], language="en").figures["mechanism"])
+    turn = (degrees + 180) % 360 - 180
+    shown = f"{turn:g}°".replace("-", "−")
+    assert any(text == shown or text.endswith((f"={shown}", f"= {shown}")) for text in texts), texts
