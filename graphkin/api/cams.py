@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -25,6 +25,7 @@ from graphkin.words import Phrase, say
 if TYPE_CHECKING:
     from graphkin.drawing import Drawing
     from graphkin.solver.cam_study import AtDegree, CamStudy
+    from graphkin.solver.disc_cams import DiscCam
     from graphkin.table import Table
 
 __all__ = ["CamMade", "Cams", "cam", "cam_made", "cam_table"]
@@ -217,13 +218,15 @@ def cam_table(scene: Mechanism, step: float = STEP) -> Table:
 
 @dataclass(frozen=True, repr=False, eq=False)
 class Cams(Result):
-    """The cams of a scene: what is found of each, the table of their points, and their figures.
+    """The cams of a scene: what is found of each, the table of their points, and their figures; ``discs`` are discs
+    that the driver turns, measured as cams.
 
     ``result["1"]`` is the cam of link 1.
     """
 
     scene: Mechanism
     made: tuple[CamMade, ...]
+    discs: tuple[DiscCam, ...] = ()
     step: float = STEP
     language: str | None = None
 
@@ -231,6 +234,10 @@ class Cams(Result):
     def ok(self) -> bool:
         """Whether every cam keeps what is allowed, can be cut, and is drawn as it is computed."""
         return all(one.ok for one in self.made)
+
+    @property
+    def _links(self) -> str:
+        return ", ".join([*(one.cam.link for one in self.made), *(disc.link for disc in self.discs)])
 
     def __getitem__(self, name: str) -> Any:
         """A cam by its link, or a column of the table.  Raises CallError for an unknown one."""
@@ -244,7 +251,38 @@ class Cams(Result):
             "ok": self.ok,
             "units": {"length": self.scene.units.length, "angle": "rad"},
             "cams": {one.cam.link: one.data for one in self.made},
+            "discs": {disc.contact: self._disc(disc) for disc in self.discs},
         }
+
+    def _disc(self, disc: DiscCam) -> dict[str, Any]:
+        """Plain data of a measured disc: lengths in the scene's unit, angles in radians."""
+        metres = self.scene.units.metres
+        return {
+            "cam": disc.link,
+            "follower": disc.follower,
+            "base": {"profile": disc.profile / metres, "pitch": None if disc.pitch is None else disc.pitch / metres},
+            "rise": disc.rise / (1.0 if disc.swings else metres),
+            "offset": None if disc.offset is None else disc.offset / metres,
+            "pressure": {"greatest": disc.most[0], "at": disc.most[1], "here": disc.here},
+        }
+
+    def sentences(self, language: str) -> list[str]:
+        """What is to be said of all of them."""
+        told = [sentence for one in self.made for sentence in one.sentences(language)]
+        return told + [say(phrase, language) for disc in self.discs for phrase in self._told(disc)]
+
+    def _told(self, disc: DiscCam) -> Iterator[Phrase]:
+        unit, metres = self.scene.units.length, self.scene.units.metres
+        base = disc.profile if disc.pitch is None else disc.pitch
+        kind = Phrase("cam base profile" if disc.pitch is None else "cam base pitch")
+        rise = (math.degrees(disc.rise), "°") if disc.swings else (disc.rise / metres, f" {unit}")
+        size = f"{base / metres:.6g}", unit, kind
+        yield Phrase("cam disc", (disc.link, disc.follower, *size, f"{rise[0]:.6g}", rise[1]))
+        if disc.offset is not None:
+            yield Phrase("cam disc offset", (f"{disc.offset / metres + 0.0:.6g}", unit))
+        here = "–" if disc.here is None else f"{math.degrees(disc.here):.4f}"
+        at = f"{math.degrees(disc.most[1]) % 360.0:.4f}"
+        yield Phrase("cam disc pressure", (f"{math.degrees(disc.most[0]):.4f}", at, here))
 
     @cached_property
     def table(self) -> Table:
@@ -266,16 +304,17 @@ class Cams(Result):
         """
         known_words(formats)
         files = {f"{name}.{kind}": page.content(kind) for name, page in self.figures.items() for kind in formats}
-        files["cam.csv"] = self.table.csv().encode()
+        if self.made:
+            files["cam.csv"] = self.table.csv().encode()
         if "dxf" in formats:
             files |= {f"profile-{one.cam.link}.dxf": one.profile_dxf() for one in self.made}
         return write_files(path_of(folder) if folder is not None else Path(self.scene.name), files)
 
     def __repr__(self) -> str:
-        return f"<Cams {self.scene.name}: {', '.join(one.cam.link for one in self.made)}>"
+        return f"<Cams {self.scene.name}: {self._links}>"
 
     def _repr_svg_(self) -> str:
-        return self.figures["cam"]._repr_svg_()
+        return self.figures["cam"]._repr_svg_() if self.made else ""
 
 
 def cam(
@@ -286,6 +325,8 @@ def cam(
     step: float = STEP,
 ) -> Cams:
     """Look over the cams of a scene: pressure angles, curvature, undercutting, rates; drawn by inversion.
+
+    Discs that the driver turns under a follower are measured: base radius, rise, offset, pressure angle.
 
     Parameters
     ----------
@@ -306,15 +347,17 @@ def cam(
     (56.3214, True)
     """
     from graphkin.solver import structure_of
+    from graphkin.solver.disc_cams import disc_cams
 
     known_words(formats, language, None, known_languages=ON_SHEETS)
     if isinstance(step, bool) or not isinstance(step, int | float) or not FINEST <= step <= COARSEST:
         raise CallError(Problem("step", f"found {step!r:.40}", f"degrees from {FINEST:g} to {COARSEST:g}"))
     given = for_paper(scene)
-    if not given.cams:
-        raise CallError(Problem(given.name or "scene", "has no cam", "a cam is told by its law in [cams.LINK]"))
-    structure_of(given)
-    made = Cams(given, cam_made(given), float(step), language)
+    discs = disc_cams(structure_of(given))
+    if not given.cams and not discs:
+        wanted = "a cam is told by its law in [cams.LINK], or is a disc that the driver turns under a follower"
+        raise CallError(Problem(given.name or "scene", "has no cam", wanted))
+    made = Cams(given, cam_made(given), discs, float(step), language)
     if out is not None:
         made.write(out, formats)
     return made

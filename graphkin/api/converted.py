@@ -154,6 +154,7 @@ def _bodies(scene: Mechanism) -> Bodies:
             Slide(_name(scene, body), pin, _name(scene, on), origin + turn * line.through / unit,
                   cmath.phase(turn * line.direction), turns)
         )  # fmt: skip
+    made.left += [f"cam {cam.link} with its follower {cam.follower}" for cam in scene.cams]
     for driver in scene.drivers:
         if isinstance(driver, AngleDriver) and driver.relative_to == scene.frame.name:
             made.drives.append(Drive(driver.link, driver.omega))

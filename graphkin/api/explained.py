@@ -184,6 +184,9 @@ def _joints(scene: Mechanism) -> Iterator[Sentence]:
         held = (contact.carrier,) if contact.carrier else ()
         key = "explained contact" if not contact.rolling else "explained held rolling" if held else "explained rolling"
         yield about, Phrase(key, (contact.name, *sides, *held))
+    for cam in scene.cams:
+        kind = "flat" if cam.flat else "roller" if cam.roller else "edge"
+        yield about, Phrase("explained cam", (cam.link, cam.follower, Phrase(f"cam {kind}"), str(len(cam.law.pieces))))
     for gear in scene.gears:
         teeth = [_number(z) for z in gear.teeth if z is not None]
         yield about, Phrase("explained rack" if gear.is_rack else "explained gear",

@@ -31,7 +31,7 @@ def cam(
     as_json: JsonOption = False,
     quiet: QuietOption = False,
 ) -> None:
-    """Cams: pressure angles, curvature, undercutting; drawn by inversion; the profile as CSV and DXF."""
+    """Cams drawn by inversion: pressure angles, curvature, undercutting, profile as CSV and DXF; discs measured."""
     from graphkin.api.cams import cam as looking
 
     wanted = listed(formats)
@@ -43,8 +43,7 @@ def cam(
     elif not quiet:
         print_paths(paths)
         language = languages(lang or found.scene.sheet.language)[0]
-        for one in found.made:
-            tell("\n".join(one.sentences(language)))
+        tell("\n".join(found.sentences(language)))
     if not found.ok:
         raise typer.Exit(1)
 

@@ -20,13 +20,14 @@ def as_drawn(motion: Motion, structure: Structure) -> Motion:
     if structure.scene.instead_of is None:
         return motion
     poses = dict(motion.poses)
-    for name, link in structure.links.items():
-        if name in poses or name not in structure.links:
+    for slide in structure.slides:
+        if slide.a in poses or not slide.slot or slide.pin is None:
             continue
-        slide = next(s for s in structure.slides if s.a == name)
-        (pin,) = link.points
-        holder = next(n for n in structure.hinges.get(pin, ()) if n != name)
-        at = poses[holder].fixed(structure.links[holder].points[pin])
+        holder = next(n for n in structure.hinges.get(slide.pin, ()) if n != slide.a)
+        if holder not in poses or slide.b not in poses:
+            continue  # nothing asks for it
+        at = poses[holder].fixed(structure.links[holder].points[slide.pin])
         guide = poses[slide.b]
-        poses[name] = Pose(at.z, np.asarray(guide.u * slide.guide.direction), at.v, guide.omega, at.a, guide.alpha)
+        turn = np.asarray(guide.u * slide.guide.direction)
+        poses[slide.a] = Pose(at.z, turn, at.v, guide.omega, at.a, guide.alpha)
     return replace(motion, structure=structure, poses=poses, slides=all_slides(structure))

@@ -14,6 +14,7 @@ from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import DriverRange, Motion, own_slides
 from graphkin.solver.flywheel import Flywheel, flywheel_of
+from graphkin.solver.whole_turn import extremes
 from graphkin.study.grashof import Loop, loops
 from graphkin.study.quantities import Quantity, link_quantities, slide_quantities, symbol_quantity
 from graphkin.study.ranges import AssemblyRange, not_searched, ranges
@@ -130,7 +131,14 @@ class TurnStudy:
         if low is None or high is None or self.reach.turns != 1:
             return None
         way = abs(high.offset - low.offset)
+        if any(output.quantity.of in (c.follower, getattr(c.motion, "pair", "")) for c in self.reach.scene.cams):
+            # a follower may stand still where it is highest or lowest
+            name = output.quantity.of
+            ends = extremes(self.reach, Symbol.parse(f"{'stroke' if '/' in name else 'swing'}_{name}"))
+            way = abs(ends.high_offset - ends.low_offset)
         longer = max(way, 2 * np.pi - way)
+        if longer > 2 * np.pi * (1 - 1e-12):
+            return None
         return longer / (2 * np.pi - longer), float(longer - np.pi)
 
 

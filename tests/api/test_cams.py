@@ -135,3 +135,28 @@ def test_the_command_s_json_has_each_cam(tmp_path):
 def test_a_scene_without_a_cam_is_told_so():
     with pytest.raises(CallError, match="has no cam"):
         graphkin.cam("shaper-scheme-2")
+
+
+EXERCISE = {
+    "frame": {"points": {"A": [0, 0]}, "guides": {"g": {"through": "A", "angle": 90}}},
+    "links": {
+        "1": {"points": ["A", "O"], "length": 11.5, "discs": {"k": {"centre": "O", "r": 16.5}}},
+        "2": {"points": ["B"], "on": "0.g", "discs": {"w": {"centre": "B", "r": 5}}},
+    },
+    "contacts": {"K": {"between": ["1.k", "2.w"]}},
+    "driver": {"link": "1", "angle": 0, "omega": 10},
+}
+
+
+def test_an_eccentric_disc_is_measured_as_the_cam_that_it_is():
+    disc = graphkin.cam(EXERCISE).data["discs"]["K"]
+    assert (10, 5) == pytest.approx((disc["base"]["pitch"], disc["base"]["profile"]), abs=1e-12)
+    assert (23, 0) == pytest.approx((disc["rise"], disc["offset"]), abs=1e-12)
+    assert math.asin(11.5 / 21.5) == pytest.approx(disc["pressure"]["greatest"], rel=1e-12)
+    assert 0 == pytest.approx(math.sin(disc["pressure"]["at"]), abs=1e-7)
+
+
+def test_a_disc_under_a_flat_rocker_has_no_pressure_angle():
+    disc = graphkin.cam("cam-eccentric-flat-rocker").data["discs"]["K"]
+    assert 28 == pytest.approx(disc["base"]["profile"])
+    assert 0 == pytest.approx(disc["pressure"]["greatest"], abs=1e-7)
