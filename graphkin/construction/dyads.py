@@ -26,7 +26,7 @@ from graphkin.construction.steps import (
 )
 from graphkin.plane import cross, cross_arcs, cross_line_arc, cross_lines, direction, dot, unit
 from graphkin.scene.model import AngleDriver
-from graphkin.structure import Driven, Dyad, Slide, Turn
+from graphkin.structure import Driven, Dyad, Rolled, Slide, Turn
 
 __all__ = ["Meeting", "Story", "drive", "meet"]
 
@@ -57,10 +57,13 @@ def drive(frame: PlacedLinks, element: Driven) -> tuple[Pose, Story]:
     """Place a driven link: the angle or the travel is laid off."""
     name, driver, pair = element.link, element.driver, element.pair
     value = frame.values[driver.key]
-    if isinstance(driver, AngleDriver):
-        own = driver.link == name
-        other = driver.relative_to if own else driver.link
-        axis = unit(frame.poses[other].axis * frame.instrument.angle(direction(math.degrees(value if own else -value))))
+    if isinstance(driver, AngleDriver) or (isinstance(driver, Rolled) and driver.turns):
+        if isinstance(driver, AngleDriver):
+            own = driver.link == name
+            base = frame.poses[driver.relative_to if own else driver.link].axis
+        else:
+            own, base = True, 1 + 0j
+        axis = unit(base * frame.instrument.angle(direction(math.degrees(value if own else -value))))
         assert isinstance(pair, Turn)
         hinge = frame.point(pair.b, pair.point)
         pose = Pose(hinge - axis * (frame.links[name].points[pair.point] * frame.mm), axis)

@@ -50,7 +50,7 @@ def moved_to(
     drivers = choices.structure.scene.drivers
     last: Unsolvable | None = None
     first, goal = [own[d.key] for d in drivers], [values[d.key] for d in drivers]
-    for way in ways(drivers, first, goal, bool(choices.structure.followers)):
+    for way in ways(drivers, first, goal, choices.structure.rolls):
         try:
             return _walk(choices, elements, own, dict(zip((d.key for d in drivers), way, strict=True)), poses)
         except Unsolvable as stop:

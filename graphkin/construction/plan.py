@@ -24,6 +24,7 @@ from graphkin.construction.limits import limits_asked
 from graphkin.construction.plot import Order
 from graphkin.construction.position import branches_at
 from graphkin.construction.rigid import PlacedLinks, Poses
+from graphkin.construction.rolling_on_paper import rolled_position
 from graphkin.construction.sheet import (
     DIAGRAMS,
     DiagramName,
@@ -41,7 +42,7 @@ from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.loads import Loading
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
-from graphkin.structure import Cluster, Driven, Dyad, Element, Structure, analyse, links_of, needed
+from graphkin.structure import Cluster, Driven, Dyad, Element, Rolled, Structure, analyse, links_of, needed
 from graphkin.structure.cams_replaced import with_cams
 
 __all__ = ["Plan", "Room", "draft", "drawn_sizes", "execute", "plan", "scales_for"]
@@ -187,6 +188,10 @@ def plan(
         task = Task(structure, structure, asked, elements, values, branches, trials, {}, {}, (), {}, {}, ())
         return _planned(task, room)
     dyads = [e for e in elements if isinstance(e, Driven | Dyad)]
+    if any(isinstance(e, Driven) and isinstance(e.driver, Rolled) for e in elements):
+        values, branches = rolled_position(structure, elements, own, values)
+        task = Task(structure, structure, asked, elements, values, branches, {}, {}, {}, (), {}, {}, ())
+        return _planned(task, room)
     inversions = inversions_of(structure)
     triangles: tuple[tuple[Inversion, int], ...] = ()
     chosen = None

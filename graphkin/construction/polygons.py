@@ -31,10 +31,10 @@ from graphkin.construction.steps import (
 )
 from graphkin.construction.terms import bar, parts_of, symbol_of, turn_sign
 from graphkin.errors import Problem, Unsolvable
-from graphkin.plane import cross
+from graphkin.plane import cross, dot
 from graphkin.scene.model import AngleDriver, Follower
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Cluster, Driven, Dyad, Slide, Structure, Turn, links_of
+from graphkin.structure import Cluster, Driven, Dyad, Rolled, Slide, Structure, Turn, links_of
 
 __all__ = ["Polygons", "same_turn"]
 
@@ -62,6 +62,8 @@ class Polygons(Plot):
 
     def _driven(self, order: Order, element: Driven) -> None:
         name, driver, pair = element.link, element.driver, element.pair
+        if isinstance(driver, Rolled):
+            self._roll(order, name, driver)
         rate = self.given[driver.key][0 if order == "velocity" else 1]
         if isinstance(driver, AngleDriver):
             other, sign = (driver.relative_to, 1) if driver.link == name else (driver.link, -1)
@@ -69,7 +71,9 @@ class Polygons(Plot):
             self.rates[order][name] = Rate(name, base + sign * rate)
             if isinstance(driver, Follower) and name in self.structure.scene.by_name:
                 self._rolled(order, name, driver, base + sign * rate)
-            assert isinstance(pair, Turn)
+        elif isinstance(pair, Turn):
+            self.rates[order][name] = Rate(name, rate)
+        if isinstance(pair, Turn) and name in self.rates[order]:
             pivot = PointRef(pair.point)
             for end in self._first_ends(name, pair.point):
                 way = Direction("square", (pivot.point, end.point))
@@ -82,6 +86,30 @@ class Polygons(Plot):
         if point:
             edge = self._slide_edge(pair, point)
             self._lay_off(order, (edge if name == pair.a else edge.reversed(),), element)
+
+    def _roll(self, order: Order, name: str, driver: Rolled) -> None:
+        """The rate of what rolls, from the rates that stand measured already, or read off the polygon."""
+        which = 0 if order == "velocity" else 1
+        rate, by = 0.0, []
+        for (kind, other), factor in driver.factors:
+            rate += factor * (self.rates[order][other].value if kind == "angle" else self._travel_rate(order, other))
+            by += [(other, factor)] if kind == "angle" else []
+        before = self.given.get(driver.key, (0.0, 0.0))
+        self.given[driver.key] = (rate, before[1]) if which == 0 else (before[0], rate)
+        if driver.turns and len(by) == len(driver.factors) and name in self.structure.scene.by_name:
+            self.board.do(order, RolledRate(RATE[order], name, tuple(by), rate))
+
+    def _travel_rate(self, order: Order, key: str) -> float:
+        """How fast a sliding link goes along its guide (m/s, m/s2): the part along it of its motion relative to the
+        coincident point; that of Coriolis is square to it."""
+        slide = self.structure.slide(key)
+        point = slide.pin or next(iter(self.links[slide.a].points), "")
+        if not point:
+            names = ", ".join((slide.a, slide.b))
+            raise Unsolvable("not drawn", Problem(f"links {names}", "no point of the sliding link is drawn"))
+        along = self.frame.poses[slide.b].axis * slide.guide.direction
+        slip = self.end(order, node(self.links, point, slide.a)) - self.end(order, node(self.links, point, slide.b))
+        return dot(slip, along) * self.scales.of(order)
 
     def _rolled(self, order: Order, name: str, driver: Follower, value: float) -> None:
         """Say how the rate of a wheel follows from those of the drivers."""

@@ -149,7 +149,7 @@ def branches_at(
     if all(values[k] == v for k, v in own.items()):
         return chosen
     limits = []
-    for way in ways(structure.scene.drivers, [*own.values()], [values[k] for k in own], bool(structure.followers)):
+    for way in ways(structure.scene.drivers, [*own.values()], [values[k] for k in own], structure.rolls):
         target = dict(zip(own, way, strict=True))
         branches, limit = _follow(structure, elements, own, target, chosen)
         if limit is None:

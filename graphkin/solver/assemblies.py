@@ -14,10 +14,11 @@ from graphkin.solver.engine import State, positions
 from graphkin.solver.joints import Drive, driver_text
 from graphkin.solver.larger_groups import ClusterSolved, System, as_place, solve_all, solve_cluster
 from graphkin.solver.pose import Array, Pose
-from graphkin.structure import Cluster, Dyad, Slide, Structure, in_stages, links_of, pick
+from graphkin.structure import Cluster, Driven, Dyad, Rolled, Slide, Structure, in_stages, links_of, pick
 from graphkin.structure.assembly import TOUCH, last_true
+from graphkin.structure.model import Coordinate
 
-__all__ = ["choose_forms", "own_values"]
+__all__ = ["choose_forms", "own_values", "reading"]
 
 STARTS = 360
 ROUNDS = 80
@@ -33,12 +34,24 @@ def own_values(scene: Mechanism) -> Array:
     return np.array([d.values[0] for d in scene.drivers])
 
 
+def reading(structure: Structure, poses: Mapping[str, Pose], coordinate: Coordinate) -> Array:
+    """An angle within a turn, or a travel, shape (n,) (rad, m)."""
+    kind, name = coordinate
+    if kind == "angle":
+        return np.atleast_1d(np.angle(poses[name].u))
+    slide = structure.slide(name)
+    guide = poses[slide.b].fixed(slide.guide.through, slide.guide.direction)
+    return np.atleast_1d(((poses[slide.a].z - guide.z) * np.conj(guide.u)).real)
+
+
 def choose_forms(structure: Structure) -> dict[int, Array]:
     """The form of each group at the scene's own position: by drawn or sketched points, else by the rule for its kind.
 
     Returns
     -------
-    dict from the element's place to the sign of a dyad (0-d array) or the places (members, 3) of a larger group
+    dict from the element's place to the sign of a dyad (0-d array) or the places (members, 3) of a larger group; of
+    what rolls for each thing that it rolls on its angle or travel there and now, whole turns included, shape
+    (2 factors,)
 
     Raises
     ------
@@ -52,6 +65,10 @@ def choose_forms(structure: Structure) -> dict[int, Array]:
     for i, element in enumerate(structure.elements):
         if isinstance(element, Dyad):
             forms[i] = _choose_sign(structure, i, element, drive, forms)
+        elif isinstance(element, Driven) and isinstance(element.driver, Rolled):
+            state = positions(structure, drive, {k: f[None] for k, f in forms.items()}, i, rates=False)
+            own = [reading(structure, state.poses, coordinate)[0] for coordinate, _ in element.driver.factors]
+            forms[i] = np.repeat(own, 2)
         elif isinstance(element, Cluster):
             state = positions(structure, drive, {k: f[None] for k, f in forms.items()}, i, rates=False)
             forms[i] = _choose_place(structure, i, element, drive, state.poses)

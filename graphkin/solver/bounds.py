@@ -14,7 +14,7 @@ from graphkin.solver.frame_errors import FrameError, carried, of_dyad, seen, wit
 from graphkin.solver.joints import Frames, body_shape
 from graphkin.solver.pose import FIELDS, Pose
 from graphkin.solver.rounding import Rounding
-from graphkin.structure import Driven, Dyad, Element, Pair, links_of
+from graphkin.structure import Driven, Dyad, Element, Pair, Rolled, links_of
 
 __all__ = ["ErrorFormulas"]
 
@@ -127,6 +127,9 @@ class ErrorFormulas:
         if isinstance(driver, LawCam):
             error, pose = self._follower_error(driver, self._at(pair, base)), self.program.poses[link]
             return {link: carried(error, pose, within(self._rest, self.program.rest(pair, link)))}
+        if isinstance(driver, Rolled):
+            error, pose = self._rolled_error(driver, self._at(pair, base)), self.program.poses[link]
+            return {link: carried(error, pose, within(self._rest, self.program.rest(pair, link)))}
         joint, pose = self._at(pair, base), self.program.poses[link]
         mine = self.program.rest(pair, link)
         turning = joint
@@ -154,6 +157,23 @@ class ErrorFormulas:
                            acceleration=joint.acceleration + second)  # fmt: skip
         return joint.turning_as(moved, rate, second)
 
+    def _rolled_error(self, rolled: Rolled, joint: FrameError) -> FrameError:
+        """What a link that rolls has from its joint, and from what it rolls on, there and in the scene's position."""
+        zero = self.graph.const(0)
+        moved, rate, second = zero, zero, zero
+        for (kind, name), factor in rolled.factors:
+            own = self.of_link(name) if kind == "angle" else self.of_link(self.structure.slide(name).a)
+            base = None if kind == "angle" else self.of_link(self.structure.slide(name).b)
+            one = own.of_turning
+            if base is not None:
+                one = own.position + base.position, own.velocity + base.velocity, own.acceleration + base.acceleration
+            by = abs(factor)
+            moved, rate, second = moved + 2.0 * by * one[0], rate + by * one[1], second + by * one[2]
+        if rolled.turns:
+            return joint.turning_as(moved, rate, second)
+        return replace(joint, position=joint.position + moved, velocity=joint.velocity + rate,
+                       acceleration=joint.acceleration + second)  # fmt: skip
+
     def _dyad_errors(self, i: int, element: Dyad) -> dict[str, FrameError]:
         shapes = tuple(body_shape(self.program, body, self._rest) for body in element.bodies)
         outer = element.outer_first, element.outer_second
@@ -172,7 +192,7 @@ class ErrorFormulas:
             return self.graph.const(0)
         if name[0] in ("cos", "sin"):
             return self.graph.param(("error", "angle", name[1]))
-        if name[0] == "lift":
+        if name[0] in ("lift", "rolled"):
             return self.graph.param(("error", *name))
         if name[0] == "travel":
             return self.graph.param(("error", *name))
@@ -190,6 +210,8 @@ def _bases(element: Driven | Dyad) -> list[str]:
         found = [_base(element.pair, [element.link])]
         if isinstance(element.driver, LawCam):
             return [*found, element.driver.link]
+        if isinstance(element.driver, Rolled):
+            return [*found, *(n for n in element.driver.links if n != element.link)]
         if isinstance(element.driver, AngleDriver):
             found += [n for n in (element.driver.link, element.driver.relative_to) if n != element.link]
         return found

@@ -334,7 +334,7 @@ def way_to(structure: Structure, forms: Mapping[int, Array], goal: Array) -> Pat
     """The way from the scene's own position to other driver values: straight, whole turns included, else the other way
     round for drivers that turn; the straight one if none gets there."""
     start, ended = own_values(structure.scene), list[tuple[Mapping[int, Array], Path]]()
-    for end in ways(structure.scene.drivers, start.tolist(), goal.tolist(), bool(structure.followers)):
+    for end in ways(structure.scene.drivers, start.tolist(), goal.tolist(), structure.rolls):
         path = follow_path(structure, forms, start, np.array(end))
         if path.limit is None:
             return path

@@ -21,7 +21,7 @@ from graphkin.solver.larger_groups import ClusterSolved, solve_cluster
 from graphkin.solver.pose import FIELDS, Array, Pose, rest
 from graphkin.solver.program import GIVEN, Program, program_of
 from graphkin.solver.rounding import UNIT
-from graphkin.structure import Cluster, Driven, Dyad, Structure, in_stages, links_of
+from graphkin.structure import Cluster, Driven, Dyad, Rolled, Structure, in_stages, links_of
 
 __all__ = ["SINGULAR", "State", "extended_precision_of", "positions"]
 
@@ -156,6 +156,8 @@ class _Run:
                 self._together(i, element)
             elif isinstance(element, Driven) and isinstance(element.driver, LawCam):
                 self._lift(i, element.driver)
+            elif isinstance(element, Driven) and isinstance(element.driver, Rolled):
+                self._roll(i, element.driver)
         program = self.dimensioned.program
         names = [n for e in elements for n in links_of(e)]
         dyads = [i for i, e in enumerate(elements) if isinstance(e, Dyad)]
@@ -194,7 +196,8 @@ class _Run:
         bounds = ErrorBound(*(_sure(b) for b in found)) if sure else None
         count = len(self.structure.scene.drivers)
         rolled = {n for n in self.given if n[0] in ("cos", "sin", "travel") and isinstance(n[1], int) and n[1] >= count}
-        lifted = {name: column for name, column in self.given.items() if name in rolled or name[0] == "lift"}
+        kinds = ("lift", "rolled")
+        lifted = {name: column for name, column in self.given.items() if name in rolled or name[0] in kinds}
         return State(poses, dict(sorted(groups.items())), bounds, rough, np.where(fine, TINY, SINGULAR), lifted)
 
     def _lift(self, i: int, cam: LawCam) -> None:
@@ -204,6 +207,30 @@ class _Run:
         for part, column in follower_inputs(cam, np.broadcast_to(turn, (self.n,))).items():
             self.given["lift", cam.link, part] = np.ascontiguousarray(column)
             self.rates_of["error", "lift", cam.link, part] = LOOKED_UP * float(np.abs(column).max(initial=0.0))
+
+    def _roll(self, i: int, rolled: Rolled) -> None:
+        """How far what a link rolls on has turned or gone since the scene's own position, whole turns as the form of
+        the element says, and so where the link stands."""
+        program, form = self.dimensioned.program, np.broadcast_to(self.forms[i], (self.n, 2 * len(rolled.factors)))
+        asked: list[Real | Vec] = []
+        for (kind, name), _ in rolled.factors:
+            slide = None if kind == "angle" else self.structure.slide(name)
+            guide = None if slide is None else program.guide(slide)
+            asked.append(program.poses[name].u if slide is None or guide is None
+                         else ((program.poses[slide.a].z - guide.z) * guide.u.conjugate()).real)  # fmt: skip
+        value, wide = np.full(self.n, rolled.start), abs(rolled.start)
+        for k, (found, (_, factor)) in enumerate(zip(self._values(("rolled", i), asked), rolled.factors, strict=True)):
+            at = np.broadcast_to(found, (self.n,))
+            if np.iscomplexobj(at):
+                angle, near = np.angle(at), form[:, 2 * k + 1]
+                at = angle + 2 * np.pi * np.rint((near - angle) / (2 * np.pi))
+            moved = factor * (at - form[:, 2 * k])
+            value, wide = value + moved, wide + float(np.abs(moved).max(initial=0.0))
+        u = turned(value)
+        parts = {"cos": u.real, "sin": u.imag} if rolled.turns else {"travel": value}
+        for part, column in parts.items():
+            self.given["rolled", rolled.key, part] = np.ascontiguousarray(column)
+            self.rates_of["error", "rolled", rolled.key, part] = LOOKED_UP * (wide + 1.0 * rolled.turns)
 
     def _together(self, i: int, group: Cluster) -> None:
         """Solve a larger group, and give its poses to the formulas of what follows."""

@@ -12,7 +12,7 @@ from graphkin.scene.cams import LawCam
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
 from graphkin.solver.dyads import Joints
 from graphkin.solver.pose import Array, Pose
-from graphkin.structure import Body, Driven, Dyad, Pair, Structure, Turn
+from graphkin.structure import Body, Driven, Dyad, Pair, Rolled, Structure, Turn
 
 __all__ = ["Drive", "Frames", "body_shape", "driven", "driver_text", "dyad_joints", "joint_place", "members", "turned"]
 
@@ -94,6 +94,10 @@ class Frames(Protocol):
         the angle of the cam."""
 
 
+    def rolled(self, rolled: Rolled) -> tuple[Any, Any, Any]:
+        """Where what rolls stands, its travel or the direction of its own axis, with its rates."""
+
+
 def driven(frames: Frames, element: Driven, poses: Mapping[str, Pose]) -> Pose:
     """The pose of a link that a driver or a cam moves from known links: crank, driven slider, follower."""
     pair, link = element.pair, element.link
@@ -107,6 +111,12 @@ def driven(frames: Frames, element: Driven, poses: Mapping[str, Pose]) -> Pose:
         if isinstance(pair, Turn):
             return at.pinned(mine, stands, rate, second)
         return at.along(stands, rate, second).of(mine.inverse())
+    if isinstance(element.driver, Rolled):
+        stands, rate, second = frames.rolled(element.driver)
+        if isinstance(pair, Turn):
+            return at.pinned(mine, stands, rate, second)
+        sense = 1.0 if pair.a == link else -1.0
+        return at.along(stands * sense, rate * sense, second * sense).of(mine.inverse())
     if isinstance(element.driver, AngleDriver):
         given = frames.turn(element.driver)
         forward = element.driver.link == link

@@ -19,7 +19,7 @@ from graphkin.solver.engine import positions
 from graphkin.solver.joints import Drive
 from graphkin.solver.larger_groups import ClusterSolved
 from graphkin.solver.pose import Array
-from graphkin.structure import Cluster, Dyad, Structure, in_stages
+from graphkin.structure import Cluster, Driven, Dyad, Rolled, Structure, in_stages
 from graphkin.structure.assembly import ChangePoint, Passage, follow
 
 __all__ = ["FAR", "Path", "follow_path"]
@@ -270,6 +270,8 @@ def follow_path(structure: Structure, forms: Mapping[int, Array], start: Array, 
     for i, element in enumerate(structure.elements):
         if isinstance(element, Dyad):
             path = _follow_dyad(path, i, element, float(forms[i]), grid)
+        elif isinstance(element, Driven) and isinstance(element.driver, Rolled):
+            path = _follow_rolled(path, i, element.driver, np.asarray(forms[i]), grid)
         elif isinstance(element, Cluster):
             path = _follow_cluster(path, i, element, np.asarray(forms[i]))
         if path.limit is not None:
@@ -348,3 +350,23 @@ def _follow_cluster(path: Path, i: int, group: Cluster, place: Array) -> Path:
     flips = np.sort(np.append(path.flips, walk.flips))
     passed = (*path.passed, *((i, t) for t in walk.flips))
     return replace(path, forms={**path.forms, i: walk.start}, flips=flips, limit=limit, by=by, passed=passed)
+
+
+def _follow_rolled(path: Path, i: int, rolled: Rolled, form: Array, grid: Array) -> Path:
+    """Count the turns of what a link rolls on."""
+    t = _off_flips(path.flips, grid)
+    poses = positions(path.structure, path.drive(t), path.form(t), i, rates=False).poses
+    columns = []
+    for k, ((kind, name), _) in enumerate(rolled.factors):
+        columns.append(np.full(len(grid), form[2 * k]))
+        if kind == "angle":
+            u = np.nan_to_num(np.broadcast_to(poses[name].u, grid.shape), nan=1.0)
+            steps = np.angle(u[1:] * np.conj(u[:-1]))
+            columns.append(form[2 * k + 1] + np.concatenate(([0.0], np.cumsum(steps))))
+        else:
+            columns.append(np.full(len(grid), form[2 * k + 1]))
+
+    def at(t: Array) -> Array:
+        return np.stack([np.interp(t, grid, column) for column in columns], axis=1)
+
+    return replace(path, forms={**path.forms, i: at})

@@ -21,7 +21,8 @@ from graphkin.solver.expressions import ExpressionGraph, Name, Real, Vec
 from graphkin.solver.joints import body_shape, driven, dyad_joints, members
 from graphkin.solver.pose import FIELDS, Pose
 from graphkin.solver.rounding import UNIT
-from graphkin.structure import Cluster, Driven, Dyad, Pair, Slide, Structure, Turn
+from graphkin.structure import Cluster, Driven, Dyad, Pair, Rolled, Slide, Structure, Turn
+from graphkin.structure.model import Coordinate
 
 __all__ = ["GIVEN", "DimensionedProgram", "Program", "program_of"]
 
@@ -104,6 +105,27 @@ class Program:
         parts = ("slope", "bend", *(("travel",) if isinstance(cam.motion, SlidingFollower) else ("cos", "sin")))
         slope, bend, *stands = (self.graph.input(("lift", cam.link, part)) for part in parts)
         return (Vec(*stands) if len(stands) == 2 else stands[0]), slope, bend
+
+    def rolled(self, rolled: Rolled) -> tuple[Real | Vec, Real, Real]:
+        """Where what rolls stands, and its rates, from those of what it rolls on."""
+        rate = second = self.graph.const(0)
+        for coordinate, factor in rolled.factors:
+            one, two = self.rates_of(coordinate)
+            rate, second = rate + factor * one, second + factor * two
+        if rolled.turns:
+            stands: Real | Vec = Vec(*(self.graph.input(("rolled", rolled.key, part)) for part in ("cos", "sin")))
+        else:
+            stands = self.graph.input(("rolled", rolled.key, "travel"))
+        return stands, rate, second
+
+    def rates_of(self, coordinate: Coordinate) -> tuple[Real, Real]:
+        """Rate and second rate of an angle or a travel."""
+        kind, name = coordinate
+        if kind == "angle":
+            return self.poses[name].omega, self.poses[name].alpha
+        slide = self.structure.slide(name)
+        seen = self.guide(slide).inverse().of(self.poses[slide.a])
+        return seen.v.real, seen.a.real
 
     # elements
 

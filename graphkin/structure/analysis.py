@@ -48,13 +48,6 @@ def _wrong_count(system: Constraints, mobility: Mobility) -> Problem:
     return Problem("mobility", f"{count}, but {drivers} given", wanted)
 
 
-def _rolled_by_lengths(system: Constraints) -> Problem:
-    relation = system.relations[0]
-    links = ", ".join(n for n in relation.links if n in system.scene.by_name)
-    found = f"what rolls here turns as links {links} do, whose angles do not follow the driver in a constant ratio"
-    return Problem(relation.name, found, "let a driver or another wheel turn them")
-
-
 def _sliding_loop(system: Constraints) -> list[str]:
     """Links of a closed loop of sliding pairs only, if there is one."""
     group: dict[str, set[str]] = {name: {name} for name in system.links}
@@ -127,8 +120,6 @@ def analyse(scene: Mechanism | Structure) -> Structure:
     if mobility.value != len(scene.drivers):
         loose = loose_ends(system) if mobility.value > len(scene.drivers) else ()
         raise Unsolvable("mobility", _wrong_count(system, mobility), *loose)
-    if system.relations:
-        raise Unsolvable("mobility", _rolled_by_lengths(system))
     equations = system.equations()
     unknowns = [sorted(e) for e in equations]
     given = match(unknowns)

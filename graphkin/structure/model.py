@@ -21,6 +21,7 @@ __all__ = [
     "Element",
     "Mobility",
     "Pair",
+    "Rolled",
     "Slide",
     "Structure",
     "Turn",
@@ -83,6 +84,34 @@ class Body:
     welds: tuple[Weld, ...] = ()
 
 
+Coordinate = tuple[str, str]
+"""("angle", link) or ("travel", sliding pair)."""
+
+
+@dataclass(frozen=True)
+class Rolled:
+    """What moves a link that rolls on others whose motion is known: its angle or travel follows from theirs.
+
+    ``start`` is its value (rad, m) in the scene's own position, from which it goes by ``factors`` as these coordinates
+    go; ``links`` are all that take part.
+    """
+
+    name: str
+    coordinate: Coordinate
+    start: float
+    factors: tuple[tuple[Coordinate, float], ...]
+    links: tuple[str, ...]
+
+    @property
+    def key(self) -> str:
+        return self.coordinate[1]
+
+    @property
+    def turns(self) -> bool:
+        """Whether it is an angle."""
+        return self.coordinate[0] == "angle"
+
+
 @dataclass(frozen=True)
 class Driven:
     """A link that a driver, or a cam by its law, moves from links already known: crank, driven slider, follower.
@@ -93,7 +122,7 @@ class Driven:
 
     link: str
     pair: Pair
-    driver: AnyDriver | LawCam
+    driver: AnyDriver | LawCam | Rolled
 
 
 @dataclass(frozen=True)
@@ -204,6 +233,12 @@ class Structure:
     def drivers(self) -> tuple[AnyDriver, ...]:
         """The drivers of the scene, then what follows them by rolling."""
         return (*self.scene.drivers, *self.followers)
+
+    @property
+    def rolls(self) -> bool:
+        """Whether something rolls, so that the motion need not close with a turn of the driver."""
+        driven = (e.driver for e in self.elements if isinstance(e, Driven))
+        return bool(self.followers) or any(isinstance(driver, Rolled) for driver in driven)
 
     def followed(self, values: Mapping[str, float]) -> dict[str, float]:
         """Driver values by key (rad, m), with those of what follows them."""

@@ -9,7 +9,7 @@ from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.scene.cams import LawCam
 from graphkin.scene.model import AngleDriver, AnyDriver, Follower, Mechanism
 from graphkin.scene.symbol import Symbol, centre_links
-from graphkin.structure.model import Cluster, Driven, Element, Structure
+from graphkin.structure.model import Cluster, Driven, Element, Rolled, Structure
 
 __all__ = ["in_stages", "links_of", "needed", "part_of"]
 
@@ -39,7 +39,7 @@ def needed(structure: Structure, asked: Sequence[Symbol]) -> list[Element]:
 def in_stages(elements: Sequence[Element]) -> bool:
     """Whether some elements are not given by formulas of the drivers alone: larger groups, found by Newton's method,
     followers of cams, whose law has pieces, and what rolls."""
-    followers = (isinstance(e, Driven) and isinstance(e.driver, LawCam | Follower) for e in elements)
+    followers = (isinstance(e, Driven) and isinstance(e.driver, LawCam | Follower | Rolled) for e in elements)
     return any(isinstance(e, Cluster) or follows for e, follows in zip(elements, followers, strict=True))
 
 
@@ -122,6 +122,8 @@ def _outside(element: Element) -> set[str]:
     if isinstance(element, Driven):
         if isinstance(element.driver, LawCam):
             return {element.pair.a, element.pair.b, element.driver.link} - {element.link}
+        if isinstance(element.driver, Rolled):
+            return {element.pair.a, element.pair.b, *element.driver.links} - {element.link}
         pairs, drivers = [element.pair], [element.driver]
     elif isinstance(element, Cluster):
         pairs, drivers = list(element.pairs), list(element.drivers)

@@ -18,13 +18,9 @@ from typing import Any
 from graphkin.scene.contacts import Contact, Gear
 from graphkin.scene.model import AngleDriver, AngleFollower, Follower, Mechanism, PlacedLink, SlideFollower
 from graphkin.scene.touching import rack_place
-from graphkin.structure.model import Slide
+from graphkin.structure.model import Coordinate, Pair, Rolled, Slide, Turn
 
-__all__ = ["Coordinate", "Relation", "followers_of", "relations_of"]
-
-Coordinate = tuple[str, str]
-"""("angle", link) or ("travel", sliding pair)."""
-
+__all__ = ["Relation", "followers_of", "relations_of", "rolled_by"]
 
 @dataclass(frozen=True)
 class Relation:
@@ -178,3 +174,13 @@ def _drawn_angle(scene: Mechanism, link: PlacedLink) -> float:
     given = {**scene.sketch, **scene.drawn, **scene.frame.points}
     ends = [given[p] for p in link.bar if p in given]
     return cmath.phase(ends[1] - ends[0]) if len(ends) == 2 and ends[0] != ends[1] else 0.0
+
+
+def rolled_by(scene: Mechanism, relation: Relation, member: str, pair: Pair) -> Rolled | None:
+    """What moves a link that one pair joins to known links, by a relation to them; None where it does not."""
+    own: Coordinate = ("angle", member) if isinstance(pair, Turn) else ("travel", pair.key)
+    if own not in relation.terms or (own[0] == "travel" and ("angle", member) in relation.terms):
+        return None
+    factor = relation.terms[own]
+    others = tuple((c, float(-f / factor)) for c, f in relation.terms.items() if c != own)
+    return Rolled(relation.name, own, scene.starts.get(own[1], 0.0), others, relation.links)

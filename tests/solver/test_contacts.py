@@ -148,3 +148,52 @@ def test_prepared_wheels_move_as_solved_ones():
     prepared = ready.sweep(36)
     assert turn["C"] == pytest.approx(prepared["C"], rel=1e-12)
     assert turn["a_C"] == pytest.approx(prepared["a_C"], rel=1e-11)
+
+
+ROD_WITH_WHEEL = {
+    "frame": {"points": {"A": [0, 0]}, "guides": {"h": {"through": [0, -20], "angle": 0}}},
+    "links": {
+        "1": {"points": ["A", "B"], "length": 30},
+        "2": {"points": ["B", "C"], "length": 110},
+        "3": {"points": ["C", "P"], "length": 15, "start": 30, "discs": {"w": {"centre": "C", "r": 20}}},
+    },
+    "contacts": {"K": {"between": ["3.w", "0.h"], "rolling": True}},
+    "sketch": {"C": [110, 0]},
+    "driver": {"link": "1", "angle": 40, "omega": 5, "alpha": 2},
+}
+SUN_AND_PLANET = {
+    "frame": {"points": {"A": [0, 0], "D": [120, 0]}},
+    "links": {
+        "1": {"points": ["A", "B"], "length": 40},
+        "2": {"points": ["B", "C"], "length": 110},
+        "3": {"points": ["D", "C"], "length": 90},
+        "4": {"points": ["A", "P"], "length": 20, "start": 10},
+    },
+    "gears": {"g": {"between": ["2", "4"], "teeth": [20, 20], "carrier": "1"}},
+    "driver": {"link": "1", "angle": 40, "omega": 5, "alpha": 2},
+}
+
+
+def test_a_wheel_at_the_end_of_a_rod_turns_as_far_as_it_rolls():
+    own, there = (frame_of(solve(ROD_WITH_WHEEL, at=at).data) for at in (40, 140))
+    rolled = (there["points"]["C@3"]["position"][0] - own["points"]["C@3"]["position"][0]) / 20
+    assert np.radians(30) - rolled == pytest.approx(there["links"]["3"]["angle"], abs=1e-12)
+    assert [0, 0] == pytest.approx(there["points"]["K@3"]["velocity"], abs=1e-12)
+
+
+def test_the_sun_turns_twice_as_the_crank_less_the_planet_that_the_rod_holds():
+    turns = solve(SUN_AND_PLANET, sweep=36).motion
+    assert 2 * turns.omega("1") - turns.omega("2") == pytest.approx(turns.omega("4"), rel=1e-12)
+    assert 2 * turns.alpha("1") - turns.alpha("2") == pytest.approx(turns.alpha("4"), rel=1e-11, abs=1e-11)
+
+
+def test_the_sun_goes_on_over_the_turns_of_the_crank():
+    own, later = (frame_of(solve(SUN_AND_PLANET, at=40 + turned).data)["links"]["4"]["angle"] for turned in (0, 360))
+    assert np.exp(1j * own) == pytest.approx(np.exp(1j * later), abs=1e-12)
+
+
+@pytest.mark.parametrize("scene", [ROD_WITH_WHEEL, SUN_AND_PLANET], ids=["rod with wheel", "sun and planet"])
+@pytest.mark.parametrize("at", [40, 150, 500])
+def test_the_drawing_agrees_with_the_solver_where_rods_turn_wheels(scene, at):
+    for row in check(scene, at=at).report.rows:
+        assert row.exact == pytest.approx(row.reading.value, rel=1e-9, abs=1e-9)

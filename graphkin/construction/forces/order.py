@@ -8,7 +8,7 @@ from graphkin.errors import Unsolvable
 from graphkin.scene.cams import LawCam
 from graphkin.scene.model import AngleDriver, AnyDriver, SlideDriver
 from graphkin.scene.symbol import Symbol
-from graphkin.structure import Cluster, Driven, Dyad, Element, Structure, analyse
+from graphkin.structure import Cluster, Driven, Dyad, Element, Rolled, Structure, analyse
 
 __all__ = ["Balance", "balance_of", "force_groups"]
 
@@ -76,7 +76,7 @@ def force_groups(structure: Structure) -> tuple[Element, ...]:
 def driver_of(element: Element) -> tuple[AnyDriver, ...]:
     """The drivers that act in a group."""
     if isinstance(element, Driven):
-        return () if isinstance(element.driver, LawCam) else (element.driver,)
+        return () if isinstance(element.driver, LawCam | Rolled) else (element.driver,)
     if isinstance(element, Dyad):
         return tuple(weld.driver for body in element.bodies for weld in body.welds)
     return element.drivers

@@ -1,0 +1,101 @@
+"""Where what rolls stands on paper: the way is gone from the scene's own position in small steps, and how far the links
+have turned or slid that it rolls on is read off, whole turns included."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Mapping, Sequence
+
+from graphkin.construction.dyads import drive, meet
+from graphkin.construction.position import choose, start_board
+from graphkin.construction.rigid import PlacedLinks, Poses
+from graphkin.errors import Problem, Unsolvable
+from graphkin.plane import dot
+from graphkin.scene.model import AngleDriver
+from graphkin.structure import Driven, Dyad, Element, Rolled, Structure
+from graphkin.structure.model import Coordinate
+
+__all__ = ["rolled_position"]
+
+STEP, SLIDE_STEP = math.radians(3.0), 0.02
+
+
+def rolled_position(
+    structure: Structure, elements: Sequence[Element], own: Mapping[str, float], values: Mapping[str, float]
+) -> tuple[dict[str, float], dict[int, int]]:
+    """The driver values with those of everything that rolls (rad, m), and the assembly of each dyad there.
+
+    Raises
+    ------
+    Unsolvable : "not assembled" where the motion does not go on, "not drawn" for groups larger than a dyad
+    """
+    mm = 1.0 / structure.scene.size
+    frame, chosen = start_board(structure, mm, own), dict[int, int]()
+    start: dict[Coordinate, float] = {}
+    for i, element in enumerate(elements):
+        if isinstance(element, Driven) and isinstance(element.driver, Rolled):
+            start |= {c: _reading(structure, frame, c) for c, _ in element.driver.factors}
+            frame = _with(frame, element.driver.key, element.driver.start)
+        elif not isinstance(element, Driven | Dyad):
+            names = ", ".join(element.links)
+            raise Unsolvable("not drawn", Problem(f"links {names}", "a larger group beside what rolls is not drawn"))
+        choose(structure, frame, i, element, chosen)
+    near = dict(start)
+    drivers = structure.scene.drivers
+    long = max(abs(values[d.key] - own[d.key]) / (STEP if isinstance(d, AngleDriver) else SLIDE_STEP / mm)
+               for d in drivers)  # fmt: skip
+    count = max(1, math.ceil(long))
+    for k in range(1, count + 1):
+        here = {key: own[key] + (values[key] - own[key]) * k / count for key in own}
+        if k == count:
+            here = dict(values)
+        frame = _placed(structure, elements, start_board(structure, mm, here), frame.poses, start, near, chosen)
+    return {**values, **{key: v for key, v in frame.values.items() if key not in values}}, chosen
+
+
+def _placed(
+    structure: Structure, elements: Sequence[Element], frame: PlacedLinks, before: Poses,
+    start: Mapping[Coordinate, float], near: dict[Coordinate, float], chosen: dict[int, int],
+) -> PlacedLinks:  # fmt: skip
+    """All links a step further; ``near`` and ``chosen`` go on with them."""
+    for i, element in enumerate(elements):
+        if isinstance(element, Dyad):
+            found = meet(frame, element).poses
+            if not found:
+                wanted = "choose a driver value that the motion reaches"
+                raise Unsolvable("not assembled", Problem(
+                    f"links {', '.join(element.links)}", "their loci do not meet on the way to this position", wanted))
+            chosen[i] = min(range(len(found)), key=lambda k, found=found: _off(found[k], before))  # type: ignore[misc]
+            frame.poses.update(found[chosen[i]])
+        elif isinstance(element, Driven):
+            if isinstance(element.driver, Rolled):
+                value = element.driver.start
+                for coordinate, factor in element.driver.factors:
+                    read = _reading(structure, frame, coordinate)
+                    if coordinate[0] == "angle":
+                        read += math.tau * round((near[coordinate] - read) / math.tau)
+                    near[coordinate] = read
+                    value += factor * (read - start[coordinate])
+                frame = _with(frame, element.driver.key, value)
+            frame.poses[element.link], _ = drive(frame, element)
+    return frame
+
+
+def _with(frame: PlacedLinks, key: str, value: float) -> PlacedLinks:
+    frame.values = {**frame.values, key: value}
+    return frame
+
+
+def _reading(structure: Structure, frame: PlacedLinks, coordinate: Coordinate) -> float:
+    """An angle within a turn (rad), or a travel (m)."""
+    kind, name = coordinate
+    if kind == "angle":
+        return cmath.phase(frame.poses[name].axis)
+    slide = structure.slide(name)
+    along = frame.poses[slide.b].axis * slide.guide.direction
+    return dot(frame.poses[slide.a].origin - frame.place(slide.b, slide.guide.through), along) / frame.mm
+
+
+def _off(one: Poses, other: Poses) -> float:
+    return sum(abs(p.origin - other[n].origin) + abs(p.axis - other[n].axis) for n, p in one.items())
