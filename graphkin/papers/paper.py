@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Literal, TypeAlias
 
 from graphkin.construction import Plan, Room, execute, plan
 from graphkin.construction.sheet import Scales
@@ -34,6 +35,12 @@ class Paper:
         return Box(0.0, 0.0, self.width - 2 * SIDE, self.height - TOP - BOTTOM - CAPTION)
 
     @property
+    def facing(self) -> Paper:
+        """Two such pages side by side, or one above the other where they are wide: the next larger paper."""
+        upright = self.height >= self.width
+        return Paper(2 * self.width, self.height) if upright else Paper(self.width, 2 * self.height)
+
+    @property
     def narrow(self) -> float:
         """Width of a figure so narrow that words stand beside it."""
         return self.body.width - COLUMN
@@ -56,6 +63,8 @@ class Paper:
 
 
 A4 = Paper(*PAPERS["A4"])
+PaperName: TypeAlias = Literal["A5", "A4", "A3", "A2", "A1", "A0"]
+LARGER: tuple[PaperName, ...] = ("A4", "A3", "A2", "A1")
 
 
 def paper_of(scene: Mechanism) -> Paper:
@@ -64,7 +73,7 @@ def paper_of(scene: Mechanism) -> Paper:
 
 
 def paper_plan(of: Mechanism | Structure, values: Mapping[str, float] | None, asked: Sequence[Symbol]) -> Plan:
-    """What to draw, at the scene's own scales where the figures fit the paper so, at coarser ones where they do not."""
+    """What to draw: at the scales that the scene wishes, on a larger paper if need be, else at those that fit."""
     own = plan(of, values, asked)
     scene = own.structure.scene
     paper, given = paper_of(scene), scene.sheet
@@ -78,14 +87,15 @@ def paper_plan(of: Mechanism | Structure, values: Mapping[str, float] | None, as
                 own.scales.acceleration if given.acceleration_scale else filled.acceleration,
             ),
         )
-    sheet = execute(own)
-    most = paper.most
-    boxes = (Box.around(sheet.points.values()), extent(sheet, "velocity"), extent(sheet, "acceleration"))
-    rooms = (most.mechanism, most.polygon, most.polygon)
-    fits = [box.width <= room[0] and box.height <= room[1] for box, room in zip(boxes, rooms, strict=True)]
+    fits = _fits(own, paper)
     if all(fits):
         return own
-    roomed = own.scales_for(most)
+    wishes = (given.length_scale, given.velocity_scale, given.acceleration_scale)
+    larger = _larger(own, paper, wishes)
+    if larger is not None:
+        whole = of if isinstance(of, Mechanism) else of.scene
+        return paper_plan(replace(whole, sheet=replace(whole.sheet, paper=larger)), values, asked)
+    roomed = own.scales_for(paper.most)
     pairs = zip(
         fits,
         (own.scales.length, own.scales.velocity, own.scales.acceleration),
@@ -93,3 +103,26 @@ def paper_plan(of: Mechanism | Structure, values: Mapping[str, float] | None, as
         strict=True,
     )
     return replace(own, scales=Scales(*(mine if good else other for good, mine, other in pairs)))
+
+
+def _fits(own: Plan, paper: Paper) -> list[bool]:
+    """Whether each of the three figures fits the paper."""
+    sheet = execute(own)
+    most = paper.most
+    boxes = (Box.around(sheet.points.values()), extent(sheet, "velocity"), extent(sheet, "acceleration"))
+    rooms = (most.mechanism, most.polygon, most.polygon)
+    return [box.width <= room[0] and box.height <= room[1] for box, room in zip(boxes, rooms, strict=True)]
+
+
+def _larger(own: Plan, paper: Paper, wishes: Sequence[float | None]) -> PaperName | None:
+    """The next paper on which the figures of wished scales fit, None where they fit already or nowhere."""
+    if all(fit or wish is None for fit, wish in zip(_fits(own, paper), wishes, strict=True)):
+        return None
+    for name in LARGER:
+        size = PAPERS[name]
+        if size[0] <= min(paper.width, paper.height):
+            continue
+        turned = size if paper.height >= paper.width else size[::-1]
+        if all(fit or wish is None for fit, wish in zip(_fits(own, Paper(*turned)), wishes, strict=True)):
+            return name
+    return None

@@ -32,12 +32,14 @@ __all__ = [
     "mechanism_picture",
     "parts",
     "stage_picture",
+    "workspace",
 ]
 
 ROOM = 11.0  # mm around a figure, for names
 AROUND = 14.0  # mm around a polygon that is still to be drawn
 FOOT = 9.0  # mm for the scale and the check bar beside it
 LEAST_FRAME = 110.0
+GAP = 4.0  # mm between the mechanism and the frame beside it
 BAR = 50.0  # mm, of the check bar
 Layers = tuple[Group, ...]
 
@@ -148,14 +150,37 @@ def equation_picture(sheet: Sheet, equation: Equation, letters: Letters, languag
     return cropped(written.children, words, "", language)
 
 
+def workspace(
+    sheet: Sheet, diagram: DiagramName, layers: Layers, letters: Letters, language: str, page: Box
+) -> Drawing | None:
+    """The bare mechanism and the frame for a polygon in one drawing, so that directions are carried over with two set
+    squares: side by side, or one above the other; None where a page (its body given) does not hold them."""
+    bare = mechanism_picture(sheet, layers, letters, language)
+    need = extent(sheet, diagram)
+    least = complex(max(need.width + 2 * AROUND, BAR + 40.0), need.height + 2 * AROUND)
+    if bare.width + GAP + least.real <= page.width and max(bare.height, least.imag) <= page.height:
+        left = bare.width + GAP
+        frame = draw_frame(sheet, diagram, letters, language, max(bare.height, least.imag), page.width - left)
+        place, size = complex(left, 0.0), complex(page.width, max(bare.height, frame.height))
+    elif least.real <= page.width and bare.height + GAP + least.imag <= page.height:
+        frame = draw_frame(sheet, diagram, letters, language, least.imag, page.width)
+        place, size = complex(0.0, bare.height + GAP), complex(page.width, bare.height + GAP + frame.height)
+    else:
+        return None
+    children = (*bare.children, *moved(frame.children, place))
+    return Drawing(size.real, size.imag, children, frame.title, bare.desc, languages(language)[0])
+
+
 def draw_frame(
-    sheet: Sheet, diagram: DiagramName, letters: Letters, language: str, height: float | None = None
-) -> Drawing:
+    sheet: Sheet, diagram: DiagramName, letters: Letters, language: str, height: float | None = None,
+    width: float | None = None,
+) -> Drawing:  # fmt: skip
     """A frame to draw a polygon in, with the pole where the polygon will have room, and its scale."""
     content = extent(sheet, diagram)
     page = paper_of(sheet.scene).body
+    wide = width or page.width
     tall = height or min(page.height - 40.0, max(LEAST_FRAME, content.height + 2 * AROUND))
-    box = Box(0.2, 0.2, page.width - 0.2, tall)
+    box = Box(0.2, 0.2, wide - 0.2, tall)
     # to the nearest 5 mm, so that the place of the pole does not tell the answer
     at = _snapped(box.centre - content.centre)
     mark = pole(letters.convention, diagram)
@@ -166,10 +191,10 @@ def draw_frame(
         Circle(at, 0.3, fill=strokes.BLACK),
         Text(at + complex(1.6, -1.6), symbol(mark, 3.5)),
         *moved((words,), complex(3.0, tall - 3.0)),
-        *moved(bar, complex(page.width - 3.0 - BAR, tall - 3.0)),
+        *moved(bar, complex(wide - 3.0 - BAR, tall - (3.0 if wide > 2 * BAR else 10.0))),
     ]
     title = f"{term(FIGURE_WORDS[diagram], language)}{punctuation('colon', language)}{mark}"
-    return Drawing(page.width, tall + 0.2, tuple(children), title, "", languages(language)[0])
+    return Drawing(wide, tall + 0.2, tuple(children), title, "", languages(language)[0])
 
 
 def _snapped(z: complex) -> complex:

@@ -5,7 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from graphkin.construction.sheet import DiagramName
+from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import pole
+from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.headings import FIGURE_WORDS, drivers, number, titles
 from graphkin.drawing.tables import given_lengths, given_teeth
 from graphkin.papers.blocks import (
@@ -24,8 +27,8 @@ from graphkin.papers.blocks import (
     spoken,
 )
 from graphkin.papers.lesson import Lesson, plain_words
-from graphkin.papers.paper import paper_of
-from graphkin.papers.pictures import blank_equations, draw_frame, mechanism_picture, parts
+from graphkin.papers.paper import A4, Paper, paper_of
+from graphkin.papers.pictures import Layers, blank_equations, draw_frame, mechanism_picture, parts, workspace
 from graphkin.scene.model import AngleDriver, Mechanism, PlacedGuide
 from graphkin.words import Phrase, languages, say, word
 
@@ -40,27 +43,54 @@ def problem(lesson: Lesson) -> Document:
     language, paper = lesson.language, paper_of(lesson.sheet.scene)
     layers = parts(lesson.sheet, "mechanism", lesson.letters, language)
     figure = Picture(mechanism_picture(lesson.sheet, layers, lesson.letters, language))
-    how = sentences(*(said(key, language) for key in ("solve here", "print true")))
+    how = sentences(*(said(key, language) for key in ("solve here", "print true", "sense words")))
     words = (*given(lesson), Paragraph(how, small=True))
     blocks: list[Block] = [
         Heading(scene_title(lesson), 1),
         Fields((said("name of student", language), said("class of student", language), said("date", language))),
     ]
-    if figure.drawing.width <= paper.narrow:
+    spaces = [(d, _workspace(lesson, d, layers, paper)) for d in DIAGRAMS if lesson.sheet.vectors(d)]
+    wide = any(space is None for _, space in spaces)
+    if wide:
+        paper = paper.facing  # two facing pages of the smaller paper; the mechanism stands on each with a pole
+        spaces = [(d, _workspace(lesson, d, layers, paper)) for d, _ in spaces]
+    if wide and spaces:
+        blocks += words
+    elif figure.drawing.width <= paper.narrow:
         blocks.append(Beside(words, figure))
     else:
         blocks += [*words, figure]
-    for diagram in ("velocity", "acceleration"):
-        equations = [e for e in lesson.sheet.equations if e.diagram == diagram]
-        if equations and lesson.sheet.vectors(diagram):
-            blocks.append(Heading(said(FIGURE_WORDS[diagram], language), 2, fresh=True))
-            blocks.append(Paragraph(said("your equations", language), small=True))
-            blocks.append(Picture(blank_equations(equations, lesson.letters, language, paper.body.width), joined=True))
-            start = said("your polygon", language, f"${pole(lesson.letters.convention, diagram)}$")
-            frame = draw_frame(lesson.sheet, diagram, lesson.letters, language)
-            blocks.append(Together((Paragraph(start, small=True), Picture(frame))))
     blocks.append(Together((Heading(said("your results", language), 2), _blank_table(lesson))))
+    before, after = [], []
+    for diagram, space in spaces:
+        equations = [e for e in lesson.sheet.equations if e.diagram == diagram]
+        if not equations:
+            continue
+        drawn = space or draw_frame(lesson.sheet, diagram, lesson.letters, language)
+        blank = blank_equations(equations, lesson.letters, language, min(paper.body.width, A4.body.width))
+        asked: tuple[Paragraph | Picture, ...] = (
+            Paragraph(said("your equations", language), small=True), Picture(blank),
+        )  # fmt: skip
+        start = Paragraph(said("your polygon", language, f"${pole(lesson.letters.convention, diagram)}$"), small=True)
+        heading = said(FIGURE_WORDS[diagram], language)
+        together = HEAD + blank.height + drawn.height + ROOM_BETWEEN <= paper.body.height
+        if not together:
+            before.append(Together((Heading(heading, 2), *asked)))
+        after += [Heading(heading, 2, fresh=True), *(asked if together else ()), Together((start, Picture(drawn)))]
+    blocks += [*before, *after]
     return Document(paper_title(lesson, "problem sheet"), languages(language), tuple(blocks), paper)
+
+
+DIAGRAMS: tuple[DiagramName, ...] = ("velocity", "acceleration")
+HEAD = 22.0  # mm for a heading and the lines under it
+ROOM_BETWEEN = 8.0  # mm around what stands on a page
+
+
+def _workspace(lesson: Lesson, diagram: DiagramName, layers: Layers, paper: Paper) -> Drawing | None:
+    """Mechanism and pole together below the heading of a page; the equations stand there too where they fit."""
+    body = paper.body
+    page = Box(0.0, 0.0, body.width, body.height - HEAD)
+    return workspace(lesson.sheet, diagram, layers, lesson.letters, lesson.language, page)
 
 
 def paper_title(lesson: Lesson, key: str) -> str:
@@ -113,7 +143,8 @@ def _guide(lesson: Lesson, guide: PlacedGuide, language: str) -> str:
     name = f"${lesson.letters.guide(guide.name, scene.frame.name)}$"
     x, y = (number(part / scene.units.metres) for part in (guide.through.real, guide.through.imag))
     angle = number(math.degrees(math.atan2(guide.direction.imag, guide.direction.real)))
-    return say(Phrase("guide at", (name, x, y, scene.units.length, angle)), language)
+    key = {"0": "guide level", "90": "guide upright"}.get(angle, "guide at")
+    return say(Phrase(key, (name, x, y, scene.units.length, angle)), language)
 
 
 def reach(lesson: Lesson) -> Iterator[Paragraph]:
@@ -141,5 +172,8 @@ def _line(key: str, text: str, language: str) -> str:
 
 def _blank_table(lesson: Lesson) -> TableBlock:
     heads = tuple(said(key, lesson.language) for key in ("quantity", "on paper", "value", "unit", "sense"))
-    rows = tuple((f"${lesson.letters.vector(s)}$", "", "", lesson.unit(s), "") for s in lesson.questions)
+    rows = tuple(
+        (f"${lesson.letters.vector(s)}$", "" if s.is_vector or s.measure == "length" else "–", "", lesson.unit(s), "")
+        for s in lesson.questions
+    )
     return TableBlock(heads, rows, "lcclc", roomy=True)

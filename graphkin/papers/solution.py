@@ -36,6 +36,7 @@ from graphkin.papers.lesson import Lesson, Stage, plain_words
 from graphkin.papers.paper import paper_of
 from graphkin.papers.pictures import Layers, equation_picture, parts, stage_picture
 from graphkin.papers.problem import given, paper_title, reach, scene_title
+from graphkin.papers.reasons import reasons
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Units
 from graphkin.words import Phrase, languages, say, word
@@ -116,7 +117,7 @@ def answer_key(lesson: Lesson) -> Document:
             within = (f"± {_fixed(line.tolerance, places)}", f"{_fixed(low, places)} … {_fixed(high, places)}")
         name = f"${lesson.letters.vector(row.symbol)}$"
         shown = number(line.exact if row.symbol.scope == "position" else size, 5)
-        rows.append((name, written(paper(row.reading, row)), shown, *within, line.unit, way(row, language)))
+        rows.append((name, _length(row), shown, *within, line.unit, way(row, language)))
     tools = lesson.sheet.scene.sheet.tools
     words = said(
         "key words", language, *(f"{x:g}" for x in (tools.line_width / 2, tools.ruler, tools.compass, tools.set_square))
@@ -246,6 +247,7 @@ def _stage(
         yield heading
         words = equation_words(lesson, stage.equation)
         yield Picture(equation_picture(sheet, stage.equation, letters, language, words), joined=True)
+        yield from reasons(lesson, stage.equation)
     else:
         beside = (*lead, heading, steps)
     if drawn.width <= paper_of(sheet.scene).narrow:
@@ -274,13 +276,19 @@ def _results(lesson: Lesson) -> TableBlock:
             bold.add(i)
         rows.append((
             f"${lesson.letters.vector(symbol)}$",
-            written(paper(row.reading, row)),
+            _length(row),
             _unsigned(row, written(measured(row.reading, lesson.sheet.scales, units, row))),
             _unsigned(row, written(exact(row, units))),
             lesson.unit(symbol),
             way(row, lesson.language),
         ))  # fmt: skip
     return TableBlock(heads, tuple(rows), "lrrrll", frozenset(bold))
+
+
+def _length(row: Compared) -> str:
+    """The length on paper of what is a length there; a rate has none of its own."""
+    own = row.symbol.is_vector or row.symbol.measure == "length"
+    return written(paper(row.reading, row)) if own else "–"
 
 
 def _unsigned(row: Compared, text: str) -> str:

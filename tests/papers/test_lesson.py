@@ -2,9 +2,11 @@ from __future__ import annotations
 
 import pytest
 
+from graphkin.api.handouts import handout
 from graphkin.construction import draft
 from graphkin.drawing.conventions import letters_of
 from graphkin.papers.lesson import Speaker, plain_words, stages
+from graphkin.papers.reasons import reasons
 from graphkin.scene import library, mechanism_of
 
 pytestmark = pytest.mark.quick
@@ -58,3 +60,22 @@ def test_symbols_in_sentences_are_closed_in_every_scene_and_convention():
                 ):
                     assert "$" not in plain_words(markup)
                     assert not {"{", "}", "@", "\x02", "\x03"} & set(plain_words(markup)), (name, markup)
+
+
+def _reasons(name, language):
+    lesson = handout(name, language=language, formats=("pdf",)).lesson
+    return {e.number: " ".join(w for p in reasons(lesson, e) for _, w in p.words) for e in lesson.sheet.equations}
+
+
+def test_every_equation_says_why_and_nothing_twice():
+    told = _reasons("shaper-scheme-2", "en")
+    assert "$A_{4}$ turns about the fixed pivot $O_{4}$ with link 4" in told[2]
+    assert "$A_{4}$ and $A_{3}$ coincide at this moment; link 3 slides on link 4" in told[2]
+    assert "$C$ moves with link 6 along the fixed guide" in told[3]
+    assert "$C$ and $B$ are points of the rigid link 5" in told[3]
+    assert 1 == sum("coincide" in told[n] for n in (1, 2, 3))
+
+
+def test_the_sense_of_a_coriolis_term_follows_from_the_two_arrows():
+    said = _reasons("shaper-scheme-2", "zh")[5]
+    assert "$v_{A4A3}$ 指向 76.9°，构件 4 顺时针转动，故指向 −13.1°" in said

@@ -1,0 +1,102 @@
+"""Why an equation is as it is written: a sentence for each motion in it, and once the rule of the Coriolis term."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterator
+
+from graphkin.construction.sheet import Equation, Term
+from graphkin.papers.blocks import Paragraph
+from graphkin.papers.lesson import Lesson
+from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.words import Phrase, languages, word
+
+__all__ = ["reasons"]
+
+
+def reasons(lesson: Lesson, equation: Equation) -> Iterator[Paragraph]:
+    """The reasons of one equation as a paragraph, without those that an equation before it has given."""
+    before = [e for e in lesson.sheet.equations if e.diagram == equation.diagram and e.number < equation.number]
+    told = {phrase for e in before for phrase in _of_equation(lesson, e)}
+    phrases = [phrase for phrase in _of_equation(lesson, equation) if phrase not in told]
+    if phrases:
+        yield Paragraph(
+            tuple(
+                (each, word("between sentences", each).join(lesson.speaker.sentence(p, each) for p in phrases))
+                for each in languages(lesson.language)
+            ),
+            small=True,
+        )
+
+
+def _of_equation(lesson: Lesson, equation: Equation) -> list[Phrase]:
+    terms = [term for side in equation.sides for term in side]
+    found = dict.fromkeys(phrase for term in terms for phrase in _why(lesson, term))
+    found |= dict.fromkeys(phrase for term in terms if term.symbol.kind == "ak" for phrase in _coriolis(lesson, term))
+    return list(found)
+
+
+def _why(lesson: Lesson, term: Term) -> Iterator[Phrase]:
+    """What ties the point of a term to what it is meant relative to."""
+    symbol = term.symbol
+    of, to = symbol.of, symbol.to
+    if of is None or (symbol.kind in ("ak", "ar") and to is None):
+        return
+    if to is None:
+        yield from _of_a_point(lesson, symbol)
+    elif to.point == of.point:
+        guide = next((s for s in lesson.sheet.structure.slides
+                      if s.pin == of.point and {of.link or s.a, to.link or s.b} & {s.a, s.b}), None)  # fmt: skip
+        if guide is not None and symbol.kind in ("v", "ar"):
+            yield Phrase("why coincident", (of, to, guide.a, guide.b))
+    elif symbol.kind in ("v", "an"):
+        link = _shared(lesson, of, to)
+        if link:
+            yield Phrase("why rigid" if symbol.kind == "v" else "why rigid parts", (of, to, link))
+
+
+def _of_a_point(lesson: Lesson, symbol: Symbol) -> Iterator[Phrase]:
+    """A point that a guide of the frame, or a fixed pivot, holds to its path."""
+    of = symbol.of
+    assert of is not None
+    sheet = lesson.sheet
+    frame = sheet.scene.frame
+    for slide in sheet.structure.slides:
+        holder, body = (sheet.structure.links.get(name) for name in (slide.a, of.link))
+        held = not of.link or of.link == slide.a or (body is not None and of.point in body.points)
+        if slide.b == frame.name and holder is not None and held and of.point in (slide.pin, *holder.points):
+            yield Phrase("why guided", (of, slide.a))
+            return
+    for link in sheet.scene.links:
+        pivot = next((p for p in link.points if p in frame.points), None)
+        own = of.link == link.name or (not of.link and of.point in link.points)
+        if own and pivot is not None and pivot != of.point and symbol.kind == "v":
+            yield Phrase("why turning", (of, pivot, link.name))
+            return
+
+
+def _shared(lesson: Lesson, of: PointRef, to: PointRef) -> str:
+    """The link that has both points."""
+    for link in lesson.sheet.scene.links:
+        if all(ref.link == link.name or (not ref.link and ref.point in link.points) for ref in (of, to)):
+            return link.name
+    return next((ref.link for ref in (of, to) if ref.link), "")
+
+
+def _coriolis(lesson: Lesson, term: Term) -> Iterator[Phrase]:
+    """The rule, and its sense from the two arrows: the sliding velocity and the turning of the guide."""
+    symbol = term.symbol
+    sheet = lesson.sheet
+    slip = sheet.vectors("velocity").get(Symbol("v", symbol.of, symbol.to))
+    drawn = sheet.vectors("acceleration").get(symbol)
+    guide = next((s for s in sheet.structure.slides if symbol.of is not None and s.pin == symbol.of.point
+                  and {symbol.of.link, symbol.to.link if symbol.to else ""} & {s.a, s.b}), None)  # fmt: skip
+    if slip is None or drawn is None or guide is None or not slip.span or not drawn.span:
+        return
+    rate = sheet.omega.get(guide.b)
+    if rate is None or not rate.value:
+        return
+    way = "counter-clockwise" if rate.value > 0 else "clockwise"
+    angles = [f"{math.degrees(cmath.phase(v.span)) + 0.0:.1f}".replace("-", "−") for v in (slip, drawn)]
+    yield Phrase(f"coriolis rule {way}", (slip.symbol, guide.b, angles[0], angles[1], symbol))
