@@ -118,13 +118,14 @@ def may_be_called(where: str, function: object) -> None:
 
 def as_scene(scene: SceneLike) -> Mechanism:
     """A scene from a file, a name of one that comes along, a mapping, or a scene itself; a value of its driver that is
-    given from a dead point is found."""
+    given from a dead point is found, and its rate from the speed of a point."""
     given = mechanism_of(scene)
     if any(isinstance(d, AngleDriver) and d.position for d in given.drivers):
         from graphkin.solver.named_positions import standing
 
         given = standing(given)
-    if any(d.dead_point and not d.dead_point.exact for d in given.drivers):
+    if any((d.dead_point and not d.dead_point.exact) or (isinstance(d, AngleDriver) and d.given_speed)
+           for d in given.drivers):  # fmt: skip
         from graphkin.solver import structure_of
 
         return structure_of(given).scene

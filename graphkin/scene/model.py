@@ -129,7 +129,8 @@ class AngleDriver:
     """The angle of ``link``'s own x axis from that of ``relative_to`` (the frame's name by default).
 
     ``position`` names the position that is meant, where its angle follows from a stroke that is not known yet; ``rpm``
-    is its speed in turns per minute, where the problem gives it so.
+    is its speed in turns per minute, where the problem gives it so.  ``given_speed`` is a point and its speed (m/s,
+    with the sign of the turning), from which ``omega`` follows, 0 until it has been found.
     """
 
     link: str
@@ -140,6 +141,7 @@ class AngleDriver:
     dead_point: FromDeadPoint | None = None
     position: str = ""
     rpm: float | None = None
+    given_speed: tuple[str, float] | None = None
 
     @property
     def key(self) -> str:

@@ -168,6 +168,7 @@ class DriverEntry:
     dead_point: FromDeadPoint | None = None
     position: str = ""
     rpm: float | None = None
+    given_speed: tuple[str, float] | None = None
 
 
 def drives(
@@ -206,7 +207,10 @@ def drives(
             named = "" if table.position is None else str(table.position)
             rpm = None if table.rpm is None else sign * table.rpm
             alpha = sign * table.alpha + 0.0
-            found.append(DriverEntry(where, key, base, angle, omega + 0.0, alpha, dead, named, rpm))
+            speed = None
+            if table.speed is not None and table.of is not None:
+                speed = table.of, sign * table.speed * file.units.rates.metres
+            found.append(DriverEntry(where, key, base, angle, omega + 0.0, alpha, dead, named, rpm, speed))
         else:
             travel = None if table.travel is None else table.travel * metres
             dead = _from_dead_point(table, travel, metres)
@@ -217,7 +221,7 @@ def drives(
 
 
 def _too_slow(where: str, table: Driver | DrivenSlide) -> Iterator[Problem]:
-    for key in ("omega", "rpm", "alpha", "velocity", "acceleration"):
+    for key in ("omega", "rpm", "speed", "alpha", "velocity", "acceleration"):
         rate = getattr(table, key, None)
         if rate and abs(rate) < SMALLEST:
             yield Problem(f"{where}.{key}", f"found {rate:g}", f"write 0, or at least {SMALLEST:g}")
@@ -270,11 +274,27 @@ def _angle_problems(
     if table.omega is not None and table.rpm is not None:
         yield Problem(f"{where}.omega", f"found omega = {table.omega:g} and rpm = {table.rpm:g}",
                       "write one of the two")
-    for key, rate in (("omega", table.omega), ("rpm", table.rpm)):
+    for other, rate in (("omega", table.omega), ("rpm", table.rpm)):
+        if table.speed is not None and rate is not None:
+            yield Problem(f"{where}.speed", f"found speed = {table.speed:g} and {other} = {rate:g}",
+                          "write one of the two")
+    if table.speed is not None and table.of is None and "of" not in lost:
+        yield Problem(f"{where}.of", "is missing", 'write of = "B", the point whose speed it is')
+    if table.of is not None:
+        if table.speed is None and "speed" not in lost:
+            yield Problem(f"{where}.of", "names a point whose speed is not given", "write speed = ..., or leave it out")
+        moving_points = [p for n, own in names.points.items() if n != names.frame for p in own]
+        if table.of not in moving_points and not names.unsure:
+            wanted = did_you_mean(table.of, moving_points)
+            yield Problem(f"{where}.of", f"no moving link has a point {table.of}", wanted)
+        if len(file.drivers) > 1:
+            yield Problem(f"{where}.speed", "the speed of a point tells the rate of a single driver only",
+                          "give omega")
+    for key, rate in (("omega", table.omega), ("rpm", table.rpm), ("speed", table.speed)):
         if table.sense is not None and rate is not None and rate < 0:
             yield Problem(f"{where}.{key}", f"found {rate:g} beside the sense {table.sense}",
                           "with sense write the size, or leave sense out")
-    if table.omega is None and table.rpm is None and not lost & {"omega", "rpm"}:
+    if table.omega is None and table.rpm is None and table.speed is None and not lost & {"omega", "rpm", "speed"}:
         yield Problem(f"{where}.omega", "is missing", "write omega = ... in rad/s or rpm = ...; it may be 0")
 
 

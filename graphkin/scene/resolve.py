@@ -294,13 +294,17 @@ def _driver(drive: DriverEntry, position: DrawnPosition, problems: list[Problem]
         )
         return None
     if drive.position:  # its value is found where the positions are known
-        return AngleDriver(drive.key, drive.base, 0.0, drive.rate, drive.second, None, drive.position, drive.rpm)
+        return AngleDriver(
+            drive.key, drive.base, 0.0, drive.rate, drive.second, None, drive.position, drive.rpm, drive.given_speed
+        )
     angle = drive.value
     driven, base = position.bodies.get(drive.key), position.bodies.get(drive.base)
     if angle is None and driven and base and driven.turn is not None and base.turn is not None:
         angle = cmath.phase(driven.turn / base.turn)
     if angle is not None:
-        return AngleDriver(drive.key, drive.base, angle, drive.rate, drive.second, drive.dead_point, rpm=drive.rpm)
+        return AngleDriver(
+            drive.key, drive.base, angle, drive.rate, drive.second, drive.dead_point, "", drive.rpm, drive.given_speed
+        )
     problems.append(
         Problem(
             f"{drive.where}.angle",

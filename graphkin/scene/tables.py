@@ -229,10 +229,15 @@ class Driver(FileTable):
     )
     omega: Number | None = field(default=None, metadata=_about("rad/s, counter-clockwise positive."))
     rpm: Number | None = field(default=None, metadata=_about("Instead of omega: turns per minute."))
+    speed: Number | None = field(
+        default=None,
+        metadata=_about("Instead of omega: the speed of the point named by of, with the sign of the driver's turning."),
+    )
+    of: PointName | None = field(default=None, metadata=_about("The point whose speed is given."))
     alpha: Number = field(default=0.0, metadata=_about("rad/s2."))
     sense: Literal["clockwise", "counter-clockwise"] | None = field(
         default=None,
-        metadata=_about("The sense of omega or rpm, which then is a size, and in which alpha counts."),
+        metadata=_about("The sense of omega, rpm or speed, which then is a size, and in which alpha counts."),
     )
     relative_to: LinkName | None = field(
         default=None, metadata=_about("Angle from this link's own axis, not the frame's.")

@@ -358,7 +358,10 @@ def _driver(scene: Mechanism, driver: AnyDriver, length: Any) -> dict[str, Any]:
     if isinstance(driver, AngleDriver):
         base = {} if driver.relative_to == scene.frame.name else {"relative_to": driver.relative_to}
         angle = _tidy(math.degrees(driver.angle))
-        return {"link": driver.link, **base, "angle": angle, "omega": _tidy(driver.omega), "alpha": _tidy(driver.alpha)}
+        rate: dict[str, Any] = {"omega": _tidy(driver.omega)}
+        if driver.given_speed is not None:
+            rate = {"speed": _tidy(driver.given_speed[1] / scene.units.rates.metres), "of": driver.given_speed[0]}
+        return {"link": driver.link, **base, "angle": angle, **rate, "alpha": _tidy(driver.alpha)}
     travel = length(driver.travel)
     velocity, second = (_tidy(v / scene.units.rates.metres) for v in driver.values[1:])
     return {"slide": driver.key, "travel": travel, "velocity": velocity, "acceleration": second}

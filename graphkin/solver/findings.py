@@ -19,6 +19,7 @@ from graphkin.solver.decimals import meant_value
 from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import SINGULAR, State, positions
 from graphkin.solver.followers import meeting_followers
+from graphkin.solver.given_speed import at_given_speed
 from graphkin.solver.joints import Drive, driver_text
 from graphkin.solver.larger_groups import ClusterSolved
 from graphkin.solver.path import Path
@@ -296,7 +297,9 @@ def structure_of(scene: Mechanism | Structure) -> Structure:
             raise
         raise Unsolvable("mobility", *stop.problems, found) from None
     if any(d.dead_point and not d.dead_point.exact for d in scene.drivers):
-        return from_dead_point(structure)
+        structure = from_dead_point(structure)
+    if any(isinstance(d, AngleDriver) and d.given_speed for d in scene.drivers):
+        return at_given_speed(structure)
     return structure
 
 

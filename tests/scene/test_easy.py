@@ -110,3 +110,41 @@ def test_a_driven_slide_is_given_in_the_unit_of_speeds() -> None:
     assert mechanism_of(given).drivers[0].values == pytest.approx(mechanism_of(metres).drivers[0].values, rel=1e-12)
     again = mechanism_of(as_mapping(mechanism_of(metres))).drivers
     assert mechanism_of(metres).drivers[0].values == pytest.approx(again[0].values, rel=1e-12)
+
+
+@pytest.mark.parametrize(("point", "sense"), [("B", None), ("C", None), ("C", "clockwise"), ("S2", None)])
+def test_the_speed_of_a_point_may_stand_for_the_rate_of_the_driver(point: str, sense: str | None) -> None:
+    given = graphkin.read("slider-crank-offset").to_dict()
+    given["driver"] = {"link": "1", "angle": 120, "speed": 800, "of": point, **({"sense": sense} if sense else {})}
+    result = graphkin.check(given)
+    assert result.ok
+    assert 0.8 == pytest.approx(abs(result[f"v_{point}"].measured), rel=1e-12)
+    turning = graphkin.solve(given).data["positions"][0]["links"]["1"]["omega"]
+    assert (-1 if sense else 1) == math.copysign(1, turning)
+
+
+@pytest.mark.parametrize(
+    ("driver", "said"),
+    [
+        ({"speed": 1}, 'driver.of: is missing; write of = "B", the point whose speed it is'),
+        ({"speed": 1, "of": "Q"}, "driver.of: no moving link has a point Q"),
+        ({"speed": 1, "of": "B", "omega": 2}, "driver.speed: found speed = 1 and omega = 2; write one of the two"),
+        ({"of": "B", "omega": 2}, "driver.of: names a point whose speed is not given"),
+    ],
+)
+def test_a_speed_that_does_not_tell_the_rate_is_refused(driver: dict[str, object], said: str) -> None:
+    assert any(p.startswith(said) for p in problems({"A": [0, 0], "D": [400, 0]}, **driver))
+
+
+def test_a_point_that_stands_still_tells_no_rate() -> None:
+    given = {
+        "frame": {"points": {"A": [0, 0]}, "guides": {"h": {"through": [0, 0], "angle": 0}}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 50},
+            "2": {"points": ["B", "C"], "length": 150},
+            "3": {"points": ["C"], "on": "0.h"},
+        },
+        "driver": {"link": "1", "angle": 0, "speed": 100, "of": "C"},
+    }
+    with pytest.raises(graphkin.Unsolvable, match="C: stands still here"):
+        graphkin.check(given)
