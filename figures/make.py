@@ -74,9 +74,18 @@ def run(example: str) -> tuple[dict[str, Any], bytes]:
     return found, stream.getvalue()
 
 
+def pictures(example: str) -> dict[str, bytes]:
+    """The picture of an example, and that in Chinese where it has one, by the names of their files."""
+    found, picture = run(example)
+    made = {f"examples/{example}.svg": picture}
+    if "picture_zh" in found:
+        made[f"examples/{example}_zh.svg"] = found["picture_zh"].content("svg")
+    return made
+
+
 def main(names: list[str]) -> None:
     for name in names or [*GALLERY, *EXAMPLES]:
-        made = {f"examples/{name}.svg": run(name)[1]} if name in EXAMPLES else {
+        made = pictures(name) if name in EXAMPLES else {
             f"{name}/{file}": content for file, content in redraw(name).items()
         }
         for file, content in made.items():

@@ -25,6 +25,11 @@ def test_the_committed_picture_of_an_example_is_redrawn(example: str) -> None:
     assert committed == ran(example)[1]
 
 
+def test_the_chinese_page_of_the_layouts_is_redrawn() -> None:
+    committed = (FIGURES / "examples" / "coriolis_layouts_zh.svg").read_bytes()
+    assert committed == ran("coriolis_layouts")[0]["picture_zh"].content("svg")
+
+
 def test_the_crank_found_gives_the_wanted_stroke() -> None:
     # twice the bar's length times the sine of its swing, crank over distance of the pivots
     assert 320 * 350 / (2 * 580) == pytest.approx(ran("optimise_crank")[0]["crank"], rel=1e-12)

@@ -74,6 +74,12 @@ LAYOUTS = {
     ),
 }  # fmt: skip
 
+IN_CHINESE = (
+    "摆动导杆：滑块在转动的导杆上滑动", "导杆处于极限位置：此瞬时导杆不转动", "曲柄与导杆共线：此瞬时无相对滑动",
+    "转动导杆为原动件", "摇块机构：连杆即导路", "摆动油缸：活塞杆自转动的缸体推出", "正弦机构：导路只作平动",
+    "曲柄滑块机构：导路固定",
+)  # fmt: skip
+
 # %% [markdown]
 # A row for each, four cells in it.
 
@@ -101,11 +107,11 @@ def plainly(things):
     return tuple(replace(t, children=plainly(t.children)) if isinstance(t, Group) else t for t in kept)
 
 
-def row(sheet, title, y):
+def row(sheet, title, y, language):
     """Four stages of a layout, and whether it has the term."""
     letters = letters_of(sheet, "chinese")
     terms = [t for t in coriolis_terms(sheet) if abs(t[0].span) > 0.02]
-    said = "no Coriolis term"
+    said = NONE[language]
     if terms:
         vector, _, rule = terms[0]
         said = f"${letters.vector(vector.symbol)}$ = ${letters.size(rule)}$"
@@ -116,24 +122,46 @@ def row(sheet, title, y):
     stages = (("velocity", 0, math.inf), ("acceleration", 0, known), ("acceleration", known + 1, math.inf))
     for column, (diagram, first, last) in enumerate(stages, 1):
         content = extent(sheet, diagram)
-        polygon = polygon_piece(PolygonOnPage(sheet, diagram, letters, "en", around(content), 0j, ()))
+        polygon = polygon_piece(PolygonOnPage(sheet, diagram, letters, language, around(content), 0j, ()))
         cell = framed(polygon, complex(LEFT + column * WIDE, y + HEAD), content)
         drawn = so_far(stepped(layer_groups(cell), births(sheet)), first, last)
         pieces.append(Piece({"stages": drawn if first else plainly(drawn)}))
-    head = Text(complex(LEFT, y + 3.4), rich(f"{title}:  {said}", 3.4))
+    head = Text(complex(LEFT, y + 3.4), rich(f"{title}{COLON[language]}{said}", 3.4))
     return [*(thing for piece in pieces for thing in layer_groups(piece) or piece.drawn), head], bool(terms)
 
 
-STAGES = ("mechanism", "velocities", "known of the accelerations", "found of them")
-children, with_term = [Text(complex(LEFT, 12.5), plain("Where there is a Coriolis term", 4.6, bold=True))], {}
-children += [Text(complex(LEFT + k * WIDE, 17.0), plain(words, 2.6)) for k, words in enumerate(STAGES)]
-for number, (title, file) in enumerate(LAYOUTS.items()):
-    sheet = draft(mechanism_of(file), room=ROOM)
-    things, with_term[title] = row(sheet, f"{number + 1}  {title}", TOP + number * (HIGH + 1.0))
-    children += things
+COLON = {"en": ":  ", "zh": "："}
+NONE = {"en": "no Coriolis term", "zh": "无哥氏加速度"}
+HEADS = {"en": "Where there is a Coriolis term", "zh": "哥氏加速度的有无"}
+STAGES = {
+    "en": ("mechanism", "velocities", "known of the accelerations", "found of them"),
+    "zh": ("机构运动简图", "速度多边形", "加速度多边形：已知部分", "加速度多边形：求得部分"),
+}
+
+
+def page(language):
+    """All layouts on a page, and which of them have the term."""
+    head = Text(complex(LEFT, 12.5), plain(HEADS[language], 4.6, bold=True))
+    stages = [Text(complex(LEFT + k * WIDE, 17.0), plain(words, 2.6)) for k, words in enumerate(STAGES[language])]
+    children, found = [head, *stages], {}
+    for number, ((title, file), chinese) in enumerate(zip(LAYOUTS.items(), IN_CHINESE, strict=True)):
+        sheet = draft(mechanism_of(file), room=ROOM)
+        shown = f"{number + 1}  {title if language == 'en' else chinese}"
+        things, found[title] = row(sheet, shown, TOP + number * (HIGH + 1.0), language)
+        children += things
+    return children, found
+
+
+children, with_term = page("en")
 
 # %%
 print(f"{sum(with_term.values())} of {len(with_term)} have the term")
 
 # %%
 picture = Drawing(297.0, 420.0, tuple(children), "Where there is a Coriolis term, and where there is none")
+
+# %% [markdown]
+# The same in Chinese.
+
+# %%
+picture_zh = Drawing(297.0, 420.0, tuple(page("zh")[0]), "哥氏加速度的有无", lang="zh")

@@ -13,11 +13,11 @@ __all__ = ["deviation", "exact", "measured", "paper"]
 
 
 def paper(reading: Reading, compared: Compared | None = None) -> str:
-    """The length on paper, or a dash for what has none: angles, given rates."""
+    """The length on paper, or a dash for what has none: angles, given rates; 0 where it cannot be told from zero."""
     if not reading.on_paper:
         return "0" if reading.symbol.is_vector else "–"
-    residue = compared is not None and compared.uncertainty is None and compared.measured == 0.0
-    return "0" if residue else on_paper(reading.on_paper)
+    nothing = compared is not None and compared.measured == 0.0
+    return "0" if nothing else on_paper(reading.on_paper)
 
 
 def measured(reading: Reading, scales: Scales, units: Units, compared: Compared | None = None) -> str:

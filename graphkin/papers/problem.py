@@ -163,7 +163,12 @@ def _speeds(scene: Mechanism) -> Iterator[str]:
 
 
 def _labelled(lesson: Lesson, key: str, text: str) -> Said:
-    return tuple((each, _line(key, text, each)) for each in languages(lesson.language))
+    """Formulas with their label; on papers of two languages once, with both labels."""
+    names = languages(lesson.language)
+    if len(names) == 1:
+        return ((names[0], _line(key, text, names[0])),)
+    label = " ".join(word(key, each) for each in names) + word("colon", names[0])
+    return spoken(label + " " * (not label.endswith(" ")) + text + word("full stop", names[0]), lesson.language)
 
 
 def _line(key: str, text: str, language: str) -> str:
