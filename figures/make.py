@@ -1,4 +1,5 @@
-"""Redraw the gallery: each folder holds a scene and the figures drawn from it; ``examples`` Python and its pictures.
+"""Redraw the gallery: each folder holds a scene, or a design file, and the figures drawn from it; ``examples`` Python
+and its pictures.
 
     python figures/make.py            all of them
     python figures/make.py NAME ...   some of them, folders or examples
@@ -43,6 +44,16 @@ GALLERY: dict[str, tuple[str, ...]] = {
     "centres-shaper": ("centres",),
     "centres-six-bar-us": ("centres",),
     "centres-double-butterfly": ("centres",),
+    # cams by their law
+    "cam-offset-roller": ("mechanism", "cam"),
+    "cam-swinging-zh": ("cam",),
+    "cam-flat-face": ("cam",),
+    # mechanisms found for what they shall do
+    "design-slider-crank": ("design", "choice"),
+    "design-crank-rocker-zh": ("design",),
+    "design-guide-bar": ("design",),
+    "design-three-places": ("design",),
+    "design-function": ("design",),
 }
 
 # charts of one machine on one day: kept as examples, not compared
@@ -53,9 +64,12 @@ EXAMPLES = tuple(path.stem for path in sorted((HERE / "examples").glob("*.py")))
 
 def redraw(name: str) -> dict[str, bytes]:
     """The figures of a folder, as they should be: SVG by file name."""
-    from graphkin import draw
+    from graphkin import design, draw
     from graphkin.drawing import svg_bytes
 
+    if (HERE / name / "design.toml").exists():
+        pages = design(HERE / name / "design.toml").figures
+        return {f"{figure}.svg": pages[figure].content("svg") for figure in GALLERY[name]}
     figures = draw(HERE / name / "scene.toml").figures
     return {f"{figure}.svg": svg_bytes(figures[figure]) for figure in GALLERY[name]}
 
