@@ -38,6 +38,9 @@ GALLERY: dict[str, tuple[str, ...]] = {
     "toggle-press-us": ("sheet",),
     "slotter-british": ("sheet",),
     "six-bar-russian": ("sheet",),
+    # forces
+    "forces-shaper-zh": ("forces", "forces-2", "lever"),
+    "forces-engine-us": ("forces", "lever"),
     # instant centres
     "centres-four-bar": ("centres",),
     "centres-slider-crank": ("centres",),

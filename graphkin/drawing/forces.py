@@ -67,7 +67,7 @@ def forces_figure(
     spoken = language or sheet.scene.sheet.language
     sheet = replace(sheet, scales=replace(sheet.scales, force=forces.per_mm))
     letters = letters_of(sheet, convention or sheet.scene.sheet.convention)  # type: ignore[arg-type]
-    width, height = sheet.scene.sheet.size
+    width, height = _paper(sheet, forces)
     page = Box(MARGIN, MARGIN, width - MARGIN, height - MARGIN)
     blocks = [*_given(sheet, forces, letters, spoken, page.width)]
     names: Counter[str] = Counter()
@@ -86,6 +86,18 @@ def forces_figure(
         rows = [TableRow(row.reading, row) for row in report.rows if row.symbol.scope == "force"]
         blocks += _tables(replace(sheet, scales=report.scales), rows, letters, spoken, page)
     return _pages(sheet, blocks, letters, spoken, page)
+
+
+def _paper(sheet: Sheet, forces: ForceSheet) -> tuple[float, float]:
+    """Width and height of the scene's paper, or of a larger one where a wished scale needs it."""
+    boxes = [
+        extent_of((*vectors, *inside))
+        for state in forces.states for group in state.groups for _, vectors, inside in polygons_of(group)
+    ]  # fmt: skip
+    width = max((box.width for box in boxes), default=0.0) + 2 * (AROUND + MARGIN)
+    height = max((box.height for box in boxes), default=0.0) + 2 * (AROUND + MARGIN) + HEAD + FOOT + 2 * LINE
+    own = sheet.scene.sheet.size
+    return max(own[0], width), max(own[1], height)
 
 
 def _pages(sheet: Sheet, blocks: Sequence[_Block], letters: Letters, spoken: str, page: Box) -> Drawing:
@@ -166,7 +178,7 @@ def _group(
     suffix = "-with" if again else ""
     polygons = [(link, vectors, inside, extent_of((*vectors, *inside))) for link, vectors, inside in polygons_of(group)]
     lower = _below(sheet, forces, state, group, letters, spoken, width)
-    alone = len(polygons) == 1
+    alone = len(polygons) == 1 and polygons[0][3].width + 2 * AROUND <= width - SKETCH - GAP
     wide = SKETCH if alone else width
     height = max(LEAST, sketch_height(sheet, group, wide))
     if alone:

@@ -55,6 +55,15 @@ def test_a_wished_scale_is_kept() -> None:
     assert 127.66 == pytest.approx(graphkin.check(scene)["F_4/3"].on_paper, abs=5e-3)
 
 
+@pytest.mark.parametrize("per_mm", [100, 25])
+def test_polygons_at_a_wished_scale_stand_inside_their_panels(
+    per_mm: float, violations: Callable[[bytes], list[str]]
+) -> None:
+    scene = graphkin.read(SHAPER).replace("sheet", {"force_scale": per_mm})
+    pages = graphkin.draw(scene, figures=["forces"]).figures
+    assert {name: [] for name in pages} == {name: violations(svg_bytes(page)) for name, page in pages.items()}
+
+
 @pytest.mark.parametrize(("scene", "at", "language", "convention"), LABELLED)
 def test_no_label_of_a_force_is_overlapped_crossed_or_cut(
     scene: Path, at: float, language: str, convention: str, violations: Callable[[bytes], list[str]]
