@@ -66,14 +66,14 @@ def drawn_polygon(
         colour = colour_of_force(sheet, vector)
         kind = COMPONENT if vector.known or vector.part else RESULTANT
         name = _unique(vector, names, suffix)
-        arrows.append(vector_group(name, None, tail, tip, kind, colour, classes=("force",)))
+        arrows.append(vector_group(name, sum(names.values()), tail, tip, kind, colour, classes=("force",)))
         text = Text(0j, symbol(letters_of_force(letters, vector), 3.2), "start", colour, f"label-{name}", ("label",))
         labels.append(Label(text, (tail, tip), rank=0 if not vector.known or abs(vector.span) > 3.0 else 2))
     for whole, tail, tip in _wholes(vectors):
         name = _unique(whole, names, suffix)
         colour = colour_of_force(sheet, whole)
         ends = tail.conjugate(), tip.conjugate()
-        arrows.append(vector_group(name, None, *ends, RESULTANT, colour, classes=("force",)))
+        arrows.append(vector_group(name, sum(names.values()), *ends, RESULTANT, colour, classes=("force",)))
         text = Text(0j, symbol(letters_of_force(letters, whole), 3.2), "start", colour, f"label-{name}", ("label",))
         labels.append(Label(text, ends, rank=0))
     zero = [v for v in vectors if abs(v.span) <= SHORT and not v.known]

@@ -242,6 +242,8 @@ class Structure:
 
     def followed(self, values: Mapping[str, float]) -> dict[str, float]:
         """Driver values by key (rad, m), with those of what follows them."""
+        if not self.followers:
+            return dict(values)
         own = self.scene.drivers
         moved = [values[d.key] - d.values[0] for d in own]
         return {**values, **{

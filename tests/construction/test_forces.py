@@ -21,7 +21,7 @@ from tests.mechanisms import KINDS, floating_cylinder, random_scene
 from tests.solver.test_forces import CASES, PLACES, loaded, number, opposite, scene_of
 
 SHAPER = scene_of("shaper-scheme-2")
-SCENES = 300 if os.environ.get("GRAPHKIN_ALL_POSITIONS") else 12
+SCENES = 300 if os.environ.get("GRAPHKIN_ALL_POSITIONS") else 8
 
 
 def drawn(scene, driver_deg=None):
