@@ -245,7 +245,7 @@ class Structure:
         if not self.followers:
             return dict(values)
         own = self.scene.drivers
-        moved = [values[d.key] - d.values[0] for d in own]
+        moved = [values.get(d.key, d.values[0]) - d.values[0] for d in own]
         return {**values, **{
             f.key: f.values[0] + sum(r * way for r, way in zip(f.ratios, moved, strict=True)) for f in self.followers
         }}  # fmt: skip
