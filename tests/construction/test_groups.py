@@ -12,10 +12,13 @@ import graphkin
 from graphkin import solver
 from graphkin.checking.readings import read_off
 from graphkin.construction import Slip, draft, execute, plan
+from graphkin.construction.remarks import ParallelLegs
 from graphkin.construction.sheet import Aid, TrialCurve
 from graphkin.construction.steps import SpecialPoint, Superposed
 from graphkin.scene import mechanism_of
 from graphkin.scene.symbol import Symbol
+from tests import EVERYTHING
+from tests.bench.digits import random_driven, worst
 
 LIBRARY = {
     "sixbar-1A-last-link": "special points",
@@ -169,3 +172,36 @@ def test_a_pencil_keeps_what_it_promises() -> None:
     report = graphkin.check("triad-slider", instrument="pencil", seed=3).report
     assert report.ok
     assert all(row.uncertainty is not None for row in report.rows)
+
+
+def parallel_legs(moving: bool) -> dict[str, Any]:
+    """A plate on three legs of which two are parallel; with the upper end of one on the frame, or on the crank."""
+    b, h = 13 + 48j, 180 + 240j
+    own = h * abs(b) / b
+    crank = {"points": ["A", "B"], "length": abs(b), **({"at": {"H": [own.real, own.imag]}} if moving else {})}
+    return {
+        "frame": {"points": {"A": [0, 0], "G": [230, -25], **({} if moving else {"H": [180, 240]})}},
+        "links": {
+            "1": crank, "2": {"points": ["B", "C"], "length": abs(140 + 70j - b)},
+            "3": {"points": ["C", "D"], "length": 90, "at": {"E": [40, 70], "K": [30, -40]}},
+            "4": {"points": ["G", "D"], "length": 95}, "5": {"points": ["H", "E"], "length": 100},
+        },
+        "driver": {"link": "1", "angle": math.degrees(cmath.phase(b)), "omega": 8, "alpha": -15},
+        "sketch": {"B": [13, 48], "C": [140, 70], "D": [230, 70], "E": [180, 140]},
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize("moving", [False, True])
+def test_between_parallel_legs_the_direction_gives_the_rate_and_all_points_follow_by_image(moving: bool) -> None:
+    result = graphkin.check(parallel_legs(moving))
+    assert [ParallelLegs] == [type(r) for _, r in result.sheet.noticed if isinstance(r, ParallelLegs)]
+    assert {"v_E", "v_K", "a_E", "a_K", "omega_3", "alpha_3"} <= {str(row.symbol) for row in result.report.rows}
+    assert [] == [str(row.symbol) for row in result.report.rows if not row.ok]
+    assert moving == (abs(result["omega_3"].exact) > 1)
+
+
+@pytest.mark.parametrize("seed", range(200 if EVERYTHING else 6))
+def test_drawing_and_solver_of_a_random_larger_group_are_right_to_nine_digits(seed: int) -> None:
+    drawn, solved, readings = worst(random_driven(seed))
+    assert readings >= 6
+    assert max(drawn, solved) < 1e-9
