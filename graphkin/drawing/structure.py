@@ -31,6 +31,7 @@ DIAGRAM = (96.0, 84.0)  # mm, room of the numbered diagram
 PART = (56.0, 46.0)  # of a group
 LINE, SIZE = 5.0, 3.0
 TOUCH = 1e-6
+FITS = 4  # times that the diagram is drawn smaller, to fit
 
 
 def structure_figure(
@@ -55,7 +56,7 @@ def structure_figure(
     words.append(Text(complex(MARGIN, y), rich(term("structure", spoken), 3.2)))
     y += 3.0
     panel = Box(MARGIN, y, MARGIN + DIAGRAM[0], y + DIAGRAM[1])
-    pieces = [_diagram(sheet, letters, panel)]
+    pieces = [_diagram(sheet, letters, spoken, panel)]
     column = Box(panel.right + 5.0, y, WIDTH - MARGIN, panel.bottom)
     row = column.top
     for text, bold in _counted(sheet.structure, spoken):
@@ -73,12 +74,20 @@ def structure_figure(
     )  # fmt: skip
 
 
-def _diagram(sheet: Sheet, letters: Letters, panel: Box) -> Piece:
+def _diagram(sheet: Sheet, letters: Letters, spoken: str, panel: Box) -> Piece:
     """The numbered diagram, as large as it fits, with a badge at each compound hinge and each high pair."""
     box = Box.around(sheet.points.values())
     room = min((panel.width - 26.0) / max(box.width, 1.0), (panel.height - 26.0) / max(box.height, 1.0))
     small = _scaled(sheet, room)
     piece = bare_mechanism(small, letters)
+    for _ in range(FITS):  # discs and cams reach beyond the points, symbols keep their size
+        drawn = ink_box(piece.drawn)
+        over = 1.0 if drawn is None else max(drawn.width / (panel.width - 4.0), drawn.height / (panel.height - 4.0))
+        if over <= 1.0:
+            break
+        room /= over
+        small = _scaled(sheet, room)
+        piece = bare_mechanism(small, letters)
     here = MechanismOnPaper(small, letters)
     labels = []
     for point, names in sheet.structure.hinges.items():
@@ -95,6 +104,11 @@ def _diagram(sheet: Sheet, letters: Letters, panel: Box) -> Piece:
         if contact.name in here.places and (contact.carrier or not contact.rolling):
             text = Text(0j, symbol("p_{H}", 3.0), "start", strokes.GREY, f"badge-{contact.name}", ("label",))
             labels.append(Label(text, page(here.places[contact.name]), rank=1))
+    for cam in here.cams:
+        if cam.roller:
+            text = Text(0j, plain(term("own turning", spoken), 2.4), "start", strokes.GREY,
+                        f"badge-roller-{cam.cam.follower}", ("label",))  # fmt: skip
+            labels.append(Label(text, page(cam.point), rank=1))
     whole = joined((stand_ins(here), piece, Piece(labels=tuple(labels))))
     ink = ink_box(whole.drawn) or panel
     return with_labels(moved_piece(whole, panel.centre - ink.centre), panel)
@@ -127,8 +141,12 @@ def _counted(structure: Structure, spoken: str) -> list[tuple[str, bool]]:
         for point, count in compound.items():
             if count > 2:
                 lines.append((say(Phrase("structure compound", (point, count, count - 1)), each), False))
-        for pin in structure.scene.pins:
+        for pin in (structure.scene.instead_of or structure.scene).pins:
             lines.append((say(Phrase("structure high pair", (pin.point, pin.on)), each), False))
+        for cam in structure.scene.cams:
+            lines.append((say(Phrase("structure cam", (cam.link, cam.follower)), each), False))
+            if cam.roller:
+                lines.append((say(Phrase("structure roller", (cam.follower,)), each), False))
         lines += [(say(phrase, each), False) for phrase in replaced_pairs(structure)]
         if idle:
             lines.append((say(Phrase("structure redundant", (", ".join(idle),)), each), False))

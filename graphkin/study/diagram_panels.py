@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from graphkin.drawing.chart import BEHIND, SOLID_AND_DASHED, add_labels, count_steps, degree_step, look, marker
 from graphkin.drawing.primitives import Stroke
+from graphkin.scene.model import Mechanism
 from graphkin.solver import DriverRange
 from graphkin.study.driver_axis import DriverAxis, number
 from graphkin.study.quantities import Quantity
@@ -46,7 +47,8 @@ class DiagramPanel:
     curve, dots, laid_over : shape (n, 2), driver and value; the last are values from elsewhere
     extremes : with the value as it is shown, in ``span`` alone; ``local`` the kinds of those beyond which the quantity
         goes elsewhere in a range that ends, ``unbounded`` whether it grows without bound towards an end
-    allowed : the values within which a transmission or pressure angle shall stay
+    allowed : the values within which a transmission or pressure angle shall stay; ``falling``: up to which that of a
+        cam's follower may go as it falls
     """
 
     quantity: Quantity
@@ -58,6 +60,7 @@ class DiagramPanel:
     local: frozenset[Extreme] = frozenset()
     unbounded: bool = False
     allowed: tuple[float, float] | None = None
+    falling: float | None = None
     laid_over: Array = field(default_factory=lambda: EMPTY)
 
     @property
@@ -78,7 +81,7 @@ def draw_panel(axes: Axes, panel: DiagramPanel, axis: DriverAxis, limits: Sequen
     count_steps(axes.yaxis, degree_step(panel.span[1] - panel.span[0], 7) if panel.counts_degrees else None)
     if panel.allowed is not None:
         axes.axhspan(*panel.allowed, color=ALLOWED, linewidth=0.0, zorder=0.5)
-        inside = [value for value in panel.allowed if 0.0 < value < 90.0]
+        inside = [value for value in (*panel.allowed, panel.falling) if value and 0.0 < value < 90.0]
         for value in inside:
             axes.axhline(value, zorder=BEHIND, **look(LIMIT))
     axes.axhline(0.0, zorder=BEHIND, **look(ZERO))
@@ -137,11 +140,22 @@ def panel_of(
     local = frozenset(e for e, _, _ in marked if traced and turn.is_local(traced, e))
     unbounded = traced is not None and turn.is_unbounded(traced)
     return DiagramPanel(
-        quantity, title, curve, points, tuple(marked), span, local, unbounded, _allowed(quantity), others
+        quantity, title, curve, points, tuple(marked), span, local, unbounded, *_allowed(quantity, scene), others
     )  # fmt: skip
 
 
-def _allowed(quantity: Quantity) -> tuple[float, float] | None:
+def _allowed(quantity: Quantity, scene: Mechanism) -> tuple[tuple[float, float] | None, float | None]:
+    """Within what (degrees) a transmission or pressure angle shall stay; of a cam's follower what the scene allows as
+    it rises, and as it falls."""
+    symbol = quantity.symbol
+    cam = next((c for c in scene.cams if symbol and symbol.kind == "pressure" and c.follower == symbol.link), None)
+    if cam is not None and any(cam.allowed):
+        rise, fall = (math.degrees(limit) if limit else None for limit in cam.allowed)
+        return (0.0, float(rise or fall or 0.0)), fall if rise else None
+    return _usual(quantity), None
+
+
+def _usual(quantity: Quantity) -> tuple[float, float] | None:
     kind = quantity.symbol.kind if quantity.symbol is not None else ""
     return {"gamma": (LEAST_GAMMA, 90.0), "pressure": (0.0, 90.0 - LEAST_GAMMA)}.get(kind)
 
@@ -176,7 +190,9 @@ def signs_of(panels: Sequence[DiagramPanel], language: str) -> list[tuple[Look, 
         if panel.allowed is not None:
             low, high = panel.allowed
             told = f"≥ {low:g}°" if high == 90.0 else f"≤ {high:g}°"
-            entries.append((look(LIMIT), say(Phrase("allowed band", (told,)), language)))
+            told += f" / {panel.falling:g}°" if panel.falling else ""
+            own = panel.quantity.symbol is not None and panel.allowed != _usual(panel.quantity)
+            entries.append((look(LIMIT), say(Phrase("allowed by scene" if own else "allowed band", (told,)), language)))
     return entries
 
 

@@ -45,3 +45,14 @@ def test_a_compound_hinge_has_its_badge() -> None:
 def test_a_driver_that_is_no_link_is_refused() -> None:
     with pytest.raises(CallError, match='driver 9: there is no link "9"'):
         _ = graphkin.draw("shaper-scheme-2", figures=["structure"], driver="9").figures
+
+
+def test_a_cam_stays_in_its_panel_and_its_rollers_own_turning_is_told() -> None:
+    root = drawn("cam-offset-roller")
+    cam = next(e for e in root.iter("{http://www.w3.org/2000/svg}g") if e.get("id") == "cam-1")
+    shape = next(cam.iter("{http://www.w3.org/2000/svg}polygon"))
+    corners = [tuple(map(float, corner.split(","))) for corner in shape.get("points").split()]
+    assert min(y for _, y in corners) > 15.0  # below the heading
+    assert max(x for x, _ in corners) < 110.0  # left of the words
+    assert "own turning" in words(root)
+    assert "in a slot" not in words(root)
