@@ -28,9 +28,11 @@ from graphkin.files import folder_alone, path_of
 from graphkin.jobs import Progress, Workers
 from graphkin.papers.data_rows import Columns, columns_of, replaced
 from graphkin.papers.exports import BANKED, bank
+from graphkin.papers.pdf import can_join, one_after_another
 from graphkin.papers.problem_set import Job, MadeSet, Render, jobs_of_rows, jobs_of_seed, make
 from graphkin.papers.solution import answers_template
 from graphkin.papers.variants import Answer, Spread, Variant, asked_of, varied_keys
+from graphkin.papers.vary_rules import rules_checked
 from graphkin.scene.model import Mechanism
 from graphkin.scene.source import written
 from graphkin.scene.symbol import Symbol
@@ -74,10 +76,11 @@ class ProblemSet(Result):
     @cached_property
     def table(self) -> Table:
         """One row for each variant: its name, and each answer with its tolerance; failures at the end."""
-        symbols = [str(s) for s in asked_of(self.scene)]
+        answered = dict.fromkeys(a.symbol for answers in self.made.answers.values() for a in answers)
+        symbols = list(answered) or [str(s) for s in asked_of(self.scene)]
         heads = ("name", *(c for s in symbols for c in (s, f"{s} +-")), "remarks")
         rows: list[tuple[object, ...]] = [
-            (name, *(x for a in answers for x in (a.value, a.tolerance)), "; ".join(self.made.remarks.get(name, ())))
+            (name, *_cells(symbols, answers), "; ".join(self.made.remarks.get(name, ())))
             for name, answers in self.made.answers.items()
         ]
         rows += [(f.name, *[None] * (2 * len(symbols)), f"failed: {f.why}") for f in self.made.failures]
@@ -97,6 +100,14 @@ class ProblemSet(Result):
 
     def __repr__(self) -> str:
         return f"<ProblemSet {self.scene.name}>"
+
+
+def _cells(symbols: Sequence[str], answers: Sequence[Answer]) -> Iterator[float | None]:
+    """Value and tolerance of each quantity, None where a variant does not ask for it."""
+    known = {a.symbol: a for a in answers}
+    for symbol in symbols:
+        own = known.get(symbol)
+        yield from (None, None) if own is None else (own.value, own.tolerance)
 
 
 def problem_set(
@@ -168,8 +179,14 @@ def problem_set(
         if folder is not None:
             ProblemSet(given, made, unused).write(folder)
             if made.names:
-                blank = answers_template(asked_of(given), given.units, made.names)
+                asked = dict.fromkeys(Symbol.parse(a.symbol) for answers in made.answers.values() for a in answers)
+                blank = answers_template(tuple(asked), given.units, made.names)
                 write_files(folder, {"answers_template.csv": blank.csv().encode("utf-8-sig")})
+            for paper in ("problem", "key"):
+                own = [folder / f"{name}-{variant}-{paper}.pdf" for variant in made.names]
+                if own and all(path.is_file() for path in own) and can_join():
+                    whole = one_after_another([path.read_bytes() for path in own])
+                    write_files(folder / f"{paper}s", {f"all-{paper}s.pdf": whole})
             names = [[f"{name}-{variant}-{file}" for file in BANKED] for variant in made.names]
             here = [{n[-len(f) :]: (folder / n).read_bytes() for n, f in zip(own, BANKED, strict=True)
                      if (folder / n).is_file()} for own in names]  # fmt: skip
@@ -203,6 +220,8 @@ def _jobs(
 ) -> tuple[Sequence[Job], tuple[str, ...]]:
     if rows is None:
         count = whole_number("variants", variants, 1, MOST)
+        rules_checked(source)
+        asked_symbols(as_scene(source), (source.get("vary") or {}).get("find", ()))
         if not varied_keys(source):
             raise CallError(Problem("variants", "nothing in the scene can vary", "give lengths and a driver"))
         return list(jobs_of_seed(source, count, whole_number("seed", seed, -MOST_SEED, MOST_SEED), spread)), ()

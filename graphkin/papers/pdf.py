@@ -7,10 +7,12 @@ scene is ever read as a command.
 
 from __future__ import annotations
 
+import io
 import json
 import math
 import re
 import warnings
+from collections.abc import Sequence
 from functools import lru_cache
 from importlib.resources import files
 from importlib.util import find_spec
@@ -39,7 +41,7 @@ from graphkin.words import word
 if TYPE_CHECKING:
     import typst
 
-__all__ = ["can_typeset", "pdf"]
+__all__ = ["can_join", "can_typeset", "one_after_another", "pdf"]
 
 Data: TypeAlias = dict[str, object]
 """What the template reads, as JSON holds it."""
@@ -56,6 +58,11 @@ SIGNS = ("DejaVu Sans Mono", "New Computer Modern")  # come with Typst: for sign
 def can_typeset() -> bool:
     """Whether the extra ``pdf`` is installed."""
     return find_spec("typst") is not None
+
+
+def can_join() -> bool:
+    """Whether several PDFs can be made one: the extra ``pdf`` has a library for it."""
+    return find_spec("pypdf") is not None
 
 
 def pdf(document: Document) -> bytes:
@@ -88,6 +95,23 @@ def pdf(document: Document) -> bytes:
         )
     assert isinstance(made, bytes)
     return made
+
+
+def one_after_another(papers: Sequence[bytes]) -> bytes:
+    """Several PDFs as one, to be printed at once.
+
+    Raises
+    ------
+    ImportError : the extra ``pdf`` is not installed (see `can_join`)
+    """
+    from pypdf import PdfWriter
+
+    whole = PdfWriter()
+    for paper in papers:
+        whole.append(io.BytesIO(paper))
+    made = io.BytesIO()
+    whole.write(made)
+    return made.getvalue()
 
 
 @lru_cache(maxsize=1)

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
-from graphkin.construction.sheet import DiagramName
+from graphkin.construction.sheet import DiagramName, Equation
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import pole
 from graphkin.drawing.drawing import Drawing
@@ -28,11 +28,19 @@ from graphkin.papers.blocks import (
 )
 from graphkin.papers.lesson import Lesson, plain_words
 from graphkin.papers.paper import A4, Paper, paper_of
-from graphkin.papers.pictures import Layers, blank_equations, draw_frame, mechanism_picture, parts, workspace
+from graphkin.papers.pictures import (
+    Layers,
+    blank_equations,
+    draw_frame,
+    equation_picture,
+    mechanism_picture,
+    parts,
+    workspace,
+)
 from graphkin.scene.model import AngleDriver, Mechanism, PlacedGuide
 from graphkin.words import Phrase, languages, say, word
 
-__all__ = ["given", "paper_title", "problem", "reach", "scene_title"]
+__all__ = ["equation_words", "given", "paper_title", "problem", "reach", "scene_title"]
 
 BOUND = "\u00a0"  # between a number and its unit no line ends
 RPM = 30.0 / math.pi
@@ -67,18 +75,37 @@ def problem(lesson: Lesson) -> Document:
         if not equations:
             continue
         drawn = space or draw_frame(lesson.sheet, diagram, lesson.letters, language)
-        blank = blank_equations(equations, lesson.letters, language, min(paper.body.width, A4.body.width))
-        asked: tuple[Paragraph | Picture, ...] = (
-            Paragraph(said("your equations", language), small=True), Picture(blank),
-        )  # fmt: skip
+        asked = _equations(lesson, equations, min(paper.body.width, A4.body.width))
         start = Paragraph(said("your polygon", language, f"${pole(lesson.letters.convention, diagram)}$"), small=True)
         heading = said(FIGURE_WORDS[diagram], language)
-        together = HEAD + blank.height + drawn.height + ROOM_BETWEEN <= paper.body.height
-        if not together:
+        high = sum(block.drawing.height + 3.0 for block in asked if isinstance(block, Picture))
+        together = HEAD + high + drawn.height + ROOM_BETWEEN <= paper.body.height
+        if not together and asked:
             before.append(Together((Heading(heading, 2), *asked)))
         after += [Heading(heading, 2, fresh=True), *(asked if together else ()), Together((start, Picture(drawn)))]
     blocks += [*before, *after]
     return Document(paper_title(lesson, "problem sheet"), languages(language), tuple(blocks), paper)
+
+
+def _equations(lesson: Lesson, equations: Sequence[Equation], width: float) -> tuple[Paragraph | Picture, ...]:
+    """What a sheet gives of the equations: blanks; at the level "easy" the equations, at "hard" nothing."""
+    language, vary = lesson.language, lesson.sheet.scene.vary
+    level = vary.level if vary is not None else "usual"
+    if level == "hard":
+        return ()
+    if level == "easy":
+        return tuple(
+            Picture(equation_picture(lesson.sheet, e, lesson.letters, language, equation_words(lesson, e)))
+            for e in equations
+        )
+    blank = blank_equations(equations, lesson.letters, language, width)
+    return Paragraph(said("your equations", language), small=True), Picture(blank)
+
+
+def equation_words(lesson: Lesson, equation: Equation) -> str:
+    """An equation on one line: ``v_B3 = v_B2 + v_B3B2``."""
+    sides = (" + ".join(plain_words(f"${lesson.letters.vector(t.symbol)}$") for t in side) for side in equation.sides)
+    return " = ".join(sides)
 
 
 DIAGRAMS: tuple[DiagramName, ...] = ("velocity", "acceleration")

@@ -10,7 +10,7 @@ import json
 import re
 from collections import Counter, deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, field, is_dataclass
+from dataclasses import asdict, dataclass, field, is_dataclass, replace
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -18,9 +18,12 @@ from typing import Any
 from graphkin.errors import GraphkinError
 from graphkin.jobs import Checkpoints, Progress, Started, Workers, key_of
 from graphkin.papers.variants import Answer, Spread, Unfit, Variant, candidate, examined, varied_keys
+from graphkin.papers.vary_rules import level_of
 
 __all__ = ["Failure", "Job", "MadeSet", "Render", "distinct", "jobs_of_rows", "jobs_of_seed", "make"]
 
+STRICT = 30  # of them that hold the level's tolerance
+WIDEST = 0.15  # an answer that a pencil cannot give more closely is no answer to grade
 ATTEMPTS = 60  # tries at one variant before it is given up
 
 # of a title: the data that it names ("…, scheme 2, position 7", "… 150, 500, 300")
@@ -100,7 +103,10 @@ def work(job: Job, attempt: int) -> Attempt:
     for k in range(attempt, ATTEMPTS):
         try:
             source = _named(candidate(job.source, job.spread, job.seed, job.number, k), job.name)
-            return Attempt(examined(source, _where_it_was(source, job.source), job.name), k)
+            bounds = level_of(job.source)
+            if k >= STRICT:  # some mechanisms cannot be drawn so closely anywhere
+                bounds = replace(bounds, tolerance=max(bounds.tolerance, WIDEST))
+            return Attempt(examined(source, _where_it_was(source, job.source), job.name, bounds=bounds), k)
         except Unfit as unfit:
             why[str(unfit)] += 1
         except Exception as error:  # whatever goes wrong with one must not take the others along
@@ -128,7 +134,10 @@ def _named(source: Source, name: str) -> dict[str, Any]:
     title, zh = (_DATA.sub("", str(source.get(key, ""))) for key in ("title", "title_zh"))
     named = {"title": f"{title} (no. {name})"[:300], **({"title_zh": f"{zh}（第 {name} 题）"[:300]} if zh else {})}
     # where it comes from, published values and scales belong to the problem as it was
-    kept = {k: v for k, v in source.items() if k not in ("printed", "source", "title", "title_zh", "sheet")}
+    kept = {k: v for k, v in source.items() if k not in ("printed", "source", "title", "title_zh", "sheet", "vary")}
+    level = (source.get("vary") or {}).get("level")
+    if level:  # it says what a sheet gives, too
+        kept["vary"] = {"level": level}
     sheet = {k: v for k, v in source.get("sheet", {}).items() if not k.endswith("_scale")}
     return {**named, **kept, **({"sheet": sheet} if sheet else {})}
 
@@ -147,10 +156,12 @@ def _where_it_was(source: Source, original: Source) -> dict[str, Any]:
 
 def distinct(one: Sequence[Answer], others: Iterator[Sequence[Answer]]) -> bool:
     """Whether some answer differs from that of every other variant by more than both may be drawn wrong."""
-    return all(
-        any(abs(a.value - b.value) > a.tolerance + b.tolerance for a, b in zip(one, other, strict=True))
-        for other in others
-    )
+    for other in others:
+        known = {a.symbol: a for a in other}
+        shared = [(a, known[a.symbol]) for a in one if a.symbol in known]
+        if shared and all(abs(a.value - b.value) <= a.tolerance + b.tolerance for a, b in shared):
+            return False
+    return True
 
 
 def make(
@@ -223,15 +234,22 @@ def make(
 def _accepted(jobs: Iterable[Job], done: Mapping[int, Attempt], workers: Workers) -> Iterator[tuple[Job, Attempt]]:
     """What becomes of each job, in order; variants drawn from a seed are distinct from all before them."""
     taken: list[tuple[Answer, ...]] = []
+    refused: Attempt | None = None
     queue: deque[tuple[Job, Started[Attempt] | None]] = deque()
     left = iter(jobs)
     while True:
-        for job in islice(left, 1 + workers.ahead - len(queue)):
-            queue.append((job, None if job.number in done else workers.start(work, job, 0)))
+        # nothing is begun beside the first before it has shown that the scene can vary
+        for job in islice(left, (1 + workers.ahead if taken or refused else 1) - len(queue)):
+            queue.append((job, None if job.number in done or refused else workers.start(work, job, 0)))
         if not queue:
             return
         job, started = queue.popleft()
+        if refused is not None:
+            yield job, refused
+            continue
         result = done[job.number] if started is None else started.result()
+        if result.variant is None and job.spread is not None and not taken:
+            refused = result  # what no attempt at the first one makes a good problem, none at the others will
         while (
             started is not None
             and job.spread is not None

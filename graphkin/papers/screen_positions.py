@@ -26,8 +26,8 @@ from graphkin.drawing.stepwise import births, stepped
 from graphkin.papers.html import blocks_html, figure_svg, said_html, words_html
 from graphkin.papers.lesson import Lesson, Stage, plain_words
 from graphkin.papers.pictures import ROOM, equation_picture
-from graphkin.papers.problem import given
-from graphkin.papers.solution import equation_words, results_blocks, stage_title, step_items
+from graphkin.papers.problem import equation_words, given
+from graphkin.papers.solution import results_blocks, stage_title, step_items
 from graphkin.papers.trial import found_in
 from graphkin.scene.model import AngleDriver
 from graphkin.words import languages

@@ -14,7 +14,6 @@ from graphkin import table
 from graphkin.checking.reading_words import exact, measured, paper
 from graphkin.checking.report import Compared
 from graphkin.checking.uncertainty import COVERAGE
-from graphkin.construction.sheet import Equation
 from graphkin.drawing.headings import FIGURE_WORDS, drivers, number, written
 from graphkin.papers.blocks import (
     Beside,
@@ -32,10 +31,10 @@ from graphkin.papers.blocks import (
     sentences,
     spoken,
 )
-from graphkin.papers.lesson import Lesson, Stage, plain_words
+from graphkin.papers.lesson import Lesson, Stage
 from graphkin.papers.paper import paper_of
 from graphkin.papers.pictures import Layers, equation_picture, parts, stage_picture
-from graphkin.papers.problem import given, paper_title, reach, scene_title
+from graphkin.papers.problem import equation_words, given, paper_title, reach, scene_title
 from graphkin.papers.reasons import reasons
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Units
@@ -45,7 +44,6 @@ __all__ = [
     "KeyRow",
     "answer_key",
     "answers_template",
-    "equation_words",
     "key_rows",
     "key_table",
     "results_blocks",
@@ -219,12 +217,6 @@ def step_items(lesson: Lesson, stage: Stage) -> tuple[StepItem, ...]:
         )
         for step in stage.steps
     )
-
-
-def equation_words(lesson: Lesson, equation: Equation) -> str:
-    """An equation on one line: ``v_B3 = v_B2 + v_B3B2``."""
-    sides = (" + ".join(plain_words(f"${lesson.letters.vector(t.symbol)}$") for t in side) for side in equation.sides)
-    return " = ".join(sides)
 
 
 def _stage(

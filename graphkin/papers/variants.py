@@ -20,6 +20,7 @@ from graphkin.construction import Sheet, execute
 from graphkin.construction.sheet import Ray
 from graphkin.errors import GraphkinError, Problem, SceneError, Unsolvable
 from graphkin.papers.paper import paper_plan
+from graphkin.papers.vary_rules import LEVELS, Bounds, asked_now, free_of_rules, ruled
 from graphkin.plane import cross
 from graphkin.scene import mechanism_of
 from graphkin.scene.model import Mechanism
@@ -32,9 +33,7 @@ __all__ = ["Answer", "Spread", "Unfit", "Variant", "asked_of", "candidate", "exa
 Source = Mapping[str, Any]
 Path = tuple[str | int, ...]
 
-LEAST_CROSSING = math.radians(20.0)
 LEAST_READING = 10.0  # mm on paper
-WIDEST = 0.15  # an answer that a pencil cannot give more closely is no answer to grade
 STEPS = (1.0, 2.0, 5.0)
 
 
@@ -118,9 +117,11 @@ def candidate(source: Source, spread: Spread, seed: int, number: int, attempt: i
     """One try at a variant: every number that varies drawn afresh and rounded; not looked at yet."""
     dice = random.Random(f"{seed}/{number}/{attempt}")
     made = copy.deepcopy(dict(source))
-    for path, kind in varied_keys(source):
+    for path, kind in free_of_rules(source, varied_keys(source)):
         _put(made, path, _drawn(dice, float(_at(source, path)), kind, spread))
-    return made
+    ruled(source, made, dice, {"angle": spread.angle_step})
+    asked = asked_now(source, dice)
+    return {**made, "find": asked} if asked else made
 
 
 def _drawn(dice: random.Random, value: float, kind: str, spread: Spread) -> float:
@@ -171,7 +172,9 @@ def _joints(group: Dyad | Cluster) -> tuple[Pair, ...]:
     return (*reversed(inside), *(p for p in group.pairs if p not in inside))
 
 
-def examined(source: Source, base: Source | None, name: str, strict: bool = True) -> Variant:
+def examined(
+    source: Source, base: Source | None, name: str, strict: bool = True, bounds: Bounds = LEVELS["usual"]
+) -> Variant:
     """A variant from the mapping of a scene file, if it makes a good problem.
 
     Parameters
@@ -180,11 +183,12 @@ def examined(source: Source, base: Source | None, name: str, strict: bool = True
     base : where the driver's value was changed, the same file with the value it had, from which the assembly is
         followed
     strict : refuse what cannot be drawn well; else say it in the remarks
+    bounds : how well lines must cross, and how far a pencil drawing may miss an answer
 
     Raises
     ------
-    Unfit : it does not assemble here, or (strict) lines cross under 20 degrees, a reading is under 10 mm, or a pencil
-        drawing can miss an answer by more than 15 %
+    Unfit : it does not assemble here, or (strict) lines cross too flat, a reading is under 10 mm, or a pencil drawing
+        can miss an answer by too much
     """
     try:
         made = _moved(source, base) if base is not None else dict(source)
@@ -196,7 +200,7 @@ def examined(source: Source, base: Source | None, name: str, strict: bool = True
         asked = asked_of(scene)
         what = paper_plan(scene, None, asked)
         sheet = execute(what)
-        remarks = list(_remarks(sheet, asked))
+        remarks = list(_remarks(sheet, asked, bounds.crossing))
         if remarks and strict:
             raise Unfit(remarks[0])
         answers = tuple(_answers(scene, motion, sheet, asked))
@@ -213,8 +217,8 @@ def examined(source: Source, base: Source | None, name: str, strict: bool = True
         unit = symbol.per_unit(scene.units)
         if not math.isfinite(bound):
             raise Unfit(f"{symbol} cannot be drawn: so near a dead point a pencil misses it")
-        if bound > WIDEST * abs(value):
-            remarks.append(f"{symbol} cannot be drawn more closely than to {100 * WIDEST:.0f} %")
+        if bound > bounds.tolerance * abs(value):
+            remarks.append(f"{symbol} cannot be drawn more closely than to {100 * bounds.tolerance:.0f} %")
             if strict:
                 raise Unfit(remarks[-1])
         bounded.append(Answer(str(symbol), float(f"{value / unit:.12g}"), float(f"{bound / unit:.6g}")))
@@ -242,14 +246,14 @@ def _sketch(scene: Mechanism, motion: Motion) -> dict[str, list[float]]:
     return places
 
 
-def _remarks(sheet: Sheet, asked: tuple[Symbol, ...]) -> Iterator[str]:
+def _remarks(sheet: Sheet, asked: tuple[Symbol, ...], crossing: float) -> Iterator[str]:
     """What makes a sheet hard to draw or to read."""
     for equation in sheet.equations:
         rays = [s for step in sheet.steps if step.equation == equation.number for s in step.strokes]
         lines = [r for r in rays if isinstance(r, Ray)]
         for one, two in pairwise(lines):
             angle = math.asin(min(1.0, abs(cross(one.along, two.along))))
-            if angle < LEAST_CROSSING:
+            if angle < crossing:
                 yield f"lines cross at {math.degrees(angle):.0f} degrees only"
     readings = {r.symbol: r for r in read_off(sheet, asked)}
     for symbol in asked:

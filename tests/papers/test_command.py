@@ -3,6 +3,7 @@ from __future__ import annotations
 import json
 
 import pytest
+from pypdf import PdfReader
 
 import graphkin
 from tests import command
@@ -39,6 +40,9 @@ def test_a_set_has_a_sheet_and_a_key_for_each_problem_and_one_table(tmp_path):
     assert 0 == done.returncode, done.stderr
     assert 2 == sum(name.endswith("problem.pdf") for name in names) == sum(name.endswith("key.pdf") for name in names)
     assert "answers.csv" in names
+    for paper in ("problem", "key"):  # all of them, to print at once
+        pages = [len(PdfReader(path).pages) for path in sorted((tmp_path / "set").glob(f"*-{paper}.pdf"))]
+        assert sum(pages) == len(PdfReader(tmp_path / "set" / f"{paper}s" / f"all-{paper}s.pdf").pages)
 
 
 def test_another_position_gives_another_key():

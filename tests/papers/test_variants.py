@@ -288,7 +288,7 @@ def test_an_executor_that_loses_its_workers_loses_no_variant(tmp_path):
 def test_what_a_killed_process_left_half_written_is_removed(tmp_path):
     (tmp_path / f".{FOUR_BAR}-01.toml.k3j_x9a1").write_text("title = ")
     problem_set(FOUR_BAR, 1, 1, out=tmp_path)
-    assert {f"{FOUR_BAR}-01.toml", "answers.csv"} == {p.name for p in tmp_path.iterdir()}
+    assert {f"{FOUR_BAR}-01.toml", "answers.csv", "answers_template.csv"} == {p.name for p in tmp_path.iterdir()}
 
 
 def test_a_killed_set_goes_on(tmp_path):

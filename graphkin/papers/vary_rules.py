@@ -1,0 +1,139 @@
+"""What ``[vary]`` of a scene says about its variants: ranges, ties, what stays, what is asked, how hard it may be."""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from graphkin.errors import CallError, Problem
+
+__all__ = ["LEVELS", "Bounds", "asked_now", "free_of_rules", "level_of", "ruled", "rules_checked"]
+
+Source = Mapping[str, Any]
+Path = tuple[str | int, ...]
+
+
+@dataclass(frozen=True)
+class Bounds:
+    """How badly lines may cross (rad), and how far an answer may be missed with a pencil (part of it)."""
+
+    crossing: float
+    tolerance: float
+
+
+LEVELS = {
+    "easy": Bounds(math.radians(35.0), 0.05),
+    "usual": Bounds(math.radians(20.0), 0.05),
+    "hard": Bounds(math.radians(12.0), 0.15),
+}
+"""At which angle lines must cross is the transmission angle of a group of bars, and the rest to 90 degrees of the
+pressure angle of a slider: one bound serves all three."""
+
+
+def level_of(source: Source) -> Bounds:
+    """The bounds of the level that a scene asks for."""
+    return LEVELS[_table(source).get("level", "usual")]
+
+
+def _table(source: Source) -> Mapping[str, Any]:
+    table = source.get("vary") or {}
+    return table if isinstance(table, Mapping) else {}
+
+
+def path_of(source: Source, key: str) -> Path:
+    """The place of a number by its key with dots: ``links.2.length``, ``frame.points.D.x``, ``driver.2.angle``.
+
+    Raises ValueError where there is no number.
+    """
+    path: list[str | int] = []
+    node: Any = source
+    for part in key.split("."):
+        step: str | int = part
+        if isinstance(node, list | tuple):
+            step = {"x": 0, "y": 1}.get(part, int(part) - 1 if part.isdigit() else -1)
+        try:
+            node = node[step] if not isinstance(step, int) or step >= 0 else None
+        except (KeyError, IndexError, TypeError):
+            node = None
+        path.append(step)
+    if isinstance(node, bool) or not isinstance(node, int | float):
+        raise ValueError("is no number of the scene")
+    return tuple(path)
+
+
+def rules_checked(source: Source) -> None:
+    """Raise CallError naming every key of ``[vary]`` that is no number of the scene, and every range that is none."""
+    table = _table(source)
+    problems = []
+    keys = [(f"vary.ranges.{k}", k) for k in table.get("ranges", {})]
+    keys += [("vary.keep", k) for k in table.get("keep", ())]
+    keys += [("vary.ratios", k) for keys in table.get("ratios", ()) for k in keys]
+    for where, key in keys:
+        try:
+            path_of(source, key)
+        except ValueError as error:
+            problems.append(Problem(where, f'"{key}" {error}', "write a key such as links.2.length or driver.angle"))
+    problems += [Problem(f"vary.ranges.{k}", f"from {low:g} to {high:g}", "give the smaller value first")
+                 for k, (low, high) in table.get("ranges", {}).items() if low > high]  # fmt: skip
+    asked, most = table.get("ask"), len(table.get("find", ()))
+    if asked is not None and asked > most:
+        problems.append(Problem("vary.ask", f"{asked} of {most} quantities", "list more of them in vary.find"))
+    if problems:
+        raise CallError(*problems)
+
+
+def free_of_rules(source: Source, paths: Sequence[tuple[Path, str]]) -> list[tuple[Path, str]]:
+    """The numbers that vary by themselves: without a range, not tied to another, not kept."""
+    table = _table(source)
+    if table.get("only"):
+        return []
+    tied = [key for keys in table.get("ratios", ()) for key in keys[1:]]
+    ruled_ones = {path_of(source, key) for key in (*table.get("ranges", {}), *tied, *table.get("keep", ()))}
+    return [(path, kind) for path, kind in paths if path not in ruled_ones]
+
+
+def ruled(source: Source, made: dict[str, Any], dice: random.Random, step_of: Mapping[str, float]) -> None:
+    """Draw what has a range, and let what is tied follow; ``step_of`` gives the steps of angles by the last key."""
+    table = _table(source)
+    for key, (low, high) in table.get("ranges", {}).items():
+        path = path_of(source, key)
+        size = max(abs(low), abs(high), 1e-9)
+        step = step_of.get(str(path[-1]), _round_step(size))
+        if high - low < 2 * step:
+            step = _round_step(max(high - low, 1e-9)) * 10
+        first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
+        value = dice.randint(first, last) * step if first <= last else low
+        _put(made, path, float(f"{min(max(value, low), high):.12g}"))
+    for keys in table.get("ratios", ()):
+        lead, *others = [path_of(source, key) for key in keys]
+        factor = _at(made, lead) / _at(source, lead) if _at(source, lead) else 1.0
+        for other in others:
+            _put(made, other, float(f"{_at(source, other) * factor:.9g}"))
+
+
+def asked_now(source: Source, dice: random.Random) -> list[str]:
+    """Which quantities a variant asks for; none where the scene leaves it."""
+    table = _table(source)
+    pool = list(table.get("find", ()))
+    count = table.get("ask") or len(pool)
+    taken = set(dice.sample(range(len(pool)), min(count, len(pool))))
+    return [symbol for i, symbol in enumerate(pool) if i in taken]
+
+
+def _round_step(value: float) -> float:
+    decade = 10.0 ** math.floor(math.log10(abs(value) / 60.0))
+    return max(s * decade for s in (1.0, 2.0, 5.0) if s * decade <= abs(value) / 60.0 * (1 + 1e-9))
+
+
+def _at(node: Any, path: Path) -> Any:
+    for part in path:
+        node = node[part]
+    return node
+
+
+def _put(made: Any, path: Path, value: float) -> None:
+    node = _at(made, path[:-1])
+    node[path[-1]] = value

@@ -1,0 +1,84 @@
+"""What ``[vary]`` says: ranges, ties, what stays, what is asked, how hard a problem may be."""
+
+from __future__ import annotations
+
+import time
+
+import pytest
+
+import graphkin
+from graphkin.errors import CallError
+from graphkin.papers.problem import problem
+from graphkin.papers.variants import Spread, candidate
+from graphkin.papers.vary_rules import LEVELS
+from graphkin.scene.source import written
+
+RULES = {
+    "ranges": {"links.1.length": [38, 44], "driver.angle": [40, 80]},
+    "ratios": [["links.1.length", "links.2.length"]],
+    "keep": ["driver.omega"],
+    "find": ["v_C", "v_P", "omega_2"],
+    "ask": 2,
+}
+
+
+def _source(**vary):
+    source, _ = written("four-bar-coupler-point")
+    return {**source, "vary": {**RULES, **vary}}
+
+
+def test_a_range_holds_a_tie_follows_and_what_is_kept_stays():
+    source = _source()
+    for number in range(12):
+        made = candidate(source, Spread(), 1, number, 0)
+        crank = made["links"]["1"]["length"]
+        assert 38 <= crank <= 44
+        assert 40 <= made["driver"]["angle"] <= 80
+        assert source["links"]["2"]["length"] / source["links"]["1"]["length"] == pytest.approx(
+            made["links"]["2"]["length"] / crank
+        )
+        assert source["driver"]["omega"] == made["driver"]["omega"]
+
+
+def test_nothing_else_varies_where_only_the_ranges_do():
+    source = _source(only=True)
+    made = candidate(source, Spread(), 1, 3, 0)
+    assert source["links"]["3"] == made["links"]["3"]
+
+
+def test_each_variant_asks_some_of_the_list_in_its_order():
+    asked = [tuple(candidate(_source(), Spread(), 1, n, 0)["find"]) for n in range(20)]
+    assert {("v_C", "v_P"), ("v_C", "omega_2"), ("v_P", "omega_2")} == set(asked)
+
+
+def test_the_table_of_a_set_has_a_column_for_each_quantity_that_somebody_is_asked():
+    made = graphkin.problem_set(_source(), 3, seed=2)
+    assert made.ok
+    assert 3 == len(made.table)
+    for answers in made.made.answers.values():
+        assert 2 == len(answers)
+        assert all(a.tolerance <= LEVELS["usual"].tolerance * abs(a.value) for a in answers)
+
+
+def test_every_wrong_key_is_named():
+    with pytest.raises(CallError) as refusal:
+        graphkin.problem_set(_source(keep=["links.9.length"], ranges={"driver.angle": [80, 40]}, ask=4), 2)
+    assert 3 == len(refusal.value.problems)
+
+
+def test_a_scene_that_cannot_vary_is_refused_in_seconds():
+    source = _source(only=True, ranges={"links.1.length": [300, 400]}, ratios=[])
+    begun = time.process_time()
+    made = graphkin.problem_set(source, 30)
+    assert 5 > time.process_time() - begun
+    assert 30 == len(made.made.failures)
+
+
+@pytest.mark.parametrize(("level", "equations"), [("easy", 4), ("usual", 2), ("hard", 0)])
+def test_a_level_gives_more_or_less_of_the_equations(level, equations):
+    source = {**_source(), "vary": {"level": level}}
+    lesson = graphkin.handout(source, formats=("pdf",)).lesson
+    from tests.papers.test_papers import _pictures
+
+    small = [d for d in _pictures(problem(lesson)) if d.height < 60 and not d.desc]
+    assert equations == len(small)
