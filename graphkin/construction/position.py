@@ -19,7 +19,7 @@ from graphkin.construction.steps import Cause, FixedPoints, LinkPoints, Placing
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import PointRef
-from graphkin.structure import Cluster, Driven, Dyad, Element, Structure, Turn, links_of, pick
+from graphkin.structure import Cluster, Driven, Dyad, Element, Structure, Turn, links_of, named_with_contact, pick
 from graphkin.structure.assembly import follow, ways
 from graphkin.words import Phrase
 
@@ -76,7 +76,7 @@ def place(
             causes.append((instrument.acts, Placing((element.link,))))
         elif isinstance(element, Dyad):
             meeting = meet(frame, element)
-            _refuse(element, meeting)
+            _refuse(structure, element, meeting)
             meetings[i] = meeting
             poses = meeting.poses[branches.get(i, 0) % len(meeting.poses)]
             frame.poses.update(poses)
@@ -99,13 +99,13 @@ def start_board(
     return frame
 
 
-def _refuse(element: Dyad, meeting: Meeting) -> None:
-    names = ", ".join(element.links)
+def _refuse(structure: Structure, element: Dyad, meeting: Meeting) -> None:
+    names = named_with_contact(structure, element)
     if meeting.gap < -1e-14 and not element.is_two_lines:
         raise Unsolvable(
             "not assembled",
             Problem(
-                f"links {names}",
+                names,
                 f"the two loci of the {element.kind} group do not meet here",
                 "choose a driver value at which the mechanism can be assembled",
             ),
@@ -114,7 +114,7 @@ def _refuse(element: Dyad, meeting: Meeting) -> None:
         raise Unsolvable(
             "dead point",
             Problem(
-                f"links {names}",
+                names,
                 f"the {element.kind} group stands at a dead point, its loci only touch",
                 "move the driver off this position",
             ),
@@ -165,7 +165,7 @@ def choose(structure: Structure, frame: PlacedLinks, i: int, element: Element, c
         frame.poses[element.link], _ = drive(frame, element)
     elif isinstance(element, Dyad):
         meeting = meet(frame, element)
-        _refuse(element, meeting)
+        _refuse(structure, element, meeting)
         candidates = [frame.fresh(poses) for poses in meeting.poses]
         chosen[i] = pick(structure.scene, element.links, candidates, 0).index
         frame.poses.update(meeting.poses[chosen[i]])

@@ -340,7 +340,9 @@ class Sheet:
     @property
     def has_forces(self) -> bool:
         """Whether forces are drawn of it: there are masses or loads, and all is drawn that they need."""
-        return bool(self.scene.loading) and (not self.asked or any(s.scope == "force" for s in self.asked))
+        touching = self.scene.contacts or self.scene.gears  # their forces are computed, not drawn
+        wanted = not self.asked or any(s.scope == "force" for s in self.asked)
+        return bool(self.scene.loading) and not touching and wanted
 
     def at(self, scales: Scales) -> Sheet:
         """The same construction at other scales: every length on paper so many times as large.

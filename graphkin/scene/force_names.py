@@ -17,13 +17,13 @@ __all__ = ["Joint", "force_names", "joints", "no_force", "opposite"]
 @dataclass(frozen=True)
 class Joint:
     """A joint, with a force of link ``first`` on link ``second``: a turning pair or a pin in a slot at ``point``, or a
-    sliding pair (``point`` is the sliding link's first point, or empty), or a cam (``first``) with its follower.
-    ``second`` slides, or has the pin.
+    sliding pair (``point`` is the sliding link's first point, or empty), or a cam (``first``) with its follower, or
+    what slides or rolls on each other, or meshes, in a contact or gear ``point``.  ``second`` slides, or has the pin.
 
     name : ``5/6``, or ``5/6@C`` where the two share several joints
     """
 
-    kind: Literal["turning", "sliding", "slot", "cam"]
+    kind: Literal["turning", "sliding", "slot", "cam", "contact", "rolling", "gear"]
     first: str
     second: str
     point: str
@@ -42,6 +42,12 @@ def joints(mechanism: Mechanism) -> tuple[Joint, ...]:
     found += [Joint("slot", p.on, p.of, p.point) for p in mechanism.pins if {p.on, p.of} <= here]
     if mechanism.instead_of is None:
         found += [Joint("cam", c.link, c.follower, "") for c in mechanism.cams if {c.link, c.follower} <= here]
+    for contact in mechanism.contacts:
+        if set(contact.links) <= here:
+            # where another link holds the centres apart only the force along the tangent is the contact's
+            kind = "contact" if not contact.rolling else "gear" if contact.carrier else "rolling"
+            found.append(Joint(kind, *contact.links, contact.name))  # type: ignore[arg-type]
+    found += [Joint("gear", *g.wheels, g.name) for g in mechanism.gears if {*g.wheels, g.carrier} <= here]
     shared = Counter(frozenset((joint.first, joint.second)) for joint in found)
     several = [shared[frozenset((joint.first, joint.second))] > 1 and joint.point != "" for joint in found]
     return tuple(

@@ -14,7 +14,18 @@ from graphkin.solver.engine import State, positions
 from graphkin.solver.joints import Drive, driver_text
 from graphkin.solver.larger_groups import ClusterSolved, System, as_place, solve_all, solve_cluster
 from graphkin.solver.pose import Array, Pose
-from graphkin.structure import Cluster, Driven, Dyad, Rolled, Slide, Structure, in_stages, links_of, pick
+from graphkin.structure import (
+    Cluster,
+    Driven,
+    Dyad,
+    Rolled,
+    Slide,
+    Structure,
+    in_stages,
+    links_of,
+    named_with_contact,
+    pick,
+)
 from graphkin.structure.assembly import TOUCH, last_true
 from graphkin.structure.model import Coordinate
 
@@ -92,7 +103,7 @@ def _choose_sign(structure: Structure, i: int, dyad: Dyad, drive: Drive, forms: 
         raise Unsolvable(
             "not assembled",
             Problem(
-                f"links {', '.join(dyad.links)}",
+                named_with_contact(structure, dyad),
                 "they do not reach each other in the scene's own position",
                 _nearest(structure, i, drive, forms),
             ),

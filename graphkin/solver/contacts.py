@@ -43,7 +43,8 @@ def contact_motion(motion: Motion, contact: Contact) -> ContactMotion:
         assert contact.discs[1] is not None
         disc = contact.discs[1]
         normal = (motion.position(disc.centre, disc.link) - place) / disc.radius
-    normal = normal / np.abs(normal)
+    with np.errstate(invalid="ignore"):  # of positions that are none
+        normal = normal / np.abs(normal)
     one, two = (motion.velocity(contact.name, link) for link in contact.links)
     ground = motion.scene.frame.name
     rates = max((abs(d.values[1]) for d in motion.scene.drivers), default=0.0)

@@ -25,7 +25,17 @@ from graphkin.solver.larger_groups import ClusterSolved
 from graphkin.solver.path import Path
 from graphkin.solver.pose import Array
 from graphkin.solver.redundant import Fit, fit
-from graphkin.structure import Cluster, Dyad, Slide, Structure, Turn, analyse, in_stages, mobility_of
+from graphkin.structure import (
+    Cluster,
+    Dyad,
+    Slide,
+    Structure,
+    Turn,
+    analyse,
+    in_stages,
+    mobility_of,
+    named_with_contact,
+)
 from graphkin.structure.cams_replaced import with_cams
 
 __all__ = ["assembly_words", "limit_why", "singular", "structure_of", "without_singular"]
@@ -141,7 +151,8 @@ def limit_why(structure: Structure, path: Path, between: tuple[float, float] | N
     column = int(moved[0]) if len(moved) else 0
     driver = scene.drivers[column]
     end = float(path.values(np.array([path.reach]))[0][column])
-    said = f"links {', '.join(by.links)} {_ending(by)} at {driver.key} = {driver_text(scene, driver, end)}"
+    names = named_with_contact(structure, by) if isinstance(by, Dyad) else f"links {', '.join(by.links)}"
+    said = f"{names} {_ending(by)} at {driver.key} = {driver_text(scene, driver, end)}"
     if between is None:
         return said + " on the straight way there"
     low, high = (driver_text(scene, driver, value) for value in between)
@@ -161,7 +172,7 @@ def _dead_why(structure: Structure, i: int, values: Array, forms: Mapping[int, A
     assert isinstance(group, Dyad | Cluster)
     one = np.ones((1, len(scene.drivers)))
     solved = positions(structure, Drive(values[None], one, 0 * one), forms, i + 1, sure=False).groups[i]
-    names = ", ".join(group.links)
+    names = ", ".join(group.links) if isinstance(group, Cluster) else named_with_contact(structure, group)
     if isinstance(solved, ClusterSolved):
         if not (solved.missed[0] < OPEN and solved.certificate[0] < CERTIFIED) and solved.condition[0] * SINGULAR <= 1:
             return f"links {names}: refused, Newton's method has not converged quadratically to a position"
@@ -180,7 +191,8 @@ def _dead_why(structure: Structure, i: int, values: Array, forms: Mapping[int, A
         else:
             how = _dyad_words(group).dead
     end = "the velocity is not unique here, the motion can branch" if branch else "a rate is infinite here"
-    return f"links {names} {how}: dead point, {end}{_where(structure, i, values, forms)}"
+    names = names if isinstance(group, Dyad) else f"links {names}"
+    return f"{names} {how}: dead point, {end}{_where(structure, i, values, forms)}"
 
 
 def _where(structure: Structure, i: int, values: Array, forms: Mapping[int, Array]) -> str:

@@ -10,6 +10,7 @@ from graphkin.scene.force_names import Joint, joints
 from graphkin.scene.loads import BalanceAt
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.solver.cam_profile import contact_of
+from graphkin.solver.contacts import contact_motion, pitch_point
 from graphkin.solver.motion import Motion
 from graphkin.solver.pose import Array
 from graphkin.structure import Slide, Structure
@@ -36,7 +37,8 @@ class PairForce:
 def pair_forces(motion: Motion) -> list[PairForce]:
     """The forces and couples in the pairs of a motion: of a turning pair the two components of its force, of a sliding
     pair a force square to the guide at the sliding link's first point and a couple, of a pin in a slot a force square
-    to the slot, of a cam one along the normal."""
+    to the slot, of a cam or a sliding contact one along the normal, of wheels one along the tangent of the pitch
+    circles."""
     pairs = _Pairs(motion)
     return [one for joint in joints(motion.scene) for one in pairs.of_joint(joint)]
 
@@ -80,12 +82,29 @@ class _Pairs:
             turn = self.motion.poses[first]
             touching = contact_of(cam, np.asarray(turn.u), np.asarray(turn.omega))
             return [PairForce(name, first, second, touching.normal, touching.contact)]
+        if joint.kind in ("contact", "rolling", "gear"):
+            ways, at = self._touching(joint)
+            return [PairForce(name, first, second, way, at) for way in ways]
         slide = self.structure.slide(f"{second}/{first}")
         at = self.place(slide.a, self._foot(slide))
         return [
             PairForce(name, first, second, self._square(slide), at),
             PairForce(f"M_{joint.name}", first, second, None, at),
         ]
+
+    def _touching(self, joint: Joint) -> tuple[tuple[complex | Array, ...], Array]:
+        """Along what forces act where two links touch, and there: the normal of what slides, the tangent of pitch
+        circles, whose centres another link holds apart, both components of what rolls otherwise."""
+        contact = next((c for c in self.scene.contacts if c.name == joint.point), None)
+        if contact is None:
+            gear = next(g for g in self.scene.gears if g.name == joint.point)
+            at, _ = pitch_point(self.motion, gear)
+            way = at - self.motion.position(gear.axes[0], gear.carrier)
+            return (np.asarray(1j * way / np.abs(way)),), at
+        touching = contact_motion(self.motion, contact)
+        if joint.kind == "rolling":
+            return (1 + 0j, 1j), touching.place
+        return (touching.normal * (1j if joint.kind == "gear" else 1.0),), touching.place
 
     def balances(self) -> list[PairForce]:
         if self.scene.loading.balance is not None:

@@ -19,7 +19,7 @@ from graphkin.structure.model import (
     driver_pair,
 )
 from graphkin.structure.part import in_stages, links_of, needed, part_of
-from graphkin.structure.replacement import replaced_pairs
+from graphkin.structure.replacement import named_with_contact, replaced_pairs
 
 __all__ = [
     "Body",
@@ -41,6 +41,7 @@ __all__ = [
     "in_stages",
     "links_of",
     "mobility_of",
+    "named_with_contact",
     "needed",
     "part_of",
     "pick",

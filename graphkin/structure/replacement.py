@@ -12,10 +12,10 @@ from dataclasses import replace
 
 from graphkin.scene.contacts import Contact
 from graphkin.scene.model import PlacedGuide, PlacedLink
-from graphkin.structure.model import Slide, Structure
+from graphkin.structure.model import Dyad, Slide, Structure
 from graphkin.words import Phrase
 
-__all__ = ["replaced_pairs", "stand_in"]
+__all__ = ["named_with_contact", "replaced_pairs", "stand_in"]
 
 
 def stand_in(contact: Contact, links: Mapping[str, PlacedLink]) -> tuple[PlacedLink, Slide | None]:
@@ -40,6 +40,15 @@ def stand_in(contact: Contact, links: Mapping[str, PlacedLink]) -> tuple[PlacedL
     places = {disc.centre: 0j, contact.name: -contact.normal_to_face * disc.radius}
     block = PlacedLink(contact.block, places, (disc.centre,), own)
     return block, Slide(contact.block, contact.block, contact.face, along, 1 + 0j, disc.centre, True)
+
+
+def named_with_contact(structure: Structure, dyad: Dyad) -> str:
+    """The links of a group, and the contact that one of them stands for: ``contact K of links 1, 2``."""
+    inside = {n for body in dyad.bodies for n in body.links}
+    contact = next((c for c in structure.scene.contacts if not c.carrier and c.block in inside), None)
+    if contact is not None:
+        return f"contact {contact.name} of links {', '.join(contact.links)}"
+    return f"links {', '.join(dyad.links)}"
 
 
 def replaced_pairs(structure: Structure) -> tuple[Phrase, ...]:

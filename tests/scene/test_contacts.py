@@ -4,6 +4,7 @@ import copy
 
 import pytest
 
+import graphkin
 from graphkin.errors import SceneError
 from graphkin.scene.source import mechanism_of, read
 from graphkin.scene.written import as_mapping
@@ -86,3 +87,21 @@ def test_a_scene_with_contacts_reads_as_it_was_written():
 def test_contacts_can_be_changed_by_key():
     smaller = read("disc-on-disc").replace("links.1.discs.k.r", 30)
     assert 0.03 == smaller.mechanism.contacts[0].round[0].radius
+
+
+def test_a_contact_that_cannot_be_made_is_named():
+    apart = changed(DISC, "links.2", {"points": ["C", "B"], "length": 5, "discs": {"w": {"centre": "B", "r": 1}}})
+    apart["contacts"]["K"]["between"] = ["1.k", "2.w"]
+    why = graphkin.solve(apart).data["positions"][0]["why"]
+    assert "contact K of links 1, 2" in why
+
+
+def test_discs_that_a_carrier_does_not_hold_apart_by_their_radii_are_named():
+    wheels = changed(WHEELS, "gears", {})
+    wheels["frame"]["discs"] = {"r": {"centre": "A", "r": 30}}
+    wheels["links"]["2"] = {"points": ["P"], "discs": {"w": {"centre": "P", "r": 15}}}
+    wheels["links"]["1"] = {"points": ["A", "P"], "length": 40}
+    wheels["contacts"] = {"K": {"between": ["2.w", "0.r"], "rolling": True}}
+    with pytest.raises(SceneError) as told:
+        mechanism_of(wheels)
+    assert "holds the centres 40 apart, the radii make it 45" in str(told.value)

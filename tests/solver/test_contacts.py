@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from graphkin import check, solve, sweep
+from graphkin import check, read, solve, sweep
 from graphkin.scene import mechanism_of
 from graphkin.structure import analyse
 
@@ -197,3 +197,13 @@ def test_the_sun_goes_on_over_the_turns_of_the_crank():
 def test_the_drawing_agrees_with_the_solver_where_rods_turn_wheels(scene, at):
     for row in check(scene, at=at).report.rows:
         assert row.exact == pytest.approx(row.reading.value, rel=1e-9, abs=1e-9)
+
+
+@pytest.mark.parametrize("scene", ["disc-on-disc", "cam-eccentric-flat-rocker", "geared-five-bar", "gears-epicyclic"])
+def test_the_forces_at_contacts_and_teeth_do_no_work(scene):
+    made = read(scene).to_dict()
+    made |= {"masses": {"2": {"at": [5, 3], "mass": 2, "inertia": 0.01}}, "gravity": {}}
+    solved = solve(made, sweep=12)
+    assert solved.ok
+    left, largest = solved.forces.power
+    assert np.zeros(12) == pytest.approx(left / largest, abs=1e-9)
