@@ -6,11 +6,13 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from graphkin.construction.position import branches_at, place
 from graphkin.construction.rigid import PlacedLinks
 from graphkin.construction.sheet import LimitPosition, Limits
 from graphkin.errors import Problem, Unsolvable
+from graphkin.plane import dot
 from graphkin.scene.cams import LawCam, SwingingFollower
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol
@@ -56,18 +58,42 @@ def _replaced(scene: Mechanism, values: Mapping[str, float], seen: Mapping[str, 
             turns[cam.link] = values[driver.key]
         else:
             turns[cam.link] = _drawn_turn(scene, cam, values, seen)
-    return cams_replaced(scene, turns, values, seen)
+    return replace(cams_replaced(scene, turns, values, seen), starts=_rolled(scene, values))
 
 
 def _drawn_turn(scene: Mechanism, cam: LawCam, values: Mapping[str, float], seen: Mapping[str, complex]) -> float:
     """The angle of a cam that other links turn."""
     part = part_of(analyse(scene), [Symbol("theta", link=cam.link)])
-    known = _replaced(part, values, seen) if part.cams else _moved(part, values, seen)
-    return cmath.phase(_placed(analyse(known), values).poses[cam.link].axis)
+    behind = bool(part.cams)
+    frame = _placed(analyse(_replaced(part, values, seen)), values) if behind else _moved_to(analyse(part), values)
+    return cmath.phase(frame.poses[cam.link].axis)
 
 
-def _moved(scene: Mechanism, values: Mapping[str, float], seen: Mapping[str, complex]) -> Mechanism:
-    return cams_replaced(scene, {}, values, seen)
+def _moved_to(structure: Structure, values: Mapping[str, float]) -> PlacedLinks:
+    """A mechanism without cams, moved from its own position to driver values, on paper of its size."""
+    drivers = structure.scene.drivers
+    kept, own = {d.key: values[d.key] for d in drivers}, {d.key: d.values[0] for d in drivers}
+    branches = branches_at(structure, structure.elements, kept, own, None)
+    return place(structure, structure.elements, 1.0 / structure.scene.size, kept, branches).frame
+
+
+def _rolled(scene: Mechanism, values: Mapping[str, float]) -> dict[str, float]:
+    """Where what rolls stands at driver values (rad, m), by link or sliding pair; as far as no cam moves it."""
+    names = {n for gear in scene.gears for n in gear.wheels} | {n for c in scene.contacts if c.rolling for n in c.links}
+    names -= {scene.frame.name}
+    if not names:
+        return dict(scene.starts)
+    part = part_of(analyse(scene), [Symbol("theta", link=name) for name in sorted(names)])
+    if part.cams:
+        return dict(scene.starts)
+    frame = _moved_to(analyse(part), values)
+    found = {name: cmath.phase(frame.poses[name].axis) for name in names if name in frame.poses}
+    for pair in part.slidings:
+        guide = part.by_name[pair.on].guides[pair.guide]
+        line = frame.poses[pair.on]
+        start = line.origin + line.axis * guide.through * frame.mm
+        found[pair.key] = dot(frame.poses[pair.link].origin - start, line.axis * guide.direction) / frame.mm
+    return {**scene.starts, **found}
 
 
 def _placed(structure: Structure, values: Mapping[str, float]) -> PlacedLinks:

@@ -23,20 +23,20 @@ from tests.solver.test_cams import LIBRARY, random_cam
 
 
 @pytest.mark.quick
-@pytest.mark.parametrize("seed", range(9))
+@pytest.mark.parametrize("seed", range(6))
 def test_extremes_are_those_of_many_positions(seed):
     cam = mechanism_of(random_cam(seed)).cams[0]
-    study, at = study_cam(cam), cam_at(cam, np.linspace(0, math.tau, 20001)[:-1])
+    study, at = study_cam(cam), cam_at(cam, np.linspace(0, math.tau, 8001)[:-1])
     rising, falling = at.slope > 1e-9, at.slope < -1e-9
-    assert study.rise.value == pytest.approx(at.pressure[rising].max(), abs=2e-3)
+    assert study.rise.value == pytest.approx(at.pressure[rising].max(), abs=5e-3)
     assert study.rise.value >= at.pressure[rising].max() - 1e-13
     assert study.fall.value >= at.pressure[falling].max() - 1e-13
-    assert abs(study.velocity.value) == pytest.approx(np.abs(at.slope).max(), rel=2e-3)
+    assert abs(study.velocity.value) == pytest.approx(np.abs(at.slope).max(), rel=5e-3)
     convex = at.radius if cam.flat else at.radius[at.radius + cam.roller > 0]
-    assert study.radius.value == pytest.approx(convex.min(), abs=1e-4)
+    assert study.radius.value == pytest.approx(convex.min(), abs=3e-4)
 
 
-@pytest.mark.parametrize("seed", range(9))
+@pytest.mark.parametrize("seed", range(6))
 def test_the_cam_drawn_by_inversion_is_the_computed_one(seed):
     assert compare_cam(cam_sheet(mechanism_of(random_cam(seed)).cams[0], 1e-3)).ok
 
