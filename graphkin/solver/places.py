@@ -9,6 +9,7 @@ import numpy as np
 
 from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.scene.symbol import Symbol, centre_links
+from graphkin.solver.cam_profile import cam_at
 from graphkin.solver.pose import Array, Pose
 from graphkin.structure import Dyad, Structure
 from graphkin.structure.transmitting import Joint, joint_between, joint_of_dyad, joint_of_follower, sliding_pair
@@ -43,6 +44,9 @@ def position(structure: Structure, poses: Poses, symbol: Symbol) -> Array:
     if symbol.kind == "gamma":
         return _crossing(poses, joint_between(structure, symbol.link, symbol.other, symbol)).angle
     if symbol.kind == "pressure":
+        cam = next((c for c in structure.scene.cams if c.follower == symbol.link), None)
+        if cam is not None:
+            return cam_at(cam, cam.sense * np.angle(_pose(poses, symbol, cam.link).u)).pressure
         return np.asarray(np.pi / 2 - _crossing(poses, joint_of_follower(structure, symbol.link, symbol)).angle)
     raise CallError(Problem(str(symbol), "belongs to the whole turn, not to one position", "ask check, audit or sweep"))
 

@@ -33,6 +33,7 @@ MARGIN = 0.14
 """Of the range of values, above and below the curve: room for the labels of its extremes."""
 ZERO = Stroke(0.18)
 LIMIT = Stroke(0.18, (4.0, 0.9, 0.9, 0.9))
+ROUNDING = 1e-10  # part of what a panel shows that is nothing but rounding
 ALLOWED = "#e4e4e4"
 LEAST_GAMMA = 40.0
 """Degrees: the least transmission angle that is usually allowed (Sun Huan, Mechanical Principles, ch. 8: 40 to 50), and
@@ -95,7 +96,8 @@ def draw_panel(axes: Axes, panel: DiagramPanel, axis: DriverAxis, limits: Sequen
         kind = extreme.kind
         axes.plot([x], [value], **marker("up" if kind == "max" else "down"))
         mark = f" ({word('local', language)})" if extreme in panel.local else ""
-        labels.append((number(value) + mark, (x, value)))
+        nothing = abs(value) < ROUNDING * (panel.span[1] - panel.span[0])
+        labels.append((("0" if nothing else number(value)) + mark, (x, value)))
         toward.append((math.pi / 2 if kind == "max" else -math.pi / 2,))
     add_labels(axes, labels, toward=toward)
 
@@ -190,7 +192,8 @@ def signs_of(panels: Sequence[DiagramPanel], language: str) -> list[tuple[Look, 
         if panel.allowed is not None:
             low, high = panel.allowed
             told = f"≥ {low:g}°" if high == 90.0 else f"≤ {high:g}°"
-            told += f" / {panel.falling:g}°" if panel.falling else ""
+            if panel.falling:
+                told = say(Phrase("rising and falling", (f"{high:g}°", f"{panel.falling:g}°")), language)
             own = panel.quantity.symbol is not None and panel.allowed != _usual(panel.quantity)
             entries.append((look(LIMIT), say(Phrase("allowed by scene" if own else "allowed band", (told,)), language)))
     return entries

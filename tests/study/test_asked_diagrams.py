@@ -66,3 +66,12 @@ def test_values_measured_elsewhere_need_the_place_of_each_row(tmp_path: Path) ->
     (tmp_path / "class.csv").write_text("name,omega_4\nAnn,1\n")
     with pytest.raises(graphkin.CallError, match="no column at"):
         graphkin.sweep("shaper-scheme-2", measured=tmp_path / "class.csv")
+
+
+def test_the_pressure_angle_of_a_cams_follower_is_swept_with_what_the_scene_allows() -> None:
+    swept = graphkin.sweep("cam-offset-roller", positions=12, find=["pressure_2"])
+    alone = graphkin.solve("cam-offset-roller").data["positions"][0]["cams"]["1"]["pressure"]
+    assert math.degrees(alone) == pytest.approx(swept.table["pressure_2"][0], abs=1e-9)
+    words = words_of(swept.figures["diagram-pressure_2"])
+    assert "allowed: ≤ 30° as it rises, ≤ 70° as it falls" in words
+    assert "e−" not in words  # no residue where it is nought
