@@ -25,7 +25,7 @@ def test_one_symbol_may_stand_without_a_list():
         (lambda: graphkin.check(SIXBAR, at={"1": float("nan")}), "at 1: nan is no driver value"),
         (lambda: graphkin.solve(SIXBAR, sweep=2.5), "sweep: 2.5 positions; give a whole number"),
         (lambda: graphkin.solve(SIXBAR, sweep="12"), "sweep: found '12'; give a whole number from 1 to 10000000"),
-        (lambda: graphkin.sweep(SIXBAR, positions=None), "positions: found None; give a whole number"),
+        (lambda: graphkin.sweep(SIXBAR, positions="x"), "positions: found 'x'; give a whole number"),
         (lambda: graphkin.handout(SIXBAR, positions="6"), "positions: found '6'; give a whole number from 1 to 72"),
         (lambda: graphkin.check(SIXBAR, instrument="pencil", seed="x"), "seed: found 'x'; give a whole number"),
         (lambda: graphkin.check(SIXBAR, find=3), 'find: found 3; give symbols: ["v_B", "omega_3"]'),
