@@ -14,6 +14,7 @@ import pytest
 import graphkin
 from graphkin.scene import library, mechanism_of
 from graphkin.solver.cam_profile import contact_of
+from graphkin.solver.contacts import pitch_point
 from tests.command import run
 from tests.mechanisms import KINDS, random_scene
 
@@ -80,6 +81,12 @@ def shares(mechanism, solved, key):
     cam = next((c for c in mechanism.cams if (c.link, c.follower) == (first, second)), None)
     if cam is not None:
         return second, first, contact_of(cam, motion.poses[first].u, motion.poses[first].omega).contact
+    mesh = next((g for g in mechanism.gears if g.wheels == (first, second)), None)
+    if mesh is not None:
+        return second, first, pitch_point(motion, mesh)[0]
+    touch = next((c for c in mechanism.contacts if c.links == (first, second)), None)
+    if touch is not None:
+        return second, first, motion.position(touch.name)
     common = [p for p, holders in mechanism.holders.items() if {first, second} <= set(holders) and point in ("", p)]
     if sliding is not None and not (letter == "F" and common and point):
         pose = motion.poses[second]
@@ -174,6 +181,13 @@ def test_every_link_is_in_equilibrium_and_the_powers_balance(seed):
 @pytest.mark.parametrize("name", [n for n in library() if n not in ("double-butterfly", "single-flier")][::3])
 def test_scenes_that_come_along_are_in_equilibrium_under_loads(name):
     worst, most, power, largest = residues(loaded(graphkin.read(name).to_dict(), 5))
+    assert worst <= 1e-10 * most
+    assert power <= 1e-9 * largest
+
+
+@pytest.mark.parametrize("name", [n for n in library() if mechanism_of(n).contacts or mechanism_of(n).gears])
+def test_what_touches_and_what_rolls_is_in_equilibrium(name):
+    worst, most, power, largest = residues(loaded(graphkin.read(name).to_dict(), 7))
     assert worst <= 1e-10 * most
     assert power <= 1e-9 * largest
 
