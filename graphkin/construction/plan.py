@@ -250,8 +250,9 @@ def _planned(task: Task, room: Room | None) -> Plan:
     exact = finished(task, made)
     asked = (*task.asked, *strokes_of_loads(task.structure)) if exact.has_forces else task.asked
     found = limits_asked(task.structure, needed(task.structure, task.asked), asked, task.values, poses)
-    task = replace(task, limits=found)
-    exact = finished(task, made)
+    if found:
+        task = replace(task, limits=found)
+        exact = finished(task, made)
     if exact.has_forces:
         growing = _growing(task, exact)
         moves = any(driver.values[1] for driver in task.structure.scene.drivers)
