@@ -127,7 +127,7 @@ class Audited(Result):
 
         rows = list(people_of(self.people, self.scheme, self.language))
         flat = [{**{k: v for k, v in r.items() if k != "points"},
-                 **{f"{word(k, self.language)}": v for k, v in r.get("points", {}).items()}} for r in rows]  # fmt: skip
+                 **r.get("points", {})} for r in rows]  # fmt: skip
         keys = list(dict.fromkeys(k for row in flat for k in row))
         last = [k for k in ("total", "of", "slip") if k in keys]
         keys = [*(k for k in keys if k not in last), *last]

@@ -201,3 +201,13 @@ def test_the_command_reads_points_and_prints_the_class(tmp_path):
     (tmp_path / "a.csv").write_text("name,equations,v_D\nA,5,482.7\n")
     done = run("audit", SIXBAR, "--answers", "a.csv", "--grading", "equations=10,v_D=10", "--json", cwd=tmp_path)
     assert (0, 15, 20) == (done.returncode, *(json.loads(done.stdout)["people"][0][k] for k in ("total", "of")))
+
+
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_the_tables_of_a_class_are_written_in_both_languages(tmp_path, language):
+    answers = {"A": {"v_D": "482.7", "omega_3": "2.82"}}
+    audited = graphkin.audit(SIXBAR, answers, language=language, grading={"values": 10})
+    audited.write(tmp_path)
+    (row,) = csv.DictReader((tmp_path / "students.csv").read_text("utf-8-sig").splitlines())
+    heads = {"en": ("total", "of"), "zh": ("总分", "满分")}[language]
+    assert ("5", "10") == tuple(row[head] for head in heads)
