@@ -87,7 +87,11 @@ def write(name: str, style: str, sources: list[tuple[TTFont, set[str]]]) -> None
     table = made.font["glyf"]
     made.setupHorizontalMetrics({own: (metrics[own][0], getattr(table[own], "xMin", 0) or 0) for own in order})
     made.setupHorizontalHeader(ascent=880, descent=-230)
-    made.setupNameTable({"familyName": FAMILY, "styleName": style, "licenseDescription": "SIL Open Font License 1.1"})
+    # Typst passes by a face without a PostScript name
+    made.setupNameTable({
+        "familyName": FAMILY, "styleName": style, "fullName": f"{FAMILY} {style}",
+        "psName": f"{FAMILY.replace(' ', '')}-{style}", "licenseDescription": "SIL Open Font License 1.1",
+    })  # fmt: skip
     bold, italic = style == "Bold", style == "Italic"
     made.setupOS2(
         sTypoAscender=880, sTypoDescender=-230, sTypoLineGap=0, usWinAscent=880, usWinDescent=230,

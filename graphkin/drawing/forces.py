@@ -35,7 +35,7 @@ from graphkin.drawing.tables import TableRow, readings_table
 from graphkin.drawing.text import fitted, plain, rich, wrapped
 from graphkin.words import Phrase, languages, say, word
 
-__all__ = ["forces_figure"]
+__all__ = ["force_steps", "forces_figure"]
 
 MARGIN, HEAD, FOOT = 10.0, 13.0, 12.0  # mm of the page
 SKETCH = 64.0  # mm, width of a sketch
@@ -69,23 +69,45 @@ def forces_figure(
     letters = letters_of(sheet, convention or sheet.scene.sheet.convention)  # type: ignore[arg-type]
     width, height = _paper(sheet, forces)
     page = Box(MARGIN, MARGIN, width - MARGIN, height - MARGIN)
-    blocks = [*_given(sheet, forces, letters, spoken, page.width)]
+    blocks = [*_given(sheet, forces, letters, spoken, page.width), *_groups(sheet, forces, letters, spoken, page.width)]
+    if report is not None:
+        rows = [TableRow(row.reading, row) for row in report.rows if row.symbol.scope == "force"]
+        blocks += _tables(replace(sheet, scales=report.scales), rows, letters, spoken, page)
+    return _pages(sheet, blocks, letters, spoken, page)
+
+
+def force_steps(sheet: Sheet, forces: ForceSheet, language: str, convention: str, width: float) -> tuple[Drawing, ...]:
+    """The same part by part, for a paper that parts pages itself: inertia forces, then group by group free bodies,
+    polygon, equation and what was read off.
+
+    Parameters
+    ----------
+    width : of each part (mm); a polygon that needs more has more
+    """
+    sheet = replace(sheet, scales=replace(sheet.scales, force=forces.per_mm))
+    letters = letters_of(sheet, convention)  # type: ignore[arg-type]
+    first = languages(language)[0]
+    made = []
+    for block in (*_given(sheet, forces, letters, language, width), *_groups(sheet, forces, letters, language, width)):
+        title, told = figure_title(sheet, "forces", language), say(Phrase("force described"), first)
+        made.append(Drawing(width, block.height, layer_groups(block.piece), title, told, first, _facts(sheet)))
+    return tuple(made)
+
+
+def _groups(sheet: Sheet, forces: ForceSheet, letters: Letters, spoken: str, width: float) -> Iterator[_Block]:
+    """Group by group in the order in which forces are found; where loads begin or end here, without and with them."""
     names: Counter[str] = Counter()
     count = 0
     for number, state in enumerate(forces.states):
         shown = state.groups
         if number:
-            blocks.append(_said("force with load", spoken, page.width))
+            yield _said("force with load", spoken, width)
             shown = tuple(g for g, old in zip(shown, forces.states[0].groups, strict=True) if g != old)
         elif len(forces.states) > 1:
-            blocks.append(_said("force without load", spoken, page.width))
+            yield _said("force without load", spoken, width)
         for group in shown:
             count += 1
-            blocks += _group(sheet, forces, state, group, letters, spoken, page.width, names, count, bool(number))
-    if report is not None:
-        rows = [TableRow(row.reading, row) for row in report.rows if row.symbol.scope == "force"]
-        blocks += _tables(replace(sheet, scales=report.scales), rows, letters, spoken, page)
-    return _pages(sheet, blocks, letters, spoken, page)
+            yield from _group(sheet, forces, state, group, letters, spoken, width, names, count, bool(number))
 
 
 def _paper(sheet: Sheet, forces: ForceSheet) -> tuple[float, float]:

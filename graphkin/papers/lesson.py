@@ -15,6 +15,7 @@ from functools import cached_property
 
 from graphkin.checking.report import Compared, Report
 from graphkin.checking.uncertainty import Uncertainty
+from graphkin.construction.forces import ForceSheet, forces_on
 from graphkin.construction.sheet import Aid, DiagramName, Equation, Ray, Sheet, Step, Vector
 from graphkin.construction.steps import (
     Direction,
@@ -101,14 +102,25 @@ class Lesson:
         return stages(self.sheet)
 
     @cached_property
+    def forces(self) -> ForceSheet | None:
+        """The forces as they are drawn; None where there is neither mass nor load, or nothing of them is asked."""
+        return forces_on(self.sheet) if self.sheet.has_forces else None
+
+    @cached_property
     def results(self) -> tuple[Compared, ...]:
         """The readings that are results: not what is given, nor the same rate under a second name.
 
-        Positions come first, then velocities, angular velocities, accelerations, angular accelerations.
+        Positions come first, then velocities, angular velocities, accelerations, angular accelerations, forces,
+        moments.
         """
         kept = [row for row in self.report.rows if row.symbol in self.questions or self._is_result(row.symbol)]
         order = {"velocity": 1, "angular velocity": 2, "acceleration": 3, "angular acceleration": 4}
-        return tuple(sorted(kept, key=lambda row: order.get(row.symbol.measure, 0)))
+        last = {"force": 5, "moment": 6}
+
+        def place(symbol: Symbol) -> int:
+            return last.get(symbol.measure, 7) if symbol.scope == "force" else order.get(symbol.measure, 0)
+
+        return tuple(sorted(kept, key=lambda row: place(row.symbol)))
 
     @cached_property
     def questions(self) -> tuple[Symbol, ...]:

@@ -26,6 +26,7 @@ from graphkin.words import languages
 
 __all__ = [
     "blank_equations",
+    "blank_frame",
     "cropped",
     "draw_frame",
     "equation_picture",
@@ -38,6 +39,7 @@ __all__ = [
 ROOM = 11.0  # mm around a figure, for names
 AROUND = 14.0  # mm around a polygon that is still to be drawn
 FOOT = 9.0  # mm for the scale and the check bar beside it
+HEADED = 40.0  # mm of a page for headings and words above a frame
 LEAST_FRAME = 110.0
 GAP = 4.0  # mm between the mechanism and the frame beside it
 BAR = 50.0  # mm, of the check bar
@@ -195,6 +197,12 @@ def draw_frame(
     ]
     title = f"{term(FIGURE_WORDS[diagram], language)}{punctuation('colon', language)}{mark}"
     return Drawing(wide, tall + 0.2, tuple(children), title, "", languages(language)[0])
+
+
+def blank_frame(page: Box, title: str) -> Drawing:
+    """A frame as wide as a page, with nothing in it."""
+    box = Box(0.2, 0.2, page.width - 0.2, page.height - HEADED)
+    return Drawing(page.width, box.bottom + 0.2, (Polygon(box.corners, "", strokes.DIMENSION),), title, "")
 
 
 def _snapped(z: complex) -> complex:

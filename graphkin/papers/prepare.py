@@ -19,6 +19,7 @@ from graphkin.checking.slips import Evidence
 from graphkin.checking.uncertainty import predict
 from graphkin.construction import Plan, execute, plan
 from graphkin.construction.centres import Centres, find_centres
+from graphkin.construction.forces import force_scale
 from graphkin.construction.sheet import Scales, Sheet
 from graphkin.drawing import figures
 from graphkin.errors import Unsolvable
@@ -48,7 +49,8 @@ def lesson_of(what: Plan, motion: Motion, language: str, convention: str) -> Les
 
     sheet = execute(what)
     exact = solver.exact_values(solver.as_drawn(motion, what.structure), what.asked)
-    report = compare(sheet, read_off(sheet), exact, what.asked)
+    scale = force_scale(sheet) if sheet.has_forces else 0.0
+    report = compare(sheet, read_off(sheet), exact, what.asked, force_scale=scale)
     tolerance = predict(what, "pencil", sheet.scene.sheet.tools)
     return Lesson(sheet, report, tolerance, language, convention, what.asked)
 

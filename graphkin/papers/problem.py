@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 from graphkin.construction.sheet import DiagramName, Equation
 from graphkin.drawing.box import Box
-from graphkin.drawing.conventions import pole
+from graphkin.drawing.conventions import pole, scale_statement
 from graphkin.drawing.drawing import Drawing
+from graphkin.drawing.given_loads import given_loads
 from graphkin.drawing.headings import FIGURE_WORDS, drivers, number, titles
 from graphkin.drawing.tables import given_lengths, given_teeth
 from graphkin.papers.blocks import (
@@ -31,6 +33,7 @@ from graphkin.papers.paper import A4, Paper, paper_of
 from graphkin.papers.pictures import (
     Layers,
     blank_equations,
+    blank_frame,
     draw_frame,
     equation_picture,
     mechanism_picture,
@@ -83,7 +86,7 @@ def problem(lesson: Lesson) -> Document:
         if not together and asked:
             before.append(Together((Heading(heading, 2), *asked)))
         after += [Heading(heading, 2, fresh=True), *(asked if together else ()), Together((start, Picture(drawn)))]
-    blocks += [*before, *after]
+    blocks += [*before, *after, *_forces(lesson)]
     return Document(paper_title(lesson, "problem sheet"), languages(language), tuple(blocks), paper)
 
 
@@ -118,6 +121,21 @@ def _workspace(lesson: Lesson, diagram: DiagramName, layers: Layers, paper: Pape
     body = paper.body
     page = Box(0.0, 0.0, body.width, body.height - HEAD)
     return workspace(lesson.sheet, diagram, layers, lesson.letters, lesson.language, page)
+
+
+def _forces(lesson: Lesson) -> list[Block]:
+    """Room for the force polygons, with their scale."""
+    sheet, forces, language = lesson.sheet, lesson.forces, lesson.language
+    if forces is None:
+        return []
+    scaled = replace(sheet, scales=replace(sheet.scales, force=forces.per_mm))
+    told = spoken(scale_statement(scaled, lesson.letters.convention, "force"), language)
+    return [
+        Heading(said("forces", language), 2, fresh=True),
+        Paragraph(said("your equations", language), small=True),
+        Paragraph(told, small=True),
+        Picture(blank_frame(paper_of(sheet.scene).body, word("forces", languages(language)[0]))),
+    ]
 
 
 def paper_title(lesson: Lesson, key: str) -> str:
@@ -155,6 +173,10 @@ def given(lesson: Lesson) -> Iterator[Paragraph]:
             )
         )
     yield Paragraph(_labelled(lesson, "driver", ", ".join((drivers(lesson.sheet, letters), *_speeds(scene)))))
+    if scene.loading:
+        lines = {each: given_loads(lesson.sheet, letters, each) for each in languages(lesson.language)}
+        for texts in zip(*lines.values(), strict=True):
+            yield Paragraph(tuple(zip(lines, texts, strict=True)))
     asked = ", ".join(f"${letters.vector(s)}$" for s in lesson.questions)
     if asked:
         yield Paragraph(_labelled(lesson, "find", asked))

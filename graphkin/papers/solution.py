@@ -8,13 +8,16 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from graphkin import table
 from graphkin.checking.reading_words import exact, measured, paper
 from graphkin.checking.report import Compared
 from graphkin.checking.uncertainty import COVERAGE
+from graphkin.drawing.conventions import scale_statement
+from graphkin.drawing.forces import force_steps
 from graphkin.drawing.headings import FIGURE_WORDS, drivers, number, written
+from graphkin.drawing.lever import lever_figure
 from graphkin.papers.blocks import (
     Beside,
     Block,
@@ -173,6 +176,22 @@ def solution_blocks(lesson: Lesson, lead: tuple[Paragraph, ...] = ()) -> Iterato
         if stage.diagram not in layers:
             layers[stage.diagram] = parts(lesson.sheet, stage.diagram, lesson.letters, lesson.language)
         yield Together(tuple(_stage(lesson, stage, layers[stage.diagram], lead if stage is lesson.stages[0] else ())))
+    yield from _force_blocks(lesson)
+
+
+def _force_blocks(lesson: Lesson) -> Iterator[Block]:
+    """Force polygons group by group, and Zhukovsky's lever."""
+    sheet, forces, language = lesson.sheet, lesson.forces, lesson.language
+    if forces is None:
+        return
+    yield Heading(said("forces", language), 2, fresh=True)
+    scaled = replace(sheet, scales=replace(sheet.scales, force=forces.per_mm))
+    yield Paragraph(spoken(scale_statement(scaled, lesson.letters.convention, "force"), language))
+    for drawing in force_steps(sheet, forces, language, lesson.convention, paper_of(sheet.scene).body.width):
+        yield Picture(drawing)
+    lever = lever_figure(sheet, forces, language=language, convention=lesson.convention)
+    if lever is not None:
+        yield Together((Heading(said("lever", language), 2), Picture(lever)))
 
 
 def results_blocks(lesson: Lesson) -> Iterator[Block]:
@@ -269,7 +288,7 @@ def _results(lesson: Lesson) -> TableBlock:
         rows.append((
             f"${lesson.letters.vector(symbol)}$",
             _length(row),
-            _unsigned(row, written(measured(row.reading, lesson.sheet.scales, units, row))),
+            _unsigned(row, written(measured(row.reading, lesson.report.scales, units, row))),
             _unsigned(row, written(exact(row, units))),
             lesson.unit(symbol),
             way(row, lesson.language),
@@ -285,13 +304,14 @@ def _length(row: Compared) -> str:
 
 def _unsigned(row: Compared, text: str) -> str:
     """A value whose sense is said in words; the sign of a place says where it lies."""
-    return text if row.symbol.scope == "position" else text.removeprefix("−")
+    placed = row.symbol.scope == "position" or row.symbol.kind in ("h", "arm")
+    return text if placed else text.removeprefix("−")
 
 
 def way(row: Compared, language: str) -> str:
     """Direction of a vector in degrees, or the sense of a rate in words; "" where it is zero."""
     value = row.true
-    if value == 0.0 or row.symbol.scope != "motion":
+    if value == 0.0 or row.symbol.scope not in ("motion", "force") or row.symbol.kind in ("h", "arm"):
         return ""
     if row.symbol.is_vector:
         angle = round(math.degrees(cmath.phase(complex(value))), 1) + 0.0

@@ -1,0 +1,53 @@
+"""Handouts of scenes with forces: what is given, room to solve it, force polygons group by group, results and key."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+import graphkin
+
+ENGINE = "engine-gas-force"
+
+
+@pytest.fixture(scope="module")
+def papers(tmp_path_factory):
+    out = tmp_path_factory.mktemp("engine")
+    graphkin.handout(ENGINE, out=out, formats=("html",), language="both", positions=1, exports=("gift",))
+    return {path.name: path.read_text(encoding="utf-8") for path in Path(out).rglob("*.*")}
+
+
+def words(page):
+    bare = re.sub(r"<(style|script)\b.*?</\1>", "", page, flags=re.DOTALL)
+    return re.sub(r"\s+", " ", re.sub(r"<[^>]+>", "", bare))
+
+
+def test_the_problem_gives_masses_and_loads_and_room_for_the_polygons(papers):
+    text = words(papers["problem.html"])
+    assert "m3 = 1.5 kg, J3 = 0.008 kg·m²" in text
+    assert "Pgas = 6000 N" in text
+    assert "力" in text
+    assert "1 mm = 100 N" in text
+    assert "3031" not in text
+
+
+def test_the_solution_cuts_each_group_free_and_has_the_lever(papers):
+    text = words(papers["handout.html"])
+    for said in ("Links 3, 4 (RRP) cut free", "Links 2 (driven) cut free", "−116.31", "Zhukovsky"):
+        assert said in text
+
+
+def test_the_key_has_the_forces_with_what_to_accept(papers):
+    exact = abs(graphkin.solve(ENGINE)["F_2/3"][0])
+    row = next(line for line in papers["key.csv"].splitlines() if line.startswith("F_2/3"))
+    _, unit, asked, on_paper, value, tolerance, _ = row.split(",")
+    assert ("N", "yes") == (unit, asked)
+    assert exact == pytest.approx(float(value), rel=1e-8)
+    assert exact / 100 == pytest.approx(float(on_paper), abs=0.01)
+    assert 0 < float(tolerance) < 0.1 * exact
+
+
+def test_forces_are_questions_of_a_learning_platform(papers):
+    assert "116.3" in "".join(text for name, text in papers.items() if "gift" in name)
