@@ -135,9 +135,28 @@ def part(style: Style, characters: str) -> bytes:
         "hmtx": b"".join(struct.pack(">Hh", g.advance, side) for g, side in zip(glyphs, sides, strict=True)),
         "loca": struct.pack(f">{len(ends)}I", *ends),
         "maxp": bytes(maxp),
-        "name": base.table("name"),
+        "name": _family_alone(base.table("name")),
         "post": base.table("post"),
     })  # fmt: skip
+
+
+def _family_alone(names: bytes) -> bytes:
+    """The names of a face without the full one and the PostScript one, which pages do not ask for."""
+    count, strings = struct.unpack_from(">2H", names, 2)
+    kept: list[tuple[int, ...]] = []
+    body = b""
+    at: dict[bytes, int] = {}
+    for number in range(count):
+        *who, name, length, offset = struct.unpack_from(">6H", names, 6 + 12 * number)
+        text = names[strings + offset : strings + offset + length]
+        if name in (4, 6):
+            continue
+        if text not in at:
+            at[text] = len(body)
+            body += text
+        kept.append((*who, name, length, at[text]))
+    records = b"".join(struct.pack(">6H", *record) for record in kept)
+    return struct.pack(">3H", 0, len(kept), 6 + len(records)) + records + body
 
 
 def _cmap(codes: list[int]) -> bytes:

@@ -18,6 +18,7 @@ from graphkin.drawing.conventions import scale_statement
 from graphkin.drawing.forces import force_steps
 from graphkin.drawing.headings import FIGURE_WORDS, drivers, number, written
 from graphkin.drawing.lever import lever_figure
+from graphkin.drawing.piece import moved
 from graphkin.papers.blocks import (
     Beside,
     Block,
@@ -190,8 +191,12 @@ def _force_blocks(lesson: Lesson) -> Iterator[Block]:
     for drawing in force_steps(sheet, forces, language, lesson.convention, paper_of(sheet.scene).body.width):
         yield Picture(drawing)
     lever = lever_figure(sheet, forces, language=language, convention=lesson.convention)
-    if lever is not None:
-        yield Together((Heading(said("lever", language), 2), Picture(lever)))
+    body = paper_of(sheet.scene).body
+    if lever is not None and lever.height <= body.height - 20.0:
+        # its own margins are the page's
+        aside = complex(-max(0.0, lever.width - body.width) / 2, 0.0)
+        narrow = replace(lever, width=min(lever.width, body.width), children=moved(lever.children, aside))
+        yield Together((Heading(said("lever", language), 2), Picture(narrow)))
 
 
 def results_blocks(lesson: Lesson) -> Iterator[Block]:
