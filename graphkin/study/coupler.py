@@ -59,7 +59,7 @@ def curve_page(turn: TurnStudy, point: str, link: str, language: str) -> Drawing
     reach, scene = turn.reach, turn.scene
     low, high = reach.ends
     offsets = np.linspace(low, high, POINTS)
-    path = reach.motion(offsets).position(point, link)
+    path = reach.motion(offsets, fine=False).position(point, link)
     axis = driver_axis(reach, language)
     steps = TICKS * max(reach.turns, 1)
     if reach.full:

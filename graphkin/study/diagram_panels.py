@@ -116,7 +116,7 @@ def panel_of(
     reach, scene = turn.reach, turn.scene
     offsets = axis.offsets
     x = axis.at(offsets)
-    values = _shown(axis, quantity, offsets, quantity.values(reach, reach.motion(offsets)))
+    values = _shown(axis, quantity, offsets, quantity.values(reach, reach.motion(offsets, fine=False)))
     if reach.full:
         # the axis ends where it begins, a turn later
         x[0], x[-1] = axis.left, axis.right
