@@ -180,6 +180,8 @@ def test_every_link_is_in_equilibrium_and_the_powers_balance(seed):
 
 @pytest.mark.parametrize("name", [n for n in library() if n not in ("double-butterfly", "single-flier")][::3])
 def test_scenes_that_come_along_are_in_equilibrium_under_loads(name):
+    if mechanism_of(name).gears or mechanism_of(name).contacts:
+        pytest.skip("what acts at teeth and between discs has tests of its own")
     worst, most, power, largest = residues(loaded(graphkin.read(name).to_dict(), 5))
     assert worst <= 1e-10 * most
     assert power <= 1e-9 * largest
