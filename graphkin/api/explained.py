@@ -19,6 +19,7 @@ from graphkin.api.results import Result
 from graphkin.construction import EXACT, execute, plan
 from graphkin.errors import GraphkinError, Unsolvable
 from graphkin.files import path_of
+from graphkin.scene.force_names import force_names
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedGuide, PlacedLink
 from graphkin.structure import Cluster, Structure, analyse, mobility_of
 from graphkin.table import Table
@@ -82,6 +83,27 @@ class Explained(Result):
         return f"<Explained {self.scene.name}: {len(self.sentences)} sentences>"
 
 
+def _loads(scene: Mechanism) -> Iterator[tuple[str, Phrase]]:
+    """Masses and loads, and what keeps them in balance."""
+    units, loading = scene.units, scene.loading
+    for mass in loading.masses:
+        heavy, inertia = f"{mass.mass / units.kilograms:.6g} {units.mass}", mass.inertia / units.inertias
+        square = "ft2" if units.mass == "lb" else "m2"
+        x, y = (f"{part / units.metres:.6g}" for part in (mass.at.real, mass.at.imag))
+        told = (mass.link, heavy, f"{inertia:.6g} {units.mass} {square}", x, y)
+        yield "explained loads", Phrase("explained mass", told)
+    if loading.gravity:
+        angle = math.degrees(cmath.phase(loading.gravity))
+        yield "explained loads", Phrase("explained gravity", (f"{abs(loading.gravity):.6g}", f"{angle:.6g}"))
+    for load in loading.loads:
+        size = f"{load.size / units.newtons:.6g} {units.force}" + ("" if load.is_force else " m")
+        key = "explained force" if load.is_force else "explained moment"
+        yield "explained loads", Phrase(key, (load.name, size, load.link))
+    for name, kind in force_names(scene).items():
+        if name[:2] in ("F_", "M_") and "/" not in name:
+            yield "explained loads", Phrase(f"explained balancing {kind}", (name, name[2:]))
+
+
 def explain(scene: SceneLike, language: str | None = None) -> Explained:
     """Say in words what was understood of a scene.
 
@@ -110,6 +132,7 @@ def explain(scene: SceneLike, language: str | None = None) -> Explained:
         sentences += _groups(structure)
     except Unsolvable as error:
         why = error.why
+    sentences += _loads(given)
     sentences += [("explained asked", Phrase("explained asked all"))] if not given.find else [
         ("explained asked", Phrase("explained asked for", (", ".join(map(str, given.find)),)))
     ]  # fmt: skip

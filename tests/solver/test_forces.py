@@ -363,3 +363,10 @@ def test_bounds_hold_what_a_solution_in_other_axes_differs_by():
     one, two = graphkin.solve(scene), graphkin.solve(moved)
     bound = one.forces.bound[0][0] + two.forces.bound[0][0]
     assert abs(one["F_4/3"][0] - two["F_4/3"][0]) <= bound < 1e-6 * abs(one["F_4/3"][0])
+
+
+def test_masses_and_loads_are_told_in_words():
+    told = graphkin.explain(SHAPER).data["loads"]
+    assert "link 4 has 22.449 kg, 1.2 kg m2 about its centre of mass, which lies at (290, 0) in its own axes" == told[0]
+    assert "load P: a force of 9000 N on link 6" in told
+    assert "a moment M_2 on link 2 keeps the balance" == told[-1]
