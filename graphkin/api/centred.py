@@ -390,9 +390,12 @@ def centres(
     known_words(formats, language, convention, known_languages=ON_SHEETS)
     given = as_scene(scene)
     values = driver_values(given, at)
+    from graphkin.solver import as_drawn
+
     motion = solved_here(given, values)
     found = found_centres(motion.structure, values)
-    centred = Centred(found, speeds(found), motion, language, convention)
+    drawn = as_drawn(motion, found.sheet.structure)
+    centred = Centred(found, speeds(found), drawn, language, convention)
     if out is not None:
         centred.write(out, formats)
     return centred

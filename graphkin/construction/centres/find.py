@@ -121,6 +121,8 @@ def find_centres(
         found = worked(sheet)
     else:
         found = work(of if moving is scene else moving, at, instrument, near.sheet if near is not None else None)
+    if scene.cams and scene.instead_of is None:
+        scene = found.sheet.scene  # with the pins on pitch curves and faces, which have normals
     links = links_on_paper(scene, 1.0 / found.sheet.scales.length, found.sheet.poses)
     chart = links.chart()
     table, slots = _search(links, chart, found.motions, instrument, found.way)
