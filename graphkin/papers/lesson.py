@@ -152,6 +152,7 @@ class Lesson:
 _POINT_NAMES = re.compile(r"(?:[A-Z][a-z]*\d*)+")
 _RATE = re.compile(r"([ωα])_\{([^{}]*)\}")
 SAME = 1e-6  # mm
+_MARKED_RATE = re.compile("([ωα]_{)\x02([^\x03}]*)\x03}")
 _OPEN, _CLOSE = "\x02", "\x03"  # around symbols until the sentence is whole; no argument can hold them
 
 
@@ -169,6 +170,7 @@ class Speaker:
     def sentence(self, phrase: Phrase, language: str) -> str:
         """A phrase as a sentence with its full stop."""
         said = say(phrase, language, lambda thing: self._show(thing, language))
+        said = _MARKED_RATE.sub(r"\1\2}", said)  # a link whose name could be that of a bar
         # symbols stand between marks; a rate whose index is a gap of the sentence is marked here
         parts = re.split(f"{_OPEN}([^{_CLOSE}]*){_CLOSE}", said)
         for i in range(0, len(parts), 2):
