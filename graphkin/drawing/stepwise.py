@@ -53,6 +53,11 @@ def _mechanism(sheet: Sheet, steps: list[Step]) -> dict[str, int]:
         points = [born.get(f"point-{p}", last) for p in link.points]
         born[f"link-{link.name}"] = max([*points, mentioned.get(link.name, 0)], default=last) or last
     born |= {f"cam-{cam.link}": last for cam in sheet.scene.cams}
+    for contact in sheet.scene.contacts:
+        born |= {f"contact-{contact.name}": last}
+        born |= {f"{letter}-{contact.name}-{end}": last for letter in "nt" for end in (1, 2)}
+    for driver in sheet.scene.drivers:
+        born.setdefault(f"angle-{driver.key}", last)
     born[f"link-{sheet.scene.frame.name}"] = steps[0].number
     for driver in sheet.scene.drivers:
         for part in ("", "-alpha"):

@@ -14,7 +14,7 @@ from graphkin.drawing import strokes, symbols
 from graphkin.drawing.labels import Label
 from graphkin.drawing.mechanism_on_paper import MechanismOnPaper, page
 from graphkin.drawing.piece import Piece
-from graphkin.drawing.primitives import Circle, Group, Line, Primitive, Stroke, Text
+from graphkin.drawing.primitives import Arc, Group, Line, Primitive, Stroke, Text
 from graphkin.drawing.text import symbol
 
 __all__ = ["contact_marks", "faces_of_frame", "outlines_of", "stand_ins", "wheels_of"]
@@ -42,10 +42,15 @@ def outlines_of(here: MechanismOnPaper, link: str) -> list[Primitive]:
     for disc in here.scene.by_name[link].discs:
         centre = links.place(link, here.scene.by_name[link].points[disc.centre])
         radius = abs(disc.radius) * links.mm
-        parts.append(Circle(page(centre), radius, stroke=strokes.LINK.coloured(colour)))
+        parts += _outline(page(centre), radius, strokes.LINK.coloured(colour))
         if link == here.ground or disc.radius < 0:
             parts += _ring(centre, radius, disc.radius < 0, colour)
     return parts
+
+
+def _outline(centre: complex, radius: float, stroke: Stroke) -> tuple[Arc, Arc]:
+    """A circle in two halves: labels may stand inside, as they may not in the symbol of a joint."""
+    return Arc(centre, radius, 0.0, math.pi, stroke), Arc(centre, radius, math.pi, 2 * math.pi, stroke)
 
 
 def _ring(centre: complex, radius: float, outside: bool, colour: str) -> Iterator[Primitive]:
@@ -63,7 +68,7 @@ def wheels_of(here: MechanismOnPaper, link: str) -> list[Primitive]:
     parts: list[Primitive] = []
     for wheel, centre, radius in links.pitch_circles():
         if wheel == link:
-            parts.append(Circle(page(centre), abs(radius), stroke=PITCH.coloured(colour)))
+            parts += _outline(page(centre), abs(radius), PITCH.coloured(colour))
             if link == here.ground:
                 parts += _ring(centre, abs(radius), radius < 0, colour)
     for rack, foot, body in links.pitch_lines():

@@ -37,7 +37,8 @@ def over_its_range(name: str) -> tuple[list[float], float | None]:
     n = LARGER if larger else 12
     inside = whole.value(low + (np.arange(n) + 0.5) / n * (high - low)).tolist()
     unit = math.radians(1) if isinstance(whole.driver, AngleDriver) else whole.scene.units.metres
-    beyond = None if whole.full else float(whole.value(np.array(high + 0.02 * (high - low))))
+    ends = not whole.full and whole.limited[1]  # what rolls goes on, and only does not close
+    beyond = None if not ends else float(whole.value(np.array(high + 0.02 * (high - low))))
     return [value / unit for value in inside], None if beyond is None else beyond / unit
 
 

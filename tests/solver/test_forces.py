@@ -79,6 +79,9 @@ def shares(mechanism, solved, key):
     sliding = next((s for s in mechanism.slidings if (s.link, s.on) == (second, first) and point in ("", s.pin)), None)
     pin = next((p for p in mechanism.pins if (p.of, p.on) == (second, first) and point in ("", p.point)), None)
     cam = next((c for c in mechanism.cams if (c.link, c.follower) == (first, second)), None)
+    gear = next((g for g in mechanism.gears if g.wheels == (first, second)), None)
+    if gear is not None:
+        return second, first, pitch_point(motion, gear)[0]
     if cam is not None:
         return second, first, contact_of(cam, motion.poses[first].u, motion.poses[first].omega).contact
     mesh = next((g for g in mechanism.gears if g.wheels == (first, second)), None)
