@@ -60,7 +60,7 @@ def draft(made: Mapping[str, Any]) -> dict[str, Any]:
     spots = {**_tables(made, "sketch"), **_tables(made, "drawn"), **_tables(made, "seen"), **fixed}
     points = {str(p): list(z) for p, z in spots.items() if _place(z)}
     for name, z in fixed.items():
-        if isinstance(z, Mapping) and z.get("from") in points and _place([z.get("r"), z.get("angle", 0.0)]):
+        if isinstance(z, Mapping) and str(z.get("from")) in points and _place([z.get("r"), z.get("angle", 0.0)]):
             (x, y), turn = points[z["from"]], math.radians(z.get("angle", 0.0))
             points[name] = [x + z["r"] * math.cos(turn), y + z["r"] * math.sin(turn)]
     links = {}

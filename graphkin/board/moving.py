@@ -125,9 +125,21 @@ def _of_frame(raw: Mapping[str, Any], scene: Mechanism, point: str, to: complex)
     key = f"frame.points.{point}"
     if not isinstance(entry, Mapping):
         return {key: [_length(scene, to.real), _length(scene, to.imag)]}
-    origin = scene.frame.points[entry["from"]]
-    before = scene.frame.points[point] - origin
-    return _polar(scene, key, entry, before, to - origin)
+    return _from_others(scene, key, entry, scene.frame.points, point, to)
+
+
+def _from_others(
+    scene: Mechanism, key: str, entry: Mapping[str, Any], places: Mapping[str, complex], point: str, to: complex
+) -> dict[str, Any]:
+    """An entry that places a point from one or two others, so that it lies at a place."""
+    if isinstance(entry["from"], str):
+        origin = places[entry["from"]]
+        return _polar(scene, key, entry, places[point] - origin, to - origin)
+    first, second = (places[p] for p in entry["from"])
+    side = "left" if cross(second - first, to - first) > 0 else "right"
+    return {
+        f"{key}.r": [_length(scene, abs(to - first)), _length(scene, abs(to - second))], f"{key}.side": side,
+    }  # fmt: skip
 
 
 def _polar(scene: Mechanism, key: str, entry: Mapping[str, Any], before: complex, now: complex) -> dict[str, Any]:
@@ -165,14 +177,7 @@ def _of_link(raw: Mapping[str, Any], motion: Motion, name: str, point: str, to: 
     own = (to - complex(motion.position(known, name)[0])) / axis + link.points[known]
     if not isinstance(entry, Mapping):
         return {key: [_length(scene, own.real), _length(scene, own.imag)]}
-    if isinstance(entry["from"], str):
-        origin = link.points[entry["from"]]
-        return _polar(scene, key, entry, link.points[point] - origin, own - origin)
-    first, second = (link.points[p] for p in entry["from"])
-    side = "left" if cross(second - first, own - first) > 0 else "right"
-    return {
-        f"{key}.r": [_length(scene, abs(own - first)), _length(scene, abs(own - second))], f"{key}.side": side,
-    }  # fmt: skip
+    return _from_others(scene, key, entry, link.points, point, own)
 
 
 def _length(scene: Mechanism, value: float) -> float:

@@ -10,7 +10,8 @@ Where the format leaves something open, the reader decides as follows.
 - A link is driven once; a second angle at it is written from the other link.
 - A moving link has own points or ``on``; without both nothing says where its own axes are.
 - ``at`` may place an own point again; both must agree.  Points in ``at`` may refer to one another in any order.
-  ``angle`` in a polar entry is 0 if left out.  Arcs that miss each other by rounding touch.
+  Points of the frame may be given from others too.  ``angle`` in a polar entry is 0 if left out.  Arcs that miss
+  each other by rounding touch.
 - A guide with ``angle`` and ``toward`` is given twice; both must agree.
 - Between the same two links there is one sliding pair at most, and none where a common point pins them.
 - A length left out is the distance of drawn or fixed points only, never of points that follow from a driver.

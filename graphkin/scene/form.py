@@ -106,8 +106,9 @@ Start = Annotated[
     _forms('write a driver value, or { stroke = "5/6", at = 0, sense = 1 }'),
 ]
 FramePlace = Annotated[
-    Annotated[Place, Tag("<list>")] | Annotated[Polar, Tag("<polar>")],
-    _forms('write [x, y] or { from = "A", r = 400, angle = -30 }'),
+    Annotated[Place, Tag("<list>")] | Annotated[Polar, Tag("<polar>")] | Annotated[Compass, Tag("<compass>")],
+    _forms('write [x, y], { from = "A", r = 400, angle = -30 } or '
+           '{ from = ["A", "D"], r = [60, 80], side = "left" }'),
 ]
 At = Annotated[
     Annotated[Place, Tag("<list>")]

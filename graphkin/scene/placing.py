@@ -15,7 +15,7 @@ from graphkin.plane import cross_arcs, degrees, direction
 from graphkin.scene.model import PlacedGuide
 from graphkin.scene.tables import Compass, Guide, Link, Polar
 
-__all__ = ["Placement", "circle_of_references", "guide_of", "place_of", "place_polar"]
+__all__ = ["Placement", "circle_of_references", "guide_of", "origins_of", "place_of"]
 
 Places = Mapping[str, complex]
 
@@ -101,6 +101,13 @@ def place_of(where: str, entry: object, metres: float, local: Places) -> complex
     return place_compass(where, entry, metres, local) if isinstance(entry, Compass) else None
 
 
+def origins_of(entry: object) -> tuple[str, ...]:
+    """The points from which a point is placed."""
+    if isinstance(entry, Polar):
+        return (entry.origin,) if entry.toward is None else (entry.origin, entry.toward)
+    return tuple(entry.origins) if isinstance(entry, Compass) else ()
+
+
 def guide_of(
     where: str, name: str, entry: Guide, metres: float, body: Placement, places: Places, tolerance: float
 ) -> PlacedGuide | Problem | None:
@@ -141,10 +148,8 @@ def circle_of_references(table: Link) -> list[str]:
     for point, entry in table.at.items():
         if point in table.points:
             continue
-        if isinstance(entry, Polar):
-            needs[point] = {entry.origin, entry.toward or entry.origin}
-        elif isinstance(entry, Compass):
-            needs[point] = set(entry.origins)
+        if origins := origins_of(entry):
+            needs[point] = set(origins)
     left = set(needs)
     while free := {p for p in left if not needs[p] & left}:
         left -= free

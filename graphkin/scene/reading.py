@@ -173,6 +173,7 @@ _TABLES: tuple[tuple[tuple[str, ...], type[FileTable]], ...] = (
     (("units",), tables.Units),
     (("frame",), tables.Frame),
     (("frame", "points", "*", "<polar>"), tables.Polar),
+    (("frame", "points", "*", "<compass>"), tables.Compass),
     (("frame", "guides", "*"), tables.Guide),
     (("links", "*"), tables.Link),
     (("links", "*", "guides", "*"), tables.Guide),

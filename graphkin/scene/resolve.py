@@ -19,7 +19,7 @@ from graphkin.scene.loads import Loading, loading_of
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedGuide, PlacedLink, SlideDriver
 from graphkin.scene.names import Flaws, Names
 from graphkin.scene.pairs import DriverEntry, drives, islands, pins_in_slots, sliding_pairs
-from graphkin.scene.placing import Placement, place_polar
+from graphkin.scene.placing import Placement, origins_of, place_of
 from graphkin.scene.reading import path_name
 from graphkin.scene.rules import (
     disagreements,
@@ -31,7 +31,7 @@ from graphkin.scene.rules import (
     wrong_own_points,
 )
 from graphkin.scene.stating import asked, loops_named, positions_named, published, stated_values
-from graphkin.scene.tables import Link, Polar, SceneTables
+from graphkin.scene.tables import Link, SceneTables
 from graphkin.scene.touching import contacts_of, discs_of, gears_of, wrong_distances
 
 __all__ = ["resolve", "unknown_places"]
@@ -221,17 +221,17 @@ def _bodies(
 
 
 def _fixed(file: SceneTables, metres: float, problems: list[Problem]) -> dict[str, complex]:
-    """The places of the frame's points (m), those given polar from others too."""
+    """The places of the frame's points (m), those given from others too."""
     given = file.frame.points
-    found = {p: complex(*xy) * metres for p, xy in given.items() if not isinstance(xy, Polar)}
-    left = {p: entry for p, entry in given.items() if isinstance(entry, Polar)}
+    found: dict[str, complex] = {}
+    left = dict(given)
     while left:
-        where = {p: place_polar(f"frame.points.{p}", entry, metres, found) for p, entry in left.items()}
+        where = {p: place_of(f"frame.points.{p}", entry, metres, found) for p, entry in left.items()}
         placed = {p: z for p, z in where.items() if z is not None}
         problems += [z for z in placed.values() if isinstance(z, Problem)]
         if not placed:
             for point, entry in left.items():
-                missing = next(p for p in (entry.origin, entry.toward) if p is not None and p not in found)
+                missing = next(p for p in origins_of(entry) if p not in found)
                 known = "the points are placed from one another" if missing in given else did_you_mean(missing, given)
                 said = f"{missing} has no place yet" if missing in given else f"the frame has no point {missing}"
                 problems.append(Problem(f"frame.points.{point}", said, known))

@@ -52,7 +52,7 @@ if TYPE_CHECKING:
     PositionName = str
     ShownName = str | int
     Start: TypeAlias = "float | StrokeStart"
-    FramePlace: TypeAlias = "Sequence[float] | Polar"
+    FramePlace: TypeAlias = "Sequence[float] | Polar | Compass"
     At: TypeAlias = "Sequence[float] | Polar | Compass | Literal['drawn']"
     Links: TypeAlias = "Mapping[str, Link]"
     Drivers: TypeAlias = "Driver | DrivenSlide | Sequence[Driver | DrivenSlide]"
@@ -154,7 +154,8 @@ class Frame(FileTable):
 
     name: LinkName = field(default="0", metadata=_about('Name of the fixed link, "0" if not given.'))
     points: dict[PointName, FramePlace] = field(
-        default_factory=dict, metadata=_closed("Fixed pivots, [x, y] each, or polar from another of them.")
+        default_factory=dict,
+        metadata=_closed("Fixed pivots, [x, y] each, or polar from another, or by the distances from two others."),
     )
     guides: dict[LinkName, Guide] = field(default_factory=dict, metadata=_closed("Straight guides by name."))
     discs: dict[LinkName, DiscTable] = field(default_factory=dict, metadata=_closed("Round outlines by name."))
@@ -176,7 +177,7 @@ class Polar(FileTable):
 
 @dataclass(frozen=True)
 class Compass(FileTable):
-    """A point by its distances from two others of the link."""
+    """A point by its distances from two others of the link: the corner of a plate by its sides."""
 
     origins: TwoPoints = field(metadata=_about("The two points of the link.", alias="from"))
     r: TwoLengths = field(metadata=_about("The two distances."))

@@ -43,6 +43,14 @@ def test_a_point_of_the_frame_may_be_polar_from_another_that_may_be_polar_itself
     assert pytest.approx(wanted * 1e-3) == found["D"]
 
 
+@pytest.mark.parametrize(("side", "sign"), [("left", 1), ("right", -1)])
+def test_a_point_of_the_frame_may_be_given_by_the_sides_of_a_triangle(side: str, sign: int, tmp_path) -> None:
+    corner = {"from": ["A", "E"], "r": [300, 400], "side": side}
+    scene = four_bar({"D": corner, "A": [10, 20], "E": {"from": "A", "r": 500, "angle": 90}}, omega=10)
+    assert pytest.approx((10 + 20j + 180j - sign * 240) * 1e-3) == scene.mechanism.frame.points["D"]
+    assert scene == graphkin.read(scene.save(tmp_path / "a.toml"))
+
+
 def test_polar_points_of_the_frame_stay_as_they_are_written(tmp_path) -> None:
     scene = four_bar({"A": [0, 0], "D": {"from": "A", "r": 400, "angle": 0}}, omega=10)
     assert scene == graphkin.read(scene.save(tmp_path / "a.toml"))
@@ -53,10 +61,20 @@ def test_polar_points_of_the_frame_stay_as_they_are_written(tmp_path) -> None:
     ("points", "said"),
     [
         ({"A": [0, 0], "D": {"from": "Q", "r": 400}}, "frame.points.D: the frame has no point Q; known here: A, D"),
+        (
+            {"A": [0, 0], "B": [9, 0], "D": {"from": ["A", "B"], "r": [3, 4], "side": "left"}},
+            "frame.points.D: arcs of 3 about A and 4 about B do not meet; with AB = 9 the second may be from 6 to 12",
+        ),
+        (
+            {"A": [0, 0], "D": {"from": ["A", "Q"], "r": [3, 4], "side": "left"}},
+            "frame.points.D: the frame has no point Q; known here: A, D",
+        ),
+        ({"A": [0, 0], "D": {"from": ["A", "A"], "r": [3, 4], "side": "left"}}, "frame.points.D.from: A and A lie at"),
+        ({"A": [0, 0], "D": {"from": ["A", "B"], "r": [3, 4]}}, "frame.points.D.side: is missing"),
         ({"A": {"from": "D", "r": 1}, "D": {"from": "A", "r": 400}}, "frame.points.A: D has no place yet; the"),
         ({"A": [0, 0], "D": {"from": "A"}}, "frame.points.D.r: is missing; distance"),
         ({"A": [0, 0], "D": {"from": "A", "r": 4, "x": 1}}, "frame.points.D.x: unknown key"),
-        ({"A": [0, 0], "D": "left"}, 'frame.points.D: found "left"; write [x, y] or { from = "A"'),
+        ({"A": [0, 0], "D": "left"}, 'frame.points.D: found "left"; write [x, y], { from = "A"'),
     ],
 )
 def test_a_polar_point_that_has_no_place_is_told(points: dict[str, object], said: str) -> None:
