@@ -134,7 +134,8 @@ export function figureBoard(parent, { word, pull, name, again }) {
         }
       }
       for (const [figure, svg] of Object.entries(told.figures)) put(figure, svg, moving);
-      for (const figure of [...shown.keys()].sort((a, b) => wanted.indexOf(a) - wanted.indexOf(b))) {
+      const order = (figure) => wanted.indexOf(figure.replace(/-\d+$/, "")) + Number(/-(\d+)$/.exec(figure)?.[1] ?? 0) / 100;
+      for (const figure of [...shown.keys()].sort((a, b) => order(a) - order(b))) {
         if (!moving && parent.lastElementChild !== shown.get(figure).section) parent.append(shown.get(figure).section);
       }
       if (held?.keys && !moving) {
