@@ -96,7 +96,7 @@ class Spelling:
         try:
             symbol = Symbol.parse(text)
             if self._exists(symbol):
-                yield self._usual(symbol)
+                yield symbol
         except ValueError:
             pass
         bare = "".join(_GREEK.get(c, c) for c in head)

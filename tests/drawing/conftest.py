@@ -14,6 +14,7 @@ import pytest
 import shapely
 
 SVG = "{http://www.w3.org/2000/svg}"
+JOINT = 4.0  # mm: wider circles are outlines of rollers and discs, in which names may stand
 # Boxes touch by this much (mm) before it counts: the rounding of the file.
 TOUCH = 0.05
 
@@ -131,12 +132,12 @@ def _corners(root: ET.Element) -> tuple[float, float, float, float]:
 
 def _sort(figure: Figure, element: ET.Element, shape: shapely.Geometry) -> None:
     stroked = element.get("stroke") is not None
-    if element.tag == f"{SVG}circle":
+    if element.tag == f"{SVG}circle" and (not stroked or float(element.get("r")) <= JOINT):
         figure.joints.append(shape)
     elif element.tag == f"{SVG}polygon" and not stroked and shape.length < 12:
         figure.arrowheads.append(shape)
     elif stroked:
-        course = shape.boundary if element.tag == f"{SVG}polygon" else shape
+        course = shape.boundary if element.tag in (f"{SVG}polygon", f"{SVG}circle") else shape
         figure.strokes.append(course)
         if element.get("stroke-dasharray") is None:
             figure.solid.append(course)
