@@ -340,6 +340,7 @@ def drawn_symbols(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tupl
     loading = scene.loading
     forces = [Symbol("Fi", link=mass.link) for mass in loading.masses]
     forces += [Symbol("P", name=load.name, turning=not load.is_force) for load in loading.loads]
+    forces += [Symbol("P", name=spring.name) for spring in loading.springs]
     return (*asked, *forces)
 
 

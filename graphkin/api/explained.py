@@ -99,6 +99,12 @@ def _loads(scene: Mechanism) -> Iterator[tuple[str, Phrase]]:
         size = f"{load.size / units.newtons:.6g} {units.force}" + ("" if load.is_force else " m")
         key = "explained force" if load.is_force else "explained moment"
         yield "explained loads", Phrase(key, (load.name, size, load.link))
+    for spring in loading.springs:
+        ends = [text for pair in zip(spring.points, spring.links, strict=True) for text in pair]
+        rate = f"{spring.rate * units.metres / units.newtons:.6g} {units.force}/{units.length}"
+        free, preload = f"{spring.free / units.metres:.6g} {units.length}", spring.preload / units.newtons
+        said = (spring.name, *ends, rate, free, f"{preload:.6g} {units.force}")
+        yield "explained loads", Phrase("explained spring", said)
     for name, kind in force_names(scene).items():
         if name[:2] in ("F_", "M_") and "/" not in name:
             yield "explained loads", Phrase(f"explained balancing {kind}", (name, name[2:]))

@@ -208,6 +208,9 @@ def solve(
     stuck = motion.ok & ~forces.ok
     if stuck.any():
         why = tuple(BALANCE_IDLE if here else said for here, said in zip(stuck, motion.why, strict=True))
+        for name, where in solver.without_line(motion).items():
+            told = f"the two points of spring {name} coincide in this position, so that its force has no line"
+            why = tuple(told if here else said for here, said in zip(where, why, strict=True))
         motion = replace(motion, status=np.where(stuck, "dead point", motion.status), why=why)
     return _asked(Solved(motion, forces), find)
 

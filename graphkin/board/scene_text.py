@@ -105,7 +105,7 @@ def _is_small(value: Mapping[str, Any]) -> bool:
     return len(value) <= 4 and not any(isinstance(item, Mapping) for item in value.values()) and "points" not in value
 
 
-_HOLDERS = ("links", "masses", "loads")  # tables of tables, each with a head of its own
+_HOLDERS = ("links", "masses", "loads", "springs")  # tables of tables, each with a head of its own
 _CLOSE = re.compile(r"""("[^"]*"|#.*)|,(?=[^\s])""")
 
 

@@ -58,7 +58,7 @@ def _slips(motion: Motion) -> Iterator[tuple[Phrase, float, Loading]]:
     def with_all(
         masses: Sequence[LinkMass] = masses, weights: Sequence[LoadOn] = weights, loads: Sequence[LoadOn] = loads
     ) -> Loading:
-        return Loading(0j, tuple(masses), (*weights, *loads), loading.balance)
+        return Loading(0j, tuple(masses), (*weights, *loads), loading.balance, springs=loading.springs)
 
     some = [(mass.link,) for mass in masses]
     every = [tuple(mass.link for mass in masses)] if len(masses) > 1 else []
@@ -97,7 +97,7 @@ def _standing(motion: Motion) -> tuple[tuple[LoadOn, ...], tuple[LoadOn, ...]]:
     here = forces_of(motion)
     always = Loading(
         0j, scene.loading.masses, tuple(replace(load, phase=None) for load in scene.loading.loads),
-        scene.loading.balance,
+        scene.loading.balance, springs=scene.loading.springs,
     )  # fmt: skip
     there = forces_of(replace(motion, structure=replace(motion.structure, scene=replace(scene, loading=always))))
     acting: list[LoadOn] = []

@@ -31,6 +31,7 @@ from graphkin.drawing.headings import facts, figure_title, term
 from graphkin.drawing.overleaf import heading
 from graphkin.drawing.piece import Piece, joined, layer_groups, moved_piece
 from graphkin.drawing.primitives import Group, Polygon, Primitive, Run, Text
+from graphkin.drawing.springs import spring_lines
 from graphkin.drawing.tables import TableRow, readings_table
 from graphkin.drawing.text import fitted, plain, rich, wrapped
 from graphkin.words import Phrase, languages, say, word
@@ -188,6 +189,8 @@ def _given(sheet: Sheet, forces: ForceSheet, letters: Letters, spoken: str, widt
         for each in languages(spoken):
             lines.append((say(Phrase("force inertia"), each), True))
         lines += [(inertia_line(sheet, one, letters, spoken), False) for one in forces.inertias.values()]
+    for each in languages(spoken):
+        lines += [(text, False) for text in spring_lines(sheet, forces, letters, each)]
     yield _words(lines, width)
 
 

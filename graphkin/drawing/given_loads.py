@@ -9,6 +9,7 @@ from graphkin.construction.sheet import Sheet
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.force_letters import force_letters
 from graphkin.drawing.headings import number
+from graphkin.drawing.springs import spring_given
 from graphkin.scene.loads import LoadOn, Phase
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol
@@ -18,11 +19,12 @@ __all__ = ["given_loads"]
 
 
 def given_loads(sheet: Sheet, letters: Letters, language: str) -> list[str]:
-    """Masses, weights, inertias, loads and what balances, a line for each kind."""
+    """Masses, weights, inertias, loads, springs and what balances, a line for each kind."""
     scene, loading = sheet.scene, sheet.scene.loading
     return [
         *filter(None, [";  ".join(_masses(scene, letters, language))]),
         *(_load(scene, load, letters, language) for load in loading.loads),
+        *(spring_given(scene, spring, letters, language) for spring in loading.springs),
         _balance(scene, letters, language),
     ]
 

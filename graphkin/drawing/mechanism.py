@@ -27,6 +27,7 @@ from graphkin.drawing.mechanism_on_paper import (
 from graphkin.drawing.piece import Piece, cut_to, ink_box, joined, middle_of
 from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Primitive, Text
 from graphkin.drawing.senses import clearance, drivers, found_rates
+from graphkin.drawing.springs import springs
 from graphkin.drawing.text import plain, symbol
 from graphkin.drawing.touching import contact_marks, faces_of_frame, outlines_of, wheels_of
 from graphkin.plane import cross, dot
@@ -322,7 +323,7 @@ def _fits(box: Box, room: tuple[float, float]) -> bool:
 def bare_mechanism(sheet: Sheet, letters: Letters) -> Piece:
     """Frame, links and points of the mechanism with their names, about the world's origin: no lengths, no senses."""
     here = MechanismOnPaper(sheet, letters)
-    return joined((links(here), joints(here), link_names(here), _marks(here)))
+    return joined((links(here), springs(here), joints(here), link_names(here), _marks(here)))
 
 
 def _marks(here: MechanismOnPaper) -> Piece:
@@ -331,7 +332,8 @@ def _marks(here: MechanismOnPaper) -> Piece:
 
 def _piece(here: MechanismOnPaper, panel: Box | None) -> Piece:
     clear = clearance(here)
-    placed = joined((_construction(here), contact_marks(here), links(here), aids_in_mechanism(here.sheet)))
+    bodies = joined((links(here), springs(here)))
+    placed = joined((_construction(here), contact_marks(here), bodies, aids_in_mechanism(here.sheet)))
     whole = joined((placed, joints(here), drivers(here, clear), found_rates(here, clear)))
     drawn = [thing for layer in ("construction", "mechanism", "answers") for thing in whole.layers[layer]]
     return joined((whole, drawn_lengths(here.sheet, drawn, panel), link_names(here), _marks(here)))

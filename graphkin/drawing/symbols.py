@@ -39,6 +39,7 @@ __all__ = [
     "rigid_link",
     "sense_arc",
     "slot",
+    "spring",
     "turning_pair",
     "vector_group",
     "weld",
@@ -119,6 +120,7 @@ BLOCK_LENGTH, BLOCK_WIDTH = 8.0, 4.6
 FOOT_WIDTH, FOOT_HEIGHT = 6.4, 4.4
 HATCH_PITCH, HATCH_DEPTH = 1.3, 1.6
 SLOT_WIDTH = 2.6
+SPRING_WIDTH = 3.6
 Shape = Line | Polyline | Polygon | Circle | Arc
 
 
@@ -297,6 +299,20 @@ def cylinder(
         Line(piston, rod_end, strokes.LINK.coloured(colour)),
         Polygon(_rectangle(piston, math.atan2(-along.imag, along.real), 1.6, width - 2 * gap), fill=colour),
     )
+
+
+def spring(start: complex, end: complex, colour: str = strokes.BLACK) -> tuple[Shape, ...]:
+    """A helical spring between two points as a zigzag with straight ends (ISO 2162-1, simplified)."""
+    way = end - start
+    length = abs(way)
+    if length < 1e-9:
+        return ()
+    along, lead = way / length, min(6.0, 0.2 * length)
+    turns = max(3, min(10, round((length - 2 * lead) / 4.0)))
+    step, half = (length - 2 * lead) / (2 * turns), min(SPRING_WIDTH, 0.3 * length) / 2
+    tops = [lead + step * (k + 0.5) + (half if k % 2 else -half) * 1j for k in range(2 * turns)]
+    places = (0j, lead + 0j, *tops, length - lead + 0j, length + 0j)
+    return (Polyline(tuple(start + along * z for z in places), strokes.OUTLINE.coloured(colour)),)
 
 
 def _rectangle(at: complex, angle: float, length: float, width: float) -> tuple[complex, ...]:

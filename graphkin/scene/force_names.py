@@ -57,7 +57,7 @@ def joints(mechanism: Mechanism) -> tuple[Joint, ...]:
 
 
 def force_names(mechanism: Mechanism) -> Mapping[str, Literal["force", "moment"]]:
-    """Every force and moment of a mechanism that has masses or loads, in the order in which they are told."""
+    """Every force and moment of a mechanism that has masses, loads or springs, in the order in which they are told."""
     loading, made = mechanism.loading, dict[str, Literal["force", "moment"]]()
     if not loading:
         return made
@@ -67,6 +67,7 @@ def force_names(mechanism: Mechanism) -> Mapping[str, Literal["force", "moment"]
             made[f"G_{mass.link}"] = "force"
     for load in loading.loads:
         made[f"P_{load.name}"] = "force" if load.is_force else "moment"
+    made |= {f"P_{spring.name}": "force" for spring in loading.springs}
     for joint in joints(mechanism):
         made[f"F_{joint.name}"] = "force"
         if joint.kind == "sliding":
@@ -107,7 +108,8 @@ def no_force(mechanism: Mechanism, where: str, symbol: Symbol) -> Problem | None
         return None
     known = force_names(mechanism)
     if not known:
-        return Problem(where, f"{symbol} is a force, but nothing makes any", "give [masses.LINK] or [loads.NAME]")
+        wanted = "give [masses.LINK] or [loads.NAME] or [springs.NAME]"
+        return Problem(where, f"{symbol} is a force, but nothing makes any", wanted)
     name = str(replace(symbol, at="", plus=False))
     if name in known or opposite(name) in known:
         return None

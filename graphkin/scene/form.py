@@ -44,6 +44,7 @@ PositionName = Annotated[str, StringConstraints(strict=True, pattern=r"^[A-Za-z0
 ShownName = Annotated[str, StringConstraints(strict=True, max_length=20)] | Annotated[int, Field(strict=True, ge=0)]
 Symbols = list[Annotated[str, Strict()]]
 PointNames = list[PointName]
+LinkNames = list[LinkName]
 TwoPoints = Annotated[list[PointName], Field(min_length=2, max_length=2)]
 TwoLengths = Annotated[list[Magnitude], Field(min_length=2, max_length=2)]
 Links = Annotated[dict[LinkName, Link], Field(min_length=1)]

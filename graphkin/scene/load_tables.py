@@ -1,4 +1,5 @@
-"""The tables of a scene file that say what a mechanism weighs and carries: masses, loads, gravity, balance, flywheel.
+"""The tables of a scene file that say what a mechanism weighs and carries: masses, loads, springs, gravity,
+balance, flywheel.
 
 Forces are in the file's force unit, moments in it times metre, masses in its mass unit, angles in degrees.
 """
@@ -19,10 +20,12 @@ if TYPE_CHECKING:
     LinkName = str
     SlideRef = str
     Place = Sequence[float]
+    PointNames = Sequence[str]
+    LinkNames = Sequence[str]
     NameOrPlace = str | Sequence[float]
     NumberOrSquare = float | Literal["square"]
 
-__all__ = ["STANDARD_GRAVITY", "Balance", "Flywheel", "Gravity", "Load", "LoadPhase", "Mass"]
+__all__ = ["STANDARD_GRAVITY", "Balance", "Flywheel", "Gravity", "Load", "LoadPhase", "Mass", "Spring"]
 
 STANDARD_GRAVITY = 9.80665
 
@@ -78,6 +81,19 @@ class Load(FileTable):
         default=None, metadata=about("Instead of angle: along this pair's guide, opposite to its sliding velocity.")
     )
     when: LoadPhase | None = field(default=None, metadata=about("When it acts; always if left out."))
+
+
+@dataclass(frozen=True)
+class Spring(FileTable):
+    """A spring between points of two links; its force is preload + rate * (length - free), a pull where positive."""
+
+    between: PointNames = field(metadata=about("The two points that it joins, of two links."))
+    rate: Magnitude = field(metadata=about("Its rate: force unit per length unit of the scene."))
+    free: NotNegative = field(metadata=about("Its free length."))
+    preload: Number = field(default=0.0, metadata=about("Its pull at the free length (wound-in tension)."))
+    links: LinkNames | None = field(
+        default=None, metadata=about("The links of the two points, where several have them; the first that has it.")
+    )
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""What a mechanism weighs and carries: masses, loads, gravity, balance and flywheel, resolved, in SI units."""
+"""What a mechanism weighs and carries: masses, loads, springs, gravity, balance and flywheel, resolved, in SI units."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from typing import Literal
 
 from graphkin.errors import Problem, did_you_mean
 from graphkin.plane import direction
-from graphkin.scene.load_tables import STANDARD_GRAVITY, Load, LoadPhase
+from graphkin.scene.load_tables import STANDARD_GRAVITY, Load, LoadPhase, Spring
 from graphkin.scene.names import Names
 from graphkin.scene.tables import SceneTables
 
-__all__ = ["BalanceAt", "LinkMass", "LoadOn", "Loading", "Phase", "PlacedFlywheel", "loading_of"]
+__all__ = ["BalanceAt", "LinkMass", "LoadOn", "Loading", "Phase", "PlacedFlywheel", "SpringOn", "loading_of"]
 
 
 TURN = math.tau * (1 + 1e-12)
@@ -61,6 +61,28 @@ class LoadOn:
 
 
 @dataclass(frozen=True)
+class SpringOn:
+    """A spring between points of two links, which lie ``at`` in their own axes (m).
+
+    It pulls them together with preload + rate * (length - free) (N, N/m, m); ``P_name`` is its force on the first
+    link, the opposite acts on the second.
+    """
+
+    name: str
+    points: tuple[str, str]
+    links: tuple[str, str]
+    at: tuple[complex, complex]
+    rate: float
+    free: float
+    preload: float = 0.0
+
+    @property
+    def ends(self) -> tuple[tuple[str, complex], tuple[str, complex]]:
+        """Link and place of either end."""
+        return (self.links[0], self.at[0]), (self.links[1], self.at[1])
+
+
+@dataclass(frozen=True)
 class BalanceAt:
     """What is unknown besides the joint forces: a moment on a link, or a force at a place of it along a line, whose
     direction ``turn`` stands in the frame or, ``square``, is square to the link's own axis."""
@@ -89,9 +111,10 @@ class Loading:
     loads: tuple[LoadOn, ...] = ()
     balance: BalanceAt | None = None
     flywheel: PlacedFlywheel | None = None
+    springs: tuple[SpringOn, ...] = ()
 
     def __bool__(self) -> bool:
-        return bool(self.masses or self.loads)
+        return bool(self.masses or self.loads or self.springs)
 
 
 def loading_of(
@@ -110,15 +133,17 @@ def loading_of(
     down = g * direction(file.gravity.angle) if file.gravity else 0j
     masses = tuple(found for name in file.masses if (found := reading.mass(name, g)) is not None)
     loads = tuple(one for name, load in file.loads.items() if (one := reading.load(name, load)) is not None)
+    springs = tuple(spring for name, each in file.springs.items() if (spring := reading.spring(name, each)) is not None)
     balance, flywheel = reading.balance(), None
     if file.flywheel is not None and not reading.not_moving("flywheel.on", file.flywheel.on):
         flywheel = PlacedFlywheel(file.flywheel.on, file.flywheel.delta)
         if file.flywheel.delta >= 2.0:
             reading.say("flywheel.delta", f"found {file.flywheel.delta:g}", "a part of the mean speed, below 2")
-    if (balance or flywheel) and not (file.masses or file.loads):
+    if (balance or flywheel) and not (file.masses or file.loads or file.springs):
         where = "balance" if balance else "flywheel"
-        problems.append(Problem(where, "there is nothing to balance", "give [masses.LINK] or [loads.NAME]"))
-    return Loading(down, masses, loads, balance, flywheel)
+        wanted = "give [masses.LINK], [loads.NAME] or [springs.NAME]"
+        problems.append(Problem(where, "there is nothing to balance", wanted))
+    return Loading(down, masses, loads, balance, flywheel, springs)
 
 
 @dataclass(frozen=True)
@@ -206,6 +231,45 @@ class _LoadReading:
         elif load.angle is None:
             self.say(f"{where}.angle", "is missing", "write angle, follows or against: a force has a direction")
         return LoadOn(name, load.on, (load.force or 0.0) * units.newtons, True, at, turn, follows, against, phase)
+
+    def spring(self, name: str, table: Spring) -> SpringOn | None:
+        where, units, known = f"springs.{name}", self.file.units, len(self.problems)
+        if name in self.file.loads:
+            self.say(where, f"a load is called {name} too", f"another name: both would be P_{name}")
+        if len(table.between) != 2 or table.between[0] == table.between[1]:
+            self.say(f"{where}.between", f"found {', '.join(table.between) or 'nothing'}", "two different points")
+        elif table.links is not None and len(table.links) != 2:
+            self.say(f"{where}.links", f"found {', '.join(table.links) or 'nothing'}", "two links, one for each point")
+        if len(self.problems) > known:
+            return None
+        ends = [self.end(where, point, table.links[k] if table.links else "") for k, point in enumerate(table.between)]
+        if len(self.problems) > known or "" in ends:
+            return None
+        if ends[0] == ends[1]:
+            found = f"both ends are on link {ends[0]}"
+            self.say(where, found, 'two links: where several have a point write links = ["2", "4"]')
+            return None
+        (a, b), (p, q) = ends, table.between
+        at = self.places.get(a, {}).get(p, 0j), self.places.get(b, {}).get(q, 0j)
+        rate, free = table.rate * units.newtons / units.metres, table.free * units.metres
+        return SpringOn(name, (p, q), (a, b), at, rate, free, table.preload * units.newtons)
+
+    def end(self, where: str, point: str, link: str) -> str:
+        """The link that an end of a spring is on: as it is said, or the first that has the point, the frame if it
+        does."""
+        if not link:
+            missing = self.names.no_point(f"{where}.between", point)
+            self.problems.extend([missing] if missing else [])
+            order = [self.names.frame, *(n for n in self.file.links if not self.file.links[n].redundant)]
+            having = [n for n in order if point in self.places.get(n, {})]
+            if not having and not missing:
+                self.say(f"{where}.between", f"{point} is placed on no link", "a point of a link or the frame")
+            return having[0] if having else ""
+        if link != self.names.frame and self.not_moving(f"{where}.links", link):
+            return ""
+        missing = self.names.no_point_of(f"{where}.links", link, point)
+        self.problems.extend([missing] if missing else [])
+        return link
 
     def phase(self, where: str, when: LoadPhase) -> Phase | None:
         if (when.stroke is None) == (when.driver is None):

@@ -131,8 +131,8 @@ def _cut(path: Path) -> Path:
     if head == ("cams",):
         return path[: 3 if len(path) > 2 and path[2] not in ("follower", "law", "base") else 2]
     inside = (
-        "pins", "contacts", "gears", "sketch", "drawn", "printed", "sheet", "units", "masses", "loads", "positions",
-        "loops",
+        "pins", "contacts", "gears", "sketch", "drawn", "printed", "sheet", "units", "masses", "loads", "springs",
+        "positions", "loops",
     )  # fmt: skip
     return path[:2] if head and head[0] in inside else head
 
@@ -196,6 +196,7 @@ _TABLES: tuple[tuple[tuple[str, ...], type[FileTable]], ...] = (
     (("masses", "*"), load_tables.Mass),
     (("loads", "*"), load_tables.Load),
     (("loads", "*", "when"), load_tables.LoadPhase),
+    (("springs", "*"), load_tables.Spring),
     (("balance",), load_tables.Balance),
     (("flywheel",), load_tables.Flywheel),
     (("sheet",), tables.SheetWishes),
@@ -204,7 +205,7 @@ _TABLES: tuple[tuple[tuple[str, ...], type[FileTable]], ...] = (
     (("positions", "also", "*", "<polar>"), tables.StrokeStart),
     (("printed_table",), tables.PrintedTable),
 )
-_NOUNS = {"g": "gravity", "mass": "mass", "weight": "weight", "delta": "fluctuation"}
+_NOUNS = {"g": "gravity", "mass": "mass", "rate": "rate", "weight": "weight", "delta": "fluctuation"}
 """What must be positive, where it is no length."""
 _KINDS = {
     "string_type": "a text is wanted",

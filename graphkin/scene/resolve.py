@@ -120,7 +120,7 @@ def resolve(file: SceneTables, name: str, problems: list[Problem], flaws: Flaws)
         places, rails = {n: b.local for n, b in bodies.items()}, {n: b.guides for n, b in bodies.items()}
         problems += wrong_distances(contacts, gears, slidings, places, rails, metres)
     loading = Loading()
-    if file.masses or file.loads or file.balance or file.flywheel:
+    if file.masses or file.loads or file.springs or file.balance or file.flywheel:
         places = {n: b.local for n, b in bodies.items()}
         loading = loading_of(file, names, places, (*(s.key for s in slidings), *(p.key for p in pins)), problems)
     hopeless = bool(problems) and (bool(drawn) or flaws.under("drawn"))

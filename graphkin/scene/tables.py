@@ -17,7 +17,7 @@ from graphkin.scene.contact_tables import ContactTable, DiscTable, GearTable
 from graphkin.scene.file_table import FileTable
 from graphkin.scene.file_table import about as _about
 from graphkin.scene.file_table import closed as _closed
-from graphkin.scene.load_tables import Balance, Flywheel, Gravity, Load, Mass
+from graphkin.scene.load_tables import Balance, Flywheel, Gravity, Load, Mass, Spring
 
 SMALLEST = 1e-15
 """The smallest length, and the smallest rate that is not 0."""
@@ -413,6 +413,9 @@ class SceneTables(FileTable):
     gravity: Gravity | None = field(default=None, metadata=_about("Weights pull where this table stands."))
     masses: dict[LinkName, Mass] = field(default_factory=dict, metadata=_closed("Masses of moving links."))
     loads: dict[LinkName, Load] = field(default_factory=dict, metadata=_closed("Forces and moments by name."))
+    springs: dict[LinkName, Spring] = field(
+        default_factory=dict, metadata=_closed("Springs between points of two links, by name.")
+    )
     balance: Balance | None = field(
         default=None, metadata=_about("What is unknown besides the joint forces; a moment on the driver if left out.")
     )

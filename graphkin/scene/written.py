@@ -310,7 +310,7 @@ def _gear(gear: Gear) -> dict[str, Any]:
 def _loading(scene: Mechanism, place: Callable[[complex], list[float]]) -> dict[str, Any]:
     """Masses, loads, gravity, balance and flywheel."""
     loading, units = scene.loading, scene.units
-    made: dict[str, Any] = {"masses": {}, "loads": {}}
+    made: dict[str, Any] = {"masses": {}, "loads": {}, "springs": {}}
     if loading.gravity:
         made["gravity"] = {"g": _tidy(abs(loading.gravity)), "angle": _tidy(degrees(loading.gravity))}
     for mass in loading.masses:
@@ -327,6 +327,12 @@ def _loading(scene: Mechanism, place: Callable[[complex], list[float]]) -> dict[
         if load.phase is not None:
             table["when"] = _phase(scene, load.phase)
         made["loads"][load.name] = table
+    for spring in loading.springs:
+        rate, free = spring.rate * units.metres / units.newtons, spring.free / units.metres
+        made["springs"][spring.name] = {
+            "between": list(spring.points), "links": list(spring.links), "rate": _tidy(rate), "free": _tidy(free),
+            "preload": _tidy(spring.preload / units.newtons),
+        }  # fmt: skip
     if loading.balance is not None:
         balance = loading.balance
         made["balance"] = {"on": balance.link}

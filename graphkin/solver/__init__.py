@@ -1,5 +1,6 @@
 """The analytic solver: dyads in closed form, higher groups by Newton, whole sweeps as arrays."""
 
+from graphkin.solver.acting import without_line
 from graphkin.solver.driver_range import DriverRange, driver_range
 from graphkin.solver.exact_values import exact_values, value_of
 from graphkin.solver.findings import structure_of
@@ -30,4 +31,5 @@ __all__ = [
     "structure_of",
     "to_json",
     "value_of",
+    "without_line",
 ]

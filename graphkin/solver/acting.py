@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from graphkin.scene.loads import LoadOn, Phase
+from graphkin.scene.loads import LoadOn, Phase, SpringOn
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver.driver_range import DriverRange, driver_range
@@ -16,7 +16,7 @@ from graphkin.solver.motion import Motion
 from graphkin.solver.pose import Array
 from graphkin.solver.whole_turn import extremes
 
-__all__ = ["EDGE", "Action", "actions", "stroke_of"]
+__all__ = ["EDGE", "Action", "actions", "spring_ends", "stroke_of", "without_line"]
 
 EDGE = 1e-9
 """Of the stroke or the turn: a load that begins or ends within this of a position does so exactly there."""
@@ -47,8 +47,8 @@ class Action:
 
 
 def actions(motion: Motion) -> Iterator[Action]:
-    """All that is known of what acts on the moving links: inertia force -m a and inertia couple -J alpha (d'Alembert)
-    and weight of each mass, then the loads.
+    """All that is known of what acts on the links: inertia force -m a and inertia couple -J alpha (d'Alembert)
+    and weight of each mass, then loads and springs, of the two forces of a spring one may act on the frame.
 
     Raises
     ------
@@ -65,6 +65,36 @@ def actions(motion: Motion) -> Iterator[Action]:
     applied = _Loads(motion)
     for load in loading.loads:
         yield applied.action(load)
+    for spring in loading.springs:
+        yield from _spring(motion, spring)
+
+
+def _spring(motion: Motion, spring: SpringOn) -> Iterator[Action]:
+    """The forces of a spring on both its links, along the line of its points."""
+    one, two = spring_ends(motion, spring)
+    way = two - one
+    length = np.abs(way)
+    along = np.divide(way, length, out=np.full(len(motion), np.nan + 0j), where=_has_line(motion, length))
+    force = np.asarray((spring.preload + spring.rate * (length - spring.free)) * along)
+    yield Action(f"P_{spring.name}", spring.links[0], one, force)
+    yield Action("", spring.links[1], two, -force)
+
+
+def spring_ends(motion: Motion, spring: SpringOn) -> tuple[Array, Array]:
+    """Where the two points of a spring lie, complex, shape (n,) each (m)."""
+    one, two = (np.broadcast_to(motion.poses[n].z + motion.poses[n].u * at, len(motion)) for n, at in spring.ends)
+    return np.asarray(one), np.asarray(two)
+
+
+def without_line(motion: Motion) -> dict[str, Array]:
+    """For each spring the positions, bool, shape (n,), at which its points coincide, so that its force has no line."""
+    springs = motion.scene.loading.springs
+    apart = {one.name: np.abs(np.subtract(*spring_ends(motion, one))) for one in springs}
+    return {name: motion.ok & ~_has_line(motion, length) for name, length in apart.items()}
+
+
+def _has_line(motion: Motion, length: Array) -> Array:
+    return np.asarray(length > EDGE * motion.scene.size)
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ import numpy as np
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot
 from graphkin.scene.symbol import Symbol
+from graphkin.solver.acting import without_line
 from graphkin.solver.forces import Forces, forces_of
 from graphkin.solver.motion import Motion
 from graphkin.solver.pose import Pose
@@ -32,6 +33,10 @@ def force_values(motion: Motion) -> tuple[Callable[[Symbol], Value], float]:
     Unsolvable : "dead point": the balance does no work
     """
     forces = forces_of(motion)
+    for name, where in without_line(motion).items():
+        if where[0]:
+            found = "its two points coincide in this position, so that its force has no line"
+            raise Unsolvable("dead point", Problem(f"springs.{name}", found, "move the driver off this position"))
     if not forces.ok[0]:
         drivers = ", ".join(d.key for d in motion.scene.drivers)
         raise Unsolvable("dead point", Problem(f"driver {drivers}", "the balance does no work in this position"))
@@ -74,8 +79,10 @@ def _arm(moving: Motion, forces: Forces, name: str) -> float:
     loading = moving.scene.loading
     pose: Pose
     if kind == "P":
-        load = next(one for one in loading.loads if one.name == rest)
-        pose = moving.poses[load.link].fixed(load.at)
+        acting = [(one.name, (one.link, one.at)) for one in loading.loads]
+        acting += [(one.name, one.ends[0]) for one in loading.springs]
+        link, at = next(place for named, place in acting if named == rest)
+        pose = moving.poses[link].fixed(at)
     elif kind == "F":
         return _of_balance(moving, forces, name)
     else:

@@ -16,7 +16,7 @@ import numpy as np
 
 from graphkin.plane import cross
 from graphkin.scene.force_names import opposite
-from graphkin.solver.acting import EDGE, Action, actions
+from graphkin.solver.acting import EDGE, Action, actions, spring_ends, without_line
 from graphkin.solver.linear_blocks import LinearBlocks
 from graphkin.solver.motion import Motion
 from graphkin.solver.pair_forces import PairForce, balances, pair_forces
@@ -143,7 +143,9 @@ class _Statics:
         """What acts, brought to the other side."""
         made = np.zeros((3 * len(self.row), len(self.motion)))
         for one, value in values:
-            i = self.row[one.link]
+            i = self.row.get(one.link)
+            if i is None:  # a spring's force on the frame
+                continue
             if one.at is None:
                 made[i + 2] -= value / self.size
                 continue
@@ -159,6 +161,7 @@ class _Statics:
             if one.key:
                 (moments if one.at is None else forces)[one.key] = one.value
         found, ok = self.system.answer(self.right((one, one.value) for one in self.acting))
+        ok = ok & ~np.any([np.zeros(len(ok), dtype=bool), *without_line(self.motion).values()], axis=0)
         self._told(found, forces, moments)
         if not ok.all():
             for table in (forces, moments):
@@ -210,6 +213,13 @@ class _Statics:
         for load in loading.loads:
             i = self.row[load.link]
             right[i : i + 3] += abs(load.size) * (turn[0] + place / size + 8 * EPS if load.is_force else EPS / size)
+        for spring in loading.springs:
+            force = np.abs(forces.forces[f"P_{spring.name}"])
+            length = np.abs(np.subtract(*spring_ends(motion, spring)))
+            off = spring.rate * (2 * place + 8 * EPS * length) + force * (2 * place / length + turn[0] + 8 * EPS)
+            for link in spring.links:
+                if link in self.row:
+                    right[self.row[link] : self.row[link] + 3] += np.nan_to_num(off)
         found = np.nan_to_num([self._size_of(one, forces) for one in self.unknowns])
         for (i, k), entry in self.system.entries.items():
             right[i] += (np.abs(entry) * 16 * EPS + place / size + turn[0]) * found[k]

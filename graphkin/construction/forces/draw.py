@@ -62,7 +62,7 @@ def _drawn(sheet: Sheet, hand: Instrument, per_mm: float) -> ForceSheet:
     edges = None in sheet.acting.values()
     states = []
     for with_edges in (False, True) if edges else (False,):
-        forces, moments = from_outside(sheet, growing, found, sheet.acting, with_edges)
+        forces, moments = from_outside(sheet, growing, found, sheet.acting, with_edges, hand)
         states.append(_state(sheet, hand, per_mm, forces, moments))
     levers = tuple(levers_of(sheet, state, hand) for state in states)
     return ForceSheet(per_mm, found, tuple(states), levers)
@@ -78,7 +78,7 @@ def _state(
     for moment in turning:
         cut.turn(moment)
     groups = tuple(_group(cut, element) for element in reversed(force_groups(sheet.structure)))
-    vectors = {one.symbol: one.force / per_mm for one in known}
+    vectors = {one.symbol: one.force / per_mm for one in known if not one.turned}
     moments = {one.symbol: one.moment for one in turning}
     _joints(cut, vectors, moments)
     for symbol, value in cut.balances.items():

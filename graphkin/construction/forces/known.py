@@ -1,4 +1,4 @@
-"""What acts on the links from outside: weights, loads, and inertia forces from the drawn accelerations.
+"""What acts on the links from outside: weights, loads, springs, and inertia forces from the drawn accelerations.
 
 F = -m a_S acts at the centre of mass, opposite to its acceleration, M = -J alpha against the angular acceleration; both
 together are the force alone, on a line at the distance h = M / F from the centre (Sun Huan, Mechanical Principles,
@@ -7,7 +7,7 @@ ch. 4).
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from graphkin.construction.board import Instrument
@@ -15,11 +15,15 @@ from graphkin.construction.forces.force_sheet import Acting, Inertia, Turning
 from graphkin.construction.forces.images import Images
 from graphkin.construction.forces.phases import against
 from graphkin.construction.sheet import Sheet
+from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import unit
-from graphkin.scene.loads import LinkMass, LoadOn
-from graphkin.scene.symbol import Symbol
+from graphkin.scene.loads import LinkMass, LoadOn, SpringOn
+from graphkin.scene.symbol import PointRef, Symbol
 
 __all__ = ["from_outside", "inertias"]
+
+COINCIDE = 1e-9
+"""Of the mechanism's size: points of a spring that lie nearer have no line."""
 
 
 def inertias(sheet: Sheet, hand: Instrument) -> dict[str, Inertia]:
@@ -44,8 +48,9 @@ def _inertia(sheet: Sheet, images: Images, mass: LinkMass, hand: Instrument) -> 
 
 
 def from_outside(
-    sheet: Sheet, growing: Sheet, found: Mapping[str, Inertia], acts: Mapping[str, bool | None], with_edges: bool
-) -> tuple[tuple[Acting, ...], tuple[Turning, ...]]:
+    sheet: Sheet, growing: Sheet, found: Mapping[str, Inertia], acts: Mapping[str, bool | None], with_edges: bool,
+    hand: Instrument,
+) -> tuple[tuple[Acting, ...], tuple[Turning, ...]]:  # fmt: skip
     """All known forces and moments, those of no size among them.
 
     Parameters
@@ -70,7 +75,26 @@ def from_outside(
             forces.append(Acting(symbol, load.link, force, images.place(load.link, load.at)))
         else:
             moments.append(Turning(symbol, load.link, load.size if on else 0.0))
+    for spring in loading.springs:
+        forces += _spring(images, spring, hand)
     return tuple(forces), tuple(moments)
+
+
+def _spring(images: Images, spring: SpringOn, hand: Instrument) -> Iterator[Acting]:
+    """Both forces of a spring, from its length and line as they are measured on the drawn mechanism."""
+    drawn = (images.sheet.points.get(PointRef(point)) for point in spring.points)
+    one, two = (
+        images.place(link, at) if z is None else z for z, (link, at) in zip(drawn, spring.ends, strict=True)
+    )
+    size = abs(two - one)
+    if size <= COINCIDE * images.sheet.scene.size * images.mm:
+        found = "its two points coincide in this position, so that its force has no line"
+        raise Unsolvable("dead point", Problem(f"springs.{spring.name}", found, "move the driver off this position"))
+    length = hand.read(size) / images.mm
+    force = (spring.preload + spring.rate * (length - spring.free)) * unit(two - one)
+    symbol = Symbol("P", name=spring.name)
+    yield Acting(symbol, spring.links[0], force, one)
+    yield Acting(symbol, spring.links[1], -force, two, turned=True)
 
 
 def _force(sheet: Sheet, growing: Sheet, load: LoadOn) -> complex:
