@@ -53,6 +53,7 @@ if TYPE_CHECKING:
     from graphkin.api.centroded import Centroded, centrodes
     from graphkin.api.checked import Checked, check
     from graphkin.api.converted import Converted, convert
+    from graphkin.api.course_designs import CourseDesigns, course_design
     from graphkin.api.designed import Designed, design
     from graphkin.api.drawn import Drawn, draw
     from graphkin.api.explained import Explained, explain
@@ -90,6 +91,7 @@ __all__ = [
     "Checked",
     "Compass",
     "Converted",
+    "CourseDesigns",
     "Designed",
     "Drawn",
     "DrivenSlide",
@@ -124,6 +126,7 @@ __all__ = [
     "centrodes",
     "check",
     "convert",
+    "course_design",
     "design",
     "draw",
     "explain",
@@ -147,6 +150,7 @@ _PLACES = {
     "api.centroded": "Centroded centrodes",
     "api.checked": "Checked check",
     "api.converted": "Converted convert",
+    "api.course_designs": "CourseDesigns course_design",
     "api.designed": "Designed design",
     "api.drawn": "Drawn draw",
     "api.explained": "Explained explain",

@@ -12,7 +12,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from graphkin.api.answers import table_of, with_points
+from graphkin.api.answers import Rows, table_of, with_points
 from graphkin.api.arguments import (
     MOST_SEED,
     SceneLike,
@@ -40,7 +40,7 @@ from graphkin.scene.written import as_mapping, safe_name, toml_text
 from graphkin.study.designs import applied
 from graphkin.table import Table
 
-__all__ = ["ProblemSet", "problem_set"]
+__all__ = ["ProblemSet", "problem_set", "schemes_of"]
 
 MOST = 100_000
 
@@ -225,6 +225,12 @@ def _jobs(
         if not varied_keys(source):
             raise CallError(Problem("variants", "nothing in the scene can vary", "give lengths and a driver"))
         return list(jobs_of_seed(source, count, whole_number("seed", seed, -MOST_SEED, MOST_SEED), spread)), ()
+    table, columns = _data_of(source, rows)
+    return list(jobs_of_rows(_rows(source, columns, table.rows))), columns.unused
+
+
+def _data_of(source: Mapping[str, Any], rows: str | os.PathLike[str]) -> tuple[Rows, Columns]:
+    """A table of data, and what its columns are.  Raises CallError where none is a datum of the scene."""
     table = with_points(table_of(rows))
     columns = columns_of(source, table.heads)
     if not columns.data:
@@ -235,7 +241,34 @@ def _jobs(
                 "write heads like links.1.length, O4B, n2 or phi1",
             )
         )
-    return list(jobs_of_rows(_rows(source, columns, table.rows))), columns.unused
+    return table, columns
+
+
+def schemes_of(
+    scene: SceneLike, rows: str | os.PathLike[str]
+) -> tuple[dict[str, Mechanism], tuple[tuple[str, ...], ...]]:
+    """The mechanisms of a table of data by their names, and the table as it was written, the names first.
+
+    Raises
+    ------
+    CallError : no column is a datum of the scene; every row that gives no scene
+    """
+    source, _ = _source(scene)
+    table, columns = _data_of(source, rows)
+    made: dict[str, Mechanism] = {}
+    problems: list[Problem] = []
+    for (line, _), (name, own, _, why) in zip(table.rows, _rows(source, columns, table.rows), strict=True):
+        if why:
+            problems.append(Problem(f"{rows}, line {line}", why))
+        else:
+            made[name] = as_scene(own)
+    if problems:
+        raise CallError(*problems)
+    first = columns.name
+    order = [i for i in range(len(table.heads)) if i != first]
+    lines = [tuple(cells[i] if i < len(cells) else "" for i in order) for _, cells in table.rows]
+    heads = ("", *(table.heads[i] for i in order))
+    return made, (heads, *((name, *line) for name, line in zip(made, lines, strict=True)))
 
 
 def _rows(

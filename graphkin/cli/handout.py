@@ -22,10 +22,12 @@ from graphkin.cli.options import (
     processes,
 )
 from graphkin.cli.output import print_json, print_paths, progress_bar, short_bar, tell, tell_unused
-from graphkin.errors import CallError, Problem
+from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.scene.design_file import is_design
 
 __all__ = ["handout"]
+
+TEMPLATES = ("papers", "course-design")
 
 
 def handout(
@@ -58,14 +60,34 @@ def handout(
     export: Annotated[
         str, typer.Option("--export", metavar="moodle,gift,prairielearn", help="Questions for learning platforms.")
     ] = "",
+    template: Annotated[
+        str, typer.Option("--template", metavar="papers|course-design", help="What is written.")
+    ] = "papers",
+    students: Annotated[
+        Path | None,
+        typer.Option(
+            "--students", metavar="NAMES.csv",
+            help="Of a course design: a report for each (heads: name, id, scheme, position; 姓名, 学号, 方案, 位置).",
+        ),
+    ] = None,
     as_json: JsonOption = False,
     quiet: QuietOption = False,
 ) -> None:
-    """Problem sheet, worked solution with every step, and answer key; or a set of them with other numbers."""
+    """Problem sheet, worked solution with every step, and answer key; a set of them with other numbers; or reports."""
     from graphkin.api.handouts import handout as handing
     from graphkin.words import languages, say
 
     wanted = listed(formats)
+    if template not in TEMPLATES:
+        raise CallError(Problem("template", f'"{template}"', did_you_mean(template, TEMPLATES)))
+    if template == "course-design":
+        if variants is not None or export:
+            raise CallError(Problem("template course-design", "with --variants or --export", "give schemes as --rows"))
+        place = driver_values(at, position)
+        _course(scene, students, rows, out, place, find, wanted, lang, convention, positions, as_json, quiet)
+        return
+    if students is not None:
+        raise CallError(Problem("students", "without a course design", "add --template course-design"))
     if is_design(scene):
         from graphkin.api.designed import design as designing
         from graphkin.api.task_papers import write_design_papers
@@ -98,6 +120,29 @@ def handout(
         print_paths(paths)
     for note in made.notes:
         tell(f"graphkin: {say(note, languages(made.lesson.language)[0])}", err=True)
+    if not made.ok:
+        raise typer.Exit(1)
+
+
+def _course(
+    scene: str, students: Path | None, rows: Path | None, out: Path | None,
+    at: float | str | dict[str, float] | None, find: list[str] | None, formats: list[str], lang: str | None,
+    convention: str | None, positions: int | None, as_json: bool, quiet: bool,
+) -> None:  # fmt: skip
+    from graphkin.api.course_designs import course_design
+    from graphkin.words import languages, say
+
+    with short_bar(not as_json and not quiet) as progress:
+        made = course_design(
+            scene, students, rows, None, at, find or None, formats, lang, convention, positions, progress
+        )  # fmt: skip
+        paths = made.write(out)
+    if as_json:
+        print_json(made.data | {"files": [str(p) for p in paths]})
+    elif not quiet:
+        print_paths(paths)
+    for note in made.notes:
+        tell(f"graphkin: {say(note, languages(lang or made.scene.sheet.language)[0])}", err=True)
     if not made.ok:
         raise typer.Exit(1)
 

@@ -24,6 +24,7 @@ __all__ = [
     "Heading",
     "Paragraph",
     "Picture",
+    "Plate",
     "Said",
     "StepItem",
     "Steps",
@@ -100,6 +101,18 @@ class Picture:
 
 
 @dataclass(frozen=True)
+class Plate:
+    """A finished page of a figure as an SVG with its letters as paths (mm), shown as wide as the paper allows at most;
+    ``words`` say what it shows."""
+
+    svg: str
+    width: float
+    height: float
+    words: str
+    caption: Said = ()
+
+
+@dataclass(frozen=True)
 class TableBlock:
     """Rows under heads; ``align`` is one of l, r, c for each column; ``bold`` are the rows that stand out.
 
@@ -132,10 +145,10 @@ class Beside:
 class Together:
     """Blocks that stand on one page if they fit on one."""
 
-    blocks: tuple[Heading | Paragraph | Steps | Picture | TableBlock | Fields | Beside, ...]
+    blocks: tuple[Heading | Paragraph | Steps | Picture | Plate | TableBlock | Fields | Beside, ...]
 
 
-Block: TypeAlias = Heading | Paragraph | Steps | Picture | TableBlock | Fields | Beside | Together
+Block: TypeAlias = Heading | Paragraph | Steps | Picture | Plate | TableBlock | Fields | Beside | Together
 
 
 @dataclass(frozen=True)
@@ -148,7 +161,7 @@ class Document:
     paper: Paper = A4
 
 
-def laid_out(blocks: Iterable[Block]) -> Iterator[Heading | Paragraph | Steps | Picture | TableBlock | Fields]:
+def laid_out(blocks: Iterable[Block]) -> Iterator[Heading | Paragraph | Steps | Picture | Plate | TableBlock | Fields]:
     """Every block by itself, in the order in which they are read."""
     for block in blocks:
         if isinstance(block, Together):

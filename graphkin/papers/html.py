@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import re
 from collections.abc import Iterable
 from dataclasses import replace
@@ -19,6 +20,7 @@ from graphkin.papers.blocks import (
     Heading,
     Paragraph,
     Picture,
+    Plate,
     Said,
     Steps,
     TableBlock,
@@ -30,6 +32,7 @@ from graphkin.words import word
 __all__ = ["blocks_html", "figure_svg", "said_html", "used_characters", "words_html"]
 
 HIT = 3.0  # mm
+PIXEL = 25.4 / 96  # mm
 _PROLOG = re.compile(r"^<\?xml[^>]*\?>\s*")
 _LAYER = re.compile(r' inkscape:(?:groupmode|label)="[^"]*"| xmlns:(?:inkscape|ev|xlink)="[^"]*"| baseProfile="[^"]*"')
 _ID = re.compile(r' id="[^"]*"')
@@ -150,6 +153,13 @@ def _block(block: Block) -> str:
         caption = f"<figcaption>{said_html(block.caption)}</figcaption>" if block.caption else ""
         kind = ' class="equation"' if block.joined else ""
         return f"<figure{kind}>{svg}{caption}</figure>"
+    if isinstance(block, Plate):
+        # a picture of its own: its names and styles cannot meet those of the page
+        data = base64.b64encode(block.svg.encode()).decode()
+        size = f'width="{block.width / PIXEL:.0f}" height="{block.height / PIXEL:.0f}"'
+        caption = f"<figcaption>{said_html(block.caption)}</figcaption>" if block.caption else ""
+        words = escape(clean(block.words))
+        return f'<figure><img alt="{words}" {size} src="data:image/svg+xml;base64,{data}">{caption}</figure>'
     if isinstance(block, Beside):
         inner = "\n".join(map(_block, block.blocks))
         return f'<div class="beside"><div>{inner}</div>{_block(block.picture)}</div>'

@@ -31,6 +31,7 @@ from graphkin.papers.blocks import (
     Heading,
     Paragraph,
     Picture,
+    Plate,
     Said,
     Steps,
     Together,
@@ -144,6 +145,9 @@ def _block(block: Block) -> Data:
             "caption": _said(block.caption),
             "joined": block.joined,
         }
+    if isinstance(block, Plate):
+        size = {"width": _mm(block.width), "height": _mm(block.height)}
+        return {"kind": "plate", "svg": block.svg, **size, "alt": clean(block.words), "caption": _said(block.caption)}
     if isinstance(block, Beside):
         return {"kind": "beside", "blocks": [_block(b) for b in block.blocks], "picture": _block(block.picture)}
     if isinstance(block, Together):

@@ -1,0 +1,403 @@
+"""``graphkin handout --template course-design``: the reports of a course project, and the table of the class."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from graphkin import solver
+from graphkin.api.answers import table_of
+from graphkin.api.arguments import (
+    ON_SHEETS,
+    At,
+    SceneLike,
+    as_scene,
+    asked_symbols,
+    driver_values,
+    for_paper,
+    known_words,
+    may_be_called,
+    own_unit,
+    whole_number,
+    write_files,
+)
+from graphkin.api.checked import solved_here
+from graphkin.api.drawn import draw
+from graphkin.api.problem_sets import schemes_of
+from graphkin.api.results import Result
+from graphkin.api.swept import sweep
+from graphkin.checking.readings import read_off
+from graphkin.checking.report import compare
+from graphkin.construction import execute
+from graphkin.drawing import ChartPage
+from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
+from graphkin.files import path_of
+from graphkin.jobs import Progress
+from graphkin.papers.blocks import Picture, Plate
+from graphkin.papers.course_design import (
+    ClassRow,
+    CourseDesign,
+    PlaceValues,
+    Student,
+    class_document,
+    on_paper,
+    plate,
+    report,
+    value_read,
+)
+from graphkin.papers.lesson import Lesson
+from graphkin.papers.page import document_page
+from graphkin.papers.paper import paper_of, paper_plan
+from graphkin.papers.pdf import can_join, can_typeset, one_after_another, pdf
+from graphkin.papers.prepare import FORMATS, lesson_of, positions
+from graphkin.papers.variants import asked_of
+from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.symbol import Symbol
+from graphkin.scene.written import safe_name
+from graphkin.solver.named_positions import named_positions
+from graphkin.table import Table
+from graphkin.words import Phrase, languages
+
+__all__ = ["CourseDesigns", "course_design"]
+
+HEADS: Mapping[str, tuple[str, ...]] = {
+    "name": ("name", "student", "姓名", "学生"),
+    "id": ("id", "number", "no", "学号"),
+    "scheme": ("scheme", "variant", "group", "方案", "组", "组别"),
+    "place": ("position", "at", "位置"),
+}
+
+
+@dataclass(frozen=True)
+class _Scheme:
+    """One mechanism of a course: its positions (SI values of the first driver) and what was read off at each."""
+
+    name: str
+    scene: Mechanism
+    drivers: Mapping[str, float]
+    places: Mapping[str, PlaceValues]
+
+    def values(self, place: str) -> dict[str, float]:
+        """Driver values (rad, m) at a position."""
+        return {self.scene.drivers[0].key: self.drivers[place]}
+
+
+@dataclass(frozen=True, repr=False, eq=False)
+class CourseDesigns(Result):
+    """The reports of a course project: a file for each student, and the table of the class.
+
+    ``rows`` are the lines of that table: who, which scheme and position, what was read off there.
+    """
+
+    scene: Mechanism
+    rows: tuple[ClassRow, ...]
+    asked: tuple[Symbol, ...]
+    content: Mapping[str, bytes]
+    agrees: bool
+    typeset: bool = True
+
+    @property
+    def ok(self) -> bool:
+        """Whether every reading of every report agrees with the analytic solver."""
+        return self.agrees
+
+    @cached_property
+    def table(self) -> Table:
+        """A row for each student: who, variant, position, driver value, and each quantity as read off and exact."""
+        return _class_table(self.scene, self.rows, self.asked)
+
+    @cached_property
+    def data(self) -> dict[str, Any]:
+        """The table for programs, in scene units."""
+        students = [
+            {"name": row.student.name, "id": row.student.id, "variant": row.student.scheme,
+             "position": row.student.place, "at": row.values.driver,
+             "values": {str(s): row.values.read.get(s) for s in self.asked},
+             "exact": {str(s): row.values.exact.get(s) for s in self.asked}}
+            for row in self.rows
+        ]  # fmt: skip
+        return {"ok": self.ok, "students": students}
+
+    @property
+    def files(self) -> Mapping[str, bytes]:
+        """Content of each file by name: the reports, class.csv, class.html, class.pdf, answers_template.csv."""
+        return self.content
+
+    @property
+    def notes(self) -> tuple[Phrase, ...]:
+        """What was not done as asked: typeset PDF without the extra ``pdf``."""
+        return () if self.typeset else (Phrase("no pdf extra"),)
+
+    def write(self, folder: str | os.PathLike[str] | None = None) -> list[Path]:
+        """Write the files into a folder (one named after the scene if none is given); returns their paths.
+
+        Raises
+        ------
+        CallError : the folder cannot be written
+        """
+        return write_files(path_of(folder) if folder is not None else Path(safe_name(self.scene.name)), self.files)
+
+    def __repr__(self) -> str:
+        return f"<CourseDesigns {self.scene.name}: {len(self.rows)} reports>"
+
+
+def course_design(
+    scene: SceneLike,
+    students: str | os.PathLike[str] | None = None,
+    rows: str | os.PathLike[str] | None = None,
+    out: str | os.PathLike[str] | None = None,
+    at: At = None,
+    find: Iterable[str | Symbol] | None = None,
+    formats: Sequence[str] = FORMATS,
+    language: str | None = None,
+    convention: str | None = None,
+    positions: int | None = None,
+    progress: Progress | None = None,
+) -> CourseDesigns:
+    """The reports of a course project: one position of one mechanism for each student, and the table of the class.
+
+    Parameters
+    ----------
+    scene, find : as for `check`
+    students : a CSV file with a line for each student: a column name (姓名), and where wished id (学号), scheme
+        (方案, group) and position (位置, the name of one); who has no position gets the next one of their scheme, who
+        has no scheme the next one that has a position left.  Without it one report with a blank cover (one for each
+        scheme)
+    rows : a CSV file with a row of data for each scheme, as `problem_set` reads it
+    at : the position of the one report where there are no students; the scene's own if None
+    positions : of the driver, numbered from 1, where the scene has no `[positions]`; 12 if None
+    out : folder for the files; none are written without it
+    formats, language, convention : as for `handout`
+    progress : called with the reports done and the number of all
+
+    Raises
+    ------
+    SceneError, CallError : the file, a table or the call is wrong
+    Unsolvable : wrong mobility, a position that cannot be assembled or reached, a dead point
+    """
+    known_words(formats, language, convention, known_formats=FORMATS, known_languages=ON_SHEETS)
+    may_be_called("progress", progress)
+    given = for_paper(scene)
+    asked_symbols(given, find)
+    if students is not None and at is not None:
+        raise CallError(Problem("at", "beside students", "write each position into the table of the students"))
+    count = 12 if positions is None else whole_number("positions", positions, 2, 72)
+    spoken, letters = language or given.sheet.language, convention or given.sheet.convention
+    sources, data = ({"": scene}, ()) if rows is None else schemes_of(scene, rows)
+    course = {name: _scheme(name, source, find, count) for name, source in sources.items()}
+    if students is None:
+        dealt = [(Student(scheme=name), driver_values(one.scene, at)) for name, one in course.items()]
+        dealt = [(replace(who, place=at if isinstance(at, str) else ""), values) for who, values in dealt]
+    else:
+        dealt = [(who, course[_key(course, who)].values(who.place)) for who in _dealt(students, course)]
+    content: dict[str, bytes] = {}
+    lines, agrees, shared, bound = [], True, dict[str, dict[str, Any]](), []
+    lesson = None
+    for k, (who, values) in enumerate(dealt):
+        one = course[_key(course, who)]
+        motion = solved_here(one.scene, values)
+        what = paper_plan(motion.structure, values, asked_symbols(one.scene, find))
+        lesson = lesson_of(what, motion, spoken, letters)
+        agrees = agrees and lesson.report.ok
+        if one.name not in shared:
+            shared[one.name] = _figures(one.scene, spoken, letters, lesson)
+        key = one.scene.drivers[0].key
+        asked = _tabled(one.scene, find)
+        stands = lesson.sheet.drivers[key]
+        place = one.places[who.place] if who.place in one.places else _read("", stands, lesson, asked)
+        lines.append(ClassRow(who, place))
+        made = CourseDesign(
+            lesson, who, own_unit(one.scene, one.scene.drivers[0], stands), data,
+            tuple(one.places.values()), asked, _unit(one.scene), **shared[one.name],
+        )  # fmt: skip
+        document = report(made)
+        stem = "report" if students is None and rows is None else _stem(k, len(dealt), who)
+        if "html" in formats:
+            content[f"{stem}.html"] = document_page(document).encode()
+        if "pdf" in formats and can_typeset():
+            content[f"{stem}.pdf"] = pdf(document)
+            bound.append(content[f"{stem}.pdf"])
+        if progress is not None:
+            progress(k + 1, len(dealt))
+    assert lesson is not None
+    asked = _tabled(lesson.sheet.scene, find)
+    whole = class_document(lesson, lines, asked, _unit(given))
+    if "html" in formats:
+        content["class.html"] = document_page(whole).encode()
+    if "pdf" in formats and can_typeset():
+        content["class.pdf"] = pdf(whole)
+        if len(bound) > 1 and can_join():
+            content["all-reports.pdf"] = one_after_another(bound)
+    content["class.csv"] = _class_table(given, lines, asked).harmless().csv().encode("utf-8-sig")
+    content["answers_template.csv"] = _template(given, lines, asked).harmless().csv().encode("utf-8-sig")
+    result = CourseDesigns(given, tuple(lines), asked, content, agrees, "pdf" not in formats or can_typeset())
+    if out is not None:
+        result.write(out)
+    return result
+
+
+def _stem(k: int, count: int, who: Student) -> str:
+    """The name of a report's file, which no two share."""
+    words = "-".join(word for word in (who.name or who.id, who.scheme, who.place) if word)
+    return f"{k + 1:0{max(2, len(str(count)))}}-{safe_name(words) if words else 'report'}"
+
+
+def _tabled(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tuple[Symbol, ...]:
+    """What the tables show: what is asked of the position itself, else the motion of the last joint and the rates of
+    what turns about fixed pivots, else every velocity and acceleration that is read off."""
+    asked = (s for s in asked_symbols(scene, find) if s.scope in ("motion", "position", "force") and not s.at)
+    kept = tuple(asked) or asked_of(replace(scene, find=()))
+    if kept:
+        return kept
+    drawn = (reading.symbol for reading in read_off(execute(paper_plan(scene, None, ()))))
+    return tuple(s for s in drawn if s.scope == "motion" and s.to is None and s.kind in ("v", "a", "omega", "alpha"))
+
+
+def _unit(scene: Mechanism) -> str:
+    return "°" if isinstance(scene.drivers[0], AngleDriver) else scene.units.length
+
+
+def _in_unit(scene: Mechanism, value: float) -> float:
+    return math.degrees(value) if isinstance(scene.drivers[0], AngleDriver) else value / scene.units.metres
+
+
+def _scheme(name: str, source: SceneLike, find: Iterable[str | Symbol] | None, count: int) -> _Scheme:
+    """A mechanism with all its positions, each drawn and held against the solver."""
+    scene = for_paper(as_scene(source))
+    structure = solver.structure_of(scene)
+    key = scene.drivers[0].key
+    named = named_positions(scene)
+    if named is not None:
+        drivers = dict(named.values)
+    else:
+        drivers = {str(k): row[key] for k, row in enumerate(positions(structure, None, count)[0], 1)}
+    asked = _tabled(scene, find)
+    places = {}
+    for place, value in drivers.items():
+        try:
+            motion = solved_here(structure, {key: value})
+            sheet = execute(paper_plan(structure, {key: value}, asked))
+            exact = solver.exact_values(solver.as_drawn(motion, sheet.structure), asked)
+            lesson = Lesson(sheet, compare(sheet, read_off(sheet), exact, asked), {}, "en", "chinese", asked)
+            places[place] = _read(place, value, lesson, asked)
+        except Unsolvable:
+            places[place] = PlaceValues(place, _in_unit(scene, value))
+    return _Scheme(name, scene, drivers, places)
+
+
+def _read(place: str, value: float, lesson: Lesson, asked: Sequence[Symbol]) -> PlaceValues:
+    """What was read off at a position, in scene units."""
+    rows = [row for row in lesson.report.rows if row.symbol in asked]
+    read = {row.symbol: value_read(lesson, row) for row in rows}
+    exact = {
+        row.symbol: lesson.in_unit(row.symbol, abs(row.true) if row.symbol.is_vector else float(row.true.real))
+        for row in rows
+    }
+    return PlaceValues(place, _in_unit(lesson.sheet.scene, value), read, exact)
+
+
+def _key(course: Mapping[str, _Scheme], who: Student) -> str:
+    """The scheme of a student; where there is but one, what stands in the table is the name of a group."""
+    return who.scheme if who.scheme in course else next(iter(course))
+
+
+def _dealt(students: str | os.PathLike[str], course: Mapping[str, _Scheme]) -> Iterator[Student]:
+    """Every student with a scheme and a position of it.
+
+    Raises CallError for a table without names, and all schemes and positions that there are not.
+    """
+    table = table_of(students)
+    columns = {
+        role: i for role, names in HEADS.items() for i, head in reversed(tuple(enumerate(table.heads)))
+        if head.strip().lower() in names
+    }  # fmt: skip
+    if "name" not in columns and "id" not in columns:
+        found = f"no column of names: {', '.join(table.heads)[:200]}"
+        raise CallError(Problem(str(students), found, "write a head name (姓名) or id (学号)"))
+    problems: list[Problem] = []
+    listed = []
+    for line, cells in table.rows:
+        who = Student(**{role: cells[i] if i < len(cells) else "" for role, i in columns.items()})
+        where = f"{students}, line {line}"
+        if who.scheme and len(course) > 1 and who.scheme not in course:
+            problems.append(Problem(where, f'there is no scheme "{who.scheme}"', did_you_mean(who.scheme, course)))
+            continue
+        known = course[_key(course, who)].places if who.scheme or len(course) == 1 else None
+        all_known = dict.fromkeys(n for one in course.values() for n in one.places) if known is None else known
+        if who.place and who.place not in all_known:
+            problems.append(Problem(where, f'there is no position "{who.place}"', did_you_mean(who.place, all_known)))
+            continue
+        if who.place and known is not None and not known[who.place].read:
+            problems.append(Problem(where, f"position {who.place} cannot be drawn", "give another one"))
+        listed.append(who)
+    if problems:
+        raise CallError(*problems)
+    free = {name: [p for p, v in one.places.items() if v.read] for name, one in course.items()}
+    if not any(free.values()):
+        raise CallError(Problem("positions", "none of them can be drawn", "give others in [positions]"))
+    taken: dict[str, list[str]] = {}
+    for who in listed:
+        if who.place:
+            taken.setdefault(who.scheme, []).append(who.place)
+    for who in listed:
+        if not who.scheme and len(course) > 1:
+            # the first scheme with a position left, and when all are dealt out from the start again
+            name = min(free, key=lambda n: len(taken.get(n, ())) // max(1, len(free[n])))
+            who = replace(who, scheme=name)
+        if not who.place:
+            own = taken.setdefault(who.scheme, [])
+            places = free[_key(course, who)]
+            who = replace(who, place=min(places, key=own.count))
+            own.append(who.place)
+        yield who
+
+
+def _figures(scene: Mechanism, language: str, convention: str, lesson: Lesson) -> dict[str, Any]:
+    """Figures that all students of a scheme share."""
+    paper = paper_of(scene)
+    found: dict[str, Any] = {}
+    for name in ("structure", "positions", "loops"):
+        try:
+            figure = draw(scene, language=language, convention=convention, figures=[name]).figures.get(name)
+        except Unsolvable:
+            continue  # a report without it is whole in all else
+        pages = (figure, *figure.further) if figure is not None else ()
+        found[name] = tuple(on_paper(page, paper) for page in pages)
+    pages_of: list[Picture | Plate] = []
+    for page in sweep(scene, language=languages(language)[0]).figures.values():
+        if isinstance(page, ChartPage):
+            size = page.width, page.height
+            pages_of.append(plate(page.content("svg", text="outlines"), size, paper, f"{page.title}. {page.desc}"))
+        else:
+            pages_of.append(on_paper(page, paper))
+    return found | {"diagrams": tuple(pages_of)}
+
+
+def _class_table(scene: Mechanism, rows: Sequence[ClassRow], asked: Sequence[Symbol]) -> Table:
+    heads = ["name", "id", "variant", "position", "at", *(c for s in asked for c in (_head(scene, s), f"{s} exact"))]
+    lines = [
+        (row.student.name, row.student.id, row.student.scheme, row.student.place, row.values.driver,
+         *(v for s in asked for v in (row.values.read.get(s), row.values.exact.get(s))))
+        for row in rows
+    ]  # fmt: skip
+    return Table.of(heads, lines, ("", "", "", "", ".9g", *[".9g"] * (2 * len(asked))))
+
+
+def _template(scene: Mechanism, rows: Sequence[ClassRow], asked: Sequence[Symbol]) -> Table:
+    """A table for the class to fill in, as `audit` reads it, with everyone's driver value."""
+    heads = ["name", "id", "variant", "at"]
+    for s in asked:
+        heads += [_head(scene, s), f"{s} direction"] if s.is_vector else [_head(scene, s)]
+    blank = [""] * (len(heads) - 4)
+    lines = [(r.student.name, r.student.id, r.student.scheme, f"{r.values.driver:.9g}", *blank) for r in rows]
+    return Table.of(heads, lines)
+
+
+def _head(scene: Mechanism, symbol: Symbol) -> str:
+    unit = symbol.unit(scene.units)
+    return f"{symbol} ({unit})" if unit else str(symbol)

@@ -1,0 +1,81 @@
+from __future__ import annotations
+
+import csv
+import io
+
+import pytest
+from pypdf import PdfReader
+
+import graphkin
+from graphkin import CallError
+from tests import command
+
+SCENE = "slider-crank-offset"
+
+
+def _file(folder, text, name="names.csv"):
+    path = folder / name
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_one_report_without_a_class_stands_at_the_position_asked_for(tmp_path):
+    done = command.run("handout", SCENE, "--template", "course-design", "--at", "75", "--lang", "both",
+                       "--positions", "4", "-o", "out", cwd=tmp_path)  # fmt: skip
+    assert 0 == done.returncode, done.stderr
+    names = {"report.html", "report.pdf", "class.html", "class.pdf", "class.csv", "answers_template.csv"}
+    assert names == {path.name for path in (tmp_path / "out").iterdir()}
+    pages = "".join(page.extract_text() for page in PdfReader(tmp_path / "out" / "report.pdf").pages)
+    for words in ("Course design", "课程设计说明书", "Driver at 75°", "Structure", "Equation 1", "Motion diagrams"):
+        assert words in pages
+
+
+def test_everyone_has_a_position_of_their_own_and_stands_in_the_table_of_the_class(tmp_path):
+    names = _file(tmp_path, "学号,姓名,位置\n1,李华,\n2,王芳,1\n3,=1+1,\n")
+    made = graphkin.course_design(SCENE, names, find=["v_C"], positions=4, formats=("html",))
+    assert ["2", "1", "3"] == [row.student.place for row in made.rows]
+    for row in made.data["students"]:
+        exact = graphkin.check(SCENE, at=row["at"], find="v_C")["v_C"].exact
+        assert abs(exact) * 1000 == pytest.approx(row["values"]["v_C"], rel=1e-9, abs=1e-9)
+    rows = list(csv.reader(io.StringIO(made.files["class.csv"].decode("utf-8-sig"))))
+    assert ["李华", "1", "", "2"] == rows[1][:4]
+    assert "'=1+1" == rows[3][0]  # no spreadsheet runs it
+    assert 3 == sum(name[0].isdigit() for name in made.files)
+
+
+def test_the_template_of_a_course_is_read_by_the_audit(tmp_path):
+    names = _file(tmp_path, "name\nA\nB\n")
+    made = graphkin.course_design(SCENE, names, find=["v_C"], positions=4, formats=("html",))
+    lines = list(csv.reader(io.StringIO(made.files["answers_template.csv"].decode("utf-8-sig"))))
+    for line, row in zip(lines[1:], made.rows, strict=True):
+        line[4] = f"{next(iter(row.values.exact.values())):.6g}"
+    text = "\n".join(",".join(line) for line in lines)
+    assert graphkin.audit(SCENE, answers=_file(tmp_path, text, "filled.csv")).ok
+
+
+def test_schemes_are_dealt_out_one_after_the_other(tmp_path):
+    rows = _file(tmp_path, "scheme,links.1.length\nI,23.8\nII,20\n", "schemes.csv")
+    names = _file(tmp_path, "name,scheme\nA,\nB,\nC,\nD,II\n")
+    made = graphkin.course_design(SCENE, names, rows, find=["v_C"], positions=2, formats=("html",))
+    assert [("I", "1"), ("I", "2"), ("II", "1"), ("II", "2")] == [
+        (row.student.scheme, row.student.place) for row in made.rows
+    ]
+    assert "links.1.length" in made.files["01-A-I-1.html"].decode()
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("colour\nred\n", "no column of names"),
+        ("name,position\nA,99\n", 'line 2: there is no position "99"'),
+    ],
+)
+def test_what_is_wrong_with_a_table_of_students_is_said(tmp_path, text, said):
+    with pytest.raises(CallError, match=said):
+        graphkin.course_design(SCENE, _file(tmp_path, text), find=["v_C"], positions=2)
+
+
+def test_a_template_that_there_is_not_is_said(tmp_path):
+    done = command.run("handout", SCENE, "--template", "course-desing", cwd=tmp_path)
+    assert 2 == done.returncode
+    assert 'did you mean "course-design"' in done.stderr
