@@ -147,6 +147,11 @@ def explain(scene: SceneLike, language: str | None = None) -> Explained:
 
 def _units(scene: Mechanism) -> Iterator[Sentence]:
     yield "explained units", Phrase("explained unit", (scene.units.length,))
+    if scene.background is not None:
+        step = scene.background.step
+        turned = _number(math.degrees(cmath.phase(step)))
+        told = scene.background.name, _number(abs(step) / scene.units.metres), scene.units.length, turned
+        yield "explained units", Phrase("explained background", told)
 
 
 def _number(value: float) -> str:

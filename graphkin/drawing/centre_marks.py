@@ -14,7 +14,7 @@ from graphkin.drawing.headings import number
 from graphkin.drawing.labels import Label
 from graphkin.drawing.obstacles import obstacles_of
 from graphkin.drawing.piece import Piece
-from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Primitive, Stroke, Text
+from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Primitive, Scan, Stroke, Text
 from graphkin.drawing.symbols import POINTER, arrow
 from graphkin.drawing.text import SMALLEST, rich
 from graphkin.plane import cross, dot, unit
@@ -270,7 +270,7 @@ def pale(child: Primitive, strength: float = 0.45) -> Primitive:
     if isinstance(child, Group):
         inside = tuple(pale(c, strength) for c in child.children)
         return Group(inside, child.id, child.classes, child.layer, child.title, child.step)
-    if isinstance(child, Text):
+    if isinstance(child, Text | Scan):
         return child
     stroke = child.stroke and Stroke(child.stroke.width, child.stroke.dash, strokes.tint(child.stroke.colour, strength))
     if isinstance(child, Line):

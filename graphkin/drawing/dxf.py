@@ -13,7 +13,7 @@ from threading import Lock
 from typing import Any
 
 from graphkin.drawing.font_widths import CAP_HEIGHT, has_cjk, start_runs, width
-from graphkin.drawing.primitives import Arc, Circle, Group, Line, Page, Polygon, Polyline, Primitive, Stroke, Text
+from graphkin.drawing.primitives import Arc, Circle, Group, Line, Page, Polygon, Polyline, Primitive, Scan, Stroke, Text
 from graphkin.errors import CallError, Problem
 
 __all__ = ["closed_curve_dxf", "dxf_bytes"]
@@ -86,6 +86,8 @@ class _Board:
                 if thing.id and not thing.layer and inner:
                     self._named(thing.id, inner)
                 made += inner
+            elif isinstance(thing, Scan):
+                pass  # a DXF holds no pictures
             elif isinstance(thing, Text):
                 made += self._text(thing, layer)
             else:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from graphkin.checking.report import Report
 from graphkin.construction.sheet import DiagramName, Sheet
+from graphkin.drawing.background import background_piece
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, letters_of, scale_statement
 from graphkin.drawing.dimensions import check_bar
@@ -78,7 +79,8 @@ def _figure(sheet: Sheet, diagram: DiagramName, language: str | None, convention
     bottom = panel.bottom
     if diagram == "mechanism":
         piece = with_labels(moved_piece(piece, origin), panel)
-        piece = joined((piece, mechanism_detail(sheet, letters, spoken, panel, piece.drawn)))
+        under = background_piece(sheet, origin, panel)
+        piece = joined((under, piece, mechanism_detail(sheet, letters, spoken, panel, piece.drawn)))
     else:
         bottom += strip_height(sheet, diagram, panel.width)
         strip = Box(panel.left, panel.bottom, panel.right, bottom)

@@ -99,7 +99,8 @@ def _link(here: MechanismOnPaper, shape: LinkShape) -> Group:
     stroke = (strokes.REDUNDANT if shape.redundant else strokes.LINK).coloured(colour)
     if shape.corners:
         corners = tuple(map(page, shape.corners))
-        parts.append(Polygon(corners, "" if shape.redundant else strokes.tint(colour), stroke))
+        clear = shape.redundant or here.scene.background is not None  # what a scan shows is seen through it
+        parts.append(Polygon(corners, "" if clear else strokes.tint(colour), stroke))
     parts += [*outlines_of(here, shape.link), *wheels_of(here, shape.link)]
     hidden = {b.slide.b for b in here.sliders if b.slide.key in here.cylinders}
     if shape.link not in hidden:

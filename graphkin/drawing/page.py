@@ -18,7 +18,20 @@ from typing import TYPE_CHECKING
 
 from graphkin.drawing.font import FAMILY, FOLDER, holds
 from graphkin.drawing.font_widths import start_runs
-from graphkin.drawing.primitives import Arc, Circle, Group, Line, Page, Polygon, Polyline, Primitive, Text, walk
+from graphkin.drawing.primitives import (
+    PALE,
+    Arc,
+    Circle,
+    Group,
+    Line,
+    Page,
+    Polygon,
+    Polyline,
+    Primitive,
+    Scan,
+    Text,
+    walk,
+)
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -178,6 +191,8 @@ def ink(figure: Figure, children: tuple[Primitive, ...], family: list[str], orde
     for place, thing in enumerate(walk(children), order):
         if isinstance(thing, Text):
             _add_text(figure, thing, page, place, family)
+        elif isinstance(thing, Scan):
+            _add_scan(figure, thing, page, place)
         elif not isinstance(thing, Group):
             _add_shape(figure, thing, page, place)
 
@@ -193,6 +208,7 @@ def figure_pdf(figure: Figure, title: str, more: bool, *further: Figure) -> byte
     with own_settings(**{"pdf.fonttype": 3 if more else 42}), PdfPages(buffer, metadata=facts) as pages:
         for page in (figure, *further):
             page.patch.set_visible(False)
+            page.dpi = 200  # of pictures alone: what is drawn has no dots
             FigureCanvasPdf(page).print_pdf(pages)
     return buffer.getvalue()
 
@@ -231,6 +247,24 @@ def _add_shape(
             **look,
         )
     )
+
+
+def _add_scan(figure: Figure, scan: Scan, page: Transform, order: int) -> None:
+    import numpy as np
+    from matplotlib.path import Path
+    from matplotlib.transforms import Affine2D
+    from PIL import Image
+
+    (a, b), (x, y) = (scan.step.real, scan.step.imag), (scan.corner.real, scan.corner.imag)
+    with Image.open(BytesIO(scan.data)) as image:
+        pixels = np.asarray(image.convert("RGBA"))
+    whole = figure.add_axes((0.0, 0.0, 1.0, 1.0), zorder=order, frame_on=False)
+    whole.set_axis_off()
+    placed = Affine2D(np.array([[a, -b, x], [b, a, y], [0.0, 0.0, 1.0]])) + page
+    shown = whole.imshow(
+        pixels, extent=(0, scan.width, scan.height, 0), alpha=PALE, aspect="auto", transform=placed, origin="upper"
+    )
+    shown.set_clip_path(Path(_pairs((*scan.panel, scan.panel[0])), closed=True), page)
 
 
 def _path(thing: Line | Polyline | Polygon | Circle | Arc) -> Path:

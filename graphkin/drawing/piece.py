@@ -10,7 +10,7 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.labels import Label, Mark, place
 from graphkin.drawing.obstacles import Obstacles, obstacles_of
-from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Text, walk
+from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Scan, Text, walk
 
 __all__ = [
     "LAYERS",
@@ -27,7 +27,9 @@ __all__ = [
 ]
 
 # In the order of drawing.
-LAYERS = ("construction", "mechanism", "velocity", "acceleration", "forces", "centres", "answers", "labels")
+LAYERS = (
+    "background", "construction", "mechanism", "velocity", "acceleration", "forces", "centres", "answers", "labels",
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -168,4 +170,6 @@ def _moved(thing: Primitive, by: complex) -> Primitive:
         return Polyline(tuple(z + by for z in thing.points), thing.stroke)
     if isinstance(thing, Polygon):
         return Polygon(tuple(z + by for z in thing.points), thing.fill, thing.stroke)
+    if isinstance(thing, Scan):
+        return replace(thing, corner=thing.corner + by, panel=tuple(z + by for z in thing.panel))
     return Group(moved(thing.children, by), thing.id, thing.classes, thing.layer, thing.title, thing.step)

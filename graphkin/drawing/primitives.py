@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from typing import TypeAlias
 
 __all__ = [
+    "PALE",
     "Arc",
     "Circle",
     "Group",
@@ -21,6 +22,7 @@ __all__ = [
     "Polyline",
     "Primitive",
     "Run",
+    "Scan",
     "Segment",
     "Stroke",
     "Text",
@@ -29,6 +31,7 @@ __all__ = [
     "walk",
 ]
 
+PALE = 0.5  # how much of a scan is seen
 
 Segment: TypeAlias = tuple[complex, complex]
 """A straight line from one point to another."""
@@ -151,6 +154,23 @@ class Text:
 
 
 @dataclass(frozen=True)
+class Scan:
+    """A photograph or scan, paled so that lines show over it: its pixel (x, y) lies at ``corner + step (x + iy)``.
+
+    ``data`` is a file of the media type ``kind``, ``width`` and ``height`` are in pixels; nothing of it is seen outside
+    of the corners of ``panel``.
+    """
+
+    corner: complex
+    step: complex
+    width: int
+    height: int
+    kind: str
+    data: bytes = field(repr=False)
+    panel: tuple[complex, ...] = ()
+
+
+@dataclass(frozen=True)
 class Group:
     """Things that belong together: ``layer`` names it as a layer for Inkscape, ``title`` says in words what it is,
     ``step`` is the number of the step that puts it there."""
@@ -163,7 +183,7 @@ class Group:
     step: int | None = None
 
 
-Primitive: TypeAlias = Line | Polyline | Polygon | Circle | Arc | Text | Group
+Primitive: TypeAlias = Line | Polyline | Polygon | Circle | Arc | Text | Scan | Group
 
 
 def class_names(thing: Group | Text) -> tuple[str, ...]:

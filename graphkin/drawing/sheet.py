@@ -8,6 +8,7 @@ from dataclasses import replace
 from graphkin.checking.report import Report
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.drawing import strokes
+from graphkin.drawing.background import background_piece
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, letters_of, scale_statement
 from graphkin.drawing.coriolis import CoriolisTerm
@@ -164,7 +165,8 @@ def _mechanism(sheet: Sheet, letters: Letters, language: str, panel: Box) -> Pie
     piece, content = mechanism_piece(sheet, letters, (room.width, room.height))
     origin = panel.centre - content.centre
     named = with_labels(moved_piece(piece, origin), room)
-    return joined((named, mechanism_detail(sheet, letters, language, room, named.drawn)))
+    under = background_piece(sheet, origin, room)
+    return joined((under, named, mechanism_detail(sheet, letters, language, room, named.drawn)))
 
 
 def _polygon(

@@ -14,7 +14,7 @@ from graphkin.construction.steps import Carried, MeasuredRate, links_drawn
 from graphkin.drawing import strokes
 from graphkin.drawing.dimensioning import LENGTHS
 from graphkin.drawing.polygon_on_page import details
-from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Stroke, Text
+from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Scan, Stroke, Text
 
 __all__ = ["births", "so_far", "step_of", "stepped"]
 
@@ -159,6 +159,8 @@ def _faded(thing: Primitive) -> Primitive:
         return replace(thing, children=tuple(map(_faded, thing.children)))
     if isinstance(thing, Text):
         return replace(thing, colour=strokes.tint(thing.colour, FADED + 0.2))
+    if isinstance(thing, Scan):
+        return thing
     stroke = thing.stroke and thing.stroke.coloured(strokes.tint(thing.stroke.colour, FADED))
     if isinstance(thing, Polygon | Circle) and thing.fill not in ("", strokes.WHITE):
         return replace(thing, stroke=stroke, fill=strokes.tint(thing.fill, FADED))

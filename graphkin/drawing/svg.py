@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 import math
 import re
+from base64 import b64encode
 from dataclasses import replace
 from functools import cache, lru_cache, partial
 from html import escape
@@ -20,6 +21,7 @@ from graphkin.drawing.font import Style
 from graphkin.drawing.font_widths import has_cjk, runs_width, start_runs, style_of, width
 from graphkin.drawing.outlines import outline
 from graphkin.drawing.primitives import (
+    PALE,
     Arc,
     Circle,
     Group,
@@ -29,6 +31,7 @@ from graphkin.drawing.primitives import (
     Polyline,
     Primitive,
     Run,
+    Scan,
     Stroke,
     Text,
     class_names,
@@ -133,6 +136,8 @@ class _Ink:
             return self._group(thing)
         if isinstance(thing, Text):
             return self._text(thing)
+        if isinstance(thing, Scan):
+            return self._scan(thing)
         stroke = _stroke(thing.stroke)
         if isinstance(thing, Line):
             (x1, y1), (x2, y2) = _pair(thing.start), _pair(thing.end)
@@ -155,6 +160,20 @@ class _Ink:
         if group.title:  # last, because the first child of a vector's group is its line
             element.elements.append(self.made("title", {}, _clean(group.title)))
         return element
+
+    def _scan(self, scan: Scan) -> Any:
+        """A picture with its file in it, cut by a clip that stands beside it."""
+        shape = "M" + "L".join(" ".join(_pair(corner)) for corner in scan.panel) + "Z"
+        group = self.made("g", {"clip-path": f"url(#clip-{crc32(shape.encode()):08x})"})
+        clip = self.made("clipPath", {"id": f"clip-{crc32(shape.encode()):08x}"})
+        clip.add(self.made("path", {"d": shape}))
+        a, b = scan.step.real, scan.step.imag
+        look = {"width": str(scan.width), "height": str(scan.height), "opacity": number(PALE)}
+        look["transform"] = f"matrix({a:.9g} {b:.9g} {-b:.9g} {a:.9g} {scan.corner.real:.6f} {scan.corner.imag:.6f})"
+        look["xlink:href"] = f"data:{scan.kind};base64,{b64encode(scan.data).decode()}"
+        group.add(clip)
+        group.add(self.made("image", look))
+        return group
 
     def _text(self, text: Text) -> Any:
         runs, anchor = start_runs(text), ""

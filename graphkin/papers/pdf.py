@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, TypeAlias
 from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.font import FAMILY, FOLDER
 from graphkin.drawing.font_widths import start_runs
-from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Primitive, Stroke, Text, walk
+from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Primitive, Scan, Stroke, Text, walk
 from graphkin.drawing.text import Atom, is_italic, parsed
 from graphkin.papers.blocks import (
     Beside,
@@ -185,7 +185,7 @@ def _drawing(drawing: Drawing) -> Data:
 
 
 def _ink(thing: Primitive) -> list[Data]:
-    if isinstance(thing, Group):
+    if isinstance(thing, Group | Scan):  # a handout has no picture under it
         return []
     if isinstance(thing, Text):
         return [

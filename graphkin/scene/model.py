@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Literal
 
+from graphkin.scene.background import Background
 from graphkin.scene.cams import LawCam
 from graphkin.scene.class_tables import Vary
 from graphkin.scene.contacts import Contact, Disc, Gear
@@ -285,7 +286,7 @@ class Mechanism:
     which bars and turning pairs stand among the links.
     ``instead_of`` is the mechanism with cams in whose place this one moves alike at this position, in velocity and
     acceleration.  ``starts`` say where what rolls stands at the scene's own position: the angle of a link's own axis
-    (rad), or the travel (m) of a sliding pair or of a contact by its block.
+    (rad), or the travel (m) of a sliding pair or of a contact by its block.  ``background`` lies under the drawing.
     """
 
     name: str
@@ -315,6 +316,7 @@ class Mechanism:
     gears: tuple[Gear, ...] = ()
     starts: Mapping[str, float] = field(default_factory=dict)
     slots: tuple[CircularSlot, ...] = ()
+    background: Background | None = None
 
     def __hash__(self) -> int:
         return hash((self.name, self.title, tuple(link.name for link in self.links)))

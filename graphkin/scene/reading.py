@@ -200,6 +200,7 @@ _TABLES: tuple[tuple[tuple[str, ...], type[FileTable]], ...] = (
     (("balance",), load_tables.Balance),
     (("flywheel",), load_tables.Flywheel),
     (("sheet",), tables.SheetWishes),
+    (("sheet", "background"), tables.BackgroundFile),
     (("positions",), tables.Positions),
     (("positions", "first", "<polar>"), tables.StrokeStart),
     (("positions", "also", "*", "<polar>"), tables.StrokeStart),

@@ -9,6 +9,7 @@ import cmath
 from collections.abc import Mapping
 
 from graphkin.errors import Problem, SceneError, did_you_mean
+from graphkin.scene.background import background_of
 from graphkin.scene.cam_reading import cams_of
 from graphkin.scene.cams import LawCam
 from graphkin.scene.circular_slots import with_bars
@@ -123,6 +124,7 @@ def resolve(file: SceneTables, name: str, problems: list[Problem], flaws: Flaws)
     if file.masses or file.loads or file.springs or file.balance or file.flywheel:
         places = {n: b.local for n, b in bodies.items()}
         loading = loading_of(file, names, places, (*(s.key for s in slidings), *(p.key for p in pins)), problems)
+    under = background_of(file.sheet.background, fixed, drawn, problems) if file.sheet.background else None
     hopeless = bool(problems) and (bool(drawn) or flaws.under("drawn"))
     drivers = [_driver(d, position, [] if hopeless else problems) for d in driven]
     if positions is not None and drivers and isinstance(drivers[0], AngleDriver) and drivers[0].position:
@@ -160,6 +162,7 @@ def resolve(file: SceneTables, name: str, problems: list[Problem], flaws: Flaws)
         gears=gears,
         starts=starts_of(file, position, contacts) if contacts or gears else {},
         slots=slots,
+        background=under,
     )
     _ask_for_forces(made)
     return made

@@ -301,6 +301,16 @@ PAPERS = {
 
 
 @dataclass(frozen=True)
+class BackgroundFile(FileTable):
+    """A photograph or scan to lie under the mechanism."""
+
+    file: Text = field(metadata=_about("A PNG or JPEG, by its path from the scene file."))
+    points: dict[PointName, Place] = field(
+        metadata=_closed("Two points of the frame or of [drawn], with their pixels [x, y] from the left upper corner.")
+    )
+
+
+@dataclass(frozen=True)
 class SheetWishes(FileTable):
     """Wishes for the drawn sheet; scales are None where graphkin is to choose."""
 
@@ -314,6 +324,9 @@ class SheetWishes(FileTable):
     convention: Convention = "chinese"
     language: Language = "en"
     tools: Tools = field(default=Tools(), metadata=_about("Tools of a pencil drawing.", alias="instrument"))
+    background: BackgroundFile | None = field(
+        default=None, metadata=_about("A photograph or scan under the mechanism, at true scale.")
+    )
 
     @property
     def size(self) -> tuple[float, float]:

@@ -1,0 +1,89 @@
+"""A photograph or scan under the mechanism: its file, and where it lies by two points that it shares with the scene."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from io import BytesIO
+from pathlib import Path
+
+from graphkin.errors import Problem, did_you_mean
+from graphkin.scene.tables import BackgroundFile
+
+__all__ = ["Background", "background_of"]
+
+LARGEST, MOST_PIXELS = 10_000_000, 50_000_000
+KINDS = {"PNG": "image/png", "JPEG": "image/jpeg"}
+
+
+@dataclass(frozen=True)
+class Background:
+    """A picture under the mechanism: the pixel x to the right and y down from its left upper corner lies at
+    ``corner + step (x - iy)`` (m, world axes).  ``data`` is the file as it is, of the media type ``kind``."""
+
+    name: str
+    kind: str
+    width: int
+    height: int
+    corner: complex
+    step: complex
+    data: bytes = field(repr=False)
+
+
+def background_of(
+    table: BackgroundFile, fixed: Mapping[str, complex], drawn: Mapping[str, complex], problems: list[Problem]
+) -> Background | None:
+    """The picture that a file asks for, laid by two points whose places (m) it gives; None where something is wrong."""
+    where = "sheet.background"
+    found = _picture(f"{where}.file", table.file)
+    known = {**drawn, **fixed}
+    wrong = [found] if isinstance(found, Problem) else []
+    if len(table.points) != 2:
+        hint = "two points whose pixels are known set scale and direction"
+        wrong.append(Problem(f"{where}.points", f"found {len(table.points)}", hint))
+    for point in table.points:
+        if point not in known:
+            hint = f"write a point of the frame or of [drawn]; {did_you_mean(point, known)}".rstrip("; ")
+            wrong.append(Problem(f"{where}.points.{point}", "is no point that stays where the picture has it", hint))
+    if not wrong:
+        (p, q), (one, other) = table.points, (complex(x, -y) for x, y in table.points.values())
+        if one == other or known[p] == known[q]:
+            wrong.append(Problem(f"{where}.points", f"{p} and {q} lie at the same place", "name two points apart"))
+    problems += wrong
+    if wrong or isinstance(found, Problem):
+        return None
+    step = (known[q] - known[p]) / (other - one)
+    kind, width, height, data = found
+    return Background(Path(table.file).name, kind, width, height, known[p] - step * one, step, data)
+
+
+def _picture(where: str, file: str) -> tuple[str, int, int, bytes] | Problem:
+    """Media type, width and height in pixels, and the bytes of a picture that can be read."""
+    from PIL import Image, UnidentifiedImageError
+
+    shown = ascii(file)[1:-1][-80:] if not file.isprintable() else file[-80:]
+    try:
+        with open(file, "rb") as stream:
+            data = stream.read(LARGEST + 1)
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+        return Problem(where, f"{shown} cannot be read: {reason}", "name a PNG or JPEG beside the scene")
+    if len(data) > LARGEST:
+        return Problem(where, f"{shown} is larger than {LARGEST // 1_000_000} MB", "save it smaller")
+    hint = "a PNG or JPEG is wanted"
+    try:
+        with warnings.catch_warnings(), Image.open(BytesIO(data), formats=list(KINDS)) as image:
+            warnings.simplefilter("ignore")
+            if image.width * image.height > MOST_PIXELS:
+                found = f"{shown} has {image.width} x {image.height} pixels"
+                return Problem(where, found, f"at most {MOST_PIXELS // 1_000_000} million are possible")
+            if image.getexif().get(0x0112, 1) != 1:
+                return Problem(where, f"{shown} is stored turned, and only a note in it says so", "save it upright")
+            image.load()
+            return KINDS[str(image.format)], image.width, image.height, data
+    except Image.DecompressionBombError:
+        return Problem(where, f"{shown} has too many pixels", f"{MOST_PIXELS // 1_000_000} million are possible")
+    except (OSError, SyntaxError, ValueError, EOFError) as error:
+        said = "is no picture that can be read" if isinstance(error, UnidentifiedImageError) else "is damaged"
+        return Problem(where, f"{shown} {said}", hint)
