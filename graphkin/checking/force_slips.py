@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from graphkin.scene.loads import LinkMass, Loading, LoadOn
+from graphkin.scene.loads import LinkMass, Loading, LoadOn, SpringOn
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import Forces, Motion, forces_of
 from graphkin.words import Phrase
@@ -56,9 +56,10 @@ def _slips(motion: Motion) -> Iterator[tuple[Phrase, float, Loading]]:
     weights = tuple(_weight(mass, mass.mass * down) for mass in masses) if down else ()
 
     def with_all(
-        masses: Sequence[LinkMass] = masses, weights: Sequence[LoadOn] = weights, loads: Sequence[LoadOn] = loads
-    ) -> Loading:
-        return Loading(0j, tuple(masses), (*weights, *loads), loading.balance, springs=loading.springs)
+        masses: Sequence[LinkMass] = masses, weights: Sequence[LoadOn] = weights, loads: Sequence[LoadOn] = loads,
+        springs: Sequence[SpringOn] = loading.springs,
+    ) -> Loading:  # fmt: skip
+        return Loading(0j, tuple(masses), (*weights, *loads), loading.balance, springs=tuple(springs))
 
     some = [(mass.link,) for mass in masses]
     every = [tuple(mass.link for mass in masses)] if len(masses) > 1 else []
@@ -87,6 +88,13 @@ def _slips(motion: Motion) -> Iterator[tuple[Phrase, float, Loading]]:
         yield phrase, 0.1 / len(loads), with_all(loads=others)
         turned_round = [*others, replace(load, size=-load.size)]
         yield Phrase("slip load reversed", (load.name,)), 0.06 / len(loads), with_all(loads=turned_round)
+    for spring in loading.springs:
+        besides, each = [one for one in loading.springs if one is not spring], 1.0 / len(loading.springs)
+        yield Phrase("slip spring left out", (spring.name,)), 0.1 * each, with_all(springs=besides)
+        pushing = replace(spring, rate=-spring.rate, preload=-spring.preload)
+        yield Phrase("slip spring reversed", (spring.name,)), 0.06 * each, with_all(springs=[*besides, pushing])
+        whole = replace(spring, free=0.0)
+        yield Phrase("slip free length", (spring.name,)), 0.1 * each, with_all(springs=[*besides, whole])
     for load in idle:
         yield Phrase("slip load not here", (load.name,)), 0.15 / len(idle), with_all(loads=(*loads, load))
 

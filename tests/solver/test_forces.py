@@ -134,6 +134,10 @@ def residues(scene):
             act(load.link, forces.forces[f"P_{load.name}"], pose.z + pose.u * load.at)
         else:
             act(load.link, 0j, None, forces.moments[f"P_{load.name}"])
+    for spring in mechanism.loading.springs:
+        for (link, own), sign in zip(spring.ends, (1, -1), strict=True):
+            pose = motion.poses[link]
+            act(link, sign * forces.forces[f"P_{spring.name}"], pose.z + pose.u * own)
     for driver in mechanism.drivers:
         angle = hasattr(driver, "relative_to")
         link = driver.key.split("/")[0]
