@@ -13,10 +13,10 @@ from typing import Literal
 from graphkin.api.arguments import asked_symbols
 from graphkin.checking.cells import Way, is_blank, read_cell, read_way
 from graphkin.checking.printed import Printed
-from graphkin.checking.spelling import Spelling, plain_text, unit_factor
 from graphkin.errors import CallError, Problem
 from graphkin.files import path_of
 from graphkin.scene.model import Mechanism
+from graphkin.scene.spelling import Spelling, plain_text, unit_factor
 from graphkin.scene.symbol import KINDS, Symbol
 
 __all__ = ["Answers", "AnswersLike", "Unread", "as_answers", "table_of", "with_points"]
@@ -166,7 +166,7 @@ class _Columns:
 
 
 def _columns(scene: Mechanism, heads: Sequence[str], name: str, problems: list[Problem]) -> _Columns:
-    spelling = Spelling(scene)
+    spelling = Spelling.of(scene)
     values: dict[int, Symbol] = {}
     units: dict[int, str] = {}
     ways: dict[int, Symbol] = {}

@@ -9,9 +9,9 @@ from typing import Any
 
 from graphkin.api.answers import Answers
 from graphkin.checking.audit import Judged
-from graphkin.checking.spelling import Spelling
 from graphkin.errors import CallError, Problem
 from graphkin.scene.model import Mechanism
+from graphkin.scene.spelling import Spelling
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase, say
 
@@ -46,7 +46,7 @@ def scheme_of(scene: Mechanism, given: Mapping[str, float] | None) -> Scheme | N
     weights = given if given is not None else scene.grading
     if not weights:
         return None
-    spelling = Spelling(scene)
+    spelling = Spelling.of(scene)
     parts: dict[str, float] = {}
     symbols: dict[Symbol, float] = {}
     problems = []

@@ -11,7 +11,7 @@ import re
 from dataclasses import dataclass
 
 from graphkin.checking.printed import Printed, stated
-from graphkin.checking.spelling import plain_text, unit_factor
+from graphkin.scene.spelling import plain_text, unit_factor
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Units
 

@@ -11,6 +11,7 @@ from graphkin.errors import Problem, did_you_mean
 from graphkin.scene.model import NamedPositions, OnStroke, PinInSlot, SlidingPair, StatedValues
 from graphkin.scene.names import Names
 from graphkin.scene.reading import path_name
+from graphkin.scene.spelling import Spelling
 from graphkin.scene.symbol import Symbol, missing_names
 from graphkin.scene.tables import DrivenSlide, Positions, SceneTables, StrokeStart, Units
 
@@ -74,12 +75,13 @@ def published(stated: Iterable[StatedValues], units: Units) -> dict[Symbol, floa
 def stated_values(file: SceneTables, names: Names, problems: list[Problem]) -> tuple[StatedValues, ...]:
     """All values that somebody states: ``[printed]``, ``[[printed_rows]]``, and the file of ``[printed_table]``."""
     known = _names_of(file.positions)
+    spelling = Spelling.by_link(names.points, file.units)
     by = file.printed.get("by", "drawing")
     if by not in BY:
         problems.append(Problem("printed.by", f"found {by!r:.40}", 'one of "drawing", "computation" is possible'))
         by = "drawing"
     found = []
-    own = _texts("printed", file.printed, names, known, problems)
+    own = _texts("printed", file.printed, names, known, spelling, problems)
     if own:
         found.append(StatedValues(None, own, _how(by)))
     for number, row in enumerate(file.printed_rows, 1):
@@ -96,7 +98,7 @@ def stated_values(file: SceneTables, names: Names, problems: list[Problem]) -> t
         if how not in BY:
             problems.append(Problem(f"{where}.by", f"found {how!r:.40}", 'one of "drawing", "computation" is possible'))
             continue
-        found.append(StatedValues(at, _texts(where, row, names, known, problems), _how(how)))
+        found.append(StatedValues(at, _texts(where, row, names, known, spelling, problems), _how(how)))
     if file.printed_table is not None:
         found.append(StatedValues(None, {}, file.printed_table.by, file.printed_table.file))
     return tuple(found)
@@ -107,16 +109,23 @@ def _how(by: Any) -> Literal["drawing", "computation"]:
 
 
 def _texts(
-    table: str, values: Mapping[str, Stated], names: Names, known: Sequence[str], problems: list[Problem]
-) -> dict[Symbol, tuple[str, ...]]:
+    table: str, values: Mapping[str, Stated], names: Names, known: Sequence[str], spelling: Spelling,
+    problems: list[Problem],
+) -> dict[Symbol, tuple[str, ...]]:  # fmt: skip
+    """Numbers as they are written, by symbol.  A name that is no symbol may be one as people spell it (``ω₃``)."""
     found: dict[Symbol, tuple[str, ...]] = {}
     for text, value in values.items():
         if text in ("by", "at"):
             continue
         where = path_name((*table.split("."), text))
         symbol = _symbol(where, text, names, known)
+        meant = spelling.symbol(text) if isinstance(symbol, Problem) else None
+        if meant is not None:
+            symbol = _symbol(where, str(meant), names, known)
         if isinstance(symbol, Problem):
             problems.append(symbol)
+        elif symbol in found:
+            problems.append(Problem(where, f"{symbol} is given twice", "give it once"))
         elif not isinstance(value, int | float | str):
             if symbol.is_vector:
                 found[symbol] = tuple(map(digits_of, value))

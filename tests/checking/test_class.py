@@ -9,9 +9,10 @@ import pytest
 
 import graphkin
 from graphkin.checking.cells import read_cell
-from graphkin.checking.spelling import Spelling
 from graphkin.errors import CallError
 from graphkin.scene import mechanism_of
+from graphkin.scene.source import written
+from graphkin.scene.spelling import Spelling
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Units
 from tests.command import run
@@ -42,12 +43,12 @@ def table(folder, text, **more):
     ],
 )  # fmt: skip
 def test_a_symbol_is_read_as_people_spell_it(text, symbol):
-    assert symbol == str(Spelling(mechanism_of(SIXBAR)).symbol(text))
+    assert symbol == str(Spelling.of(mechanism_of(SIXBAR)).symbol(text))
 
 
 @pytest.mark.parametrize("text", ["name", "note", "student", "score", "v_Q", "id", "at"])
 def test_a_word_that_names_nothing_of_the_scene_is_no_symbol(text):
-    assert Spelling(mechanism_of(SIXBAR)).symbol(text) is None
+    assert Spelling.of(mechanism_of(SIXBAR)).symbol(text) is None
 
 
 @pytest.mark.parametrize(
@@ -211,3 +212,17 @@ def test_the_tables_of_a_class_are_written_in_both_languages(tmp_path, language)
     (row,) = csv.DictReader((tmp_path / "students.csv").read_text("utf-8-sig").splitlines())
     heads = {"en": ("total", "of"), "zh": ("总分", "满分")}[language]
     assert ("5", "10") == tuple(row[head] for head in heads)
+
+
+@pytest.mark.parametrize(
+    ("text", "symbol"), [("ω₃", "omega_3"), ("omega3", "omega_3"), ("v_B3", "v_B@3"), ("vD", "v_D"), ("v_D", "v_D")]
+)
+def test_printed_values_go_by_the_names_that_people_write(text, symbol):
+    scene = {**written(SIXBAR)[0], "printed": {text: 1.0}}
+    assert [symbol] == [str(one) for one in mechanism_of(scene).printed]
+
+
+def test_a_quantity_printed_under_two_names_is_said():
+    scene = {**written(SIXBAR)[0], "printed": {"omega_3": 1.0, "ω3": 2.0}}
+    with pytest.raises(graphkin.SceneError, match="omega_3 is given twice"):
+        mechanism_of(scene)

@@ -8,9 +8,8 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import KINDS, PointRef, Symbol
@@ -47,23 +46,26 @@ def plain_text(text: str) -> str:
 
 @dataclass(frozen=True)
 class Spelling:
-    """Reads names of quantities of one scene."""
+    """Reads names of quantities of one scene: its points, each with the links that own it, its links with the frame,
+    and its units."""
 
-    scene: Mechanism
+    points: Mapping[str, frozenset[str]]
+    links: frozenset[str]
+    units: Units
 
-    @cached_property
-    def _points(self) -> dict[str, set[str]]:
-        """The links that own each point."""
-        scene = self.scene
-        owners = {p: {scene.frame.name} for p in scene.frame.points}
-        for link in scene.links:
-            for point in link.points:
-                owners.setdefault(point, set()).add(link.name)
-        return owners
+    @classmethod
+    def of(cls, scene: Mechanism) -> Spelling:
+        moving = {link.name: tuple(link.points) for link in scene.links}
+        return cls.by_link({scene.frame.name: tuple(scene.frame.points), **moving}, scene.units)
 
-    @cached_property
-    def _links(self) -> set[str]:
-        return {self.scene.frame.name, *(link.name for link in self.scene.links)}
+    @classmethod
+    def by_link(cls, points: Mapping[str, Iterable[str]], units: Units) -> Spelling:
+        """From the points of each link, the frame's included."""
+        owners: dict[str, frozenset[str]] = {}
+        for link, names in points.items():
+            for name in names:
+                owners[name] = owners.get(name, frozenset()) | {link}
+        return cls(owners, frozenset(points), units)
 
     def head(self, text: str) -> tuple[str, str]:
         """The name in a head and its unit, "" if none is written: ``v_C (m/s)``, ``ω3 [rad/s]``, ``v_C/(mm·s⁻¹)``."""
@@ -75,7 +77,7 @@ class Spelling:
                 unit = unit.strip("() ")
                 symbol = self.symbol(name)
                 if (symbol is not None or pattern is _HEAD_UNIT) and (
-                    pattern is _HEAD_UNIT or (symbol and unit_factor(unit, symbol, self.scene.units))
+                    pattern is _HEAD_UNIT or (symbol and unit_factor(unit, symbol, self.units))
                 ):
                     return name, unit
         return plain, ""
@@ -114,8 +116,8 @@ class Spelling:
                     yield self._usual(Symbol.parse(f"{form} at {place}" if place else form))
 
     def _of_kind(self, kind: str, rest: str) -> Iterator[str]:
-        points = "|".join(sorted(map(re.escape, self._points), key=len, reverse=True))
-        links = "|".join(sorted(map(re.escape, self._links), key=len, reverse=True))
+        points = "|".join(sorted(map(re.escape, self.points), key=len, reverse=True))
+        links = "|".join(sorted(map(re.escape, self.links), key=len, reverse=True))
         ways = {
             "point": [rf"({points})"],
             "points": [rf"({points})", rf"({points})@?({links})", rf"({points})/?({points})",
@@ -141,7 +143,7 @@ class Spelling:
                 yield f"{kind}_{self._joined(kind, [n for n in names if n])}"
 
     def _own_case(self, name: str) -> str | None:
-        known = [*self._points, *self._links]
+        known = [*self.points, *self.links]
         if name in known:
             return name
         alike = [k for k in known if k.lower() == name.lower()]
@@ -152,7 +154,7 @@ class Spelling:
             return KINDS[kind].sign.join(names)
         refs: list[str] = []
         for name in names:
-            if name in self._points and not (name in self._links and refs and "@" not in refs[-1]):
+            if name in self.points and not (name in self.links and refs and "@" not in refs[-1]):
                 refs.append(name)
             else:
                 refs[-1] += f"@{name}"
@@ -160,8 +162,8 @@ class Spelling:
 
     def _exists(self, symbol: Symbol) -> bool:
         refs = [r for r in (symbol.of, symbol.to) if r]
-        return all(r.point in self._points for r in refs) and all(
-            link in self._links or link in self._points for link in symbol.links()
+        return all(r.point in self.points for r in refs) and all(
+            link in self.links or link in self.points for link in symbol.links()
         )
 
     def _usual(self, symbol: Symbol) -> Symbol:
@@ -171,7 +173,7 @@ class Spelling:
             return symbol
 
         def plain(ref: PointRef | None) -> PointRef | None:
-            own = ref is not None and ref.link in self._points.get(ref.point, ())
+            own = ref is not None and ref.link in self.points.get(ref.point, frozenset())
             return PointRef(ref.point) if ref is not None and own else ref
 
         return replace(symbol, of=plain(of), to=plain(to))
