@@ -105,13 +105,34 @@ def _choose_sign(structure: Structure, i: int, dyad: Dyad, drive: Drive, forms: 
             Problem(
                 named_with_contact(structure, dyad),
                 "they do not reach each other in the scene's own position",
-                _nearest(structure, i, drive, forms),
+                _other_way(structure, i, drive, forms) or _nearest(structure, i, drive, forms),
             ),
         )
     if not abs(solved.sine[0]) >= states[0].singular[0]:
         return np.array(1.0)
     candidates = [_places(structure, i, dyad.links, state) for state in states]
     return np.array((1.0, -1.0)[pick(scene, dyad.links, candidates, 0).index])
+
+
+def _other_way(structure: Structure, i: int, drive: Drive, forms: Mapping[int, Array]) -> str:
+    """How an earlier dyad must lie for everything up to group ``i`` to be assembled; "" where none tells it alone."""
+    for k in reversed(range(i)):
+        dyad = structure.elements[k]
+        if isinstance(dyad, Cluster):
+            return ""  # where a larger group lies would be another question
+        if not isinstance(dyad, Dyad) or dyad.is_two_lines:
+            continue
+        given = {n: f[None] for n, f in forms.items()} | {i: np.ones(1)}
+        now = _places(structure, k, dyad.links, positions(structure, drive, given, i, rates=False))
+        state = positions(structure, drive, given | {k: -given[k]}, i + 1, rates=False)
+        met = [g.discriminant[0] >= -TOUCH for g in state.groups.values() if isinstance(g, DyadSolution)]
+        places = _places(structure, k, dyad.links, state)
+        if all(met) and places:
+            point = max(places, key=lambda p: abs(places[p] - now[p]))
+            z = places[point] / structure.scene.units.metres
+            which = f"with {named_with_contact(structure, dyad)} in their other assembly they do"
+            return f"{which}: write {point} = [{z.real:.6g}, {z.imag:.6g}] in [sketch]"
+    return ""
 
 
 def _nearest(structure: Structure, i: int, drive: Drive, forms: Mapping[int, Array]) -> str:
