@@ -59,6 +59,8 @@ def _mechanism(sheet: Sheet, steps: list[Step]) -> dict[str, int]:
     for driver in sheet.scene.drivers:
         born.setdefault(f"angle-{driver.key}", last)
     born[f"link-{sheet.scene.frame.name}"] = steps[0].number
+    for spring in sheet.scene.loading.springs:
+        born[f"spring-{spring.name}"] = max(born.get(f"link-{name}", last) for name in spring.links)
     for driver in sheet.scene.drivers:
         for part in ("", "-alpha"):
             born[f"driver-{driver.key.replace('/', '-')}{part}"] = born.get(f"link-{driver.key.split('/')[0]}", last)
