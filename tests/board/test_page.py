@@ -140,6 +140,18 @@ def test_the_form_changes_the_text(page) -> None:
     agrees(page)
 
 
+def test_a_scale_is_wished_in_the_form_and_left_to_the_program_again(page) -> None:
+    open_scene(page)
+    page.click("[data-tab=form]")
+    page.fill("[name='sheet.velocity_scale']", "0.1")
+    page.keyboard.press("Enter")
+    until(page, "document.getElementById('board').board.editor.text.includes('velocity_scale = 0.1')")
+    agrees(page)
+    page.fill("[name='sheet.velocity_scale']", "")
+    page.keyboard.press("Enter")
+    until(page, "!document.getElementById('board').board.editor.text.includes('velocity_scale')")
+
+
 def place_of(page, name: str) -> tuple[float, float]:
     return tuple(until(
         page,

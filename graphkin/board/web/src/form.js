@@ -51,6 +51,13 @@ export function sceneForm(parent, { word, change }) {
     }
     return [field(path, value)];
   };
+  const scales = ["length_scale", "velocity_scale", "acceleration_scale", "force_scale"];
+  const wishes = (sheet) => h("fieldset", {}, h("legend", {}, word("scales")), ...scales.map((key) => {
+    const id = `field-scale-${key}`;
+    const put = (event) => change({ [`sheet.${key}`]: event.target.value === "" ? null : Number(event.target.value) });
+    const input = h("input", { id, name: `sheet.${key}`, type: "number", step: "any", min: "0", value: String(sheet?.[key] ?? ""), placeholder: word("chosen"), onchange: put });
+    return h("div.field", {}, h("label", { for: id }, word(key)), input);
+  }));
   let before = "";
   return {
     show(form) {
@@ -62,7 +69,8 @@ export function sceneForm(parent, { word, change }) {
       const tables = Object.entries(form).filter(([key]) => !plain.some(([name]) => name === key));
       const made = [
         h("fieldset", {}, h("legend", {}, word("scene")), ...plain.flatMap(([key, value]) => [field(key, value)])),
-        ...tables.map(([key, value]) => h("fieldset", {}, h("legend", {}, key), ...fields(key, value))),
+        ...tables.map(([key, value]) => h("fieldset", {}, h("legend", {}, key), ...fields(key, key === "sheet" ? without(value, scales) : value))),
+        wishes(form.sheet),
       ];
       parent.replaceChildren(...made);
       if (focus?.startsWith("field-")) document.getElementById(focus)?.focus();
@@ -80,3 +88,5 @@ export function sceneForm(parent, { word, change }) {
     },
   };
 }
+
+const without = (table, keys) => Object.fromEntries(Object.entries(table).filter(([key]) => !keys.includes(key)));
