@@ -151,11 +151,13 @@ def _drawn(sheet: Sheet, lever: Lever, letters: Letters, panel: Box, origin: com
             again = sum(abs(at - z) < 0.5 and abs(along - e) < 0.1 for z, e in taken)
             taken.append((at, along))
             tip = at + along * (ARROW + 4.0 * again)
-            name = f"lever-{row.symbol.id}{f'-{n + 1}' if len(ends_of) > 1 else ''}{tag}"
+            which = f"{row.symbol.id}-opposite" if row.turned else row.symbol.id
+            name = f"lever-{which}{f'-{n + 1}' if len(ends_of) > 1 else ''}{tag}"
             shapes = arrow(at.conjugate(), tip.conjugate(), RESULTANT if found else COMPONENT, colour)
             arrows.append(Group(shapes, id=name, classes=("acting",)))
             markup = force_letters(letters.convention, row.symbol)
             bold = rf"\mathbf{{{markup[0]}}}{markup[1:]}" if row.pair is None else f"{markup}/l"
+            bold = f"−{bold}" if row.turned else bold
             text = Text(0j, symbol(bold, 3.0), "start", colour, f"label-{name}", ("label",))
             labels.append(Label(text, (at.conjugate(), tip.conjugate()), rank=0))
         if row.pair is None and abs(row.arm) > SHORT and ends_of:
@@ -165,7 +167,7 @@ def _drawn(sheet: Sheet, lever: Lever, letters: Letters, panel: Box, origin: com
             if abs(foot - row.at) > SHORT:
                 lines.append(Line(foot.conjugate(), row.at.conjugate(), strokes.DIRECTION))
             thin.append(Group(tuple(lines), classes=("arm",)))
-            arm = force_letters(letters.convention, Symbol("arm", name=str(row.symbol)))
+            arm = force_letters(letters.convention, Symbol("arm", name=str(row.symbol))) + ("'" if row.turned else "")
             label = Text(0j, symbol(arm, 2.8), "start", strokes.GREY, classes=("label",))
             labels.append(Label(label, (0j, foot.conjugate()), rank=2))
     thin.append(Circle(0j, 0.9, fill=strokes.WHITE, stroke=strokes.OUTLINE))
@@ -243,6 +245,7 @@ def _row(
     arm = on_paper(abs(row.arm))
     sign = "−" if row.moment < 0 else ""
     whole = f"{sign}{written(product(size, arm, carried=DIGITS))}" if row.arm else "0"
-    name = f"${force_letters(letters.convention, row.symbol)}$" + (" / $l$" if row.pair is not None else "")
+    opposite = "−" if row.turned else ""
+    name = f"{opposite}${force_letters(letters.convention, row.symbol)}$" + (" / $l$" if row.pair is not None else "")
     cells: list[tuple[Run, ...]] = [rich(text, SIZE) for text in (name, written(size), written(arm), whole)]
     return [Text(complex(x, y), runs) for x, runs in zip(columns, cells, strict=True)]
