@@ -181,10 +181,14 @@ def given(lesson: Lesson) -> Iterator[Paragraph]:
     if asked:
         yield Paragraph(_labelled(lesson, "find", asked))
     yield from reach(lesson)
-    if scene.source:
-        names = languages(lesson.language)
+    names = languages(lesson.language)
+    own = {each: scene.source_in(each).replace("$", "$$") for each in names}
+    if len(set(own.values())) > 1:
+        told = ((each, word("source", each) + word("colon", each) + text) for each, text in own.items() if text)
+        yield Paragraph(tuple(told), small=True)
+    elif own[names[0]]:
         label = " ".join(word("source", each) for each in names) + word("colon", names[-1])
-        yield Paragraph(spoken(label + scene.source.replace("$", "$$"), lesson.language), small=True)
+        yield Paragraph(spoken(label + own[names[0]], lesson.language), small=True)
 
 
 def _guide(lesson: Lesson, guide: PlacedGuide, language: str) -> str:

@@ -134,7 +134,8 @@ def _named(source: Source, name: str) -> dict[str, Any]:
     title, zh = (_DATA.sub("", str(source.get(key, ""))) for key in ("title", "title_zh"))
     named = {"title": f"{title} (no. {name})"[:300], **({"title_zh": f"{zh}（第 {name} 题）"[:300]} if zh else {})}
     # where it comes from, published values and scales belong to the problem as it was
-    kept = {k: v for k, v in source.items() if k not in ("printed", "source", "title", "title_zh", "sheet", "vary")}
+    own = ("printed", "source", "source_zh", "title", "title_zh", "sheet", "vary")
+    kept = {k: v for k, v in source.items() if k not in own}
     level = (source.get("vary") or {}).get("level")
     if level:  # it says what a sheet gives, too
         kept["vary"] = {"level": level}

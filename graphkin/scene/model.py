@@ -317,6 +317,7 @@ class Mechanism:
     starts: Mapping[str, float] = field(default_factory=dict)
     slots: tuple[CircularSlot, ...] = ()
     background: Background | None = None
+    source_zh: str = ""
 
     def __hash__(self) -> int:
         return hash((self.name, self.title, tuple(link.name for link in self.links)))
@@ -324,6 +325,10 @@ class Mechanism:
     def title_in(self, language: str) -> str:
         """The title in a language: the Chinese one where there is one, else the one there is."""
         return self.title_zh if language == "zh" and self.title_zh else self.title
+
+    def source_in(self, language: str) -> str:
+        """Where the problem comes from, in a language: as the title."""
+        return self.source_zh if language == "zh" and self.source_zh else self.source
 
     @cached_property
     def by_name(self) -> Mapping[str, PlacedLink]:

@@ -317,7 +317,7 @@ def _about_key(loc: Path) -> str:
     if key in top and len(loc) > 1:
         return (
             f"{key} belongs at the top of the file, before the first table"
-            if key in ("title", "title_zh", "source", "find")
+            if key in ("title", "title_zh", "source", "source_zh", "find")
             else f"[{key}] is a table of its own"
         )
     if loc[0] == "driver" and key == "slide":

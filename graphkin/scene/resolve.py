@@ -162,6 +162,7 @@ def resolve(file: SceneTables, name: str, problems: list[Problem], flaws: Flaws)
         gears=gears,
         starts=starts_of(file, position, contacts) if contacts or gears else {},
         slots=slots,
+        source_zh=file.source_zh,
         background=under,
     )
     _ask_for_forces(made)

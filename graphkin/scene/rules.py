@@ -28,7 +28,7 @@ __all__ = [
 def unwritable_texts(file: SceneTables) -> list[Problem]:
     """Texts that cannot be written on one line of a sheet."""
     found = []
-    for key in ("title", "title_zh", "source"):
+    for key in ("title", "title_zh", "source", "source_zh"):
         text = getattr(file, key)
         if any(unicodedata.category(c) in ("Cc", "Cs", "Cn", "Zl", "Zp") for c in text):
             found.append(Problem(key, "holds a control character or a line break", "write one line of plain text"))

@@ -384,6 +384,7 @@ class SceneTables(FileTable):
     title: Text = field(default="", metadata=_about("Title in English."))
     title_zh: Text = field(default="", metadata=_about("Title in Chinese."))
     source: Text = field(default="", metadata=_about("Where the problem comes from."))
+    source_zh: Text = field(default="", metadata=_about("The same in Chinese."))
     find: Symbols | None = field(
         default=None,
         metadata=_about(

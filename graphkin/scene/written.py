@@ -244,7 +244,8 @@ def as_mapping(scene: Mechanism) -> dict[str, Any]:
     for slot in (s for s in scene.slots if not s.block):
         of = next(n for n in scene.holders[slot.point] if n not in (slot.bar, slot.on))
         pins.setdefault(slot.point, {"of": of, "in": []})["in"].append(f"{slot.on}.{slot.name}")
-    made: dict[str, Any] = {"title": scene.title, "title_zh": scene.title_zh, "source": scene.source}
+    made: dict[str, Any] = {"title": scene.title, "title_zh": scene.title_zh, "source": scene.source,
+                            "source_zh": scene.source_zh}  # fmt: skip
     made["units"] = {"length": scene.units.length}
     if scene.units.speed:
         made["units"]["speed"] = scene.units.speed

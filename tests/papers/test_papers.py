@@ -8,6 +8,7 @@ import subprocess
 
 import pytest
 
+import graphkin
 from graphkin.api.checked import check
 from graphkin.api.handouts import handout
 from graphkin.drawing.primitives import Line, Text, walk
@@ -17,6 +18,7 @@ from graphkin.papers.page import document_page
 from graphkin.papers.problem import problem
 from graphkin.papers.solution import answer_key, key_rows, solution
 from graphkin.scene import library, mechanism_of
+from graphkin.scene.source import written
 from tests import EVERYTHING
 
 
@@ -199,3 +201,13 @@ def test_what_nothing_asked_for_needs_is_left_out_and_every_paper_says_so():
     lesson = handout("shaper-scheme-2", find=["omega_4"], formats=("pdf",)).lesson
     for paper in (problem, solution, answer_key):
         assert "nothing asked for needs it: links 5, 6" in _words(paper(lesson))
+
+
+def test_the_source_is_said_in_the_language_of_the_paper():
+    scene = {**written("slider-crank-offset")[0], "source": "a book", "source_zh": "课程设计指导书"}
+    pages = {
+        each: graphkin.handout(scene, language=each, formats=("html",), positions=1).files["problem.html"].decode()
+        for each in ("en", "zh", "both")
+    }
+    assert [True, False, True] == ["a book" in pages[each] for each in pages]
+    assert [False, True, True] == ["课程设计指导书" in pages[each] for each in pages]
