@@ -66,22 +66,23 @@ def answer(desk: Desk, message: object) -> dict[str, Any]:
             raise CallError(Problem("question", f'"{name!s:.40}"', did_you_mean(f"{name!s:.40}", QUESTIONS)))
         return {**head, "ok": True, **QUESTIONS[name](desk, message)}
     except GraphkinError as error:
-        return {**head, "ok": False, **_told(error, message)}
+        return {**head, "ok": False, **_told(desk, error, message)}
     except (RecursionError, MemoryError, OverflowError):
-        return {**head, "ok": False, **_told(CallError(Problem("the scene", "is too large to be shown")), message)}
+        huge = CallError(Problem("the scene", "is too large to be shown"))
+        return {**head, "ok": False, **_told(desk, huge, message)}
 
 
-def _told(error: GraphkinError, message: object) -> dict[str, Any]:
+def _told(desk: Desk, error: GraphkinError, message: object) -> dict[str, Any]:
     text = message.get("text") if isinstance(message, Mapping) else ""
     text = text if isinstance(text, str) else ""
     found = [
         {"text": str(problem), "line": line_of(problem, text) if isinstance(error, SceneError) or text else 0}
         for problem in error.problems[:100]
     ]
-    return {"problems": found, "kind": type(error).__name__, **_draft_of(text, message)}
+    return {"problems": found, "kind": type(error).__name__, **_draft_of(desk, text, message)}
 
 
-def _draft_of(text: str, message: object) -> dict[str, Any]:
+def _draft_of(desk: Desk, text: str, message: object) -> dict[str, Any]:
     """What can be shown of a scene that does not move yet: its sketch and its mobility."""
     language = message.get("language") if isinstance(message, Mapping) else None
     try:
@@ -91,6 +92,7 @@ def _draft_of(text: str, message: object) -> dict[str, Any]:
     told: dict[str, Any] = {"draft": building.draft(made), "form": made}
     trial = building.trial_driver(made)
     try:
+        made = pictures.beside(parsed(text), desk.shelf.folder)
         scene = resolved({**made, "driver": trial} if trial else made, "scene")[1]
         count = 0 if trial else len(scene.drivers)
         spoken = language if language in LANGUAGES else scene.sheet.language
@@ -113,8 +115,8 @@ def _name(message: Message) -> str:
     return name if isinstance(name, str) else ""
 
 
-def _scene(message: Message) -> Mechanism:
-    return pictures.scene_of(_text(message), safe_name(_name(message).removesuffix(".toml")))
+def _scene(desk: Desk, message: Message) -> Mechanism:
+    return pictures.scene_of(_text(message), safe_name(_name(message).removesuffix(".toml")), desk.shelf.folder)
 
 
 def _at(message: Message) -> dict[str, float] | None:
@@ -131,7 +133,7 @@ def _finite(value: object) -> bool:
 
 
 def _show(desk: Desk, message: Message) -> dict[str, Any]:
-    scene = _scene(message)
+    scene = _scene(desk, message)
     wishes = pictures.Wishes.of(message)
     quick = message.get("quick") is True
     told = pictures.shown(scene, _at(message), wishes, quick)
@@ -143,7 +145,7 @@ def _pull(desk: Desk, message: Message) -> dict[str, Any]:
     x, y, point = message.get("x"), message.get("y"), message.get("point")
     if not _finite(x) or not _finite(y) or not isinstance(point, str):
         raise CallError(Problem("pull", f"found {point!r:.40} to {x!r:.20}, {y!r:.20}", "name a point and a place"))
-    scene, at, text = _scene(message), _at(message), _text(message)
+    scene, at, text = _scene(desk, message), _at(message), _text(message)
     wishes = pictures.Wishes.of(message)
     raw = parsed(text)
     to = complex(float(x), float(y)) * scene.units.metres  # type: ignore[arg-type]
@@ -155,7 +157,7 @@ def _pull(desk: Desk, message: Message) -> dict[str, Any]:
     for key, value in found.changes.items():
         if problem := put(raw, key, value):
             raise CallError(problem)
-    there = resolved(raw, "scene")[1] if found.changes else scene
+    there = resolved(pictures.beside(raw, desk.shelf.folder), "scene")[1] if found.changes else scene
     return {**pictures.shown(there, now, wishes, quick=True), "changes": found.changes}
 
 
@@ -175,7 +177,7 @@ def _build(desk: Desk, message: Message) -> dict[str, Any]:
 
 def _keep(desk: Desk, message: Message) -> dict[str, Any]:
     """The position shown, written into the scene as its own, with its sketch."""
-    scene, text = _scene(message), _text(message)
+    scene, text = _scene(desk, message), _text(message)
     told = pictures.shown(scene, _at(message), pictures.Wishes(("mechanism",)), quick=True)
     changes: dict[str, Any] = {}
     raw = parsed(text)
@@ -222,7 +224,7 @@ def _shelf(desk: Desk, message: Message) -> dict[str, Any]:
 
 def _thumbnail(desk: Desk, message: Message) -> dict[str, Any]:
     name = _name(message)
-    scene = pictures.scene_of(desk.shelf.text(name), safe_name(name.removesuffix(".toml")))
+    scene = pictures.scene_of(desk.shelf.text(name), safe_name(name.removesuffix(".toml")), desk.shelf.folder)
     language = message.get("language") if message.get("language") in LANGUAGES else None
     return {"name": name, "svg": pictures.thumbnail(scene, language), "title": scene.title_in(language or "en")}
 
@@ -241,14 +243,14 @@ def _diagrams(desk: Desk, message: Message) -> dict[str, Any]:
 
     asked = message.get("find")
     find = [str(one) for one in asked] if isinstance(asked, list) and asked else None
-    swept = sweep(_scene(message), find=find, language=pictures.Wishes.of(message).language)
+    swept = sweep(_scene(desk, message), find=find, language=pictures.Wishes.of(message).language)
     return {"figures": {name: figure.content("svg").decode() for name, figure in islice(swept.figures.items(), 12)}}
 
 
 def _race(desk: Desk, message: Message) -> dict[str, Any]:
     from graphkin.api.studied import speed_accuracy
 
-    found = speed_accuracy(_scene(message), repeats=1, language=pictures.Wishes.of(message).language)
+    found = speed_accuracy(_scene(desk, message), repeats=1, language=pictures.Wishes.of(message).language)
     return {"figures": {name: figure.content("svg").decode() for name, figure in found.figures.items()}}
 
 
@@ -258,7 +260,7 @@ _TYPES = {"svg": "image/svg+xml", "pdf": "application/pdf", "png": "image/png", 
 
 def _export(desk: Desk, message: Message) -> dict[str, Any]:
     """A figure, the papers, a set of variants, or the scene, as a file to be kept."""
-    kind, scene = message.get("kind"), _scene(message)
+    kind, scene = message.get("kind"), _scene(desk, message)
     wishes = pictures.Wishes.of(message)
     if kind in ("svg", "pdf", "png", "dxf"):
         from graphkin import solver

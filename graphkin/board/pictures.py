@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -19,17 +20,18 @@ from graphkin.construction import execute, plan
 from graphkin.construction.sheet import DiagramName, Scales, Sheet
 from graphkin.drawing.conventions import letters_of
 from graphkin.drawing.in_motion import figure_in_motion
-from graphkin.errors import GraphkinError, Unsolvable
+from graphkin.errors import GraphkinError, Problem, SceneError, Unsolvable
 from graphkin.papers.html import figure_svg, words_html
 from graphkin.papers.lesson import Speaker
 from graphkin.scene.model import AngleDriver, Mechanism, SlideDriver
-from graphkin.scene.source import mechanism_of_text
+from graphkin.scene.source import parsed
+from graphkin.scene.written import resolved
 from graphkin.solver import Motion
 from graphkin.solver.driver_range import DriverRange, driver_range
 from graphkin.structure import Structure, mobility_of
 from graphkin.words import Phrase, languages, say
 
-__all__ = ["Wishes", "drawn_at", "mobility_text", "motion_at", "scene_of", "shown", "thumbnail"]
+__all__ = ["Wishes", "beside", "drawn_at", "mobility_text", "motion_at", "scene_of", "shown", "thumbnail"]
 
 NEAR_END = 1e-6  # of the range: so far from its end the drawing is whole
 
@@ -62,9 +64,33 @@ class Wishes:
 
 
 @lru_cache(maxsize=16)
-def scene_of(text: str, name: str) -> Mechanism:
-    """What the text of a scene says.  Raises SceneError."""
-    return mechanism_of_text(text, name)
+def scene_of(text: str, name: str, folder: Path | None = None) -> Mechanism:
+    """What the text of a scene says.
+
+    Parameters
+    ----------
+    folder : where the files lie that it names; they are named without a path, and where there is no folder none is read
+
+    Raises
+    ------
+    SceneError : it is no scene, or names a file elsewhere
+    """
+    return resolved(beside(parsed(text), folder), name)[1]
+
+
+def beside(made: dict[str, Any], folder: Path | None) -> dict[str, Any]:
+    """The mapping of a scene, with the files that it names looked for in one folder and nowhere else."""
+    sheet = made.get("sheet")
+    under = sheet.get("background") if isinstance(sheet, dict) else None
+    for where, table in (("printed_table", made.get("printed_table")), ("sheet.background", under)):
+        if not isinstance(table, dict) or not isinstance(table.get("file"), str):
+            continue
+        name = table["file"]
+        if folder is None or Path(name).name != name or name.startswith(".") or (folder / name).is_symlink():
+            wanted = "on this page a scene names files of its own folder, without a path"
+            raise SceneError(Problem(f"{where}.file", f'found "{name[:60]}"', wanted))
+        table["file"] = str(folder / name)
+    return made
 
 
 @lru_cache(maxsize=16)

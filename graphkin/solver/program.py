@@ -6,10 +6,10 @@ Lengths and places are left open in them, so that one program serves every mecha
 from __future__ import annotations
 
 from collections.abc import Container, Hashable, Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from decimal import Decimal
 from typing import Any
-from weakref import finalize
 
 from graphkin.scene.cams import LawCam, SlidingFollower
 from graphkin.scene.model import AngleDriver, AnyDriver
@@ -283,13 +283,19 @@ def program_of(
     open_ : numbers by name that stay open even where they are 0, 1 or -1
     """
     key = (id(structure), moving, open_)
-    if key in _DIMENSIONED:
-        return _DIMENSIONED[key]
+    if (known := _DIMENSIONED.get(key)) is not None:
+        return known
     form = _form(structure, open_), moving
     program = _PROGRAMS.pop(form, None) or Program(structure, moving, open_)
     _PROGRAMS[form] = program
-    while len(_PROGRAMS) > MOST:
-        del _PROGRAMS[next(iter(_PROGRAMS))]
+    _keep_latest(_PROGRAMS)
     dimensioned = _DIMENSIONED[key] = DimensionedProgram(program, structure)
-    finalize(structure, _DIMENSIONED.pop, key, None)
+    _keep_latest(_DIMENSIONED)  # each keeps its structure, so that its id is that of no other
     return dimensioned
+
+
+def _keep_latest(kept: dict[Any, Any]) -> None:
+    """The oldest go; another thread may be at the same."""
+    while len(kept) > MOST:
+        with suppress(RuntimeError, StopIteration):
+            kept.pop(next(iter(kept)), None)
