@@ -184,6 +184,7 @@ def serve(desk: Desk, port: int = 0, ready: Callable[[Address], None] | None = N
     """
     needs_live()
     import asyncio
+    import gc
     import socket
 
     listening = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
@@ -194,6 +195,7 @@ def serve(desk: Desk, port: int = 0, ready: Callable[[Address], None] | None = N
         listening.close()
         raise CallError(Problem("port", f"{port} cannot be used: {error}", "give another one, or none")) from None
     address = Address.new(listening.getsockname()[1])
+    gc.set_threshold(10_000, 10, 10)  # a command that ends at once looks for garbage next to never; this one stays
     try:
         asyncio.run(_run(application(desk, address), listening, lambda: ready(address) if ready else None))
     finally:
