@@ -207,7 +207,7 @@ async def _run(app: Any, listening: Any, ready: Callable[[], None]) -> None:
 
     config = uvicorn.Config(
         app, log_level="error", access_log=False, ws="websockets-sansio", ws_max_size=LARGEST_MESSAGE, lifespan="off",
-        server_header=False, timeout_graceful_shutdown=1,
+        server_header=False, timeout_graceful_shutdown=1, ws_per_message_deflate=False,
     )  # fmt: skip
 
     class Server(uvicorn.Server):  # type: ignore[misc]

@@ -62,15 +62,15 @@ export function figureBoard(parent, { word, pull, name, again }) {
       }
       svg.style.transform = `translate(${dx}px, ${dy}px)`;
     }
-    if (figure === "mechanism") makePulled(svg);
+    if (figure === "mechanism" && !moving) makePulled(svg);
   };
 
   const makePulled = (svg) => {
     svg.setAttribute("role", "group");
-    for (const [point, at] of Object.entries(last.points)) {
-      const element = svg.querySelector(`[id="point-${CSS.escape(point)}"]`);
-      if (!element || !at.pull) continue;
-      const box = element.getBBox();
+    const found = Object.entries(last.points)
+      .map(([point, at]) => [point, at, at.pull && svg.querySelector(`[id="point-${CSS.escape(point)}"]`)?.getBBox()])
+      .filter(([, , box]) => box); // all are measured before anything is added, so that the page is laid out once
+    for (const [point, at, box] of found) {
       const grip = document.createElementNS("http://www.w3.org/2000/svg", "circle");
       const looks = { cx: box.x + box.width / 2, cy: box.y + box.height / 2, r: 4.5, class: `grip ${at.pull}`, tabindex: 0,
         role: "button", "data-point": point,
