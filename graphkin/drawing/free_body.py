@@ -14,11 +14,12 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.force_letters import force_letters
 from graphkin.drawing.labels import Label
+from graphkin.drawing.mechanism import links_alone
 from graphkin.drawing.mechanism_on_paper import MechanismOnPaper, page
 from graphkin.drawing.piece import Piece, cut_to, ink_box, joined, middle_of, moved_piece, with_labels
-from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Primitive, Text
+from graphkin.drawing.primitives import Circle, Group, Line, Primitive, Text
 from graphkin.drawing.symbols import COMPONENT, JOINT_RADIUS, RESULTANT, arrow
-from graphkin.drawing.text import plain, symbol
+from graphkin.drawing.text import symbol
 from graphkin.plane import unit
 
 __all__ = ["colour_of_force", "free_body", "letters_of_force", "links_cut_free", "sketch_height"]
@@ -102,19 +103,7 @@ def _points(sheet: Sheet, links: set[str]) -> list[complex]:
 
 
 def _links(here: MechanismOnPaper, links: set[str]) -> tuple[list[Primitive], list[Label]]:
-    parts: list[Primitive] = []
-    labels: list[Label] = []
-    for shape in here.shapes:
-        if shape.link not in links:
-            continue
-        colour = here.colour(shape.link)
-        stroke = strokes.LINK.coloured(colour)
-        if shape.corners:
-            parts.append(Polygon(tuple(map(page, shape.corners)), strokes.tint(colour), stroke))
-        parts += [Line(page(a), page(b), stroke) for a, b in shape.bars]
-        if shape.longest:
-            text = Text(0j, plain(shape.link, bold=True), "start", colour, classes=("label",))
-            labels.append(Label(text, (page(shape.longest[0]), page(shape.longest[1])), rank=2))
+    parts, labels = links_alone(here, links, 2)
     for one in here.sliders:
         if one.slide.a in links:
             parts += symbols.block(page(one.at), phase(one.along), here.colour(one.slide.a))

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 from cmath import phase, rect
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 from graphkin.construction.sheet import CompassArc, Sheet
 from graphkin.drawing import strokes, symbols
@@ -32,7 +32,7 @@ from graphkin.drawing.text import plain, symbol
 from graphkin.drawing.touching import contact_marks, faces_of_frame, outlines_of, wheels_of
 from graphkin.plane import cross, dot
 
-__all__ = ["bare_mechanism", "mechanism_piece"]
+__all__ = ["bare_mechanism", "links_alone", "mechanism_piece"]
 
 
 def links(here: MechanismOnPaper) -> Piece:
@@ -42,6 +42,26 @@ def links(here: MechanismOnPaper) -> Piece:
     profiles = [_profile(here, one) for one in here.cams]
     slots = (Group(tuple(_curved(here, one)), id=f"slot-{one.slot.bar}", classes=("link",)) for one in here.curved)
     return Piece({"mechanism": (*profiles, *areas, _frame(here), *slots, *(_link(here, shape) for shape in bars))})
+
+
+def links_alone(
+    here: MechanismOnPaper, names: Collection[str], rank: int
+) -> tuple[list[Primitive], list[Label]]:
+    """Areas and bars of some links cut free, with their numbers as labels of a ``rank``; pairs are the caller's."""
+    parts: list[Primitive] = []
+    labels: list[Label] = []
+    for shape in here.shapes:
+        if shape.link not in names:
+            continue
+        colour = here.colour(shape.link)
+        stroke = strokes.LINK.coloured(colour)
+        if shape.corners:
+            parts.append(Polygon(tuple(map(page, shape.corners)), strokes.tint(colour), stroke))
+        parts += [Line(page(a), page(b), stroke) for a, b in shape.bars]
+        if shape.longest:
+            text = Text(0j, plain(shape.link, bold=True), "start", colour, classes=("label",))
+            labels.append(Label(text, (page(shape.longest[0]), page(shape.longest[1])), rank=rank))
+    return parts, labels
 
 
 def _depth(here: MechanismOnPaper, shape: LinkShape) -> int:

@@ -14,7 +14,7 @@ from graphkin.drawing.conventions import Letters, letters_of
 from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.headings import facts, figure_title, term, titles
 from graphkin.drawing.labels import Label
-from graphkin.drawing.mechanism import bare_mechanism
+from graphkin.drawing.mechanism import bare_mechanism, links_alone
 from graphkin.drawing.mechanism_on_paper import MechanismOnPaper, page
 from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
 from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Primitive, Text
@@ -240,19 +240,7 @@ def _group(sheet: Sheet, elements: Sequence[Element], letters: Letters, panel: B
     box = Box.around(map(page, spots))
     times = min((PART[0] - 22.0) / max(box.width, TOUCH), (PART[1] - 20.0) / max(box.height, TOUCH), 1.0)
     here = MechanismOnPaper(_scaled(sheet, times), letters)
-    parts: list[Primitive] = []
-    labels: list[Label] = []
-    for shape in here.shapes:
-        if shape.link not in links:
-            continue
-        colour = here.colour(shape.link)
-        stroke = strokes.LINK.coloured(colour)
-        if shape.corners:
-            parts.append(Polygon(tuple(map(page, shape.corners)), strokes.tint(colour), stroke))
-        parts += [Line(page(a), page(b), stroke) for a, b in shape.bars]
-        if shape.longest:
-            text = Text(0j, plain(shape.link, bold=True), "start", colour, classes=("label",))
-            labels.append(Label(text, (page(shape.longest[0]), page(shape.longest[1])), rank=1))
+    parts, labels = links_alone(here, links, 1)
     for name in links:
         tips = [here.places[p] for p in sheet.structure.links[name].bar if p in here.places]
         if name not in here.scene.by_name and len(tips) == 2:  # the bar that replaces a contact

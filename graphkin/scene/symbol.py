@@ -168,11 +168,6 @@ class Symbol:
         return cls(name, **points, **words, plus="plus" in found)  # type: ignore[arg-type]
 
     @property
-    def meaning(self) -> Kind:
-        """What kind of quantity it is."""
-        return KINDS[self.kind]
-
-    @property
     def is_vector(self) -> bool:
         return self.kind in VECTORS and not self.turning
 

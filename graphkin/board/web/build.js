@@ -1,6 +1,6 @@
 // Puts the sources of the page into one file that needs no network: npm ci && npm run build.
 import { createHash } from "node:crypto";
-import { copyFileSync, readFileSync, readdirSync } from "node:fs";
+import { readFileSync, readdirSync } from "node:fs";
 import { build } from "esbuild";
 
 const hash = createHash("sha256");
@@ -16,4 +16,3 @@ await build({
   legalComments: "eof",
   banner: { js: `// built from web/src ${hash.digest("hex")}; contains CodeMirror, MIT licence, (c) Marijn Haverbeke and others` },
 });
-for (const name of ["board.css", "board.html"]) copyFileSync(`src/${name}`, `../static/${name}`);
