@@ -46,6 +46,8 @@ FEW = 20_000
 """Cells of a table for which it does not pay to load pyarrow."""
 SHOWN = 24
 """Rows of a table that HTML shows; of a longer one the first and the last."""
+FILES = (".csv", ".parquet", ".json", ".html")
+"""Endings of the files that a table can be written as."""
 _LEAST, _MOST = 1e-6, 1e10
 
 
@@ -327,8 +329,8 @@ class Table:
 
         target = path_of(path)
         kind = target.suffix.lower()
-        if kind not in (".csv", ".parquet", ".json", ".html"):
-            raise CallError(Problem(str(path), f'"{kind}" is no table', "known here: .csv, .parquet, .json, .html"))
+        if kind not in FILES:
+            raise CallError(Problem(str(path), f'"{kind}" is no table', f"known here: {', '.join(FILES)}"))
         arrow = self.to_arrow() if kind == ".parquet" else None
         try:
             with whole_file(target) as out:

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from graphkin.api.arguments import SceneLike, as_scene
+from graphkin.api.results import Tabled
 from graphkin.api.samples import Quantities, Samples
 from graphkin.errors import CallError, Problem, as_list, as_text
 from graphkin.scene.model import Mechanism
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     from graphkin import solver
     from graphkin.api.design_keys import DesignKeys
     from graphkin.solver.designs import PreparedMechanisms
+    from graphkin.table import Table
 
 __all__ = ["Prepared", "PreparedDesigns", "prepare"]
 
@@ -46,8 +48,10 @@ def _have_numba() -> bool:
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Prepared:
+class Prepared(Tabled):
     """A mechanism with its assembly followed over the whole range of its first driver, and the code for what is asked.
+
+    ``prepared["v_C"]``, ``table`` and the rest are what it gives at the scene's own position.
 
     asked : the quantities, as they were named
     names : of the columns, two for a vector ("v_B.x", "v_B.y")
@@ -83,6 +87,24 @@ class Prepared:
         first = self.scene.drivers[0]
         unit = "deg" if self.ready.turns else self.scene.units.length
         return Quantities(self.units, self.names, (f"driver_{first.key}", unit), self.driver_values)
+
+    @cached_property
+    def _here(self) -> Samples:
+        return self.columns([self.here])
+
+    @property
+    def here(self) -> float:
+        """The first driver's value at the scene's own position, in its own unit."""
+        return float(self.ready.range.start[0]) / self.own_unit
+
+    def __getitem__(self, name: str) -> NDArray[np.float64] | NDArray[np.complex128]:
+        """A quantity or a column at the scene's own position, shape (1,).  Raises CallError as ``Samples``."""
+        return self._here[name]
+
+    @property
+    def table(self) -> Table:
+        """What it gives at the scene's own position: one row."""
+        return self._here.table
 
     def driver_values(self, n: int) -> Reals:
         """The values of the first driver at which ``sweep(n)`` computes, shape (n,)."""
@@ -230,8 +252,10 @@ class Prepared:
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class PreparedDesigns:
+class PreparedDesigns(Tabled):
     """Many designs of a prepared mechanism.
+
+    ``designs["v_C"]``, ``table`` and the rest are what they give at the scene's own position.
 
     values : of the keys that are changed, shape (designs,)
     single : whether each is one number: then the arrays are those of one mechanism
@@ -244,6 +268,20 @@ class PreparedDesigns:
 
     def __len__(self) -> int:
         return self._designs.count
+
+    def __getitem__(self, name: str) -> NDArray[np.float64] | NDArray[np.complex128]:
+        """A quantity or a column of all designs at the scene's own position, shape (designs,), or () of a single one.
+        Raises CallError as ``Samples``."""
+        return self._here[name]
+
+    @property
+    def table(self) -> Table:
+        """What they give at the scene's own position: a row for each design."""
+        return self._here.table
+
+    @cached_property
+    def _here(self) -> Samples:
+        return self.at(self.prepared.here)
 
     def at(self, value: float) -> Samples:
         """All designs at one value of the first driver, in its own unit: arrays of shape (designs,)."""

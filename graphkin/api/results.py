@@ -17,37 +17,41 @@ if TYPE_CHECKING:
 
     from graphkin.table import Table
 
-__all__ = ["Result"]
+__all__ = ["Result", "Tabled"]
 
 
-class Result(ABC):
-    """What a public function returns.
+class Tabled(ABC):
+    """What has a table, and says all that it has in the table's ways.
 
-    ``result["v_C"]`` is one thing of it by its name, ``table`` all of it as columns with units, ``data`` the object
-    that the command of the same name prints under ``--json``, ``write`` makes its files; a notebook shows it.
-
-    Two results are equal if they are of one kind and say the same: the same ``data`` and the same ``table``.  They can
-    be pickled and sent to other processes; figures and tables are made anew there.
+    ``tabled["v_C"]`` is one thing of it by its name, ``table`` all of it as columns with units, ``data`` the same for
+    programs, ``write`` makes its files; a notebook shows it.
     """
 
-    @property
-    @abstractmethod
-    def ok(self) -> bool:
-        """Whether all is as it should be: what the command of the same name says by its exit status."""
-
-    @property
-    @abstractmethod
-    def data(self) -> Any:
-        """Plain dicts, lists, texts and numbers, as the command of the same name prints them under ``--json``."""
+    __slots__ = ()
 
     @property
     @abstractmethod
     def table(self) -> Table:
         """Its main table."""
 
-    @abstractmethod
+    @property
+    def data(self) -> Any:
+        """For programs: each column of the table with its unit and its values; ``None`` where there is none."""
+        return self.table.data
+
     def write(self, folder: str | os.PathLike[str]) -> Sequence[Path]:
-        """Write its files into a folder; returns their paths.  Raises CallError where it cannot be written."""
+        """Write table.csv, and table.parquet where pyarrow is installed, into a folder; or one file, whose name ends in
+        .csv, .parquet, .json or .html.  Returns the paths; raises CallError as ``Table.write``."""
+        from graphkin.api.arguments import write_files
+        from graphkin.files import path_of
+        from graphkin.table import FILES, have
+
+        target = path_of(folder)
+        if target.suffix.lower() in FILES:
+            return [self.table.write(target)]
+        write_files(target, {})
+        names = ["table.csv", "table.parquet"] if have("pyarrow") else ["table.csv"]
+        return [self.table.write(target / name) for name in names]
 
     def __getitem__(self, name: str) -> Any:
         """A column of the table by its name.  Raises CallError for an unknown one."""
@@ -64,6 +68,29 @@ class Result(ABC):
 
     def _repr_html_(self) -> str:
         return self.table._repr_html_()
+
+
+class Result(Tabled):
+    """What a public function returns: its ``data`` is the object that the command of the same name prints under
+    ``--json``.
+
+    Two results are equal if they are of one kind and say the same: the same ``data`` and the same ``table``.  They can
+    be pickled and sent to other processes; figures and tables are made anew there.
+    """
+
+    @property
+    @abstractmethod
+    def ok(self) -> bool:
+        """Whether all is as it should be: what the command of the same name says by its exit status."""
+
+    @property
+    @abstractmethod
+    def data(self) -> Any:
+        """Plain dicts, lists, texts and numbers, as the command of the same name prints them under ``--json``."""
+
+    @abstractmethod
+    def write(self, folder: str | os.PathLike[str]) -> Sequence[Path]:
+        """Write its files into a folder; returns their paths.  Raises CallError where it cannot be written."""
 
     def __eq__(self, other: object) -> bool:
         if type(self) is not type(other):

@@ -4,18 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from graphkin.api.results import Tabled
 from graphkin.errors import CallError, Problem, as_text, did_you_mean
 from graphkin.table import Column, Table
-
-if TYPE_CHECKING:
-    import pandas
-    import xarray
 
 __all__ = ["Quantities", "Samples"]
 
@@ -46,7 +41,7 @@ class Quantities:
 
 
 @dataclass(slots=True, eq=False, repr=False)  # not frozen: that would take longer than a hundred positions
-class Samples:
+class Samples(Tabled):
     """The quantities of a prepared mechanism at many positions.
 
     ``samples["v_C"]`` is a complex array, ``samples["v_C.x"]`` and ``samples["omega_3"]`` are real ones, shape (n,),
@@ -109,24 +104,6 @@ class Samples:
             columns.append(Column(name, np.ravel(values), units[symbol], symbol))
         return Table((*columns, Column("ok", np.ravel(self.ok))), index)
 
-    @property
-    def data(self) -> dict[str, Any]:
-        """For programs: each column of the table with its unit and its values; ``None`` where there is none."""
-        return self.table.data
-
-    def to_pandas(self) -> pandas.DataFrame:
-        """The table as a frame of pandas.  Raises CallError where that is not installed."""
-        return self.table.to_pandas()
-
-    def to_xarray(self) -> xarray.Dataset:
-        """The table as a data set of xarray with units, over ``position``, or ``design`` and ``position``.  Raises
-        CallError where it is not installed."""
-        return self.table.to_xarray()
-
-    def write(self, path: str | Path) -> Path:
-        """Write the table: .csv, .parquet, .json or .html by the name.  Raises CallError as ``Table.write``."""
-        return self.table.write(path)
-
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Samples):
             return NotImplemented
@@ -139,6 +116,3 @@ class Samples:
 
     def __repr__(self) -> str:
         return f"<Samples of {', '.join(self.quantities.units)}: {int(self.ok.sum())} of {self.ok.size} positions>"
-
-    def _repr_html_(self) -> str:
-        return self.table._repr_html_()

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import graphkin
-from graphkin.api.results import Result
+from graphkin.api.results import Result, Tabled
 
 pytestmark = pytest.mark.quick
 
@@ -80,6 +80,32 @@ def test_every_result_writes_the_table_that_it_shows(kind, tmp_path):
 def test_a_solution_gives_a_quantity_as_a_sweep_does(name):
     solved, swept = graphkin.solve(SIXBAR, sweep=4), graphkin.sweep(SIXBAR, positions=4)
     np.testing.assert_allclose(solved[name], swept[name], rtol=1e-9)
+
+
+PREPARED = {
+    "prepared": lambda: graphkin.prepare(SIXBAR, ["v_D", "omega_3"]),
+    "samples": lambda: graphkin.prepare(SIXBAR, ["v_D", "omega_3"]).sweep(4),
+    "designs": lambda: graphkin.prepare(SIXBAR, ["v_D", "omega_3"]).over({"links.1.length": [120, 121]}),
+}
+
+
+@pytest.mark.parametrize("kind", PREPARED)
+def test_what_is_prepared_speaks_as_results_do(kind, tmp_path):
+    ready = PREPARED[kind]()
+    assert isinstance(ready, Tabled)
+    rows = {"prepared": 1, "samples": 4, "designs": 2}[kind]
+    assert [rows] * 4 == [len(ready["v_D"]), len(ready.table), len(ready.to_pandas()), ready.to_xarray()["v_D.x"].size]
+    assert "<table>" in ready._repr_html_()
+    assert json.loads(json.dumps(ready.data, allow_nan=False)) == ready.data
+    assert set(ready.write(tmp_path / "all")) == set((tmp_path / "all").iterdir())
+    assert [tmp_path / "one.csv"] == ready.write(tmp_path / "one.csv")
+
+
+def test_what_is_prepared_says_the_position_of_the_scene():
+    ready, solved = graphkin.prepare(SIXBAR, ["v_D", "omega_3"]), graphkin.solve(SIXBAR)
+    here = ready.over({"links.1.length": graphkin.read(SIXBAR).links["1"].length})
+    for name in ("v_D", "omega_3"):
+        np.testing.assert_allclose([solved[name][0]] * 2, [ready[name][0], here[name]], rtol=1e-9)
 
 
 def test_two_results_of_different_positions_differ():
