@@ -11,11 +11,11 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from graphkin.api.arguments import asked_symbols
-from graphkin.checking.cells import Way, is_blank, read_cell, read_way
-from graphkin.checking.printed import Printed
 from graphkin.errors import CallError, Problem
 from graphkin.files import path_of
+from graphkin.scene.cells import Way, is_blank, read_cell, read_way
 from graphkin.scene.model import Mechanism
+from graphkin.scene.printed import Printed
 from graphkin.scene.spelling import Spelling, plain_text, unit_factor
 from graphkin.scene.symbol import KINDS, Symbol
 

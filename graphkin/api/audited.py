@@ -17,7 +17,6 @@ from graphkin.api.class_results import Scheme, people_of, quantities_of, scheme_
 from graphkin.api.judging import MOST_DRAWN, evidence_at, judged_table
 from graphkin.api.results import Result
 from graphkin.checking.audit import Judged, Value, judge, with_gaps
-from graphkin.checking.printed import printed_values, stated
 from graphkin.checking.slips import Evidence, ValuesElsewhere
 from graphkin.errors import CallError, Problem, as_text, did_you_mean
 from graphkin.files import path_of
@@ -266,7 +265,7 @@ def audit(
     """
     given = as_scene(scene)
     known_words(language=language)
-    if answers is None and not given.printed and not given.stated:
+    if answers is None and not given.stated:
         raise CallError(
             Problem("printed", "the scene has no printed values", "write them in [printed], or give answers as CSV")
         )
@@ -355,13 +354,8 @@ def _stated(scene: Mechanism) -> tuple[Answers, ...]:
             rows, _ = as_answers(scene, own.file)
             found += [replace(row, person="", by=own.by) for row in rows]
             continue
-        values = (
-            printed_values(scene) if own.at is None
-            else tuple(stated(symbol, texts, scene.units) for symbol, texts in own.values.items())
-        )  # fmt: skip
+        values = tuple(own.values.values())
         for place in dict.fromkeys(p.symbol.at for p in values):
             there = tuple(replace(p, symbol=p.symbol.here) for p in values if p.symbol.at == place)
             found.append(Answers("", place or own.at, there, own.by))
-    if not scene.stated:
-        found.append(Answers("", None, printed_values(scene)))
     return tuple(found)

@@ -15,8 +15,9 @@ from typing import Literal
 
 from graphkin.checking.consequential_errors import consequential_values, drawn_before
 from graphkin.checking.loop_gaps import loop_gaps
-from graphkin.checking.printed import Printed, transcription_errors
 from graphkin.checking.slips import Evidence, Suspect, dimension, line_of
+from graphkin.checking.transcription import transcription_errors
+from graphkin.scene.printed import Printed
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase
 
@@ -36,6 +37,7 @@ CLUMSY = 0.08  # part of it, for a drawing that is worse than it should be
 NEAT = 0.01  # part of it within which most drawings lie
 SURE = 3.0  # so much commoner must a slip be than chance, where only its neighbourhood fits
 DIGITS = 5  # fewer digits than this tell no slip from an error of drafting
+FAR, FEW_DIGITS = 0.1, 3  # but so far off, to this many digits, they do
 COMPUTED_SHARE = 1e-4  # a computed value may be off by so much of itself, for inputs that were rounded
 NEVER = 1e-4  # so near a value was meant right, whatever else lies there
 NOTHING = 1e-9  # of the greatest value of its sort: what is smaller is zero
@@ -106,7 +108,8 @@ def _judged(case: Evidence, printed: Printed) -> Judged:
     judged = replace(judged, verdict="within drafting accuracy")
     if turned:
         return turned
-    if printed.digits >= DIGITS and off > NEVER * abs(exact):
+    far = printed.digits >= FEW_DIGITS and off > FAR * abs(exact)
+    if far or (printed.digits >= DIGITS and off > NEVER * abs(exact)):
         best = max(_weighed(case, judged), key=lambda w: w[1], default=None)
         drawn = RIGHT_SHARE * _likelihood(printed, off, bound / 3, exact)
         if best and best[1] > SURER * drawn and _fits_to_the_digit(judged, best[0], case):
@@ -253,6 +256,9 @@ def _weighed(case: Evidence, judged: Judged) -> Iterator[tuple[Suspect, float]]:
 def _weight(judged: Judged, suspect: Suspect, line: complex | None) -> tuple[Suspect, float]:
     printed = judged.printed
     value = comparable(printed, suspect.value, line)
+    same = abs(value - judged.exact) <= NEVER * abs(judged.exact)  # in the form of what is written it changes nothing
+    if same or (not printed.value and abs(value) > NEVER * abs(judged.exact)):  # nobody writes 0 for what is small
+        return suspect, 0.0
     relative = judged.bound / 3 / abs(judged.exact) if judged.exact and math.isfinite(judged.bound) else 0.0
     spread = relative * abs(value) if suspect.drawn else 0.0
     return suspect, suspect.share * _likelihood(printed, abs(printed.value - value), spread, value)

@@ -218,7 +218,7 @@ def _factors(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
             yield Suspect(Phrase("slip factor", (f"{factor:g}",)), exact * factor, 0.02)
     for name, factor in (("rpm", RPM), ("degrees", DEGREE)):
         for way in (factor, 1 / factor):
-            yield Suspect(Phrase(f"slip {name}"), exact * way, 0.01)
+            yield Suspect(Phrase(f"slip {name}"), exact * way, 0.01 if symbol.is_vector else 0.03)
             if second:
                 yield Suspect(Phrase(f"slip {name}"), exact * way**2, 0.01)
     yield Suspect(Phrase("slip double"), exact * 2, 0.02)

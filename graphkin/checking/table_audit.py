@@ -7,8 +7,9 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from graphkin.checking.audit import COMPUTED_SHARE, Judged, Value, comparable, deviation, difference
-from graphkin.checking.printed import Printed, transcription_errors
+from graphkin.checking.transcription import transcription_errors
 from graphkin.plane import unit
+from graphkin.scene.printed import Printed
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion, value_of
 from graphkin.words import Phrase

@@ -156,7 +156,7 @@ def _held(scene: Mechanism, triangle: DrivenTriangle) -> Mechanism:
         sketch={},
         drawn={},
         find=(),
-        printed={},
+        stated=(),
     )
 
 

@@ -172,7 +172,7 @@ def _opened(scene: Mechanism, removed: Sequence[RemovedConstraint]) -> Mechanism
         pins=tuple(p for p in scene.pins if p.key not in gone and not gone & {p.of, p.on}),
         drivers=tuple(d for d in scene.drivers if d not in drivers),
         find=(),
-        printed={},
+        stated=(),
     )
 
 

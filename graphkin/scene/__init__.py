@@ -23,7 +23,8 @@ Where the format leaves something open, the reader decides as follows.
   guide's sense, and ``angle_on`` counts from that sense.  ``ends`` only say how far it is drawn.
 - Two statements of one thing are compared where they act: an angle by how far it moves the points that gave it.
 - Of a driver written as ``[[driver]]``, ``driver.2`` in a message is the second; so are items of lists.
-- ``[printed]`` and ``[[printed_rows]]`` take names as people write them too (``ω₃``, ``omega3``, ``v_B3``).
+- ``[printed]`` and ``[[printed_rows]]`` take names as people write them too (``ω₃``, ``omega3``, ``v_B3``),
+  and texts with unit, sense and direction (``"0.483 m/s ←"``, ``"2.82 cw"``).
 - ``[printed]`` takes negative numbers for vectors too (a signed velocity of a slider); one number is a magnitude.
 - A misspelt key is reported, and read as the key that was meant for the sake of the other messages.
 - Limits: 1 MB, 200 moving links, 100 points and guides a link, names of 40 and titles of 300 characters, numbers

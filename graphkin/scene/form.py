@@ -94,8 +94,8 @@ NumberOrPair = Annotated[
 Stated = Annotated[
     Annotated[Number, Tag("<number>")]
     | Annotated[Place, Tag("<list>")]
-    | Annotated[str, StringConstraints(strict=True, max_length=40), Tag("<name>")],
-    _forms('write a number, "1.0" for its digits as printed, or [x, y] for a vector by its components'),
+    | Annotated[str, StringConstraints(strict=True, max_length=80), Tag("<name>")],
+    _forms('write a number, "1.0" for its digits as printed, "0.483 m/s", "2.82 cw", or [x, y] for components'),
 ]
 Range = Annotated[list[Number], Field(min_length=2, max_length=2)]
 Keys = list[Annotated[str, StringConstraints(strict=True, max_length=80)]]

@@ -17,6 +17,7 @@ from graphkin.scene.cams import LawCam
 from graphkin.scene.class_tables import Vary
 from graphkin.scene.contacts import Contact, Disc, Gear
 from graphkin.scene.loads import Loading
+from graphkin.scene.printed import Printed
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import SheetWishes, Units
 
@@ -221,14 +222,14 @@ class CircularSlot:
 
 @dataclass(frozen=True)
 class StatedValues:
-    """Values that somebody states of one position, each as the texts of its number or of its two components.
+    """Values that somebody states of one position.
 
     ``at`` is the driver's value in its own unit, the name of a position, or None for the scene's own; ``file`` is a CSV
     file that holds them instead; ``by`` says how they were found.
     """
 
     at: float | str | None
-    values: Mapping[Symbol, tuple[str, ...]]
+    values: Mapping[Symbol, Printed]
     by: Literal["drawing", "computation"] = "drawing"
     file: str = ""
 
@@ -279,10 +280,9 @@ class Mechanism:
     """A mechanism at one position, with what is asked of it.
 
     ``links`` are the moving links in the order of the file (redundant ones included, see ``PlacedLink.redundant``);
-    ``sketch`` and ``drawn`` give places of points in world axes (m); ``printed`` maps symbols to values in SI
-    (a float, or a complex number for a vector given by two components); ``stated`` holds all that is printed, digit by
-    digit, first that of this position; ``loops`` are vector loops by name, each through its points; ``vary`` says how
-    a set of problems is drawn from it, ``grading`` for what there are points; ``slots`` are the circular ones, for
+    ``sketch`` and ``drawn`` give places of points in world axes (m); ``stated`` holds all that somebody printed, digit
+    by digit, first that of this position; ``loops`` are vector loops by name, each through its points; ``vary`` says
+    how a set of problems is drawn from it, ``grading`` for what there are points; ``slots`` are the circular ones, for
     which bars and turning pairs stand among the links.
     ``instead_of`` is the mechanism with cams in whose place this one moves alike at this position, in velocity and
     acceleration.  ``starts`` say where what rolls stands at the scene's own position: the angle of a link's own axis
@@ -302,7 +302,6 @@ class Mechanism:
     sketch: Mapping[str, complex] = field(default_factory=dict)
     drawn: Mapping[str, complex] = field(default_factory=dict)
     find: tuple[Symbol, ...] = ()
-    printed: Mapping[Symbol, float | complex] = field(default_factory=dict)
     sheet: SheetWishes = field(default_factory=SheetWishes)
     loading: Loading = field(default_factory=Loading)
     stated: tuple[StatedValues, ...] = ()
@@ -321,6 +320,12 @@ class Mechanism:
 
     def __hash__(self) -> int:
         return hash((self.name, self.title, tuple(link.name for link in self.links)))
+
+    @property
+    def printed(self) -> dict[Symbol, float | complex]:
+        """What is printed of this position, by symbol in SI: a float, or a complex number for two components."""
+        here = (own for own in self.stated if own.at is None)
+        return {symbol: printed.value for own in here for symbol, printed in own.values.items()}
 
     def title_in(self, language: str) -> str:
         """The title in a language: the Chinese one where there is one, else the one there is."""

@@ -31,7 +31,7 @@ from graphkin.scene.rules import (
     unwritable_texts,
     wrong_own_points,
 )
-from graphkin.scene.stating import asked, loops_named, positions_named, published, stated_values
+from graphkin.scene.stating import asked, loops_named, positions_named, stated_values
 from graphkin.scene.tables import Link, SceneTables
 from graphkin.scene.touching import contacts_of, discs_of, gears_of, wrong_distances
 
@@ -149,7 +149,6 @@ def resolve(file: SceneTables, name: str, problems: list[Problem], flaws: Flaws)
         {p: complex(*xy) * metres for p, xy in file.sketch.items()},
         drawn,
         find,
-        published(stated, file.units),
         file.sheet,
         loading,
         stated,

@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
-from decimal import Decimal, InvalidOperation
+from collections.abc import Mapping, Sequence
+from decimal import Decimal
 from typing import Any, Literal
 
 from graphkin.errors import Problem, did_you_mean
+from graphkin.scene.cells import read_cell
 from graphkin.scene.model import NamedPositions, OnStroke, PinInSlot, SlidingPair, StatedValues
 from graphkin.scene.names import Names
+from graphkin.scene.printed import Printed, stated
 from graphkin.scene.reading import path_name
-from graphkin.scene.spelling import Spelling
+from graphkin.scene.spelling import Spelling, unit_factor
 from graphkin.scene.symbol import Symbol, missing_names
 from graphkin.scene.tables import DrivenSlide, Positions, SceneTables, StrokeStart, Units
 
-__all__ = ["asked", "digits_of", "loops_named", "position_name", "positions_named", "published", "stated_values"]
+__all__ = ["asked", "loops_named", "position_name", "positions_named", "stated_values"]
 
 BY = ("drawing", "computation")
 Stated = float | str | Sequence[float]
@@ -61,17 +63,6 @@ def asked(file: SceneTables, names: Names, problems: list[Problem]) -> tuple[Sym
     return tuple(dict.fromkeys(s for s in found if isinstance(s, Symbol)))
 
 
-def published(stated: Iterable[StatedValues], units: Units) -> dict[Symbol, float | complex]:
-    """The values of ``[printed]`` in SI."""
-    values: dict[Symbol, float | complex] = {}
-    for own in stated:
-        if own.at is None and not own.file:
-            for symbol, texts in own.values.items():
-                parts = [float(text) * symbol.per_unit(units) for text in texts]
-                values[symbol] = complex(*parts) if len(parts) == 2 else parts[0]
-    return values
-
-
 def stated_values(file: SceneTables, names: Names, problems: list[Problem]) -> tuple[StatedValues, ...]:
     """All values that somebody states: ``[printed]``, ``[[printed_rows]]``, and the file of ``[printed_table]``."""
     known = _names_of(file.positions)
@@ -111,46 +102,50 @@ def _how(by: Any) -> Literal["drawing", "computation"]:
 def _texts(
     table: str, values: Mapping[str, Stated], names: Names, known: Sequence[str], spelling: Spelling,
     problems: list[Problem],
-) -> dict[Symbol, tuple[str, ...]]:  # fmt: skip
-    """Numbers as they are written, by symbol.  A name that is no symbol may be one as people spell it (``ω₃``)."""
-    found: dict[Symbol, tuple[str, ...]] = {}
+) -> dict[Symbol, Printed]:  # fmt: skip
+    """Stated values by symbol, each as a number or as people write it in a cell (``"0.483 m/s"``, ``"2.82 cw"``).
+
+    A name that is no symbol may be one as people spell it, with a unit (``ω₃``, ``"v_B (m/s)"``).
+    """
+    found: dict[Symbol, Printed] = {}
     for text, value in values.items():
         if text in ("by", "at"):
             continue
         where = path_name((*table.split("."), text))
         symbol = _symbol(where, text, names, known)
-        meant = spelling.symbol(text) if isinstance(symbol, Problem) else None
+        name, unit = spelling.head(text) if isinstance(symbol, Problem) else (text, "")
+        meant = spelling.symbol(name) if isinstance(symbol, Problem) else None
         if meant is not None:
             symbol = _symbol(where, str(meant), names, known)
         if isinstance(symbol, Problem):
             problems.append(symbol)
         elif symbol in found:
             problems.append(Problem(where, f"{symbol} is given twice", "give it once"))
-        elif not isinstance(value, int | float | str):
-            if symbol.is_vector:
-                found[symbol] = tuple(map(digits_of, value))
-            else:
-                problems.append(Problem(where, "found two numbers", "it is one number, no vector"))
-        elif isinstance(value, str):
-            plain = value.strip().replace("\u2212", "-")
-            if _is_number(plain):
-                found[symbol] = (plain,)
-            else:
-                problems.append(Problem(where, f'"{value[:40]}" is no number', 'write "1.0", the digits as printed'))
+        elif not isinstance(value, int | float | str) and not symbol.is_vector:
+            problems.append(Problem(where, "found two numbers", "it is one number, no vector"))
         else:
-            found[symbol] = (digits_of(value),)
+            try:
+                found[symbol] = _printed(symbol, value, unit, spelling.units)
+            except ValueError as error:
+                like = "-1220 mm/s" if symbol.is_vector else "2.82 cw"
+                wanted = f'write a number, its digits as printed "1.0", or with unit and sense, for example "{like}"'
+                problems.append(Problem(where, str(error), wanted))
     return found
 
 
-def _is_number(text: str) -> bool:
-    try:
-        number = Decimal(text)
-    except InvalidOperation:
-        return False
-    return number.is_finite() and abs(number) < Decimal("1e15") and int(number.as_tuple().exponent) > -300
+def _printed(symbol: Symbol, value: Stated, unit: str, units: Units) -> Printed:
+    """One stated value.  Raises ValueError for a text that is none."""
+    if isinstance(value, str):
+        plain = value.strip()
+        read = read_cell(plain, symbol, units, unit)
+        bare = plain.replace("\u2212", "-") in read.texts and not unit  # nothing but digits, in scene units
+        return read.written("", None, 0.0) if bare else read
+    texts = [_digits_of(value)] if isinstance(value, int | float) else [_digits_of(part) for part in value]
+    factor = unit_factor(unit, symbol, units) if unit else None
+    return stated(symbol, texts, units, factor)
 
 
-def digits_of(number: float) -> str:
+def _digits_of(number: float) -> str:
     """The text of a number that lost its last zeros in a file or a computation; nobody prints more than 12 digits."""
     text = f"{number:.12g}"
     tiny = abs(number) < 1e-12  # written out it would be longer than a number may be

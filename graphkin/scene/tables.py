@@ -410,7 +410,7 @@ class SceneTables(FileTable):
         default_factory=dict,
         metadata=_about(
             'Values that somebody published, by symbol, in scene units, degrees, rad/s and rad/s2, as numbers or (with '
-            'their digits) texts; by = "drawing" or "computation".'
+            'their digits, a unit, a sense) texts; by = "drawing" or "computation".'
         ),
     )
     printed_rows: tuple[StatedRow, ...] = field(

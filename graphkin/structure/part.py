@@ -80,7 +80,7 @@ def _kept(scene: Mechanism, kept: set[str], asked: tuple[Symbol, ...]) -> Mechan
         gears=tuple(g for g in scene.gears if {*g.wheels, g.carrier} <= kept),
         drivers=tuple(d for d in scene.drivers if _ends(scene, d) <= kept),
         find=asked,
-        printed={},
+        stated=(),
         instead_of=None if scene.instead_of is None else _kept(scene.instead_of, kept, asked),
     )
 

@@ -8,9 +8,10 @@ import pytest
 
 import graphkin
 from graphkin.api.judging import evidence_at
-from graphkin.checking.printed import stated, transcription_errors
+from graphkin.checking.transcription import transcription_errors
 from graphkin.errors import CallError
 from graphkin.scene import mechanism_of
+from graphkin.scene.printed import stated
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Units
 from graphkin.words import say

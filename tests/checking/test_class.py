@@ -8,9 +8,9 @@ import json
 import pytest
 
 import graphkin
-from graphkin.checking.cells import read_cell
 from graphkin.errors import CallError
 from graphkin.scene import mechanism_of
+from graphkin.scene.cells import read_cell
 from graphkin.scene.source import written
 from graphkin.scene.spelling import Spelling
 from graphkin.scene.symbol import Symbol
@@ -226,3 +226,27 @@ def test_a_quantity_printed_under_two_names_is_said():
     scene = {**written(SIXBAR)[0], "printed": {"omega_3": 1.0, "ω3": 2.0}}
     with pytest.raises(graphkin.SceneError, match="omega_3 is given twice"):
         mechanism_of(scene)
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "verdict"),
+    [
+        ("ω₃", "2.82 clockwise", "right"), ("omega_3", "2.82 逆时针", "wrong"), ("v_D", "0.483 m/s ←", "right"),
+        ("v_D (m/s)", "0.483", "right"), ("v_D (m/s)", 0.483, "right"), ("v_D", "0.483 m/s →", "wrong"),
+        ("v_B3", "1075.8 mm/s, 12° below x", "right"), ("omega_3", "26.9 rpm cw", "right"), ("alpha_3", "7", "wrong"),
+    ],
+)  # fmt: skip
+def test_printed_values_are_written_as_in_a_class_table(name, value, verdict):
+    scene = {**graphkin.read(SIXBAR).to_dict(), "printed": {name: value}}
+    assert [verdict] == [row["verdict"] for row in graphkin.audit(scene).data["values"]]
+
+
+@pytest.mark.parametrize(("value", "said"), [("483 kg", "kg is no unit of"), ("1,220", "may be 1220 or 1.220")])
+def test_a_printed_value_that_cannot_be_read_is_refused_by_name(value, said):
+    scene = {**graphkin.read(SIXBAR).to_dict(), "printed": {"v_D": value}}
+    with pytest.raises(graphkin.SceneError, match=rf"printed\.v_D.*{said}"):
+        graphkin.audit(scene)
+
+
+def test_no_slip_explains_a_value_by_what_it_would_be_anyway():
+    assert "sign" != judged(v_B="1e3")[0].get("looks_like")

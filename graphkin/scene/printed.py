@@ -1,18 +1,15 @@
-"""Values that somebody states, with the digits they are stated to, and how they may have been copied wrong."""
+"""Values that somebody states, with the digits they are stated to."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal, InvalidOperation
-from itertools import combinations, pairwise
 
-from graphkin.scene.model import Mechanism
-from graphkin.scene.stating import digits_of
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Units
 
-__all__ = ["Printed", "printed_values", "stated", "transcription_errors"]
+__all__ = ["Printed", "stated"]
 
 Value = complex | float
 MOST_PARDONED = 0.01  # part of a value that its rounding may take away
@@ -99,52 +96,3 @@ def _number(text: str) -> Decimal:
     if not number.is_finite() or fine or not abs(number) < Decimal("1e15") or len(plain) > 40:
         raise ValueError(f'"{plain[:40]}" is no number of a size that can be meant')
     return number
-
-
-def printed_values(scene: Mechanism) -> tuple[Printed, ...]:
-    """The ``[printed]`` values of a scene as they stand in the file; of numbers that are no texts the zeros at the end
-    of decimals are lost."""
-    own = next((s for s in scene.stated if s.at is None and not s.file), None)
-    if own is not None and list(own.values) == list(scene.printed):
-        return tuple(stated(symbol, texts, scene.units) for symbol, texts in own.values.items())
-    found = []
-    for symbol, value in scene.printed.items():
-        unit = symbol.per_unit(scene.units)
-        parts = (value.real, value.imag) if isinstance(value, complex) else (value,)
-        found.append(stated(symbol, [digits_of(part / unit) for part in parts], scene.units))
-    return tuple(found)
-
-
-SWAPPED, MISREAD, TWICE_MISREAD, MISSED = 0.05, 0.05, 0.02, 0.02
-
-
-def transcription_errors(printed: Printed) -> Iterator[tuple[str, float, float]]:
-    """What may have stood where a number was copied from: text, share among wrong values, value (SI).
-
-    The share of each kind of error is divided among all the numbers it could come from, so that a short number, which
-    is a digit away from anything, explains nothing.
-    """
-    if len(printed.texts) != 1:
-        return
-    text = printed.texts[0]
-    places = [i for i, c in enumerate(text) if c.isdigit()]
-    if len(places) < 3 or "e" in text.lower():
-        return
-    swapped = [_put(text, {i: text[j], j: text[i]}) for i, j in pairwise(places)]
-    once = [_put(text, {i: d}) for i in places for d in "0123456789"]
-    missed = [text[:i] + d + text[i:] for i in (*places, places[-1] + 1) for d in "0123456789"]
-    missed += [text[:i] + text[i + 1 :] for i in places]
-    kinds = [(SWAPPED, swapped), (MISREAD, once), (MISSED, missed)]
-    if len(places) >= 6:
-        digits = "0123456789"
-        twice = [_put(text, {i: a, j: b}) for i, j in combinations(places, 2) for a in digits for b in digits]
-        kinds.append((TWICE_MISREAD, twice))
-    unit = printed.step / stated(printed.symbol, [text], Units("m")).step
-    for share, texts in kinds:
-        for other in dict.fromkeys(texts):
-            if other != text:
-                yield other, share / len(texts), float(other) * unit
-
-
-def _put(text: str, digits: dict[int, str]) -> str:
-    return "".join(digits.get(i, c) for i, c in enumerate(text))

@@ -10,7 +10,7 @@ import math
 import re
 from dataclasses import dataclass
 
-from graphkin.checking.printed import Printed, stated
+from graphkin.scene.printed import Printed, stated
 from graphkin.scene.spelling import plain_text, unit_factor
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Units
