@@ -66,47 +66,57 @@ if TYPE_CHECKING:
     from graphkin.api.studied import SpeedAccuracy, Stability, speed_accuracy, stability
     from graphkin.api.swept import Swept, sweep
     from graphkin.board.notebook import open_board
+    from graphkin.scene.asked_tables import Positions, PrintedTable, StrokeStart
+    from graphkin.scene.cam_tables import AllowedPressure, BaseCircle, Cam, LawPiece
+    from graphkin.scene.class_tables import Vary
+    from graphkin.scene.contact_tables import Contact, Disc, Gear
+    from graphkin.scene.load_tables import Balance, Flywheel, Gravity, Load, LoadPhase, Mass, Spring
+    from graphkin.scene.sheet_tables import Background, SheetWishes, Tools
     from graphkin.scene.source import read
-    from graphkin.scene.tables import (
-        Compass,
-        DrivenSlide,
-        Driver,
-        Frame,
-        Guide,
-        Link,
-        Pin,
-        Polar,
-        SheetWishes,
-        Tools,
-        Units,
-    )
+    from graphkin.scene.tables import Compass, DrivenSlide, Driver, Frame, Guide, Link, Pin, Polar, Units
     from graphkin.scene.written import Scene
 
 __all__ = [
+    "AllowedPressure",
     "Audited",
+    "Background",
+    "Balance",
+    "BaseCircle",
     "CallError",
+    "Cam",
     "Cams",
     "Centred",
     "Centroded",
     "Checked",
     "Compass",
+    "Contact",
     "Converted",
     "CourseDesigns",
     "Designed",
+    "Disc",
     "Drawn",
     "DrivenSlide",
     "Driver",
     "Explained",
+    "Flywheel",
     "Frame",
+    "Gear",
     "GraphkinError",
+    "Gravity",
     "Guide",
     "Handout",
+    "LawPiece",
     "Link",
     "Listed",
+    "Load",
+    "LoadPhase",
+    "Mass",
     "Pin",
     "Polar",
+    "Positions",
     "Prepared",
     "PreparedDesigns",
+    "PrintedTable",
     "ProblemSet",
     "Samples",
     "Scene",
@@ -114,11 +124,14 @@ __all__ = [
     "SheetWishes",
     "Solved",
     "SpeedAccuracy",
+    "Spring",
     "Stability",
+    "StrokeStart",
     "Swept",
     "Tools",
     "Units",
     "Unsolvable",
+    "Vary",
     "__version__",
     "audit",
     "cam",
@@ -162,8 +175,14 @@ _PLACES = {
     "api.solved": "Solved solve",
     "api.studied": "SpeedAccuracy Stability speed_accuracy stability",
     "api.swept": "Swept sweep",
+    "scene.asked_tables": "Positions PrintedTable StrokeStart",
+    "scene.cam_tables": "AllowedPressure BaseCircle Cam LawPiece",
+    "scene.class_tables": "Vary",
+    "scene.contact_tables": "Contact Disc Gear",
+    "scene.load_tables": "Balance Flywheel Gravity Load LoadPhase Mass Spring",
+    "scene.sheet_tables": "Background SheetWishes Tools",
     "scene.source": "read",
-    "scene.tables": "Compass DrivenSlide Driver Frame Guide Link Pin Polar SheetWishes Tools Units",
+    "scene.tables": "Compass DrivenSlide Driver Frame Guide Link Pin Polar Units",
     "scene.written": "Scene",
 }
 

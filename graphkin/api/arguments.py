@@ -15,9 +15,9 @@ from typing import get_args
 from graphkin.errors import CallError, Problem, as_list, did_you_mean
 from graphkin.scene.force_names import no_force
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
+from graphkin.scene.sheet_tables import Convention
 from graphkin.scene.source import SceneLike, mechanism_of
 from graphkin.scene.symbol import Symbol, missing_names
-from graphkin.scene.tables import Convention
 from graphkin.structure.assembly import ChangePoint
 from graphkin.table import have
 from graphkin.words import BOTH, LANGUAGES, Phrase

@@ -11,8 +11,8 @@ from graphkin.construction import EXACT, Instrument, nudged
 from graphkin.construction.design_sheet import DesignSheet
 from graphkin.construction.synthesis import construct
 from graphkin.errors import Unsolvable
+from graphkin.scene.sheet_tables import Tools
 from graphkin.scene.synthesis import DesignTask
-from graphkin.scene.tables import Tools
 
 __all__ = ["FoundLength", "compare_lengths", "predict_lengths"]
 

@@ -29,8 +29,8 @@ from graphkin.construction.board import Hand
 from graphkin.construction.plot import Order
 from graphkin.construction.steps import Cause, ReadOff, phrase_of
 from graphkin.errors import Unsolvable
+from graphkin.scene.sheet_tables import Tools
 from graphkin.scene.symbol import Symbol
-from graphkin.scene.tables import Tools
 from graphkin.words import Phrase
 
 __all__ = ["COVERAGE", "Advice", "Uncertainty", "advise", "predict"]

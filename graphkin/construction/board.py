@@ -18,7 +18,7 @@ from graphkin.construction.sheet import EXACT_NAME, DiagramName, Equation, Step,
 from graphkin.construction.steps import Act, Cause
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, cross_lines
-from graphkin.scene.tables import Tools
+from graphkin.scene.sheet_tables import Tools
 
 __all__ = ["EXACT", "Board", "Cad", "Exact", "Hand", "Instrument", "erring", "nudged", "pencil"]
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from graphkin.construction.sheet import Pose
 from graphkin.plane import dot
-from graphkin.scene.contacts import Contact, Gear
+from graphkin.scene.contacts import PlacedContact, PlacedGear
 from graphkin.scene.model import Mechanism
 
 __all__ = ["Touching"]
@@ -27,19 +27,19 @@ class Touching:
         pose = self.poses[link]
         return pose.origin + pose.axis * (local * self.mm)
 
-    def contacts(self) -> Iterator[Contact]:
+    def contacts(self) -> Iterator[PlacedContact]:
         """The contacts both of whose links stand on paper."""
         return (c for c in self.scene.contacts if set(c.links) <= self.poses.keys())
 
-    def gears(self) -> Iterator[Gear]:
+    def gears(self) -> Iterator[PlacedGear]:
         """The gears whose wheels and carrier stand on paper."""
         return (g for g in self.scene.gears if {*g.wheels, g.carrier} <= self.poses.keys())
 
-    def centres(self, contact: Contact) -> list[complex]:
+    def centres(self, contact: PlacedContact) -> list[complex]:
         """The centres of its discs."""
         return [self.place(d.link, self.scene.by_name[d.link].points[d.centre]) for d in contact.round]
 
-    def contact(self, contact: Contact) -> tuple[complex, complex]:
+    def contact(self, contact: PlacedContact) -> tuple[complex, complex]:
         """Where a contact is made, and the direction of its normal: out of the face, or from the first centre to the
         second."""
         spots = self.centres(contact)
@@ -51,7 +51,7 @@ class Touching:
         way = spots[1] - spots[0]
         return spots[0] + way * (one.radius / (one.radius + two.radius)), way / abs(way)
 
-    def pitch_point(self, gear: Gear) -> complex:
+    def pitch_point(self, gear: PlacedGear) -> complex:
         """Where the pitch circles touch, or circle and pitch line."""
         held = self.scene.by_name[gear.carrier].points
         axis = self.place(gear.carrier, held[gear.axes[0]])

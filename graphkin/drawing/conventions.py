@@ -16,8 +16,8 @@ from typing import Literal
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.construction.steps import Direction, RateTimes, Size, SquareOverRadius
 from graphkin.drawing.force_letters import force_letters
+from graphkin.scene.sheet_tables import Convention
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.scene.tables import Convention
 
 __all__ = ["Letters", "in_counting_order", "letters_of", "pole", "rows_of", "scale_statement"]
 

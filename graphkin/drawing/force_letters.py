@@ -6,8 +6,8 @@ same; russian: R_56, Φ_6, G_6 (Artobolevsky, Theory of mechanisms and machines)
 
 from __future__ import annotations
 
+from graphkin.scene.sheet_tables import Convention
 from graphkin.scene.symbol import Symbol
-from graphkin.scene.tables import Convention
 
 __all__ = ["force_letters", "part_mark"]
 

@@ -14,7 +14,7 @@ from graphkin.construction import Room, drawn_sizes
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.box import Box
 from graphkin.scene.model import Mechanism
-from graphkin.scene.tables import PAPERS
+from graphkin.scene.sheet_tables import PAPERS
 
 __all__ = ["BLOCK", "CAPTION", "GUTTER", "MARGIN", "SheetPlan", "sheet_plan", "sheet_room"]
 

@@ -11,8 +11,8 @@ from graphkin.construction.sheet import Scales
 from graphkin.drawing.box import Box
 from graphkin.drawing.polygon_on_page import extent
 from graphkin.scene.model import Mechanism
+from graphkin.scene.sheet_tables import PAPERS
 from graphkin.scene.symbol import Symbol
-from graphkin.scene.tables import PAPERS
 from graphkin.structure import Structure
 
 __all__ = ["A4", "Paper", "paper_of", "paper_plan"]

@@ -9,16 +9,16 @@ from io import BytesIO
 from pathlib import Path
 
 from graphkin.errors import Problem, did_you_mean
-from graphkin.scene.tables import BackgroundFile
+from graphkin.scene.sheet_tables import Background
 
-__all__ = ["Background", "background_of"]
+__all__ = ["PlacedBackground", "background_of"]
 
 LARGEST, MOST_PIXELS = 10_000_000, 50_000_000
 KINDS = {"PNG": "image/png", "JPEG": "image/jpeg"}
 
 
 @dataclass(frozen=True)
-class Background:
+class PlacedBackground:
     """A picture under the mechanism: the pixel x to the right and y down from its left upper corner lies at
     ``corner + step (x - iy)`` (m, world axes).  ``data`` is the file as it is, of the media type ``kind``."""
 
@@ -32,8 +32,8 @@ class Background:
 
 
 def background_of(
-    table: BackgroundFile, fixed: Mapping[str, complex], drawn: Mapping[str, complex], problems: list[Problem]
-) -> Background | None:
+    table: Background, fixed: Mapping[str, complex], drawn: Mapping[str, complex], problems: list[Problem]
+) -> PlacedBackground | None:
     """The picture that a file asks for, laid by two points whose places (m) it gives; None where something is wrong."""
     where = "sheet.background"
     found = _picture(f"{where}.file", table.file)
@@ -55,7 +55,7 @@ def background_of(
         return None
     step = (known[q] - known[p]) / (other - one)
     kind, width, height, data = found
-    return Background(Path(table.file).name, kind, width, height, known[p] - step * one, step, data)
+    return PlacedBackground(Path(table.file).name, kind, width, height, known[p] - step * one, step, data)
 
 
 def _picture(where: str, file: str) -> tuple[str, int, int, bytes] | Problem:

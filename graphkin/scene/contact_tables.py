@@ -17,11 +17,11 @@ if TYPE_CHECKING:
     TwoOutlines = Sequence[str]
     TwoTeeth = Sequence[float | str]
 
-__all__ = ["ContactTable", "DiscTable", "GearTable"]
+__all__ = ["Contact", "Disc", "Gear"]
 
 
 @dataclass(frozen=True)
-class DiscTable(FileTable):
+class Disc(FileTable):
     """A round outline that a link carries."""
 
     centre: PointName = field(metadata=about("A point of the link."))
@@ -29,7 +29,7 @@ class DiscTable(FileTable):
 
 
 @dataclass(frozen=True)
-class ContactTable(FileTable):
+class Contact(FileTable):
     """Two outlines that touch."""
 
     between: TwoOutlines = field(
@@ -44,7 +44,7 @@ class ContactTable(FileTable):
 
 
 @dataclass(frozen=True)
-class GearTable(FileTable):
+class Gear(FileTable):
     """Two wheels with teeth, or a wheel and a rack."""
 
     between: TwoOutlines = field(metadata=about('The two wheels ("2", "4"); a rack, second, or a guide of it ("3.r").'))

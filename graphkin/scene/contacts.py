@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-__all__ = ["Contact", "Disc", "Gear"]
+__all__ = ["PlacedContact", "PlacedDisc", "PlacedGear"]
 
 
 @dataclass(frozen=True)
-class Disc:
+class PlacedDisc:
     """A round outline of link ``link`` about its point ``centre``; ``radius`` (m) is negative for a hollow one."""
 
     link: str
@@ -22,7 +22,7 @@ class Disc:
 
 
 @dataclass(frozen=True)
-class Contact:
+class PlacedContact:
     """Two outlines that touch in ``name``.
 
     ``one`` and ``two`` are the links in the order of the file.  ``discs`` are their outlines, None for the side that
@@ -34,7 +34,7 @@ class Contact:
     name: str
     one: str
     two: str
-    discs: tuple[Disc | None, Disc | None]
+    discs: tuple[PlacedDisc | None, PlacedDisc | None]
     guide: str
     left: bool
     rolling: bool
@@ -52,7 +52,7 @@ class Contact:
         return None in self.discs
 
     @property
-    def round(self) -> tuple[Disc, ...]:
+    def round(self) -> tuple[PlacedDisc, ...]:
         """The discs."""
         return tuple(d for d in self.discs if d is not None)
 
@@ -75,7 +75,7 @@ class Contact:
 
 
 @dataclass(frozen=True)
-class Gear:
+class PlacedGear:
     """Two wheels with teeth: pitch circles that roll on each other, their axes held by ``carrier``.
 
     ``teeth`` are numbers with signs (negative: internal), None for a rack; ``axes`` the points of the wheels' axes on

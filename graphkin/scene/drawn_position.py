@@ -20,7 +20,7 @@ from dataclasses import dataclass
 
 from graphkin.errors import Problem
 from graphkin.plane import dot
-from graphkin.scene.contacts import Contact
+from graphkin.scene.contacts import PlacedContact
 from graphkin.scene.model import PinInSlot, SlidingPair
 from graphkin.scene.placing import Placement, guide_of, place_of
 from graphkin.scene.tables import Polar, SceneTables
@@ -254,7 +254,7 @@ def _along(rail: Placement, guide_name: str, place: complex | None) -> float | N
     return None if local is None or guide is None else dot(guide.direction, local - guide.through)
 
 
-def starts_of(file: SceneTables, position: DrawnPosition, contacts: tuple[Contact, ...]) -> dict[str, float]:
+def starts_of(file: SceneTables, position: DrawnPosition, contacts: tuple[PlacedContact, ...]) -> dict[str, float]:
     """Where what rolls stands: angles of links (rad), travels of sliding pairs and of contacts with a face (m), as far
     as the file or its drawn points tell."""
     found: dict[str, float] = {}

@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Strict, StringConstraints, Tag, TypeAdapter
 
+from graphkin.scene.asked_tables import StrokeStart
 from graphkin.scene.cam_tables import LawPiece
-from graphkin.scene.tables import SMALLEST, Compass, DrivenSlide, Driver, Link, Polar, SceneTables, StrokeStart
+from graphkin.scene.tables import SMALLEST, Compass, DrivenSlide, Driver, Link, Polar, SceneTables
 from graphkin.words import LANGUAGES
 
 __all__ = ["SCENE", "schema"]

@@ -12,14 +12,15 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Literal
 
-from graphkin.scene.background import Background
+from graphkin.scene.background import PlacedBackground
 from graphkin.scene.cams import LawCam
 from graphkin.scene.class_tables import Vary
-from graphkin.scene.contacts import Contact, Disc, Gear
+from graphkin.scene.contacts import PlacedContact, PlacedDisc, PlacedGear
 from graphkin.scene.loads import Loading
 from graphkin.scene.printed import Printed
+from graphkin.scene.sheet_tables import SheetWishes
 from graphkin.scene.symbol import Symbol
-from graphkin.scene.tables import SheetWishes, Units
+from graphkin.scene.tables import Units
 
 __all__ = [
     "AngleDriver",
@@ -70,7 +71,7 @@ class PlacedLink:
     bar: tuple[str, ...]
     guides: Mapping[str, PlacedGuide]
     redundant: bool = False
-    discs: tuple[Disc, ...] = ()
+    discs: tuple[PlacedDisc, ...] = ()
 
     @property
     def length(self) -> float | None:
@@ -311,11 +312,11 @@ class Mechanism:
     grading: Mapping[str, float] = field(default_factory=dict)
     cams: tuple[LawCam, ...] = ()
     instead_of: Mechanism | None = None
-    contacts: tuple[Contact, ...] = ()
-    gears: tuple[Gear, ...] = ()
+    contacts: tuple[PlacedContact, ...] = ()
+    gears: tuple[PlacedGear, ...] = ()
     starts: Mapping[str, float] = field(default_factory=dict)
     slots: tuple[CircularSlot, ...] = ()
-    background: Background | None = None
+    background: PlacedBackground | None = None
     source_zh: str = ""
 
     def __hash__(self) -> int:

@@ -19,7 +19,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from graphkin.errors import Problem, SceneError, did_you_mean
-from graphkin.scene import cam_tables, contact_tables, load_tables, tables
+from graphkin.scene import asked_tables, cam_tables, contact_tables, load_tables, sheet_tables, tables
 from graphkin.scene.file_table import FileTable, entries, key_of, keys_of
 from graphkin.scene.form import SCENE
 from graphkin.scene.names import Flaws, Path
@@ -179,10 +179,10 @@ _TABLES: tuple[tuple[tuple[str, ...], type[FileTable]], ...] = (
     (("links", "*", "guides", "*"), tables.Guide),
     (("links", "*", "at", "*", "<polar>"), tables.Polar),
     (("links", "*", "at", "*", "<compass>"), tables.Compass),
-    (("links", "*", "discs", "*"), contact_tables.DiscTable),
-    (("frame", "discs", "*"), contact_tables.DiscTable),
-    (("contacts", "*"), contact_tables.ContactTable),
-    (("gears", "*"), contact_tables.GearTable),
+    (("links", "*", "discs", "*"), contact_tables.Disc),
+    (("frame", "discs", "*"), contact_tables.Disc),
+    (("contacts", "*"), contact_tables.Contact),
+    (("gears", "*"), contact_tables.Gear),
     (("pins", "*"), tables.Pin),
     (("driver", "<one>", "<angle>"), tables.Driver),
     (("driver", "<one>", "<slide>"), tables.DrivenSlide),
@@ -199,12 +199,12 @@ _TABLES: tuple[tuple[tuple[str, ...], type[FileTable]], ...] = (
     (("springs", "*"), load_tables.Spring),
     (("balance",), load_tables.Balance),
     (("flywheel",), load_tables.Flywheel),
-    (("sheet",), tables.SheetWishes),
-    (("sheet", "background"), tables.BackgroundFile),
-    (("positions",), tables.Positions),
-    (("positions", "first", "<polar>"), tables.StrokeStart),
-    (("positions", "also", "*", "<polar>"), tables.StrokeStart),
-    (("printed_table",), tables.PrintedTable),
+    (("sheet",), sheet_tables.SheetWishes),
+    (("sheet", "background"), sheet_tables.Background),
+    (("positions",), asked_tables.Positions),
+    (("positions", "first", "<polar>"), asked_tables.StrokeStart),
+    (("positions", "also", "*", "<polar>"), asked_tables.StrokeStart),
+    (("printed_table",), asked_tables.PrintedTable),
 )
 _NOUNS = {"g": "gravity", "mass": "mass", "rate": "rate", "weight": "weight", "delta": "fluctuation"}
 """What must be positive, where it is no length."""

@@ -13,7 +13,7 @@ from graphkin.scene.background import background_of
 from graphkin.scene.cam_reading import cams_of
 from graphkin.scene.cams import LawCam
 from graphkin.scene.circular_slots import with_bars
-from graphkin.scene.contacts import Disc
+from graphkin.scene.contacts import PlacedDisc
 from graphkin.scene.drawn_position import DrawnPosition, find_position, starts_of, travel_of
 from graphkin.scene.force_names import no_force
 from graphkin.scene.loads import Loading, loading_of
@@ -322,7 +322,7 @@ def _guides(body: Placement) -> dict[str, PlacedGuide]:
     return {"": body.guides[""], **{name: body.guides[name] for name in body.rails}}
 
 
-def _link(name: str, table: Link, body: Placement, discs: Mapping[tuple[str, str], Disc]) -> PlacedLink:
+def _link(name: str, table: Link, body: Placement, discs: Mapping[tuple[str, str], PlacedDisc]) -> PlacedLink:
     order = dict.fromkeys((*body.own, *table.at))
     outlines = tuple(d for d in discs.values() if d.link == name)
     return PlacedLink(name, {p: body.local[p] for p in order}, body.own, _guides(body), table.redundant, outlines)

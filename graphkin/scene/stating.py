@@ -8,6 +8,7 @@ from decimal import Decimal
 from typing import Any, Literal
 
 from graphkin.errors import Problem, did_you_mean
+from graphkin.scene.asked_tables import Positions, StrokeStart
 from graphkin.scene.cells import read_cell
 from graphkin.scene.model import NamedPositions, OnStroke, PinInSlot, SlidingPair, StatedValues
 from graphkin.scene.names import Names
@@ -15,7 +16,7 @@ from graphkin.scene.printed import Printed, stated
 from graphkin.scene.reading import path_name
 from graphkin.scene.spelling import Spelling, unit_factor
 from graphkin.scene.symbol import Symbol, missing_names
-from graphkin.scene.tables import DrivenSlide, Positions, SceneTables, StrokeStart, Units
+from graphkin.scene.tables import DrivenSlide, SceneTables, Units
 
 __all__ = ["asked", "loops_named", "position_name", "positions_named", "stated_values"]
 

@@ -12,7 +12,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
-from graphkin.scene.tables import SheetWishes, Units
+from graphkin.scene.sheet_tables import SheetWishes
+from graphkin.scene.tables import Units
 
 __all__ = [
     "KINDS",

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 
 from graphkin.errors import Problem, did_you_mean
 from graphkin.plane import cross
-from graphkin.scene.contact_tables import ContactTable, GearTable
-from graphkin.scene.contacts import Contact, Disc, Gear
+from graphkin.scene.contact_tables import Contact, Gear
+from graphkin.scene.contacts import PlacedContact, PlacedDisc, PlacedGear
 from graphkin.scene.model import PlacedGuide, SlidingPair
 from graphkin.scene.names import Flaws, Names
 from graphkin.scene.tables import SceneTables
@@ -18,9 +18,9 @@ __all__ = ["contacts_of", "discs_of", "gears_of", "rack_place", "touching_links"
 AGREE = 1e-6
 
 
-def discs_of(file: SceneTables, names: Names, problems: list[Problem]) -> dict[tuple[str, str], Disc]:
+def discs_of(file: SceneTables, names: Names, problems: list[Problem]) -> dict[tuple[str, str], PlacedDisc]:
     """Every round outline by its link and its name."""
-    metres, found = file.units.metres, dict[tuple[str, str], Disc]()
+    metres, found = file.units.metres, dict[tuple[str, str], PlacedDisc]()
     tables = [(f"links.{n}", n, link.discs) for n, link in file.links.items()]
     for where, link, discs in (*tables, ("frame", names.frame, file.frame.discs)):
         for name, table in discs.items():
@@ -32,7 +32,7 @@ def discs_of(file: SceneTables, names: Names, problems: list[Problem]) -> dict[t
             elif table.r == 0:
                 problems.append(Problem(f"{here}.r", "found 0", "write a radius; a negative one is a hollow outline"))
             else:
-                found[link, name] = Disc(link, name, table.centre, table.r * metres)
+                found[link, name] = PlacedDisc(link, name, table.centre, table.r * metres)
     return found
 
 
@@ -48,17 +48,17 @@ class _Side:
     """One side of a contact: its link, and its disc or the name of its guide."""
 
     link: str
-    disc: Disc | None
+    disc: PlacedDisc | None
     guide: str
 
 
 def contacts_of(
-    file: SceneTables, names: Names, flaws: Flaws, discs: Mapping[tuple[str, str], Disc], problems: list[Problem]
-) -> tuple[Contact, ...]:
+    file: SceneTables, names: Names, flaws: Flaws, discs: Mapping[tuple[str, str], PlacedDisc], problems: list[Problem]
+) -> tuple[PlacedContact, ...]:
     """The contacts of a file; what is wrong with them is added to ``problems``."""
     lost = {(n, k) for n in names.points for k in flaws.names("links", n, "discs")}
     lost |= {(names.frame, k) for k in flaws.names("frame", "discs")}
-    found: list[Contact] = []
+    found: list[PlacedContact] = []
     for name, table in file.contacts.items():
         where = f"contacts.{name}"
         if any(name in own for own in names.points.values()):
@@ -82,7 +82,7 @@ def contacts_of(
 
 
 def _side(
-    where: str, ref: str, file: SceneTables, names: Names, discs: Mapping[tuple[str, str], Disc],
+    where: str, ref: str, file: SceneTables, names: Names, discs: Mapping[tuple[str, str], PlacedDisc],
     lost: set[tuple[str, str]],
 ) -> _Side | Problem | None:
     link, _, part = ref.partition(".")
@@ -101,7 +101,7 @@ def _side(
     return Problem(where, f'link {link} has no disc and no guide "{part}"', wanted)
 
 
-def _contact_problems(where: str, table: ContactTable, one: _Side, two: _Side) -> Iterator[Problem]:
+def _contact_problems(where: str, table: Contact, one: _Side, two: _Side) -> Iterator[Problem]:
     refs = " and ".join(table.between)
     if one.link == two.link:
         yield Problem(f"{where}.between", f"{refs} are outlines of the same link {one.link}", "name two links")
@@ -134,7 +134,7 @@ def _contact_problems(where: str, table: ContactTable, one: _Side, two: _Side) -
         yield Problem(f"{where}.side", "both radii are equal", "inside, one must be smaller than the other")
 
 
-def _contact(name: str, table: ContactTable, one: _Side, two: _Side, names: Names) -> Contact:
+def _contact(name: str, table: Contact, one: _Side, two: _Side, names: Names) -> PlacedContact:
     first, second, guide = one.disc, two.disc, one.guide or two.guide
     carrier = ""
     if first and second:
@@ -149,17 +149,17 @@ def _contact(name: str, table: ContactTable, one: _Side, two: _Side, names: Name
             others.sort(key=lambda n: n != names.frame)
             carrier = others[0] if others else ""
     discs = (first, second)
-    return Contact(name, one.link, two.link, discs, guide, table.side != "right", table.rolling, carrier)
+    return PlacedContact(name, one.link, two.link, discs, guide, table.side != "right", table.rolling, carrier)
 
 
 def gears_of(
     file: SceneTables, names: Names, slidings: tuple[SlidingPair, ...], problems: list[Problem]
-) -> tuple[Gear, ...]:
+) -> tuple[PlacedGear, ...]:
     """The gears of a file; what is wrong with them is added to ``problems``."""
     found = []
     for name, table in file.gears.items():
         made = _gear(f"gears.{name}", name, table, file, names, slidings)
-        if isinstance(made, Gear):
+        if isinstance(made, PlacedGear):
             found.append(made)
         else:
             problems += made
@@ -167,8 +167,8 @@ def gears_of(
 
 
 def _gear(
-    where: str, name: str, table: GearTable, file: SceneTables, names: Names, slidings: tuple[SlidingPair, ...]
-) -> Gear | list[Problem]:
+    where: str, name: str, table: Gear, file: SceneTables, names: Names, slidings: tuple[SlidingPair, ...]
+) -> PlacedGear | list[Problem]:
     first, _, part = table.between[0].partition(".")
     second, _, guide = table.between[1].partition(".")
     z1, z2 = table.teeth
@@ -213,11 +213,11 @@ def _gear(
         if rack:
             pair = next((s for s in slidings if {s.link, s.on} == {second, carrier}), None)
             if one and pair:
-                return Gear(name, (first, second), (z1, None), carrier, (one, ""), guide, pair.key)
+                return PlacedGear(name, (first, second), (z1, None), carrier, (one, ""), guide, pair.key)
             continue
         two = _axis(names, second, carrier)
         if one and two and one != two:
-            return Gear(name, (first, second), (z1, float(z2)), carrier, (one, two))
+            return PlacedGear(name, (first, second), (z1, float(z2)), carrier, (one, two))
     held = "the wheel's axis and the rack's slide" if rack else "both axes"
     if table.carrier:
         wanted = f"it shares a point with link {first}" + ("" if rack else f" and another with link {second}")
@@ -234,7 +234,7 @@ def _axis(names: Names, wheel: str, carrier: str) -> str:
 
 
 def wrong_distances(
-    contacts: tuple[Contact, ...], gears: tuple[Gear, ...], slidings: tuple[SlidingPair, ...],
+    contacts: tuple[PlacedContact, ...], gears: tuple[PlacedGear, ...], slidings: tuple[SlidingPair, ...],
     points: Mapping[str, Mapping[str, complex]], guides: Mapping[str, Mapping[str, PlacedGuide]], metres: float,
 ) -> Iterator[Problem]:
     """Wheels whose carrier does not hold them as far apart as their radii say, or at no distance; pitch lines that are
@@ -265,7 +265,7 @@ def wrong_distances(
 
 
 def rack_place(
-    gear: Gear, slidings: tuple[SlidingPair, ...],
+    gear: PlacedGear, slidings: tuple[SlidingPair, ...],
     points: Mapping[str, Mapping[str, complex]], guides: Mapping[str, Mapping[str, PlacedGuide]],
 ) -> tuple[float, float, float]:
     """How far the pitch line of a rack lies to the left of the wheel's axis, seen along the guide of its slide (m); the

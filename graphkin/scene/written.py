@@ -17,7 +17,7 @@ from typing import Any
 from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.plane import degrees
 from graphkin.scene.cams import LawCam, SwingingFollower
-from graphkin.scene.contacts import Contact, Gear
+from graphkin.scene.contacts import PlacedContact, PlacedGear
 from graphkin.scene.loads import Phase
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedLink
 from graphkin.scene.tables import SceneTables
@@ -293,7 +293,7 @@ def _start(scene: Mechanism, link: PlacedLink, length: Callable[[float], float])
     return _tidy(math.degrees(scene.starts[link.name])) if link.name in scene.starts else None
 
 
-def _contact(contact: Contact) -> dict[str, Any]:
+def _contact(contact: PlacedContact) -> dict[str, Any]:
     between = [f"{d.link}.{d.name}" if d else _guide_name(contact.face, contact.guide) for d in contact.discs]
     if contact.flat:
         side = "left" if contact.left else "right"
@@ -302,7 +302,7 @@ def _contact(contact: Contact) -> dict[str, Any]:
     return {"between": between, "side": side, "rolling": contact.rolling}
 
 
-def _gear(gear: Gear) -> dict[str, Any]:
+def _gear(gear: PlacedGear) -> dict[str, Any]:
     second = _guide_name(gear.wheels[1], gear.guide)
     teeth = ["rack" if z is None else z for z in gear.teeth]
     return {"between": [gear.wheels[0], second], "teeth": teeth, "carrier": gear.carrier}

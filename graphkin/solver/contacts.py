@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphkin.scene.contacts import Contact, Gear
+from graphkin.scene.contacts import PlacedContact, PlacedGear
 from graphkin.solver.motion import Motion
 from graphkin.solver.pose import Array
 
@@ -33,7 +33,7 @@ class ContactMotion:
     pressure: dict[str, Array]
 
 
-def contact_motion(motion: Motion, contact: Contact) -> ContactMotion:
+def contact_motion(motion: Motion, contact: PlacedContact) -> ContactMotion:
     """Place, normal, slip and pressure angles of a contact."""
     place = motion.position(contact.name)
     if contact.discs[0] is not None:
@@ -58,7 +58,7 @@ def contact_motion(motion: Motion, contact: Contact) -> ContactMotion:
     return ContactMotion(place, normal, np.asarray(one - two), pressure)
 
 
-def pitch_point(motion: Motion, gear: Gear) -> tuple[Array, tuple[float, float | None]]:
+def pitch_point(motion: Motion, gear: PlacedGear) -> tuple[Array, tuple[float, float | None]]:
     """Where the pitch circles of a gear touch, complex, shape (n,) (m), and their radii with the signs of the teeth (m;
     None for a rack)."""
     axis = motion.position(gear.axes[0], gear.carrier)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphkin.plane import cross
-from graphkin.scene.contacts import Contact
+from graphkin.scene.contacts import PlacedContact
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver.contacts import contact_motion
@@ -63,7 +63,7 @@ def disc_cams(structure: Structure) -> tuple[DiscCam, ...]:
     return tuple(_measured(reach, *one) for one in found)
 
 
-def _sides(scene: Mechanism, contact: Contact) -> tuple[int, str] | None:
+def _sides(scene: Mechanism, contact: PlacedContact) -> tuple[int, str] | None:
     """Which side of a contact is the cam (0 or 1), and what tells the follower's motion: its sliding pair or link."""
     driver = scene.drivers[0] if scene.drivers else None
     if not isinstance(driver, AngleDriver) or driver.relative_to != scene.frame.name or contact.rolling:
@@ -80,7 +80,7 @@ def _sides(scene: Mechanism, contact: Contact) -> tuple[int, str] | None:
     return (side, pair) if pair is not None else (side, follower) if turns else None
 
 
-def _measured(reach: DriverRange, contact: Contact, side: int, of: str) -> DiscCam:
+def _measured(reach: DriverRange, contact: PlacedContact, side: int, of: str) -> DiscCam:
     scene = reach.scene
     link, follower = contact.links[side], contact.links[1 - side]
     disc, other = contact.discs[side], contact.discs[1 - side]
@@ -104,12 +104,12 @@ def _measured(reach: DriverRange, contact: Contact, side: int, of: str) -> DiscC
     )  # fmt: skip
 
 
-def _pressures(reach: DriverRange, contact: Contact, follower: str, offset: Array) -> Array:
+def _pressures(reach: DriverRange, contact: PlacedContact, follower: str, offset: Array) -> Array:
     """Pressure angles of the follower; NaN where it stands."""
     return np.asarray(contact_motion(reach.motion(offset, unit=True), contact).pressure[follower])
 
 
-def _greatest(reach: DriverRange, contact: Contact, follower: str) -> tuple[float, float]:
+def _greatest(reach: DriverRange, contact: PlacedContact, follower: str) -> tuple[float, float]:
     """The greatest pressure angle of a turn, and the driver's angle there."""
     grid = np.linspace(0.0, math.tau, SAMPLES, endpoint=False) + 1e-3
     values = np.nan_to_num(_pressures(reach, contact, follower, grid), nan=-1.0)
@@ -124,7 +124,7 @@ def _tops(values: Array) -> Iterator[int]:
     yield from np.flatnonzero((values >= around) & (values > most - 0.01)).tolist()[:8]
 
 
-def _refined(reach: DriverRange, contact: Contact, follower: str, at: float) -> tuple[float, float]:
+def _refined(reach: DriverRange, contact: PlacedContact, follower: str, at: float) -> tuple[float, float]:
     """The greatest value about a place, by golden section."""
     step = math.tau / SAMPLES
     low, high = at - step, at + step

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
-from graphkin.scene.contacts import Contact
+from graphkin.scene.contacts import PlacedContact
 from graphkin.scene.model import PlacedGuide, PlacedLink
 from graphkin.structure.model import Dyad, Slide, Structure
 from graphkin.words import Phrase
@@ -18,7 +18,7 @@ from graphkin.words import Phrase
 __all__ = ["named_with_contact", "replaced_pairs", "stand_in"]
 
 
-def stand_in(contact: Contact, links: Mapping[str, PlacedLink]) -> tuple[PlacedLink, Slide | None]:
+def stand_in(contact: PlacedContact, links: Mapping[str, PlacedLink]) -> tuple[PlacedLink, Slide | None]:
     """The link that stands for a contact, and for a flat face the sliding pair.  The point of contact is a point of it.
     Where another link holds both centres of a rolling pair, it is that link with the point of contact."""
     own = {"": PlacedGuide("", 0j, 1 + 0j)}

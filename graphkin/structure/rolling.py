@@ -15,7 +15,7 @@ from fractions import Fraction
 from itertools import chain
 from typing import Any
 
-from graphkin.scene.contacts import Contact, Gear
+from graphkin.scene.contacts import PlacedContact, PlacedGear
 from graphkin.scene.model import AngleDriver, AngleFollower, Follower, Mechanism, PlacedLink, SlideFollower
 from graphkin.scene.touching import rack_place
 from graphkin.structure.model import Coordinate, Pair, Rolled, Slide, Turn
@@ -32,7 +32,7 @@ class Relation:
 
 
 def relations_of(
-    scene: Mechanism, contacts: Iterable[Contact], gears: Iterable[Gear], links: Mapping[str, PlacedLink]
+    scene: Mechanism, contacts: Iterable[PlacedContact], gears: Iterable[PlacedGear], links: Mapping[str, PlacedLink]
 ) -> tuple[Relation, ...]:
     """The relations of everything that rolls."""
     found = []

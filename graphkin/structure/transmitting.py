@@ -20,7 +20,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from graphkin.errors import CallError, Problem
-from graphkin.scene.contacts import Contact
+from graphkin.scene.contacts import PlacedContact
 from graphkin.scene.symbol import Symbol
 from graphkin.structure.model import Cluster, Dyad, Slide, Structure, Turn
 
@@ -131,7 +131,7 @@ def joint_of_follower(structure: Structure, name: str, symbol: Symbol) -> Joint:
     )
 
 
-def _at_contact(structure: Structure, contact: Contact, name: str) -> Joint | None:
+def _at_contact(structure: Structure, contact: PlacedContact, name: str) -> Joint | None:
     """The common normal, and what the velocity of the link's point at the contact is square to: a guide of the frame on
     which it slides, or the line to its fixed pivot."""
     block, frame = contact.block, structure.scene.frame

@@ -15,7 +15,7 @@ from graphkin.construction import EXACT, pencil
 from graphkin.construction.synthesis import construct
 from graphkin.plane import direction
 from graphkin.scene.design_file import design_of, designs
-from graphkin.scene.tables import Tools
+from graphkin.scene.sheet_tables import Tools
 from graphkin.solver.synthesis import synthesise
 from tests.command import run
 

@@ -12,8 +12,8 @@ from graphkin.checking.readings import read_off
 from graphkin.checking.uncertainty import COVERAGE, predict
 from graphkin.construction import execute, pencil, plan
 from graphkin.scene import library, library_text, mechanism_of, mechanism_of_text
+from graphkin.scene.sheet_tables import Tools
 from graphkin.scene.symbol import Symbol
-from graphkin.scene.tables import Tools
 
 SIXBAR = "sixbar-guide-40deg"
 SEEDS = 40

@@ -17,7 +17,7 @@ from graphkin.drawing import Box, Drawing, Text, figures, sheet_room, svg_bytes
 from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.primitives import walk
 from graphkin.scene import library, mechanism_of
-from graphkin.scene.tables import PAPERS
+from graphkin.scene.sheet_tables import PAPERS
 
 SVG = "{http://www.w3.org/2000/svg}"
 GUIDE = "sixbar-guide-40deg"

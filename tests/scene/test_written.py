@@ -10,8 +10,24 @@ import numpy as np
 import pytest
 
 import graphkin
-from graphkin import DrivenSlide, Driver, Frame, Guide, Link, Pin, Polar, Scene, SceneError, Units
+from graphkin import (
+    DrivenSlide,
+    Driver,
+    Frame,
+    Guide,
+    Link,
+    Load,
+    LoadPhase,
+    Mass,
+    Pin,
+    Polar,
+    Scene,
+    SceneError,
+    Spring,
+    Units,
+)
 from graphkin.scene import library
+from graphkin.scene.file_table import keys_of
 
 
 def crank(**other: object) -> Scene:
@@ -36,6 +52,32 @@ def test_a_saved_scene_reads_as_the_same(name: str, tmp_path: Path) -> None:
 
 def test_a_built_scene_is_that_of_its_mapping() -> None:
     assert crank().mechanism == graphkin.read(crank().to_dict()).mechanism
+
+
+@pytest.mark.parametrize("name", library())
+def test_every_table_of_a_file_has_a_builder_among_the_public_names(name: str) -> None:
+    scene = graphkin.read(name)
+    public = {n: getattr(graphkin, n) for n in graphkin.__all__}
+    tables = {key.name: eval(repr(getattr(scene, key.name)), public) for key in keys_of(scene)}
+    assert scene == Scene(**tables)
+
+
+def test_masses_loads_and_springs_are_built_and_checked_as_in_a_file() -> None:
+    when, spring = {"stroke": "3/0", "to": 0.5}, {"between": ["C", "A"], "rate": 1.6, "free": 20}
+    built = crank(
+        masses={"3": Mass(at="C", weight=8)},
+        loads={"P": Load(on="3", at="C", force=90, against="3/0", when=LoadPhase(stroke="3/0", end=0.5))},
+        springs={"R": Spring(between=["C", "A"], rate=1.6, free=20)},
+    )
+    mapping = {
+        **crank().to_dict(),
+        "masses": {"3": {"at": "C", "weight": 8}},
+        "loads": {"P": {"on": "3", "at": "C", "force": 90, "against": "3/0", "when": when}},
+        "springs": {"R": spring},
+    }
+    assert graphkin.read(mapping) == built
+    with pytest.raises(SceneError, match=r"masses\.9"):
+        crank(masses={"9": Mass(at="C", mass=1)})
 
 
 def test_every_public_function_takes_a_built_scene() -> None:

@@ -17,8 +17,8 @@ from graphkin.construction.board import Instrument
 from graphkin.construction.centres import by_centres, find_centres, speeds
 from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.scene.model import Mechanism
+from graphkin.scene.sheet_tables import Tools
 from graphkin.scene.symbol import Symbol
-from graphkin.scene.tables import Tools
 from graphkin.study.equations import Equations
 from graphkin.study.reference import reference, refined
 from graphkin.study.stability.laws import ErrorLaw, Singularity, binned, grid
