@@ -133,8 +133,6 @@ def verdict(checked: Checked, language: str) -> str:
     said = []
     if report.missing:
         said.append(Phrase("not drawn", (", ".join(map(str, report.missing)),)))
-    if not checked.asked and checked.scene.loading and not checked.sheet.has_forces:
-        said.append(Phrase("forces not drawn"))
     off = [str(r.symbol) for r in report.rows if r.ok is False]
     if report.undetermined:
         said.append(Phrase("not determined", (", ".join(map(str, report.undetermined)),)))

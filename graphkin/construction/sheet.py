@@ -340,9 +340,8 @@ class Sheet:
     @property
     def has_forces(self) -> bool:
         """Whether forces are drawn of it: there are masses or loads, and all is drawn that they need."""
-        touching = self.scene.contacts or self.scene.gears  # their forces are computed, not drawn
         wanted = not self.asked or any(s.scope == "force" for s in self.asked)
-        return bool(self.scene.loading) and not touching and wanted
+        return bool(self.scene.loading) and wanted
 
     def at(self, scales: Scales) -> Sheet:
         """The same construction at other scales: every length on paper so many times as large.

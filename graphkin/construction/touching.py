@@ -3,15 +3,30 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from cmath import phase
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
+from typing import Literal
 
+from graphkin.construction.cam_outline import station
 from graphkin.construction.sheet import Pose
 from graphkin.plane import dot
 from graphkin.scene.contacts import PlacedContact, PlacedGear
 from graphkin.scene.model import Mechanism
 
-__all__ = ["Touching"]
+__all__ = ["Touch", "Touching"]
+
+
+@dataclass(frozen=True)
+class Touch:
+    """Two links that touch: a letter for it, where, and the direction of the common normal.  Wheels mesh whose centres
+    another link holds apart: what they carry is tangential."""
+
+    name: str
+    links: tuple[str, str]
+    at: complex
+    normal: complex
+    means: Literal["slides", "rolls", "meshes"]
 
 
 @dataclass(frozen=True)
@@ -63,6 +78,32 @@ class Touching:
         way = self.place(gear.carrier, held[gear.axes[1]]) - axis
         return axis + way * (gear.teeth[0] / (gear.teeth[0] + gear.teeth[1]))
 
+    def normal(self, gear: PlacedGear) -> complex:
+        """The direction of the line of centres of two wheels, of a rack square to its pitch line."""
+        if gear.teeth[1] is None:
+            rack = self.scene.by_name[gear.wheels[1]].guides[gear.guide]
+            return 1j * self.poses[gear.wheels[1]].axis * rack.direction
+        held = self.scene.by_name[gear.carrier].points
+        way = self.poses[gear.carrier].axis * (held[gear.axes[1]] - held[gear.axes[0]])
+        return way / abs(way)
+
+    def touches(self) -> Iterator[Touch]:
+        """Everything that touches: contacts, wheels, cams with their followers."""
+        for contact in self.contacts():
+            means: Literal["slides", "rolls", "meshes"] = "slides"
+            if contact.rolling:
+                means = "meshes" if contact.carrier else "rolls"
+            yield Touch(contact.name, contact.links, *self.contact(contact), means)
+        taken = {*self.scene.holders, *(contact.name for contact in self.scene.contacts)}
+        for gear in self.gears():
+            yield Touch(_free(gear.name, taken), gear.wheels, self.pitch_point(gear), self.normal(gear), "meshes")
+        for cam in self.scene.cams:
+            if {cam.link, cam.follower} <= self.poses.keys():
+                pose = self.poses[cam.link]
+                here = station(cam, cam.sense * phase(pose.axis))
+                at, normal = pose.origin + pose.axis * here.contact * self.mm, pose.axis * here.normal
+                yield Touch(_free("K", taken), (cam.link, cam.follower), at, normal, "slides")
+
     def rolling(self) -> Iterator[tuple[str, str, complex, str]]:
         """Links that roll on each other, where they touch, and the name of the contact or the gear."""
         for contact in self.contacts():
@@ -88,10 +129,19 @@ class Touching:
                 axis = self.place(gear.carrier, self.scene.by_name[gear.carrier].points[gear.axes[0]])
                 yield gear.wheels[1], at, (at - axis) / abs(at - axis)
 
-    def outermost(self) -> list[complex]:
-        """The four outermost places of each round outline and each pitch circle."""
-        found = [(c, abs(radius)) for _, c, radius in self.pitch_circles()]
+    def outermost(self, of: Collection[str] | None = None) -> list[complex]:
+        """The four outermost places of each round outline and each pitch circle, ``of`` some links or of all."""
+        names = self.poses.keys() if of is None else self.poses.keys() & of
+        found = [(c, abs(radius)) for wheel, c, radius in self.pitch_circles() if wheel in names]
         for link in (self.scene.frame, *self.scene.links):
-            if link.name in self.poses:
+            if link.name in names:
                 found += [(self.place(link.name, link.points[d.centre]), abs(d.radius) * self.mm) for d in link.discs]
         return [centre + radius * way for centre, radius in found for way in (1, 1j, -1, -1j)]
+
+
+def _free(name: str, taken: set[str]) -> str:
+    """A letter that no point has, from then on taken."""
+    while name in taken:
+        name += "'"
+    taken.add(name)
+    return name

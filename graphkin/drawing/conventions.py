@@ -156,6 +156,8 @@ class Letters:
         """A guide by its name; the frame's own axis is x."""
         if name == f"x{frame}":
             return "x"
+        if "-" in name:  # n-n, t-t of what touches
+            return name
         letter, rest = _parted(name)
         return f"{letter}_{{{rest}}}" if letter and rest else name
 

@@ -31,10 +31,13 @@ def polygons_of(group: ForceGroup) -> list[tuple[str, tuple[ForceVector, ...], t
     """The polygons of a group that are drawn apart: the link it is of ("" for the whole group), its vectors, and forces
     inside that close part of it."""
     closing, own = [], []
+    drawn = {frozenset((v.symbol.link, v.symbol.other)): {v.tail, v.tip} for v in group.polygon if v.symbol.other}
     for link, vectors in group.inner.items():
         body = vectors[:-1]
         if group.polygon and body == group.polygon[: len(body)]:
-            closing += [vectors[-1]]
+            last = vectors[-1]  # of a pin in a slot it is the force of the slot
+            there = drawn.get(frozenset((last.symbol.link, last.symbol.other)))
+            closing += [] if there == {last.tail, last.tip} else [last]
         else:
             own.append((link, vectors, ()))
     whole = [("", group.polygon, tuple(v for v in closing if abs(v.span) > SHORT))] if group.polygon else []

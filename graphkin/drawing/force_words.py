@@ -96,6 +96,8 @@ def couple_lines(sheet: Sheet, group: ForceGroup, letters: Letters, language: st
     lines = []
     units = sheet.scene.units
     for one in group.couples:
+        if not any(link in sheet.scene.by_name for link in one.links):  # a pin in a slot has no couple
+            continue
         name = f"${force_letters(letters.convention, one.symbol)}$"
         if one.symbol.other and not one.value:
             lines.append(say(Phrase("force no couple", (name,)), language))
@@ -114,7 +116,8 @@ def couple_lines(sheet: Sheet, group: ForceGroup, letters: Letters, language: st
 def _equation(sheet: Sheet, one: MomentEquation, letters: Letters, name: str) -> str:
     """``ΣM_C = 0: F_G5 x 0.0488 m ... = 0, F^t_R45 = -10.7 N``."""
     units = sheet.scene.units
-    about = one.about if one.about in sheet.scene.holders else f"({one.about})"
+    scene = sheet.scene
+    about = f"({one.about})" if one.about in scene.by_name and one.about not in scene.holders else one.about
     terms = [_term(sheet, t) for t in one.terms]
     # the result is that of the numbers as they stand there
     total = sum((Decimal(f"{sign}1") * math.prod(map(Decimal, factors)) for sign, factors in terms), Decimal(0))

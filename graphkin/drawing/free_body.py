@@ -7,8 +7,10 @@ from cmath import phase
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
+from graphkin.construction.cam_outline import outlines_on_paper
 from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceState, ForceVector
 from graphkin.construction.sheet import Sheet
+from graphkin.construction.touching import Touching
 from graphkin.drawing import strokes, symbols
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
@@ -20,6 +22,7 @@ from graphkin.drawing.piece import Piece, cut_to, ink_box, joined, middle_of, mo
 from graphkin.drawing.primitives import Circle, Group, Line, Primitive, Text
 from graphkin.drawing.symbols import COMPONENT, JOINT_RADIUS, RESULTANT, arrow
 from graphkin.drawing.text import symbol
+from graphkin.drawing.touching import marks_cut_free
 from graphkin.plane import unit
 
 __all__ = ["colour_of_force", "free_body", "letters_of_force", "links_cut_free", "sketch_height"]
@@ -70,14 +73,15 @@ def _sketch(
     )  # fmt: skip
     here = MechanismOnPaper(small, letters)
     parts, labels = _links(here, links)
-    more = _arms(group, times, letters)
+    marks = marks_cut_free(here, frozenset(links))
+    more = [*marks.layers["construction"], *_arms(group, times, letters)]
     arrows, named = _arrows(sheet, group, state, letters, times, tag)
     shifted = list(shifted_lines(forces, links, times))
     more += [line for line, _ in shifted]
     named += [label for _, label in shifted]
     return Piece(
         {"mechanism": (Group(tuple(parts), id=f"free-body-{tag}"),), "construction": tuple(more), "forces": arrows},
-        (*named, *labels),
+        (*named, *labels, *marks.labels),
     )
 
 
@@ -95,11 +99,15 @@ def _extent(sheet: Sheet, group: ForceGroup) -> Box:
 
 
 def _points(sheet: Sheet, links: set[str]) -> list[complex]:
+    known = sheet.structure.links
     found = [sheet.poses[name].origin for name in links if name in sheet.poses]
     for ref, z in sheet.points.items():
-        if not ref.link and any(ref.point in sheet.structure.links[n].points for n in links):
+        if not ref.link and any(ref.point in known[n].points for n in links if n in known):
             found.append(z)
-    return found
+    mm = 1.0 / sheet.scales.length
+    for cam, profile in outlines_on_paper(sheet.scene, sheet.poses, mm).items():
+        found += profile if cam in links else ()
+    return found + Touching(sheet.scene, mm, sheet.poses).outermost(links)
 
 
 def _links(here: MechanismOnPaper, links: set[str]) -> tuple[list[Primitive], list[Label]]:

@@ -48,7 +48,8 @@ def links_alone(
     here: MechanismOnPaper, names: Collection[str], rank: int
 ) -> tuple[list[Primitive], list[Label]]:
     """Areas and bars of some links cut free, with their numbers as labels of a ``rank``; pairs are the caller's."""
-    parts: list[Primitive] = []
+    parts: list[Primitive] = [_cam_alone(here, one) for one in here.cams if one.cam.link in names]
+    parts += [part for one in here.cams if one.cam.follower in names for part in _follower_end(here, one)]
     labels: list[Label] = []
     for shape in here.shapes:
         if shape.link not in names:
@@ -58,9 +59,12 @@ def links_alone(
         if shape.corners:
             parts.append(Polygon(tuple(map(page, shape.corners)), strokes.tint(colour), stroke))
         parts += [Line(page(a), page(b), stroke) for a, b in shape.bars]
+        parts += [*outlines_of(here, shape.link), *wheels_of(here, shape.link)]
+        text = Text(0j, plain(shape.link, bold=True), "start", colour, classes=("label",))
         if shape.longest:
-            text = Text(0j, plain(shape.link, bold=True), "start", colour, classes=("label",))
             labels.append(Label(text, (page(shape.longest[0]), page(shape.longest[1])), rank=rank))
+        elif here.scene.contacts or here.scene.gears or here.scene.cams:
+            labels.append(Label(text, page(here.sheet.poses[shape.link].origin), rank=rank))
     return parts, labels
 
 
@@ -79,23 +83,30 @@ NORMAL, FACE = 9.0, 13.0
 
 def _profile(here: MechanismOnPaper, one: CamOnPaper) -> Group:
     """A cam with its profile, the follower's roller or face, tangent and normal where they touch."""
-    colour, other = here.colour(one.cam.link), here.colour(one.cam.follower)
-    shape = Polygon(tuple(map(page, one.profile)), strokes.tint(colour), strokes.LINK.coloured(colour))
     across = 1j * one.normal
-    parts: list[Primitive] = [shape]
-    if one.roller:
-        parts.append(Circle(page(one.point), one.roller, stroke=strokes.LINK.coloured(other)))
-    if one.cam.flat:
-        ends = page(one.point - FACE * across), page(one.point + FACE * across)
-        parts.append(Line(*ends, strokes.LINK.coloured(other)))
-        if abs(one.contact - one.point) > FACE:
-            parts.append(Line(page(one.point), page(one.contact), strokes.LINK.coloured(other)))
+    parts: list[Primitive] = [_cam_alone(here, one), *_follower_end(here, one)]
     beyond = one.contact + one.roller * one.normal
     thin = ((one.contact - NORMAL * one.normal, beyond + NORMAL * one.normal),
             (one.point - NORMAL * across, one.point + NORMAL * across))  # fmt: skip
     for start, end in thin[: 1 if one.cam.flat else 2]:
         parts.append(Line(page(start), page(end), strokes.DIRECTION))
     return Group(tuple(parts), id=f"cam-{one.cam.link}", classes=("cam",))
+
+
+def _cam_alone(here: MechanismOnPaper, one: CamOnPaper) -> Polygon:
+    colour = here.colour(one.cam.link)
+    return Polygon(tuple(map(page, one.profile)), strokes.tint(colour), strokes.LINK.coloured(colour))
+
+
+def _follower_end(here: MechanismOnPaper, one: CamOnPaper) -> Iterator[Primitive]:
+    """What of a follower touches its cam: the roller, the flat face."""
+    stroke, across = strokes.LINK.coloured(here.colour(one.cam.follower)), 1j * one.normal
+    if one.roller:
+        yield Circle(page(one.point), one.roller, stroke=stroke)
+    if one.cam.flat:
+        yield Line(page(one.point - FACE * across), page(one.point + FACE * across), stroke)
+        if abs(one.contact - one.point) > FACE:
+            yield Line(page(one.point), page(one.contact), stroke)
 
 
 def _frame(here: MechanismOnPaper) -> Group:

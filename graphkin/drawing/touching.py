@@ -7,17 +7,17 @@ from __future__ import annotations
 
 import math
 from cmath import phase
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from graphkin.construction.touching import Touching
 from graphkin.drawing import strokes, symbols
 from graphkin.drawing.labels import Label
 from graphkin.drawing.mechanism_on_paper import MechanismOnPaper, page
 from graphkin.drawing.piece import Piece
-from graphkin.drawing.primitives import Arc, Group, Line, Primitive, Stroke, Text
+from graphkin.drawing.primitives import Arc, Circle, Group, Line, Primitive, Stroke, Text
 from graphkin.drawing.text import symbol
 
-__all__ = ["contact_marks", "faces_of_frame", "outlines_of", "stand_ins", "wheels_of"]
+__all__ = ["contact_marks", "faces_of_frame", "marks_cut_free", "outlines_of", "stand_ins", "wheels_of"]
 
 NORMAL, TANGENT = 15.0, 12.0
 """mm of normal and tangent to either side of a contact."""
@@ -104,20 +104,33 @@ def faces_of_frame(here: MechanismOnPaper) -> list[Primitive]:
 
 def contact_marks(here: MechanismOnPaper) -> Piece:
     """At every contact the common normal n-n and the common tangent t-t."""
-    links, drawn, names = _on_paper(here), list[Primitive](), list[Label]()
-    for contact in links.contacts():
-        at, normal = links.contact(contact)
-        lines = []
+    links = _on_paper(here)
+    return _marks((contact.name, *links.contact(contact)) for contact in links.contacts())
+
+
+def marks_cut_free(here: MechanismOnPaper, cut: frozenset[str]) -> Piece:
+    """The same where links cut free touch others, in the pitch points of wheels too."""
+    touches = (t for t in _on_paper(here).touches() if cut.intersection(t.links))
+    return _marks(((t.name, t.at, t.normal) for t in touches), True)
+
+
+def _marks(places: Iterable[tuple[str, complex, complex]], lettered: bool = False) -> Piece:
+    drawn, names = list[Primitive](), list[Label]()
+    for name, at, normal in places:
+        lines = list[Primitive]()
         for letter, along, reach in (("n", normal, NORMAL), ("t", 1j * normal, TANGENT)):
             ends = at - reach * along, at + reach * along
             lines.append(Line(page(ends[0]), page(ends[1]), AXIS))
             for k, (end, way) in enumerate(zip(ends, (-along, along), strict=True)):
-                mark = f"label-{letter}-{contact.name}-{k + 1}"
+                mark = f"label-{letter}-{name}-{k + 1}"
                 text = Text(0j, symbol(letter, 3.0), "start", strokes.BLACK, mark, ("label",))
                 names.append(Label(text, page(end), (phase(way),), 0))
-        drawn.append(Group(tuple(lines), id=f"contact-{contact.name}", classes=("contact",)))
+        if lettered:
+            lines.append(Circle(page(at), 0.5, fill=strokes.BLACK))
+            own = Text(0j, symbol(name, 3.0), "start", strokes.BLACK, classes=("label",))
+            names.append(Label(own, page(at), rank=1))
+        drawn.append(Group(tuple(lines), id=f"contact-{name}", classes=("contact",)))
     return Piece({"construction": tuple(drawn)}, tuple(names))
-
 
 
 def stand_ins(here: MechanismOnPaper) -> Piece:

@@ -20,6 +20,10 @@ FIGURES = ["forces", "lever"]
 LABELLED = [
     (SHAPER, 14.9, "zh", "chinese"), (SHAPER, 104.9, "both", "russian"), (ENGINE, 60, "en", "us"),
     (ENGINE, 180, "zh", "british"), (scene_of("fourbar-moment"), 150, "en", "chinese"),
+    *((loaded(graphkin.read(name).to_dict(), 4), at, "both", convention) for name, at, convention in (
+        ("disc-on-disc", 50, "us"), ("cam-flat-face", 70, "chinese"), ("geared-five-bar", 40, "russian"),
+        ("wheel-on-rail", 30, "british"),
+    )),
 ]  # fmt: skip
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -66,7 +70,7 @@ def test_polygons_at_a_wished_scale_stand_inside_their_panels(
 
 @pytest.mark.parametrize(("scene", "at", "language", "convention"), LABELLED)
 def test_no_label_of_a_force_is_overlapped_crossed_or_cut(
-    scene: Path, at: float, language: str, convention: str, violations: Callable[[bytes], list[str]]
+    scene: Path | dict[str, object], at: float, language: str, convention: str, violations: Callable[[bytes], list[str]]
 ) -> None:
     drawn = graphkin.draw(scene, at=at, figures=FIGURES, language=language, convention=convention).figures
     assert {name: [] for name in drawn} == {name: violations(svg_bytes(page)) for name, page in drawn.items()}

@@ -12,7 +12,6 @@ import numpy as np
 import pytest
 
 import graphkin
-from graphkin.api.report_text import verdict
 from graphkin.scene import library, mechanism_of
 from graphkin.solver.cam_profile import contact_of
 from graphkin.solver.contacts import pitch_point
@@ -200,13 +199,6 @@ def test_what_touches_and_what_rolls_is_in_equilibrium(name):
     worst, most, power, largest = residues(loaded(graphkin.read(name).to_dict(), 7))
     assert worst <= 1e-10 * most
     assert power <= 1e-9 * largest
-
-
-def test_a_check_that_draws_no_forces_says_so_before_it_says_that_readings_agree():
-    said = verdict(graphkin.check(loaded(graphkin.read("gears-epicyclic").to_dict(), 7)), "en")
-    assert said.startswith("The forces are not drawn, ")
-    assert "The other " in said
-    assert not verdict(graphkin.check("shaper-forces"), "en").startswith("The forces")
 
 
 def test_a_larger_group_is_in_equilibrium():

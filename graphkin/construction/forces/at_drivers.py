@@ -10,15 +10,15 @@ from graphkin.construction.forces.force_sheet import Acting, ForceGroup, ForceTe
 from graphkin.construction.forces.group_figure import (
     CutBody,
     GroupFigure,
+    across,
+    along_guide,
     foot_name,
-    guide_name,
     line_of_action,
     outer_couple,
     slide_found,
 )
 from graphkin.construction.forces.naming import opposite
 from graphkin.construction.forces.order import Balance
-from graphkin.construction.steps import Direction
 from graphkin.plane import dot
 from graphkin.structure import Body, Driven, Turn
 
@@ -98,9 +98,9 @@ def at_driver(cut: CutFree, element: Driven, balance: Balance) -> ForceGroup:
     else:
         balancing = _balancing(cut, balance, link)
         square = side.outer_force(1j * side.guide())
-        figure.unknown(balancing, "", Direction("along", guide_name(pair)))
+        figure.unknown(balancing, "", along_guide(pair))
         figure.knowns(cut, (link,))
-        figure.unknown(square, "", Direction("square", guide_name(pair)))
+        figure.unknown(square, "", across(pair))
         cut.lay_known(chain, (link,))
         end = chain.at
         start = cut.closing((link,), end, square.force, 0j, balancing.force)

@@ -22,6 +22,7 @@ from graphkin.construction.forces.lever import levers_of
 from graphkin.construction.forces.naming import JointNames
 from graphkin.construction.forces.order import Balance, balance_of, driver_of, force_groups
 from graphkin.construction.forces.system import of_larger_group
+from graphkin.construction.forces.touching import held_by_pairs
 from graphkin.construction.sheet import Sheet
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Driven, Dyad, Element
@@ -58,26 +59,27 @@ def force_scale(sheet: Sheet) -> float:
 def _drawn(sheet: Sheet, hand: Instrument, per_mm: float) -> ForceSheet:
     moves = any(driver.values[1] for driver in sheet.scene.drivers)
     growing = sheet if moves else sheet.growing[0]
+    held = held_by_pairs(sheet)
     found = inertias(sheet, hand)
     edges = None in sheet.acting.values()
     states = []
     for with_edges in (False, True) if edges else (False,):
         forces, moments = from_outside(sheet, growing, found, sheet.acting, with_edges, hand)
-        states.append(_state(sheet, hand, per_mm, forces, moments))
+        states.append(_state(held, hand, per_mm, forces, moments))
     levers = tuple(levers_of(sheet, state, hand) for state in states)
     return ForceSheet(per_mm, found, tuple(states), levers)
 
 
 def _state(
-    sheet: Sheet, hand: Instrument, per_mm: float, known: tuple[Acting, ...], turning: tuple[Turning, ...]
+    held: Sheet, hand: Instrument, per_mm: float, known: tuple[Acting, ...], turning: tuple[Turning, ...]
 ) -> ForceState:
-    names = JointNames(sheet.structure)
-    cut = CutFree(Images(sheet), hand, per_mm, names, {}, {})
+    names = JointNames(held.structure)
+    cut = CutFree(Images(held), hand, per_mm, names, {}, {})
     for one in known:
         cut.push(one)
     for moment in turning:
         cut.turn(moment)
-    groups = tuple(_group(cut, element) for element in reversed(force_groups(sheet.structure)))
+    groups = tuple(_group(cut, element) for element in reversed(force_groups(held.structure)))
     vectors = {one.symbol: one.force / per_mm for one in known if not one.turned}
     moments = {one.symbol: one.moment for one in turning}
     _joints(cut, vectors, moments)

@@ -21,7 +21,13 @@ from graphkin.plane import unit
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Body, Pair, Slide, Turn
 
-__all__ = ["CutBody", "GroupFigure", "foot_name", "guide_name", "line_of_action", "outer_couple", "slide_found"]
+__all__ = [
+    "NORMAL", "TANGENT", "CutBody", "GroupFigure", "across", "along_guide", "foot_name", "line_of_action",
+    "outer_couple", "slide_found",
+]  # fmt: skip
+
+NORMAL, TANGENT = "n-n", "t-t"
+"""The common normal and tangent of what touches, by name as a guide."""
 
 
 @dataclass
@@ -105,8 +111,21 @@ class GroupFigure:
         self.terms += [ForceTerm(f.symbol, "", True, True, None, f.turned) for f in cut.forces_on(links)]
 
 
-def guide_name(pair: Pair) -> tuple[str, ...]:
+def across(pair: Pair) -> Direction:
+    """The direction of a sliding pair's force: square to the guide; of what touches along the normal, or the tangent of
+    pitch circles."""
     assert isinstance(pair, Slide)
+    other = {NORMAL: TANGENT, TANGENT: NORMAL}.get(pair.guide.name.rstrip("'"))
+    return Direction("square", _guide(pair)) if other is None else Direction("along", (other,))
+
+
+def along_guide(pair: Pair) -> Direction:
+    """The direction of the guide of a sliding pair."""
+    assert isinstance(pair, Slide)
+    return Direction("along", _guide(pair))
+
+
+def _guide(pair: Slide) -> tuple[str, ...]:
     return (pair.guide.name or f"x{pair.b}",)
 
 

@@ -17,15 +17,15 @@ from graphkin.construction.forces.force_sheet import Acting, ForceGroup, ForceTe
 from graphkin.construction.forces.group_figure import (
     CutBody,
     GroupFigure,
+    across,
+    along_guide,
     foot_name,
-    guide_name,
     line_of_action,
     outer_couple,
     slide_found,
 )
 from graphkin.construction.forces.naming import opposite
 from graphkin.construction.forces.order import Balance
-from graphkin.construction.steps import Direction
 from graphkin.plane import dot, unit
 from graphkin.structure import Dyad, Slide, Turn, links_of
 
@@ -137,7 +137,7 @@ def _rrp(cut: CutFree, dyad: Dyad, one: CutBody, two: CutBody, figure: GroupFigu
     square = 1j * two.guide()
     along1 = figure.parted(t1, _bar(one, letter))
     figure.knowns(cut, (*one.links, *two.links))
-    figure.unknown(two.outer_force(square), "", Direction("square", guide_name(two.outer)))
+    figure.unknown(two.outer_force(square), "", across(two.outer))
     t1_found = cut.lay(figure.chain, t1, "t", False) if t1.force else 0j
     cut.lay_known(figure.chain, one.links)
     first = len(figure.chain.vectors)
@@ -171,7 +171,7 @@ def _rpr(cut: CutFree, dyad: Dyad, one: CutBody, two: CutBody, figure: GroupFigu
     by = cut.by_moments(both, two.at, two.outer.point, one.outer_force(1j * along), "t", (r_along,))
     figure.moments.append(by)
     r_square = one.outer_force(1j * along * by.value)
-    guide = Direction("along", guide_name(slide)), Direction("square", guide_name(slide))
+    guide = along_guide(slide), across(slide)
     if held:
         figure.terms.append(ForceTerm(one.symbol, "n", True, True, guide[0]))
     figure.terms.append(ForceTerm(one.symbol, "t" if held else "", True, True, guide[1]))
@@ -220,9 +220,9 @@ def _prp(cut: CutFree, dyad: Dyad, one: CutBody, two: CutBody, figure: GroupFigu
     letter = _pin(dyad).point
     hinge = _inner_names(cut, dyad)[2]
     n1, n2 = one.outer_force(1j * one.guide()), two.outer_force(1j * two.guide())
-    figure.unknown(n1, "", Direction("square", guide_name(one.outer)))
+    figure.unknown(n1, "", across(one.outer))
     figure.knowns(cut, (*one.links, *two.links))
-    figure.unknown(n2, "", Direction("square", guide_name(two.outer)))
+    figure.unknown(n2, "", across(two.outer))
     cut.lay_known(figure.chain, one.links)
     first = len(figure.chain.vectors)
     cut.lay_known(figure.chain, two.links)
@@ -247,22 +247,22 @@ def _rpp(cut: CutFree, dyad: Dyad, one: CutBody, two: CutBody, figure: GroupFigu
     held = -cut.projected(cut.forces_on(one.links), along)
     r_along = one.outer_force(along * held)
     square = 1j * two.guide()
-    guide = Direction("along", guide_name(slide)), Direction("square", guide_name(slide))
+    guide = along_guide(slide), across(slide)
     figure.unknown(one.outer_force(1j * along), "t" if held else "", guide[1])
     if held:
         figure.terms.append(ForceTerm(one.symbol, "n", True, True, guide[0]))
     figure.knowns(cut, (*one.links, *two.links))
-    figure.unknown(two.outer_force(square), "", Direction("square", guide_name(two.outer)))
+    figure.unknown(two.outer_force(square), "", across(two.outer))
     r1 = cut.lay(figure.chain, r_along, "n", False) if held else 0j
     cut.lay_known(figure.chain, one.links)
     first = len(figure.chain.vectors)
     cut.lay_known(figure.chain, two.links)
     end = figure.chain.at
     start = cut.closing(dyad.links, end, square, 0j, 1j * along)
-    across = cut.drawn(one.symbol, one.name, one.at, start, 0j, "t" if held else "")
+    crossing = cut.drawn(one.symbol, one.name, one.at, start, 0j, "t" if held else "")
     normal = cut.drawn(two.symbol, two.name, two.at, end, start)
-    own = [across, *figure.chain.vectors[:first]]
-    figure.chain.vectors[:] = [across, *figure.chain.vectors, normal]
+    own = [crossing, *figure.chain.vectors[:first]]
+    figure.chain.vectors[:] = [crossing, *figure.chain.vectors, normal]
     r1 += -start * cut.per_mm
     n2 = (start - end) * cut.per_mm
     one.found(r1)

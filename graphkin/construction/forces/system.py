@@ -10,9 +10,9 @@ import numpy as np
 
 from graphkin.construction.forces.cut_free import Chain, CutFree, dead_point
 from graphkin.construction.forces.force_sheet import Acting, ForceGroup, ForceLine, ForceTerm, ForceVector
+from graphkin.construction.forces.group_figure import across
 from graphkin.construction.forces.naming import opposite
 from graphkin.construction.forces.order import Balance
-from graphkin.construction.steps import Direction
 from graphkin.plane import cross, unit
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Cluster, Slide
@@ -163,7 +163,7 @@ def _carried_over(
             cut.balances[one.symbol] = force
         # forces from outside the group, whose sum closes
         if one.off not in members:
-            guide = None if one.slide is None else Direction("square", (one.slide.guide.name or f"x{one.slide.b}",))
+            guide = None if one.slide is None else across(one.slide)
             terms.append(ForceTerm(one.symbol, "", False, guide is not None, guide))
         for link, sign in ((one.on, 1.0), (one.off, -1.0)):
             if link not in polygons or link == frame:
