@@ -30,7 +30,7 @@ def face_rules(used: Mapping[Style, Iterable[str]]) -> tuple[str, str]:
     name = f"{FAMILY} {crc32(b''.join(parts.values())):08x}"
     rules = (
         f"@font-face{{font-family:'{name}'{_LOOK[style]};"
-        f"src:url(data:font/ttf;base64,{b64encode(data).decode()}) format('truetype')}}"
+        f"src:url(data:font/woff2;base64,{b64encode(data).decode()}) format('woff2')}}"
         for style, data in parts.items()
     )
     return name, "".join(rules)

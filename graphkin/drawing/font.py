@@ -14,12 +14,17 @@ from functools import cache, cached_property, lru_cache
 from pathlib import Path
 from typing import Literal
 
+from graphkin.drawing.brotli_literals import Code, code_for
+from graphkin.drawing.woff2 import Streams, streams, woff2
+
 __all__ = ["EM", "FAMILY", "FOLDER", "Glyph", "Style", "glyph", "holds", "part"]
 
 FAMILY = "Graphkin Serif"
 FOLDER = Path(__file__).parent / "fonts"
 EM = 1000
 Style = Literal["regular", "italic", "bold"]
+_SAMPLE = "0123456789ABCDEFOVabcdefghilmnoprstuvy()[]=,.-ω"
+_NAME = struct.pack(">9H", 0, 1, 18, 3, 1, 0x409, 1, 2, 0) + b"\0G"  # of a part: a family, as programs ask for one
 
 
 @dataclass(frozen=True)
@@ -114,49 +119,28 @@ def glyph(character: str, style: Style = "regular") -> Glyph | None:
 
 @lru_cache(maxsize=256)
 def part(style: Style, characters: str) -> bytes:
-    """A TrueType file of a face with only these characters; the same bytes every time."""
+    """A WOFF2 file of a face with only these characters; the same bytes every time."""
+    return woff2(_streams(style, characters), _codes())
+
+
+@cache
+def _codes() -> tuple[Code, ...]:
+    """The codes in which parts are packed: made for letters as figures have them, since one of its own would take
+    each part longer than it saves."""
+    return tuple(map(code_for, _streams("regular", _SAMPLE).parts))
+
+
+def _streams(style: Style, characters: str) -> Streams:
     held = [(ord(c), g) for c in sorted(set(characters)) if (g := glyph(c, style)) is not None]
     glyphs = [Glyph(500, b""), *(g for _, g in held)]
-    outlines = [g.outline + b"\0" * (-len(g.outline) % 4) for g in glyphs]
-    ends = [0]
-    for outline in outlines:
-        ends.append(ends[-1] + len(outline))
     base = _face(style)
-    head, hhea, maxp = bytearray(base.table("head")), bytearray(base.table("hhea")), bytearray(base.table("maxp"))
-    head[8:12], head[50:52] = b"\0\0\0\0", b"\0\1"
-    hhea[34:36] = maxp[4:6] = struct.pack(">H", len(glyphs))
-    sides = (g.box[0] for g in glyphs)
-    return _packed({
-        "OS/2": base.table("OS/2"),
-        "cmap": _cmap([code for code, _ in held]),
-        "glyf": b"".join(outlines),
-        "head": bytes(head),
-        "hhea": bytes(hhea),
-        "hmtx": b"".join(struct.pack(">Hh", g.advance, side) for g, side in zip(glyphs, sides, strict=True)),
-        "loca": struct.pack(f">{len(ends)}I", *ends),
-        "maxp": bytes(maxp),
-        "name": _family_alone(base.table("name")),
-        "post": base.table("post"),
-    })  # fmt: skip
-
-
-def _family_alone(names: bytes) -> bytes:
-    """The names of a face without the full one and the PostScript one, which pages do not ask for."""
-    count, strings = struct.unpack_from(">2H", names, 2)
-    kept: list[tuple[int, ...]] = []
-    body = b""
-    at: dict[bytes, int] = {}
-    for number in range(count):
-        *who, name, length, offset = struct.unpack_from(">6H", names, 6 + 12 * number)
-        text = names[strings + offset : strings + offset + length]
-        if name in (4, 6):
-            continue
-        if text not in at:
-            at[text] = len(body)
-            body += text
-        kept.append((*who, name, length, at[text]))
-    records = b"".join(struct.pack(">6H", *record) for record in kept)
-    return struct.pack(">3H", 0, len(kept), 6 + len(records)) + records + body
+    maxp = bytearray(base.table("maxp"))
+    maxp[4:6] = struct.pack(">H", len(glyphs))
+    tables = {
+        "OS/2": base.table("OS/2"), "cmap": _cmap([code for code, _ in held]), "head": base.table("head"),
+        "hhea": base.table("hhea"), "maxp": bytes(maxp), "name": _NAME, "post": base.table("post"),
+    }  # fmt: skip
+    return streams(tables, [g.outline for g in glyphs], [g.advance for g in glyphs])
 
 
 def _cmap(codes: list[int]) -> bytes:
@@ -169,25 +153,3 @@ def _cmap(codes: list[int]) -> bytes:
             groups.append([code, code, number])
     body = b"".join(struct.pack(">3I", *group) for group in groups)
     return struct.pack(">HHHHIHHIII", 0, 1, 3, 10, 12, 12, 0, 16 + len(body), 0, len(groups)) + body
-
-
-def _packed(tables: Mapping[str, bytes]) -> bytes:
-    """Tables as one file, with their sums."""
-    count = len(tables)
-    power = count.bit_length() - 1
-    directory = struct.pack(">I4H", 0x00010000, count, 16 << power, power, 16 * count - (16 << power))
-    offset = 12 + 16 * count
-    records, bodies = [], []
-    for tag, table in tables.items():
-        body = table + b"\0" * (-len(table) % 4)
-        records.append(struct.pack(">4s3I", tag.encode(), _sum(body), offset, len(table)))
-        bodies.append(body)
-        offset += len(body)
-    whole = directory + b"".join((*records, *bodies))
-    place = struct.unpack(">I", records[list(tables).index("head")][8:12])[0] + 8
-    return whole[:place] + struct.pack(">I", (0xB1B0AFBA - _sum(whole)) & 0xFFFFFFFF) + whole[place + 4 :]
-
-
-def _sum(data: bytes) -> int:
-    words: tuple[int, ...] = struct.unpack(f">{len(data) // 4}I", data)
-    return sum(words) & 0xFFFFFFFF
