@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from dataclasses import replace
 from numbers import Integral, Real
 from pathlib import Path
 from typing import get_args
@@ -15,6 +16,7 @@ from typing import get_args
 from graphkin.errors import CallError, Problem, as_list, did_you_mean
 from graphkin.scene.force_names import no_force
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
+from graphkin.scene.over_time import at_time
 from graphkin.scene.sheet_tables import Convention
 from graphkin.scene.source import SceneLike, mechanism_of
 from graphkin.scene.symbol import Symbol, missing_names
@@ -38,6 +40,7 @@ __all__ = [
     "may_be_called",
     "own_unit",
     "passed_words",
+    "placed",
     "value_at",
     "whole_number",
     "write_files",
@@ -46,6 +49,7 @@ __all__ = [
 FORMATS = ("svg", "pdf", "png", "dxf")
 CHART_FORMATS = ("svg", "pdf", "png")
 TEXTS = ("glyphs", "outlines")
+TIME = "time"
 INSTRUMENTS = ("exact", "cad", "pencil")
 CONVENTIONS: tuple[str, ...] = get_args(Convention)
 ON_SHEETS = (*LANGUAGES, BOTH)
@@ -105,7 +109,8 @@ def whole_number(where: str, value: object, least: int, most: int, what: str = "
 
 
 At = float | str | Mapping[str, float] | None
-"""A value of the first driver in its own unit, the name of a position, or values by driver."""
+"""A value of the first driver in its own unit, the name of a position, or values by driver; of drivers with a law also
+{"time": 0.25}, a moment (s)."""
 MOST_DRAWN = 20
 MOST_SEED = 10**18
 
@@ -165,6 +170,41 @@ def driver_values(scene: Mechanism, at: At) -> dict[str, float] | None:
             raise CallError(Problem(f"at {name}", f"{value!r} is no driver value", "give a finite number below 1e9"))
         values[driver.key] = math.radians(value) if isinstance(driver, AngleDriver) else value * scene.units.metres
     return values
+
+
+def placed(scene: Mechanism, at: At) -> tuple[Mechanism, dict[str, float] | None]:
+    """A scene with the rates that its drivers have there, and driver values as `driver_values` gives them.
+
+    Drivers that move by a law over the time (``law``) have the rates of the moment that is asked, ``{"time": 0.25}``,
+    or of the first at which they come to the value asked; the others go on at their own.
+
+    Raises
+    ------
+    CallError : as `driver_values`; a moment or a value outside the law
+    """
+    lawful = [d for d in scene.drivers if d.law is not None]
+    if not lawful or at is None:
+        return scene, driver_values(scene, at)
+    if isinstance(at, Mapping) and TIME in at and all(d.key != TIME for d in scene.drivers):
+        if len(at) > 1:
+            raise CallError(Problem(f"at {TIME}", "stands beside driver values", "give the time, or values"))
+        time = at[TIME]
+        if not isinstance(time, Real) or not math.isfinite(time):
+            raise CallError(Problem(f"at {TIME}", f"{time!r} is no time", "give seconds"))
+        return at_time(scene, float(time))
+    values = driver_values(scene, at) or {}
+    drivers = []
+    for driver in scene.drivers:
+        law, value = driver.law, values.get(driver.key)
+        if law is not None and value is not None:
+            moment = law.reached(value)
+            if moment is None:
+                low, high = (own_unit(scene, driver, end) for end in law.span)
+                found = f"{own_unit(scene, driver, value)} is not on its way"
+                raise CallError(Problem(f"at {driver.key}", found, f"its law goes from {low} to {high}"))
+            driver = driver.moving(replace(law, time=moment))
+        drivers.append(driver)
+    return replace(scene, drivers=tuple(drivers)), values
 
 
 def value_at(scene: Mechanism, name: str) -> float:

@@ -15,9 +15,9 @@ from graphkin.api.arguments import (
     At,
     SceneLike,
     as_scene,
-    driver_values,
     for_paper,
     known_words,
+    placed,
     write_files,
 )
 from graphkin.api.checked import solved_here
@@ -389,7 +389,7 @@ def centres(
     """
     known_words(formats, language, convention, known_languages=ON_SHEETS)
     given = as_scene(scene)
-    values = driver_values(given, at)
+    given, values = placed(given, at)
     from graphkin.solver import as_drawn
 
     motion = solved_here(given, values)

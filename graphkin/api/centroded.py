@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.api.arguments import ON_SHEETS, At, SceneLike, as_scene, driver_values, known_words, write_files
+from graphkin.api.arguments import ON_SHEETS, At, SceneLike, as_scene, known_words, placed, write_files
 from graphkin.api.centred import found_centres
 from graphkin.api.checked import solved_here
 from graphkin.api.results import Result
@@ -171,7 +171,7 @@ def centrodes(
 
     known_words(formats, language, convention, known_languages=ON_SHEETS)
     given = as_scene(scene)
-    values = driver_values(given, at)
+    given, values = placed(given, at)
     _check_names(given, link, point)
     solved_here(given, values)
     motion = solve(given, at=values, sweep=POSITIONS)

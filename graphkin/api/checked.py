@@ -19,8 +19,8 @@ from graphkin.api.arguments import (
     SceneLike,
     as_scene,
     asked_symbols,
-    driver_values,
     own_unit,
+    placed,
     value_at,
     whole_number,
     write_files,
@@ -290,7 +290,7 @@ def check(
 
     given = as_scene(scene)
     asked = drawn_symbols(given, find)
-    values = driver_values(given, at)
+    given, values = placed(given, at)
     hand = hand_of(given, instrument, seed)
     structure = solver.structure_of(given)
     motion = solved_here(structure, values, here(asked))

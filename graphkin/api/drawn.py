@@ -16,6 +16,7 @@ from graphkin.api.arguments import (
     driver_values,
     for_paper,
     known_words,
+    placed,
     write_files,
 )
 from graphkin.api.cams import cam_table
@@ -382,7 +383,7 @@ def draw(
     given = for_paper(scene)
     wanted = known_figures(given, figures)
     asked = drawn_symbols(given, find)
-    values = driver_values(given, at)
+    given, values = placed(given, at)
     hand = hand_of(given, instrument, seed)
     structure = solver.structure_of(given)
     motion = solved_here(structure, values, here(asked))

@@ -247,6 +247,8 @@ def _drivers(scene: Mechanism) -> Iterator[Sentence]:
 def _driver(scene: Mechanism, driver: AnyDriver) -> Phrase:
     at = own_unit(scene, driver, driver.values[0])
     rate = driver.values[1]
+    if driver.law is not None:
+        at = f"{at} ({_number(driver.law.time)} / {_number(driver.law.duration)} s)"
     if isinstance(driver, AngleDriver):
         sense = "at rest" if not rate else "counter-clockwise" if rate > 0 else "clockwise"
         said = Phrase(f"explained {sense}", (_number(abs(rate)), _number(abs(rate) * 30 / math.pi)))

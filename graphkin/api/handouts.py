@@ -15,10 +15,10 @@ from graphkin.api.arguments import (
     SceneLike,
     as_scene,
     asked_symbols,
-    driver_values,
     for_paper,
     known_words,
     may_be_called,
+    placed,
     whole_number,
     write_files,
 )
@@ -34,6 +34,7 @@ from graphkin.papers.prepare import FORMATS, Papers, evidence_of, handout_files,
 from graphkin.papers.screen_positions import Progress
 from graphkin.papers.solution import KeyRow, key_rows
 from graphkin.scene.model import Mechanism
+from graphkin.scene.over_time import moves_by_law
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.written import safe_name
 from graphkin.words import Phrase
@@ -183,8 +184,10 @@ def handout(
     platforms = known_platforms(exports)
     given = for_paper(scene)
     count = usual_count(given) if positions is None else whole_number("positions", positions, 1, 72)
+    if count > 1 and moves_by_law(given):
+        raise CallError(Problem("positions", f"found {count}", "a driver that moves by a law stands at its own moment"))
     asked = asked_symbols(given, find)
-    values = driver_values(given, at)
+    given, values = placed(given, at)
     motion = solved_here(given, values)
     what = paper_plan(motion.structure, values, asked)
     lesson = lesson_of(what, motion, language or given.sheet.language, convention or given.sheet.convention)

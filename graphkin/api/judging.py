@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from graphkin.api.answers import Answers
-from graphkin.api.arguments import At, driver_values, own_unit
+from graphkin.api.arguments import At, driver_values, own_unit, placed
 from graphkin.api.checked import solved_here
 from graphkin.checking.audit import Judged, drafting_bound, explained
 from graphkin.checking.slips import Evidence, ValuesElsewhere
@@ -108,7 +108,7 @@ def evidence_at(
     """
     from graphkin.solver import as_drawn, exact_values
 
-    values = driver_values(scene, at)
+    scene, values = placed(scene, at)
     motion = solved_here(scene, values)
     structure = motion.structure
     what = plan(structure, values, [symbol for symbol in asked if symbol.scope != "cycle"])

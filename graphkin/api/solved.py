@@ -13,11 +13,20 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.api.arguments import At, SceneLike, as_scene, asked_symbols, driver_values, whole_number, write_files
+from graphkin.api.arguments import (
+    At,
+    SceneLike,
+    as_scene,
+    asked_symbols,
+    placed,
+    whole_number,
+    write_files,
+)
 from graphkin.api.results import Result
 from graphkin.errors import CallError, Problem, Unsolvable, as_list, as_text
 from graphkin.files import path_of
 from graphkin.scene.model import SlideDriver
+from graphkin.scene.over_time import asked_time, moments, moves_by_law
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import mobility_of
 
@@ -38,12 +47,13 @@ class Solved(Result):
 
     ``solved["v_C"]`` is a quantity by its name as an array, shape (positions,): complex for vectors, in the scene's
     length unit, degrees for angles, NaN where there is none; forces (``F_5/6``, ``M_2``) in its force unit.  ``table``
-    has all of them, ``motion`` and ``forces`` more, in SI.
+    has all of them, ``motion`` and ``forces`` more, in SI.  ``times`` are the moments (s), where drivers move by a law.
     """
 
     motion: Motion
     forces: Forces | None = None
     find: tuple[str, ...] = ()
+    times: tuple[float, ...] = ()
 
     def __repr__(self) -> str:
         return f"<Solved {self.motion.scene.name}: {int(self.motion.ok.sum())} of {len(self.motion)} positions>"
@@ -57,7 +67,7 @@ class Solved(Result):
         if self.forces is not None and (found := self.forces.value(str(name))) is not None:
             return np.asarray(found / scene.units.newtons)
         watched = watched_named(scene, str(name))
-        if watched is None and str(name).startswith(("driver_", "position", "status", "why")):
+        if watched is None and str(name).startswith(("driver_", "time", "position", "status", "why")):
             return self.table[name]
         if watched is None:
             watched = watched_symbol(*asked_symbols(scene, [name]))
@@ -72,6 +82,8 @@ class Solved(Result):
 
         motion, scene = self.motion, self.motion.scene
         columns = [Column("position", np.arange(1, len(motion) + 1)), *driver_columns(scene, motion.values)]
+        if self.times:
+            columns.insert(1, Column("time", np.array(self.times), "s"))
         if self.find:
             columns += [column for name in self.find for column in self.columns(name)]
         else:
@@ -116,8 +128,10 @@ class Solved(Result):
                 name = places.name_of(value)
                 if name:
                     entry["name"] = name
+        for entry, time in zip(data["positions"], self.times, strict=bool(self.times)):
+            entry["time"] = time
         if self.find:
-            kept = ("driver", "name", "status", "why", "error_bound")
+            kept = ("driver", "time", "name", "status", "why", "error_bound")
             data["positions"] = [
                 {key: entry[key] for key in kept if key in entry} | ({"values": own} if entry["status"] == "ok" else {})
                 for entry, own in zip(data["positions"], self._values(), strict=True)
@@ -149,7 +163,7 @@ class Solved(Result):
         from graphkin.solver import json_text
         from graphkin.solver.named_positions import named_positions
 
-        if self.find or (self.motion.ok.any() and named_positions(self.motion.scene) is not None):
+        if self.find or self.times or (self.motion.ok.any() and named_positions(self.motion.scene) is not None):
             return iter([(json.dumps(self.data, ensure_ascii=False, allow_nan=False) + "\n").encode()])
         return (piece.encode() for piece in json_text(self.motion, self.forces))
 
@@ -157,7 +171,8 @@ class Solved(Result):
 def refused(scene: SceneLike, at: At, stop: Unsolvable) -> dict[str, Any]:
     """The object of ``solve --json`` for a mechanism that is refused as a whole: its count, and why."""
     given = as_scene(scene)
-    values = driver_values(given, at) or {}
+    given, found = placed(given, at)
+    values = found or {}
     driver = {
         d.key: values.get(d.key, d.values[0]) / (given.units.metres if isinstance(d, SlideDriver) else 1.0)
         for d in given.drivers
@@ -181,7 +196,8 @@ def solve(
     scene : a file, the name of a scene that comes along, a mapping of the same shape, or a `Scene`
     at : driver value other than the scene's own, in the driver's unit (degrees, or travel); with several drivers it
         moves the first, or a mapping names them
-    sweep : number of positions over a turn of the first driver (over its range, for a driven slide)
+    sweep : number of positions over a turn of the first driver (over its range, for a driven slide); over the time,
+        where drivers move by laws
     find : what alone is to be given, by name ("v_D", "C", "theta_3", "F_5/6"); everything if None
 
     Raises
@@ -200,10 +216,20 @@ def solve(
     from graphkin import solver
 
     given = as_scene(scene)
-    count = None if sweep is None else whole_number("sweep", sweep, 1, 10_000_000, " positions")
-    motion = solver.solve(given, at=driver_values(given, at), sweep=count)
+    most = 100_000 if moves_by_law(given) else 10_000_000
+    count = None if sweep is None else whole_number("sweep", sweep, 1, most, " positions")
+    times: tuple[float, ...] = ()
+    if count is not None and moves_by_law(given):
+        if at is not None:
+            raise CallError(Problem("sweep", "stands beside at", "a sweep goes over the whole time of the law"))
+        times = moments(given, count)
+        motion = solver.over_time(given, np.array(times))
+    else:
+        given, values = placed(given, at)
+        motion = solver.solve(given, at=values, sweep=count)
+        times = (asked_time(given),) if moves_by_law(given) else ()
     if not given.loading:
-        return _asked(Solved(motion), find)
+        return _asked(Solved(motion, times=times), find)
     forces = solver.forces_of(motion)
     stuck = motion.ok & ~forces.ok
     if stuck.any():
@@ -212,7 +238,7 @@ def solve(
             told = f"the two points of spring {name} coincide in this position, so that its force has no line"
             why = tuple(told if here else said for here, said in zip(where, why, strict=True))
         motion = replace(motion, status=np.where(stuck, "dead point", motion.status), why=why)
-    return _asked(Solved(motion, forces), find)
+    return _asked(Solved(motion, forces, times=times), find)
 
 
 def _asked(solved: Solved, find: str | Symbol | Iterable[str | Symbol] | None) -> Solved:

@@ -32,6 +32,7 @@ from graphkin.errors import CallError, Problem, as_list, as_text
 from graphkin.files import path_of
 from graphkin.jobs import Progress, Workers, cluster
 from graphkin.scene.model import Mechanism
+from graphkin.scene.over_time import moves_by_law
 from graphkin.scene.source import written
 from graphkin.scene.symbol import KINDS, Symbol
 from graphkin.table import Table, have
@@ -43,6 +44,8 @@ if TYPE_CHECKING:
     from graphkin.api.answers import AnswersLike
     from graphkin.drawing import ChartPage, Drawing
     from graphkin.study.graphical import Chords, Way
+    from graphkin.study.over_time import TimeStudy
+    from graphkin.study.quantities import Quantity
     from graphkin.study.sweeps import Found, Sweep
     from graphkin.study.turn import TurnStudy
     from graphkin.study.watched import Arrays, Watched
@@ -51,6 +54,7 @@ __all__ = ["Swept", "sweep"]
 
 MOST_POSITIONS = 1_000_000_000
 OF_TURN = tuple(f"{kind.name}_" for kind in KINDS.values() if kind.scope in ("turn", "cycle"))
+MOST_MOMENTS = 100_000
 ROWS = 36
 IN_MEMORY = 200_000_000
 """Numbers of a table that are kept in memory where no folder is given."""
@@ -129,9 +133,27 @@ class Swept(Result):
         """The study of the scene itself (limit positions, K, transmission, classes, extremes); None over designs."""
         from graphkin.study.turn import study_turn
 
-        if self.over.designs.keys:
+        if self.over.designs.keys or moves_by_law(self.over.scene):
             return None
         return study_turn(self.over.base.reach, [w.symbol for w in self.over.asked if w.symbol is not None])
+
+    @cached_property
+    def time(self) -> TimeStudy | None:
+        """The study over the time of a scene whose drivers move by laws; None of others, and over designs."""
+        from graphkin.study.over_time import study_time
+
+        if self.over.designs.keys or not moves_by_law(self.over.scene):
+            return None
+        return study_time(self.over.scene, self._wished)
+
+    @property
+    def _wished(self) -> list[Quantity]:
+        """What is asked besides the scene's own wishes: it alone is drawn."""
+        from graphkin.study.quantities import Quantity
+
+        own = [str(s) for s in self.over.scene.find]
+        wished = [w.what for w in self.over.asked if isinstance(w.what, Quantity)]
+        return wished if [w.name for w in self.over.asked] != own else []
 
     @cached_property
     def data(self) -> dict[str, Any]:
@@ -139,6 +161,8 @@ class Swept(Result):
         from graphkin.study.summary import to_json
 
         data: dict[str, Any] = to_json(self.turn) if self.turn is not None else {"title": self.over.scene.title}
+        if self.time is not None:
+            data = dict(self.time.data)
         data["positions"] = {"rows": self.rows, "ok": self.good}
         if self.over.designs.keys:
             data["designs"] = {
@@ -151,14 +175,14 @@ class Swept(Result):
     def figures(self) -> Mapping[str, ChartPage | Drawing]:
         """Motion diagrams of the outputs and coupler curves by name; none over designs."""
         from graphkin.study.diagrams import diagrams
-        from graphkin.study.quantities import Quantity, symbol_quantity
+        from graphkin.study.quantities import symbol_quantity
 
+        if self.time is not None:
+            return self.time.diagrams(self.language)
         if self.turn is None:
             return {}
         # what is asked alone is drawn alone; without that the outputs and the coupler curves
-        own = [str(s) for s in self.over.scene.find]
-        wished = [w.what for w in self.over.asked if isinstance(w.what, Quantity)]
-        asked = wished if [w.name for w in self.over.asked] != own else []
+        asked = self._wished
         over: dict[Quantity, list[tuple[float, float]]] = {}
         for symbol, place, value in self.elsewhere:
             offset = float(self.turn.reach.offsets(np.array([place]))[0])
@@ -228,6 +252,8 @@ class Swept(Result):
         lines = [self.over.scene.title_in(self.language)]
         if self.turn is not None:
             lines += turn_text(self.turn, self.language)
+        if self.time is not None:
+            lines += self.time.lines(self.language)
         if self.over.designs.keys:
             outcomes = ", ".join(f"{n} {status}" for status, n in self.outcomes.items())
             lines.append(say(Phrase("designs solved", (len(self.over.designs), outcomes)), self.language))
@@ -239,7 +265,7 @@ class Swept(Result):
 
     def _repr_html_(self) -> str:
         shown = f"<pre>{html.escape(self.text)}</pre>"
-        if self.turn is None:
+        if self.turn is None and self.time is None:
             return shown
         return shown + "".join(f._repr_svg_() for f in list(self.figures.values())[:2])
 
@@ -326,6 +352,9 @@ def sweep(
         from graphkin.study.designs import applied
 
         applied(source, made.keys, made[0])  # keys that the scene does not have
+    if moves_by_law(given):
+        positions = positions if positions is None else whole_number("positions", positions, 1, MOST_MOMENTS)
+        _over_time_alone(at=at, measured=measured, differentiate=tuple(differentiate), integrate=tuple(integrate))
     start = driver_values(given, at) or {}
     if positions is None:
         positions = given.positions.count if given.positions is not None else ROWS
@@ -346,7 +375,7 @@ def sweep(
         arrays = None if made.keys else over.base.arrays(positions)
         if arrays is not None:
             return Swept(over, Found(over.rows, arrays.good), spoken, arrays, elsewhere, on_paper)
-    if not made.keys and over.base.engine is None:
+    if not made.keys and over.base.engine is None and not moves_by_law(given):
         _ = over.base.reach  # a start that cannot be assembled
     through = cluster(as_text("scheduler", scheduler)) if scheduler is not None else executor
     try:
@@ -361,6 +390,14 @@ def sweep(
     if not made.keys:
         swept.write_figures(out, formats, text)
     return swept
+
+
+def _over_time_alone(**wishes: object) -> None:
+    """Refuse what counts along the driver, where drivers move by laws over the time."""
+    given = [name for name, wish in wishes.items() if wish not in (None, ())]
+    if given:
+        found = "does not go with a driver that moves by a law over the time"
+        raise CallError(*(Problem(name, found, "leave it out, or give omega instead of the law") for name in given))
 
 
 def _elsewhere(scene: Mechanism, measured: AnswersLike) -> tuple[tuple[Symbol, float, float], ...]:

@@ -13,6 +13,7 @@ from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.construction.steps import Direction
 from graphkin.drawing.conventions import Letters
 from graphkin.scene.model import AngleDriver
+from graphkin.scene.over_time import asked_time, moves_by_law
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.version import __version__
 from graphkin.words import Phrase, languages, say, word
@@ -86,7 +87,7 @@ def drivers(sheet: Sheet, letters: Letters) -> str:
     """Driver values with their rates, as words with symbols between dollar signs."""
     scene = sheet.scene
     unit, rates = scene.units, scene.units.rates
-    parts = []
+    parts = [f"$t$ = {number(asked_time(scene))} s"] if moves_by_law(scene) else []
     for driver in scene.drivers:
         value = sheet.drivers[driver.key]
         _, rate, second = driver.values

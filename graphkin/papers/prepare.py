@@ -35,6 +35,7 @@ from graphkin.papers.screen_positions import POSITIONS, Progress, View, common_s
 from graphkin.papers.solution import answer_key, answers_template, key_table, solution, solution_blocks
 from graphkin.papers.variants import Variant, asked_of
 from graphkin.scene.model import Mechanism
+from graphkin.scene.over_time import moves_by_law
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion
 from graphkin.structure import Structure
@@ -65,7 +66,9 @@ def evidence_of(what: Plan, motion: Motion, lesson: Lesson) -> Evidence:
 
 def usual_count(scene: Mechanism) -> int:
     """How many positions of the driver a page shows where nobody says: fewer of a mechanism of many links, of which
-    each takes its time to draw and to load."""
+    each takes its time to draw and to load; only its own of one whose drivers move by laws over the time."""
+    if moves_by_law(scene):
+        return 1
     return POSITIONS if len(scene.links) <= MANY_LINKS else POSITIONS // 2
 
 

@@ -10,7 +10,7 @@ from graphkin.errors import Problem
 from graphkin.plane import cross, dot
 from graphkin.scene.cam_tables import Cam, LawPiece
 from graphkin.scene.cams import LawCam, SlidingFollower, SwingingFollower
-from graphkin.scene.follower_law import FollowerLaw, Piece
+from graphkin.scene.follower_law import FollowerLaw, Piece, form_of
 from graphkin.scene.names import Flaws, Names
 from graphkin.scene.tables import SceneTables
 
@@ -161,7 +161,7 @@ class _CamReading:
             most = max(most, abs(high), abs(low))
             if abs(high) < 1e-9 * most:
                 high = 0.0
-            found.append(Piece(math.radians(start), math.radians(piece.to), low * unit, high * unit, piece.by or ""))
+            found.append(Piece(math.radians(start), math.radians(piece.to), low * unit, high * unit, form_of(piece.by)))
             start, low = piece.to, high
         if not pieces:
             self.say(f"{where}.law", "is empty", 'write [{ to = 60, rise = 28, by = "harmonic" }, ...]')

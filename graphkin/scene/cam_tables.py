@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 __all__ = ["AllowedPressure", "BaseCircle", "Cam", "LawName", "LawPiece"]
 
-LawName = Literal["uniform", "parabolic", "harmonic", "cycloidal", "345", "4567"]
+LawName = Literal["uniform", "parabolic", "harmonic", "cycloidal", "345", "4567", "3-4-5", "4-5-6-7"]
 
 
 @dataclass(frozen=True)

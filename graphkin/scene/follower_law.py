@@ -13,7 +13,7 @@ from functools import cached_property
 from types import ModuleType
 from typing import Any, NamedTuple
 
-__all__ = ["FollowerLaw", "Lift", "Piece", "SmoothPart"]
+__all__ = ["FollowerLaw", "Lift", "Piece", "SmoothPart", "form_of"]
 
 TURN = 2 * math.pi
 SEAM = 1e-12
@@ -66,6 +66,11 @@ _FORMS: Mapping[str, Callable[[Any, ModuleType], tuple[Any, Any, Any, Any]]] = {
     "uniform": _uniform, "accelerated": _accelerated, "decelerated": _decelerated, "harmonic": _harmonic,
     "cycloidal": _cycloidal, "345": _345, "4567": _4567,
 }  # fmt: skip
+
+
+def form_of(by: str | None) -> str:
+    """The name of a law, however people write it: "3-4-5" is "345"; "" of a dwell."""
+    return (by or "").replace("-", "")
 
 
 @dataclass(frozen=True)

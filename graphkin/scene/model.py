@@ -17,6 +17,7 @@ from graphkin.scene.cams import LawCam
 from graphkin.scene.class_tables import Vary
 from graphkin.scene.contacts import PlacedContact, PlacedDisc, PlacedGear
 from graphkin.scene.loads import Loading
+from graphkin.scene.motion_law import MotionLaw
 from graphkin.scene.printed import Printed
 from graphkin.scene.sheet_tables import SheetWishes
 from graphkin.scene.symbol import Symbol
@@ -133,7 +134,8 @@ class AngleDriver:
 
     ``position`` names the position that is meant, where its angle follows from a stroke that is not known yet; ``rpm``
     is its speed in turns per minute, where the problem gives it so.  ``given_speed`` is a point and its speed (m/s,
-    with the sign of the turning), from which ``omega`` follows, 0 until it has been found.
+    with the sign of the turning), from which ``omega`` follows, 0 until it has been found.  ``law`` says how it moves
+    over the time, if the problem does: ``omega`` and ``alpha`` are those at the moment that the law asks.
     """
 
     link: str
@@ -145,6 +147,7 @@ class AngleDriver:
     position: str = ""
     rpm: float | None = None
     given_speed: tuple[str, float] | None = None
+    law: MotionLaw | None = None
 
     @property
     def key(self) -> str:
@@ -157,7 +160,12 @@ class AngleDriver:
 
     def at_rate(self, rate: float) -> AngleDriver:
         """The same driver at a steady rate (rad/s)."""
-        return replace(self, omega=rate, alpha=0.0, rpm=None)
+        return replace(self, omega=rate, alpha=0.0, rpm=None, law=None)
+
+    def moving(self, law: MotionLaw) -> AngleDriver:
+        """The same driver with the rates of a law at the moment that it asks."""
+        now = law.at(law.time)
+        return replace(self, omega=now.slope, alpha=now.bend, law=law)
 
 
 @dataclass(frozen=True)
@@ -169,6 +177,7 @@ class SlideDriver:
     velocity: float
     acceleration: float
     dead_point: FromDeadPoint | None = None
+    law: MotionLaw | None = None
 
     @property
     def values(self) -> tuple[float, float, float]:
@@ -177,7 +186,12 @@ class SlideDriver:
 
     def at_rate(self, rate: float) -> SlideDriver:
         """The same driver at a steady rate (m/s)."""
-        return replace(self, velocity=rate, acceleration=0.0)
+        return replace(self, velocity=rate, acceleration=0.0, law=None)
+
+    def moving(self, law: MotionLaw) -> SlideDriver:
+        """The same driver with the rates of a law at the moment that it asks."""
+        now = law.at(law.time)
+        return replace(self, velocity=now.slope, acceleration=now.bend, law=law)
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,9 @@ From the tables of a file to the one model of the mechanism: names looked up, po
 from __future__ import annotations
 
 import cmath
+import math
 from collections.abc import Mapping
+from dataclasses import replace
 
 from graphkin.errors import Problem, SceneError, did_you_mean
 from graphkin.scene.background import background_of
@@ -15,11 +17,13 @@ from graphkin.scene.cams import LawCam
 from graphkin.scene.circular_slots import with_bars
 from graphkin.scene.contacts import PlacedDisc
 from graphkin.scene.drawn_position import DrawnPosition, find_position, starts_of, travel_of
+from graphkin.scene.driving import DriverEntry, drives
 from graphkin.scene.force_names import no_force
 from graphkin.scene.loads import Loading, loading_of
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedGuide, PlacedLink, SlideDriver
+from graphkin.scene.motion_law import MotionLaw
 from graphkin.scene.names import Flaws, Names
-from graphkin.scene.pairs import DriverEntry, drives, islands, pins_in_slots, sliding_pairs
+from graphkin.scene.pairs import islands, pins_in_slots, sliding_pairs
 from graphkin.scene.placing import Placement, origins_of, place_of
 from graphkin.scene.reading import path_name
 from graphkin.scene.rules import (
@@ -289,10 +293,15 @@ def _driver(drive: DriverEntry, position: DrawnPosition, problems: list[Problem]
     if not drive.base:
         travel = drive.value if drive.value is not None else travel_of(position, drive.key)
         if travel is not None:
-            return SlideDriver(drive.key, travel, drive.rate, drive.second, drive.dead_point)
+            made = SlideDriver(drive.key, travel, drive.rate, drive.second, drive.dead_point)
+            return made if drive.law is None else _by_law(drive, made, drive.law, position, problems)
         problems.append(
             Problem(
-                f"{drive.where}.travel", "is missing", "write travel = ..., or draw the points that give it in [drawn]"
+                f"{drive.where}.travel",
+                "is missing",
+                "write time = ... in s, or the travel"
+                if drive.law is not None
+                else "write travel = ..., or draw the points that give it in [drawn]",
             )
         )
         return None
@@ -305,17 +314,44 @@ def _driver(drive: DriverEntry, position: DrawnPosition, problems: list[Problem]
     if angle is None and driven and base and driven.turn is not None and base.turn is not None:
         angle = cmath.phase(driven.turn / base.turn)
     if angle is not None:
-        return AngleDriver(
+        turning = AngleDriver(
             drive.key, drive.base, angle, drive.rate, drive.second, drive.dead_point, "", drive.rpm, drive.given_speed
         )
+        return turning if drive.law is None else _by_law(drive, turning, drive.law, position, problems)
     problems.append(
         Problem(
             f"{drive.where}.angle",
             "is missing",
-            f"write angle = ... in degrees, or draw two points of link {drive.key} in [drawn]",
+            "write time = ... in s, or the angle"
+            if drive.law is not None
+            else f"write angle = ... in degrees, or draw two points of link {drive.key} in [drawn]",
         )
     )
     return None
+
+
+def _by_law(
+    drive: DriverEntry, driver: AngleDriver | SlideDriver, law: MotionLaw, position: DrawnPosition,
+    problems: list[Problem],
+) -> AnyDriver:  # fmt: skip
+    """The driver with the rates that its law gives it where it stands: at the moment that is asked, else at the first
+    at which it comes there."""
+    if abs(law.at(law.time).lift - driver.values[0]) > 1e-12 * max(map(abs, law.span)):
+        time = law.reached(driver.values[0])
+        if time is None:
+            turns = isinstance(driver, AngleDriver)
+            unit, what = (math.pi / 180, "angle") if turns else (position.metres, "travel")
+            low, high = (f"{end / unit:.6g}" for end in law.span)
+            problems.append(
+                Problem(
+                    f"{drive.where}.{what}",
+                    f"found {driver.values[0] / unit:.6g}",
+                    f"the law goes from {low} to {high}{' deg' * turns}",
+                )
+            )
+            return driver
+        law = replace(law, time=time)
+    return driver.moving(law)
 
 
 def _guides(body: Placement) -> dict[str, PlacedGuide]:

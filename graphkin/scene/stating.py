@@ -172,6 +172,8 @@ def positions_named(
         return None
     first_driver = file.drivers[0] if file.drivers else None
     slides = isinstance(first_driver, DrivenSlide)
+    if any(driver.law is not None for driver in file.drivers):
+        problems.append(Problem("positions", "stand beside a driver with a law", "name a moment: --at time=0.25"))
     pairs = [*(p.key for p in slidings), *(p.key for p in pins)]
     if slides and (table.count or table.first is not None):
         key = "count" if table.count else "first"

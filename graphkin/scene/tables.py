@@ -16,6 +16,7 @@ from graphkin.scene.cam_tables import Cam
 from graphkin.scene.class_tables import Vary
 from graphkin.scene.contact_tables import Contact, Disc, Gear
 from graphkin.scene.file_table import FileTable, about, closed
+from graphkin.scene.law_tables import DriverLaw
 from graphkin.scene.load_tables import Balance, Flywheel, Gravity, Load, Mass, Spring
 from graphkin.scene.sheet_tables import SheetWishes
 
@@ -238,6 +239,13 @@ class Driver(FileTable):
     position: ShownName | None = field(
         default=None, metadata=about("Instead of angle: the name of a position of [positions].")
     )
+    law: DriverLaw | None = field(
+        default=None,
+        metadata=about("Instead of omega and alpha: how the driver moves over the time."),
+    )
+    time: Number | None = field(
+        default=None, metadata=about("Instead of angle: the moment of the law that is asked, in s.")
+    )
 
 
 @dataclass(frozen=True)
@@ -260,6 +268,13 @@ class DrivenSlide(FileTable):
     )
     near: Number | None = field(
         default=None, metadata=about("Travel: which dead point, where there are several.")
+    )
+    law: DriverLaw | None = field(
+        default=None,
+        metadata=about("Instead of velocity and acceleration: how the driver moves over the time."),
+    )
+    time: Number | None = field(
+        default=None, metadata=about("Instead of travel: the moment of the law that is asked, in s.")
     )
 
 

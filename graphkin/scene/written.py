@@ -18,8 +18,10 @@ from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.plane import degrees
 from graphkin.scene.cams import LawCam, SwingingFollower
 from graphkin.scene.contacts import PlacedContact, PlacedGear
+from graphkin.scene.follower_law import Piece
 from graphkin.scene.loads import Phase
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedLink
+from graphkin.scene.motion_law import CubicPart, MotionLaw
 from graphkin.scene.tables import SceneTables
 
 __all__ = ["Scene", "as_mapping", "put", "resolved", "safe_name", "toml_text"]
@@ -366,12 +368,31 @@ def _driver(scene: Mechanism, driver: AnyDriver, length: Any) -> dict[str, Any]:
         base = {} if driver.relative_to == scene.frame.name else {"relative_to": driver.relative_to}
         angle = _tidy(math.degrees(driver.angle))
         rate: dict[str, Any] = {"omega": _tidy(driver.omega)}
+        if driver.law is not None:
+            moment = _law(driver.law, math.pi / 180)
+            return {"link": driver.link, **base, **moment}
         if driver.given_speed is not None:
             rate = {"speed": _tidy(driver.given_speed[1] / scene.units.rates.metres), "of": driver.given_speed[0]}
         return {"link": driver.link, **base, "angle": angle, **rate, "alpha": _tidy(driver.alpha)}
+    if driver.law is not None:
+        return {"slide": driver.key, **_law(driver.law, scene.units.metres)}
     travel = length(driver.travel)
     velocity, second = (_tidy(v / scene.units.rates.metres) for v in driver.values[1:])
     return {"slide": driver.key, "travel": travel, "velocity": velocity, "acceleration": second}
+
+
+def _law(law: MotionLaw, unit: float) -> dict[str, Any]:
+    """How a driver moves over the time, and the moment that is asked."""
+    if isinstance(law.pieces[0], CubicPart):
+        rows = [[piece.start, _tidy(piece.low / unit)] for piece in law.pieces]
+        return {"time": law.time, "law": {"table": [*rows, [law.duration, _tidy(law.pieces[-1].high / unit)]]}}
+    pieces: list[dict[str, Any]] = []
+    for piece in law.pieces:
+        assert isinstance(piece, Piece)
+        way = _tidy((piece.high - piece.low) / unit)
+        moved = {"rise" if way > 0 else "fall": abs(way), "by": piece.by} if piece.by else {}
+        pieces.append({"to": piece.end, **moved})
+    return {"time": law.time, "law": {"from": _tidy(law.pieces[0].low / unit), "pieces": pieces}}
 
 
 def _tidy(value: float) -> float:

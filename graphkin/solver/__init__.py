@@ -8,6 +8,7 @@ from graphkin.solver.force_values import force_values
 from graphkin.solver.forces import Forces, forces_of
 from graphkin.solver.in_place_of_cams import as_drawn
 from graphkin.solver.motion import Motion, Sliding
+from graphkin.solver.over_time import over_time
 from graphkin.solver.prepared import PreparedMechanism, prepare
 from graphkin.solver.solve import solve
 from graphkin.solver.table import json_text, listed_points, own_slides, to_json
@@ -25,6 +26,7 @@ __all__ = [
     "forces_of",
     "json_text",
     "listed_points",
+    "over_time",
     "own_slides",
     "prepare",
     "solve",

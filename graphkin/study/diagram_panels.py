@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,7 +23,7 @@ from graphkin.words import Phrase, say, word
 if TYPE_CHECKING:
     from graphkin.drawing.chart import Axes, Look
 
-__all__ = ["LIMIT", "DiagramPanel", "draw_panel", "panel_of", "signs_of", "unit_words"]
+__all__ = ["LIMIT", "MARGIN", "DiagramPanel", "draw_panel", "panel_of", "quantity_title", "signs_of", "unit_words"]
 
 Array = NDArray[np.float64]
 
@@ -74,7 +74,20 @@ def unit_words(unit: str) -> str:
     return {"deg": "°"}.get(unit, unit.replace("s2", "s²"))
 
 
-def draw_panel(axes: Axes, panel: DiagramPanel, axis: DriverAxis, limits: Sequence[float], language: str) -> None:
+class _Ends(Protocol):
+    """What is drawn from left to right: its ends, and the step of its ticks."""
+
+    @property
+    def left(self) -> float: ...
+
+    @property
+    def right(self) -> float: ...
+
+    @property
+    def step(self) -> float: ...
+
+
+def draw_panel(axes: Axes, panel: DiagramPanel, axis: _Ends, limits: Sequence[float], language: str) -> None:
     """One panel; zero lines and limit positions lie behind the curve."""
     axes.set_xlim(axis.left, axis.right)
     axes.set_ylim(*panel.span)
@@ -102,6 +115,15 @@ def draw_panel(axes: Axes, panel: DiagramPanel, axis: DriverAxis, limits: Sequen
     add_labels(axes, labels, toward=toward)
 
 
+def quantity_title(scene: Mechanism, quantity: Quantity) -> str:
+    """Symbol and unit of a quantity as markup."""
+    letter, name = str(quantity.kind), quantity.of.split("/")[0]
+    if quantity.symbol is not None:
+        letter, name = quantity.symbol.kind, str(quantity.symbol).removeprefix(f"{quantity.symbol.kind}_")
+    greek = {"theta": "θ", "omega": "ω", "alpha": "α", "gamma": "γ", "pressure": "α^{p}", "d": "l"}.get(letter, letter)
+    return f"${greek}_{{{name.replace('@', '')}}}$ ({unit_words(quantity.unit(scene, degrees=True))})"
+
+
 def panel_of(
     turn: TurnStudy, axis: DriverAxis, quantity: Quantity, traced: Traced | None, dots: Sequence[tuple[float, float]],
     laid_over: Sequence[tuple[float, float]] = (),
@@ -122,11 +144,7 @@ def panel_of(
         x[0], x[-1] = axis.left, axis.right
         gain = _gain(reach, quantity) if quantity.kind == "theta" else 0.0
         values[-1] = values[0] + quantity.in_units(scene, gain, degrees=True)
-    letter, name = str(quantity.kind), quantity.of.split("/")[0]
-    if quantity.symbol is not None:
-        letter, name = quantity.symbol.kind, str(quantity.symbol).removeprefix(f"{quantity.symbol.kind}_")
-    greek = {"theta": "θ", "omega": "ω", "alpha": "α", "gamma": "γ", "pressure": "α^{p}", "d": "l"}.get(letter, letter)
-    title = f"${greek}_{{{name.replace('@', '')}}}$ ({unit_words(quantity.unit(scene, degrees=True))})"
+    title = quantity_title(scene, quantity)
     points, others = (_points(axis, quantity, some) for some in (dots, laid_over))
     curve = np.stack([x, values], axis=1)
     low, high = _span(curve, points, bounded=reach.full or quantity.is_position)

@@ -153,7 +153,7 @@ def study_turn(reach: DriverRange, asked: Sequence[Symbol] = (), everything: boo
     """
     scene = reach.scene
     start = reach.motion(np.zeros(1))
-    mains = [Quantity("theta", name) for name in output_links(reach)]
+    mains = [Quantity("theta", name) for name in output_links(scene)]
     mains += [Quantity("s", key) for key in output_slides(start)]
     wanted = list(mains)
     if everything:
@@ -173,9 +173,8 @@ def _with_rates(quantity: Quantity) -> tuple[Quantity, ...]:
     return link_quantities(quantity.of) if quantity.kind == "theta" else slide_quantities(quantity.of)
 
 
-def output_links(reach: DriverRange) -> tuple[str, ...]:
+def output_links(scene: Mechanism) -> tuple[str, ...]:
     """Links pivoted to the frame that no driver turns about it."""
-    scene = reach.scene
     frame = scene.frame
     driven = {d.link for d in scene.drivers if isinstance(d, AngleDriver) and d.relative_to == frame.name}
     sliding = {s.link for s in scene.slidings}

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from graphkin.errors import CallError
 from graphkin.scene.force_names import force_names
 from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.over_time import moments, moves_by_law
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver import (
     DriverRange,
@@ -22,6 +23,7 @@ from graphkin.solver import (
     driver_range,
     forces_of,
     listed_points,
+    over_time,
     own_slides,
     prepare,
     structure_of,
@@ -233,7 +235,7 @@ class Design:
         not give, where a larger group has no closed form, or where it starts elsewhere than the scene."""
         if not self.asked or not all(w.can_be_prepared for w in self.asked):
             return None
-        if self.at or self.scene.positions is not None:
+        if self.at or self.scene.positions is not None or moves_by_law(self.scene):
             return None
         if in_stages(self.structure.elements):
             return None
@@ -262,6 +264,11 @@ class Design:
         if self.engine is not None:
             found = self.engine.columns(self.engine.values(n, first, last))
             return self.table_of(self._arrays(self.engine, *found), n, first, last)
+        if moves_by_law(self.scene):
+            times = np.array(moments(self.scene, n)[first:last])
+            motion = over_time(self.scene, times)
+            parts = tuple(w.parts(None, motion) for w in self.watched)
+            return self._table(first, motion.values, parts, motion.status.tolist(), motion.why, times)
         motion = self.reach.motion(self.reach.table_offsets(n, first, last))
         parts = tuple(w.parts(self.reach, motion) for w in self.watched)
         return self._table(first, motion.values, parts, motion.status.tolist(), motion.why)
@@ -289,14 +296,18 @@ class Design:
         """The table of positions that have no values."""
         nothing = np.full(last - first, np.nan)
         parts = tuple((nothing,) * (1 + w.is_vector) for w in self.watched)
-        return self._table(first, np.stack([nothing] * len(self.scene.drivers), axis=1), parts, [status], [why])
+        values = np.stack([nothing] * len(self.scene.drivers), axis=1)
+        return self._table(first, values, parts, [status], [why], nothing if moves_by_law(self.scene) else None)
 
-    def _table(self, first: int, values: Array, parts: Parts, status: Words, why: Words) -> Table:
+    def _table(
+        self, first: int, values: Array, parts: Parts, status: Words, why: Words, times: Array | None = None
+    ) -> Table:
         n = len(values)
         shown = (c for w, own in zip(self.watched, parts, strict=True) for c in w.columns(self.scene, own))
         return Table(
             (
                 Column("position", np.arange(first + 1, first + n + 1)),
+                *([] if times is None else [Column("time", times, "s")]),
                 *driver_columns(self.scene, values),
                 *shown,
                 word_column("status", status, n),

@@ -203,7 +203,8 @@ def test_a_driven_slide_without_velocity_asks_for_it() -> None:
 def test_a_driven_slide_has_no_omega() -> None:
     text = changed(SIX_BAR, ('link  = "1"\nangle = 50', 'slide = "5"\ntravel = 3\nvelocity = 1'))
     assert messages(text) == [
-        "driver.omega: unknown key; known here: acceleration, from, near, relative_to, slide, travel, velocity"]
+        "driver.omega: unknown key; known here: acceleration, from, law, near, relative_to, slide, time, travel, "
+        "velocity"]
 
 
 def test_a_redundant_link_does_not_drive_by_its_slide() -> None:

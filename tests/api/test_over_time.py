@@ -1,0 +1,152 @@
+"""Drivers that move by a law over the time."""
+
+import math
+
+import numpy as np
+import pytest
+
+import graphkin
+from graphkin.errors import CallError, SceneError
+
+CRANK = {
+    "frame": {"points": {"A": [0, 0]}, "guides": {"h": {"through": [0, -16], "angle": 0}}},
+    "links": {
+        "1": {"points": ["A", "B"], "length": 24},
+        "2": {"points": ["B", "C"], "length": 58},
+        "3": {"points": ["C"], "on": "0.h"},
+    },
+}
+FIVE_BAR = {
+    "frame": {"points": {"A": [0, 0], "E": [120, 0]}},
+    "links": {
+        "1": {"points": ["A", "B"], "length": 60},
+        "2": {"points": ["B", "C"], "length": 100},
+        "3": {"points": ["E", "D"], "length": 60},
+        "4": {"points": ["D", "C"], "length": 100},
+    },
+    "sketch": {"C": [60, 130]},
+}
+
+
+def crank(**driver):
+    return {**CRANK, "driver": {"link": "1", **driver}}
+
+
+def five_bar():
+    pieces = [{"to": 0.3, "rise": 40, "by": "3-4-5"}, {"to": 0.5, "fall": 30, "by": "cycloidal"}, {"to": 1.0}]
+    table = [[0, 80], [0.25, 60], [0.5, 70], [1, 40]]
+    one = {"link": "1", "time": 0.4, "law": {"from": 100, "pieces": pieces}}
+    return {**FIVE_BAR, "driver": [one, {"link": "3", "time": 0.4, "law": {"table": table}}]}
+
+
+LAW = {"from": 20, "to": 110, "duration": 0.5, "by": "cycloidal"}
+
+
+@pytest.mark.parametrize(
+    ("by", "value", "rate", "second"),
+    [
+        ("uniform", 0.25, 1.0, 0.0),
+        ("parabolic", 2 / 16, 1.0, 4.0),
+        ("harmonic", (1 - math.sqrt(0.5)) / 2, math.pi / 2 * math.sqrt(0.5), math.pi**2 / 2 * math.sqrt(0.5)),
+        ("cycloidal", 0.25 - 1 / (2 * math.pi), 1.0, 2 * math.pi),
+        ("3-4-5", 0.103515625, 1.0546875, 5.625),
+        ("4567", 0.070556640625, 0.9228515625, 7.3828125),
+    ],
+)
+def test_the_rates_at_a_quarter_of_the_time_are_those_of_the_law(by, value, rate, second):
+    law = {"from": 10, "to": 100, "duration": 2.0, "by": by}
+    solved = graphkin.solve(crank(time=0.5, law=law))
+    way = math.pi / 2
+    assert math.radians(10) + way * value == pytest.approx(solved.motion.values[0, 0], rel=1e-14)
+    assert way * rate / 2 == pytest.approx(solved["omega_1"][0], rel=1e-13)
+    assert way * second / 4 == pytest.approx(solved["alpha_1"][0], rel=1e-12, abs=1e-14)
+
+
+def test_the_angle_asked_says_the_moment_at_which_the_law_first_comes_there():
+    solved = graphkin.solve(crank(angle=65, law=LAW))
+    assert 0.25 == pytest.approx(solved.times[0], rel=1e-13)
+    assert math.pi * 2 == pytest.approx(solved["omega_1"][0], rel=1e-13)
+
+
+def test_every_reading_of_the_drawing_agrees_at_any_moment():
+    for time in (0.07, 0.2, 0.31):
+        assert graphkin.check(crank(angle=50, law=LAW), at={"time": time}).ok
+
+
+def test_velocities_and_accelerations_over_the_time_are_differences_of_places():
+    turn = graphkin.solve(crank(angle=50, law=LAW), sweep=2001)
+    step = turn.times[1] - turn.times[0]
+    place, speed = turn["C"], turn["v_C"]
+    assert np.gradient(place, step)[1:-1] == pytest.approx(speed[1:-1], abs=1e-5 * abs(speed).max())
+    push = turn["a_C"]
+    assert np.gradient(speed, step)[1:-1] == pytest.approx(push[1:-1], abs=1e-5 * abs(push).max())
+
+
+def test_two_drivers_with_laws_of_their_own_move_together_as_one_position_after_the_other():
+    turn = graphkin.solve(five_bar(), sweep=11)
+    for k, time in enumerate(turn.times):
+        alone = graphkin.solve(five_bar(), at={"time": time})
+        for name in ("C", "v_C", "a_C", "omega_2", "alpha_4"):
+            size = np.abs(turn[name]).max()
+            assert alone[name][0] == pytest.approx(turn[name][k], abs=1e-12 * size), (time, name)
+
+
+def test_a_driver_without_a_law_goes_on_at_its_own_rate():
+    scene = five_bar()
+    scene["driver"][1] = {"link": "3", "angle": 70, "omega": -0.5, "alpha": 0.25}
+    solved = graphkin.solve(scene, at={"time": 0.6})
+    assert math.radians(70) - 0.5 * 0.2 + 0.25 * 0.02 == pytest.approx(solved.motion.values[0, 1])
+    assert -0.45 == pytest.approx(solved["omega_3"][0])
+
+
+def test_a_spline_goes_through_its_table_and_has_no_acceleration_at_its_ends():
+    turn = graphkin.solve(five_bar(), sweep=21)
+    assert [80, 60, 70, 40] == pytest.approx(turn["theta_3"][[0, 5, 10, 20]])
+    assert [0, 0] == pytest.approx(turn["alpha_3"][[0, -1]], abs=1e-9)
+
+
+def test_whole_turns_of_a_law_are_counted():
+    law = {"from": 0, "rise": 1440, "duration": 2, "by": "345"}
+    assert 1440 == pytest.approx(graphkin.solve(crank(time=0.5, law=law), sweep=9)["theta_1"][-1])
+
+
+def test_a_sweep_goes_over_the_time_and_names_the_extremes():
+    swept = graphkin.sweep(crank(angle=50, law=LAW), positions=5)
+    assert [0, 0.125, 0.25, 0.375, 0.5] == pytest.approx(swept.table["time"].tolist())
+    assert {"value": pytest.approx(2 * math.pi), "time": pytest.approx(0.25)} == swept.data["outputs"]["omega_1"][
+        "greatest"
+    ]
+    assert {"motion-link-1", "motion-slide-3-0"} == set(swept.figures)
+    assert "greatest 6.28319 rad/s at 0.25 s" in swept.text
+
+
+def test_a_scene_with_a_law_is_written_and_read_again(tmp_path):
+    for name, given in (("crank", crank(angle=50, law=LAW)), ("five-bar", five_bar())):
+        scene = graphkin.read(given)
+        again = graphkin.solve(graphkin.read(scene.save(tmp_path / f"{name}.toml")))
+        assert graphkin.solve(given)["a_C"][0] == pytest.approx(again["a_C"][0], rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("driver", "said"),
+    [
+        ({"angle": 50, "omega": 3, "law": LAW}, "driver.omega: stands beside law"),
+        ({"angle": 5, "law": LAW}, "driver.angle: found 5; the law goes from 20 to 110 deg"),
+        ({"time": 0.6, "law": LAW}, "driver.time: found 0.6; the law goes from 0 to 0.5 s"),
+        ({"angle": 50, "time": 0.1, "law": LAW}, "driver.time: stands beside angle"),
+        ({"law": LAW}, "driver.angle: is missing; write time = ... in s, or the angle"),
+        ({"time": 0.2}, "driver.time: tells the moment of a law"),
+        ({"time": 0, "law": {"from": 0, "by": "345"}}, "driver.law.duration: is missing"),
+        ({"time": 0, "law": {"table": [[0, 1], [0, 2]]}}, "driver.law.table.2: is at 0 s, after one at 0 s"),
+        ({"time": 0, "law": {"from": 0, "pieces": [{"to": 1, "rise": 3}]}}, "law.pieces.1: does not say its law"),
+    ],
+)
+def test_what_is_wrong_with_a_law_is_said_by_name(driver, said):
+    with pytest.raises(SceneError) as stop:
+        graphkin.read(crank(**driver))
+    assert said in str(stop.value)
+
+
+def test_a_value_that_the_law_never_takes_is_refused():
+    with pytest.raises(CallError, match=r"at 1: 200° is not on its way; its law goes from 20° to 110°"):
+        graphkin.check(crank(angle=50, law=LAW), at=200)
