@@ -110,7 +110,7 @@ def _of_balance(moving: Motion, forces: Forces, name: str) -> float:
 
 def _growing(motion: Motion) -> Motion:
     """The same position with the first driver's value growing at a unit rate."""
-    scene = motion.scene
+    scene = motion.scene.instead_of or motion.scene
     drivers = tuple(d.at_rate(1.0 if d is scene.drivers[0] else 0.0) for d in scene.drivers)
     values = {d.key: float(v) for d, v in zip(scene.drivers, motion.values[0], strict=True)}
     return solve(replace(scene, drivers=drivers), at=values)

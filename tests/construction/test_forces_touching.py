@@ -54,8 +54,9 @@ def test_what_rolls_is_held_along_the_rail_and_square_to_it():
     assert 0.03 * 50 * np.cos(np.pi / 3) == pytest.approx(checked["M_1"].measured)
 
 
-def test_forces_at_rest_are_drawn_of_wheels_too():
-    made = scene("gears-epicyclic", 20)
+@pytest.mark.parametrize("name", ["gears-epicyclic", "cam-offset-roller"])
+def test_forces_at_rest_are_drawn_of_wheels_and_cams_too(name):
+    made = scene(name, 20)
     made["driver"] |= {"omega": 0.0, "alpha": 0.0}
     assert (True, []) == judged(made)
 
