@@ -15,7 +15,7 @@ from graphkin.api.arguments import At, SceneLike, as_scene, known_words, write_f
 from graphkin.api.checked import in_scene_units
 from graphkin.api.class_results import Scheme, people_of, quantities_of, scheme_of
 from graphkin.api.judging import MOST_DRAWN, evidence_at, judged_table
-from graphkin.api.results import Result
+from graphkin.api.results import OfScene, Result
 from graphkin.checking.audit import Judged, Value, judge, with_gaps
 from graphkin.checking.slips import Evidence, ValuesElsewhere
 from graphkin.errors import CallError, Problem, as_text, did_you_mean
@@ -33,13 +33,13 @@ MOST_LOOPS = 24  # rows of a table of which wrong angles are told with the gaps 
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Audited(Result):
+class Audited(Result, OfScene):
     """The values of each person with their verdicts; of a scene's ``[printed]`` values the person is "".
 
     ``unused`` are heads of the table of answers that are no quantities, ``scheme`` how many points there are.
     """
 
-    scene: Mechanism
+    mechanism: Mechanism
     people: tuple[tuple[Answers, tuple[Judged, ...]], ...]
     language: str = "en"
     unused: tuple[str, ...] = ()
@@ -56,7 +56,7 @@ class Audited(Result):
     @cached_property
     def data(self) -> dict[str, Any]:
         """The object that ``graphkin audit --json`` prints; values in scene units."""
-        values = [row for who, judged in self.people for row in _values(self.scene, who, judged, "en")]
+        values = [row for who, judged in self.people for row in _values(self.mechanism, who, judged, "en")]
         found: dict[str, Any] = {"ok": self.ok, "values": values}
         if self.is_class:
             found["people"] = list(people_of(self.people, self.scheme, "en"))
@@ -90,14 +90,14 @@ class Audited(Result):
         for who, judged in self.people:
             own = {"person": who.person, "id": who.id, "variant": who.variant, "at": _place(who.at)}
             lead = [own[key] for key in self._named]
-            for row in _values(self.scene, who, judged, self.language):
+            for row in _values(self.mechanism, who, judged, self.language):
                 off = "" if row["deviation_pct"] is None else f"{round(row['deviation_pct'], 2) + 0.0:+.2f} %"
                 exact = "" if row["exact"] is None else _shown(row["exact"])
                 verdict = word(row["verdict"] or "not judged", self.language)
                 said = row.get("looks_like", row.get("why", "") if row["verdict"] == "not readable" else "")
                 if "loop_gap" in row:
                     gap = row["loop_gap"]
-                    open_ = Phrase("loop open", (gap["loop"], f"{gap['gap']:.4g} {self.scene.units.length}"))
+                    open_ = Phrase("loop open", (gap["loop"], f"{gap['gap']:.4g} {self.mechanism.units.length}"))
                     said = "; ".join(filter(None, (said, say(open_, self.language))))
                 rows.append([*lead, row["symbol"], row["written"], exact, off, verdict, said])
         return rows
@@ -154,7 +154,7 @@ class Audited(Result):
 
     def __repr__(self) -> str:
         return (
-            f"<Audited {self.scene.name}: {sum(len(judged) for _, judged in self.people)} values, "
+            f"<Audited {self.mechanism.name}: {sum(len(judged) for _, judged in self.people)} values, "
             f"{sum(j.verdict == 'wrong' for _, judged in self.people for j in judged)} wrong>"
         )
 

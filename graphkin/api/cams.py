@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from graphkin.api.arguments import ON_SHEETS, SceneLike, for_paper, known_words, write_files
-from graphkin.api.results import Result
+from graphkin.api.results import OfScene, Result
 from graphkin.checking.cam_points import CamPoints, compare_cam
 from graphkin.construction.cam_sheet import CamSheet, cam_sheet
 from graphkin.errors import CallError, Problem
@@ -38,7 +38,7 @@ FINEST, COARSEST = 0.001, 30.0
 class CamMade:
     """A cam: what is found of it, and how it was drawn."""
 
-    scene: Mechanism
+    mechanism: Mechanism
     cam: LawCam
 
     @cached_property
@@ -53,7 +53,7 @@ class CamMade:
         from graphkin.drawing.cam import cam_scale
 
         natural = cam_sheet(self.cam, self.cam.base / 50.0)
-        return cam_sheet(self.cam, cam_scale(self.scene, self.cam, natural))
+        return cam_sheet(self.cam, cam_scale(self.mechanism, self.cam, natural))
 
     @cached_property
     def drawn(self) -> CamPoints:
@@ -71,12 +71,12 @@ class CamMade:
     @property
     def _rate(self) -> float:
         """The cam's angular velocity (rad/s), where it is driven about the frame; 0 elsewhere."""
-        own = (d for d in self.scene.drivers if isinstance(d, AngleDriver) and d.link == self.cam.link)
+        own = (d for d in self.mechanism.drivers if isinstance(d, AngleDriver) and d.link == self.cam.link)
         driver = next(own, None)
-        return driver.omega if driver is not None and driver.relative_to == self.scene.frame.name else 0.0
+        return driver.omega if driver is not None and driver.relative_to == self.mechanism.frame.name else 0.0
 
     def _length(self, metres: float) -> str:
-        return f"{metres / self.scene.units.metres:.6g}"
+        return f"{metres / self.mechanism.units.metres:.6g}"
 
     @cached_property
     def wanted_base(self) -> float | None:
@@ -88,7 +88,7 @@ class CamMade:
     def phrases(self) -> list[Phrase]:
         """What is to be said of it."""
         study, cam = self.study, self.cam
-        unit = self.scene.units.length
+        unit = self.mechanism.units.length
         made = []
         for kind, most, kept, allowed in zip(
             ("rise", "fall"), (study.rise, study.fall), study.judged, cam.allowed, strict=True
@@ -111,7 +111,7 @@ class CamMade:
         return made
 
     def _undercut(self, start: float, end: float) -> Phrase:
-        unit = self.scene.units.length
+        unit = self.mechanism.units.length
         between = f"{math.degrees(start):.4f}", f"{math.degrees(end):.4f}"
         least = self.study.radius.value if self.study.radius is not None else 0.0
         if self.cam.flat:
@@ -124,7 +124,7 @@ class CamMade:
     def _rates(self) -> list[Phrase]:
         """The greatest velocity and acceleration: at the cam's own speed, or by its angle."""
         turns, found = self._rate, []
-        units = self.scene.units
+        units = self.mechanism.units
         for key, most, order in (("velocity", self.study.velocity, 1), ("acceleration", self.study.acceleration, 2)):
             value = most.value * ((abs(turns) if order == 1 else turns**2) or 1.0)
             per = ("/s", "/s²") if turns else ("/rad", "/rad²")
@@ -141,7 +141,7 @@ class CamMade:
     @property
     def data(self) -> dict[str, Any]:
         """Plain data: lengths in the scene's unit, angles in degrees of the cam under ``degree``, else radians."""
-        metres, study = self.scene.units.metres, self.study
+        metres, study = self.mechanism.units.metres, self.study
         lift = 1.0 if self._swings else metres
 
         def at(one: AtDegree | None, per: float = 1.0) -> dict[str, float] | None:
@@ -173,7 +173,7 @@ class CamMade:
         from graphkin.drawing.cam import cam_figure
 
         told = list(zip(*(self.sentences(each) for each in ("en", "zh")), strict=True))
-        return cam_figure(self.scene, self.sheet, told, language)
+        return cam_figure(self.mechanism, self.sheet, told, language)
 
     def profile_dxf(self) -> bytes:
         """The profile true to size, in mm, as a closed curve of arcs.  Raises CallError without the extra ``cad``."""
@@ -217,14 +217,14 @@ def cam_table(scene: Mechanism, step: float = STEP) -> Table:
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Cams(Result):
+class Cams(Result, OfScene):
     """The cams of a scene: what is found of each, the table of their points, and their figures; ``discs`` are discs
     that the driver turns, measured as cams.
 
     ``result["1"]`` is the cam of link 1.
     """
 
-    scene: Mechanism
+    mechanism: Mechanism
     made: tuple[CamMade, ...]
     discs: tuple[DiscCam, ...] = ()
     step: float = STEP
@@ -247,16 +247,16 @@ class Cams(Result):
     def data(self) -> dict[str, Any]:
         """The object that ``graphkin cam --json`` prints."""
         return {
-            "title": self.scene.title,
+            "title": self.mechanism.title,
             "ok": self.ok,
-            "units": {"length": self.scene.units.length, "angle": "rad"},
+            "units": {"length": self.mechanism.units.length, "angle": "rad"},
             "cams": {one.cam.link: one.data for one in self.made},
             "discs": {disc.contact: self._disc(disc) for disc in self.discs},
         }
 
     def _disc(self, disc: DiscCam) -> dict[str, Any]:
         """Plain data of a measured disc: lengths in the scene's unit, angles in radians."""
-        metres = self.scene.units.metres
+        metres = self.mechanism.units.metres
         return {
             "cam": disc.link,
             "follower": disc.follower,
@@ -272,7 +272,7 @@ class Cams(Result):
         return told + [say(phrase, language) for disc in self.discs for phrase in self._told(disc)]
 
     def _told(self, disc: DiscCam) -> Iterator[Phrase]:
-        unit, metres = self.scene.units.length, self.scene.units.metres
+        unit, metres = self.mechanism.units.length, self.mechanism.units.metres
         base = disc.profile if disc.pitch is None else disc.pitch
         kind = Phrase("cam base profile" if disc.pitch is None else "cam base pitch")
         rise = (math.degrees(disc.rise), "°") if disc.swings else (disc.rise / metres, f" {unit}")
@@ -287,12 +287,12 @@ class Cams(Result):
     @cached_property
     def table(self) -> Table:
         """Points of pitch curve and profile at every step."""
-        return cam_table(self.scene, self.step)
+        return cam_table(self.mechanism, self.step)
 
     @cached_property
     def figures(self) -> dict[str, Drawing]:
         """Each cam by inversion: "cam", and "cam-3" of a further one of link 3."""
-        spoken = self.language or self.scene.sheet.language
+        spoken = self.language or self.mechanism.sheet.language
         return {"cam" if i == 0 else f"cam-{one.cam.link}": one.figure(spoken) for i, one in enumerate(self.made)}
 
     def write(self, folder: str | os.PathLike[str] | None = None, formats: Sequence[str] = ("svg",)) -> list[Path]:
@@ -308,10 +308,10 @@ class Cams(Result):
             files["cam.csv"] = self.table.csv().encode()
         if "dxf" in formats:
             files |= {f"profile-{one.cam.link}.dxf": one.profile_dxf() for one in self.made}
-        return write_files(path_of(folder) if folder is not None else Path(self.scene.name), files)
+        return write_files(path_of(folder) if folder is not None else Path(self.mechanism.name), files)
 
     def __repr__(self) -> str:
-        return f"<Cams {self.scene.name}: {self._links}>"
+        return f"<Cams {self.mechanism.name}: {self._links}>"
 
     def _repr_svg_(self) -> str:
         return self.figures["cam"]._repr_svg_() if self.made else ""

@@ -21,7 +21,7 @@ from graphkin.api.arguments import (
     write_files,
 )
 from graphkin.api.checked import solved_here
-from graphkin.api.results import Result
+from graphkin.api.results import OfScene, Result
 from graphkin.construction import Room
 from graphkin.construction.centres import (
     Centre,
@@ -60,8 +60,8 @@ class CentresText:
 
 def centres_text(centred: Centred) -> CentresText:
     """All centres of a position in words, in the language of the result."""
-    language = languages(centred.language or centred.scene.sheet.language)[0]
-    letter = "P" if (centred.convention or centred.scene.sheet.convention) in ("chinese", "russian") else "I"
+    language = languages(centred.language or centred.mechanism.sheet.language)[0]
+    letter = "P" if (centred.convention or centred.mechanism.sheet.convention) in ("chinese", "russian") else "I"
 
     def name(pair: object) -> str:
         if not isinstance(pair, tuple):
@@ -72,7 +72,7 @@ def centres_text(centred: Centred) -> CentresText:
     rows = []
     for pair, centre in sorted(centred.centres.table.items(), key=lambda item: item[1].number):
         row = centred.data["centres"]["-".join(pair)]
-        least = 1e-12 * centred.scene.size / centred.scene.units.metres
+        least = 1e-12 * centred.mechanism.size / centred.mechanism.units.metres
         place = ", ".join(f"{x if abs(x) > least else 0.0:.6g}" for x in row.get("point", row.get("direction", [])))
         if "direction" in row:
             place = f"∞ ({place})"
@@ -140,7 +140,7 @@ class Velocity:
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Centred(Result):
+class Centred(Result, OfScene):
     """All instant centres of a scene at one position, with their check.
 
     ``errors`` holds for each centre how far it lies from the exact one, as an angle seen from the middle of the
@@ -155,7 +155,7 @@ class Centred(Result):
     convention: str | None = None
 
     @property
-    def scene(self) -> Mechanism:
+    def mechanism(self) -> Mechanism:
         return self.centres.links.scene
 
     @cached_property
@@ -192,7 +192,7 @@ class Centred(Result):
     def _centre(self, centre: Centre) -> dict[str, Any]:
         row: dict[str, Any] = {}
         if centre.point is not None:
-            z = centre.point * self.centres.sheet.scales.length / self.scene.units.metres
+            z = centre.point * self.centres.sheet.scales.length / self.mechanism.units.metres
             row["point"] = [_plain(z.real), _plain(z.imag)]
         elif centre.direction is not None:
             row["direction"] = [_plain(centre.direction.real), _plain(centre.direction.imag)]
@@ -204,11 +204,11 @@ class Centred(Result):
         if centre.number and centre.kind == "found":
             row["number"] = centre.number
         if centre.why:
-            row["why"] = say(centre.why, languages(self.language or self.scene.sheet.language)[0])
+            row["why"] = say(centre.why, languages(self.language or self.mechanism.sheet.language)[0])
         return row
 
     def _velocity(self, v: Velocity) -> dict[str, Any]:
-        unit = self.scene.units.rates.metres if v.symbol.is_vector else 1.0
+        unit = self.mechanism.units.rates.metres if v.symbol.is_vector else 1.0
         values = (
             None if x is None else abs(x) / unit if v.symbol.is_vector else float(x.real)
             for x in (v.by_centres, v.exact)
@@ -218,7 +218,7 @@ class Centred(Result):
         if v.ok and v.tolerance > 1.01 * TOLERANCE * v.largest:
             row["tolerance"] = v.tolerance / unit  # worse than everywhere else
         if v.ok is None:
-            language = languages(self.language or self.scene.sheet.language)[0]
+            language = languages(self.language or self.mechanism.sheet.language)[0]
             row |= {"by_centres": None, "why": say(Phrase("centres too near", (str(v.symbol),)), language)}
         return row
 
@@ -252,7 +252,7 @@ class Centred(Result):
         """The mechanism with all its centres, and the circle diagram."""
         from graphkin.drawing.centres import centres_figure
 
-        for_paper(self.scene)
+        for_paper(self.mechanism)
         return centres_figure(self.centres, self.turning, language=self.language, convention=self.convention)
 
     def write(
@@ -269,10 +269,10 @@ class Centred(Result):
         known_words(formats, text=text)
         files = {f"centres.{kind}": self.figure.content(kind, text=text) for kind in formats}
         files["centres.csv"] = self.table.csv().encode()
-        return write_files(path_of(folder) if folder is not None else Path(self.scene.name), files)
+        return write_files(path_of(folder) if folder is not None else Path(self.mechanism.name), files)
 
     def __repr__(self) -> str:
-        return f"<Centred {self.scene.name}: {len(self.centres.table)} centres>"
+        return f"<Centred {self.mechanism.name}: {len(self.centres.table)} centres>"
 
     def _repr_svg_(self) -> str:
         from graphkin.drawing import svg_bytes

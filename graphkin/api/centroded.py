@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from graphkin.api.arguments import ON_SHEETS, At, SceneLike, as_scene, known_words, placed, write_files
 from graphkin.api.centred import found_centres
 from graphkin.api.checked import solved_here
-from graphkin.api.results import Result
+from graphkin.api.results import OfScene, Result
 from graphkin.construction.centres import Centres
 from graphkin.errors import CallError, Problem, as_text, did_you_mean
 from graphkin.files import path_of
@@ -34,7 +34,7 @@ STILL = 1e-9
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Centroded(Result):
+class Centroded(Result, OfScene):
     """The fixed and the moving centrode of a link, and the path of a point of it (complex arrays over the turn, m)."""
 
     centres: Centres
@@ -46,17 +46,17 @@ class Centroded(Result):
     convention: str | None = None
 
     @property
-    def scene(self) -> Mechanism:
+    def mechanism(self) -> Mechanism:
         return self.centres.links.scene
 
     @property
     def ok(self) -> bool:
         """Whether the centre drawn at this position lies on the fixed centrode, to 1e-9 of the mechanism's size."""
-        centre = self.centres.of(self.link, self.scene.frame.name)
+        centre = self.centres.of(self.link, self.mechanism.frame.name)
         if centre.point is None or not np.isfinite(self.curves.fixed[0]):
             return True
         away = abs(centre.point / self.centres.links.mm - complex(self.curves.fixed[0]))
-        return bool(away <= 1e-9 * max(self.scene.size, abs(complex(self.curves.fixed[0]))))
+        return bool(away <= 1e-9 * max(self.mechanism.size, abs(complex(self.curves.fixed[0]))))
 
     @property
     def path(self) -> NDArray[np.complex128]:
@@ -73,7 +73,7 @@ class Centroded(Result):
         """Both curves over the turn in scene units, the moving one in the link's own axes; the driver's value in SI."""
         from graphkin.table import Column, Table
 
-        unit, columns = self.scene.units.metres, [Column("driver", self.motion.values[:, 0], form=".12g")]
+        unit, columns = self.mechanism.units.metres, [Column("driver", self.motion.values[:, 0], form=".12g")]
         for name, curve in (("fixed", self.curves.fixed), ("moving", self.curves.moving)):
             places = np.where(np.isfinite(curve), curve, complex(np.nan, np.nan))
             parts = zip("xy", (places.real, places.imag), strict=True)
@@ -114,10 +114,10 @@ class Centroded(Result):
         known_words(formats, text=text)
         files = {f"centrode.{kind}": self.figure.content(kind, text=text) for kind in formats}
         files["centrode.csv"] = self.table.csv().encode()
-        return write_files(path_of(folder) if folder is not None else Path(self.scene.name), files)
+        return write_files(path_of(folder) if folder is not None else Path(self.mechanism.name), files)
 
     def __repr__(self) -> str:
-        return f"<Centroded {self.scene.name}: link {self.link}>"
+        return f"<Centroded {self.mechanism.name}: link {self.link}>"
 
     def _repr_svg_(self) -> str:
         from graphkin.drawing import svg_bytes

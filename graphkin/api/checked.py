@@ -25,7 +25,7 @@ from graphkin.api.arguments import (
     whole_number,
     write_files,
 )
-from graphkin.api.results import Result
+from graphkin.api.results import OfScene, Result
 from graphkin.checking.reading_words import deviation, exact, measured, paper
 from graphkin.checking.readings import read_off
 from graphkin.checking.report import Compared, Report, compare
@@ -59,7 +59,7 @@ _FORMS = {
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Checked(Result):
+class Checked(Result, OfScene):
     """A drawing, its readings, and how they compare with the exact values.
 
     ``advice`` names the least certain reading of a drawing with finite tools, and what would help it; ``asked`` is
@@ -73,7 +73,7 @@ class Checked(Result):
     passed: tuple[ChangePoint, ...] = ()
 
     @property
-    def scene(self) -> Mechanism:
+    def mechanism(self) -> Mechanism:
         return self.sheet.scene
 
     @cached_property
@@ -94,7 +94,7 @@ class Checked(Result):
 
     def __repr__(self) -> str:
         return (
-            f"<Checked {self.scene.name}: {len(self.report.rows)} readings, "
+            f"<Checked {self.mechanism.name}: {len(self.report.rows)} readings, "
             f"{sum(row.ok is False for row in self.report.rows)} out of tolerance>"
         )
 
@@ -111,9 +111,9 @@ class Checked(Result):
         """The readings, in scene units."""
         from graphkin.table import Table
 
-        units, rows = self.scene.units, []
+        units, rows = self.mechanism.units, []
         for row in self.report.rows:
-            cells = {**reading_row(self.scene, row, degrees=True), "unit": row.symbol.unit(units)}
+            cells = {**reading_row(self.mechanism, row, degrees=True), "unit": row.symbol.unit(units)}
             rows.append([cells.get(key) for key in _FORMS])
         return Table.of(list(_FORMS), rows, list(_FORMS.values()))
 
@@ -128,7 +128,7 @@ class Checked(Result):
             "instrument": self.report.instrument,
             "ok": self.ok,
             "scales": self.scales,
-            "readings": [{**reading_row(self.scene, row), **self._by_centres(row), **self._by_lever(row)}
+            "readings": [{**reading_row(self.mechanism, row), **self._by_centres(row), **self._by_lever(row)}
                          for row in self.report.rows],
             **({"advice": say(self.advice.phrase())} if self.advice else {}),
             **self._construction,
@@ -150,12 +150,12 @@ class Checked(Result):
     @property
     def scales(self) -> dict[str, float]:
         """What one mm on paper is: mm, and scene units per second and second squared."""
-        scales, unit = self.report.scales, self.scene.units.rates.metres
+        scales, unit = self.report.scales, self.mechanism.units.rates.metres
         return {
             "length": _plain(scales.length * 1e3),
             "velocity": _plain(scales.velocity / unit),
             "acceleration": _plain(scales.acceleration / unit),
-            **({"force": _plain(scales.force / self.scene.units.newtons)} if scales.force else {}),
+            **({"force": _plain(scales.force / self.mechanism.units.newtons)} if scales.force else {}),
         }
 
     @cached_property
@@ -178,7 +178,7 @@ class Checked(Result):
         for lever in levers:
             if lever.balance == replace(row.symbol, plus=False, at=""):
                 found = 0.0 + (lever.value if lever.balance.kind == "M" else abs(lever.vector))
-                return {"by_lever": in_scene_units(self.scene, row.symbol, found)}
+                return {"by_lever": in_scene_units(self.mechanism, row.symbol, found)}
         return {}
 
     @cached_property
@@ -196,7 +196,7 @@ class Checked(Result):
         if value is None:
             return {}
         plain = abs(value) if row.symbol.is_vector else float(value.real)
-        return {"by_centres": in_scene_units(self.scene, row.symbol, plain)}
+        return {"by_centres": in_scene_units(self.mechanism, row.symbol, plain)}
 
 
 def _plain(value: float) -> float:
@@ -213,7 +213,7 @@ def in_scene_units(scene: Mechanism, symbol: Symbol, value: float, degrees: bool
 def reading_words(checked: Checked) -> Iterator[tuple[str, str, str, str, bool | None]]:
     """Each reading in words: symbol, mm on paper, measured with as many figures as the drawing carries, exact, whether
     the two agree."""
-    scales, units = checked.report.scales, checked.scene.units
+    scales, units = checked.report.scales, checked.mechanism.units
     for row in checked.report.rows:
         said = measured(row.reading, scales, units, row)
         if said == "0" and row.uncertainty is not None:
@@ -359,7 +359,7 @@ def with_elsewhere(made: Checked, asked: Sequence[Symbol], seed: int = 0) -> Che
     names = dict.fromkeys(s.at for s in asked if s.at)
     if not names:
         return made
-    structure, scene = made.sheet.structure, made.scene
+    structure, scene = made.sheet.structure, made.mechanism
     rows: list[Compared] = list(made.report.rows) if any(not s.at for s in asked) else []
     missing: list[Symbol] = [s for s in made.report.missing if any(not a.at for a in asked)]
     for name in names:

@@ -29,7 +29,7 @@ from graphkin.api.arguments import (
 from graphkin.api.checked import solved_here
 from graphkin.api.drawn import draw
 from graphkin.api.problem_sets import schemes_of
-from graphkin.api.results import Result
+from graphkin.api.results import OfScene, Result
 from graphkin.api.swept import sweep
 from graphkin.checking.readings import read_off
 from graphkin.checking.report import compare
@@ -88,13 +88,13 @@ class _Scheme:
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class CourseDesigns(Result):
+class CourseDesigns(Result, OfScene):
     """The reports of a course project: a file for each student, and the table of the class.
 
     ``rows`` are the lines of that table: who, which scheme and position, what was read off there.
     """
 
-    scene: Mechanism
+    mechanism: Mechanism
     rows: tuple[ClassRow, ...]
     asked: tuple[Symbol, ...]
     content: Mapping[str, bytes]
@@ -109,7 +109,7 @@ class CourseDesigns(Result):
     @cached_property
     def table(self) -> Table:
         """A row for each student: who, variant, position, driver value, and each quantity as read off and exact."""
-        return _class_table(self.scene, self.rows, self.asked)
+        return _class_table(self.mechanism, self.rows, self.asked)
 
     @cached_property
     def data(self) -> dict[str, Any]:
@@ -140,10 +140,10 @@ class CourseDesigns(Result):
         ------
         CallError : the folder cannot be written
         """
-        return write_files(path_of(folder) if folder is not None else Path(safe_name(self.scene.name)), self.files)
+        return write_files(path_of(folder) if folder is not None else Path(safe_name(self.mechanism.name)), self.files)
 
     def __repr__(self) -> str:
-        return f"<CourseDesigns {self.scene.name}: {len(self.rows)} reports>"
+        return f"<CourseDesigns {self.mechanism.name}: {len(self.rows)} reports>"
 
 
 def course_design(

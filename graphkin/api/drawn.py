@@ -22,7 +22,7 @@ from graphkin.api.arguments import (
 from graphkin.api.cams import cam_table
 from graphkin.api.checked import Checked, checked, drawn_symbols, hand_of, here, solved_here, with_elsewhere
 from graphkin.api.report_text import report_text
-from graphkin.api.results import Result
+from graphkin.api.results import OfScene, Result
 from graphkin.construction import EXACT, Plan, execute, plan
 from graphkin.errors import CallError, Problem, as_list, as_text, did_you_mean
 from graphkin.files import path_of
@@ -41,7 +41,7 @@ __all__ = ["Drawn", "draw", "known_figures"]
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Drawn(Result):
+class Drawn(Result, OfScene):
     """The figures of a scene by name, with the check of everything on them.
 
     In a notebook it shows the sheet.  ``wanted`` are the figures asked for.  ``figures["velocity"].save("v.pdf")``
@@ -59,27 +59,27 @@ class Drawn(Result):
     beside: tuple[str | float, ...] = ()
 
     @property
-    def scene(self) -> Mechanism:
-        return self.checked.scene
+    def mechanism(self) -> Mechanism:
+        return self.checked.mechanism
 
     @cached_property
     def small(self) -> Checked:
         """The same construction at the scales that fit the sheet, which bears its own readings."""
         from graphkin.drawing import sheet_room
 
-        fitting = replace(self.plan, scales=self.plan.scales_for(sheet_room(self.scene)))
-        return checked(fitting, self.motion, hand_of(self.scene, self.checked.sheet.instrument, self.seed))
+        fitting = replace(self.plan, scales=self.plan.scales_for(sheet_room(self.mechanism)))
+        return checked(fitting, self.motion, hand_of(self.mechanism, self.checked.sheet.instrument, self.seed))
 
     @cached_property
     def with_forces(self) -> Checked | None:
         """The check of everything, forces included; None of a scene that has neither masses nor loads."""
         if self.checked.sheet.has_forces:
             return self.checked
-        if not self.scene.loading:
+        if not self.mechanism.loading:
             return None
         structure, values = self.plan.structure, self.checked.sheet.drivers
         whole = replace(plan(structure, values, ()), scales=self.plan.scales)
-        hand = hand_of(self.scene, self.checked.sheet.instrument, self.seed)
+        hand = hand_of(self.mechanism, self.checked.sheet.instrument, self.seed)
         return checked(whole, solved_here(structure, values), hand)
 
     @property
@@ -125,7 +125,7 @@ class Drawn(Result):
         CallError : an unknown format, a folder that cannot be written
         """
         known_words(formats, text=text)
-        target = path_of(folder) if folder is not None else Path(self.checked.scene.name)
+        target = path_of(folder) if folder is not None else Path(self.checked.mechanism.name)
         files: dict[str, bytes] = {}
         figures = self.figures
         overleaf = {id(page) for figure in figures.values() for page in figure.further}
@@ -134,15 +134,15 @@ class Drawn(Result):
                 if kind == "pdf" and id(figure) in overleaf:
                     continue  # a page of the PDF that it goes on
                 files[f"{name}.{kind}"] = figure.content(kind, text=text)
-        if self.scene.cams and "cam" in self.wanted:
-            files["cam.csv"] = cam_table(self.scene).csv().encode()
+        if self.mechanism.cams and "cam" in self.wanted:
+            files["cam.csv"] = cam_table(self.mechanism).csv().encode()
         files["readings.csv"] = self.table.csv().encode()
-        spoken = languages(self.language or self.checked.scene.sheet.language)[0]
+        spoken = languages(self.language or self.checked.mechanism.sheet.language)[0]
         files["report.txt"] = report_text(self.checked, spoken).encode()
         return write_files(target, files)
 
     def __repr__(self) -> str:
-        return f"<Drawn {self.scene.name}: {', '.join(self.wanted)}>"
+        return f"<Drawn {self.mechanism.name}: {', '.join(self.wanted)}>"
 
     def _repr_svg_(self) -> str:
         from graphkin.drawing import svg_bytes
@@ -239,7 +239,7 @@ def _structure(drawn: Drawn) -> Drawing:
 
     structure = drawn.plan.structure
     whole = execute(replace(plan(structure, drawn.checked.sheet.drivers, ()), scales=drawn.plan.scales))
-    others = [driven_by(drawn.scene, drawn.driver)] if drawn.driver else []
+    others = [driven_by(drawn.mechanism, drawn.driver)] if drawn.driver else []
     return structure_figure(whole, others, language=drawn.language, convention=drawn.convention)
 
 
@@ -268,7 +268,7 @@ def _positions(drawn: Drawn) -> Drawing:
     from graphkin.drawing.positions import positions_figure
     from graphkin.solver.named_positions import named_positions
 
-    places = named_positions(drawn.scene)
+    places = named_positions(drawn.mechanism)
     structure = drawn.plan.structure
     whole = replace(plan(structure, drawn.checked.sheet.drivers, ()), scales=drawn.plan.scales)
     shown = shown_positions(whole, places.values if places else {})
@@ -278,7 +278,7 @@ def _positions(drawn: Drawn) -> Drawing:
 def _polygons(drawn: Drawn) -> Drawing:
     from graphkin.drawing.polygons_beside import polygons_beside
 
-    scene, structure = drawn.scene, drawn.plan.structure
+    scene, structure = drawn.mechanism, drawn.plan.structure
     named = scene.positions.show if scene.positions else ()
     known = scene.positions.names if scene.positions else ()
     wished = drawn.beside or tuple(n for n in known if n in named or ("all" in named and n.isdigit()))
@@ -305,8 +305,8 @@ def _number(text: str) -> float | str:
 def _cams(drawn: Drawn) -> Drawing | None:
     from graphkin.api.cams import cam_made
 
-    spoken = drawn.language or drawn.scene.sheet.language
-    pages = [one.figure(spoken) for one in cam_made(drawn.scene)]
+    spoken = drawn.language or drawn.mechanism.sheet.language
+    pages = [one.figure(spoken) for one in cam_made(drawn.mechanism)]
     return replace(pages[0], further=tuple(pages[1:])) if pages else None
 
 

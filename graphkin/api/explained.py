@@ -15,7 +15,7 @@ from typing import Any
 
 from graphkin.api.arguments import SceneLike, as_scene, known_words, own_unit, write_files
 from graphkin.api.report_text import show
-from graphkin.api.results import Result
+from graphkin.api.results import OfScene, Result
 from graphkin.construction import EXACT, execute, plan
 from graphkin.errors import GraphkinError, Unsolvable
 from graphkin.files import path_of
@@ -32,13 +32,13 @@ Sentence = tuple[str, Phrase]
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Explained(Result):
+class Explained(Result, OfScene):
     """What a scene says: its units, links, joints, mobility, drivers, groups with their assembly, and what is asked.
 
     ``why`` is the reason why it cannot move as it is written, "" where it can.
     """
 
-    scene: Mechanism
+    mechanism: Mechanism
     sentences: tuple[Sentence, ...]
     why: str
     language: str
@@ -51,7 +51,7 @@ class Explained(Result):
     @property
     def text(self) -> str:
         """All of it, paragraph by paragraph."""
-        lines, before = [self.scene.title_in(self.language)], ""
+        lines, before = [self.mechanism.title_in(self.language)], ""
         for about, phrase in self.sentences:
             if about != before:
                 lines += ["", word(about, self.language)]
@@ -71,7 +71,7 @@ class Explained(Result):
         found: dict[str, list[str]] = {}
         for about, phrase in self.sentences:
             found.setdefault(about.removeprefix("explained "), []).append(say(phrase, "en", show))
-        return {"title": self.scene.title, "ok": self.ok, **found, **({"why": self.why} if self.why else {})}
+        return {"title": self.mechanism.title, "ok": self.ok, **found, **({"why": self.why} if self.why else {})}
 
     def write(self, folder: str | os.PathLike[str]) -> list[Path]:
         """Write explanation.txt and explanation.json; returns the paths.  Raises CallError where it cannot be done."""
@@ -80,7 +80,7 @@ class Explained(Result):
         return write_files(path_of(folder), files)
 
     def __repr__(self) -> str:
-        return f"<Explained {self.scene.name}: {len(self.sentences)} sentences>"
+        return f"<Explained {self.mechanism.name}: {len(self.sentences)} sentences>"
 
 
 def _loads(scene: Mechanism) -> Iterator[tuple[str, Phrase]]:

@@ -23,7 +23,7 @@ from graphkin.api.arguments import (
     write_files,
 )
 from graphkin.api.checked import solved_here
-from graphkin.api.results import Result
+from graphkin.api.results import OfScene, Result
 from graphkin.errors import CallError, Problem, as_text, did_you_mean
 from graphkin.files import path_of
 from graphkin.papers.exports import PLATFORMS, Question, files_for, question_of
@@ -46,7 +46,7 @@ __all__ = ["Handout", "handout", "papers_of"]
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Handout(Result):
+class Handout(Result, OfScene):
     """A handout: its lesson, and its files by name (`files`).  In a notebook it shows the answer key."""
 
     lesson: Lesson
@@ -58,7 +58,7 @@ class Handout(Result):
     exports: tuple[str, ...] = ()
 
     @property
-    def scene(self) -> Mechanism:
+    def mechanism(self) -> Mechanism:
         return self.lesson.sheet.scene
 
     @property
@@ -110,7 +110,7 @@ class Handout(Result):
         from graphkin.api.task_papers import cam_papers
 
         found: dict[str, bytes] = {}
-        for i, one in enumerate(cam_made(self.scene)):
+        for i, one in enumerate(cam_made(self.mechanism)):
             prefix = f"cam-{one.cam.link}-" if i else "cam-"
             found |= cam_papers(one, self.formats, self.lesson.language, prefix)
         return found
@@ -138,10 +138,10 @@ class Handout(Result):
         ------
         CallError : the folder cannot be written
         """
-        return write_files(path_of(folder) if folder is not None else Path(safe_name(self.scene.name)), self.files)
+        return write_files(path_of(folder) if folder is not None else Path(safe_name(self.mechanism.name)), self.files)
 
     def __repr__(self) -> str:
-        return f"<Handout {self.scene.name}: {', '.join(self.formats)}>"
+        return f"<Handout {self.mechanism.name}: {', '.join(self.formats)}>"
 
     def _repr_html_(self) -> str:
         from graphkin.papers.html import blocks_html

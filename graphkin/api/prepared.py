@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from graphkin.api.arguments import SceneLike, as_scene
-from graphkin.api.results import Tabled
+from graphkin.api.results import OfScene, Tabled
 from graphkin.api.samples import Quantities, Samples
 from graphkin.errors import CallError, Problem, as_list, as_text
 from graphkin.scene.model import Mechanism
@@ -48,7 +48,7 @@ def _have_numba() -> bool:
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Prepared(Tabled):
+class Prepared(Tabled, OfScene):
     """A mechanism with its assembly followed over the whole range of its first driver, and the code for what is asked.
 
     ``prepared["v_C"]``, ``table`` and the rest are what it gives at the scene's own position.
@@ -64,7 +64,7 @@ class Prepared(Tabled):
     ready: solver.PreparedMechanism
 
     @property
-    def scene(self) -> Mechanism:
+    def mechanism(self) -> Mechanism:
         return self.ready.structure.scene
 
     @cached_property
@@ -75,8 +75,8 @@ class Prepared(Tabled):
     def units(self) -> dict[str, str]:
         """The unit of each quantity asked for, forces last: the scene's length unit, seconds, degrees for angles, but
         radians in their rates (rad/s, rad/s2)."""
-        length, force = self.scene.units.length, self.scene.units.force
-        speed = f"{self.scene.units.rates.length}/s"
+        length, force = self.mechanism.units.length, self.mechanism.units.force
+        speed = f"{self.mechanism.units.rates.length}/s"
         kinds = {"v": speed, "a": f"{speed}2", "theta": "deg", "omega": "rad/s", "alpha": "rad/s2"}
         found = {name: kinds.get(name.partition("_")[0] if "_" in name else "", length) for name in self.ready.wanted}
         return found | {name: force if f"{name}.x" in self.names else f"{force} m" for name in self.ready.loads}
@@ -84,8 +84,8 @@ class Prepared(Tabled):
     @cached_property
     def quantities(self) -> Quantities:
         """What it was prepared for, as its samples know it."""
-        first = self.scene.drivers[0]
-        unit = "deg" if self.ready.turns else self.scene.units.length
+        first = self.mechanism.drivers[0]
+        unit = "deg" if self.ready.turns else self.mechanism.units.length
         return Quantities(self.units, self.names, (f"driver_{first.key}", unit), self.driver_values)
 
     @cached_property
@@ -112,7 +112,7 @@ class Prepared(Tabled):
 
     @cached_property
     def own_unit(self) -> float:
-        return math.radians(1.0) if self.ready.turns else self.scene.units.metres
+        return math.radians(1.0) if self.ready.turns else self.mechanism.units.metres
 
     def at(self, value: float) -> tuple[float, ...] | None:
         """The columns at one value of the first driver, as plain floats; in some microseconds.
@@ -210,7 +210,7 @@ class Prepared(Tabled):
             raise CallError(Problem("designs", "are no numbers for each key", wanted))
         keys = tuple(as_text("designs", key) for key in designs)
         if keys not in self._keys:
-            self._keys[keys] = design_keys(written(self.source)[0], self.scene, keys)
+            self._keys[keys] = design_keys(written(self.source)[0], self.mechanism, keys)
         given = {key: np.atleast_1d(own) for key, own in zip(keys, values, strict=True)}
         numbers = self._keys[keys].numbers(given)
         return PreparedDesigns(self, given, not values[0].ndim, PreparedMechanisms(self.ready, numbers))
@@ -245,14 +245,14 @@ class Prepared(Tabled):
 
     @property
     def _said(self) -> tuple[SceneLike, tuple[str, ...], bool, bool | None]:
-        return self.scene, self.asked, self.ready.bounded, self.fast
+        return self.mechanism, self.asked, self.ready.bounded, self.fast
 
     def __repr__(self) -> str:
-        return f"<Prepared {self.scene.name}: {', '.join(self.asked)}>"
+        return f"<Prepared {self.mechanism.name}: {', '.join(self.asked)}>"
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class PreparedDesigns(Tabled):
+class PreparedDesigns(Tabled, OfScene):
     """Many designs of a prepared mechanism.
 
     ``designs["v_C"]``, ``table`` and the rest are what they give at the scene's own position.
@@ -268,6 +268,10 @@ class PreparedDesigns(Tabled):
 
     def __len__(self) -> int:
         return self._designs.count
+
+    @property
+    def mechanism(self) -> Mechanism:
+        return self.prepared.mechanism
 
     def __getitem__(self, name: str) -> NDArray[np.float64] | NDArray[np.complex128]:
         """A quantity or a column of all designs at the scene's own position, shape (designs,), or () of a single one.
@@ -286,7 +290,7 @@ class PreparedDesigns(Tabled):
     def at(self, value: float) -> Samples:
         """All designs at one value of the first driver, in its own unit: arrays of shape (designs,)."""
         value = driver_value(value)
-        given = math.radians(value) if self.prepared.ready.turns else value * self.prepared.scene.units.metres
+        given = math.radians(value) if self.prepared.ready.turns else value * self.prepared.mechanism.units.metres
         return self._samples(*self._designs.at(given), np.asarray(float(value)))
 
     def sweep(self, n: int) -> Samples:
@@ -320,7 +324,7 @@ class PreparedDesigns(Tabled):
         return _over, (self.prepared, given)
 
     def __repr__(self) -> str:
-        return f"<PreparedDesigns {self.prepared.scene.name}: {len(self)} of {', '.join(self.values)}>"
+        return f"<PreparedDesigns {self.prepared.mechanism.name}: {len(self)} of {', '.join(self.values)}>"
 
 
 def _over(prepared: Prepared, designs: Mapping[str, ArrayLike]) -> PreparedDesigns:

@@ -22,7 +22,7 @@ from graphkin.api.arguments import (
     whole_number,
     write_files,
 )
-from graphkin.api.results import Result
+from graphkin.api.results import OfScene, Result
 from graphkin.errors import CallError, GraphkinError, Problem, as_text, did_you_mean
 from graphkin.files import folder_alone, path_of
 from graphkin.jobs import Progress, Workers
@@ -46,10 +46,10 @@ MOST = 100_000
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class ProblemSet(Result):
+class ProblemSet(Result, OfScene):
     """A set of problems: what became of each variant, the table of all answers, and the files written."""
 
-    scene: Mechanism
+    mechanism: Mechanism
     made: MadeSet
     unused: tuple[str, ...] = ()
     folder: Path | None = None
@@ -77,7 +77,7 @@ class ProblemSet(Result):
     def table(self) -> Table:
         """One row for each variant: its name, and each answer with its tolerance; failures at the end."""
         answered = dict.fromkeys(a.symbol for answers in self.made.answers.values() for a in answers)
-        symbols = list(answered) or [str(s) for s in asked_of(self.scene)]
+        symbols = list(answered) or [str(s) for s in asked_of(self.mechanism)]
         heads = ("name", *(c for s in symbols for c in (s, f"{s} +-")), "remarks")
         rows: list[tuple[object, ...]] = [
             (name, *_cells(symbols, answers), "; ".join(self.made.remarks.get(name, ())))
@@ -99,7 +99,7 @@ class ProblemSet(Result):
         return write_files(path_of(folder), {"answers.csv": self.table.csv().encode("utf-8-sig")})
 
     def __repr__(self) -> str:
-        return f"<ProblemSet {self.scene.name}>"
+        return f"<ProblemSet {self.mechanism.name}>"
 
 
 def _cells(symbols: Sequence[str], answers: Sequence[Answer]) -> Iterator[float | None]:

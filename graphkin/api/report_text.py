@@ -39,7 +39,7 @@ def show(argument: object) -> str:
 
 def report_text(checked: Checked, language: str) -> str:
     """The whole report."""
-    sheet, scene = checked.sheet, checked.scene
+    sheet, scene = checked.sheet, checked.mechanism
     title, colon = scene.title_in(language), word("colon", language)
     lines = [title, "=" * sum(2 if ord(c) > 0x2E7F else 1 for c in title), ""]
     if scene.source:
@@ -104,7 +104,7 @@ def _forces(checked: Checked, language: str) -> list[str]:
 def lever_lines(checked: Checked, language: str) -> list[str]:
     """What balances by Zhukovsky's lever, beside what the polygons give."""
     found = []
-    units = checked.scene.units
+    units = checked.mechanism.units
     rows = {str(row.symbol): row for row in checked.report.rows}
     for number, levers in enumerate(checked.forces.levers if checked.forces else ()):
         for lever in levers:

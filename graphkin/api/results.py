@@ -6,8 +6,9 @@ import os
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import fields
+from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 from graphkin.errors import as_text
 
@@ -15,9 +16,11 @@ if TYPE_CHECKING:
     import pandas
     import xarray
 
+    from graphkin.scene.model import Mechanism
+    from graphkin.scene.written import Scene
     from graphkin.table import Table
 
-__all__ = ["Result", "Tabled"]
+__all__ = ["OfScene", "Result", "Tabled"]
 
 
 class Tabled(ABC):
@@ -68,6 +71,22 @@ class Tabled(ABC):
 
     def _repr_html_(self) -> str:
         return self.table._repr_html_()
+
+
+class _OfMechanism(Protocol):
+    @property
+    def mechanism(self) -> Mechanism: ...
+
+
+class OfScene:
+    """What has a mechanism, and so the scene that says it."""
+
+    @cached_property
+    def scene(self: _OfMechanism) -> Scene:
+        """The scene, as it was given: to be changed by key (``scene.replace("links.1.length", 60)``) and saved."""
+        from graphkin.scene.written import Scene
+
+        return Scene.saying(self.mechanism)
 
 
 class Result(Tabled):

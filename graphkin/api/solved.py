@@ -22,10 +22,10 @@ from graphkin.api.arguments import (
     whole_number,
     write_files,
 )
-from graphkin.api.results import Result
+from graphkin.api.results import OfScene, Result
 from graphkin.errors import CallError, Problem, Unsolvable, as_list, as_text
 from graphkin.files import path_of
-from graphkin.scene.model import SlideDriver
+from graphkin.scene.model import Mechanism, SlideDriver
 from graphkin.scene.over_time import asked_time, moments, moves_by_law
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import mobility_of
@@ -42,7 +42,7 @@ BALANCE_IDLE = "the balance does no work in this position, so that nothing it co
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Solved(Result):
+class Solved(Result, OfScene):
     """The motion of every link, point and sliding pair at one position or over a turn.
 
     ``solved["v_C"]`` is a quantity by its name as an array, shape (positions,): complex for vectors, in the scene's
@@ -56,14 +56,14 @@ class Solved(Result):
     times: tuple[float, ...] = ()
 
     def __repr__(self) -> str:
-        return f"<Solved {self.motion.scene.name}: {int(self.motion.ok.sum())} of {len(self.motion)} positions>"
+        return f"<Solved {self.mechanism.name}: {int(self.motion.ok.sum())} of {len(self.motion)} positions>"
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         """A quantity by its name (a symbol, "C", "theta_3", "s_2/3", a column of the table).  Raises CallError."""
         name = as_text("name", name)
         from graphkin.study.watched import watched_named, watched_symbol
 
-        scene = self.motion.scene
+        scene = self.mechanism
         if self.forces is not None and (found := self.forces.value(str(name))) is not None:
             return np.asarray(found / scene.units.newtons)
         watched = watched_named(scene, str(name))
@@ -80,7 +80,7 @@ class Solved(Result):
         from graphkin.study.watched import driver_columns, everything
         from graphkin.table import Column, Table, text_column
 
-        motion, scene = self.motion, self.motion.scene
+        motion, scene = self.motion, self.mechanism
         columns = [Column("position", np.arange(1, len(motion) + 1)), *driver_columns(scene, motion.values)]
         if self.times:
             columns.insert(1, Column("time", np.array(self.times), "s"))
@@ -96,7 +96,7 @@ class Solved(Result):
         """What has a name, as columns of the table: a vector's size and components.  Raises CallError."""
         from graphkin.study.watched import watched_named, watched_symbol
 
-        scene = self.motion.scene
+        scene = self.mechanism
         watched = watched_named(scene, name) or watched_symbol(*asked_symbols(scene, [name]))
         return watched.columns(scene, watched.parts(None, self._moved))
 
@@ -111,6 +111,10 @@ class Solved(Result):
         return found
 
     @property
+    def mechanism(self) -> Mechanism:
+        return self.motion.scene
+
+    @property
     def _moved(self) -> Motion:
         """The motion for which forces are known already, where there are any."""
         return self.motion if self.forces is None else self.forces.motion
@@ -122,7 +126,7 @@ class Solved(Result):
         from graphkin.solver.named_positions import named_positions
 
         data = to_json(self.motion, self.forces)
-        places = named_positions(self.motion.scene) if self.motion.ok.any() else None
+        places = named_positions(self.mechanism) if self.motion.ok.any() else None
         if places is not None:
             for entry, value in zip(data["positions"], self.motion.values[:, 0].tolist(), strict=True):
                 name = places.name_of(value)
@@ -147,7 +151,7 @@ class Solved(Result):
         """
         from graphkin.api.loops_text import loops_text
 
-        return loops_text(self.motion, language or self.motion.scene.sheet.language)
+        return loops_text(self.motion, language or self.mechanism.sheet.language)
 
     @property
     def ok(self) -> bool:

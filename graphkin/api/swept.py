@@ -27,7 +27,7 @@ from graphkin.api.arguments import (
     whole_number,
     write_files,
 )
-from graphkin.api.results import Result
+from graphkin.api.results import OfScene, Result
 from graphkin.errors import CallError, Problem, as_list, as_text
 from graphkin.files import path_of
 from graphkin.jobs import Progress, Workers, cluster
@@ -61,7 +61,7 @@ IN_MEMORY = 200_000_000
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Swept(Result):
+class Swept(Result, OfScene):
     """The motion over a turn of one scene, or of many designs of it.
 
     ``swept["v_C"]`` is what is asked by its name, as an array: complex for vectors, in the scene's length unit, degrees
@@ -75,6 +75,10 @@ class Swept(Result):
     arrays: Arrays | None = None
     elsewhere: tuple[tuple[Symbol, float, float], ...] = ()
     on_paper: tuple[tuple[Way, str], ...] = ()
+
+    @property
+    def mechanism(self) -> Mechanism:
+        return self.over.scene
 
     @property
     def rows(self) -> int:
@@ -105,7 +109,7 @@ class Swept(Result):
         if k is not None and self.arrays is not None:
             parts = self.arrays.parts[k]
         elif k is not None:
-            heads = [c.name for c in watched[k].columns(self.over.scene, [np.zeros(0)] * (1 + watched[k].is_vector))]
+            heads = [c.name for c in watched[k].columns(self.mechanism, [np.zeros(0)] * (1 + watched[k].is_vector))]
             parts = tuple(self.table[head] for head in heads[-1 - watched[k].is_vector :])
         else:
             parts = (self.table[name],)
@@ -249,7 +253,7 @@ class Swept(Result):
         """The whole summary as lines of text."""
         from graphkin.api.report_text import turn_text
 
-        lines = [self.over.scene.title_in(self.language)]
+        lines = [self.mechanism.title_in(self.language)]
         if self.turn is not None:
             lines += turn_text(self.turn, self.language)
         if self.time is not None:
@@ -261,7 +265,7 @@ class Swept(Result):
         return "\n".join(lines)
 
     def __repr__(self) -> str:
-        return f"<Swept {self.over.scene.name}: {self.good} of {self.rows} positions>"
+        return f"<Swept {self.mechanism.name}: {self.good} of {self.rows} positions>"
 
     def _repr_html_(self) -> str:
         shown = f"<pre>{html.escape(self.text)}</pre>"

@@ -101,7 +101,7 @@ def _by_sentence(spoken: Mapping[str, Sequence[str]]) -> list[Said]:
 
 def cam_papers(made: CamMade, formats: Sequence[str], language: str, prefix: str = "cam-") -> Mapping[str, bytes]:
     """Problem sheet, worked solution and key of a cam drawn by inversion, as files."""
-    scene, sheet, cam = made.scene, made.sheet, made.cam
+    scene, sheet, cam = made.mechanism, made.sheet, made.cam
     swings = isinstance(cam.motion, SwingingFollower)
     results = []
     for d in sheet.divisions if not cam.flat else ():

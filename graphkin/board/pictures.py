@@ -262,7 +262,7 @@ def _points(motion: Motion) -> dict[str, dict[str, Any]]:
 
 
 def _whole(drawn: Drawn, wishes: Wishes) -> dict[str, Any]:
-    scene, sheet = drawn.scene, drawn.checked.sheet
+    scene, sheet = drawn.mechanism, drawn.checked.sheet
     spoken = languages(wishes.language or scene.sheet.language)[0]
     speaker = Speaker(sheet, letters_of(sheet, wishes.convention or scene.sheet.convention))  # type: ignore[arg-type]
     try:

@@ -42,7 +42,7 @@ def cam(
         print_json(found.data)
     elif not quiet:
         print_paths(paths)
-        language = languages(lang or found.scene.sheet.language)[0]
+        language = languages(lang or found.mechanism.sheet.language)[0]
         tell("\n".join(found.sentences(language)))
     if not found.ok:
         raise typer.Exit(1)

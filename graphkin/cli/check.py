@@ -62,7 +62,7 @@ def check(
     known_words(language=lang, convention=convention, instrument=instrument)
     with unsolvable_as_json(as_json, unchecked):
         checked = checking(scene, driver_values(at, position), find or None, instrument, seed)
-    language = lang or checked.scene.sheet.language
+    language = lang or checked.mechanism.sheet.language
     if out is not None:
         _write(out, checked, language)
     print_check(checked, language, as_json, quiet)
@@ -102,7 +102,7 @@ def _print_readings(checked: Checked, language: str) -> None:
         tell(say(note, language, show))
     if checked.advice:
         tell(say(checked.advice.phrase(), language, show))
-    for said in passed_words(checked.scene, checked.passed):
+    for said in passed_words(checked.mechanism, checked.passed):
         tell(say(said, language))
     tell(verdict(checked, language))
 
@@ -156,7 +156,7 @@ def draw(
         paths = drawn.write(out, wanted, text)
     if not as_json and not quiet:
         print_paths(paths)
-    print_check(drawn.checked, languages(lang or drawn.checked.scene.sheet.language)[0], as_json, quiet)
+    print_check(drawn.checked, languages(lang or drawn.checked.mechanism.sheet.language)[0], as_json, quiet)
 
 
 def audit(

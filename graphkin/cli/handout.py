@@ -142,7 +142,7 @@ def _course(
     elif not quiet:
         print_paths(paths)
     for note in made.notes:
-        tell(f"graphkin: {say(note, languages(lang or made.scene.sheet.language)[0])}", err=True)
+        tell(f"graphkin: {say(note, languages(lang or made.mechanism.sheet.language)[0])}", err=True)
     if not made.ok:
         raise typer.Exit(1)
 

@@ -21,7 +21,7 @@ from graphkin.scene.motion_law import MotionLaw
 from graphkin.scene.printed import Printed
 from graphkin.scene.sheet_tables import SheetWishes
 from graphkin.scene.symbol import Symbol
-from graphkin.scene.tables import Units
+from graphkin.scene.tables import SceneTables, Units
 
 __all__ = [
     "AngleDriver",
@@ -301,7 +301,8 @@ class Mechanism:
     which bars and turning pairs stand among the links.
     ``instead_of`` is the mechanism with cams in whose place this one moves alike at this position, in velocity and
     acceleration.  ``starts`` say where what rolls stands at the scene's own position: the angle of a link's own axis
-    (rad), or the travel (m) of a sliding pair or of a contact by its block.  ``background`` lies under the drawing.
+    (rad), or the travel (m) of a sliding pair or of a contact by its block.  ``background`` lies under the drawing;
+    ``written`` is what it was read from, None where it was made otherwise.
     """
 
     name: str
@@ -332,6 +333,7 @@ class Mechanism:
     slots: tuple[CircularSlot, ...] = ()
     background: PlacedBackground | None = None
     source_zh: str = ""
+    written: SceneTables | None = field(default=None, compare=False, repr=False)
 
     def __hash__(self) -> int:
         return hash((self.name, self.title, tuple(link.name for link in self.links)))

@@ -167,6 +167,7 @@ def resolve(file: SceneTables, name: str, problems: list[Problem], flaws: Flaws)
         slots=slots,
         source_zh=file.source_zh,
         background=under,
+        written=file,
     )
     _ask_for_forces(made)
     return made

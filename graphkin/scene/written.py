@@ -92,6 +92,14 @@ class Scene(SceneTables):
         vars(scene).update(vars(tables), name=name, _mechanism=mechanism)
         return scene
 
+    @classmethod
+    def saying(cls, mechanism: Mechanism) -> Scene:
+        """The scene that says a mechanism: what it was read from, or else everything placed in the links' own axes."""
+        from graphkin.scene.reading import plain
+
+        tables = mechanism.written
+        return cls.of(as_mapping(mechanism) if tables is None else plain(tables), mechanism.name)
+
     @property
     def mechanism(self) -> Mechanism:
         """What the scene says: everything placed, in SI units."""

@@ -33,7 +33,7 @@ def test_a_six_bar_is_explained_joint_by_joint() -> None:
 @pytest.mark.parametrize("name", ["double-butterfly", "oldham-coupling", "hydraulic-cylinder", "hit16-double-guide"])
 def test_every_link_and_every_sliding_pair_is_named(name: str) -> None:
     explained = graphkin.explain(name)
-    scene = explained.scene
+    scene = explained.mechanism
     said = explained.data
     assert [] == [n for n in scene.order if not any(f"link {n} " in s for s in said["links"])]
     assert len(scene.slidings) + len(scene.pins) == sum("slides on" in s or "runs in" in s for s in said["joints"])

@@ -56,7 +56,7 @@ def test_given_values_are_those_of_the_sweep_there():
 
 def test_velocity_is_the_rate_of_the_place():
     ready, step = shaper(), 1e-4
-    seconds = np.radians(step) / abs(ready.scene.drivers[0].values[1])
+    seconds = np.radians(step) / abs(ready.mechanism.drivers[0].values[1])
     turn = ready.sweep(20)
     before, after = (ready.columns(turn.driver + d)["C"] for d in (step, -step))  # it turns clockwise
     assert turn["v_C"] == pytest.approx((after - before) / (2 * seconds), abs=1e-3)

@@ -82,6 +82,18 @@ def test_a_solution_gives_a_quantity_as_a_sweep_does(name):
     np.testing.assert_allclose(solved[name], swept[name], rtol=1e-9)
 
 
+@pytest.mark.parametrize("kind", [*COMMANDS, "problem_set", "centrodes"])
+def test_the_scene_of_a_result_is_the_one_that_was_given(kind):
+    name = {"problem_set": "slider-crank-offset", "centrodes": "four-bar-coupler-point"}.get(kind, SIXBAR)
+    assert graphkin.read(name) == made(kind).scene
+
+
+def test_the_scene_of_a_result_is_changed_and_saved(tmp_path):
+    scene = graphkin.check(SIXBAR).scene
+    path = scene.replace("links.1.length", 121).save(tmp_path / "x.toml")
+    assert (121.0, 122.0) == (graphkin.read(path).links["1"].length, scene.links["1"].length)
+
+
 PREPARED = {
     "prepared": lambda: graphkin.prepare(SIXBAR, ["v_D", "omega_3"]),
     "samples": lambda: graphkin.prepare(SIXBAR, ["v_D", "omega_3"]).sweep(4),
