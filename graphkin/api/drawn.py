@@ -228,6 +228,16 @@ def _lever(drawn: Drawn) -> Drawing | None:
     return lever_figure(sheet, whole.forces, language=drawn.language, convention=drawn.convention)
 
 
+def _plan(drawn: Drawn) -> Drawing | None:
+    from graphkin.drawing.train import train_figure
+
+    return train_figure(drawn.checked.sheet, language=drawn.language, convention=drawn.convention)
+
+
+def _rolls(scene: Mechanism) -> bool:
+    return bool(scene.gears) or any(c.rolling for c in scene.contacts)
+
+
 def _loops(drawn: Drawn) -> Drawing | None:
     from graphkin.drawing.loops import loops_figure
 
@@ -320,6 +330,7 @@ FIGURES: Mapping[str, FigureKind] = {
     "positions": FigureKind(lambda scene: scene.positions is not None, _positions),
     "polygons": FigureKind(lambda scene: False, _polygons),
     "cam": FigureKind(lambda scene: bool(scene.cams), _cams),
+    "plan": FigureKind(_rolls, _plan),
     "loops": FigureKind(lambda scene: bool(scene.loops), _loops),
     "forces": FigureKind(lambda scene: bool(scene.loading), _forces),
     "lever": FigureKind(lambda scene: bool(scene.loading), _lever),

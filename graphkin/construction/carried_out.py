@@ -100,6 +100,7 @@ def finished(task: Task, made: OnBoard) -> Sheet:
         asked=task.asked,
         acting=task.acting,
         growing=task.growing,
+        trains=tuple(polygons.wheels.drawn.values()),
         limits=limits_on_paper(
             task.limits, task.structure, task.elements, task.values, polygons.scales,
             EXACT if task.triangles else board.instrument,

@@ -27,12 +27,12 @@ from graphkin.construction.steps import (
     LinesMeet,
     MeasuredRate,
     PutBack,
-    RolledRate,
 )
 from graphkin.construction.terms import bar, parts_of, symbol_of, turn_sign
+from graphkin.construction.wheels import Wheels
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, dot
-from graphkin.scene.model import AngleDriver, Follower
+from graphkin.scene.model import AngleDriver, Follower, SlideDriver, SlideFollower
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Cluster, Driven, Dyad, Rolled, Slide, Structure, Turn, links_of
 
@@ -50,6 +50,7 @@ class Polygons(Plot):
     ) -> None:
         super().__init__(board, structure, frame, scales, slip)
         self.chains: dict[Dyad, Chain] = {}
+        self.wheels = Wheels.of(structure)
 
     def draw(self, order: Order, element: Driven | Dyad) -> None:
         """Draw what an element adds to a polygon."""
@@ -62,17 +63,14 @@ class Polygons(Plot):
 
     def _driven(self, order: Order, element: Driven) -> None:
         name, driver, pair = element.link, element.driver, element.pair
-        if isinstance(driver, Rolled):
-            self._roll(order, name, driver)
+        mm = self._roll(order, driver) if isinstance(driver, Rolled | Follower) else 0.0
         rate = self.given[driver.key][0 if order == "velocity" else 1]
         if isinstance(driver, AngleDriver):
             other, sign = (driver.relative_to, 1) if driver.link == name else (driver.link, -1)
             base = self.rates[order][other].value
-            self.rates[order][name] = Rate(name, base + sign * rate)
-            if isinstance(driver, Follower) and name in self.structure.scene.by_name:
-                self._rolled(order, name, driver, base + sign * rate)
+            self.rates[order][name] = Rate(name, base + sign * rate, mm=mm)
         elif isinstance(pair, Turn):
-            self.rates[order][name] = Rate(name, rate)
+            self.rates[order][name] = Rate(name, rate, mm=mm)
         if isinstance(pair, Turn) and name in self.rates[order]:
             pivot = PointRef(pair.point)
             for end in self._first_ends(name, pair.point):
@@ -87,22 +85,36 @@ class Polygons(Plot):
             edge = self._slide_edge(pair, point)
             self._lay_off(order, (edge if name == pair.a else edge.reversed(),), element)
 
-    def _roll(self, order: Order, name: str, driver: Rolled) -> None:
-        """The rate of what rolls, from the rates that stand measured already, or read off the polygon."""
+    def _roll(self, order: Order, driver: Follower | Rolled) -> float:
+        """The rate of what rolls, read off a velocity plan, as the driver's; and the length read for it (mm)."""
+        coordinate = driver.coordinate if isinstance(driver, Rolled) else ("angle", driver.key)
+        if isinstance(driver, SlideFollower):
+            coordinate = "travel", driver.key
         which = 0 if order == "velocity" else 1
-        rate, by = 0.0, []
-        for (kind, other), factor in driver.factors:
-            rate += factor * (self.rates[order][other].value if kind == "angle" else self._travel_rate(order, other))
-            by += [(other, factor)] if kind == "angle" else []
-        before = self.given.get(driver.key, (0.0, 0.0))
-        self.given[driver.key] = (rate, before[1]) if which == 0 else (before[0], rate)
-        if driver.turns and len(by) == len(driver.factors) and name in self.structure.scene.by_name:
-            self.board.do(order, RolledRate(RATE[order], name, tuple(by), rate))
+        turns = [(s.a, s.b, 0.0) for s in self.structure.slides]
+        turns += [(d.link, d.relative_to, d.values[1 + which]) for d in self.structure.scene.drivers
+                  if isinstance(d, AngleDriver)]  # fmt: skip
+        known = {name: rate.value for name, rate in self.rates[order].items()}
+        before = self.wheels
+        self.wheels, value, mm = before.found(
+            order, coordinate, known, lambda key: self._travel_rate(order, key), turns, self.board.instrument
+        )
+        for act in self.wheels.told(before, order):
+            self.board.do(order, act)
+        had = self.given.get(driver.key, (0.0, 0.0))
+        self.given[driver.key] = (value, had[1]) if which == 0 else (had[0], value)
+        return mm
 
-    def _travel_rate(self, order: Order, key: str) -> float:
-        """How fast a sliding link goes along its guide (m/s, m/s2): the part along it of its motion relative to the
-        coincident point; that of Coriolis is square to it."""
+    def _travel_rate(self, order: Order, key: str) -> float | None:
+        """How fast a sliding link goes along its guide (m/s, m/s2), where that is known: given, or read off the polygon
+        as the part along it of its motion relative to the coincident point; that of Coriolis is square to it."""
+        which = 0 if order == "velocity" else 1
+        given = next((d for d in self.structure.scene.drivers if d.key == key and isinstance(d, SlideDriver)), None)
+        if given is not None:
+            return given.values[1 + which]
         slide = self.structure.slide(key)
+        if not {slide.a, slide.b} <= self.rates[order].keys():
+            return None
         point = slide.pin or next(iter(self.links[slide.a].points), "")
         if not point:
             names = ", ".join((slide.a, slide.b))
@@ -110,13 +122,6 @@ class Polygons(Plot):
         along = self.frame.poses[slide.b].axis * slide.guide.direction
         slip = self.end(order, node(self.links, point, slide.a)) - self.end(order, node(self.links, point, slide.b))
         return dot(slip, along) * self.scales.of(order)
-
-    def _rolled(self, order: Order, name: str, driver: Follower, value: float) -> None:
-        """Say how the rate of a wheel follows from those of the drivers."""
-        drivers = zip(self.structure.scene.drivers, driver.ratios, strict=True)
-        by = [(d.link, f) for d, f in drivers if f and isinstance(d, AngleDriver) and d.relative_to == self.ground]
-        if len(by) == sum(f != 0.0 for f in driver.ratios):
-            self.board.do(order, RolledRate(RATE[order], name, tuple(by), value))
 
     def _first_ends(self, name: str, hinge: str) -> list[PointRef]:
         """With which points of a driven link a drawing begins: one of its own, else those under what slides on it."""

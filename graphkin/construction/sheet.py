@@ -13,6 +13,7 @@ from typing import Literal
 
 from graphkin.construction.remarks import Remark
 from graphkin.construction.steps import Act, Cause, Direction, Size, phrase_of, scaled
+from graphkin.construction.train_sheet import TrainPlan
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure.model import Cluster, Element, Structure
@@ -231,7 +232,8 @@ class Rate:
     """An angular velocity or acceleration measured on the drawing (rad/s, rad/s2; counter-clockwise positive).
 
     ``vector`` is the relative or tangential vector it comes from (None where it is given, or is that of another link:
-    ``same_as``), ``mm`` its length on paper and ``arm_mm`` that of the bar.
+    ``same_as``), ``mm`` its length on paper and ``arm_mm`` that of the bar; without a bar ``mm`` was read off the rate
+    scale of a velocity plan.
     """
 
     link: str
@@ -241,8 +243,20 @@ class Rate:
     arm_mm: float = 0.0
     same_as: str = ""
 
+    @property
+    def off_plan(self) -> bool:
+        """Whether it was read off the velocity plan of a train."""
+        return self.mm != 0.0 and not self.arm_mm
+
+    @property
+    def is_own(self) -> bool:
+        """Whether it was read off by itself, neither given nor that of another link."""
+        return (self.vector is not None or self.off_plan) and not self.same_as
+
     def scaled(self, vector_times: float, arm_times: float) -> Rate:
-        """The same rate read off larger figures."""
+        """The same rate read off larger figures; one that was read off a velocity plan stays."""
+        if self.off_plan:
+            return self
         return replace(self, mm=self.mm * vector_times, arm_mm=self.arm_mm * arm_times)
 
 
@@ -312,6 +326,7 @@ class Sheet:
     ``acting`` says of each load whether it acts here (None where it begins or ends exactly here), if forces are drawn;
     ``growing`` are then, where the mechanism rests or has several drivers, drawings with each driver's value alone
     growing at a unit rate.
+    ``trains`` are the velocity plans of what rolls, at scales of their own.
     """
 
     scene: Mechanism
@@ -336,6 +351,7 @@ class Sheet:
     groups: tuple[DrawnGroup, ...] = ()
     acting: Mapping[str, bool | None] = field(default_factory=dict)
     growing: tuple[Sheet, ...] = ()
+    trains: tuple[TrainPlan, ...] = ()
 
     @property
     def has_forces(self) -> bool:

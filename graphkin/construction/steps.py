@@ -43,11 +43,13 @@ __all__ = [
     "PathDrawn",
     "PathsCross",
     "Placing",
+    "PlanDrawn",
+    "PlanTravel",
+    "PlanTried",
     "PutBack",
     "RateTimes",
     "ReadOff",
     "Resultant",
-    "RolledRate",
     "SamePlace",
     "Size",
     "SlidToMeet",
@@ -366,22 +368,39 @@ class MeasuredRate:
 
 
 @dataclass(frozen=True)
-class RolledRate:
-    """An angular rate (rad/s, rad/s2) that follows from others by rolling: by which factor from that of each driven
-    link (``by``: link, factor)."""
+class PlanDrawn:
+    """The line of a link in the plan of a train, by its places ``by``, or one place and its known rate; and the rate
+    (rad/s, rad/s2) that it marks off, ``mm`` on the rate scale at ``per_mm``."""
 
     rate: Literal["omega", "alpha"]
     link: str
-    by: tuple[tuple[str, float], ...]
+    by: tuple[str, ...]
+    known: bool
+    mm: float
+    per_mm: float
     value: float
 
-    @property
-    def rule(self) -> str:
-        """``0.3 ω_1``: the sum that gives it, between dollar signs."""
-        letter = "ω" if self.rate == "omega" else "α"
-        parts = [f"{'−' if f < 0 else '+'} {amount(abs(f), 6)} ${letter}_{{{link}}}$" for link, f in self.by]
-        said = " ".join(parts).removeprefix("+ ")
-        return said.replace("− ", "−", 1) if said.startswith("− ") else said
+
+@dataclass(frozen=True)
+class PlanTravel:
+    """How fast a rack slides (m/s, m/s2), read off the plan of a train: ``mm`` at ``per_mm``."""
+
+    rate: Literal["omega", "alpha"]
+    slide: str
+    mm: float
+    per_mm: float
+    value: float
+
+
+@dataclass(frozen=True)
+class PlanTried:
+    """Rates assumed in trial plans, what each left open (mm), and the rates that follow by proportion."""
+
+    rate: Literal["omega", "alpha"]
+    links: tuple[str, ...]
+    assumed: tuple[tuple[float, ...], ...]
+    apart: tuple[tuple[float, ...], ...]
+    found: tuple[float, ...]
 
 
 @dataclass(frozen=True)
@@ -416,7 +435,8 @@ OnMechanism = (
 )  # fmt: skip
 InPolygon = (
     LaidOff | FoundVector | DirectionLine | Carried | PutBack | Resultant | Asked | LinesMeet | Named | SamePlace
-    | ByRate | ByImage | Translated | MeasuredRate | RolledRate | TrialDrawn | Superposed
+    | ByRate | ByImage | Translated | MeasuredRate | PlanDrawn | PlanTravel | PlanTried | TrialDrawn
+    | Superposed
 )  # fmt: skip
 Act = OnMechanism | InPolygon
 
@@ -545,9 +565,8 @@ def _in_polygon(act: InPolygon) -> Phrase:
         case Superposed(found, closing, apart):
             rows = "; ".join(", ".join(f"{mm:.2f}" for mm in row) for row in apart).replace("-", "−")
             return Phrase("superposed", (", ".join(closing), rows, *_assumed(found)))
-        case RolledRate(rate, link, _, value):
-            turning = "cw" if value < 0.0 else "ccw" if value > 0.0 else "zero"
-            return Phrase(f"rolled {rate} {turning}", (link, act.rule.replace("$", ""), amount(abs(value), 4)))
+        case PlanDrawn() | PlanTravel() | PlanTried():
+            return _on_plan(act)
         case MeasuredRate(rate, link, vector, bar, value):
             turning = "cw" if value < 0.0 else "ccw" if value > 0.0 else "zero"
             return Phrase(f"{rate} {turning}", (link, vector, "".join(bar), amount(abs(value), 4)))
@@ -558,3 +577,20 @@ def _assumed(rates: Sequence[tuple[Symbol, float]]) -> tuple[object, str]:
     (first, value), *rest = rates
     more = "".join(f", {symbol} = {amount(v, 5)}" for symbol, v in rest)
     return first, f"{amount(value, 5)}{more}".replace("-", "−")
+
+
+def _on_plan(act: PlanDrawn | PlanTravel | PlanTried) -> Phrase:
+    letter = "ω" if act.rate == "omega" else "α"
+    match act:
+        case PlanDrawn(rate, link, by, known, mm, per_mm, value):
+            turning = "cw" if value < 0.0 else "ccw" if value > 0.0 else "zero"
+            if known:
+                return Phrase(f"plan line {rate}", (link, by[0], amount(value, 4).replace("-", "−")))
+            read = on_paper(mm), amount(per_mm, 6), amount(abs(value), 4)
+            return Phrase(f"plan line {rate} {turning}", (link, *by, *read))
+        case PlanTravel(_, slide, mm):
+            return Phrase("plan travel", (slide, on_paper(mm)))
+        case PlanTried(_, links, _, apart, found):
+            rows = "; ".join(", ".join(f"{mm:.2f}" for mm in row) for row in apart).replace("-", "−")
+            rates = ", ".join(f"{letter}_{{{n}}} = {amount(v, 5)}" for n, v in zip(links, found, strict=True))
+            return Phrase("plan tried", (", ".join(f"{letter}_{{{n}}}" for n in links), rows, rates.replace("-", "−")))

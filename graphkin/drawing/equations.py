@@ -12,7 +12,7 @@ from graphkin.construction.steps import (
     Given,
     LaidOff,
     MeasuredRate,
-    RolledRate,
+    PlanDrawn,
     SpecialPoint,
     Superposed,
     TrialDrawn,
@@ -24,7 +24,7 @@ from graphkin.drawing.font_widths import run_box, runs_width
 from graphkin.drawing.headings import number, term
 from graphkin.drawing.piece import moved
 from graphkin.drawing.primitives import Line, Primitive, Run, Text
-from graphkin.drawing.sums import factors_of, lengths_measured, rate_sum, rule_sum, substituted
+from graphkin.drawing.sums import factors_of, lengths_measured, plan_sum, rate_sum, rule_sum, substituted
 from graphkin.drawing.text import rich, symbol, wrapped
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase, languages, say
@@ -119,8 +119,8 @@ def written_lines(sheet: Sheet, letters: Letters, language: str) -> list[Written
             lines += _products(sheet, equation, letters)
         if isinstance(step.act, MeasuredRate):
             lines.append(_measured(sheet, step.act, letters, language))
-        elif isinstance(step.act, RolledRate):
-            lines.append(_rolled(step.act, language))
+        elif isinstance(step.act, PlanDrawn) and not step.act.known:
+            lines.append(_off_plan(step.act, language))
         elif isinstance(step.act, SpecialPoint):
             act = step.act
             lines.append(say(Phrase("written special", _in_dollars(act.point, *act.joints)), spoken))
@@ -170,11 +170,10 @@ def _measured(sheet: Sheet, act: MeasuredRate, letters: Letters, language: str) 
     return " = ".join((*(_rate_name(act.rate, n) for n in names), rule, value)) + way
 
 
-def _rolled(act: RolledRate, language: str) -> str:
-    """``ω_3 = −0.75 ω_1 = 7.5 rad/s, clockwise``: by rolling."""
-    unit = "rad/s" if act.rate == "omega" else "rad/s²"
+def _off_plan(act: PlanDrawn, language: str) -> str:
+    """``ω_3 = 30.00 mm × 0.25 (rad/s)/mm = 7.5 rad/s, clockwise``: read off the plan of a train."""
     way = "" if act.value == 0.0 else f",  {term('clockwise' if act.value < 0 else 'counter-clockwise', language)}"
-    return f"{_rate_name(act.rate, act.link)} = {act.rule} = {number(act.value, 5)} {unit}{way}"
+    return f"{_rate_name(act.rate, act.link)} = {_bound(plan_sum(act))}{way}"
 
 
 def _bound(text: str) -> str:

@@ -151,7 +151,7 @@ def found_rates(here: MechanismOnPaper, clear: SenseClearance) -> Piece:
     pieces = [Piece({"answers": ()})]
     for sign, kind, own, heads in (("ω", "omega", here.sheet.omega, 1), ("α", "alpha", here.sheet.alpha, 2)):
         for link, rate in own.items():
-            if rate.vector is None or rate.same_as or link not in here.scene.by_name or abs(rate.value) < 1e-12:
+            if not rate.is_own or link not in here.scene.by_name or abs(rate.value) < 1e-12:
                 continue
             place = clear.arc(_centres_of_turn(here, link, here.ground), RADIUS)
             sense = 1 if rate.value > 0 else -1

@@ -26,7 +26,7 @@ from graphkin.drawing.headings import (
     titles,
 )
 from graphkin.drawing.insets import INSET, coriolis_row, per_row, polygon_with_insets
-from graphkin.drawing.loops import MARGIN as LOOPS_MARGIN
+from graphkin.drawing.loops import MARGIN as FIGURE_MARGIN
 from graphkin.drawing.loops import loops_figure
 from graphkin.drawing.mechanism import mechanism_piece
 from graphkin.drawing.mechanism_detail import mechanism_detail
@@ -37,6 +37,7 @@ from graphkin.drawing.primitives import Group, Line, Polygon, Primitive, Run, Te
 from graphkin.drawing.sheet_plan import BLOCK, GUTTER, SheetPlan, sheet_plan
 from graphkin.drawing.tables import given_data, given_lines, readings_table, table_rows
 from graphkin.drawing.text import fitted, plain, wrapped
+from graphkin.drawing.train import train_figure
 from graphkin.words import Phrase, languages, say, word
 
 __all__ = ["sheet_page"]
@@ -82,8 +83,11 @@ def sheet_page(
         _title_block(sheet, report, letters, spoken, plan.block),
     ]
     further = overleaf(sheet, rest, letters, spoken, plan.page)
+    figures = [train_figure(sheet, language=spoken, convention=letters.convention)]
     if scene.sheet.loops:
-        further += _loops(sheet, spoken, letters, plan, len(further) + 2)
+        figures.append(loops_figure(sheet, language=spoken, convention=letters.convention))
+    for one in (page for figure in figures if figure is not None for page in (figure, *figure.further)):
+        further += (_as_page(sheet, one, plan, len(further) + 2),)
     if further:
         pieces.append(_goes_on(spoken, plan.page))
     return Drawing(
@@ -119,15 +123,12 @@ def _writing(
     return pieces, Remainder(lines_left, senses, given_rest, rows[count:])
 
 
-def _loops(sheet: Sheet, spoken: str, letters: Letters, plan: SheetPlan, number: int) -> tuple[Drawing, ...]:
-    """The vector loops on a page of the sheet's size, or a longer one where they take it."""
-    loops = loops_figure(sheet, language=spoken, convention=letters.convention)
-    if loops is None:
-        return ()
-    to = complex(plan.page.left - LOOPS_MARGIN, plan.page.top - LOOPS_MARGIN)
-    height = max(plan.height, loops.height + to.imag)
-    return (replace(loops, width=plan.width, height=height, children=moved(loops.children, to),
-                    title=f"{loops.title} ({number})", metadata=facts(sheet, "sheet")),)  # fmt: skip
+def _as_page(sheet: Sheet, figure: Drawing, plan: SheetPlan, number: int) -> Drawing:
+    """A figure on a page of the sheet's size, or a longer one where it takes that."""
+    to = complex(plan.page.left - FIGURE_MARGIN, plan.page.top - FIGURE_MARGIN)
+    height = max(plan.height, figure.height + to.imag)
+    return replace(figure, width=plan.width, height=height, children=moved(figure.children, to),
+                   title=f"{figure.title} ({number})", metadata=facts(sheet, "sheet"), further=())  # fmt: skip
 
 
 def _goes_on(language: str, page: Box) -> Piece:

@@ -10,7 +10,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from graphkin.construction.sheet import Aid, DiagramName, Mark, Sheet, Step, TrialCurve, Vector
-from graphkin.construction.steps import Carried, MeasuredRate, links_drawn
+from graphkin.construction.steps import Carried, MeasuredRate, PlanDrawn, links_drawn
 from graphkin.drawing import strokes
 from graphkin.drawing.dimensioning import LENGTHS
 from graphkin.drawing.polygon_on_page import details
@@ -72,7 +72,7 @@ def _mechanism(sheet: Sheet, steps: list[Step]) -> dict[str, int]:
     for link in sheet.scene.links:
         born.update({f"length-{a}{b}": last for a in link.points for b in link.points})
     for step in sheet.steps:
-        if isinstance(step.act, MeasuredRate):
+        if isinstance(step.act, MeasuredRate | PlanDrawn):
             born[f"{step.act.rate}-{step.act.link}"] = step.number
     return born
 

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 
 from graphkin.construction.board import EXACT
 from graphkin.construction.sheet import DiagramName, Sheet
-from graphkin.construction.steps import LaidOff, MeasuredRate, RateTimes, Size
+from graphkin.construction.steps import LaidOff, MeasuredRate, PlanDrawn, RateTimes, Size
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.headings import number, written
 from graphkin.scene.symbol import PointRef, Symbol
@@ -18,7 +18,8 @@ from graphkin.scene.tables import Units
 from graphkin.words.written import MOST, amount, figures, on_paper, product, quotient
 
 __all__ = [
-    "factors_of", "lengths_measured", "rate_sum", "rule_sum", "scale_of", "substituted", "times_scale", "unit_of",
+    "factors_of", "lengths_measured", "plan_sum", "rate_sum", "rule_sum", "scale_of", "substituted", "times_scale",
+    "unit_of",
 ]  # fmt: skip
 
 _TAILS = {"mechanism": "", "velocity": "/s", "acceleration": "/s²"}
@@ -68,6 +69,12 @@ def rate_sum(sheet: Sheet, act: MeasuredRate, units: bool = True) -> str:
     of, over = (f" {unit_of(sheet, diagram)}", f" {sheet.scene.units.rates.length}") if units else ("", "")
     value = written(quotient(size, arm, min(MOST - 1, carried)))
     return f"{written(size)}{of} / {written(arm)}{over} = {value} {'rad/s' if omega else 'rad/s²'}"
+
+
+def plan_sum(act: PlanDrawn) -> str:
+    """``30.00 mm × 0.25 (rad/s)/mm = 7.5 rad/s``: a rate as it is read off the plan of a train."""
+    unit = "rad/s" if act.rate == "omega" else "rad/s²"
+    return f"{on_paper(act.mm)} mm × {number(act.per_mm)} ({unit})/mm = {number(abs(act.value), 5)} {unit}"
 
 
 def _carried(sheet: Sheet, diagram: DiagramName, mm: float, carried: int) -> str:

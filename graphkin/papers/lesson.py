@@ -23,12 +23,13 @@ from graphkin.construction.steps import (
     Given,
     LaidOff,
     MeasuredRate,
+    PlanDrawn,
     RateTimes,
     SquareOverRadius,
 )  # fmt: skip
 from graphkin.drawing.conventions import Letters, letters_of, pole
 from graphkin.drawing.headings import number, written
-from graphkin.drawing.sums import factors_of, rate_sum, scale_of, substituted, times_scale, unit_of
+from graphkin.drawing.sums import factors_of, plan_sum, rate_sum, scale_of, substituted, times_scale, unit_of
 from graphkin.drawing.text import Atom, parsed
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, say, word
@@ -138,7 +139,7 @@ class Lesson:
         if symbol.is_vector or symbol.scope != "motion":
             return True
         rate = (self.sheet.omega if symbol.kind == "omega" else self.sheet.alpha)[symbol.link]
-        return rate.vector is not None and not rate.same_as
+        return rate.is_own
 
     def unit(self, symbol: Symbol) -> str:
         """The unit in which a quantity is given."""
@@ -240,6 +241,9 @@ class Speaker:
         """What is computed in a step, as lines of symbols and numbers."""
         if isinstance(step.act, MeasuredRate):
             return self._rate(step.act)
+        if isinstance(step.act, PlanDrawn):
+            letter = "ω" if step.act.rate == "omega" else "α"
+            return () if step.act.known else (f"${letter}_{{{step.act.link}}}$ = {plan_sum(step.act)}",)
         if isinstance(step.act, LaidOff) and not step.act.is_zero:
             return self._laid_off(step, step.act)
         return tuple(self._measured(step.diagram, s) for s in step.strokes if isinstance(s, Vector))

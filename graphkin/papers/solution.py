@@ -15,10 +15,12 @@ from graphkin.checking.reading_words import exact, measured, paper
 from graphkin.checking.report import Compared
 from graphkin.checking.uncertainty import COVERAGE
 from graphkin.drawing.conventions import scale_statement
+from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.forces import force_steps
 from graphkin.drawing.headings import FIGURE_WORDS, drivers, number, written
 from graphkin.drawing.lever import lever_figure
 from graphkin.drawing.piece import moved
+from graphkin.drawing.train import train_figure
 from graphkin.papers.blocks import (
     Beside,
     Block,
@@ -177,7 +179,23 @@ def solution_blocks(lesson: Lesson, lead: tuple[Paragraph, ...] = ()) -> Iterato
         if stage.diagram not in layers:
             layers[stage.diagram] = parts(lesson.sheet, stage.diagram, lesson.letters, lesson.language)
         yield Together(tuple(_stage(lesson, stage, layers[stage.diagram], lead if stage is lesson.stages[0] else ())))
+    yield from _plan_blocks(lesson)
     yield from _force_blocks(lesson)
+
+
+def _plan_blocks(lesson: Lesson) -> Iterator[Block]:
+    """The velocity plans of what rolls."""
+    figure = train_figure(lesson.sheet, language=lesson.language, convention=lesson.convention)
+    body = paper_of(lesson.sheet.scene).body
+    if figure is not None:
+        yield Together((Heading(said("plan", lesson.language), 2), Picture(_narrow(figure, body.width))))
+        yield from (Picture(_narrow(page, body.width)) for page in figure.further)
+
+
+def _narrow(figure: Drawing, width: float) -> Drawing:
+    """A figure without its own margins, where those are the page's."""
+    aside = complex(-max(0.0, figure.width - width) / 2, 0.0)
+    return replace(figure, width=min(figure.width, width), children=moved(figure.children, aside))
 
 
 def _force_blocks(lesson: Lesson) -> Iterator[Block]:
@@ -193,10 +211,7 @@ def _force_blocks(lesson: Lesson) -> Iterator[Block]:
     lever = lever_figure(sheet, forces, language=language, convention=lesson.convention)
     body = paper_of(sheet.scene).body
     if lever is not None and lever.height <= body.height - 20.0:
-        # its own margins are the page's
-        aside = complex(-max(0.0, lever.width - body.width) / 2, 0.0)
-        narrow = replace(lever, width=min(lever.width, body.width), children=moved(lever.children, aside))
-        yield Together((Heading(said("lever", language), 2), Picture(narrow)))
+        yield Together((Heading(said("lever", language), 2), Picture(_narrow(lever, body.width))))
 
 
 def results_blocks(lesson: Lesson) -> Iterator[Block]:

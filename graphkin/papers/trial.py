@@ -10,7 +10,7 @@ from typing import Any
 
 from graphkin.checking.uncertainty import COVERAGE
 from graphkin.construction.sheet import Step, Vector
-from graphkin.construction.steps import MeasuredRate
+from graphkin.construction.steps import MeasuredRate, PlanDrawn
 from graphkin.papers.html import words_html
 from graphkin.papers.lesson import Lesson
 
@@ -23,10 +23,10 @@ def found_in(lesson: Lesson, step: Step) -> dict[str, Any]:
     """What a step finds: ``find`` with symbol, name, size in its unit, and direction (degrees) or sense; empty for a
     step that finds nothing."""
     sheet, act = lesson.sheet, step.act
-    if isinstance(act, MeasuredRate):
+    if isinstance(act, MeasuredRate) or (isinstance(act, PlanDrawn) and not act.known):
         omega = act.rate == "omega"
-        rate = (sheet.omega if omega else sheet.alpha)[act.link]
-        if not rate.value:
+        rate = (sheet.omega if omega else sheet.alpha).get(act.link)
+        if rate is None or not rate.value:
             return {}
         unit = "rad/s" if omega else "rad/s²"
         name = words_html(f"${'ω' if omega else 'α'}_{{{act.link}}}$")

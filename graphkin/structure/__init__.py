@@ -20,6 +20,7 @@ from graphkin.structure.model import (
 )
 from graphkin.structure.part import in_stages, links_of, needed, part_of
 from graphkin.structure.replacement import named_with_contact, replaced_pairs
+from graphkin.structure.rolling import Mesh, meshes_of
 
 __all__ = [
     "Body",
@@ -29,6 +30,7 @@ __all__ = [
     "DrivenTriangle",
     "Dyad",
     "Element",
+    "Mesh",
     "Mobility",
     "Pair",
     "Rolled",
@@ -40,6 +42,7 @@ __all__ = [
     "driver_pair",
     "in_stages",
     "links_of",
+    "meshes_of",
     "mobility_of",
     "named_with_contact",
     "needed",

@@ -8,7 +8,7 @@ from graphkin.scene.cams import LawCam, SlidingFollower
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedGuide, PlacedLink
 from graphkin.structure.model import Mobility, Slide
 from graphkin.structure.replacement import stand_in
-from graphkin.structure.rolling import followers_of, relations_of
+from graphkin.structure.rolling import followers_of, meshes_of, relations_of
 
 __all__ = ["Constraints", "Node", "Unknown"]
 
@@ -49,7 +49,7 @@ class Constraints:
         self.cams: tuple[LawCam, ...] = tuple(
             cam for cam in scene.cams if scene.instead_of is None and {cam.link, cam.follower} <= links.keys()
         )
-        relations = relations_of(scene, self.contacts, self.gears, links)
+        relations = relations_of(scene, meshes_of(scene, self.contacts, self.gears, links))
         self.followers, self.relations = followers_of(scene, relations, links, self.slides)
         self.drivers: tuple[AnyDriver, ...] = (*scene.drivers, *self.followers)
         self._place = {name: i for i, name in enumerate(links)}

@@ -20,7 +20,7 @@ from graphkin.scene.model import AngleDriver, AngleFollower, Follower, Mechanism
 from graphkin.scene.touching import rack_place
 from graphkin.structure.model import Coordinate, Pair, Rolled, Slide, Turn
 
-__all__ = ["Relation", "followers_of", "relations_of", "rolled_by"]
+__all__ = ["Mesh", "Relation", "followers_of", "meshes_of", "relations_of", "rolled_by"]
 
 @dataclass(frozen=True)
 class Relation:
@@ -31,42 +31,76 @@ class Relation:
     links: tuple[str, ...]
 
 
-def relations_of(
+@dataclass(frozen=True)
+class Mesh:
+    """What rolls on what: ``wheels`` about ``axes``, points of the ``carrier``, or a wheel on a rack or a flat face.
+
+    ``parts`` say how the point of contact parts the way from the first axis to the second (numbers of teeth, or radii,
+    negative for what is hollow).  A rack's second axis is "", its second part None, and its first the signed distance
+    (m) of its line from the axis, positive to the left of the guide of ``slide``; ``sense`` is +1 where the rack is
+    what slides there, else -1.
+    """
+
+    name: str
+    wheels: tuple[str, str]
+    carrier: str
+    axes: tuple[str, str]
+    parts: tuple[Fraction, Fraction | None]
+    slide: str = ""
+    sense: int = 1
+
+    @property
+    def links(self) -> tuple[str, ...]:
+        """All links that take part."""
+        return tuple(dict.fromkeys((*self.wheels, self.carrier)))
+
+
+def meshes_of(
     scene: Mechanism, contacts: Iterable[PlacedContact], gears: Iterable[PlacedGear], links: Mapping[str, PlacedLink]
-) -> tuple[Relation, ...]:
-    """The relations of everything that rolls."""
+) -> tuple[Mesh, ...]:
+    """Everything that rolls."""
     found = []
     for contact in contacts:
         if contact.rolling and contact.flat:
             (disc,) = contact.round
-            r = Fraction(disc.radius if contact.left else -disc.radius)
-            found.append(_relation(scene, contact.name, (*contact.links, contact.block), (
-                (("travel", contact.block), Fraction(1)), (("angle", disc.link), r),
-                (("angle", contact.face), -r))))  # fmt: skip
+            r = Fraction(-disc.radius if contact.left else disc.radius)
+            axes, wheels = (disc.centre, ""), (disc.link, contact.face)
+            found.append(Mesh(contact.name, wheels, contact.block, axes, (r, None), contact.block, -1))
         elif contact.rolling:
-            r1, r2 = (Fraction(d.radius) for d in contact.round)
-            found.append(_wheels(scene, contact.name, contact.links, contact.carrier or contact.block, r1, r2))
+            one, two = contact.round
+            parts = Fraction(one.radius), Fraction(two.radius)
+            carrier = contact.carrier or contact.block
+            found.append(Mesh(contact.name, contact.links, carrier, (one.centre, two.centre), parts))
     for gear in gears:
         if gear.teeth[1] is not None:
-            z1, z2 = Fraction(gear.teeth[0]), Fraction(gear.teeth[1])
-            found.append(_wheels(scene, gear.name, gear.wheels, gear.carrier, z1, z2))
+            teeth = Fraction(gear.teeth[0]), Fraction(gear.teeth[1])
+            found.append(Mesh(gear.name, gear.wheels, gear.carrier, gear.axes, teeth))
             continue
         height, _, _ = rack_place(
             gear, scene.slidings, {n: k.points for n, k in links.items()}, {n: k.guides for n, k in links.items()}
         )
         sense = 1 if next(s for s in scene.slidings if s.key == gear.slide).link == gear.wheels[1] else -1
-        r = Fraction(height)
-        found.append(_relation(scene, gear.name, (*gear.wheels, gear.carrier), (
-            (("travel", gear.slide), Fraction(sense)), (("angle", gear.wheels[0]), r),
-            (("angle", gear.carrier), -r))))  # fmt: skip
+        parts_ = Fraction(height), None
+        found.append(Mesh(gear.name, gear.wheels, gear.carrier, (gear.axes[0], ""), parts_, gear.slide, sense))
     return tuple(found)
 
 
-def _wheels(
-    scene: Mechanism, name: str, wheels: tuple[str, str], carrier: str, one: Fraction, two: Fraction
-) -> Relation:
-    terms = (("angle", wheels[0]), one), (("angle", wheels[1]), two), (("angle", carrier), -one - two)
-    return _relation(scene, name, (*wheels, carrier), terms)
+def relations_of(scene: Mechanism, meshes: Iterable[Mesh]) -> tuple[Relation, ...]:
+    """The relations of everything that rolls."""
+    found = []
+    for mesh in meshes:
+        one, two = mesh.parts
+        # a block turns as its face does
+        carrier = ("angle", mesh.carrier if mesh.carrier in scene.by_name else mesh.wheels[1])
+        wheel = ("angle", mesh.wheels[0])
+        if two is None:
+            terms: tuple[tuple[Coordinate, Fraction], ...] = (
+                (("travel", mesh.slide), Fraction(mesh.sense)), (wheel, one), (carrier, -one)
+            )  # fmt: skip
+        else:
+            terms = (wheel, one), (("angle", mesh.wheels[1]), two), (("angle", mesh.carrier), -one - two)
+        found.append(_relation(scene, mesh.name, mesh.links, terms))
+    return tuple(found)
 
 
 def _relation(

@@ -1,0 +1,83 @@
+"""Velocity plans of trains of wheels, against Willis' formula and the solver."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from graphkin import check, draw
+
+SUN = {"1": {"points": ["A"]}, "2": {"points": ["A", "B"], "length": 50}, "3": {"points": ["B", "P"], "length": 15}}
+AXIS = {"points": {"A": [0, 0]}}
+TRAINS = {
+    "differential with two inputs": (
+        {"frame": AXIS, "links": {**SUN, "4": {"points": ["A"]}},
+         "gears": {"s": {"between": ["1", "3"], "teeth": [30, 20], "carrier": "2"},
+                   "r": {"between": ["3", "4"], "teeth": [20, -70], "carrier": "2"}},
+         "driver": [{"link": "1", "angle": 0, "omega": 10}, {"link": "4", "angle": 0, "omega": -3, "alpha": 2}]},
+        {"omega_2": (30 * 10 - 70 * 3) / 100, "omega_3": -12.75, "alpha_2": 1.4}),
+    "compound planet between two rings": (
+        {"frame": AXIS, "links": {**SUN, "4": {"points": ["A"]}},
+         "gears": {"s": {"between": ["1", "3"], "teeth": [30, 20], "carrier": "2"},
+                   "r": {"between": ["3", "0"], "teeth": [20, -70], "carrier": "2"},
+                   "q": {"between": ["3", "4"], "teeth": [18, -68], "carrier": "2"}},
+         "driver": {"link": "1", "angle": 0, "omega": 100}},
+        {"omega_2": 30, "omega_3": -75, "omega_4": 30 - 105 * 18 / 68}),
+    "coupled sets, found by trial": (
+        {"frame": {"points": {"A": [0, 0], "D": [0, 50]}},
+         "links": {**SUN, "4": {"points": ["A"]}, "6": {"points": ["D"]}},
+         "gears": {"s": {"between": ["1", "3"], "teeth": [30, 20], "carrier": "2"},
+                   "r": {"between": ["3", "4"], "teeth": [20, -70], "carrier": "2"},
+                   "t": {"between": ["1", "6"], "teeth": [30, 20]}, "u": {"between": ["6", "2"], "teeth": [20, -70]}},
+         "driver": {"link": "4", "angle": 0, "omega": 10, "alpha": -2}},
+        {"omega_2": 10 / (1 + 3 / 7 * (1 + 7 / 3)), "omega_1": -10 * 7 / 3 / (1 + 3 / 7 * (1 + 7 / 3))}),
+    "planets on planets, on two lines of centres": (
+        {"frame": AXIS,
+         "links": {**SUN, "2": {"points": ["A", "B"], "length": 50,
+                                "at": {"C": {"from": ["A", "B"], "r": [56, 40], "side": "left"}}},
+                   "4": {"points": ["C"]}, "5": {"points": ["A"]}},
+         "gears": {"s": {"between": ["1", "3"], "teeth": [30, 20], "carrier": "2"},
+                   "m": {"between": ["3", "4"], "teeth": [20, 20], "carrier": "2"},
+                   "r": {"between": ["4", "5"], "teeth": [20, -76], "carrier": "2"}},
+         "driver": [{"link": "1", "angle": 0, "omega": 10}, {"link": "2", "angle": 10, "omega": 3}]},
+        {"omega_5": 3 + 7 * 30 / 76}),
+    "a rack that drives": (
+        {"frame": {"points": {"A": [0, 0], "B": [0, -60]}, "guides": {"h": {"through": [0, 40], "angle": 0}}},
+         "links": {"1": {"points": ["A"]}, "2": {"points": ["R"], "on": "0.h"}, "3": {"points": ["B"]}},
+         "gears": {"g": {"between": ["1", "2"], "teeth": [20, "rack"]},
+                   "k": {"between": ["1", "3"], "teeth": [20, 40]}},
+         "driver": {"slide": "2", "travel": 5, "velocity": 40, "acceleration": 3}},
+        {"omega_1": -1, "omega_3": 0.5, "alpha_3": 3 / 80}),
+    "a motor between planet and carrier": (
+        {"frame": AXIS, "links": {k: SUN[k] for k in ("2", "3")},
+         "gears": {"r": {"between": ["3", "0"], "teeth": [20, -70], "carrier": "2"}},
+         "driver": {"link": "3", "relative_to": "2", "angle": 0, "omega": 10}},
+        {"omega_2": -20 / 7}),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", TRAINS)
+def test_rates_read_off_the_plan_are_those_of_willis_and_of_the_solver(name):
+    scene, expected = TRAINS[name]
+    result = check(scene)
+    assert result.ok
+    for symbol, rate in expected.items():
+        assert rate == pytest.approx(result[symbol].reading.value, rel=1e-9)
+        assert result[symbol].on_paper > 0
+
+
+@pytest.mark.parametrize("name", ["differential with two inputs", "coupled sets, found by trial"])
+def test_a_pencil_s_plan_is_within_its_predicted_uncertainty(name):
+    assert check(TRAINS[name][0], instrument="pencil", seed=2).ok
+
+
+def test_the_slope_of_a_wheel_s_line_on_paper_is_its_rate():
+    page = draw("gears-epicyclic", figures=["plan"]).figures["plan"]
+    svg, scales = page._repr_svg_(), page.metadata["scales"]
+    x1, y1, x2, y2 = (
+        float(re.search(rf'id="plan-line-3".*?<line[^>]*? {end}="([-\d.]+)"', svg, re.DOTALL)[1])
+        for end in ("x1", "y1", "x2", "y2")
+    )
+    rate = (x2 - x1) * scales["velocity"] / ((y2 - y1) * scales["length"])
+    assert -7.5 == pytest.approx(rate, rel=1e-3)
