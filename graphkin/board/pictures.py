@@ -22,7 +22,7 @@ from graphkin.drawing.conventions import letters_of
 from graphkin.drawing.in_motion import figure_in_motion
 from graphkin.errors import GraphkinError, Problem, SceneError, Unsolvable
 from graphkin.papers.html import figure_svg, words_html
-from graphkin.papers.lesson import Speaker
+from graphkin.papers.speaker import Speaker
 from graphkin.scene.model import AngleDriver, Mechanism, SlideDriver
 from graphkin.scene.source import parsed
 from graphkin.scene.written import resolved

@@ -20,7 +20,7 @@ from graphkin.drawing.strokes import link_of_vector
 from graphkin.drawing.text import symbol
 from graphkin.scene.symbol import PointRef
 
-__all__ = ["END_RADIUS", "points"]
+__all__ = ["END_RADIUS", "NamedPoint", "named_points", "points"]
 
 POLE_RADIUS, END_RADIUS, FOOT_RADIUS, RING = 0.9, 0.5, 0.4, 0.45
 MOST_AT_POLE = 24.0  # mm of names of points at rest beside the letter of the pole
@@ -32,6 +32,24 @@ class _Place:
 
     at: complex
     refs: list[PointRef]
+
+
+@dataclass(frozen=True)
+class NamedPoint:
+    """A point of a polygon (mm from the pole) and its letter; ``ref`` is the point of the mechanism whose end it is,
+    None of the pole and of the feet between components."""
+
+    at: complex
+    letter: str
+    ref: PointRef | None = None
+
+
+def named_points(here: PolygonOnPage) -> tuple[NamedPoint, ...]:
+    """The points of a polygon that have letters, the pole first; where the convention names vectors, only that."""
+    places = _spots(here)
+    ends = [NamedPoint(place.at, here.letters.end(here.diagram, ref), ref) for place in places for ref in place.refs]
+    feet = [NamedPoint(vector.tip, letter) for vector, letter in _letters_of_feet(here, places)]
+    return (NamedPoint(0j, pole(here.letters.convention, here.diagram)), *(p for p in (*ends, *feet) if p.letter))
 
 
 def points(here: PolygonOnPage) -> Piece:
@@ -89,6 +107,13 @@ def _dot(at: complex, ring: int) -> Circle:
 
 def _feet(here: PolygonOnPage, places: Sequence[_Place]) -> Iterator[Piece]:
     """Points between components: where one ends and no end point lies."""
+    for vector, markup in _letters_of_feet(here, places):
+        at, id = here.at(vector.tip), f"foot-{vector.symbol.id}"
+        dot = Group((Circle(at, FOOT_RADIUS, fill=strokes.BLACK),), id=id, classes=("foot",))
+        yield Piece({here.diagram: (dot,)}, _named(here, markup, vector.tip, f"label-{id}", 1, vector.tip), (at,))
+
+
+def _letters_of_feet(here: PolygonOnPage, places: Sequence[_Place]) -> Iterator[tuple[Vector, str]]:
     found = _between(here, places)
     per_role = Counter(vector.role for vector in found)
     per_end: Counter[str] = Counter()
@@ -105,9 +130,7 @@ def _feet(here: PolygonOnPage, places: Sequence[_Place]) -> Iterator[Piece]:
             index = here.letters.ref(of) + (here.letters.ref(to) if to else "")
             markup = here.letters.foot(vector.role, of, per_end[end], index)
         used.add(markup)
-        at, id = here.at(vector.tip), f"foot-{vector.symbol.id}"
-        dot = Group((Circle(at, FOOT_RADIUS, fill=strokes.BLACK),), id=id, classes=("foot",))
-        yield Piece({here.diagram: (dot,)}, _named(here, markup, vector.tip, f"label-{id}", 1, vector.tip), (at,))
+        yield vector, markup
 
 
 def _between(here: PolygonOnPage, places: Sequence[_Place]) -> list[Vector]:

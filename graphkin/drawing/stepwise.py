@@ -6,6 +6,7 @@ theirs, from what they belong to.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import replace
 
@@ -48,7 +49,9 @@ def _mechanism(sheet: Sheet, steps: list[Step]) -> dict[str, int]:
             born |= {f"trial-{curve.point}-{i}": step.number for i in range(1, len(curve.at) + 1)}
         for name in links_drawn(step.act):
             mentioned.setdefault(name, step.number)
-    last = steps[-1].number
+    # what is found later, in the mechanism that stands, is no part of it
+    polygons = min((s.number for s in sheet.steps if s.diagram != "mechanism"), default=math.inf)
+    last = max((s.number for s in steps if s.number < polygons), default=steps[-1].number)
     for link in (sheet.scene.frame, *sheet.scene.links):
         points = [born.get(f"point-{p}", last) for p in link.points]
         born[f"link-{link.name}"] = max([*points, mentioned.get(link.name, 0)], default=last) or last

@@ -1,4 +1,4 @@
-"""Why an equation is as it is written: a sentence for each motion in it, and once the rule of the Coriolis term."""
+"""Why an equation is as it is written: a sentence for each of its terms, and once the rule of the Coriolis term."""
 
 from __future__ import annotations
 
@@ -6,7 +6,8 @@ import cmath
 import math
 from collections.abc import Iterator
 
-from graphkin.construction.sheet import Equation, Term
+from graphkin.construction.sheet import Aid, Equation, Term, Vector
+from graphkin.construction.steps import SpecialPoint
 from graphkin.papers.blocks import Paragraph
 from graphkin.papers.lesson import Lesson
 from graphkin.scene.symbol import PointRef, Symbol
@@ -16,10 +17,8 @@ __all__ = ["reasons"]
 
 
 def reasons(lesson: Lesson, equation: Equation) -> Iterator[Paragraph]:
-    """The reasons of one equation as a paragraph, without those that an equation before it has given."""
-    before = [e for e in lesson.sheet.equations if e.diagram == equation.diagram and e.number < equation.number]
-    told = {phrase for e in before for phrase in _of_equation(lesson, e)}
-    phrases = [phrase for phrase in _of_equation(lesson, equation) if phrase not in told]
+    """The reasons of one equation as a paragraph."""
+    phrases = _of_equation(lesson, equation)
     if phrases:
         yield Paragraph(
             tuple(
@@ -32,28 +31,45 @@ def reasons(lesson: Lesson, equation: Equation) -> Iterator[Paragraph]:
 
 def _of_equation(lesson: Lesson, equation: Equation) -> list[Phrase]:
     terms = [term for side in equation.sides for term in side]
-    found = dict.fromkeys(phrase for term in terms for phrase in _why(lesson, term))
+    found = dict.fromkeys(phrase for term in terms for phrase in _why(lesson, equation, term))
     found |= dict.fromkeys(phrase for term in terms if term.symbol.kind == "ak" for phrase in _coriolis(lesson, term))
     return list(found)
 
 
-def _why(lesson: Lesson, term: Term) -> Iterator[Phrase]:
-    """What ties the point of a term to what it is meant relative to."""
+def _why(lesson: Lesson, equation: Equation, term: Term) -> Iterator[Phrase]:
+    """What ties the point of a term to what it is meant relative to; of a term found before, in which step."""
     symbol = term.symbol
     of, to = symbol.of, symbol.to
     if of is None or (symbol.kind in ("ak", "ar") and to is None):
         return
-    if to is None:
+    step = _found_before(lesson, equation, term)
+    if step:
+        yield Phrase("why known", (symbol, step))
+    elif to is None:
         yield from _of_a_point(lesson, symbol)
     elif to.point == of.point:
-        guide = next((s for s in lesson.sheet.structure.slides
-                      if s.pin == of.point and {of.link or s.a, to.link or s.b} & {s.a, s.b}), None)  # fmt: skip
+        slides = lesson.sheet.structure.slides
+        guide = next((s for s in slides if s.pin == of.point and {of.link or s.a, to.link or s.b} & {s.a, s.b}),
+                     next((s for s in slides if {of.link, to.link} == {s.a, s.b}), None))  # fmt: skip
         if guide is not None and symbol.kind in ("v", "ar"):
             yield Phrase("why coincident", (of, to, guide.a, guide.b))
+        elif symbol.kind == "an":
+            yield Phrase("why curved", (of, to))
     elif symbol.kind in ("v", "an"):
         link = _shared(lesson, of, to)
-        if link:
-            yield Phrase("why rigid" if symbol.kind == "v" else "why rigid parts", (of, to, link))
+        fixed = symbol.kind == "an" and to.point in lesson.sheet.scene.frame.points
+        key = "why turning parts" if fixed else "why rigid" if symbol.kind == "v" else "why rigid parts"
+        yield Phrase(key, (of, to, link)) if link else Phrase("why centres", (of, to))
+
+
+def _found_before(lesson: Lesson, equation: Equation, term: Term) -> int:
+    """The step that found a term with which an equation begins; 0 for a term that is drawn in it."""
+    if term.size is not None or term.symbol.to is not None or not (term.size_known and term.direction_known):
+        return 0
+    earlier = (s for s in lesson.sheet.steps if s.diagram == equation.diagram and s.equation != equation.number)
+    return next(
+        (s.number for s in earlier for v in s.strokes if isinstance(v, Vector | Aid) and v.symbol == term.symbol), 0
+    )
 
 
 def _of_a_point(lesson: Lesson, symbol: Symbol) -> Iterator[Phrase]:
@@ -65,7 +81,8 @@ def _of_a_point(lesson: Lesson, symbol: Symbol) -> Iterator[Phrase]:
     for slide in sheet.structure.slides:
         holder, body = (sheet.structure.links.get(name) for name in (slide.a, of.link))
         held = not of.link or of.link == slide.a or (body is not None and of.point in body.points)
-        if slide.b == frame.name and holder is not None and held and of.point in (slide.pin, *holder.points):
+        own = of.link == slide.a or (holder is not None and of.point in (slide.pin, *holder.points))
+        if slide.b == frame.name and holder is not None and held and own:
             yield Phrase("why guided", (of, slide.a))
             return
     for link in sheet.scene.links:
@@ -74,10 +91,18 @@ def _of_a_point(lesson: Lesson, symbol: Symbol) -> Iterator[Phrase]:
         if own and pivot is not None and pivot != of.point and symbol.kind == "v":
             yield Phrase("why turning", (of, pivot, link.name))
             return
+    under = next((s for s in sheet.structure.slides if s.pin == of.point and of.link in (s.a, s.b)), None)
+    if under is not None and of.point in frame.points:
+        other = PointRef(of.point, under.b if of.link == under.a else under.a)
+        yield Phrase("why coincident", (of, other, under.a, under.b))
 
 
 def _shared(lesson: Lesson, of: PointRef, to: PointRef) -> str:
-    """The link that has both points."""
+    """The link that has both points; a special point belongs to the link that it was found for."""
+    special = {s.act.point: s.act.link for s in lesson.sheet.steps if isinstance(s.act, SpecialPoint)}
+    for ref in (of, to):
+        if ref.point in special:
+            return special[ref.point]
     for link in lesson.sheet.scene.links:
         if all(ref.link == link.name or (not ref.link and ref.point in link.points) for ref in (of, to)):
             return link.name
@@ -88,7 +113,10 @@ def _coriolis(lesson: Lesson, term: Term) -> Iterator[Phrase]:
     """The rule, and its sense from the two arrows: the sliding velocity and the turning of the guide."""
     symbol = term.symbol
     sheet = lesson.sheet
-    slip = sheet.vectors("velocity").get(Symbol("v", symbol.of, symbol.to))
+    moving = sheet.vectors("velocity")
+    slip = moving.get(Symbol("v", symbol.of, symbol.to))
+    if slip is None and symbol.to is not None and symbol.to.point in sheet.scene.frame.points:
+        slip = moving.get(Symbol("v", symbol.of))  # relative to a point at rest
     drawn = sheet.vectors("acceleration").get(symbol)
     guide = next((s for s in sheet.structure.slides if symbol.of is not None and s.pin == symbol.of.point
                   and {symbol.of.link, symbol.to.link if symbol.to else ""} & {s.a, s.b}), None)  # fmt: skip
@@ -99,4 +127,6 @@ def _coriolis(lesson: Lesson, term: Term) -> Iterator[Phrase]:
         return
     way = "counter-clockwise" if rate.value > 0 else "clockwise"
     angles = [f"{math.degrees(cmath.phase(v.span)) + 0.0:.1f}".replace("-", "−") for v in (slip, drawn)]
-    yield Phrase(f"coriolis rule {way}", (slip.symbol, guide.b, angles[0], angles[1], symbol))
+    first = next(s for s in sheet.vectors("acceleration") if s.kind == "ak")
+    key = f"coriolis {'rule' if first == symbol else 'sense'} {way}"
+    yield Phrase(key, (slip.symbol, guide.b, angles[0], angles[1], symbol))

@@ -266,9 +266,10 @@ def _stage(
     steps = Steps(step_items(lesson, stage))
     drawn = stage_picture(sheet, layers, stage.diagram, letters, language, stage.first, stage.last)
     start = next(step.number for step in sheet.steps if step.diagram == stage.diagram)
-    key, args = (
-        ("figure whole", (stage.last,)) if stage.first == start else ("figure so far", (stage.last, stage.first))
-    )
+    args: tuple[int, ...] = (stage.last,)
+    key = "figure whole" if stage.first == start else "figure with step"
+    if start != stage.first != stage.last:
+        key, args = "figure so far", (stage.last, stage.first)
     caption = tuple(
         (each, say(Phrase(key, (word(FIGURE_WORDS[stage.diagram], each), *args)), each)) for each in languages(language)
     )

@@ -5,8 +5,9 @@ import pytest
 from graphkin.api.handouts import handout
 from graphkin.construction import draft
 from graphkin.drawing.conventions import letters_of
-from graphkin.papers.lesson import Speaker, plain_words, stages
+from graphkin.papers.lesson import plain_words, stages
 from graphkin.papers.reasons import reasons
+from graphkin.papers.speaker import Speaker
 from graphkin.scene import library, mechanism_of
 
 pytestmark = pytest.mark.quick
@@ -67,13 +68,66 @@ def _reasons(name, language):
     return {e.number: " ".join(w for p in reasons(lesson, e) for _, w in p.words) for e in lesson.sheet.equations}
 
 
-def test_every_equation_says_why_and_nothing_twice():
+def _steps(name, language, convention="chinese"):
+    sheet = draft(mechanism_of(name))
+    speaker = Speaker(sheet, letters_of(sheet, convention))
+    return [plain_words(speaker.step(step, language)) for step in sheet.steps]
+
+
+def test_a_vector_is_laid_off_from_a_lettered_point_in_a_sense_to_a_lettered_point():
+    said = _steps("sixbar-guide-40deg", "en")[24:26]
+    normal = "From the pole p′ lay off p′n′ = a^n_B3C = ω^2_3 l_CB (normal component), 30.33 mm, B→C: point n′."
+    assert normal == said[0]
+    assert "⊥CB, pointing to −11.9°: point k_2′" in said[1]
+
+
+def test_a_chinese_step_makes_a_point_so_that():
+    said = _steps("sixbar-guide-40deg", "zh")[24]
+    assert said.startswith("由极点 p′ 作 n′ 点，使 p′n′ = a^n_B3C")
+
+
+@pytest.mark.parametrize(
+    ("name", "step", "said"),
+    [
+        ("sixbar-guide-40deg", 16, "pb_3 lengthened beyond p mark d_3 so that pd_3 : pb_3 = CD : CB = 167.6 : 381.6"),
+        ("shaper-scheme-2", 19, "on pb mark s_4 so that ps_4 : pb = O_4S_4 : O_4B = 290 : 580 = 0.5"),
+    ],
+)  # fmt: skip
+def test_a_division_by_the_image_tells_its_ratio_also_beyond_the_bar(name, step, said):
+    assert said in _steps(name, "en")[step - 1]
+
+
+def test_a_line_begins_at_the_end_of_the_term_before_it_in_the_equation():
+    assert "Through b, the end of v_B, draw a line ⊥CB: v_CB lies on it" in _steps("shaper-scheme-2", "en")[20]
+
+
+def test_where_vectors_are_named_a_step_begins_at_the_end_of_one():
+    assert "From the end of A_B lay off A^n_C/B" in _steps("four-bar-coupler-point", "en", "us")[20]
+
+
+def test_of_two_crossings_of_arcs_it_is_said_which_is_meant():
+    assert "of the two crossings: B to the left of the line from A to C" in _steps("hydraulic-cylinder", "en")[1]
+
+
+@pytest.mark.parametrize("name", ["disc-on-disc", "scotch-yoke", "swinging-block", "triad-slider", "whitworth"])
+def test_every_term_that_an_equation_draws_has_a_reason(name):
+    lesson = handout(name, language="en", formats=("pdf",)).lesson
+    for equation in lesson.sheet.equations:
+        said = " ".join(words for p in reasons(lesson, equation) for _, words in p.words)
+        terms = {t.symbol for side in equation.sides for t in side if t.direction_known} - {equation.sides[0][0].symbol}
+        named = [lesson.speaker.point(s.of) for s in terms if s.of and s.kind in ("v", "an", "ar", "ak")]
+        assert [] == [name for name in named if name not in said]
+
+
+def test_every_equation_says_why_and_the_rule_of_coriolis_stands_once():
     told = _reasons("shaper-scheme-2", "en")
     assert "$A_{4}$ turns about the fixed pivot $O_{4}$ with link 4" in told[2]
     assert "$A_{4}$ and $A_{3}$ coincide at this moment; link 3 slides on link 4" in told[2]
     assert "$C$ moves with link 6 along the fixed guide" in told[3]
     assert "$C$ and $B$ are points of the rigid link 5" in told[3]
-    assert 1 == sum("coincide" in told[n] for n in (1, 2, 3))
+    assert "$v_{B}$ is known from step 18" in told[3]
+    rule = "turned by 90° in the sense in which"
+    assert 1 == sum(rule in said for said in _reasons("sixbar-guide-40deg", "en").values())
 
 
 def test_the_sense_of_a_coriolis_term_follows_from_the_two_arrows():

@@ -1,0 +1,236 @@
+"""Steps of a polygon as they are said on paper: each from a lettered point, in a sense, to a lettered point."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+from graphkin.construction.sheet import Aid, Bar, DiagramName, Ray, Sheet, Step, Vector
+from graphkin.construction.steps import (
+    Act,
+    ArcOnPath,
+    Asked,
+    ByImage,
+    Carried,
+    CompassArcs,
+    Direction,
+    DirectionLine,
+    FoundVector,
+    LaidOff,
+    LaidOffAngle,
+    LinesMeet,
+    LinkPoints,
+    Named,
+    Resultant,
+    phrase_of,
+)
+from graphkin.drawing.box import Box
+from graphkin.drawing.conventions import Letters, pole
+from graphkin.drawing.headings import number
+from graphkin.drawing.polygon_on_page import SAME, PolygonOnPage
+from graphkin.drawing.polygon_points import NamedPoint, named_points
+from graphkin.plane import dot
+from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.words import Phrase
+from graphkin.words.written import on_paper
+
+__all__ = ["LetteredSteps", "Markup"]
+
+EVERYWHERE = Box(-math.inf, -math.inf, math.inf, math.inf)
+ON_THE_POINT = 1e-9  # of a bar: so near to its end a point divides nothing
+
+
+class Markup(str):
+    """A symbol in the notation of `graphkin.drawing.text`."""
+
+
+@dataclass(frozen=True)
+class LetteredSteps:
+    """Says the steps of one sheet with the letters that its polygons bear in one convention; where the convention names
+    vectors instead, with these."""
+
+    sheet: Sheet
+    letters: Letters
+
+    def phrase(self, step: Step) -> Phrase:
+        """A step as a sentence to be."""
+        return self._said(step) or step.phrase
+
+    def _said(self, step: Step) -> Phrase | None:
+        act = step.act
+        vector = _drawn(step)
+        ray = next((s for s in step.strokes if isinstance(s, Ray)), None)
+        if isinstance(act, LaidOff) and vector is not None and not act.is_zero:
+            return self._laid_off(step, act, vector)
+        if isinstance(act, FoundVector) and vector is not None and not act.is_zero:
+            name = self._between(step, vector)
+            return Phrase("found lettered", (name, act.symbol, on_paper(act.mm))) if name else None
+        if isinstance(act, DirectionLine) and ray is not None:
+            return self._line(step, act, ray)
+        if isinstance(act, LinesMeet | Named):
+            letter = self._of(step.diagram, act.point)
+            key = "meet in" if isinstance(act, LinesMeet) else "name letter"
+            return Phrase(key, (letter, act.point)) if letter else None
+        if isinstance(act, Resultant | Asked) and vector is not None:
+            name = self._between(step, vector)
+            key = "join" if isinstance(act, Resultant) else "asked lettered"
+            ends = self._at(step, vector.tail), self._at(step, vector.tip)
+            return Phrase(key, (*ends, name, act.symbol)) if name else None
+        if isinstance(act, Carried):
+            return self._carried(step, act)
+        return self._by_image(step, act) if isinstance(act, ByImage) else self._in_position(act)
+
+    def _in_position(self, act: Act) -> Phrase | None:
+        """A step of the mechanism: senses, lengths on paper, and which of two crossings is meant."""
+        if isinstance(act, LaidOffAngle):
+            return Phrase("lay off angle from x", (act.link, f"{math.degrees(act.angle):.6g}", act.hinge))
+        if isinstance(act, LinkPoints) and len(act.points) == 1 and not act.transferred:
+            (name,) = act.points
+            link = self.sheet.scene.by_name.get(act.link)
+            other = next((p for p in link.points if p != name), "") if link and name in link.points else ""
+            ends = self.sheet.points.get(PointRef(other)), self.sheet.points.get(PointRef(name))
+            if ends[0] is None or ends[1] is None:
+                return None
+            return Phrase("points at", (act.link, name, other + name, on_paper(abs(ends[1] - ends[0]))))
+        if isinstance(act, CompassArcs | ArcOnPath):
+            which = next((p for p in self.sheet.assembly.values() if act.point in p.args), None)
+            return Phrase("which crossing", (phrase_of(act), which)) if which else None
+        return None
+
+    def _carried(self, step: Step, act: Carried) -> Phrase | None:
+        """A known term behind the unknown one, laid off before it."""
+        bar = next((s for s in step.strokes if isinstance(s, Bar)), None)
+        start = self._start(step, bar.a) if bar else None
+        sides = self.sheet.equations[step.equation - 1].sides if step.equation is not None else ()
+        term = next((term for side in sides for term in side if term.symbol == act.symbol), None)
+        if bar is None or start is None or term is None or term.direction is None:
+            return None
+        if abs(bar.b - bar.a) < SAME:
+            return Phrase("zero vector", (act.symbol,))
+        rule = Phrase("rule of size", (act.symbol, term.size)) if term.size else act.symbol
+        return Phrase("carry from", (start, rule, on_paper(abs(bar.b - bar.a)), _way(term.direction, bar.b - bar.a)))
+
+    def _laid_off(self, step: Step, act: LaidOff, vector: Vector | Aid) -> Phrase | None:
+        start = self._start(step, vector.tail)
+        if start is None:
+            return None
+        key = {"normal": "as normal", "coriolis": "as Coriolis"}.get(act.role, "as vector")
+        rule = Phrase("rule of size", (act.symbol, act.size)) if act.size else act.symbol
+        name, end = self._between(step, vector), self._at(step, vector.tip)
+        what = (Phrase(key, (rule,)), on_paper(act.mm), _way(act.direction, vector.span))
+        if name is None:
+            return Phrase("lay off from", (start, *what))
+        return Phrase("lay off lettered", (start, name, *what, end))
+
+    def _line(self, step: Step, act: DirectionLine, ray: Ray) -> Phrase | None:
+        letter = self._at(step, ray.through)
+        if abs(ray.through) < SAME:
+            return Phrase("direction from pole", (act.symbol, act.direction, letter))
+        before = self._before(step, act.symbol, ray.through)
+        if letter is None:
+            return Phrase("direction from end", (act.symbol, act.direction, before)) if before else None
+        if before is None:
+            return Phrase("direction from point", (act.symbol, act.direction, letter))
+        return Phrase("direction from lettered end", (act.symbol, act.direction, before, letter))
+
+    def _by_image(self, step: Step, act: ByImage) -> Phrase | None:
+        """The division of a line, with its ratio, or the similar triangle."""
+        refs = (act.point, *act.between)
+        places = [self.sheet.points.get(PointRef(ref.point)) for ref in refs]
+        ends = [self._of(step.diagram, ref) for ref in refs]
+        bars = [self.letters.point(ref.point) for ref in refs]
+        if not act.on_line:
+            if None in ends:
+                return None
+            return Phrase("image lettered", (ends[0], _joined(*ends[1:], ends[0]),
+                                             Markup("".join((*bars[1:], bars[0]))), act.link))  # fmt: skip
+        at, a, b = places
+        if at is None or a is None or b is None or abs(b - a) < SAME:
+            return None
+        along = dot(at - a, b - a) / abs(b - a) ** 2
+        if abs(along) < ON_THE_POINT:
+            return None
+        where = "before" if along < 0.0 else "within" if along <= 1.0 else "beyond"
+        unit = self.sheet.scales.length / self.sheet.scene.units.metres
+        lengths = [number(abs(z - a) * unit, 4) for z in (at, b)]
+        whole = (Markup(bars[1] + bars[0]), Markup(bars[1] + bars[2]), *lengths, number(abs(along), 4))
+        if None in ends or self._at(step, self._place(step.diagram, act.point)) is None:
+            return Phrase(f"division {where}", (act.point, *act.between, act.link, *whole))
+        names = (ends[0], _joined(*ends[1:]), _joined(ends[1], ends[0]), ends[1], ends[2])
+        return Phrase(f"division lettered {where}", (*names, act.link, *whole))
+
+    # -- letters -----------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def _points(self) -> Mapping[DiagramName, tuple[NamedPoint, ...]]:
+        diagrams: tuple[DiagramName, ...] = ("velocity", "acceleration")
+        pages = {d: PolygonOnPage(self.sheet, d, self.letters, "en", EVERYWHERE, 0j, ()) for d in diagrams}
+        return {diagram: named_points(page) for diagram, page in pages.items()}
+
+    def _at(self, step: Step, at: complex | None) -> Markup | None:
+        """The letter of a place of a polygon."""
+        points = self._points.get(step.diagram, ())
+        letter = next((p.letter for p in points if at is not None and abs(p.at - at) <= SAME), "")
+        return Markup(letter) if letter else None
+
+    def _place(self, diagram: DiagramName, ref: PointRef) -> complex | None:
+        return next((p.at for p in self._points.get(diagram, ()) if p.ref == ref), None)
+
+    def _of(self, diagram: DiagramName, ref: PointRef) -> Markup | None:
+        """The letter of an end point; what is at rest is the pole."""
+        if ref.point in self.sheet.scene.frame.points:
+            return Markup(pole(self.letters.convention, diagram))
+        letter = next((p.letter for p in self._points.get(diagram, ()) if p.ref == ref), "")
+        return Markup(letter) if letter else None
+
+    def _between(self, step: Step, vector: Vector | Aid) -> Markup | None:
+        """A vector by the letters of its ends: ``pb``; None where the convention has no letters."""
+        ends = self._at(step, vector.tail), self._at(step, vector.tip)
+        return None if None in ends else _joined(*ends)
+
+    def _start(self, step: Step, at: complex) -> Phrase | None:
+        """Where a vector begins: a letter, or the end of a vector."""
+        letter = self._at(step, at)
+        if letter is not None:
+            return Phrase("the pole" if abs(at) < SAME else "the point", (letter,))
+        before = self._before(step, None, at)
+        return Phrase("the end of", (before,)) if before else None
+
+    def _before(self, step: Step, symbol: Symbol | None, at: complex) -> Symbol | None:
+        """The vector that ends in a place: the one before it in the equation as written, else the one drawn last."""
+        drawn: dict[Symbol, complex] = {}
+        for one in self.sheet.steps[: self.sheet.steps.index(step)]:
+            for stroke in one.strokes if one.diagram == step.diagram else ():
+                if isinstance(stroke, Bar) and isinstance(one.act, Carried):
+                    drawn[one.act.symbol] = stroke.b
+                elif isinstance(stroke, Vector | Aid):
+                    drawn[stroke.symbol] = stroke.tip
+        there = [s for s, tip in drawn.items() if abs(tip - at) < SAME]
+        if step.equation is not None and symbol is not None:
+            for side in self.sheet.equations[step.equation - 1].sides:
+                terms = [term.symbol for term in side]
+                if symbol in terms[1:] and terms[terms.index(symbol) - 1] in there:
+                    return terms[terms.index(symbol) - 1]
+        return there[-1] if there else None
+
+
+def _drawn(step: Step) -> Vector | Aid | None:
+    """The vector of a step; those of trial polygons bear no letters."""
+    vectors = (s for s in step.strokes if isinstance(s, Vector) or (isinstance(s, Aid) and not s.trial))
+    return next(vectors, None)
+
+
+def _way(direction: Direction, span: complex) -> Direction | Phrase:
+    """A direction with its sense, where that does not lie in its name."""
+    return direction if direction.relation == "towards" else Phrase("pointing", (direction, _degrees(span)))
+
+
+def _joined(*letters: Markup | None) -> Markup:
+    return Markup("".join(letter for letter in letters if letter))
+
+
+def _degrees(span: complex) -> str:
+    return f"{math.degrees(cmath.phase(span)) + 0.0:.1f}".replace("-", "−")

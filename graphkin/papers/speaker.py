@@ -1,0 +1,135 @@
+"""Steps in words and in numbers: the sentence of each, and what is computed in it from what is measured.
+
+Sentences hold symbols between dollar signs, in the notation of `graphkin.drawing.text`; the lines of numbers are
+the same in every language.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from functools import cached_property
+
+from graphkin.construction.sheet import Aid, DiagramName, Sheet, Step, Vector
+from graphkin.construction.steps import (
+    Direction,
+    Given,
+    LaidOff,
+    MeasuredRate,
+    PlanDrawn,
+    RateTimes,
+    SquareOverRadius,
+)  # fmt: skip
+from graphkin.drawing.conventions import Letters
+from graphkin.drawing.headings import number, written
+from graphkin.drawing.sums import factors_of, plan_sum, rate_sum, scale_of, substituted, times_scale, unit_of
+from graphkin.papers.lettered_steps import LetteredSteps, Markup
+from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.words import Phrase, say, word
+from graphkin.words.written import MOST, amount, on_paper, product
+
+__all__ = ["Speaker"]
+
+_POINT_NAMES = re.compile(r"(?:[A-Z][a-z]*\d*)+")
+_RATE = re.compile(r"([ωα])_\{([^{}]*)\}")
+_MARKED_RATE = re.compile("([ωα]_{)\x02([^\x03}]*)\x03}")
+_OPEN, _CLOSE = "\x02", "\x03"  # around symbols until the sentence is whole; no argument can hold them
+
+
+@dataclass(frozen=True)
+class Speaker:
+    """Says the steps of one sheet in one convention."""
+
+    sheet: Sheet
+    letters: Letters
+
+    def sentence(self, phrase: Phrase, language: str) -> str:
+        """A phrase as a sentence with its full stop."""
+        said = say(phrase, language, lambda thing: self._show(thing, language))
+        said = _MARKED_RATE.sub(r"\1\2}", said)  # a link whose name could be that of a bar
+        # symbols stand between marks; a rate whose index is a gap of the sentence is marked here
+        parts = re.split(f"{_OPEN}([^{_CLOSE}]*){_CLOSE}", said)
+        for i in range(0, len(parts), 2):
+            parts[i] = _RATE.sub(f"{_OPEN}\\g<0>{_CLOSE}", parts[i])
+        parts[1::2] = [f"{_OPEN}{symbol}{_CLOSE}" for symbol in parts[1::2]]
+        said = "".join(parts).replace(_CLOSE + _OPEN, "").replace(_OPEN, "$").replace(_CLOSE, "$")
+        stop = word("full stop", language)
+        return said[:1].upper() + said[1:].rstrip(stop) + stop
+
+    def step(self, step: Step, language: str) -> str:
+        """The sentence of a step, with the letters of the points from which it goes and in which it ends."""
+        return self.sentence(self._lettered.phrase(step), language)
+
+    @cached_property
+    def _lettered(self) -> LetteredSteps:
+        return LetteredSteps(self.sheet, self.letters)
+
+    def _show(self, thing: object, language: str) -> str:
+        if isinstance(thing, Markup):
+            return self._marked(thing)
+        if isinstance(thing, Symbol):
+            return self._marked(self.letters.vector(thing))
+        if isinstance(thing, PointRef):
+            return self._marked(self.point(thing))
+        if isinstance(thing, Direction):
+            return self._marked(self.letters.direction(thing, self.sheet.scene.frame.name))
+        if isinstance(thing, Given):
+            return word("given", language).lower()
+        if isinstance(thing, RateTimes | SquareOverRadius):
+            return self._marked(self.letters.size(thing))
+        text = str(thing)
+        names = text.split(", ")
+        if all(map(_POINT_NAMES.fullmatch, names)):
+            return ", ".join(self._marked(self.bar(name)) for name in names)
+        return text.replace("$", "$$")
+
+    def _marked(self, markup: str) -> str:
+        return f"{_OPEN}{markup}{_CLOSE}"
+
+    def point(self, ref: PointRef) -> str:
+        """A point, with the link as a further index where coincident points are told apart."""
+        link = ref.link or self.letters.blocks.get(ref.point, "")
+        base = self.letters.point(ref.point)
+        if not link:
+            return base
+        return f"{base[:-1]},{link}}}" if base.endswith("}") else f"{base}_{{{link}}}"
+
+    def bar(self, names: str) -> str:
+        """Letters of a bar as they are written: ``O_{4}A``."""
+        return "".join(self.letters.point(name) for name in re.findall(r"[A-Z][a-z]*\d*", names))
+
+    # -- numbers -----------------------------------------------------------------------------------------------------
+
+    def work(self, step: Step) -> tuple[str, ...]:
+        """What is computed in a step, as lines of symbols and numbers."""
+        if isinstance(step.act, MeasuredRate):
+            return self._rate(step.act)
+        if isinstance(step.act, PlanDrawn):
+            letter = "ω" if step.act.rate == "omega" else "α"
+            return () if step.act.known else (f"${letter}_{{{step.act.link}}}$ = {plan_sum(step.act)}",)
+        if isinstance(step.act, LaidOff) and not step.act.is_zero:
+            return self._laid_off(step, step.act)
+        return tuple(self._measured(step.diagram, s) for s in step.strokes if isinstance(s, Vector))
+
+    def _rate(self, act: MeasuredRate) -> tuple[str, ...]:
+        omega = act.rate == "omega"
+        rate = (self.sheet.omega if omega else self.sheet.alpha)[act.link]
+        value = rate_sum(self.sheet, act) or f"{number(abs(rate.value), MOST)} {'rad/s' if omega else 'rad/s²'}"
+        return (f"${'ω' if omega else 'α'}_{{{act.link}}}$ = {value}",)
+
+    def _laid_off(self, step: Step, act: LaidOff) -> tuple[str, ...]:
+        drawn = next(s for s in step.strokes if isinstance(s, Vector | Aid))
+        length = abs(drawn.span)
+        per, unit = scale_of(self.sheet, step.diagram), unit_of(self.sheet, step.diagram)
+        factors = factors_of(self.sheet, act.size)
+        value = written(product(*factors, carried=MOST) if factors else amount(length * per, MOST))
+        middle = f" = {substituted(act.size, factors)}" if factors else ""
+        return (
+            f"${self.letters.vector(act.symbol)}${middle} = {value} {unit}",
+            f"{value} {unit} ÷ {number(per)} ({unit})/mm = {written(on_paper(length))} mm",
+        )
+
+    def _measured(self, diagram: DiagramName, vector: Vector) -> str:
+        size = abs(vector.span)
+        value = times_scale(self.sheet, diagram, size) if size else "0"
+        return f"${self.letters.vector(vector.symbol)}$ = {value}"
