@@ -11,7 +11,7 @@ import math
 from dataclasses import replace
 
 from graphkin.construction import Room, draft
-from graphkin.construction.steps import Carried, LaidOff
+from graphkin.construction.polygon_acts import Carried, LaidOff
 from graphkin.drawing import Box, Drawing, Group, Polygon, Text
 from graphkin.drawing.conventions import letters_of
 from graphkin.drawing.coriolis import coriolis_terms

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from graphkin.api.arguments import own_unit, passed_words
 from graphkin.api.checked import Checked, reading_words
 from graphkin.construction.sheet import Equation, Sheet, Term
-from graphkin.construction.steps import Direction
+from graphkin.construction.sizes import Direction
 from graphkin.errors import Unsolvable
 from graphkin.scene.model import Mechanism
 from graphkin.words import Phrase, say, word

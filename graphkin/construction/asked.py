@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 from graphkin.construction.net import node
 from graphkin.construction.plot import Order, Plot
+from graphkin.construction.polygon_acts import Asked
 from graphkin.construction.sheet import Vector
-from graphkin.construction.steps import Asked
 from graphkin.errors import CallError, Problem
 from graphkin.plane import dot, unit
 from graphkin.scene.symbol import PointRef, Symbol

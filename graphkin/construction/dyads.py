@@ -10,10 +10,7 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from graphkin.construction.rigid import PlacedLinks, Poses, RigidBody, across, hinge, inner_hinge, rail
-from graphkin.construction.sheet import Bar, CompassArc, Pose, Stroke
-from graphkin.construction.steps import (
-    Act,
+from graphkin.construction.mechanism_acts import (
     ArcOnPath,
     CompassArcs,
     GuideThrough,
@@ -24,6 +21,9 @@ from graphkin.construction.steps import (
     PathsCross,
     SlidToMeet,
 )
+from graphkin.construction.rigid import PlacedLinks, Poses, RigidBody, across, hinge, inner_hinge, rail
+from graphkin.construction.sheet import Bar, CompassArc, Pose, Stroke
+from graphkin.construction.steps import Act
 from graphkin.plane import cross, cross_arcs, cross_line_arc, cross_lines, direction, dot, unit
 from graphkin.scene.model import AngleDriver
 from graphkin.structure import Driven, Dyad, Rolled, Slide, Turn

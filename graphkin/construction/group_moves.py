@@ -6,11 +6,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from graphkin.construction.group_plan import Closed, Crossed, Move, OneLine, Path, Special
+from graphkin.construction.mechanism_acts import SpecialPoint
 from graphkin.construction.net import Chain, Edge, Joined, Net
 from graphkin.construction.plot import Order, letter
+from graphkin.construction.polygon_acts import Carried, DirectionLine, FoundVector, MeasuredRate
 from graphkin.construction.polygons import Polygons, same_turn
 from graphkin.construction.sheet import Aid, Bar, Equation, Mark, Rate, Ray, Term
-from graphkin.construction.steps import Carried, DirectionLine, FoundVector, MeasuredRate, SpecialPoint
 from graphkin.plane import cross, unit
 from graphkin.scene.model import AngleDriver, SlideDriver
 from graphkin.scene.symbol import PointRef, Symbol

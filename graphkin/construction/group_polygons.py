@@ -18,12 +18,12 @@ from graphkin.construction.group_moves import GroupMoves
 from graphkin.construction.group_plan import GroupPlan, Special, plan_group
 from graphkin.construction.net import Edge
 from graphkin.construction.plot import Order
+from graphkin.construction.polygon_acts import Superposed, TrialDrawn
 from graphkin.construction.polygons import same_turn
 from graphkin.construction.remarks import Magnified, ParallelLegs
 from graphkin.construction.rigid import PlacedLinks
 from graphkin.construction.sheet import Aid, DrawnGroup, Rate, Scales, Vector
 from graphkin.construction.slip import NO_SLIP, Slip
-from graphkin.construction.steps import Superposed, TrialDrawn
 from graphkin.construction.terms import parts_of
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot

@@ -15,11 +15,12 @@ import numpy as np
 from graphkin.construction.board import EXACT
 from graphkin.construction.dyads import Story, drive, meet
 from graphkin.construction.follow import drawn_near, fitted
+from graphkin.construction.mechanism_acts import TrialPositions
 from graphkin.construction.reduced_mechanism import ReducedMechanism
 from graphkin.construction.removed_constraint import RemovedConstraint
 from graphkin.construction.rigid import PlacedLinks, Poses
 from graphkin.construction.sheet import Bar, CompassArc, Pose, Stroke, TrialCurve
-from graphkin.construction.steps import Act, TrialPositions
+from graphkin.construction.steps import Act
 from graphkin.errors import Problem, Unsolvable
 from graphkin.structure import Driven, links_of
 

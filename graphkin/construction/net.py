@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from graphkin.construction.steps import Direction
+from graphkin.construction.sizes import Direction
 from graphkin.scene.model import PlacedLink
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import Pair, Slide, Turn, Weld

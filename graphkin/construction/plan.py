@@ -22,6 +22,7 @@ from graphkin.construction.group_position import GroupTrial
 from graphkin.construction.held_still import Inversion, inversions_of, opened_at_triangles, own_assembly
 from graphkin.construction.limits import limits_asked
 from graphkin.construction.plot import Order
+from graphkin.construction.polygon_acts import Asked
 from graphkin.construction.position import branches_at
 from graphkin.construction.rigid import PlacedLinks, Poses
 from graphkin.construction.rolling_on_paper import rolled_position
@@ -34,7 +35,6 @@ from graphkin.construction.sheet import (
     Vector,
 )
 from graphkin.construction.slip import NO_SLIP, Slip
-from graphkin.construction.steps import Asked
 from graphkin.construction.task import ORDERS, Task
 from graphkin.construction.touching import Touching
 from graphkin.construction.trial import Known, found_by_trial

@@ -14,13 +14,8 @@ from graphkin.construction.board import Board
 from graphkin.construction.equations import equation_of
 from graphkin.construction.net import Chain, Edge, node
 from graphkin.construction.plot import Order, Plot, letter
-from graphkin.construction.remarks import ZeroVector
-from graphkin.construction.rigid import PlacedLinks
-from graphkin.construction.sheet import Bar, Equation, Mark, Rate, Ray, Scales, Term, Vector
-from graphkin.construction.slip import NO_SLIP, Component, Slip
-from graphkin.construction.steps import (
+from graphkin.construction.polygon_acts import (
     Carried,
-    Direction,
     DirectionLine,
     FoundVector,
     LaidOff,
@@ -28,6 +23,11 @@ from graphkin.construction.steps import (
     MeasuredRate,
     PutBack,
 )
+from graphkin.construction.remarks import ZeroVector
+from graphkin.construction.rigid import PlacedLinks
+from graphkin.construction.sheet import Bar, Equation, Mark, Rate, Ray, Scales, Term, Vector
+from graphkin.construction.sizes import Direction
+from graphkin.construction.slip import NO_SLIP, Component, Slip
 from graphkin.construction.terms import bar, parts_of, symbol_of, turn_sign
 from graphkin.construction.wheels import Wheels
 from graphkin.errors import Problem, Unsolvable

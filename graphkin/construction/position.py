@@ -12,10 +12,11 @@ from numpy.typing import NDArray
 from graphkin.construction.board import EXACT, Board, Instrument
 from graphkin.construction.dyads import Meeting, drive, meet
 from graphkin.construction.group_position import GroupTrial, placed_by_trial, trial_story
+from graphkin.construction.mechanism_acts import FixedPoints, LinkPoints
 from graphkin.construction.remarks import SharpCrossing, ShortArm
 from graphkin.construction.rigid import PlacedLinks
 from graphkin.construction.sheet import Mark, Pose
-from graphkin.construction.steps import Cause, FixedPoints, LinkPoints, Placing
+from graphkin.construction.steps import Cause, Placing
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import PointRef

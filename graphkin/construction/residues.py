@@ -9,9 +9,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
+from graphkin.construction.polygon_acts import FoundVector, LaidOff, MeasuredRate
 from graphkin.construction.remarks import SharpCrossing, ZeroVector
 from graphkin.construction.sheet import DiagramName, Rate, Sheet, Step, Stroke, Vector
-from graphkin.construction.steps import Act, FoundVector, LaidOff, MeasuredRate
+from graphkin.construction.steps import Act
 from graphkin.scene.symbol import Symbol
 
 __all__ = ["without_residues"]

@@ -12,7 +12,8 @@ from functools import cached_property
 from typing import Literal
 
 from graphkin.construction.remarks import Remark
-from graphkin.construction.steps import Act, Cause, Direction, Size, phrase_of, scaled
+from graphkin.construction.sizes import Direction, Size
+from graphkin.construction.steps import Act, Cause, phrase_of, scaled
 from graphkin.construction.train_sheet import TrainPlan
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from graphkin.construction.sheet import Role
-from graphkin.construction.steps import Direction, Size
+from graphkin.construction.sizes import Direction, Size
 from graphkin.scene.symbol import Symbol
 
 __all__ = ["NO_SLIP", "Component", "Slip"]

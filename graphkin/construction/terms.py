@@ -6,8 +6,8 @@ from typing import Literal
 
 from graphkin.construction.net import Edge
 from graphkin.construction.plot import Order, Plot
+from graphkin.construction.sizes import Direction, Given, RateTimes, SquareOverRadius
 from graphkin.construction.slip import Component
-from graphkin.construction.steps import Direction, Given, RateTimes, SquareOverRadius
 from graphkin.plane import dot, unit
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import Symbol

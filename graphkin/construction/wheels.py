@@ -9,7 +9,8 @@ from typing import Literal
 from graphkin.construction.board import Instrument
 from graphkin.construction.centre_lines import CentreLine, centre_lines, trains
 from graphkin.construction.plot import Order
-from graphkin.construction.steps import Act, PlanDrawn, PlanTravel, PlanTried
+from graphkin.construction.polygon_acts import PlanDrawn, PlanTravel, PlanTried
+from graphkin.construction.steps import Act
 from graphkin.construction.train_plan import Travel, Turned, train_plan
 from graphkin.construction.train_sheet import TrainPlan
 from graphkin.errors import Problem, Unsolvable

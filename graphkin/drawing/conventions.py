@@ -14,7 +14,7 @@ from functools import lru_cache
 from typing import Literal
 
 from graphkin.construction.sheet import DiagramName, Sheet
-from graphkin.construction.steps import Direction, RateTimes, Size, SquareOverRadius
+from graphkin.construction.sizes import Direction, RateTimes, Size, SquareOverRadius
 from graphkin.drawing.force_letters import force_letters
 from graphkin.scene.sheet_tables import Convention
 from graphkin.scene.symbol import PointRef, Symbol

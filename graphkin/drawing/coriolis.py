@@ -10,7 +10,7 @@ from cmath import phase
 from typing import TypeAlias
 
 from graphkin.construction.sheet import Sheet, Vector
-from graphkin.construction.steps import RateTimes, Size
+from graphkin.construction.sizes import RateTimes, Size
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters

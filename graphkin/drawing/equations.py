@@ -7,17 +7,10 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
+from graphkin.construction.mechanism_acts import SpecialPoint, TrialPositions
+from graphkin.construction.polygon_acts import LaidOff, MeasuredRate, PlanDrawn, Superposed, TrialDrawn
 from graphkin.construction.sheet import Equation, Rate, Sheet, Step, Term
-from graphkin.construction.steps import (
-    Given,
-    LaidOff,
-    MeasuredRate,
-    PlanDrawn,
-    SpecialPoint,
-    Superposed,
-    TrialDrawn,
-    TrialPositions,
-)
+from graphkin.construction.sizes import Given
 from graphkin.drawing import strokes
 from graphkin.drawing.conventions import Letters, rows_of
 from graphkin.drawing.font_widths import run_box, runs_width

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 
 from graphkin.construction.remarks import ZeroVector
 from graphkin.construction.sheet import DiagramName, Sheet
-from graphkin.construction.steps import Direction
+from graphkin.construction.sizes import Direction
 from graphkin.drawing.conventions import Letters
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.over_time import asked_time, moves_by_law

@@ -9,8 +9,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from graphkin.construction.board import EXACT
+from graphkin.construction.polygon_acts import LaidOff, MeasuredRate, PlanDrawn
 from graphkin.construction.sheet import DiagramName, Sheet
-from graphkin.construction.steps import LaidOff, MeasuredRate, PlanDrawn, RateTimes, Size
+from graphkin.construction.sizes import RateTimes, Size
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.headings import number, written
 from graphkin.scene.symbol import PointRef, Symbol

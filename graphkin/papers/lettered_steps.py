@@ -8,25 +8,21 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
-from graphkin.construction.sheet import Aid, Bar, DiagramName, Ray, Sheet, Step, Vector
-from graphkin.construction.steps import (
-    Act,
-    ArcOnPath,
+from graphkin.construction.mechanism_acts import ArcOnPath, CompassArcs, LaidOffAngle, LinkPoints
+from graphkin.construction.polygon_acts import (
     Asked,
     ByImage,
     Carried,
-    CompassArcs,
-    Direction,
     DirectionLine,
     FoundVector,
     LaidOff,
-    LaidOffAngle,
     LinesMeet,
-    LinkPoints,
     Named,
     Resultant,
-    phrase_of,
 )
+from graphkin.construction.sheet import Aid, Bar, DiagramName, Ray, Sheet, Step, Vector
+from graphkin.construction.sizes import Direction
+from graphkin.construction.steps import Act, phrase_of
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, pole
 from graphkin.drawing.headings import number

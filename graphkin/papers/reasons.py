@@ -6,8 +6,8 @@ import cmath
 import math
 from collections.abc import Iterator
 
+from graphkin.construction.mechanism_acts import SpecialPoint
 from graphkin.construction.sheet import Aid, Equation, Term, Vector
-from graphkin.construction.steps import SpecialPoint
 from graphkin.papers.blocks import Paragraph
 from graphkin.papers.lesson import Lesson
 from graphkin.scene.symbol import PointRef, Symbol

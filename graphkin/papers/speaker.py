@@ -10,16 +10,9 @@ import re
 from dataclasses import dataclass
 from functools import cached_property
 
+from graphkin.construction.polygon_acts import LaidOff, MeasuredRate, PlanDrawn
 from graphkin.construction.sheet import Aid, DiagramName, Sheet, Step, Vector
-from graphkin.construction.steps import (
-    Direction,
-    Given,
-    LaidOff,
-    MeasuredRate,
-    PlanDrawn,
-    RateTimes,
-    SquareOverRadius,
-)  # fmt: skip
+from graphkin.construction.sizes import Direction, Given, RateTimes, SquareOverRadius
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.headings import number, written
 from graphkin.drawing.sums import factors_of, plan_sum, rate_sum, scale_of, substituted, times_scale, unit_of

@@ -9,8 +9,8 @@ import math
 from typing import Any
 
 from graphkin.checking.uncertainty import COVERAGE
+from graphkin.construction.polygon_acts import MeasuredRate, PlanDrawn
 from graphkin.construction.sheet import Step, Vector
-from graphkin.construction.steps import MeasuredRate, PlanDrawn
 from graphkin.papers.html import words_html
 from graphkin.papers.lesson import Lesson
 

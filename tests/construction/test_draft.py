@@ -8,9 +8,9 @@ from dataclasses import replace
 import pytest
 
 from graphkin.construction import Cad, Scales, draft, pencil
+from graphkin.construction.polygon_acts import FoundVector
 from graphkin.construction.remarks import OffTheSheet, ZeroVector
 from graphkin.construction.sheet import CompassArc, Ray
-from graphkin.construction.steps import FoundVector
 from graphkin.errors import Unsolvable
 from graphkin.plane import cross, dot
 from graphkin.scene import library, mechanism_of

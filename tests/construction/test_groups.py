@@ -12,9 +12,10 @@ import graphkin
 from graphkin import solver
 from graphkin.checking.readings import read_off
 from graphkin.construction import Slip, draft, execute, plan
+from graphkin.construction.mechanism_acts import SpecialPoint
+from graphkin.construction.polygon_acts import Superposed
 from graphkin.construction.remarks import ParallelLegs
 from graphkin.construction.sheet import Aid, TrialCurve
-from graphkin.construction.steps import SpecialPoint, Superposed
 from graphkin.scene import mechanism_of
 from graphkin.scene.symbol import Symbol
 from tests import EVERYTHING

@@ -7,7 +7,7 @@ import re
 import pytest
 
 from graphkin.construction import draft
-from graphkin.construction.steps import LaidOff, MeasuredRate
+from graphkin.construction.polygon_acts import LaidOff, MeasuredRate
 from graphkin.drawing.conventions import letters_of
 from graphkin.drawing.equations import written_lines
 from graphkin.drawing.sums import lengths_measured, rate_sum, rule_sum

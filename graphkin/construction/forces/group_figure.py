@@ -16,7 +16,7 @@ from graphkin.construction.forces.force_sheet import (
     Turning,
 )
 from graphkin.construction.forces.naming import opposite
-from graphkin.construction.steps import Direction
+from graphkin.construction.sizes import Direction
 from graphkin.plane import unit
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Body, Pair, Slide, Turn

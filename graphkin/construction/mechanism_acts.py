@@ -1,0 +1,199 @@
+"""The acts by which a mechanism is placed on the paper, and the sentence of each."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+from graphkin.words import Phrase
+from graphkin.words.written import on_paper
+
+__all__ = [
+    "ArcOnPath",
+    "CompassArcs",
+    "FixedPoints",
+    "GuideThrough",
+    "GuideTouching",
+    "HeldStill",
+    "LaidOffAngle",
+    "LaidOffTravel",
+    "LinkPoints",
+    "OnMechanism",
+    "PathDrawn",
+    "PathsCross",
+    "SlidToMeet",
+    "SpecialPoint",
+    "TrialPositions",
+    "mechanism_phrase",
+]
+
+
+@dataclass(frozen=True)
+class FixedPoints:
+    """The fixed points marked."""
+
+    frame: str
+    points: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class LaidOffAngle:
+    """The angle (rad) of a driven link, about a hinge."""
+
+    link: str
+    angle: float
+    hinge: str
+
+
+@dataclass(frozen=True)
+class LaidOffTravel:
+    """The travel of a driven sliding pair."""
+
+    pair: str
+    mm: float
+
+
+@dataclass(frozen=True)
+class CompassArcs:
+    """Two arcs of these radii about known points find a third."""
+
+    about: tuple[str, str]
+    point: str
+    radii: tuple[float, float]
+
+
+@dataclass(frozen=True)
+class PathDrawn:
+    """The straight path of a point that slides."""
+
+    point: str
+    pair: str
+
+
+@dataclass(frozen=True)
+class ArcOnPath:
+    """An arc of a radius about a known point finds another on its path."""
+
+    about: str
+    point: str
+    mm: float
+
+
+@dataclass(frozen=True)
+class GuideThrough:
+    """A guide drawn from its pivot through the pivot of what slides on it."""
+
+    pivot: str
+    through: str
+    pair: str
+
+
+@dataclass(frozen=True)
+class GuideTouching:
+    """A guide at a distance from its pivot, drawn as a tangent from the pivot of what slides on it."""
+
+    pivot: str
+    through: str
+    mm: float
+    pair: str
+
+
+@dataclass(frozen=True)
+class PathsCross:
+    """A point lies where its two straight paths cross."""
+
+    point: str
+    pairs: tuple[str, str]
+
+
+@dataclass(frozen=True)
+class SlidToMeet:
+    """A link shifted along one pair until its other guide meets a point."""
+
+    point: str
+    along: str
+    until: str
+
+
+@dataclass(frozen=True)
+class LinkPoints:
+    """The new points of a link marked; ``transferred`` where they come with the shape of a whole link."""
+
+    link: str
+    points: tuple[str, ...]
+    transferred: bool
+
+
+@dataclass(frozen=True)
+class HeldStill:
+    """What a driven slide gives of one link on another that is held still: the angle or the travel at their common pair
+    (rad, m), or its rate (rad/s, m/s) or second rate (rad/s2, m/s2)."""
+
+    held: str
+    link: str
+    slide: str
+    gives: Literal["angle", "travel", "omega", "velocity", "alpha", "acceleration"]
+    value: float
+
+
+@dataclass(frozen=True)
+class TrialPositions:
+    """A group placed by trial: ``driven`` names what is moved, ``left_out`` the link (or driver) left out until it
+    fits, ``point`` the free point whose trial curve is drawn ("" for none), in ``count`` trial positions."""
+
+    links: tuple[str, ...]
+    driven: tuple[str, ...]
+    left_out: tuple[str, ...]
+    point: str
+    count: int
+
+
+@dataclass(frozen=True)
+class SpecialPoint:
+    """The special point of a link, where the lines of two legs with these joints cross (Assur)."""
+
+    point: str
+    link: str
+    joints: tuple[str, str]
+
+
+OnMechanism = (
+    FixedPoints | LaidOffAngle | LaidOffTravel | CompassArcs | PathDrawn | ArcOnPath | GuideThrough | GuideTouching
+    | PathsCross | SlidToMeet | LinkPoints | HeldStill | SpecialPoint | TrialPositions
+)  # fmt: skip
+
+
+def mechanism_phrase(act: OnMechanism) -> Phrase:
+    """An act in the mechanism as a sentence to be."""
+    match act:
+        case FixedPoints(frame, points):
+            return Phrase("frame", (frame, ", ".join(points)))
+        case LaidOffAngle(link, angle, hinge):
+            return Phrase("lay off angle", (link, f"{math.degrees(angle):.6g}", hinge))
+        case LaidOffTravel(pair, mm):
+            return Phrase("lay off travel", (pair, on_paper(mm)))
+        case CompassArcs(about, point, radii):
+            return Phrase("arcs", (*about, point, *map(on_paper, radii)))
+        case PathDrawn(point, pair):
+            return Phrase("path", (point, pair))
+        case ArcOnPath(about, point, mm):
+            return Phrase("arc on path", (about, point, on_paper(mm)))
+        case GuideThrough(pivot, through, pair):
+            return Phrase("line of guide", (pivot, through, pair))
+        case GuideTouching(pivot, through, mm, pair):
+            return Phrase("tangent", (pivot, through, on_paper(mm), pair))
+        case PathsCross(point, pairs):
+            return Phrase("paths", (point, *pairs))
+        case SlidToMeet(point, along, until):
+            return Phrase("slide to meet", (point, along, until))
+        case LinkPoints(link, points, transferred):
+            return Phrase("transfer" if transferred else "points", (link, ", ".join(points)))
+        case HeldStill(held, link, slide, gives, value):
+            shown = math.degrees(value) if gives == "angle" else value
+            return Phrase(f"held still {gives}", (held, link, slide, f"{shown:.6g}"))
+        case SpecialPoint(point, link, joints):
+            return Phrase("special point", (point, link, *joints))
+        case TrialPositions(links, driven, left_out, point, count):
+            key = "trial positions" if point else "trial positions without curve"
+            return Phrase(key, (", ".join(links), ", ".join(driven), ", ".join(left_out), point, count))

@@ -1,0 +1,273 @@
+"""The acts by which a polygon is drawn and measured, and the sentence of each."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+from graphkin.construction.sizes import Direction, Size
+from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.words import Phrase
+from graphkin.words.written import amount, on_paper
+
+__all__ = [
+    "Asked",
+    "ByImage",
+    "ByRate",
+    "Carried",
+    "DirectionLine",
+    "FoundVector",
+    "InPolygon",
+    "LaidOff",
+    "LinesMeet",
+    "MeasuredRate",
+    "Named",
+    "PlanDrawn",
+    "PlanTravel",
+    "PlanTried",
+    "PutBack",
+    "Resultant",
+    "SamePlace",
+    "Superposed",
+    "Translated",
+    "TrialDrawn",
+    "polygon_phrase",
+]
+
+
+@dataclass(frozen=True)
+class LaidOff:
+    """A known vector, laid off by the rule of its size."""
+
+    symbol: Symbol
+    size: Size | None
+    mm: float
+    direction: Direction
+    role: str
+
+    @property
+    def is_zero(self) -> bool:
+        return self.mm == 0.0
+
+
+@dataclass(frozen=True)
+class FoundVector:
+    """A vector found by its end point, and measured."""
+
+    symbol: Symbol
+    mm: float
+
+    @property
+    def is_zero(self) -> bool:
+        return self.mm == 0.0
+
+
+@dataclass(frozen=True)
+class DirectionLine:
+    """A line along which a vector of unknown size lies."""
+
+    symbol: Symbol
+    direction: Direction
+
+
+@dataclass(frozen=True)
+class _OfVector:
+    symbol: Symbol
+
+
+class Carried(_OfVector):
+    """A known vector added before its turn in the chain."""
+
+
+class PutBack(_OfVector):
+    """A vector that was added before its turn, put in its place."""
+
+
+class Resultant(_OfVector):
+    """The vector from the pole to an end point that was found."""
+
+
+class Asked(_OfVector):
+    """A vector that stands in no equation, drawn because it is asked for."""
+
+
+@dataclass(frozen=True)
+class _AtPoint:
+    point: PointRef
+
+
+class LinesMeet(_AtPoint):
+    """Two direction lines meet in an end point."""
+
+
+class Named(_AtPoint):
+    """An end point that stands already gets its letter."""
+
+
+@dataclass(frozen=True)
+class SamePlace:
+    """Two points at one place of a link have one end point."""
+
+    point: PointRef
+    other: PointRef
+
+
+@dataclass(frozen=True)
+class ByRate:
+    """An end point from another of the same link, by its measured rates."""
+
+    point: PointRef
+    start: PointRef
+    link: str
+
+
+@dataclass(frozen=True)
+class ByImage:
+    """An end point by the image of its link: a figure similar to the link, or, ``on_line``, a division of a line."""
+
+    point: PointRef
+    between: tuple[PointRef, PointRef]
+    link: str
+    on_line: bool
+
+
+@dataclass(frozen=True)
+class Translated:
+    """A link that only translates: all its points have one end point."""
+
+    link: str
+
+
+@dataclass(frozen=True)
+class MeasuredRate:
+    """An angular rate (rad/s, rad/s2; counter-clockwise positive) measured from a vector and the bar it belongs to."""
+
+    rate: Literal["omega", "alpha"]
+    link: str
+    vector: Symbol
+    bar: tuple[str, str]
+    value: float
+
+
+@dataclass(frozen=True)
+class PlanDrawn:
+    """The line of a link in the plan of a train, by its places ``by``, or one place and its known rate; and the rate
+    (rad/s, rad/s2) that it marks off, ``mm`` on the rate scale at ``per_mm``."""
+
+    rate: Literal["omega", "alpha"]
+    link: str
+    by: tuple[str, ...]
+    known: bool
+    mm: float
+    per_mm: float
+    value: float
+
+
+@dataclass(frozen=True)
+class PlanTravel:
+    """How fast a rack slides (m/s, m/s2), read off the plan of a train: ``mm`` at ``per_mm``."""
+
+    rate: Literal["omega", "alpha"]
+    slide: str
+    mm: float
+    per_mm: float
+    value: float
+
+
+@dataclass(frozen=True)
+class PlanTried:
+    """Rates assumed in trial plans, what each left open (mm), and the rates that follow by proportion."""
+
+    rate: Literal["omega", "alpha"]
+    links: tuple[str, ...]
+    assumed: tuple[tuple[float, ...], ...]
+    apart: tuple[tuple[float, ...], ...]
+    found: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class TrialDrawn:
+    """A trial polygon by its number, with what was assumed (rad/s, or the scene's units)."""
+
+    number: int
+    assumed: tuple[tuple[Symbol, float], ...]
+
+
+@dataclass(frozen=True)
+class Superposed:
+    """The true rates by proportional division; ``apart`` (mm) is what is left open in each trial at ``closing``."""
+
+    found: tuple[tuple[Symbol, float], ...]
+    closing: tuple[str, ...]
+    apart: tuple[tuple[float, ...], ...]
+
+
+InPolygon = (
+    LaidOff | FoundVector | DirectionLine | Carried | PutBack | Resultant | Asked | LinesMeet | Named | SamePlace
+    | ByRate | ByImage | Translated | MeasuredRate | PlanDrawn | PlanTravel | PlanTried | TrialDrawn
+    | Superposed
+)  # fmt: skip
+
+
+def polygon_phrase(act: InPolygon) -> Phrase:
+    """An act in a polygon as a sentence to be."""
+    match act:
+        case LaidOff(symbol, size, mm, direction, role):
+            if act.is_zero:
+                return Phrase("zero vector", (symbol,))
+            key = {"normal": "lay off normal", "coriolis": "lay off coriolis"}.get(role, "lay off")
+            return Phrase(key, (symbol, size or "", on_paper(mm), direction))
+        case FoundVector(symbol, mm):
+            return Phrase("zero vector", (symbol,)) if act.is_zero else Phrase("found", (symbol, on_paper(mm)))
+        case DirectionLine(symbol, direction):
+            return Phrase("direction", (symbol, direction))
+        case Carried() | PutBack() | Resultant() | Asked():
+            key = {Carried: "carry", PutBack: "put back", Resultant: "resultant", Asked: "asked"}[type(act)]
+            return Phrase(key, (act.symbol,))
+        case LinesMeet() | Named():
+            return Phrase("meet" if isinstance(act, LinesMeet) else "name", (act.point,))
+        case SamePlace(point, other):
+            return Phrase("same place", (point, other))
+        case ByRate(point, start, link):
+            return Phrase("by rate", (point, start, link))
+        case ByImage(point, between, link, on_line):
+            return Phrase("division" if on_line else "image", (point, *between, link))
+        case Translated(link):
+            return Phrase("translates", (link,))
+        case TrialDrawn(number, assumed):
+            if not any(value for _, value in assumed):
+                return Phrase("trial polygon at rest", (number, assumed[0][0]))
+            return Phrase("trial polygon", (number, *_assumed([one for one in assumed if one[1]])))
+        case Superposed(found, closing, apart):
+            rows = "; ".join(", ".join(f"{mm:.2f}" for mm in row) for row in apart).replace("-", "−")
+            return Phrase("superposed", (", ".join(closing), rows, *_assumed(found)))
+        case PlanDrawn() | PlanTravel() | PlanTried():
+            return _on_plan(act)
+        case MeasuredRate(rate, link, vector, bar, value):
+            turning = "cw" if value < 0.0 else "ccw" if value > 0.0 else "zero"
+            return Phrase(f"{rate} {turning}", (link, vector, "".join(bar), amount(abs(value), 4)))
+
+
+def _assumed(rates: Sequence[tuple[Symbol, float]]) -> tuple[object, str]:
+    """The first of some rates as a symbol, and its value with those that follow."""
+    (first, value), *rest = rates
+    more = "".join(f", {symbol} = {amount(v, 5)}" for symbol, v in rest)
+    return first, f"{amount(value, 5)}{more}".replace("-", "−")
+
+
+def _on_plan(act: PlanDrawn | PlanTravel | PlanTried) -> Phrase:
+    letter = "ω" if act.rate == "omega" else "α"
+    match act:
+        case PlanDrawn(rate, link, by, known, mm, per_mm, value):
+            turning = "cw" if value < 0.0 else "ccw" if value > 0.0 else "zero"
+            if known:
+                return Phrase(f"plan line {rate}", (link, by[0], amount(value, 4).replace("-", "−")))
+            read = on_paper(mm), amount(per_mm, 6), amount(abs(value), 4)
+            return Phrase(f"plan line {rate} {turning}", (link, *by, *read))
+        case PlanTravel(_, slide, mm):
+            return Phrase("plan travel", (slide, on_paper(mm)))
+        case PlanTried(_, links, _, apart, found):
+            rows = "; ".join(", ".join(f"{mm:.2f}" for mm in row) for row in apart).replace("-", "−")
+            rates = ", ".join(f"{letter}_{{{n}}} = {amount(v, 5)}" for n, v in zip(links, found, strict=True))
+            return Phrase("plan tried", (", ".join(f"{letter}_{{{n}}}" for n in links), rows, rates.replace("-", "−")))
