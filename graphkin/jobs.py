@@ -142,7 +142,8 @@ class Workers:
 
     def __init__(self, executor: Executor | None = None, processes: int | None = None, renewed: int = RENEWED) -> None:
         self._given = executor
-        self._processes = processes if executor is None and (processes or 1) > 1 else None
+        alone = executor is not None or multiprocessing.current_process().daemon  # who may have no children
+        self._processes = processes if not alone and (processes or 1) > 1 else None
         self._renewed = renewed
         self._pool: ProcessPoolExecutor | None = None
         self._count = 0

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import multiprocessing
 import os
 import signal
 import subprocess
@@ -117,6 +118,12 @@ def test_a_pool_whose_process_was_killed_is_replaced(tmp_path: Path) -> None:
 def test_a_piece_that_ends_every_process_is_a_sentence() -> None:
     with pytest.raises(CallError, match="again and again"), Workers(processes=2) as workers:
         workers.start(os._exit, 1).result()
+
+
+def test_a_process_that_may_have_no_children_does_the_pieces_itself(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(multiprocessing.current_process()._config, "daemon", True)  # type: ignore[attr-defined]
+    with Workers(processes=2) as workers:
+        assert [os.getpid()] * 2 == list(workers.results(os.getpid, [()] * 2))
 
 
 def test_a_pool_is_renewed_and_loses_no_piece() -> None:
