@@ -14,7 +14,8 @@ from hypothesis import strategies as st
 
 from graphkin import table as room
 from graphkin.errors import CallError
-from graphkin.table import Column, Table, parquet_of_csv, text_column
+from graphkin.table import Column, Table, text_column
+from graphkin.table.csv_files import parquet_of_csv, table_of_csv
 
 NUMBERS = [0.0, -0.0, 1.0, -1.5, 1e-6, 9.9e-7, 1e-5, 1 / 3, 1e10, 9999999999.5, 123456789012.3, 1e22, 5e-324, 3e-17]
 
@@ -80,7 +81,7 @@ def test_a_csv_file_reads_back_as_the_table(tmp_path: Path, monkeypatch: pytest.
     table = whole()
     table.write(tmp_path / "t.csv")
     monkeypatch.setattr(room, "have", lambda library: pyarrow)
-    again = Table.read_csv(tmp_path / "t.csv", table.rows(slice(0, 0)))
+    again = table_of_csv(tmp_path / "t.csv", table.rows(slice(0, 0)))
     for one, other in zip(table.columns, again.columns, strict=True):
         np.testing.assert_array_equal(one.values, other.values)
 

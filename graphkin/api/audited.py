@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 
 from graphkin.api.answers import Answers, AnswersLike, Unread, as_answers
 from graphkin.api.arguments import At, SceneLike, as_scene, known_words, write_files
-from graphkin.api.checked import in_scene_units
 from graphkin.api.class_results import Scheme, people_of, quantities_of, scheme_of
 from graphkin.api.judging import MOST_DRAWN, evidence_at, judged_table
+from graphkin.api.reading_rows import in_scene_units
 from graphkin.api.results import OfScene, Result
 from graphkin.checking.audit import Judged, Value, judge, with_gaps
 from graphkin.checking.slips import Evidence, ValuesElsewhere

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import math
 import os
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -25,32 +24,28 @@ from graphkin.api.arguments import (
     whole_number,
     write_files,
 )
+from graphkin.api.reading_rows import in_scene_units, reading_row
 from graphkin.api.results import OfScene, Result
-from graphkin.checking.reading_words import deviation, exact, measured, paper
 from graphkin.checking.readings import read_off
 from graphkin.checking.report import Compared, Report, compare
-from graphkin.checking.uncertainty import Advice, Uncertainty, advise, predict
+from graphkin.checking.uncertainty import Advice, advise, predict
 from graphkin.construction import EXACT, Cad, Instrument, Plan, Sheet, execute, pencil, plan
 from graphkin.construction.forces import ForceSheet, force_scale, forces_on
 from graphkin.construction.sheet import DiagramName
-from graphkin.construction.steps import phrase_of
 from graphkin.errors import CallError, Problem, Unsolvable, as_text, did_you_mean
 from graphkin.files import path_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Structure, part_of
 from graphkin.structure.assembly import ChangePoint
-from graphkin.words import Phrase, say
+from graphkin.words import say
 
 if TYPE_CHECKING:
     from graphkin.construction.centres import Centres, Turning
     from graphkin.solver import Motion
     from graphkin.table import Table
 
-__all__ = [
-    "Checked", "check", "checked", "drawn_symbols", "hand_of", "here", "reading_row", "reading_words", "solved_here",
-    "with_elsewhere",
-]  # fmt: skip
+__all__ = ["Checked", "check", "checked", "drawn_symbols", "hand_of", "here", "solved_here", "with_elsewhere"]
 
 _FORMS = {
     "symbol": "", "unit": "", "on_paper_mm": ".12g", "measured": ".12g", "exact": ".12g", "error": ".3g",
@@ -202,60 +197,6 @@ class Checked(Result, OfScene):
 def _plain(value: float) -> float:
     """A scale factor without the noise of unit conversion."""
     return float(f"{value:.12g}")
-
-
-def in_scene_units(scene: Mechanism, symbol: Symbol, value: float, degrees: bool = False) -> float:
-    """A value in the scene's length unit, seconds, and radians as in JSON, or degrees as in files."""
-    units = scene.units
-    return value / (symbol.per_unit(units) if degrees else symbol.per_unit_of_programs(units))
-
-
-def reading_words(checked: Checked) -> Iterator[tuple[str, str, str, str, bool | None]]:
-    """Each reading in words: symbol, mm on paper, measured with as many figures as the drawing carries, exact, whether
-    the two agree."""
-    scales, units = checked.report.scales, checked.mechanism.units
-    for row in checked.report.rows:
-        said = measured(row.reading, scales, units, row)
-        if said == "0" and row.uncertainty is not None:
-            said = f"0 {deviation(row, units)}"
-        yield str(row.symbol), paper(row.reading, row), said, exact(row, units), row.ok
-
-
-def reading_row(scene: Mechanism, row: Compared, degrees: bool = False) -> dict[str, Any]:
-    """One reading as in the JSON: vectors by size, others with sign; ``degrees`` for tables that people read."""
-
-    def unit(value: float) -> float:
-        return in_scene_units(scene, row.symbol, value, degrees)
-
-    def size(value: complex | float) -> float:
-        return unit(abs(value) if row.symbol.is_vector else float(value.real))
-
-    return {
-        "symbol": str(row.symbol),
-        "on_paper_mm": row.reading.on_paper,
-        "measured": size(row.measured),
-        "exact": size(row.true),
-        "error": unit(row.error),
-        "tolerance": finite(unit(row.tolerance)),
-        "direction_error_rad": row.direction_error,
-        "ok": row.ok,
-        **({"why": say(Phrase("not determined", (str(row.symbol),)))} if row.ok is None else {}),
-        **(_predicted(finite(unit(row.uncertainty.deviation)), row.uncertainty) if row.uncertainty else {}),
-    }
-
-
-def finite(value: float) -> float | None:
-    """A number as JSON has it: none where there is no bound."""
-    return value if math.isfinite(value) else None
-
-
-def _predicted(deviation: float | None, uncertainty: Uncertainty) -> dict[str, Any]:
-    """Standard deviation of a reading in its unit, and the step that adds most to it."""
-    return {
-        "uncertainty": deviation,
-        "cause": say(phrase_of(uncertainty.cause)),
-        "cause_share": uncertainty.share,
-    }
 
 
 def check(

@@ -15,8 +15,9 @@ from graphkin.api.results import Result
 from graphkin.errors import Problem, Unsolvable
 from graphkin.exchange import FRAME, READ, Bodies, Drive, Slide, is_address, read_bodies, write_bodies
 from graphkin.files import path_of
+from graphkin.scene.mapping import toml_text
 from graphkin.scene.model import AngleDriver, Mechanism, PlacedLink
-from graphkin.scene.written import Scene, safe_name, toml_text
+from graphkin.scene.written import Scene, safe_name
 from graphkin.table import Table
 
 __all__ = ["Converted", "convert"]

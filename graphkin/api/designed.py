@@ -261,7 +261,7 @@ class Designed(Result):
         ------
         CallError : an unknown format, a folder that cannot be written
         """
-        from graphkin.scene.written import toml_text
+        from graphkin.scene.mapping import toml_text
 
         known_words(formats)
         files = {f"{name}.{kind}": page.content(kind) for name, page in self.figures.items() for kind in formats}

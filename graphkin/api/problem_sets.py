@@ -33,10 +33,11 @@ from graphkin.papers.problem_set import Job, MadeSet, Render, jobs_of_rows, jobs
 from graphkin.papers.solution import answers_template
 from graphkin.papers.variants import Answer, Spread, Variant, asked_of, varied_keys
 from graphkin.papers.vary_rules import rules_checked
+from graphkin.scene.mapping import as_mapping, toml_text
 from graphkin.scene.model import Mechanism
 from graphkin.scene.source import written
 from graphkin.scene.symbol import Symbol
-from graphkin.scene.written import as_mapping, safe_name, toml_text
+from graphkin.scene.written import safe_name
 from graphkin.study.designs import applied
 from graphkin.table import Table
 

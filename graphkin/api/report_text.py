@@ -6,10 +6,12 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from graphkin.api.arguments import own_unit, passed_words
-from graphkin.api.checked import Checked, reading_words
+from graphkin.api.checked import Checked
+from graphkin.checking.reading_words import deviation, exact, measured, paper
 from graphkin.construction.sheet import Equation, Sheet, Term
 from graphkin.construction.sizes import Direction
 from graphkin.errors import Unsolvable
@@ -21,7 +23,7 @@ if TYPE_CHECKING:
     from graphkin.study.trace import Extreme
     from graphkin.study.turn import Output, TurnStudy
 
-__all__ = ["lever_lines", "report_text", "show", "turn_text"]
+__all__ = ["lever_lines", "reading_words", "report_text", "show", "turn_text"]
 
 _SIGNS = {"square": "⊥", "along": "∥"}
 
@@ -68,9 +70,9 @@ def report_text(checked: Checked, language: str) -> str:
     lines.append(word("readings", language))
     head = (word("quantity", language), word("on paper", language), word("measured", language), word("exact", language))
     lines.append(f"{head[0]:<16}{head[1]:>12}{head[2]:>16}{head[3]:>16}")
-    for symbol, length, measured, exact, ok in reading_words(checked):
+    for symbol, length, found, true, ok in reading_words(checked):
         mark = {True: "", False: "  !", None: "  ?"}[ok]
-        lines.append(f"{symbol:<16}{length:>12}{measured:>16}{exact:>16}{mark}")
+        lines.append(f"{symbol:<16}{length:>12}{found:>16}{true:>16}{mark}")
     lines += ["", *lever_lines(checked, language)]
     lines += [say(note, language, show) for note in (*sheet.left_out, *sheet.notes)]
     lines.append(verdict(checked, language))
@@ -283,3 +285,14 @@ def _curves(turn: TurnStudy, language: str) -> list[str]:
             parts.append(f"{word('zero at', language)} {places}")
         lines.append(f"{quantity.name} ({quantity.unit(scene)}): {'; '.join(parts)}")
     return lines
+
+
+def reading_words(checked: Checked) -> Iterator[tuple[str, str, str, str, bool | None]]:
+    """Each reading in words: symbol, mm on paper, measured with as many figures as the drawing carries, exact, whether
+    the two agree."""
+    scales, units = checked.report.scales, checked.mechanism.units
+    for row in checked.report.rows:
+        said = measured(row.reading, scales, units, row)
+        if said == "0" and row.uncertainty is not None:
+            said = f"0 {deviation(row, units)}"
+        yield str(row.symbol), paper(row.reading, row), said, exact(row, units), row.ok

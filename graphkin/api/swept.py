@@ -36,6 +36,7 @@ from graphkin.scene.over_time import moves_by_law
 from graphkin.scene.source import written
 from graphkin.scene.symbol import KINDS, Symbol
 from graphkin.table import Table, have
+from graphkin.table.csv_files import table_of_csv
 from graphkin.words import Phrase, say
 
 if TYPE_CHECKING:
@@ -123,7 +124,7 @@ class Swept(Result, OfScene):
             return self.over.base.table_of(self.arrays, self.rows, 0, self.rows)
         if self.found.table is not None:
             return self.found.table
-        return Table.read_csv(self.found.files[0], self.over.head)
+        return table_of_csv(self.found.files[0], self.over.head)
 
     @cached_property
     def designs(self) -> Table | None:

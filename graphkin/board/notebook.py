@@ -8,8 +8,8 @@ from typing import Any
 from graphkin.board.answers import Desk, answer
 from graphkin.board.server import STATIC
 from graphkin.errors import CallError, Problem
+from graphkin.scene.mapping import toml_text
 from graphkin.scene.source import SceneLike, library, library_text, written
-from graphkin.scene.written import toml_text
 
 __all__ = ["open_board"]
 

@@ -12,9 +12,9 @@ import numpy as np
 
 from graphkin import solver
 from graphkin.api.arguments import driver_values, known_words, own_unit
-from graphkin.api.checked import checked, hand_of, here, reading_words, solved_here
+from graphkin.api.checked import checked, hand_of, here, solved_here
 from graphkin.api.drawn import FIGURES, Drawn, known_figures
-from graphkin.api.report_text import show
+from graphkin.api.report_text import reading_words, show
 from graphkin.board.moving import movable
 from graphkin.construction import execute, plan
 from graphkin.construction.sheet import DiagramName, Scales, Sheet

@@ -86,8 +86,7 @@ def print_check(checked: Checked, language: str, as_json: bool, quiet: bool) -> 
 
 def _print_readings(checked: Checked, language: str) -> None:
     from graphkin.api.arguments import passed_words
-    from graphkin.api.checked import reading_words
-    from graphkin.api.report_text import lever_lines, show, verdict
+    from graphkin.api.report_text import lever_lines, reading_words, show, verdict
     from graphkin.words import say, word
 
     rows = [

@@ -12,8 +12,9 @@ from pathlib import Path
 from typing import Any
 
 from graphkin.errors import Problem, SceneError, did_you_mean
+from graphkin.scene.mapping import as_mapping
 from graphkin.scene.model import Mechanism
-from graphkin.scene.written import Scene, as_mapping, resolved
+from graphkin.scene.written import Scene, resolved
 
 __all__ = [
     "SceneLike",

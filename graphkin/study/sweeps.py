@@ -22,7 +22,8 @@ from graphkin.scene import mechanism_of
 from graphkin.scene.model import Mechanism
 from graphkin.study.designs import Designs, Value, applied
 from graphkin.study.watched import BLOCK, Design, Watched, word_column
-from graphkin.table import Column, Table, parquet_of_csv
+from graphkin.table import Column, Table
+from graphkin.table.csv_files import parquet_of_csv
 
 __all__ = ["Found", "Outcome", "Sweep", "collect", "designs_table", "write_tables"]
 

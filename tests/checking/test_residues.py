@@ -10,7 +10,7 @@ from decimal import Decimal
 import pytest
 
 from graphkin import check, draw
-from graphkin.api.checked import reading_words
+from graphkin.api.report_text import reading_words
 from graphkin.words.written import amount
 
 DEAD = [("shaper-scheme-2", 90), ("swinging-block", 180), ("whitworth", 270), ("slider-crank-offset", 0)]

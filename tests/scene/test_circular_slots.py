@@ -11,7 +11,7 @@ import pytest
 import graphkin
 from graphkin.errors import SceneError
 from graphkin.scene import mechanism_of
-from graphkin.scene.written import as_mapping
+from graphkin.scene.mapping import as_mapping
 
 pytestmark = pytest.mark.quick
 

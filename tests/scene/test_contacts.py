@@ -6,8 +6,8 @@ import pytest
 
 import graphkin
 from graphkin.errors import SceneError
+from graphkin.scene.mapping import as_mapping
 from graphkin.scene.source import mechanism_of, read
-from graphkin.scene.written import as_mapping
 
 DISC = {
     "frame": {"points": {"A": [0, 0], "C": [80, 0]}},

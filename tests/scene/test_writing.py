@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from graphkin.scene import library, library_text, mechanism_of, mechanism_of_text
-from graphkin.scene.written import as_mapping, toml_text
+from graphkin.scene.mapping import as_mapping, toml_text
 from graphkin.solver import solve
 
 

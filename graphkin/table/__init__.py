@@ -12,14 +12,11 @@ JSON, Parquet and Arrow.
 
 from __future__ import annotations
 
-import csv
 import html
 import io
 import json
-import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from decimal import Decimal
 from functools import cached_property
 from importlib import import_module
 from importlib.util import find_spec
@@ -27,16 +24,27 @@ from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from graphkin.errors import CallError, Problem, as_text, did_you_mean
+from graphkin.table.cells import (
+    all_quoted,
+    as_array,
+    formatted,
+    no_formula,
+    numbers_to_arrow,
+    plain,
+    quoted,
+    shortest,
+    words_to_arrow,
+)
 
 if TYPE_CHECKING:
     import pandas
     import pyarrow
     import xarray
 
-__all__ = ["Column", "Table", "have", "parquet_of_csv", "text_column"]
+__all__ = ["Column", "Table", "have", "text_column"]
 
 Array = NDArray[Any]
 
@@ -48,7 +56,6 @@ SHOWN = 24
 """Rows of a table that HTML shows; of a longer one the first and the last."""
 FILES = (".csv", ".parquet", ".json", ".html")
 """Endings of the files that a table can be written as."""
-_LEAST, _MOST = 1e-6, 1e10
 
 
 def have(library: str) -> bool:
@@ -99,9 +106,9 @@ class Column:
         values = self.values[rows]
         kind = values.dtype.kind
         if self.form and kind in "fiu":
-            return _formatted(values, self.form)
+            return formatted(values, self.form)
         if kind == "f":
-            return _shortest(values)
+            return shortest(values)
         if kind == "b":
             return ["yes" if value else "no" for value in values.tolist()]
         return list(map(str, values.tolist()))
@@ -143,7 +150,7 @@ class Table:
         cells = list(rows)
         found = []
         for i, (head, form) in enumerate(zip(heads, forms or [""] * len(heads), strict=True)):
-            found.append(Column(head, _array([row[i] for row in cells]), form=form))
+            found.append(Column(head, as_array([row[i] for row in cells]), form=form))
         return cls(tuple(found))
 
     def __len__(self) -> int:
@@ -190,7 +197,7 @@ class Table:
         -2.5
         '@x
         """
-        made = (replace(c, values=np.array(list(map(_no_formula, c.texts())), dtype=object)) if c.is_text else c
+        made = (replace(c, values=np.array(list(map(no_formula, c.texts())), dtype=object)) if c.is_text else c
                 for c in self.columns)  # fmt: skip
         return Table(tuple(made), self.index)
 
@@ -205,14 +212,14 @@ class Table:
     def write_csv(self, out: IO[bytes], head: bool = True) -> None:
         """Write it as CSV: UTF-8, lines that end with a line feed, quotes only where a cell needs them."""
         if head:
-            out.write((",".join(map(_quoted, self.heads)) + "\n").encode())
+            out.write((",".join(map(quoted, self.heads)) + "\n").encode())
         arrow = len(self) * len(self.columns) > FEW and have("pyarrow")
         for first in range(0, len(self), BLOCK):
             some = slice(first, first + BLOCK)
             out.write(self._lines_by_arrow(some) if arrow else self._lines(some))
 
     def _lines(self, some: slice) -> bytes:
-        cells = [_quoted_all(c.texts(some)) if c.is_text else c.texts(some) for c in self.columns]
+        cells = [all_quoted(c.texts(some)) if c.is_text else c.texts(some) for c in self.columns]
         return ("\n".join(map(",".join, zip(*cells, strict=True))) + "\n").encode()
 
     def _lines_by_arrow(self, some: slice) -> bytes:
@@ -224,12 +231,12 @@ class Table:
         for column in self.columns:
             values = column.values[some]
             if values.dtype.kind in "fiu" and not column.form:
-                cells.append(compute.cast(_to_arrow(values), pa.string()))
+                cells.append(compute.cast(numbers_to_arrow(values), pa.string()))
             else:
                 texts = column.texts(some)
-                cells.append(_words_to_arrow(_quoted_all(texts) if column.is_text else texts))
+                cells.append(words_to_arrow(all_quoted(texts) if column.is_text else texts))
         null = {"null_handling": "replace", "null_replacement": ""}
-        comma, nothing, end_of_line = _words_to_arrow([",", "", "\n"])
+        comma, nothing, end_of_line = words_to_arrow([",", "", "\n"])
         lines = compute.binary_join_element_wise(*cells, comma, **null)
         lines = compute.binary_join_element_wise(lines, nothing, end_of_line)
         start, end = np.frombuffer(lines.buffers()[1], np.int32)[[lines.offset, lines.offset + len(lines)]]
@@ -259,7 +266,7 @@ class Table:
     @cached_property
     def data(self) -> dict[str, Any]:
         """For programs: each column with its unit, its symbol and its values; ``None`` where there is none."""
-        return {c.name: {**_facts(c), "values": _plain(c.values)} for c in self.columns}
+        return {c.name: {**_facts(c), "values": plain(c.values)} for c in self.columns}
 
     def write_json(self, out: IO[bytes]) -> None:
         """Write ``data`` as JSON, as it goes."""
@@ -269,7 +276,7 @@ class Table:
             part = ", " if len(facts) > 1 else ""
             out.write(f'{mark}{json.dumps(column.name, ensure_ascii=False)}: {facts}{part}"values": ['.encode())
             for first in range(0, len(self), BLOCK):
-                text = json.dumps(_plain(column.values[first : first + BLOCK]), ensure_ascii=False, allow_nan=False)
+                text = json.dumps(plain(column.values[first : first + BLOCK]), ensure_ascii=False, allow_nan=False)
                 out.write((", " * (first > 0) + text[1:-1]).encode())
             out.write(b"]}")
         out.write(b"}\n" if self.columns else b"{}\n")
@@ -346,91 +353,12 @@ class Table:
             raise CallError(Problem(str(path), f"cannot be written: {error.strerror or error}")) from None
         return target
 
-    @classmethod
-    def read_csv(cls, path: str | Path, like: Table) -> Table:
-        """A table from a CSV file that was written of one with the same columns (``like``, which may be empty)."""
-        if have("pyarrow"):
-            csv_file = import_module("pyarrow.csv")
-            whole = csv_file.read_csv(path, convert_options=_arrow_types(like))
-            arrays = [column.to_numpy() for column in whole.columns]
-        else:
-            with open(path, newline="", encoding="utf-8") as stream:
-                cells = np.array(list(csv.reader(stream))[1:], dtype=object).reshape(-1, len(like.columns))
-            arrays = [_read(cells[:, k], column) for k, column in enumerate(like.columns)]
-        kinds = [c.values.dtype for c in like.columns]
-        made = [
-            replace(c, values=values.astype(kind))
-            for c, values, kind in zip(like.columns, arrays, kinds, strict=True)
-        ]
-        return cls(tuple(made), like.index)
-
-
-def _read(cells: Array, like: Column) -> Array:
-    """Cells of a CSV file as what a column holds."""
-    kind = like.values.dtype.kind
-    if kind == "b":
-        return np.asarray(cells == "yes")
-    return np.where(cells == "", "nan", cells) if kind == "f" else cells
-
-
-def parquet_of_csv(path: Path, like: Table, out: IO[bytes]) -> None:
-    """Write the table of a CSV file (with the columns of ``like``) as Parquet, in bounded memory."""
-    from pyarrow import csv as csv_file
-    from pyarrow import parquet
-
-    with csv_file.open_csv(path, convert_options=_arrow_types(like)) as reader, \
-            parquet.ParquetWriter(out, reader.schema, compression="zstd") as writer:  # fmt: skip
-        for batch in reader:
-            writer.write_batch(batch)
-
-
-def _arrow_types(like: Table) -> Any:
-    import pyarrow as pa
-    from pyarrow import csv as csv_file
-
-    kinds = {"f": pa.float64(), "i": pa.int64(), "u": pa.int64(), "b": pa.bool_()}
-    types = {c.head: kinds.get(c.values.dtype.kind, pa.string()) for c in like.columns}
-    return csv_file.ConvertOptions(
-        column_types=types, null_values=[""], true_values=["yes"], false_values=["no"], strings_can_be_null=False
-    )
-
-
-def _to_arrow(values: Array) -> pyarrow.Array:
-    """Numbers as an array of pyarrow, null for NaN; made of its parts, for ``pyarrow.array`` would load pandas."""
-    import pyarrow as pa
-
-    if values.dtype.kind != "f":
-        return pa.Array.from_buffers(pa.int64(), len(values), [None, pa.py_buffer(values.astype(np.int64))])
-    given = ~np.isnan(values)
-    mask = None if given.all() else pa.py_buffer(np.packbits(given, bitorder="little"))
-    return pa.Array.from_buffers(pa.float64(), len(values), [mask, pa.py_buffer(values + 0.0)])
-
-
-def _words_to_arrow(words: list[str]) -> pyarrow.Array:
-    import pyarrow as pa
-
-    parts = list(map(str.encode, words))
-    ends = np.zeros(len(parts) + 1, np.int32)
-    np.cumsum(list(map(len, parts)), out=ends[1:])
-    return pa.StringArray.from_buffers(len(parts), pa.py_buffer(ends), pa.py_buffer(b"".join(parts)))
-
 
 def _library(name: str) -> Any:
     try:
         return import_module(name)
     except ImportError:
         raise CallError(Problem(name, "is not installed", f"install it with pip install {name}")) from None
-
-
-def _array(cells: Sequence[object]) -> Array:
-    """Cells of a column: whole numbers, bools or words, or else floats, with NaN for None."""
-    for kind in (bool, int, str):
-        if cells and all(type(cell) is kind for cell in cells):
-            return np.array(cells, dtype=object if kind is str else kind)
-    if any(isinstance(cell, str) for cell in cells):
-        return np.array(["" if cell is None else str(cell) for cell in cells], dtype=object)
-    numbers: ArrayLike = [np.nan if cell is None else float(cell) for cell in cells]  # type: ignore[arg-type]
-    return np.array(numbers, dtype=float)
 
 
 def _facts(column: Column) -> dict[str, str]:
@@ -441,52 +369,3 @@ def _facts(column: Column) -> dict[str, str]:
 def _attributes(column: Column) -> dict[str, str]:
     # "units" is the name that xarray's plots look for
     return {{"unit": "units"}.get(key, key): text for key, text in _facts(column).items()}
-
-
-def _plain(values: Array) -> list[Any]:
-    found: list[Any] = values.tolist()
-    if values.dtype.kind == "f" and not np.isfinite(values).all():
-        return [x if np.isfinite(x) else None for x in found]
-    return found
-
-
-def _formatted(values: Array, form: str) -> list[str]:
-    # "a: b" and "a: b" alike: one call for each cell, none of them in Python
-    found = list(map(("{:" + form + "}").format, values.tolist()))
-    for k in np.flatnonzero(np.isnan(values)).tolist():
-        found[k] = ""
-    return found
-
-
-def _shortest(values: Array) -> list[str]:
-    found = list(map(repr, (values + 0.0).tolist()))
-    size = np.abs(values)
-    other = (size < 1e-4) | ~(size < _MOST) | (values == np.rint(values))
-    for k in np.flatnonzero(other).tolist():
-        found[k] = _shown(float(values[k]))
-    return found
-
-
-def _shown(value: float) -> str:
-    """A number as pyarrow writes it: Python's ``repr`` has the same digits, but other rules for powers."""
-    if value != value:
-        return ""
-    if value in (0.0, np.inf, -np.inf):
-        return f"{value + 0.0:g}"
-    written_out = _LEAST <= abs(value) < _MOST
-    return format(Decimal(repr(value)).normalize(), "f" if written_out else "e")
-
-
-def _no_formula(cell: str) -> str:
-    begins = cell.lstrip(" ")[:1]
-    number = re.fullmatch(r"[+\-]?[\d.,\s]*(?:[eE][+\-]?\d+)?[ °%]*", cell)
-    return "'" + cell if begins in tuple("=@+-\t\r") and begins and not number else cell
-
-
-def _quoted(cell: str) -> str:
-    return '"' + cell.replace('"', '""') + '"' if any(c in cell for c in ',"\n\r') else cell
-
-
-def _quoted_all(cells: list[str]) -> list[str]:
-    some = {cell: _quoted(cell) for cell in set(cells)}
-    return list(map(some.__getitem__, cells))
