@@ -41,12 +41,12 @@ The figures, as SVG, PDF or PNG by the name:
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
-from graphkin.errors import CallError, GraphkinError, SceneError, Unsolvable
 from graphkin.version import __version__
 
+TYPE_CHECKING = False  # that of typing, without waiting for typing
 if TYPE_CHECKING:
+    from typing import Any
+
     from graphkin.api.audited import Audited, audit
     from graphkin.api.cams import Cams, cam
     from graphkin.api.centred import Centred, centres
@@ -66,6 +66,7 @@ if TYPE_CHECKING:
     from graphkin.api.studied import SpeedAccuracy, Stability, speed_accuracy, stability
     from graphkin.api.swept import Swept, sweep
     from graphkin.board.notebook import open_board
+    from graphkin.errors import CallError, GraphkinError, SceneError, Unsolvable
     from graphkin.scene.asked_tables import Positions, PrintedTable, StrokeStart
     from graphkin.scene.cam_tables import AllowedPressure, BaseCircle, Cam, LawPiece
     from graphkin.scene.class_tables import Vary
@@ -159,6 +160,7 @@ _PLACES = {
     "api.audited": "Audited audit",
     "api.cams": "Cams cam",
     "board.notebook": "open_board",
+    "errors": "CallError GraphkinError SceneError Unsolvable",
     "api.centred": "Centred centres",
     "api.centroded": "Centroded centrodes",
     "api.checked": "Checked check",

@@ -8,7 +8,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass
-from difflib import get_close_matches
 from typing import Any
 
 __all__ = [
@@ -125,6 +124,8 @@ def did_you_mean(word: str, known: Iterable[str]) -> str:
     'known here: A, B'
     """
     names = sorted(set(known))
+    from difflib import get_close_matches  # of a slip only
+
     near = get_close_matches(word, names, n=1, cutoff=0.6)
     if not near:
         near = [n for n in names if n.lower() == word.lower()]

@@ -30,7 +30,6 @@ from graphkin.checking.readings import read_off
 from graphkin.checking.report import Compared, Report, compare
 from graphkin.checking.uncertainty import Advice, advise, predict
 from graphkin.construction import EXACT, Cad, Instrument, Plan, Sheet, execute, pencil, plan
-from graphkin.construction.forces import ForceSheet, force_scale, forces_on
 from graphkin.construction.sheet import DiagramName
 from graphkin.errors import CallError, Problem, Unsolvable, as_text, did_you_mean
 from graphkin.files import path_of
@@ -42,6 +41,7 @@ from graphkin.words import say
 
 if TYPE_CHECKING:
     from graphkin.construction.centres import Centres, Turning
+    from graphkin.construction.forces import ForceSheet
     from graphkin.solver import Motion
     from graphkin.table import Table
 
@@ -163,7 +163,11 @@ class Checked(Result, OfScene):
     @cached_property
     def forces(self) -> ForceSheet | None:
         """The forces as they are drawn; None where there is neither mass nor load, or nothing of them is asked."""
-        return forces_on(self.sheet) if self.sheet.has_forces else None
+        if not self.sheet.has_forces:
+            return None
+        from graphkin.construction.forces import forces_on
+
+        return forces_on(self.sheet)
 
     def _by_lever(self, row: Compared) -> dict[str, float]:
         """What balances by Zhukovsky's lever, in the scene's force unit."""
@@ -241,14 +245,16 @@ def check(
 
 def checked(what: Plan, motion: Motion, hand: Instrument) -> Checked:
     """Draw a plan and hold everything on it against the solver at the same position."""
-
-    from graphkin.solver import as_drawn, exact_values, force_values
+    from graphkin.solver import as_drawn, exact_values
 
     passed, motion = motion.passed, as_drawn(motion, what.structure)
     value = exact_values(motion, what.asked)
     sheet = execute(what, hand)
     scale = lost = 0.0
     if sheet.has_forces:
+        from graphkin.construction.forces import force_scale
+        from graphkin.solver import force_values
+
         of_motion = value
         of_force, lost = force_values(motion)
         scale = force_scale(sheet)

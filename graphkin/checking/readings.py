@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 from graphkin.construction.board import EXACT, Instrument
-from graphkin.construction.centres import Centres, centres_on
-from graphkin.construction.forces import force_readings
-from graphkin.construction.measures import measured
 from graphkin.construction.sheet import DiagramName, Sheet, Vector
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.symbol import Symbol, centre_links
+
+if TYPE_CHECKING:
+    from graphkin.construction.centres import Centres
 
 __all__ = ["Reading", "read_off"]
 
@@ -52,13 +53,10 @@ def read_off(sheet: Sheet, asked: Sequence[Symbol] = (), instrument: Instrument 
                 continue
             symbol = Symbol(kind, link=link)
             found[symbol] = Reading(symbol, r.mm, r.value, name)
-    places = _centres(sheet, instrument)
-    for symbol in dict.fromkeys((*sheet.asked, *asked)):
-        if symbol.scope in ("position", "turn") and not symbol.at:
-            one = measured(sheet, symbol, instrument, places)
-            if one is not None:
-                found[symbol] = Reading(symbol, one.mm, one.value, "mechanism")
+    found |= _measured(sheet, (*sheet.asked, *asked), instrument)
     if sheet.has_forces:
+        from graphkin.construction.forces import force_readings
+
         found |= {r.symbol: Reading(r.symbol, r.mm, r.value, r.diagram) for r in force_readings(sheet, instrument)}
         for symbol in (*sheet.asked, *asked):
             same = _as_drawn(symbol, found)
@@ -67,6 +65,18 @@ def read_off(sheet: Sheet, asked: Sequence[Symbol] = (), instrument: Instrument 
     if not asked:
         return tuple(found.values())
     return tuple(found[s] for s in asked if s in found)
+
+
+def _measured(sheet: Sheet, asked: Sequence[Symbol], instrument: Instrument) -> dict[Symbol, Reading]:
+    """What is measured between points and links of the mechanism."""
+    asked = [s for s in dict.fromkeys(asked) if s.scope in ("position", "turn") and not s.at]
+    if not asked:
+        return {}
+    from graphkin.construction.measures import measured
+
+    places = _centres(sheet, instrument)
+    found = {symbol: measured(sheet, symbol, instrument, places) for symbol in asked}
+    return {s: Reading(s, one.mm, one.value, "mechanism") for s, one in found.items() if one is not None}
 
 
 def _as_drawn(symbol: Symbol, found: Mapping[Symbol, Reading]) -> Reading | None:
@@ -85,6 +95,8 @@ def _centres(sheet: Sheet, instrument: Instrument) -> Callable[[str], complex | 
         if pair is None:
             return None
         if not centres:
+            from graphkin.construction.centres import centres_on
+
             centres.append(centres_on(sheet, sheet.asked, instrument))
         if not set(pair) <= set(centres[0].links.names):
             return None

@@ -2,38 +2,26 @@
 
 from __future__ import annotations
 
-import signal
-import sys
-import threading
-from typing import TYPE_CHECKING, Any
+# of the interpreter itself: signal waits for enum, and who interrupts meanwhile would see a traceback
+import _signal as signal  # type: ignore[import-not-found]
+import os
 
-if TYPE_CHECKING:
-    from graphkin.cli.commands import app
-
-__all__ = ["app", "main"]
+__all__ = ["main"]
 
 
 def main() -> None:
     """Run the command line; see `graphkin.cli.commands`.
 
-    Until the commands are loaded an interruption ends the process at once, as the system does it: there is nothing yet
-    to be finished or told.
+    Until the command begins an interruption ends the process at once: there is nothing yet to be finished or told.
     """
     ours = signal.getsignal(signal.SIGINT) is signal.default_int_handler
-    ours = ours and threading.current_thread() is threading.main_thread()
-    early = ours and "graphkin.cli.commands" not in sys.modules
-    if early:
-        signal.signal(signal.SIGINT, signal.SIG_DFL)
+    try:
+        if ours:
+            signal.signal(signal.SIGINT, lambda *_: os._exit(130))
+    except ValueError:  # in a thread, which no interruption reaches
+        ours = False
+    # its sums are short: threads of linear algebra would take longer to begin than they save
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     from graphkin.cli.commands import main as run
 
-    if early:
-        signal.signal(signal.SIGINT, signal.default_int_handler)
-    run()
-
-
-def __getattr__(name: str) -> Any:
-    if name != "app":
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    from graphkin.cli.commands import app as commands
-
-    return commands
+    run(signal.default_int_handler if ours else None)

@@ -7,42 +7,63 @@ import gc
 import os
 import signal
 import sys
+from collections.abc import Callable, Sequence
 from contextlib import suppress
-from typing import Annotated
+from importlib import import_module
+from types import FrameType
+from typing import Annotated, Any
 
 import typer
 
 from graphkin import __version__
-from graphkin.cli.cam import cam
-from graphkin.cli.centres import centres
-from graphkin.cli.check import audit, check, draw
-from graphkin.cli.convert import convert
-from graphkin.cli.design import design
-from graphkin.cli.explain import explain
-from graphkin.cli.handout import handout
-from graphkin.cli.open import open_page
 from graphkin.cli.output import tell
-from graphkin.cli.solve import scenes, solve
 from graphkin.cli.streams import Unwritable, own_streams
-from graphkin.cli.study import study
-from graphkin.cli.sweep import sweep
 from graphkin.errors import GraphkinError
 
-__all__ = ["app", "main"]
+__all__ = ["app_of", "main"]
 
 INTERRUPTED = 130
 """Exit status of what was interrupted, as shells have it."""
 
-app = typer.Typer(
-    no_args_is_help=True,
-    pretty_exceptions_enable=False,
-    rich_markup_mode=None,
-    help="Velocity and acceleration polygons of mechanisms: constructed, measured, checked, drawn.",
-)
-for command in (scenes, draw, check, solve, centres, audit, sweep, handout, design, cam, convert, explain):
-    app.command()(command)
-app.command("open")(open_page)
-app.add_typer(study, name="study")
+PLACES = {
+    "scenes": "solve",
+    "draw": "check",
+    "check": "check",
+    "solve": "solve",
+    "centres": "centres",
+    "audit": "check",
+    "sweep": "sweep",
+    "handout": "handout",
+    "design": "design",
+    "cam": "cam",
+    "convert": "convert",
+    "explain": "explain",
+    "open": "open",
+    "study": "study",
+}
+"""The module of each command, in the order of the help."""
+
+
+def app_of(arguments: Sequence[str] = ()) -> typer.Typer:
+    """The command line, with the command alone that the arguments begin with: a process waits for no other.
+
+    All of them where they begin with none: for the help, or to say which name a misspelt one resembles.
+    """
+    app = typer.Typer(
+        callback=_common,
+        no_args_is_help=True,
+        pretty_exceptions_enable=False,
+        rich_markup_mode=None,
+        help="Velocity and acceleration polygons of mechanisms: constructed, measured, checked, drawn.",
+    )
+    wanted = [name for name in arguments[:1] if name in PLACES]
+    for name in wanted or PLACES:
+        command = getattr(import_module(f"graphkin.cli.{PLACES[name]}"), name if name != "open" else "open_page")
+        if isinstance(command, typer.Typer):
+            app.add_typer(command, name=name)
+        else:
+            app.command(name)(command)
+    return app
 
 
 def _version(wanted: bool) -> None:
@@ -51,7 +72,6 @@ def _version(wanted: bool) -> None:
         raise typer.Exit
 
 
-@app.callback()
 def _common(
     version: Annotated[
         bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version.")
@@ -60,42 +80,51 @@ def _common(
     pass
 
 
-def main() -> None:
+def main(interrupted: Callable[[int, FrameType | None], Any] | None = None) -> None:
     """Run the command line; problems are said on stderr, one a line, and give the exit status.
 
     A reader of the output that goes away changes nothing; a place that cannot take it is status 2, an interruption 130.
+
+    Parameters
+    ----------
+    interrupted : what answers an interruption from when the command begins until it has ended; None: as before
     """
     # nearly all that a command makes are modules, which stay: looking for garbage among them takes a tenth of its time
     gc.set_threshold(100_000, 50, 100)
     atexit.register(gc.freeze)
+    if interrupted is not None:  # who comes after the end comes too late
+        atexit.register(signal.signal, signal.SIGINT, signal.SIG_IGN)
     # and looking through all installed packages for plugins of pydantic another twentieth
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     own_streams()
     status: str | int | None = 0
     try:
-        status = _run()
+        status = _run(interrupted)
         sys.stdout.flush()
     except Unwritable as error:
         with suppress(OSError):
             tell(f"graphkin: what is printed cannot be written: {error.strerror}", err=True)
         status = 2
+    except KeyboardInterrupt:  # a second one, while the first was answered, or at the very end
+        status = INTERRUPTED
     if status == INTERRUPTED:
         _leave()
     if status:
         sys.exit(status)
 
 
-def _run() -> str | int | None:
+def _run(interrupted: Callable[[int, FrameType | None], Any] | None) -> str | int | None:
     """The exit status of the command."""
     try:
+        app = app_of(sys.argv[1:])
+        if interrupted is not None:
+            signal.signal(signal.SIGINT, interrupted)
         app()
     except SystemExit as end:
         return end.code
     except GraphkinError as error:
         tell("\n".join(f"graphkin: {problem}" for problem in error.problems), err=True)
         return error.exit_code
-    except KeyboardInterrupt:  # a second one, while the first was answered
-        return INTERRUPTED
     return 0
 
 

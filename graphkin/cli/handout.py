@@ -23,7 +23,6 @@ from graphkin.cli.options import (
 )
 from graphkin.cli.output import print_json, print_paths, progress_bar, short_bar, tell, tell_unused
 from graphkin.errors import CallError, Problem, did_you_mean
-from graphkin.scene.design_file import is_design
 
 __all__ = ["handout"]
 
@@ -75,6 +74,7 @@ def handout(
 ) -> None:
     """Problem sheet, worked solution with every step, and answer key; a set of them with other numbers; or reports."""
     from graphkin.api.handouts import handout as handing
+    from graphkin.scene.design_file import is_design
     from graphkin.words import languages, say
 
     wanted = listed(formats)

@@ -9,10 +9,9 @@ from graphkin.construction.asked import show
 from graphkin.construction.board import EXACT, Board, Hand, Instrument
 from graphkin.construction.group_polygons import GroupPolygons
 from graphkin.construction.held_still import TriangleDrawn
-from graphkin.construction.limits import limits_on_paper
 from graphkin.construction.position import draw_position, place
 from graphkin.construction.residues import without_residues
-from graphkin.construction.sheet import DrawnGroup, Scales, Sheet, Step
+from graphkin.construction.sheet import DrawnGroup, Limits, Scales, Sheet, Step
 from graphkin.construction.slip import NO_SLIP, Slip
 from graphkin.construction.task import Task
 from graphkin.scene.symbol import PointRef
@@ -101,12 +100,18 @@ def finished(task: Task, made: OnBoard) -> Sheet:
         acting=task.acting,
         growing=task.growing,
         trains=tuple(polygons.wheels.drawn.values()),
-        limits=limits_on_paper(
-            task.limits, task.structure, task.elements, task.values, polygons.scales,
-            EXACT if task.triangles else board.instrument,
-        ),
+        limits=_limits(task, polygons.scales, board.instrument),
     )
     return without_residues(sheet) if board.instrument.faultless else sheet
+
+
+def _limits(task: Task, scales: Scales, hand: Instrument) -> Mapping[str, Limits]:
+    if not task.limits:
+        return {}
+    from graphkin.construction.limits import limits_on_paper
+
+    hand = EXACT if task.triangles else hand
+    return limits_on_paper(task.limits, task.structure, task.elements, task.values, scales, hand)
 
 
 def _drawn_groups(task: Task, polygons: GroupPolygons) -> Iterator[DrawnGroup]:

@@ -9,23 +9,18 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
+from typing import TYPE_CHECKING
 
 from graphkin.construction.board import EXACT, Instrument
 from graphkin.construction.cam_outline import outlines_on_paper
-from graphkin.construction.cams_in_place import cams_in_place
 from graphkin.construction.carried_out import carried_out, finished
 from graphkin.construction.dyads import meet
 from graphkin.construction.extent import Extent, fitting_scale
-from graphkin.construction.follow import Choices, best_reduced
-from graphkin.construction.forces.phases import acting_loads, strokes_of_loads
-from graphkin.construction.group_position import GroupTrial
 from graphkin.construction.held_still import Inversion, inversions_of, opened_at_triangles, own_assembly
-from graphkin.construction.limits import limits_asked
 from graphkin.construction.plot import Order
 from graphkin.construction.polygon_acts import Asked
 from graphkin.construction.position import branches_at
 from graphkin.construction.rigid import PlacedLinks, Poses
-from graphkin.construction.rolling_on_paper import rolled_position
 from graphkin.construction.sheet import (
     DIAGRAMS,
     DiagramName,
@@ -37,13 +32,16 @@ from graphkin.construction.sheet import (
 from graphkin.construction.slip import NO_SLIP, Slip
 from graphkin.construction.task import ORDERS, Task
 from graphkin.construction.touching import Touching
-from graphkin.construction.trial import Known, found_by_trial
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.loads import Loading
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Cluster, Driven, Dyad, Element, Rolled, Structure, analyse, links_of, needed
 from graphkin.structure.cams_replaced import with_cams
+
+if TYPE_CHECKING:
+    from graphkin.construction.group_position import GroupTrial
+    from graphkin.construction.trial import Known
 
 __all__ = ["Plan", "Room", "draft", "drawn_sizes", "execute", "plan", "scales_for"]
 
@@ -175,6 +173,8 @@ def plan(
     scene = structure.scene
     asked = tuple(scene.find if find is None else find)
     if scene.cams:
+        from graphkin.construction.cams_in_place import cams_in_place
+
         structure = cams_in_place(structure, {d.key: d.values[0] for d in scene.drivers} | dict(at or {}))
         scene = structure.scene
     opened = opened_at_triangles(structure)
@@ -189,6 +189,8 @@ def plan(
         return _planned(task, room)
     dyads = [e for e in elements if isinstance(e, Driven | Dyad)]
     if any(isinstance(e, Driven) and isinstance(e.driver, Rolled) for e in elements):
+        from graphkin.construction.rolling_on_paper import rolled_position
+
         values, branches = rolled_position(structure, elements, own, values)
         task = Task(structure, structure, asked, elements, values, branches, {}, {}, {}, (), {}, {}, ())
         return _planned(task, room)
@@ -210,6 +212,10 @@ def _by_trial(
     structure: Structure, elements: Sequence[Element], values: Mapping[str, float], near: Sheet | None
 ) -> tuple[dict[int, int], dict[Cluster, GroupTrial]]:
     """The assembly of each dyad, and by what trial positions each larger group is placed."""
+    from graphkin.construction.follow import Choices, best_reduced
+    from graphkin.construction.group_position import GroupTrial
+    from graphkin.construction.trial import found_by_trial
+
     choices = Choices(structure, elements)
     poses = found_by_trial(choices, elements, values, None if near is None else _known(near))
     scene = structure.scene
@@ -248,9 +254,15 @@ def _planned(task: Task, room: Room | None) -> Plan:
     size = NATURAL.length / task.structure.scene.size
     poses = {name: pose.scaled(size) for name, pose in polygons.frame.poses.items()}
     exact = finished(task, made)
-    asked = (*task.asked, *strokes_of_loads(task.structure)) if exact.has_forces else task.asked
-    found = limits_asked(task.structure, needed(task.structure, task.asked), asked, task.values, poses)
-    if found:
+    asked = task.asked
+    if exact.has_forces:
+        from graphkin.construction.forces.phases import acting_loads, strokes_of_loads
+
+        asked = (*asked, *strokes_of_loads(task.structure))
+    if any(symbol.scope == "turn" for symbol in asked):
+        from graphkin.construction.limits import limits_asked
+
+        found = limits_asked(task.structure, needed(task.structure, task.asked), asked, task.values, poses)
         task = replace(task, limits=found)
         exact = finished(task, made)
     if exact.has_forces:

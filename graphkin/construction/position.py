@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.construction.board import EXACT, Board, Instrument
 from graphkin.construction.dyads import Meeting, drive, meet
-from graphkin.construction.group_position import GroupTrial, placed_by_trial, trial_story
 from graphkin.construction.mechanism_acts import FixedPoints, LinkPoints
 from graphkin.construction.remarks import SharpCrossing, ShortArm
 from graphkin.construction.rigid import PlacedLinks
@@ -23,6 +23,9 @@ from graphkin.scene.symbol import PointRef
 from graphkin.structure import Cluster, Driven, Dyad, Element, Structure, Turn, links_of, named_with_contact, pick
 from graphkin.structure.assembly import follow, ways
 from graphkin.words import Phrase
+
+if TYPE_CHECKING:
+    from graphkin.construction.group_position import GroupTrial
 
 __all__ = ["Branches", "branches_at", "choose", "draw_position", "place", "start_board"]
 
@@ -84,6 +87,8 @@ def place(
             frame.settle(list(poses))
             causes.append((instrument.acts, Placing(element.links)))
         else:
+            from graphkin.construction.group_position import placed_by_trial
+
             placed_by_trial(frame, (trials or {})[element])
             causes.append((instrument.acts, Placing(element.links)))
     return Position(frame, meetings, causes)
@@ -277,6 +282,8 @@ def draw_position(
         if isinstance(element, Driven):
             _, story = drive(so_far, element)
         elif isinstance(element, Cluster):
+            from graphkin.construction.group_position import trial_story
+
             story = trial_story(frame, so_far, (trials or {})[element])
         else:
             meeting = position.meetings[i]

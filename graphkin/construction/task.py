@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
-from graphkin.construction.group_plan import GroupPlan
-from graphkin.construction.group_position import GroupTrial
 from graphkin.construction.held_still import Inversion
 from graphkin.construction.net import Chain
 from graphkin.construction.plot import Order
@@ -15,6 +14,10 @@ from graphkin.construction.sheet import Limits, Sheet
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Cluster, Dyad, Element, Structure, links_of, needed
 from graphkin.words import Phrase
+
+if TYPE_CHECKING:
+    from graphkin.construction.group_plan import GroupPlan
+    from graphkin.construction.group_position import GroupTrial
 
 __all__ = ["ORDERS", "Task"]
 

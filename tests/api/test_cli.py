@@ -78,12 +78,20 @@ def test_a_row_of_a_table_in_a_file_is_one_line_however_long():
     assert 5 == len(plain_table(["a", "b"], [["1", "x" * 500 + "\n" + "y" * 500]]).splitlines())
 
 
-def test_a_check_waits_neither_for_rich_nor_for_processes():
-    program = HELP_ONLY.replace('"--help"', f'"check", "{SIXBAR}"').replace('"numpy"', '"rich.console"')
-    done = subprocess.run(
-        [sys.executable, "-c", program + 'assert "multiprocessing" not in sys.modules'], capture_output=True, text=True
-    )
-    assert 0 == done.returncode, done.stderr
+def loaded(*call: str) -> set[str]:
+    """All modules that a process of its own has loaded when the command has ended."""
+    program = "import sys, atexit; atexit.register(lambda: print(*sys.modules, file=sys.stderr)); "
+    program += "from graphkin.cli import main; main()"
+    done = subprocess.run([sys.executable, "-c", program, *call], capture_output=True, text=True, check=True)
+    return set(done.stderr.split())
+
+
+def test_a_check_waits_for_no_room_that_its_scene_does_not_need():
+    rooms = ["forces", "centres", "limits", "measures", "trial", "cams_in_place", "rolling_on_paper"]
+    idle = {f"graphkin.construction.{room}" for room in rooms}
+    idle |= {"graphkin.drawing", "graphkin.study", "graphkin.api.drawn", "graphkin.cli.sweep", "multiprocessing"}
+    idle |= {"matplotlib", "pyarrow", "rich.console", "scipy", "shapely", "svgwrite"}
+    assert set() == idle & loaded("check", "shaper-scheme-2")
 
 
 def test_the_version_is_printed():

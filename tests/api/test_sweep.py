@@ -11,7 +11,7 @@ import pytest
 from typer.testing import CliRunner
 
 import graphkin
-from graphkin.cli import app
+from graphkin.cli.commands import app_of
 from graphkin.errors import CallError, Unsolvable
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import Symbol
@@ -21,7 +21,7 @@ NAME = "slider-crank-s50-e16-K1.2"
 
 
 def call(*arguments: str) -> tuple[int, str]:
-    result = CliRunner().invoke(app, ["sweep", *arguments])
+    result = CliRunner().invoke(app_of(), ["sweep", *arguments])
     if result.exception is not None and not isinstance(result.exception, SystemExit):
         raise result.exception
     return result.exit_code, result.stdout
