@@ -114,6 +114,7 @@ def _line(through: tuple[LinkPair, LinkPair] | tuple[str], name: Callable[[objec
 
 
 TOLERANCE = 1e-9
+MOST_PLAYED = 6  # links all of whose centres are played
 FAIR = 1e-3  # of the largest: a value that may be off by more is not determined by the centres
 NO_MOTION = 1e-9
 SAFETY = 4.0  # the bound of a velocity by centres over its error of first order
@@ -222,6 +223,28 @@ class Centred(Result, OfScene):
             row |= {"by_centres": None, "why": say(Phrase("centres too near", (str(v.symbol),)), language)}
         return row
 
+    @cached_property
+    def in_motion(self) -> Drawing:
+        """The centres over the whole motion with their paths: an SVG that plays.  Of many links only the centres
+        against the frame."""
+        from graphkin.drawing.centres_in_motion import centres_in_motion
+        from graphkin.study.centre_paths import centre_paths
+
+        frame = self.mechanism.frame.name
+        few = len(self.centres.links.names) <= MOST_PLAYED
+        pairs = [pair for pair in self.centres.table if few or frame in pair]
+        own = {d.key: float(v) for d, v in zip(self.mechanism.drivers, self.motion.values[0], strict=True)}
+        found, mm = centre_paths(self.mechanism, own, pairs), self.centres.links.mm
+        return centres_in_motion(
+            self.centres,
+            {name: z * mm for name, z in found.origins.items()},
+            found.turned,
+            {name: z * mm for name, z in found.points.items()},
+            {pair: z * mm for pair, z in found.centres.items()},
+            language=self.language,
+            convention=self.convention,
+        )
+
     def __getitem__(self, name: str) -> Centre | Velocity:
         """A centre by its links ("1-3"), or a velocity by its symbol ("v_D", "omega_3").  Raises CallError."""
         name = as_text("name", name)
@@ -256,9 +279,11 @@ class Centred(Result, OfScene):
         return centres_figure(self.centres, self.turning, language=self.language, convention=self.convention)
 
     def write(
-        self, folder: str | os.PathLike[str] | None = None, formats: Sequence[str] = ("svg",), text: str = "glyphs"
-    ) -> list[Path]:
-        """Write centres.svg (or other formats) and centres.csv; returns the paths.  Files appear whole or not at all.
+        self, folder: str | os.PathLike[str] | None = None, formats: Sequence[str] = ("svg",), text: str = "glyphs",
+        motion: bool = False,
+    ) -> list[Path]:  # fmt: skip
+        """Write centres.svg (or other formats) and centres.csv, and with ``motion`` centres-motion.svg, which plays;
+        returns the paths.  Files appear whole or not at all.
 
         ``text`` says how the letters of an SVG come along: as text with its "glyphs", or as "outlines".
 
@@ -269,6 +294,8 @@ class Centred(Result, OfScene):
         known_words(formats, text=text)
         files = {f"centres.{kind}": self.figure.content(kind, text=text) for kind in formats}
         files["centres.csv"] = self.table.csv().encode()
+        if motion:
+            files["centres-motion.svg"] = self.in_motion.content("svg", text=text)
         return write_files(path_of(folder) if folder is not None else Path(self.mechanism.name), files)
 
     def __repr__(self) -> str:

@@ -168,12 +168,14 @@ def centrodes(
     """
     from graphkin.solver import solve
     from graphkin.solver.centres import centrode
+    from graphkin.study.centre_paths import steady
 
     known_words(formats, language, convention, known_languages=ON_SHEETS)
     given = as_scene(scene)
     given, values = placed(given, at)
     _check_names(given, link, point)
     solved_here(given, values)
+    given = steady(given)
     motion = solve(given, at=values, sweep=POSITIONS)
     curves = centrode(motion, link)
     turning = np.abs(motion.omega(link)[motion.ok])

@@ -40,6 +40,9 @@ def centres(
         str | None, typer.Option("--centrode", metavar="LINK", help="The centrodes of a link over a turn instead.")
     ] = None,
     point: Annotated[str, typer.Option("--point", metavar="P", help="With --centrode: the path of this point.")] = "",
+    motion: Annotated[
+        bool, typer.Option("--motion", help="Centres in motion with their paths too: centres-motion.svg, which plays.")
+    ] = False,
     lang: SheetLangOption = None,
     convention: ConventionOption = None,
     as_json: JsonOption = False,
@@ -54,12 +57,14 @@ def centres(
     known_words(wanted, text=text)
     if point and centrode is None:
         raise CallError(Problem("--point", "without --centrode", "write --centrode LINK --point P"))
+    if motion and centrode is not None:
+        raise CallError(Problem("--motion", "stands beside --centrode", "write one of the two"))
     if centrode is not None:
         _roll(scene, centrode, point, values, out, wanted, text, lang, convention, as_json, quiet)
         return
     with unsolvable_as_json(as_json, _none_found):
         found = finding(scene, values, None, wanted, lang, convention)
-    paths = [] if as_json and out is None else found.write(out, wanted, text)
+    paths = [] if as_json and out is None else found.write(out, wanted, text, motion)
     if as_json:
         print_json(found.data)
     elif not quiet:

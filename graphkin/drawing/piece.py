@@ -172,4 +172,5 @@ def _moved(thing: Primitive, by: complex) -> Primitive:
         return Polygon(tuple(z + by for z in thing.points), thing.fill, thing.stroke)
     if isinstance(thing, Scan):
         return replace(thing, corner=thing.corner + by, panel=tuple(z + by for z in thing.panel))
-    return Group(moved(thing.children, by), thing.id, thing.classes, thing.layer, thing.title, thing.step)
+    motion = thing.motion and replace(thing.motion, about=thing.motion.about + by)
+    return Group(moved(thing.children, by), thing.id, thing.classes, thing.layer, thing.title, thing.step, motion)

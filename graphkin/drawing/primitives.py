@@ -171,9 +171,24 @@ class Scan:
 
 
 @dataclass(frozen=True)
+class Travel:
+    """How a group moves, over and over, on a screen; on paper it stands as it is drawn.
+
+    moves : for each frame by how much (mm on the page), None where it is not there; the last frame is the first again
+    turns : for each frame by how much it is turned (degrees, clockwise on the page) about ``about``; empty for none
+    seconds : how long the whole takes
+    """
+
+    moves: tuple[complex | None, ...]
+    turns: tuple[float, ...]
+    about: complex
+    seconds: float
+
+
+@dataclass(frozen=True)
 class Group:
     """Things that belong together: ``layer`` names it as a layer for Inkscape, ``title`` says in words what it is,
-    ``step`` is the number of the step that puts it there."""
+    ``step`` is the number of the step that puts it there, ``motion`` how it moves on a screen."""
 
     children: tuple[Primitive, ...]
     id: str = ""
@@ -181,6 +196,7 @@ class Group:
     layer: str = ""
     title: str = ""
     step: int | None = None
+    motion: Travel | None = None
 
 
 Primitive: TypeAlias = Line | Polyline | Polygon | Circle | Arc | Text | Scan | Group

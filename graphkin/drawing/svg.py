@@ -34,6 +34,7 @@ from graphkin.drawing.primitives import (
     Scan,
     Stroke,
     Text,
+    Travel,
     class_names,
 )
 
@@ -155,11 +156,35 @@ class _Ink:
     def _group(self, group: Group) -> Any:
         layer = {"inkscape:groupmode": "layer", "inkscape:label": _clean(group.layer)} if group.layer else {}
         element = self.made("g", {**self._named(group.id, class_names(group)), **layer})
+        inner = element if group.motion is None else self._moving(element, group.motion)
         for child in group.children:
-            self.draw(element, child)
+            self.draw(inner, child)
         if group.title:  # last, because the first child of a vector's group is its line
             element.elements.append(self.made("title", {}, _clean(group.title)))
         return element
+
+    def _moving(self, element: Any, motion: Travel) -> Any:
+        """Have an element move; returns the one that turns in it."""
+
+        def animated(parent: Any, attributes: dict[str, str], tag: str = "animateTransform") -> None:
+            always = {"dur": f"{number(motion.seconds)}s", "repeatCount": "indefinite"}
+            parent.add(self.made(tag, {**attributes, **always}))
+
+        moves, last = [], next((m for m in motion.moves if m is not None), 0j)
+        for move in motion.moves:
+            last = last if move is None else move
+            moves.append(" ".join(_pair(last)))
+        transform = {"attributeName": "transform", "attributeType": "XML"}
+        animated(element, {**transform, "type": "translate", "values": ";".join(moves)})
+        if None in motion.moves:
+            seen = ";".join("hidden" if m is None else "visible" for m in motion.moves)
+            animated(element, {"attributeName": "visibility", "values": seen, "calcMode": "discrete"}, "animate")
+        if not motion.turns:
+            return element
+        inner, (x, y) = self.made("g", {}), _pair(motion.about)
+        turns = ";".join(f"{number(turn)} {x} {y}" for turn in motion.turns)
+        animated(inner, {**transform, "type": "rotate", "values": turns})
+        return element.add(inner)
 
     def _scan(self, scan: Scan) -> Any:
         """A picture with its file in it, cut by a clip that stands beside it."""

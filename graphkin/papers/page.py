@@ -108,10 +108,11 @@ def handout_page(
 <h3 id="motion-title">{words("motion")}</h3>
 <p class="hint">{words("motion words")}</p>
 <div class="choices"><label class="choice"><input type="checkbox" id="traces" checked> {words("traces")}</label>
-<label class="choice"><input type="checkbox" id="poles" checked> {words("instant centres shown")}</label></div>
+<label class="choice"><input type="checkbox" id="poles" checked> {words("instant centres shown")}</label>
+<label class="choice"><input type="checkbox" id="centre-paths"> {words("centre paths shown")}</label></div>
 <label for="turn">{words("position slider")}</label>
 <input type="range" id="turn" min="0" max="0" step="1" value="0"><output id="turn-out" for="turn"></output>
-<div id="moving" class="moving"></div>
+<div id="moving" class="moving no-centre-paths"></div>
 </div>
 </section>
 <article class="paper" id="paper">

@@ -323,6 +323,16 @@
       const pairs = m.at.map((_, k) => at(track, k).join(" "));
       shape(traces, "polyline", { points: pairs.join(" ") });
     }
+    const paths = shape(main, "g", { class: "centre-paths" });
+    for (const [track] of m.centres) {
+      const runs = [[]];
+      for (let k = 0; k < m.at.length; k += 1) {
+        const p = at(track, k);
+        if (p[0] === null) runs.push([]);
+        else runs[runs.length - 1].push(p.join(" "));
+      }
+      for (const run of runs) if (run.length > 1) shape(paths, "polyline", { points: run.join(" ") });
+    }
     for (const [a, b] of m.lines) line(main, a, b, "guide");
     for (const [link, ...own] of m.bars) {
       for (let i = 0; i < own.length - (own.length < 3 ? 1 : 0); i += 1) {
@@ -387,7 +397,7 @@
   }
   byId("play").addEventListener("click", () => play(!playing));
   byId("turn").addEventListener("input", () => { if (playing) play(false); showFrame(Number(byId("turn").value)); settle(); });
-  for (const [id, kind] of [["traces", "no-traces"], ["poles", "no-poles"]]) {
+  for (const [id, kind] of [["traces", "no-traces"], ["poles", "no-poles"], ["centre-paths", "no-centre-paths"]]) {
     byId(id).addEventListener("change", (event) => byId("moving").classList.toggle(kind, !event.target.checked));
   }
 

@@ -1,0 +1,159 @@
+"""The instant centres in motion: links, centres and the paths of the centres, played by any program that shows SVG."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphkin.construction.centres import Centres
+from graphkin.construction.centres.pairs import LinkPair
+from graphkin.drawing.box import Box
+from graphkin.drawing.centre_marks import mark_of
+from graphkin.drawing.centres import background
+from graphkin.drawing.conventions import letters_of, scale_statement
+from graphkin.drawing.dimensions import check_bar
+from graphkin.drawing.drawing import Drawing
+from graphkin.drawing.headings import facts, figure_title, punctuation, term, titles
+from graphkin.drawing.mechanism import bare_mechanism
+from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_piece
+from graphkin.drawing.primitives import Group, Polyline, Primitive, Stroke, Text, Travel
+from graphkin.drawing.strokes import colour_of_link
+from graphkin.drawing.text import rich, wrapped
+from graphkin.words import languages
+
+__all__ = ["centres_in_motion"]
+
+MARGIN, ROOM, LINE, FOOT = 8.0, 8.0, 5.0, 14.0
+AROUND = 0.6  # of the mechanism's size: how far around it paths are shown
+SECONDS = 8.0
+STANDS = 0.05  # mm: what moves less has no path
+PATH = 0.25
+NAMES = ((2.4 - 1.2j, "start"), (-2.4 - 1.2j, "end"), (2.4 + 3.4j, "start"), (-2.4 + 3.4j, "end"))
+"""From a centre to its name (mm), and the end of the name that stands there: by turns, since centres meet."""
+
+Places = NDArray[np.complex128]
+
+
+def centres_in_motion(
+    centres: Centres,
+    origins: Mapping[str, Places],
+    turned: Mapping[str, NDArray[np.float64]],
+    points: Mapping[str, Places],
+    paths: Mapping[LinkPair, Places],
+    *,
+    language: str | None = None,
+    convention: str | None = None,
+) -> Drawing:
+    """Draw a mechanism with its centres, all moving together, and the paths of the centres.
+
+    Parameters
+    ----------
+    origins, turned, points, paths : places over the frames (mm on paper, y up), and how far links have turned (rad); a
+        centre is NaN where it is at infinity.  The first frame is the position of ``centres``.
+    """
+    sheet = centres.sheet
+    spoken = language or sheet.scene.sheet.language
+    letters = letters_of(sheet, convention or sheet.scene.sheet.convention)  # type: ignore[arg-type]
+    back = background(bare_mechanism(sheet, letters))
+    mechanism = ink_box(back.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
+    everywhere = np.concatenate([*points.values()]) if points else np.zeros(0, complex)
+    for place in everywhere[np.isfinite(everywhere)].tolist():
+        mechanism = mechanism.joined(Box.around((place.conjugate(),)).grown(3.0))
+    around = mechanism.grown(AROUND * max(mechanism.width, mechanism.height))
+    shown = {pair: _inside(path, around) for pair, path in paths.items()}
+    content = mechanism
+    for path in shown.values():
+        if len(good := path[np.isfinite(path)]):
+            content = content.joined(Box.around(np.conj(good).tolist()).grown(3.0))
+    width = max(130.0, content.width + 2 * (ROOM + MARGIN))
+    head = [line for title in titles(sheet, spoken) for line in wrapped(title, 4.0, width - 2 * MARGIN, bold=True)]
+    head += wrapped(term("centres in motion", spoken), 3.2, width - 2 * MARGIN)
+    top = MARGIN + LINE * len(head) + 2.0
+    panel = Box(MARGIN, top, width - MARGIN, top + content.height + 2 * ROOM)
+    origin = panel.centre - content.centre
+    links = [_moving(thing, origin, origins, turned, points) for thing in moved_piece(back, origin).layers["mechanism"]]
+    drawn: list[Primitive] = []
+    for pair, path in shown.items():
+        drawn += _paths(pair, path, origin, colour_of_link(sheet.scene, pair[0]))
+    for k, (pair, path) in enumerate(shown.items()):
+        drawn += _centre(centres, pair, path, origin, f"${letters.centre(pair)}$", k)
+    words: list[Primitive] = [
+        Text(complex(MARGIN, MARGIN + 3.5 + LINE * i), runs, classes=("heading",)) for i, runs in enumerate(head)
+    ]
+    height = panel.bottom + FOOT
+    statement = rich(scale_statement(sheet, letters.convention, "mechanism"), 3.5)
+    words.append(Text(complex(MARGIN, height - 6.0), statement))
+    words += check_bar(complex(width - MARGIN - 50.0, height - 6.0), rich(term("check bar", spoken), 2.5))
+    page = joined((Piece({"mechanism": tuple(links), "centres": tuple(drawn), "labels": tuple(words)}),))
+    return Drawing(
+        width, height, layer_groups(page), figure_title(sheet, "centres", spoken),
+        term("centres in motion", spoken) + punctuation("full stop", spoken), languages(spoken)[0],
+        facts(sheet, "centres"),
+    )  # fmt: skip
+
+
+def _inside(path: Places, box: Box) -> Places:
+    """A path as far as it lies inside a box; NaN elsewhere."""
+    x, y = path.real, -path.imag
+    with np.errstate(invalid="ignore"):
+        inside = (x >= box.left) & (x <= box.right) & (y >= box.top) & (y <= box.bottom)
+    return np.where(inside, path, complex(math.nan, math.nan))
+
+
+def _travel(path: Places, turned: NDArray[np.float64] | None = None, about: complex = 0j) -> Travel:
+    """How something moves that stands at the first place: a move on the page for each frame, None where it is away."""
+    moves = tuple(complex((z - path[0]).conjugate()) if np.isfinite(z) else None for z in path)
+    turns = () if turned is None else tuple(-math.degrees(float(t)) if math.isfinite(t) else 0.0 for t in turned)
+    return Travel(moves, turns, about, SECONDS)
+
+
+def _moving(
+    thing: Primitive, origin: complex, origins: Mapping[str, Places], turned: Mapping[str, NDArray[np.float64]],
+    points: Mapping[str, Places],
+) -> Primitive:  # fmt: skip
+    if not isinstance(thing, Group):
+        return thing
+    kind, _, name = thing.id.partition("-")
+    if kind == "link" and name in origins:
+        path = origins[name]
+        return replace(thing, motion=_travel(path, turned[name], complex(path[0]).conjugate() + origin))
+    return replace(thing, motion=_travel(points[name])) if kind == "point" and name in points else thing
+
+
+def _moves(path: Places) -> bool:
+    good = path[np.isfinite(path)]
+    return len(good) > 1 and float(np.max(np.abs(good - good[0]))) > STANDS
+
+
+def _paths(pair: LinkPair, path: Places, origin: complex, colour: str) -> Sequence[Primitive]:
+    """The path in runs that a pen draws without lifting."""
+    if not _moves(path):
+        return ()
+    runs: list[list[complex]] = [[]]
+    for z in path.tolist():
+        if math.isfinite(z.real):
+            runs[-1].append(z.conjugate() + origin)
+        elif runs[-1]:
+            runs.append([])
+    lines = tuple(Polyline(tuple(run), Stroke(PATH, (), colour)) for run in runs if len(run) > 1)
+    return (Group(lines, id="path-" + "-".join(sorted(pair)), classes=("centre-path",)),)
+
+
+def _centre(centres: Centres, pair: LinkPair, path: Places, origin: complex, name: str, k: int) -> Sequence[Primitive]:
+    """A centre with its name, moving along its path."""
+    good = np.flatnonzero(np.isfinite(path))
+    if not len(good):
+        return ()
+    base = complex(path[good[0]])
+    at = base.conjugate() + origin
+    mark = mark_of(centres.of(*pair), centres.sheet.scene.frame.name, at)
+    off, anchor = NAMES[k % len(NAMES)]
+    text = Text(at + off, rich(name, 3.0), anchor, classes=("label", "centre"))
+    whole = (*mark, text)
+    moves = tuple(complex((z - base).conjugate()) if np.isfinite(z) else None for z in path)
+    motion = Travel(moves, (), 0j, SECONDS) if _moves(path) or len(good) < len(path) else None
+    return (Group(whole, id="centre-" + "-".join(sorted(pair)), classes=("centre",), motion=motion),)
