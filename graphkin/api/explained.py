@@ -21,7 +21,7 @@ from graphkin.errors import GraphkinError, Unsolvable
 from graphkin.files import path_of
 from graphkin.scene.force_names import force_names
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedGuide, PlacedLink
-from graphkin.structure import Cluster, Structure, analyse, mobility_of
+from graphkin.structure import Cluster, Structure, mobility_of
 from graphkin.table import Table
 from graphkin.words import Phrase, class_of, say, word
 
@@ -134,8 +134,13 @@ def explain(scene: SceneLike, language: str | None = None) -> Explained:
     sentences = [*_units(given), *_links(given), *_joints(given), *_mobility(given), *_drivers(given)]
     why = ""
     try:
-        structure = analyse(given)
+        from graphkin.solver import structure_of
+
+        structure = structure_of(given)
         sentences += _groups(structure)
+        pointed = [p for p in structure.scene.sketch if p not in given.sketch]
+        if pointed:
+            sentences.append(("explained groups", Phrase("explained pointed", (", ".join(pointed),))))
     except Unsolvable as error:
         why = error.why
     sentences += _loads(given)

@@ -29,7 +29,7 @@ from graphkin.structure import (
 from graphkin.structure.assembly import TOUCH, last_true
 from graphkin.structure.model import Coordinate
 
-__all__ = ["choose_forms", "own_values", "reading"]
+__all__ = ["choose_forms", "new_places", "own_values", "reading"]
 
 STARTS = 360
 ROUNDS = 80
@@ -97,7 +97,7 @@ def _choose_sign(structure: Structure, i: int, dyad: Dyad, drive: Drive, forms: 
     if dyad.is_two_lines:
         sign = float(np.sign(solved.sine[0])) or 1.0
         if abs(solved.sine[0]) >= states[0].singular[0]:
-            pick(scene, dyad.links, [_places(structure, i, dyad.links, states[0])], 0)
+            pick(scene, dyad.links, [new_places(structure, i, dyad.links, states[0])], 0)
         return np.array(sign)
     if not solved.discriminant[0] >= -TOUCH:
         raise Unsolvable(
@@ -110,7 +110,7 @@ def _choose_sign(structure: Structure, i: int, dyad: Dyad, drive: Drive, forms: 
         )
     if not abs(solved.sine[0]) >= states[0].singular[0]:
         return np.array(1.0)
-    candidates = [_places(structure, i, dyad.links, state) for state in states]
+    candidates = [new_places(structure, i, dyad.links, state) for state in states]
     return np.array((1.0, -1.0)[pick(scene, dyad.links, candidates, 0).index])
 
 
@@ -123,10 +123,10 @@ def _other_way(structure: Structure, i: int, drive: Drive, forms: Mapping[int, A
         if not isinstance(dyad, Dyad) or dyad.is_two_lines:
             continue
         given = {n: f[None] for n, f in forms.items()} | {i: np.ones(1)}
-        now = _places(structure, k, dyad.links, positions(structure, drive, given, i, rates=False))
+        now = new_places(structure, k, dyad.links, positions(structure, drive, given, i, rates=False))
         state = positions(structure, drive, given | {k: -given[k]}, i + 1, rates=False)
         met = [g.discriminant[0] >= -TOUCH for g in state.groups.values() if isinstance(g, DyadSolution)]
-        places = _places(structure, k, dyad.links, state)
+        places = new_places(structure, k, dyad.links, state)
         if all(met) and places:
             point = max(places, key=lambda p: abs(places[p] - now[p]))
             z = places[point] / structure.scene.units.metres
@@ -160,7 +160,7 @@ def _nearest(structure: Structure, i: int, drive: Drive, forms: Mapping[int, Arr
     return f"the nearest position where they do is at {first.key} = {driver_text(scene, first, value)}"
 
 
-def _places(structure: Structure, i: int, links: Sequence[str], state: State) -> dict[str, complex]:
+def new_places(structure: Structure, i: int, links: Sequence[str], state: State) -> dict[str, complex]:
     """Where the points lie that only this group has placed."""
     before = {structure.scene.frame.name}
     for element in structure.elements[:i]:
@@ -187,7 +187,7 @@ def _choose_place(structure: Structure, i: int, group: Cluster, drive: Drive, kn
             ),
         )
     states = [State({**known, **System(structure, group, known, drive).poses(place[None])}) for place in found]
-    candidates = [_places(structure, i, group.links, state) for state in states]
+    candidates = [new_places(structure, i, group.links, state) for state in states]
     return np.asarray(found[pick(structure.scene, group.links, candidates, None).index])
 
 

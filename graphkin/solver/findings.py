@@ -25,6 +25,7 @@ from graphkin.solver.larger_groups import ClusterSolved
 from graphkin.solver.path import Path
 from graphkin.solver.pose import Array
 from graphkin.solver.redundant import Fit, fit
+from graphkin.solver.slot_sense import with_sensible_slots
 from graphkin.structure import (
     Cluster,
     Dyad,
@@ -310,6 +311,7 @@ def structure_of(scene: Mechanism | Structure) -> Structure:
         raise Unsolvable("mobility", *stop.problems, found) from None
     if any(d.dead_point and not d.dead_point.exact for d in scene.drivers):
         structure = from_dead_point(structure)
+    structure = with_sensible_slots(structure)
     if any(isinstance(d, AngleDriver) and d.given_speed for d in scene.drivers):
         return at_given_speed(structure)
     return structure
