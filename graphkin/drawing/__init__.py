@@ -40,7 +40,7 @@ __all__ = [
     "velocity_figure",
 ]
 
-# Composing needs numpy and shapely, which whoever only writes a drawing does not wait for.
+# Composing needs numpy, which whoever only writes a drawing does not wait for.
 _COMPOSED = {
     "ChartPage": "chart",
     "acceleration_figure": "figure_pages",

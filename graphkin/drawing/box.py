@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from typing import NamedTuple
 
 __all__ = ["Box"]
 
 
-@dataclass(frozen=True)
-class Box:
+class Box(NamedTuple):  # a page has thousands
     """A rectangle on the page, in mm, y down: ``left <= right`` and ``top <= bottom``."""
 
     left: float

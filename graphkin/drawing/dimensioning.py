@@ -58,18 +58,6 @@ def drawn_lengths(sheet: Sheet, drawn: Iterable[Primitive], panel: Box | None) -
     return Piece({"mechanism": (Group(tuple(parts), id=LENGTHS),)}, tuple(labels))
 
 
-def _drawn(room: DimensionClearance, choices: Iterable[Parts], extensions: int = 2) -> Parts | None:
-    """The first of some dimensions for which there is room; extension lines run over others only where they must."""
-    tried: list[Parts] = []
-    for parts in choices:
-        tried.append(parts)
-        taken = room.take(parts, extensions)
-        if taken is not None:
-            return taken
-    over = (room.take(parts, extensions, over=True) for parts in tried)
-    return next((parts for parts in over if parts is not None), None)
-
-
 def _bars(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts | Label]:
     """Lengths of bars, and of further points from them: as many as it takes, round ones first."""
     places = {ref.point: z for ref, z in sheet.points.items() if not ref.link}
@@ -89,7 +77,7 @@ def _bars(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts | Label]:
             runs = rich(number(value, 5), SIZE)
             parts = None
             if abs(end - start) >= LEAST:
-                parts = _drawn(room, (dimension(start, end, offset, runs) for offset in OFFSETS))
+                parts = room.take(dimension(start, end, offset, runs) for offset in OFFSETS)
             if parts is not None:
                 yield parts
             else:
@@ -131,8 +119,7 @@ def _corner(
     runs = rich(f"{number(abs(math.degrees(turn)), 5)}°", SIZE)
     centre, first = places[at].conjugate(), phase(places[start] - places[at])
     choices = (angle_dimension(centre, radius, first, first + turn, runs) for radius in ANGLE_RADII)
-    taken = (room.take(choice, 0, ends_on_line=True) for choice in choices)
-    return next((parts for parts in taken if parts is not None), None)
+    return room.take(choices, 0, ends_on_line=True)
 
 
 def _round(link: PlacedLink, one: str, other: str, metres: float) -> bool:
@@ -222,7 +209,7 @@ def _beside(
                 value = (_given(high, given) - _given(low, given)) * per_mm
                 parts += dimension(p, q, 0.0, rich(number(value, 5), SIZE))
             choices.append(tuple(parts))
-    return _drawn(room, choices, len(levels))
+    return room.take(choices, len(levels))
 
 
 def _given(level: float, given: Sequence[float]) -> float:
@@ -248,14 +235,15 @@ def _angles(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts | Label]:
         start = phase(base.axis) if base is not None else 0.0
         runs = rich(f"{number(math.degrees(turn), 5)}°", SIZE)
         at, way = pivot.conjugate(), complex(math.cos(start), -math.sin(start))
+        # rather an arc over the links than none; of a turn too small no arc is seen
         found = None
-        for crossing in (False, True):  # rather an arc over the links than none
-            if abs(turn) < LEAST_ANGLE:
-                break  # no arc shows it
-            for radius, share in product(ANGLE_RADII if not crossing else CLOSE_RADII, SHARES):
-                line = Line(at + 2.2 * way, at + (radius + 3.0) * way, strokes.DIMENSION)
-                choice = (line, *angle_dimension(at, radius, start, start + turn, runs, share))
-                found = found or room.take(choice, 1, over=True, ends_on_line=True, crossing=crossing)
+        for crossing, radii in ((False, ANGLE_RADII), (True, CLOSE_RADII)) if abs(turn) >= LEAST_ANGLE else ():
+            choices = (
+                (Line(at + 2.2 * way, at + (radius + 3.0) * way, strokes.DIMENSION),
+                 *angle_dimension(at, radius, start, start + turn, runs, share))
+                for radius, share in product(radii, SHARES)
+            )  # fmt: skip
+            found = found or room.take(choices, 1, over=True, ends_on_line=True, crossing=crossing)
         if found is not None:
             yield found
             continue

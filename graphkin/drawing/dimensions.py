@@ -8,10 +8,10 @@ points that they come from.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from itertools import pairwise
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -113,101 +113,131 @@ AROUND_POINT = 11.0  # mm around a point in which lines belong to its own symbol
 TRIM, LEAST_EXTENSION = 0.8, 2.2  # mm between a symbol and an extension line; a shorter one is none
 
 
+class _Fit(NamedTuple):
+    """A dimension clear of what is drawn: its parts, its lines, the boxes of its numbers and of its arrowheads, and
+    whether its extension lines run over other lines."""
+
+    parts: Parts
+    lines: Points
+    numbers: tuple[Points, Points]
+    heads: tuple[Points, Points]
+    over: bool
+
+
 class DimensionClearance:
     """What is drawn already, as arrays: segments, and boxes by their middle and half size."""
 
     def __init__(self, obstacles: Obstacles, panel: Box | None) -> None:
         self.panel = panel
         self.segments = np.array(obstacles.solid, dtype=complex).reshape(-1, 2)
-        self.middles, self.halves = _arrays(obstacles.areas)
+        self.areas = _arrays(obstacles.areas)
         self.numbers = _arrays(())  # of dimensions, over which nothing runs
         self.heads = _arrays(())  # arrowheads of dimensions, over which extension lines of others may run
         corners = [z for box in obstacles.areas for z in box.corners] + [z for s in obstacles.solid for z in s]
         self.content = Box.around(corners) if corners else Box(0, 0, 0, 0)
 
     def take(
-        self, parts: Parts, extensions: int = 2, over: bool = False, ends_on_line: bool = False, crossing: bool = False
-    ) -> Parts | None:
-        """The dimension, added to what is drawn, if it is clear of everything; None if not.
+        self, choices: Iterable[Parts], extensions: int = 2, *, over: bool = False, ends_on_line: bool = False,
+        crossing: bool = False,
+    ) -> Parts | None:  # fmt: skip
+        """The first of some dimensions that is clear of everything, added to what is drawn; None where none is.
 
         Its first lines are extension lines: they begin beyond what stands around the point they come from, and run
-        over other lines where that is allowed.  The arrowhead of an angle ends on a line that is drawn, and its arc
-        may run over what is drawn where it is given leave to (``crossing``), its number not.
+        over other lines only where they must, or where that is allowed at once (``over``).  The arrowhead of an angle
+        ends on a line that is drawn, and its arc may run over what is drawn where it is given leave to
+        (``crossing``), its number not.
         """
+        second = None
+        for parts in choices:
+            fit = self._fit(parts, extensions, ends_on_line, crossing)
+            if fit is not None and (over or not fit.over):
+                return self._added(fit)
+            second = second or fit
+        return self._added(second) if second is not None else None
+
+    def _added(self, fit: _Fit) -> Parts:
+        self.segments = np.concatenate((self.segments, fit.lines))
+        self.areas, self.numbers = _joined(self.areas, fit.numbers), _joined(self.numbers, fit.numbers)
+        self.heads = _joined(self.heads, fit.heads)
+        return fit.parts
+
+    def _fit(self, parts: Parts, extensions: int, ends_on_line: bool, crossing: bool) -> _Fit | None:
+        """The dimension with its extension lines trimmed, if it is clear of everything they may not run over."""
         numbers = [text_box(part) for part in parts if isinstance(part, Text)]
         heads = [Box.around(part.points) for part in parts if isinstance(part, Polygon)]
-        boxes = numbers if ends_on_line else [*numbers, *heads]
         if self.panel is not None and not all(self.panel.holds(box) for box in (*numbers, *heads)):
             return None
-        middles, halves = _arrays(boxes)
-        if self._covered(middles, halves):
+        words, tips = _arrays(numbers), _arrays(heads)
+        if self._covered(*(words if ends_on_line else _joined(words, tips))):
             return None
         lines = [part for part in parts if isinstance(part, Line)]
         ends = [(line.start, line.end) for line in lines[extensions:]]
         for arc in (part for part in parts if isinstance(part, Arc)):
             course = [arc.at(arc.start + (arc.end - arc.start) * (0.06 + 0.11 * i)) for i in range(9)]
             ends += pairwise(course)
-        own = np.array(ends, dtype=complex).reshape(-1, 2)
-        if not crossing and (self._over_areas(own) or len(_crossings(own, self.segments)[0])):
+        own = _segments(ends)
+        if not crossing and (_over(own, self.areas, 0.4) or len(_crossings(own, self.segments)[0])):
             return None
-        if not crossing and meets(own[:, None], self.heads[0][None], self.heads[1][None] + 0.4 * (1 + 1j)).any():
+        if not crossing and _over(own, self.heads, 0.4):
             return None
-        trimmed = [self._trimmed(line) for line in lines[:extensions]]
-        beyond = np.array([(line.start, line.end) for line in trimmed if line is not None], dtype=complex)
+        trimmed = self._trimmed(lines[:extensions])
         if crossing:
-            trimmed = [own_line or line for own_line, line in zip(trimmed, lines, strict=False)]
-            beyond = np.array([(line.start, line.end) for line in trimmed if line is not None], dtype=complex)
-        elif len(beyond) < extensions or (extensions and self._over_areas(beyond)):
+            trimmed = [kept or line for kept, line in zip(trimmed, lines, strict=False)]
+        shown = [line for line in trimmed if line is not None]
+        beyond = _segments([(line.start, line.end) for line in shown])
+        if not crossing and (len(shown) < extensions or _over(beyond, self.areas, 0.4)):
             return None
-        if extensions and not over and len(_crossings(beyond, self.segments)[0]):
-            return None
-        words, sizes = _arrays(numbers)
-        lines_of_it = np.concatenate((own, beyond.reshape(-1, 2)))
-        if meets(lines_of_it[:, None], words[None], sizes[None]).any():
+        lines_of_it = np.concatenate((own, beyond))
+        if _over(lines_of_it, words, 0.0):
             return None  # a number past the end of a short dimension stands on the next one
-        spots, room = self.numbers[0][None], self.numbers[1][None] + 0.3 * (1 + 1j)
-        if crossing and meets(lines_of_it[:, None], spots, room).any():
+        if crossing and _over(lines_of_it, self.numbers, 0.3):
             return None
-        self.numbers = np.concatenate((self.numbers[0], words)), np.concatenate((self.numbers[1], sizes))
-        self.segments = np.concatenate((self.segments, lines_of_it))
-        self.middles, self.halves = np.concatenate((self.middles, words)), np.concatenate((self.halves, sizes))
-        more = _arrays(heads)
-        self.heads = np.concatenate((self.heads[0], more[0])), np.concatenate((self.heads[1], more[1]))
-        kept = tuple(line for line in trimmed if line is not None)
-        return *kept, *(part for part in parts if not any(part is line for line in lines[:extensions]))
+        kept_parts = *shown, *(part for part in parts if not any(part is line for line in lines[:extensions]))
+        return _Fit(kept_parts, lines_of_it, words, tips, len(_crossings(beyond, self.segments)[0]) > 0)
 
     def _covered(self, middles: Points, halves: Points) -> bool:
         """Whether boxes meet anything."""
         grown = halves[:, None] + 0.5 * (1 + 1j)
-        taken, sizes = np.concatenate((self.middles, self.heads[0])), np.concatenate((self.halves, self.heads[1]))
+        taken, sizes = _joined(self.areas, self.heads)
         off, reach = middles[:, None] - taken, grown + sizes
         if ((np.abs(off.real) < reach.real) & (np.abs(off.imag) < reach.imag)).any():
             return True
         return bool(meets(self.segments[None], middles[:, None], grown).any())
 
-    def _over_areas(self, segments: Points) -> bool:
-        return bool(meets(segments[:, None], self.middles[None], self.halves[None] + 0.4 * (1 + 1j)).any())
+    def _trimmed(self, lines: Sequence[Line]) -> list[Line | None]:
+        """Extension lines, each from where nothing of its own point is in its way; None where too little is left."""
+        lengths = [abs(line.end - line.start) for line in lines]
+        ways = [(line.end - line.start) / length for line, length in zip(lines, lengths, strict=True)]
+        near = _segments([(line.start, line.start + AROUND_POINT * way) for line, way in zip(lines, ways, strict=True)])
+        starts = [-TRIM] * len(lines)
+        for i, share in zip(*_crossings(near, self.segments), strict=True):
+            starts[i] = max(starts[i], float(share))
+        # the symbols on the point end where the line leaves their boxes
+        middles, reach = self.areas[0], self.areas[1] + 0.4 * (1 + 1j)
+        for i, j in np.argwhere(meets(near[:, None], middles, reach)):
+            box = Box.around((complex(middles[j] - reach[j]), complex(middles[j] + reach[j])))
+            chord = box.clip(complex(near[i, 0]), complex(near[i, 1]))
+            if chord is not None:
+                starts[i] = max(starts[i], abs(chord[1] - lines[i].start) / AROUND_POINT)
+        found: list[Line | None] = []
+        for line, length, way, share in zip(lines, lengths, ways, starts, strict=True):
+            start = AROUND_POINT * share + TRIM if share > 0 else 0.0
+            kept = start < length - LEAST_EXTENSION
+            found.append(replace(line, start=line.start + start * way) if kept else None)
+        return found
 
-    def _trimmed(self, line: Line) -> Line | None:
-        """An extension line from where nothing of its own point is in its way; None where too little is left."""
-        length = abs(line.end - line.start)
-        along = (line.end - line.start) / length
-        near = np.array([(line.start, line.start + AROUND_POINT * along)])
-        start = max((*_crossings(near, self.segments)[1], *self._left(near)), default=-TRIM)
-        start = AROUND_POINT * start + TRIM if start > 0 else 0.0
-        return replace(line, start=line.start + start * along) if start < length - LEAST_EXTENSION else None
 
-    def _left(self, near: Points) -> list[float]:
-        """Where the way ``near`` from a point leaves the symbols on it, as shares of its length."""
-        start, end = complex(near[0, 0]), complex(near[0, 1])
-        reach = self.halves + 0.4 * (1 + 1j)
-        met = np.flatnonzero(meets(near, self.middles, reach))
-        boxes = (
-            Box.around((complex(z - half), complex(z + half)))
-            for z, half in zip(self.middles[met], reach[met], strict=True)
-        )
-        chords = (box.clip(start, end) for box in boxes)
-        return [abs(chord[1] - start) / AROUND_POINT for chord in chords if chord is not None]
+def _over(segments: Points, boxes: tuple[Points, Points], space: float) -> bool:
+    """Whether any of some segments comes nearer to a box than a space (mm)."""
+    return bool(meets(segments[:, None], boxes[0], boxes[1] + space * (1 + 1j)).any())
+
+
+def _segments(ends: Sequence[tuple[complex, complex]]) -> Points:
+    return np.array(ends, dtype=complex).reshape(-1, 2)
+
+
+def _joined(one: tuple[Points, Points], other: tuple[Points, Points]) -> tuple[Points, Points]:
+    return np.concatenate((one[0], other[0])), np.concatenate((one[1], other[1]))
 
 
 def _arrays(boxes: Sequence[Box]) -> tuple[Points, Points]:

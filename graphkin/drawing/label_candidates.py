@@ -9,15 +9,17 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import TypeAlias, TypeVar
+from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
 from graphkin.drawing.obstacles import Flags, Floats, Indices, Points
 from graphkin.drawing.primitives import Segment, page_direction
 
-__all__ = ["LEADER_FROM", "LEADER_LEAST", "RINGS", "Candidates", "LabelRequest", "Mark", "candidates", "ends"]
+__all__ = [
+    "LEADER_FROM", "LEADER_LEAST", "RINGS", "Candidates", "LabelRequest", "LabelRequests", "Mark", "candidates",
+    "ends",
+]  # fmt: skip
 
 Mark: TypeAlias = complex | Segment
 """What a label names: a point, or the line between two."""
@@ -38,7 +40,6 @@ _SIDES = np.array((1.0, -1.0))
 _LIKED = math.radians(40)
 
 
-Value = TypeVar("Value", np.float64, np.complex128)
 Columns: TypeAlias = tuple[Points, Floats, Points, Floats, Indices]
 
 
@@ -57,10 +58,23 @@ class LabelRequest:
         return self.start == self.end
 
 
+class LabelRequests:
+    """What some labels ask for, as arrays: ends of marks, half sizes of boxes, whether the mark is a point, for points
+    the cost of each direction, for segments the liked one."""
+
+    def __init__(self, requests: Sequence[LabelRequest]) -> None:
+        self.start = np.array([one.start for one in requests])
+        self.end = np.array([one.end for one in requests])
+        self.half = np.array([one.half for one in requests])
+        self.is_point = self.start == self.end
+        self.dislikes = np.array([_dislike(one.toward if one.is_point else ()) for one in requests])
+        self.liked = np.array([page_direction(one.toward[0] if one.toward else _LIKED) for one in requests])
+
+
 @dataclass(frozen=True)
 class Candidates:
     """Places of several labels, as arrays of one length: centres of boxes, costs (mm), feet on the marks, distances
-    from them (mm), and the index of the request."""
+    from them (mm), and which of the labels asked for it."""
 
     centres: Points
     costs: Floats
@@ -79,63 +93,71 @@ def ends(mark: Mark) -> Segment:
     return complex(round(start.real, 3), round(start.imag, 3)), complex(round(end.real, 3), round(end.imag, 3))
 
 
-def candidates(requests: Sequence[LabelRequest], gaps: Sequence[float]) -> Candidates:
-    """All places of some labels at some distances (mm) from their marks."""
-    rings = np.array(gaps)
-    points = [i for i, request in enumerate(requests) if request.is_point]
-    segments = [i for i, request in enumerate(requests) if not request.is_point]
+def candidates(requests: LabelRequests, who: Indices, gaps: tuple[float, ...]) -> Candidates:
+    """All places of some labels at some distances (mm) from their marks; owners are places in ``who``."""
+    is_point = requests.is_point[who]
+    points, segments = np.flatnonzero(is_point), np.flatnonzero(~is_point)
     parts = []
-    if points:
-        likes = np.array([_dislike(requests[i].toward) for i in points])
-        parts.append(_off_points(requests, points, [requests[i].start for i in points], likes, rings))
-    if segments:
-        parts.append(_off_segments(requests, segments, rings))
-        far = rings[rings >= LEADER_LEAST]
-        if far.size:
+    if points.size:
+        at = requests.start[who[points]]
+        parts.append(_off_points(requests, who, points, at, gaps))
+    if segments.size:
+        parts.append(_off_segments(requests, who, segments, gaps))
+        far = tuple(gap for gap in gaps if gap >= LEADER_LEAST)
+        if far:
             # Far from a vector there is more room all round its middle than square to it.
-            middles = [(requests[i].start + requests[i].end) / 2 for i in segments]
-            parts.append(_off_points(requests, segments, middles, _dislike(())[None], far))
+            middles = (requests.start[who[segments]] + requests.end[who[segments]]) / 2
+            parts.append(_off_points(requests, who, segments, middles, far))
     return Candidates(*map(np.concatenate, zip(*parts, strict=True)))
 
 
 def _off_points(
-    requests: Sequence[LabelRequest], who: list[int], points: list[complex], dislikes: Floats, gaps: Floats
+    requests: LabelRequests, who: Indices, some: Indices, points: Points, gaps: tuple[float, ...]
 ) -> Columns:
     """Columns of places all round some points, at an angle each."""
-    half = np.array([requests[i].half for i in who])[:, None, None]
-    at = np.array(points)[:, None, None]
-    centres = at + gaps[:, None] * _WAYS + _HOLDS[0] * half.real + 1j * (_HOLDS[1] * half.imag)
-    sparse = _SOME[0] ^ (np.arange(len(gaps)) % 2 == 1)[:, None]
-    return _columns(centres, gaps[:, None] + dislikes[:, None, :], at, gaps[:, None], who, sparse)
+    rings, angles = _around(gaps)
+    half, at = requests.half[who[some]][:, None], points[:, None]
+    centres = at + rings * _WAYS[angles] + _HOLDS[0][angles] * half.real + 1j * (_HOLDS[1][angles] * half.imag)
+    costs = rings + requests.dislikes[who[some]][:, angles]
+    return _columns(centres, costs, np.broadcast_to(at, centres.shape), rings, some)
 
 
-def _off_segments(requests: Sequence[LabelRequest], who: list[int], gaps: Floats) -> Columns:
+def _off_segments(requests: LabelRequests, who: Indices, some: Indices, gaps: tuple[float, ...]) -> Columns:
     """Columns of places on both sides of some segments, square to them."""
-    start, end, half = (np.array([getattr(requests[i], key) for i in who]) for key in ("start", "end", "half"))
+    rings, side, share = _along(gaps)
+    start, end, half = (column[who[some]] for column in (requests.start, requests.end, requests.half))
     way = end - start
     normal = 1j * way / np.abs(way)
-    liked = np.array([page_direction(requests[i].toward[0] if requests[i].toward else _LIKED) for i in who])
     sides = normal[:, None] * _SIDES
-    disliked = 0.4 * (1.0 - (sides * liked.conj()[:, None]).real)
+    disliked = 0.4 * (1.0 - (sides * requests.liked[who[some]].conj()[:, None]).real)
     reach = np.abs(normal.real) * half.real + np.abs(normal.imag) * half.imag
-    feet = (start[:, None] + _SHARES * way[:, None])[:, None, None, :]
-    off = gaps + reach[:, None]
-    centres = feet + (off[:, :, None] * sides[:, None, :])[..., None]
-    costs = gaps[:, None, None] + disliked[:, None, :, None] + 2.0 * np.abs(_SHARES - 0.5)
-    return _columns(centres, costs, feet, gaps[:, None, None], who, _SOME[1])
+    feet = (start[:, None] + _SHARES * way[:, None])[:, share]
+    centres = feet + (rings + reach[:, None]) * sides[:, side]
+    costs = rings + disliked[:, side] + 2.0 * np.abs(_SHARES - 0.5)[share]
+    return _columns(centres, costs, feet, rings, some)
 
 
-def _columns(
-    centres: Points, costs: Floats, feet: Points, gaps: Floats, who: list[int], sparse: Flags
-) -> Columns:
-    """Arrays of one length; far from the marks only the ``sparse`` places."""
-    shape = centres.shape
-    kept = np.broadcast_to((gaps < LEADER_FROM) | sparse, shape[1:]).ravel()
+def _columns(centres: Points, costs: Floats, feet: Points, rings: Floats, some: Indices) -> Columns:
+    """Arrays of one length."""
+    return centres.ravel(), costs.ravel(), feet.ravel(), np.tile(rings, len(some)), np.repeat(some, len(rings))
 
-    def column(values: NDArray[Value]) -> NDArray[Value]:
-        return np.broadcast_to(values, shape).reshape(len(who), -1)[:, kept].ravel()
 
-    return column(centres), column(costs), column(feet), column(gaps), np.repeat(np.array(who), kept.sum())
+@lru_cache(maxsize=64)
+def _around(gaps: tuple[float, ...]) -> tuple[Floats, Indices]:
+    """Ring and angle of each place around a point; far from it only every second, in turn."""
+    rings = np.array(gaps)
+    sparse = _SOME[0] ^ (np.arange(len(gaps)) % 2 == 1)[:, None]
+    ring, angle = np.nonzero((rings < LEADER_FROM)[:, None] | sparse)
+    return rings[ring], angle
+
+
+@lru_cache(maxsize=64)
+def _along(gaps: tuple[float, ...]) -> tuple[Floats, Indices, Indices]:
+    """Ring, side and share of each place beside a segment."""
+    rings = np.array(gaps)
+    near = (rings < LEADER_FROM)[:, None, None] | _SOME[1]
+    ring, side, share = np.nonzero(np.broadcast_to(near, (len(gaps), 2, len(_SHARES))))
+    return rings[ring], side, share
 
 
 @lru_cache(maxsize=512)

@@ -1,17 +1,16 @@
 """Which places around marks the drawing leaves free for labels, and which of them other labels leave free.
 
-All places of all labels are judged together as arrays: shapely's tree finds what is near, the separating axes of box
-and segment tell what touches.
+All places of all labels are judged together as arrays: upright boxes tell what is near, the separating axes of box and
+segment what touches.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
-import shapely
 
 from graphkin.drawing.box import Box
 from graphkin.drawing.label_candidates import (
@@ -20,6 +19,7 @@ from graphkin.drawing.label_candidates import (
     RINGS,
     Candidates,
     LabelRequest,
+    LabelRequests,
     Mark,
     candidates,
     ends,
@@ -31,13 +31,15 @@ from graphkin.drawing.obstacles import (
     Obstacles,
     Points,
     crosses,
-    meets,
+    near,
     separated,
+    sides,
+    sides_around,
 )
 from graphkin.drawing.primitives import Segment
 from graphkin.plane import cross
 
-__all__ = ["LabelPanel", "LabelPosition", "LabelPositions", "least_cost"]
+__all__ = ["HeldPositions", "LabelPanel", "LabelPosition", "LabelPositions", "least_cost"]
 
 FEW = 6
 """Places that a label tries one by one, before all of them are judged together."""
@@ -134,29 +136,49 @@ class LabelPositions:
         order = np.argsort(columns[1], kind="stable")
         return LabelPositions(self.half, *(column[order] for column in columns))
 
-    def met(self, others: Sequence[LabelPosition], space: float) -> Flags:
-        """Which places (rows) meet which positions of other labels (columns), as `LabelPosition.meets` says."""
-        corners = np.array([(s.left, s.top, s.right, s.bottom) for s in others]).reshape(-1, 4)
-        low, high = corners[:, 0] + 1j * corners[:, 1], corners[:, 2] + 1j * corners[:, 3]
-        middle, size = (low + high) / 2, (high - low) / 2
-        off = self.centres[:, None] - middle
-        room = size + self.half + complex(space, space)
-        over = (np.abs(off.real) < room.real) & (np.abs(off.imag) < room.imag)
-        leader_space = complex(LEADER_SPACE, LEADER_SPACE)
-        own = np.flatnonzero(self.led)
-        lines = np.stack((self.feet[own], self.tips[own]), axis=1)
-        theirs = np.array([j for j, s in enumerate(others) if s.leader is not None], dtype=int)
-        if own.size:
-            over[own] |= meets(lines[:, None], middle[None], size[None] + leader_space)
+    def met(self, held: HeldPositions, space: float) -> Flags:
+        """Which places (rows) meet the positions of which labels (columns), as `LabelPosition.meets` says."""
+        off = self.centres[:, None] - held.middles
+        room = held.halves + self.half + complex(space, space)
+        over: Flags = (np.abs(off.real) < room.real) & (np.abs(off.imag) < room.imag)
+        reach = self.half + complex(LEADER_SPACE, LEADER_SPACE)
+        theirs = np.flatnonzero(held.led)
         if theirs.size:
-            leaders = np.array([others[j].leader for j in theirs], dtype=complex)
-            half = np.full((1, 1), self.half) + leader_space
-            over[:, theirs] |= meets(leaders[None], self.centres[:, None], half)
-            if own.size:
-                over[np.ix_(own, theirs)] |= crosses(
-                    *lines[:, None].transpose(2, 0, 1), *leaders[None].transpose(2, 0, 1)
-                )
+            start, end = held.feet[theirs], held.tips[theirs]
+            i, j = near(sides(self.centres - reach, self.centres + reach), sides_around(start, end))
+            hit = ~separated(self.centres[i], reach, start[j], end[j])
+            over[i[hit], theirs[j[hit]]] = True
+        own = np.flatnonzero(self.led)
+        if own.size:
+            start, end = self.feet[own], self.tips[own]
+            around, spaces = sides_around(start, end), held.halves + complex(LEADER_SPACE, LEADER_SPACE)
+            i, j = near(around, sides(held.middles - spaces, held.middles + spaces))
+            hit = ~separated(held.middles[j], spaces[j], start[i], end[i])
+            over[own[i[hit]], j[hit]] = True
+            i, j = near(around, sides_around(held.feet[theirs], held.tips[theirs]))
+            j = theirs[j]
+            hit = crosses(start[i], end[i], held.feet[j], held.tips[j])
+            over[own[i[hit]], j[hit]] = True
         return over
+
+
+class HeldPositions:
+    """The positions that labels hold, as arrays by label: middles and half sizes of boxes (nan of a label that holds
+    none), feet and tips of leaders, whether there is one."""
+
+    def __init__(self, count: int) -> None:
+        self.middles, self.halves, self.feet, self.tips = np.full((4, count), complex(np.nan, np.nan))
+        self.led = np.zeros(count, dtype=bool)
+
+    def take(self, label: int, position: LabelPosition) -> None:
+        low, high = complex(position.left, position.top), complex(position.right, position.bottom)
+        self.middles[label], self.halves[label] = (low + high) / 2, (high - low) / 2
+        self.led[label] = position.leader is not None
+        if position.leader is not None:
+            self.feet[label], self.tips[label] = position.leader
+
+    def leave(self, label: int) -> None:
+        self.middles[label], self.led[label] = complex(np.nan, np.nan), False
 
 
 CLEARANCE = 0.35  # between a label and any line or area, mm
@@ -187,76 +209,85 @@ def _crosses(one: Segment, other: Segment) -> bool:
 class LabelPanel:
     """A panel with what is drawn on it and all marks, which is asked for positions of labels."""
 
-    def __init__(self, panel: Box, obstacles: Obstacles, marks: Sequence[Mark]) -> None:
+    def __init__(
+        self, panel: Box, obstacles: Obstacles, marks: Sequence[Mark], requests: Sequence[LabelRequest]
+    ) -> None:
         self.panel = panel
         writing = set(obstacles.writing)
         areas = [area.grown(LEADER_SPACE) if area in writing else area for area in obstacles.areas]
         diagonals = tuple((area.corners[0], area.corners[2]) for area in areas)
-        self.things = np.array(diagonals + obstacles.solid + obstacles.dashed, dtype=complex).reshape(-1, 2)
+        things = np.array(diagonals + obstacles.solid + obstacles.dashed, dtype=complex).reshape(-1, 2)
+        self.start, self.end = things.T.copy()
+        self.reach = sides_around(self.start, self.end)
         self.areas = len(diagonals)
         self.solid = len(diagonals) + len(obstacles.solid)
         self.writing = np.array([*(area in writing for area in obstacles.areas), False])
-        self.tree = shapely.STRtree(_lines(self.things[:, 0], self.things[:, 1]))
         # Labels at the same place share one mark: coincident points are told apart by their letters.
-        distinct = list(dict.fromkeys(ends(mark) for mark in marks))
-        self.marks = np.array(distinct, dtype=complex).reshape(-1, 2)
-        self.index = {pair: i for i, pair in enumerate(distinct)}
-        self.is_point = self.marks[:, 0] == self.marks[:, 1]
+        distinct = list(dict.fromkeys((*((one.start, one.end) for one in requests), *map(ends, marks))))
+        index = {pair: i for i, pair in enumerate(distinct)}
+        self.mark_start, self.mark_end = np.array(distinct, dtype=complex).reshape(-1, 2).T.copy()
+        self.mark_reach = sides_around(self.mark_start, self.mark_end)
+        self.mark_is_point = self.mark_start == self.mark_end
+        self.requests = LabelRequests(requests)
+        self.own_mark = np.array([index[one.start, one.end] for one in requests], dtype=int)
 
-    def free(self, requests: Sequence[LabelRequest], first: int, last: int) -> list[LabelPositions]:
-        """Places without a fault in the rings from ``first`` up to ``last`` for each request."""
-        places = candidates(requests, RINGS[first:last])
-        half = np.array([request.half for request in requests])
-        inside = ~self._outside(places.centres, half[places.owners])
-        places = places.at(inside)
+    def free(self, labels: Sequence[int], first: int, last: int) -> list[LabelPositions]:
+        """Places without a fault in the rings from ``first`` up to ``last`` for each of some labels."""
+        who = np.array(labels)
+        places = candidates(self.requests, who, RINGS[first:last])
+        half = self.requests.half[who]
+        places = places.at(~self._outside(places.centres, half[places.owners]))
         which, what = self._touched(places.centres, half[places.owners] + complex(CLEARANCE, CLEARANCE))
         np.add.at(places.costs, which[what >= self.solid], DASHED_COST)
         kept = np.ones(len(places.owners), dtype=bool)
         kept[which[what < self.solid]] = False
         places = places.at(kept)
-        led = self._led(requests, places, half)
+        led = self._led(who, places)
         kept = ~led | (places.gaps >= LEADER_LEAST)
-        return self._positions(requests, places.at(kept), half, led[kept], None)
+        return self._positions(who, places.at(kept), led[kept], None)
 
-    def everywhere(self, request: LabelRequest) -> LabelPositions:
-        """All places of all rings for one request, with the number of their faults."""
-        places = candidates([request], RINGS)
-        half = np.array([request.half])
-        faults = OUTSIDE * self._outside(places.centres, half[places.owners]).astype(int)
-        which, what = self._touched(places.centres, half[places.owners] + complex(CLEARANCE, CLEARANCE))
+    def everywhere(self, label: int) -> LabelPositions:
+        """All places of all rings for one label, with the number of their faults."""
+        who = np.array([label])
+        places = candidates(self.requests, who, RINGS)
+        half = self.requests.half[who][places.owners]
+        faults = OUTSIDE * self._outside(places.centres, half).astype(int)
+        which, what = self._touched(places.centres, half + complex(CLEARANCE, CLEARANCE))
         np.add.at(faults, which[what < self.solid], 1)
-        return self._positions([request], places, half, self._led([request], places, half), faults)[0]
+        return self._positions(who, places, self._led(who, places), faults)[0]
 
-    def _positions(
-        self, requests: Sequence[LabelRequest], places: Candidates, half: Points, led: Flags, faults: Indices | None
-    ) -> list[LabelPositions]:
-        """The places of each request, cheapest first."""
-        costs, owners = places.costs, places.owners
-        own = half[owners]
-        off = places.centres - places.feet
-        way = _held(off.real, own.real) + 1j * _held(off.imag, own.imag)
-        length = np.maximum(np.abs(way), 1e-9)
-        tips = places.feet + way * np.maximum(0.0, 1.0 - LEADER_GAP / length)
+    def _positions(self, who: Indices, places: Candidates, led: Flags, faults: Indices | None) -> list[LabelPositions]:
+        """The places of each label, cheapest first."""
+        tips = places.feet.copy()
         if led.any():
-            reach = np.array([POINT_REACH if request.is_point else LINE_REACH for request in requests])[owners[led]]
-            start = places.feet[led] + way[led] / length[led] * reach
-            costs[led] += LEADER_COST + CROSSED_COST * self._crossed(places.feet[led], start, tips[led])
-            ends_of = [(one.start, one.end) if not one.is_point else (np.inf, np.inf) for one in requests]
-            near = np.abs(np.array(ends_of)[owners[led]] - places.feet[led][:, None]).min(axis=1) < NEAR_END
-            costs[led] += END_COST * near
-        wrong = np.zeros(len(costs), dtype=np.intp) if faults is None else faults
+            tips[led] = self._with_leaders(who, places, led)
+        wrong = np.zeros(len(led), dtype=np.intp) if faults is None else faults
         if faults is None:
-            kept = costs < FORBIDDEN
+            kept = places.costs < FORBIDDEN
             places, tips, led, wrong = places.at(kept), tips[kept], led[kept], wrong[kept]
         order = np.lexsort((places.costs, places.owners))
         places, tips, led, wrong = places.at(order), tips[order], led[order], wrong[order]
-        bounds = np.searchsorted(places.owners, np.arange(len(requests) + 1))
+        bounds = np.searchsorted(places.owners, np.arange(len(who) + 1))
         return [
             LabelPositions(
-                one.half, places.centres[a:z], places.costs[a:z], places.feet[a:z], tips[a:z], led[a:z], wrong[a:z]
+                complex(half), places.centres[a:z], places.costs[a:z], places.feet[a:z], tips[a:z], led[a:z], wrong[a:z]
             )
-            for one, a, z in zip(requests, bounds[:-1], bounds[1:], strict=True)
+            for half, a, z in zip(self.requests.half[who], bounds[:-1], bounds[1:], strict=True)
         ]
+
+    def _with_leaders(self, who: Indices, places: Candidates, led: Flags) -> Points:
+        """The tips of the leaders of some places, which then cost more."""
+        centres, feet, owners = places.centres[led], places.feet[led], who[places.owners[led]]
+        off, half = centres - feet, self.requests.half[owners]
+        way = _held(off.real, half.real) + 1j * _held(off.imag, half.imag)
+        length = np.maximum(np.abs(way), 1e-9)
+        tips: Points = feet + way * np.maximum(0.0, 1.0 - LEADER_GAP / length)
+        is_point = self.requests.is_point[owners]
+        start = feet + way / length * np.where(is_point, POINT_REACH, LINE_REACH)
+        places.costs[led] += LEADER_COST + CROSSED_COST * self._crossed(feet, start, tips)
+        nearest = np.minimum(np.abs(self.requests.start[owners] - feet), np.abs(self.requests.end[owners] - feet))
+        places.costs[led] += END_COST * (~is_point & (nearest < NEAR_END))
+        return tips
 
     def _outside(self, centres: Points, half: Points) -> Flags:
         low, high, panel = centres - half, centres + half, self.panel
@@ -264,33 +295,33 @@ class LabelPanel:
 
     def _touched(self, centres: Points, half: Points) -> tuple[Indices, Indices]:
         """Pairs of box and obstacle that meet; obstacles count areas, solid, dashed in turn."""
-        which, what = self.tree.query(_lines(centres - half, centres + half))
-        meets = (what < self.areas) | ~separated(centres[which], half[which], self.things[what])
-        return which[meets], what[meets]
+        which, what = near(sides(centres - half, centres + half), self.reach)
+        lines = np.flatnonzero(what >= self.areas)  # for what lies around an area its box will do
+        i, j = which[lines], what[lines]
+        meeting = np.ones(len(what), dtype=bool)
+        meeting[lines] = ~separated(centres[i], half[i], self.start[j], self.end[j])
+        return which[meeting], what[meeting]
 
-    def _led(self, requests: Sequence[LabelRequest], places: Candidates, half: Points) -> Flags:
+    def _led(self, who: Indices, places: Candidates) -> Flags:
         """Which places need a leader: far ones, and those about as near to another mark of the same kind as to their
         own."""
         centres, gaps = places.centres, places.gaps
-        own = np.array([self.index[request.start, request.end] for request in requests], dtype=int)[places.owners]
-        reach = half[places.owners] + (gaps + NEARER) * (1 + 1j)
-        low, high = _reach(self.marks)
-        near = (low.real < (centres + reach).real[:, None]) & (high.real > (centres - reach).real[:, None])
-        near &= (low.imag < (centres + reach).imag[:, None]) & (high.imag > (centres - reach).imag[:, None])
-        near &= (self.is_point[own][:, None] == self.is_point) & (own[:, None] != np.arange(len(self.marks)))
-        which, what = np.nonzero(near)
-        touched = ~separated(centres[which], reach[which], self.marks[what])
-        led = gaps > LEADER_FROM
-        led[which[touched]] = True
+        own = self.own_mark[who[places.owners]]
+        reach = self.requests.half[who[places.owners]] + (gaps + NEARER) * (1 + 1j)
+        which, what = near(sides(centres - reach, centres + reach), self.mark_reach)
+        others = (self.mark_is_point[own[which]] == self.mark_is_point[what]) & (own[which] != what)
+        which, what = which[others], what[others]
+        led: Flags = gaps > LEADER_FROM
+        led[which[~separated(centres[which], reach[which], self.mark_start[what], self.mark_end[what])]] = True
         return led
 
     def _crossed(self, feet: Points, start: Points, to: Points) -> Floats | Indices:
         """How many obstacles each leader runs over; an area counts for several: it is a joint or an arrowhead; writing
         is not to be run over."""
         count = len(start)
-        which, what = self.tree.query(_lines(start, to))
+        which, what = near(sides_around(start, to), self.reach)
         start, to = start[which], to[which]
-        a, b = self.things[what].T
+        a, b = self.start[what], self.end[what]
         over = crosses(start, to, a, b).astype(float)
         areas = what < self.areas  # a leader over an area crosses one of its diagonals
         a, b = a[areas], b[areas]
@@ -302,20 +333,6 @@ class LabelPanel:
         return np.bincount(which, over, minlength=count)
 
 
-def _lines(start: Points, end: Points) -> Any:
-    """Lines as shapely's tree takes them: for what lies around a box its diagonal will do."""
-    return shapely.linestrings(np.stack((start, end), axis=1).view(float).reshape(-1, 2, 2))
-
-
 def _held(off: Floats, half: Floats) -> Floats:
     """From a foot to the nearest of a box along one axis."""
     return np.where(np.abs(off) <= half, 0.0, off - np.sign(off) * half)
-
-
-def _reach(segments: Points) -> tuple[Points, Points]:
-    """Least and greatest corner of the box around each segment."""
-    a, b = segments[:, 0], segments[:, 1]
-    return (
-        np.minimum(a.real, b.real) + 1j * np.minimum(a.imag, b.imag),
-        np.maximum(a.real, b.real) + 1j * np.maximum(a.imag, b.imag),
-    )

@@ -18,7 +18,7 @@ from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.label_candidates import RINGS, LabelRequest, Mark, ends
-from graphkin.drawing.label_positions import FEW, LabelPanel, LabelPosition, LabelPositions, least_cost
+from graphkin.drawing.label_positions import FEW, HeldPositions, LabelPanel, LabelPosition, LabelPositions, least_cost
 from graphkin.drawing.obstacles import Obstacles
 from graphkin.drawing.primitives import Line, Text
 
@@ -85,8 +85,7 @@ def place(
         LabelRequest(*ends(label.mark), complex(box.width, box.height) / 2, label.toward)
         for label, box in zip(labels, boxes, strict=True)
     ]
-    drawn = LabelPanel(panel, obstacles, (*(label.mark for label in labels), *marks))
-    placement = _Placement(requests, [label.rank for label in labels], drawn)
+    placement = _Placement([label.rank for label in labels], LabelPanel(panel, obstacles, marks, requests))
     placement.settle()
     return tuple(
         _placed(text, box, placement.standing[i], placement.clear[i])
@@ -108,16 +107,25 @@ def _moved(text: Text, at: complex) -> Text:
 class _Placement:
     """Who stands where."""
 
-    def __init__(self, requests: Sequence[LabelRequest], ranks: Sequence[int], panel: LabelPanel) -> None:
-        self.requests, self.ranks, self.panel = requests, ranks, panel
+    def __init__(self, ranks: Sequence[int], panel: LabelPanel) -> None:
+        self.ranks, self.panel = ranks, panel
         self.found: dict[int, LabelPositions] = {}
-        self.seen = [0] * len(requests)  # rings looked at
+        self.seen = [0] * len(ranks)  # rings looked at
         self.standing: dict[int, LabelPosition] = {}
-        self.clear = [True] * len(requests)
+        self.held = HeldPositions(len(ranks))  # the same as arrays
+        self.clear = [True] * len(ranks)
+
+    def _take(self, i: int, position: LabelPosition) -> None:
+        self.standing[i] = position
+        self.held.take(i, position)
+
+    def _leave(self, i: int) -> None:
+        del self.standing[i]
+        self.held.leave(i)
 
     def settle(self) -> None:
         """Give every label a place, or give it up."""
-        left = list(range(len(self.requests)))
+        left = list(range(len(self.ranks)))
         for last in _STAGES[1:]:
             self._look(left, last)
             left.sort(key=lambda i: (self.ranks[i] > 3, len(self.found[i]), i))
@@ -134,7 +142,7 @@ class _Placement:
         """Look for places in the rings up to ``last`` that some labels have not yet seen."""
         for first in sorted({self.seen[i] for i in who if self.seen[i] < last}):
             some = [i for i in who if self.seen[i] == first]
-            for i, positions in zip(some, self.panel.free([self.requests[i] for i in some], first, last), strict=True):
+            for i, positions in zip(some, self.panel.free(some, first, last), strict=True):
                 self.found[i] = self.found[i].joined(positions) if first else positions
                 self.seen[i] = last
 
@@ -146,43 +154,48 @@ class _Placement:
                 if position.meets(other, _SPACE):
                     break
             else:
-                self.standing[i] = position
+                self._take(i, position)
                 return True
         if len(positions) <= FEW:
             return False
-        free = np.flatnonzero(~positions.met(others, _SPACE).any(axis=1))
+        free = np.flatnonzero(~positions.met(self.held, _SPACE).any(axis=1))
         if free.size:
-            self.standing[i] = positions.position(int(free[0]))
+            self._take(i, positions.position(int(free[0])))
         return bool(free.size)
 
     def _drive_out(self, left: list[int]) -> list[int]:
         """Place labels in a crowd by driving out whoever is in the way, who then finds a place in the same way; each
         time that a label is driven out it grows harder to drive out.  Returns those that stand nowhere in the end."""
-        worth = [_WORTH[min(rank, len(_WORTH) - 1)] for rank in self.ranks]
-        weight = [*worth]
+        if not left:
+            return []
+        worth = np.array([_WORTH[min(rank, len(_WORTH) - 1)] for rank in self.ranks])
+        weight = worth.copy()
         queue, hopeless = list(left), []
-        best, state = sum(worth[i] for i in left), (list(left), dict(self.standing))
-        for _ in range(_DRIVES * len(self.requests)):
+        best, state = worth[left].sum(), (list(left), dict(self.standing))
+        for _ in range(_DRIVES * len(self.ranks)):
             if not queue:
                 break
             i = queue.pop(0)
             self._look([i], len(RINGS))
-            positions, standing = self.found[i], list(self.standing)
-            met = positions.met([self.standing[j] for j in standing], _SPACE)
-            lost = met @ np.array([weight[j] for j in standing], dtype=float)
+            positions = self.found[i]
+            met = positions.met(self.held, _SPACE)
+            lost = met @ weight
             if not len(positions) or (self.ranks[i] and lost.min() > weight[i]):
                 hopeless.append(i)
                 continue
             chosen = int(np.lexsort((positions.costs, lost))[0])
-            for j in (standing[k] for k in np.flatnonzero(met[chosen])):
-                del self.standing[j]
+            for j in [j for j in self.standing if met[chosen, j]]:
+                self._leave(j)
                 weight[j] += worth[j]
                 queue.append(j)
-            self.standing[i] = positions.position(chosen)
-            missing = sum(worth[j] for j in (*queue, *hopeless))
+            self._take(i, positions.position(chosen))
+            missing = worth[queue + hopeless].sum()
             if missing < best:
                 best, state = missing, (sorted(queue + hopeless), dict(self.standing))
-        lacking, self.standing = state
+        lacking, standing = state
+        self.standing, self.held = {}, HeldPositions(len(self.ranks))
+        for i, position in standing.items():
+            self._take(i, position)
         return lacking
 
     def _ease(self) -> None:
@@ -192,17 +205,16 @@ class _Placement:
         for i in sorted(self.standing):
             position = self.standing[i]
             if position.cost > self.found[i].costs[0]:
-                del self.standing[i]
+                self._leave(i)
                 self._stand(i)
 
     def _insist(self, i: int) -> None:
         """Put a label where it does least harm, and give up those in its way that may be given up."""
-        positions, standing = self.panel.everywhere(self.requests[i]), list(self.standing)
-        met = positions.met([self.standing[j] for j in standing], 0.0)
-        important = np.array([self.ranks[j] == 0 for j in standing], dtype=bool)
+        positions, important = self.panel.everywhere(i), np.array(self.ranks) == 0
+        met = positions.met(self.held, 0.0)
         faults = positions.faults + met[:, important].sum(axis=1)
         chosen = int(np.lexsort((positions.costs, met.sum(axis=1), faults))[0])
-        for k in np.flatnonzero(met[chosen] & ~important):
-            del self.standing[standing[k]]
+        for j in np.flatnonzero(met[chosen] & ~important):
+            self._leave(int(j))
         self.clear[i] = bool(faults[chosen] == 0)
-        self.standing[i] = positions.position(chosen)
+        self._take(i, positions.position(chosen))

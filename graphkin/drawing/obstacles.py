@@ -30,14 +30,18 @@ from graphkin.drawing.primitives import (
 )
 
 __all__ = [
-    "Flags", "Floats", "Indices", "Obstacles", "Points", "cross_product", "crosses", "meets", "obstacles_of",
-    "separated",
+    "Flags", "Floats", "Indices", "Obstacles", "Points", "Sides", "cross_product", "crosses", "meets", "near",
+    "obstacles_of", "separated", "sides", "sides_around",
 ]  # fmt: skip
 
 Points: TypeAlias = NDArray[np.complex128]
 Floats: TypeAlias = NDArray[np.float64]
 Flags: TypeAlias = NDArray[np.bool_]
 Indices: TypeAlias = NDArray[np.intp]
+Sides: TypeAlias = tuple[Floats, Floats, Floats, Floats]
+"""Left, top, right, bottom of upright boxes."""
+
+MOST_PAIRS = 1 << 20  # of boxes compared at a time
 
 # A filled polygon up to this size (mm) is a block or a corner, which no label may cover; a larger one is the tint of a
 # link, on which labels may stand, clear of its edges.  For one no larger than an arrowhead the upright box will do.
@@ -119,23 +123,46 @@ def cross_product(a: Points, b: Points) -> Floats:
     return a.real * b.imag - a.imag * b.real
 
 
-def separated(centres: Points, half: Points, segments: Points) -> Flags:
+def sides(low: Points, high: Points) -> Sides:
+    """Of boxes with these corners."""
+    return low.real.copy(), low.imag.copy(), high.real.copy(), high.imag.copy()
+
+
+def sides_around(start: Points, end: Points) -> Sides:
+    """Of the boxes around segments."""
+    left, right, top, bottom = start.real, end.real, start.imag, end.imag
+    return np.minimum(left, right), np.minimum(top, bottom), np.maximum(left, right), np.maximum(top, bottom)
+
+
+def near(boxes: Sides, others: Sides) -> tuple[Indices, Indices]:
+    """Pairs of upright boxes that meet, by their indices; a box of nan meets none."""
+    left, top, right, bottom = others
+    rows = max(1, MOST_PAIRS // max(1, len(left)))
+    found = [np.empty(0, dtype=np.intp)]
+    for first in range(0, len(boxes[0]), rows):
+        own_left, own_top, own_right, own_bottom = (side[first : first + rows, None] for side in boxes)
+        meeting = (left <= own_right) & (right >= own_left) & (top <= own_bottom) & (bottom >= own_top)
+        found.append(np.flatnonzero(meeting) + first * len(left))
+    which, what = np.divmod(np.concatenate(found), max(1, len(left)))
+    return which, what
+
+
+def separated(centres: Points, half: Points | complex, start: Points, end: Points) -> Flags:
     """Whether the normal of a segment separates it from a box (of centre and half size); the axes of the box are the
     caller's to check."""
-    start = segments[..., 0]
-    along = segments[..., 1] - start
+    along = end - start
     distance = np.abs(cross_product(along, centres - start))
     return distance > half.real * np.abs(along.imag) + half.imag * np.abs(along.real)
 
 
 def meets(segments: Points, centres: Points, half: Points) -> Flags:
-    """Whether segments and boxes meet."""
+    """Whether segments (their ends in the last dimension) and boxes meet."""
     start, end = segments[..., 0], segments[..., 1]
     middle, reach = (start + end) / 2 - centres, (end - start) / 2
-    near = (np.abs(middle.real) <= np.abs(reach.real) + half.real) & (
+    close = (np.abs(middle.real) <= np.abs(reach.real) + half.real) & (
         np.abs(middle.imag) <= np.abs(reach.imag) + half.imag
     )
-    return near & ~separated(centres, half, segments)
+    return close & ~separated(centres, half, start, end)
 
 
 def crosses(a: Points, b: Points, c: Points, d: Points) -> Flags:

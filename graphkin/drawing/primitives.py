@@ -9,7 +9,7 @@ from __future__ import annotations
 import cmath
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 __all__ = [
     "PALE",
@@ -119,8 +119,7 @@ class Arc:
         return self.centre + self.radius * page_direction(angle)
 
 
-@dataclass(frozen=True)
-class Run:
+class Run(NamedTuple):  # a page has thousands
     """A stretch of text of one size and face; x and y (mm, y down) of its baseline start from the text's own point."""
 
     text: str

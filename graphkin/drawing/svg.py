@@ -9,7 +9,6 @@ import json
 import math
 import re
 from base64 import b64encode
-from dataclasses import replace
 from functools import cache, lru_cache, partial
 from html import escape
 from itertools import chain, count
@@ -232,7 +231,7 @@ class _Ink:
         """A text as paths, with itself unseen over them."""
         own = {key: element.attribs.pop(key) for key in ("id", "class") if key in element.attribs}
         group = self.made("g", own)
-        letters = "".join(outline(replace(run, text=_clean(run.text))) for run in runs)
+        letters = "".join(outline(run._replace(text=_clean(run.text))) for run in runs)
         if letters:
             group.add(self.made("path", {"d": letters, "fill": element.attribs["fill"], "aria-hidden": "true"}))
             element.attribs["fill"] = "none"

@@ -9,6 +9,7 @@ dollar sign.
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -96,17 +97,20 @@ def fitted(markup: str, size: float, width: float, bold: bool = False, least: fl
 
 def wrapped(markup: str, size: float, width: float, bold: bool = False) -> list[tuple[Run, ...]]:
     """Words with symbols set in lines of a width (mm), broken at spaces and between Chinese characters."""
-    lines: list[str] = []
-    line = ""
-    for piece in _pieces(markup):
-        if line and runs_width(rich((line + piece).strip(), size, bold)) > width:
-            lines.append(line.strip())
-            line = piece.lstrip()
-        else:
-            line += piece
-    if line.strip():
-        lines.append(line.strip())
-    return [rich(text, size, bold) for text in lines]
+    pieces = _pieces(markup)
+    lines: list[tuple[Run, ...]] = []
+    start = 0
+    while start < len(pieces):
+
+        def line(end: int, start: int = start) -> tuple[Run, ...]:
+            return rich("".join(pieces[start:end]).strip(), size, bold)
+
+        # more pieces are never narrower, so that those that fit are found by halving
+        fitting = bisect_right(range(start + 1, len(pieces) + 1), width, key=lambda end: runs_width(line(end)))
+        end = start + max(1, fitting)
+        lines += [runs for runs in (line(end),) if runs]
+        start = end
+    return lines
 
 
 def _pieces(markup: str) -> list[str]:

@@ -56,7 +56,7 @@ def best_time(run: Callable[[], object], repeats: int, least: float = 2e-3) -> f
     return best
 
 
-PACKAGES = ("numpy", "shapely", "numba", "scipy", "pylinkage", "mpmath")
+PACKAGES = ("numpy", "numba", "scipy", "pylinkage", "mpmath")
 
 
 @dataclass(frozen=True)
