@@ -18,7 +18,8 @@ from graphkin.api.report_text import reading_words, show
 from graphkin.board.moving import movable
 from graphkin.construction import execute, plan
 from graphkin.construction.sheet import DiagramName, Scales, Sheet
-from graphkin.drawing.conventions import letters_of
+from graphkin.drawing.conventions import Letters, letters_of
+from graphkin.drawing.force_stages import force_stages
 from graphkin.drawing.in_motion import figure_in_motion
 from graphkin.errors import GraphkinError, Problem, SceneError, Unsolvable
 from graphkin.papers.html import figure_svg, words_html
@@ -276,7 +277,7 @@ def _whole(drawn: Drawn, wishes: Wishes) -> dict[str, Any]:
             {"n": step.number, "figure": step.diagram, "html": words_html(speaker.step(step, spoken)),
              "work": [words_html(line) for line in speaker.work(step)]}
             for step in sheet.steps
-        ],
+        ] + _force_steps(drawn, speaker.letters, spoken),
         "range": limits,
         "drivers": [
             {"key": d.key, "angle": isinstance(d, AngleDriver), "now": own_unit(scene, d, drawn.motion.values[0][i])}
@@ -286,6 +287,19 @@ def _whole(drawn: Drawn, wishes: Wishes) -> dict[str, Any]:
         "title": scene.title_in(spoken),
         "unit": scene.units.length,
     }  # fmt: skip
+
+
+def _force_steps(drawn: Drawn, letters: Letters, spoken: str) -> list[dict[str, Any]]:
+    """The steps by which the forces are found, behind those of the motion."""
+    forces = drawn.checked.forces
+    if forces is None:
+        return []
+    sheet = replace(drawn.checked.sheet, scales=replace(drawn.checked.sheet.scales, force=forces.per_mm))
+    return [
+        {"n": step.number, "figure": stage.figure, "html": words_html(step.words[0][1]),
+         "work": [words_html(line) for line in step.work]}
+        for stage in force_stages(sheet, forces, letters, spoken) for step in stage.steps
+    ]  # fmt: skip
 
 
 def thumbnail(scene: Mechanism, language: str | None) -> str:

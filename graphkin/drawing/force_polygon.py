@@ -12,6 +12,7 @@ from graphkin.construction.sheet import Sheet, Vector
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
+from graphkin.drawing.force_stages import ForceStage
 from graphkin.drawing.free_body import colour_of_force, letters_of_force
 from graphkin.drawing.labels import Label
 from graphkin.drawing.piece import Piece, moved_piece, with_labels
@@ -50,10 +51,10 @@ def extent_of(vectors: Sequence[ForceVector]) -> Box:
 
 
 def drawn_polygon(
-    sheet: Sheet, vectors: Sequence[ForceVector], inside: Sequence[ForceVector], letters: Letters, panel: Box,
-    names: Counter[str], suffix: str,
+    sheet: Sheet, stage: ForceStage, link: str, vectors: Sequence[ForceVector], inside: Sequence[ForceVector],
+    letters: Letters, panel: Box, names: Counter[str], suffix: str,
 ) -> Piece:  # fmt: skip
-    """A polygon in the middle of a panel at its true scale."""
+    """A polygon in the middle of a panel at its true scale; ``link`` as in `polygons_of`."""
     arrows: list[Primitive] = []
     labels: list[Label] = []
     thin: list[Primitive] = []
@@ -63,27 +64,31 @@ def drawn_polygon(
             continue
         shift = shifts.get(_key(vector), 0j)
         tail, tip = (vector.tail + shift).conjugate(), (vector.tip + shift).conjugate()
+        step = stage.in_polygon(vector, vector.link if vector in inside else link)
         if shift:
-            for z, w in ((vector.tail, tail), (vector.tip, tip)):
-                thin.append(Line(z.conjugate(), w, strokes.CONSTRUCTION))
+            aside = (Line(z.conjugate(), w, strokes.CONSTRUCTION) for z, w in ((vector.tail, tail), (vector.tip, tip)))
+            thin.append(Group(tuple(aside), step=step))
         colour = colour_of_force(sheet, vector)
         kind = COMPONENT if vector.known or vector.part else RESULTANT
         name = _unique(vector, names, suffix)
-        arrows.append(vector_group(name, sum(names.values()), tail, tip, kind, colour, classes=("force",)))
-        text = Text(0j, symbol(letters_of_force(letters, vector), 3.2), "start", colour, f"label-{name}", ("label",))
+        arrows.append(vector_group(name, step, tail, tip, kind, colour, classes=("force",)))
+        markup, own = letters_of_force(letters, vector), f"label-{name}"
+        text = Text(0j, symbol(markup, 3.2), "start", colour, own, ("label",), step)
         labels.append(Label(text, (tail, tip), rank=0 if not vector.known or abs(vector.span) > 3.0 else 2))
     for whole, tail, tip in _wholes(vectors):
         name = _unique(whole, names, suffix)
         colour = colour_of_force(sheet, whole)
         ends = tail.conjugate(), tip.conjugate()
-        arrows.append(vector_group(name, sum(names.values()), *ends, RESULTANT, colour, classes=("force",)))
-        text = Text(0j, symbol(letters_of_force(letters, whole), 3.2), "start", colour, f"label-{name}", ("label",))
+        step = stage.in_polygon(whole, link)
+        arrows.append(vector_group(name, step, *ends, RESULTANT, colour, classes=("force",)))
+        markup, own = letters_of_force(letters, whole), f"label-{name}"
+        text = Text(0j, symbol(markup, 3.2), "start", colour, own, ("label",), step)
         labels.append(Label(text, ends, rank=0))
     zero = [v for v in vectors if abs(v.span) <= SHORT and not v.known]
     for vector in zero:
         thin.append(Circle(vector.tip.conjugate(), 0.4, fill=strokes.BLACK))
     for vector in (v for v in vectors if not v.known):
-        thin += _direction(vector)
+        thin += _direction(vector, stage.in_polygon(vector, link))
     piece = Piece({"construction": tuple(thin), "forces": tuple(arrows)}, tuple(labels))
     return with_labels(moved_piece(piece, panel.centre - extent_of(vectors).centre), panel)
 
@@ -97,13 +102,13 @@ def _as_drawn(vector: ForceVector) -> Vector:
     return Vector(_key(vector), vector.tail, vector.tip, "relative")
 
 
-def _direction(vector: ForceVector) -> Iterator[Primitive]:
+def _direction(vector: ForceVector, step: int) -> Iterator[Primitive]:
     """The line along which a force was drawn, a little past its ends."""
     if vector.part == "t" or abs(vector.span) <= SHORT:
         return
     e = vector.span / abs(vector.span)
     for z, w in ((vector.tail, vector.tail - 6.0 * e), (vector.tip, vector.tip + 6.0 * e)):
-        yield Group((Line(z.conjugate(), w.conjugate(), strokes.DIRECTION),), classes=("direction",))
+        yield Group((Line(z.conjugate(), w.conjugate(), strokes.DIRECTION),), classes=("direction",), step=step)
 
 
 def _wholes(vectors: Sequence[ForceVector]) -> Iterator[tuple[ForceVector, complex, complex]]:

@@ -6,6 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from decimal import Decimal
+from typing import NamedTuple
 
 from graphkin.construction.forces.force_sheet import (
     ForceGroup,
@@ -13,6 +14,7 @@ from graphkin.construction.forces.force_sheet import (
     ForceState,
     ForceTerm,
     Inertia,
+    Lever,
     MomentEquation,
     MomentTerm,
 )
@@ -25,7 +27,9 @@ from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase, say
 from graphkin.words.written import amount, on_paper, product
 
-__all__ = ["couple_lines", "group_caption", "inertia_line", "moment_lines", "read_off_line", "sum_terms"]
+__all__ = [
+    "Told", "couples_told", "group_caption", "inertia_line", "lever_sum", "moments_told", "read_off", "sum_terms",
+]  # fmt: skip
 
 DIGITS = 5
 ZERO = 1e-8  # mm: a shorter force is nothing but rounding
@@ -57,27 +61,41 @@ def inertia_line(sheet: Sheet, one: Inertia, letters: Letters, language: str) ->
     return said
 
 
-def moment_lines(sheet: Sheet, group: ForceGroup, letters: Letters, language: str) -> list[str]:
+class Told(NamedTuple):
+    """A step in words with symbols: why it is taken, what is computed, and what it finds (``part`` of it)."""
+
+    reason: str
+    work: tuple[str, ...] = ()
+    symbol: Symbol | None = None
+    part: str = ""
+
+    @property
+    def lines(self) -> tuple[str, ...]:
+        return self.reason, *self.work
+
+
+def moments_told(sheet: Sheet, group: ForceGroup, letters: Letters, language: str) -> list[Told]:
     """The moment equations that give parts of forces, each with its reason."""
-    lines = []
+    lines = list[Told]()
     held = next((v for v in group.polygon if v.part == "n"), None) if group.kind in ("RPP", "RPR") else None
     if held is not None:
         name = f"${force_letters(letters.convention, held.symbol, 'n')}$"
-        lines.append(say(Phrase("force reason along", (held.link.split("/")[0], name)), language))
+        said = say(Phrase("force reason along", (held.link.split("/")[0], name)), language)
+        lines.append(Told(said, (), held.symbol, "n"))
     for one in group.moments:
         links = _links(one.links)
         if not one.terms and group.way == "polygon" and group.kind != "RPR":
             name = f"${force_letters(letters.convention, one.symbol)}$"
             args = links, name, f"${letters.point(one.about)}$"
-            lines.append(say(Phrase("force two-force member", args), language))
+            lines.append(Told(say(Phrase("force two-force member", args), language), (), one.symbol, one.part))
             continue
         name = f"${force_letters(letters.convention, one.symbol, one.part if _parted(group, one) else '')}$"
         key = "force reason driver" if group.way == "driver" else "force reason guide" if group.kind == "RPR" else (
             "force reason pin"
         )  # fmt: skip
         about = f"${letters.point(one.about)}$"
-        lines.append(say(Phrase(key, (about, links, name)), language))
-        lines.append(_equation(sheet, one, letters, name))
+        said = say(Phrase(key, (about, links, name)), language)
+        lines.append(Told(said, (_equation(sheet, one, letters, name),), one.symbol, one.part))
     return lines
 
 
@@ -91,25 +109,25 @@ def _parted(group: ForceGroup, one: MomentEquation) -> bool:
     return sum(v.symbol == one.symbol and v.part != "" for v in group.polygon) > 1
 
 
-def couple_lines(sheet: Sheet, group: ForceGroup, letters: Letters, language: str) -> list[str]:
+def couples_told(sheet: Sheet, group: ForceGroup, letters: Letters, language: str) -> list[Told]:
     """Couples of sliding pairs with the lines of their forces, and moments that balance."""
-    lines = []
+    lines = list[Told]()
     units = sheet.scene.units
     for one in group.couples:
         if not any(link in sheet.scene.by_name for link in one.links):  # a pin in a slot has no couple
             continue
         name = f"${force_letters(letters.convention, one.symbol)}$"
         if one.symbol.other and not one.value:
-            lines.append(say(Phrase("force no couple", (name,)), language))
+            lines.append(Told(say(Phrase("force no couple", (name,)), language), (), one.symbol))
             continue
         key = "force reason couple" if one.symbol.other else "force reason balance"
-        lines.append(say(Phrase(key, (_links(one.links), name)), language))
-        lines.append(_equation(sheet, one, letters, name))
+        work = [_equation(sheet, one, letters, name)]
         for line in group.lines:
             if line.symbol.link == one.symbol.link and line.symbol.other == one.symbol.other:
                 force = f"${force_letters(letters.convention, line.symbol)}$"
                 shift = number(abs(line.shifted) / units.metres, DIGITS)
-                lines.append(say(Phrase("force line shifted", (force, shift, units.length)), language))
+                work.append(say(Phrase("force line shifted", (force, shift, units.length)), language))
+        lines.append(Told(say(Phrase(key, (_links(one.links), name)), language), tuple(work), one.symbol))
     return lines
 
 
@@ -157,13 +175,35 @@ def _sum_term(sheet: Sheet, one: ForceTerm, letters: Letters) -> SumTerm:
     return SumTerm(bold, one.size_known, one.direction_known, way)
 
 
-def read_off_line(
-    sheet: Sheet, forces: ForceSheet, state: ForceState, group: ForceGroup, letters: Letters, language: str
-) -> str:
+def lever_sum(
+    sheet: Sheet, state: ForceState, lever: Lever, letters: Letters, language: str
+) -> tuple[str, str]:
+    """The sum of the moments on a lever in numbers, and what balances by it beside the value of the polygons."""
+    units = sheet.scene.units
+    name = f"${force_letters(letters.convention, lever.balance)}$"
+    moment = lever.balance.kind == "M"
+    total = sum(row.moment for row in lever.rows) / units.newtons
+    if moment:
+        values = lever.value, float(state.moments.get(lever.balance) or 0.0)
+    else:
+        values = abs(lever.value), abs(state.vectors.get(lever.balance, 0j)) * sheet.scales.force
+    lead = f"{'−' if lever.unknown.moment < 0 else ''}{name}·{number(abs(lever.unknown.moment), DIGITS)}"
+    rest = f"{'+' if total >= 0 else '−'} {number(abs(total), DIGITS)}"
+    unit = f"{units.force}·m" if moment else units.force
+    shown = (f"{number(v / units.newtons, DIGITS)} {unit}" for v in values)
+    return (
+        f"{say(Phrase('lever sum'), language)} {lead} {rest} = 0",
+        say(Phrase("lever balance", (name, *shown)), language),
+    )
+
+
+def read_off(
+    sheet: Sheet, forces: ForceSheet, state: ForceState, group: ForceGroup, letters: Letters
+) -> dict[Symbol, str]:
     """``F_R45 = 43.33 mm x 200 N/mm = 8666.4 N``, for each force that was found here."""
     units = sheet.scene.units
     per = amount(forces.per_mm / units.newtons, 12)
-    found = []
+    found = dict[Symbol, str]()
     seen: set[Symbol] = set()
     vectors = [*group.polygon, *(v for polygon in group.inner.values() for v in polygon)]
     for vector in vectors:
@@ -177,8 +217,9 @@ def read_off_line(
         size = abs(span)
         name = f"${force_letters(letters.convention, vector.symbol)}$"
         if size < ZERO:
-            found.append(f"{name} = 0")
+            found[vector.symbol] = f"{name} = 0"
             continue
         value = written(product(on_paper(size), per))
-        found.append(f"{name} = {written(on_paper(size))} mm × {written(per)} {units.force}/mm = {value} {units.force}")
-    return ";  ".join(found)
+        sum_ = f"{written(on_paper(size))} mm × {written(per)} {units.force}/mm"
+        found[vector.symbol] = f"{name} = {sum_} = {value} {units.force}"
+    return found

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from graphkin.checking.report import Report
-from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceState, ForceVector
+from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceVector
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
@@ -17,14 +17,8 @@ from graphkin.drawing.dimensions import check_bar
 from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.equations import write_sum
 from graphkin.drawing.force_polygon import drawn_polygon, extent_of, polygons_of
-from graphkin.drawing.force_words import (
-    couple_lines,
-    group_caption,
-    inertia_line,
-    moment_lines,
-    read_off_line,
-    sum_terms,
-)
+from graphkin.drawing.force_stages import ForceStage, force_stages
+from graphkin.drawing.force_words import couples_told, inertia_line, moments_told, read_off, sum_terms
 from graphkin.drawing.free_body import free_body, sketch_height
 from graphkin.drawing.given_loads import given_loads
 from graphkin.drawing.headings import facts, figure_title, term
@@ -32,11 +26,12 @@ from graphkin.drawing.overleaf import heading
 from graphkin.drawing.piece import Piece, joined, layer_groups, moved_piece
 from graphkin.drawing.primitives import Group, Polygon, Primitive, Run, Text
 from graphkin.drawing.springs import spring_lines
+from graphkin.drawing.stepwise import stepped
 from graphkin.drawing.tables import TableRow, readings_table
 from graphkin.drawing.text import fitted, plain, rich, wrapped
 from graphkin.words import Phrase, languages, say, word
 
-__all__ = ["force_steps", "forces_figure"]
+__all__ = ["force_steps", "forces_figure", "group_equation", "group_picture"]
 
 MARGIN, HEAD, FOOT = 10.0, 13.0, 12.0  # mm of the page
 SKETCH = 64.0  # mm, width of a sketch
@@ -98,17 +93,14 @@ def force_steps(sheet: Sheet, forces: ForceSheet, language: str, convention: str
 def _groups(sheet: Sheet, forces: ForceSheet, letters: Letters, spoken: str, width: float) -> Iterator[_Block]:
     """Group by group in the order in which forces are found; where loads begin or end here, without and with them."""
     names: Counter[str] = Counter()
-    count = 0
-    for number, state in enumerate(forces.states):
-        shown = state.groups
-        if number:
-            yield _said("force with load", spoken, width)
-            shown = tuple(g for g, old in zip(shown, forces.states[0].groups, strict=True) if g != old)
-        elif len(forces.states) > 1:
-            yield _said("force without load", spoken, width)
-        for group in shown:
-            count += 1
-            yield from _group(sheet, forces, state, group, letters, spoken, width, names, count, bool(number))
+    state = None
+    for stage in force_stages(sheet, forces, letters, spoken):
+        if stage.group is None:
+            continue
+        if len(forces.states) > 1 and stage.state is not state:
+            yield _said("force with load" if stage.again else "force without load", spoken, width)
+        state = stage.state
+        yield from _group(sheet, forces, stage, stage.group, letters, spoken, width, names)
 
 
 def _paper(sheet: Sheet, forces: ForceSheet) -> tuple[float, float]:
@@ -195,41 +187,65 @@ def _given(sheet: Sheet, forces: ForceSheet, letters: Letters, spoken: str, widt
 
 
 def _group(
-    sheet: Sheet, forces: ForceSheet, state: ForceState, group: ForceGroup, letters: Letters, spoken: str, width: float,
-    names: Counter[str], count: int, again: bool,
+    sheet: Sheet, forces: ForceSheet, stage: ForceStage, group: ForceGroup, letters: Letters, spoken: str, width: float,
+    names: Counter[str],
 ) -> Iterator[_Block]:  # fmt: skip
     """A group: its caption, its sketch beside its polygon, and what is written below."""
-    caption = _words([(group_caption(sheet, group, count, each), True) for each in languages(spoken)], width, 3.2)
-    suffix = "-with" if again else ""
+    caption = _words([(text, True) for _, text in stage.title], width, 3.2)
+    lower = _below(sheet, forces, stage, group, letters, spoken, width)
+    first, *rest = _pictures(sheet, forces, stage, group, letters, spoken, width, names)
+    above = _stacked((caption, first))
+    if rest or above.height + lower.height > sheet.scene.sheet.size[1] - 2 * MARGIN - HEAD - FOOT:
+        yield from (above, *rest, lower)
+    else:
+        yield _stacked((above, lower))
+
+
+def group_picture(
+    sheet: Sheet, forces: ForceSheet, stage: ForceStage, group: ForceGroup, letters: Letters, spoken: str, width: float,
+    tag: str,
+) -> Drawing:  # fmt: skip
+    """The sketch of a group cut free with its polygons, every part with its step, and nothing written below; ``tag``
+    ends the names of its parts."""
+    names: Counter[str] = Counter()
+    whole = _stacked(list(_pictures(sheet, forces, stage, group, letters, spoken, width, names, tag)))
+    title = figure_title(sheet, "forces", spoken)
+    told = say(Phrase("force described"), languages(spoken)[0])
+    widest = max((extent_of((*vectors, *inside)).width for _, vectors, inside in polygons_of(group)), default=0.0)
+    width = max(width, widest + 2 * AROUND)
+    parts = stepped(layer_groups(whole.piece), {})  # leaders come with their names
+    return Drawing(width, whole.height, parts, title, told, languages(spoken)[0])
+
+
+def _pictures(
+    sheet: Sheet, forces: ForceSheet, stage: ForceStage, group: ForceGroup, letters: Letters, spoken: str, width: float,
+    names: Counter[str], tag: str = "",
+) -> Iterator[_Block]:  # fmt: skip
+    """The sketch of a group beside its polygon, or above its polygons."""
+    suffix = ("-with" if stage.again else "") + tag
     polygons = [(link, vectors, inside, extent_of((*vectors, *inside))) for link, vectors, inside in polygons_of(group)]
-    lower = _below(sheet, forces, state, group, letters, spoken, width)
     alone = len(polygons) == 1 and polygons[0][3].width + 2 * AROUND <= width - SKETCH - GAP
     wide = SKETCH if alone else width
     height = max(LEAST, sketch_height(sheet, group, wide))
     if alone:
         height = max(height, polygons[0][3].height + 2 * AROUND)
     panel = Box(0.0, 0.0, wide, height)
-    sketch = free_body(sheet, forces, state, group, letters, panel.grown(-0.6), "-".join(group.links) + suffix)
+    sketch = free_body(sheet, forces, stage, group, letters, panel.grown(-0.6), "-".join(group.links) + suffix)
     drawn = joined((sketch, _frame(panel)))
     if not alone:
-        yield _stacked((caption, _Block(drawn, height)))
-        yield from _rows(sheet, polygons, letters, spoken, width, names, suffix)
-        yield lower
+        yield _Block(drawn, height)
+        yield from _rows(sheet, stage, polygons, letters, spoken, width, names, suffix)
         return
     _, vectors, inside, _ = polygons[0]
     panel = Box(SKETCH + GAP, 0.0, width, height)
-    polygon = drawn_polygon(sheet, vectors, inside, letters, panel.grown(-0.6), names, suffix)
-    above = _stacked((caption, _Block(joined((drawn, polygon, _frame(panel))), height)))
-    if above.height + lower.height > sheet.scene.sheet.size[1] - 2 * MARGIN - HEAD - FOOT:
-        yield above
-        yield lower
-    else:
-        yield _stacked((above, lower))
+    polygon = drawn_polygon(sheet, stage, "", vectors, inside, letters, panel.grown(-0.6), names, suffix)
+    yield _Block(joined((drawn, polygon, _frame(panel))), height)
 
 
 def _rows(
-    sheet: Sheet, polygons: Sequence[tuple[str, Sequence[ForceVector], Sequence[ForceVector], Box]], letters: Letters,
-    spoken: str, width: float, names: Counter[str], suffix: str,
+    sheet: Sheet, stage: ForceStage,
+    polygons: Sequence[tuple[str, Sequence[ForceVector], Sequence[ForceVector], Box]], letters: Letters, spoken: str,
+    width: float, names: Counter[str], suffix: str,
 ) -> Iterator[_Block]:  # fmt: skip
     """Polygons of single links beside each other, row by row."""
     placed: list[Piece] = []
@@ -240,7 +256,8 @@ def _rows(
             yield _Block(joined(placed), row + LINE)
             placed, x, row = [], 0.0, 0.0
         panel = Box(x, LINE, x + wide, LINE + high)
-        placed += [drawn_polygon(sheet, vectors, inside, letters, panel.grown(-0.6), names, suffix), _frame(panel)]
+        polygon = drawn_polygon(sheet, stage, link, vectors, inside, letters, panel.grown(-0.6), names, suffix)
+        placed += [polygon, _frame(panel)]
         if link:
             said = " / ".join(say(Phrase("force on link", (link,)), each) for each in languages(spoken))
             placed.append(Piece({"labels": (Text(complex(x + 1.0, LINE - 1.0), rich(said, 2.4)),)}))
@@ -258,12 +275,12 @@ def _stacked(blocks: Sequence[_Block]) -> _Block:
 
 
 def _below(
-    sheet: Sheet, forces: ForceSheet, state: ForceState, group: ForceGroup, letters: Letters, spoken: str, width: float
+    sheet: Sheet, forces: ForceSheet, stage: ForceStage, group: ForceGroup, letters: Letters, spoken: str, width: float
 ) -> _Block:
     """Moments with their reasons, the vector equation with its rows, and what was read off."""
     blocks = []
     for each in languages(spoken):
-        lines = [(text, False) for text in moment_lines(sheet, group, letters, each)]
+        lines = [(text, False) for told in moments_told(sheet, group, letters, each) for text in told.lines]
         if group.way == "drawn system":
             lines.append((say(Phrase("force reason system", (", ".join(group.links),)), each), False))
         elif len(group.equation) > 1 and group.way == "polygon":
@@ -274,12 +291,21 @@ def _below(
         written = write_sum(sum_terms(sheet, group, letters), letters, languages(spoken)[0], width)
         blocks.append(_Block(Piece({"labels": (Group(written.children, id=""),)}), written.height))
     for each in languages(spoken):
-        lines = [(text, False) for text in couple_lines(sheet, group, letters, each)]
-        read = read_off_line(sheet, forces, state, group, letters, each) if each == languages(spoken)[0] else ""
-        lines += [(read, False)] if read else []
+        lines = [(text, False) for told in couples_told(sheet, group, letters, each) for text in told.lines]
+        read = read_off(sheet, forces, stage.state, group, letters) if each == languages(spoken)[0] else {}
+        lines += [(";  ".join(read.values()), False)] if read else []
         if lines:
             blocks.append(_words(lines, width))
     return _stacked(blocks)
+
+
+def group_equation(sheet: Sheet, group: ForceGroup, letters: Letters, language: str, width: float) -> Drawing | None:
+    """The equation of a group over its rows of sizes and directions; None where it is drawn by one system."""
+    if group.way == "drawn system" or len(group.equation) < 2:
+        return None
+    spoken = languages(language)[0]
+    written = write_sum(sum_terms(sheet, group, letters), letters, spoken, width)
+    return Drawing(written.width, written.height, written.children, term("forces", language), "", spoken)
 
 
 def _frame(panel: Box) -> Piece:

@@ -8,13 +8,14 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from graphkin.construction.cam_outline import outlines_on_paper
-from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceState, ForceVector
+from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceVector
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.touching import Touching
 from graphkin.drawing import strokes, symbols
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.force_letters import force_letters
+from graphkin.drawing.force_stages import ForceStage
 from graphkin.drawing.labels import Label
 from graphkin.drawing.mechanism import links_alone
 from graphkin.drawing.mechanism_on_paper import MechanismOnPaper, page
@@ -41,13 +42,13 @@ def links_cut_free(group: ForceGroup) -> tuple[str, ...]:
 
 
 def free_body(
-    sheet: Sheet, forces: ForceSheet, state: ForceState, group: ForceGroup, letters: Letters, panel: Box, tag: str
+    sheet: Sheet, forces: ForceSheet, stage: ForceStage, group: ForceGroup, letters: Letters, panel: Box, tag: str
 ) -> Piece:
     """The sketch of a group in a panel, not larger than the mechanism is drawn."""
     box = _extent(sheet, group)
     times = min((panel.width - ROOM) / max(box.width, 1e-6), (panel.height - ROOM) / max(box.height, 1e-6), 1.0)
     for _ in range(TRIES):
-        piece = _sketch(sheet, forces, state, group, letters, times, tag)
+        piece = _sketch(sheet, forces, stage, group, letters, times, tag)
         solid = joined(Piece({name: things}) for name, things in piece.layers.items() if name != "construction")
         ink = ink_box(solid.drawn) or panel
         over = max(ink.width / (panel.width - EDGE), ink.height / (panel.height - EDGE))
@@ -62,7 +63,7 @@ def free_body(
 
 
 def _sketch(
-    sheet: Sheet, forces: ForceSheet, state: ForceState, group: ForceGroup, letters: Letters, times: float, tag: str
+    sheet: Sheet, forces: ForceSheet, stage: ForceStage, group: ForceGroup, letters: Letters, times: float, tag: str
 ) -> Piece:
     """The sketch at so many times the size of the mechanism as it is drawn, about the mechanism's own origin."""
     links = set(links_cut_free(group))
@@ -73,9 +74,9 @@ def _sketch(
     )  # fmt: skip
     here = MechanismOnPaper(small, letters)
     parts, labels = _links(here, links)
-    marks = marks_cut_free(here, frozenset(links))
-    more = [*marks.layers["construction"], *_arms(group, times, letters)]
-    arrows, named = _arrows(sheet, group, state, letters, times, tag)
+    marks = marks_cut_free(here, frozenset(links), tag)
+    more = [*marks.layers["construction"], *_arms(stage, group, times)]
+    arrows, named = _arrows(sheet, group, stage, letters, times, tag)
     shifted = list(shifted_lines(forces, links, times))
     more += [line for line, _ in shifted]
     named += [label for _, label in shifted]
@@ -134,7 +135,7 @@ def _forces(group: ForceGroup) -> Sequence[ForceVector]:
 
 
 def _arrows(
-    sheet: Sheet, group: ForceGroup, state: ForceState, letters: Letters, times: float, tag: str
+    sheet: Sheet, group: ForceGroup, stage: ForceStage, letters: Letters, times: float, tag: str
 ) -> tuple[tuple[Primitive, ...], list[Label]]:
     """An arrow for each force at its place, all of one length, and an arc for each couple."""
     drawn: list[Primitive] = []
@@ -153,12 +154,12 @@ def _arrows(
         tail, tip = page(at), page(at + along * (ARROW + NEXT * again))
         kind = COMPONENT if vector.known or vector.part else RESULTANT
         colour = colour_of_force(sheet, vector)
-        group_id = f"acts-{tag}-{n}"
-        drawn.append(Group(arrow(tail, tip, kind, colour), id=group_id, classes=("acting",)))
+        group_id, step = f"acts-{tag}-{n}", stage.on_links(vector)
+        drawn.append(Group(arrow(tail, tip, kind, colour), id=group_id, classes=("acting",), step=step))
         markup = letters_of_force(letters, vector)
-        label = Text(0j, symbol(markup, 3.0), "start", colour, f"label-{group_id}", ("label",))
+        label = Text(0j, symbol(markup, 3.0), "start", colour, f"label-{group_id}", ("label",), step)
         labels.append(Label(label, (tail, tip), rank=0))
-    turning = [(t.symbol, t.link, t.moment) for t in state.turning]
+    turning = [(t.symbol, t.link, t.moment) for t in stage.state.turning]
     for one in group.couples:
         on = one.symbol.other or one.symbol.link
         if (on in outside and one.symbol.link not in outside) or not one.symbol.other:
@@ -171,10 +172,10 @@ def _arrows(
         radius = 4.2 + 2.0 * sum(abs(at - z) < NEAR for z in places)
         places.append(at)
         arc = symbols.sense_arc(page(at), radius, 0.9, 1 if moment > 0 else -1)
-        group_id = f"acts-{tag}-{named.id}"
-        drawn.append(Group(arc, id=group_id, classes=("acting",)))
+        group_id, step = f"acts-{tag}-{named.id}", stage.couples.get(named, stage.known)
+        drawn.append(Group(arc, id=group_id, classes=("acting",), step=step))
         text = Text(0j, symbol(force_letters(letters.convention, named), 3.0), "start", strokes.BLACK,
-                    f"label-{group_id}", ("label",))  # fmt: skip
+                    f"label-{group_id}", ("label",), step)  # fmt: skip
         labels.append(Label(text, page(at + radius * 0.7 * (1 + 1j)), rank=0))
     return tuple(drawn), labels
 
@@ -222,13 +223,16 @@ def _middle(sheet: Sheet, link: str) -> complex:
     return pose.origin + pose.axis * at / sheet.scales.length
 
 
-def _arms(group: ForceGroup, times: float, letters: Letters) -> list[Primitive]:
+def _arms(stage: ForceStage, group: ForceGroup, times: float) -> list[Primitive]:
     """Arms of the moments by which parts were found, from the point to the line of each force."""
-    found: list[Primitive] = []
+    arms: list[Primitive] = []
     for equation in (*group.moments, *(c for c in group.couples if c.symbol.kind == "M" and not c.symbol.other)):
+        step = stage.moments.get((equation.symbol, equation.part), stage.couples.get(equation.symbol))
+        found: list[Primitive] = []
         for one in equation.terms:
             if one.arm is None or abs(one.arm.mm) * times < 1.0:
                 continue
             a, b = page(one.arm.about * times), page(one.arm.foot * times)
             found.append(Line(a, b, strokes.DIRECTION))
-    return [Group(tuple(found), classes=("arms",))] if found else []
+        arms += [Group(tuple(found), classes=("arms",), step=step)] if found else []
+    return arms

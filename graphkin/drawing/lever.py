@@ -15,7 +15,8 @@ from graphkin.drawing.conventions import Letters, letters_of, pole, scale_statem
 from graphkin.drawing.dimensions import check_bar
 from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.force_letters import force_letters
-from graphkin.drawing.headings import drivers, facts, figure_title, number, term, titles, written
+from graphkin.drawing.force_words import lever_sum
+from graphkin.drawing.headings import drivers, facts, figure_title, term, titles, written
 from graphkin.drawing.labels import Label
 from graphkin.drawing.piece import Piece, cut_to, joined, layer_groups, middle_of, moved_piece, with_labels
 from graphkin.drawing.primitives import Circle, Group, Line, Primitive, Run, Text
@@ -26,7 +27,7 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, languages, say
 from graphkin.words.written import amount, on_paper, product
 
-__all__ = ["lever_figure"]
+__all__ = ["lever_figure", "lever_on_page"]
 
 WIDTH, MARGIN = 190.0, 8.0
 HIGHEST = 130.0  # mm of a lever
@@ -77,7 +78,7 @@ def lever_figure(
                 key = "force with load" if k else "force without load"
                 words.append(Text(complex(MARGIN, y), rich(say(Phrase(key), each), SIZE, bold=True)))
             y += 2.0
-        scaled, per_mm = _at_scale(sheet, lever)
+        scaled, per_mm = lever_on_page(sheet, lever)
         box = _extent(scaled)
         panel = Box(MARGIN, y, WIDTH - MARGIN, y + box.height + 2 * ROOM)
         pieces.append(_drawn(sheet, scaled, letters, panel, panel.centre - box.centre, str(number_ or "")))
@@ -89,7 +90,7 @@ def lever_figure(
         y += 4.0
     words += check_bar(complex(WIDTH - MARGIN - 50.0, y + 3.0), rich(term("check bar", spoken), 2.4))
     page = joined((*pieces, Piece({"labels": tuple(words)})))
-    per = _at_scale(sheet, shown[0][2])[1] / sheet.scene.units.rates.metres
+    per = lever_on_page(sheet, shown[0][2])[1] / sheet.scene.units.rates.metres
     return Drawing(
         WIDTH, y + 8.0, layer_groups(page), figure_title(sheet, "lever", spoken),
         say(Phrase("lever described"), languages(spoken)[0]), languages(spoken)[0],
@@ -97,7 +98,7 @@ def lever_figure(
     )  # fmt: skip
 
 
-def _at_scale(sheet: Sheet, lever: Lever) -> tuple[Lever, float]:
+def lever_on_page(sheet: Sheet, lever: Lever) -> tuple[Lever, float]:
     """A lever of a size that a page shows, and m/s for one of its mm: the sheet's own where it is no virtual one."""
     box = _extent(lever)
     wide, high = WIDTH - 2 * (MARGIN + ROOM), HIGHEST
@@ -213,28 +214,11 @@ def _table(
         words += _row(row, columns, y, units.newtons, letters)
     y += 1.4
     words.append(Line(complex(MARGIN, y), complex(WIDTH - MARGIN, y), strokes.DIMENSION))
-    name = f"${force_letters(letters.convention, lever.balance)}$"
-    moment = lever.balance.kind == "M"
-    factor = lever.unknown.moment
-    total = sum(row.moment for row in lever.rows) / units.newtons
-    unit_ = f"{units.force}·m" if moment else units.force
-    by = state.moments.get(lever.balance) if moment else None
-    if not moment:
-        vector = state.vectors.get(lever.balance, 0j)
-        other = abs(vector) * sheet.scales.force
-        value = abs(lever.value)
-    else:
-        other, value = float(by or 0.0), lever.value
-    lead = f"{'−' if factor < 0 else ''}{name}·{number(abs(factor), DIGITS)}"
-    rest = f"{'+' if total >= 0 else '−'} {number(abs(total), DIGITS)}"
     for each in languages(spoken):
-        y += ROW
-        text = f"{say(Phrase('lever sum'), each)} {lead} {rest} = 0"
-        words.append(Text(complex(MARGIN, y), rich(text, SIZE)))
-        y += ROW
-        found, polygons = (f"{number(v / units.newtons, DIGITS)} {unit_}" for v in (value, other))
-        said = say(Phrase("lever balance", (name, found, polygons)), each)
-        words.append(Text(complex(MARGIN, y), rich(said, SIZE, bold=True)))
+        total, balance = lever_sum(sheet, state, lever, letters, each)
+        words.append(Text(complex(MARGIN, y + ROW), rich(total, SIZE)))
+        words.append(Text(complex(MARGIN, y + 2 * ROW), rich(balance, SIZE, bold=True)))
+        y += 2 * ROW
     return y
 
 

@@ -123,7 +123,7 @@ def stepped(children: Iterable[Primitive], born: dict[str, int]) -> tuple[Primit
     children = tuple(children)
     for thing, after in zip(children, (*children[1:], None), strict=False):  # the last has none after it
         if isinstance(thing, Line) and isinstance(after, Text) and "label" in after.classes:
-            step = born.get(after.id.removeprefix("label-"))
+            step = born.get(after.id.removeprefix("label-"), after.step)
             thing = Group((thing,), classes=("leader",), step=step)
         elif isinstance(thing, Group | Text):
             step = born.get(thing.id.removeprefix("label-"))

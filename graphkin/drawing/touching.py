@@ -108,13 +108,14 @@ def contact_marks(here: MechanismOnPaper) -> Piece:
     return _marks((contact.name, *links.contact(contact)) for contact in links.contacts())
 
 
-def marks_cut_free(here: MechanismOnPaper, cut: frozenset[str]) -> Piece:
-    """The same where links cut free touch others, in the pitch points of wheels too."""
+def marks_cut_free(here: MechanismOnPaper, cut: frozenset[str], tag: str) -> Piece:
+    """The same with their letters where links cut free touch others, in the pitch points of wheels too; ``tag`` ends
+    the names of the parts."""
     touches = (t for t in _on_paper(here).touches() if cut.intersection(t.links))
-    return _marks(((t.name, t.at, t.normal) for t in touches), True)
+    return _marks(((t.name, t.at, t.normal) for t in touches), f"-{tag}")
 
 
-def _marks(places: Iterable[tuple[str, complex, complex]], lettered: bool = False) -> Piece:
+def _marks(places: Iterable[tuple[str, complex, complex]], tag: str = "") -> Piece:
     drawn, names = list[Primitive](), list[Label]()
     for name, at, normal in places:
         lines = list[Primitive]()
@@ -122,14 +123,14 @@ def _marks(places: Iterable[tuple[str, complex, complex]], lettered: bool = Fals
             ends = at - reach * along, at + reach * along
             lines.append(Line(page(ends[0]), page(ends[1]), AXIS))
             for k, (end, way) in enumerate(zip(ends, (-along, along), strict=True)):
-                mark = f"label-{letter}-{name}-{k + 1}"
+                mark = f"label-{letter}-{name}-{k + 1}{tag}"
                 text = Text(0j, symbol(letter, 3.0), "start", strokes.BLACK, mark, ("label",))
                 names.append(Label(text, page(end), (phase(way),), 0))
-        if lettered:
+        if tag:
             lines.append(Circle(page(at), 0.5, fill=strokes.BLACK))
             own = Text(0j, symbol(name, 3.0), "start", strokes.BLACK, classes=("label",))
             names.append(Label(own, page(at), rank=1))
-        drawn.append(Group(tuple(lines), id=f"contact-{name}", classes=("contact",)))
+        drawn.append(Group(tuple(lines), id=f"contact-{name}{tag}", classes=("contact",)))
     return Piece({"construction": tuple(drawn)}, tuple(names))
 
 

@@ -36,7 +36,7 @@ PIXEL = 25.4 / 96  # mm
 _PROLOG = re.compile(r"^<\?xml[^>]*\?>\s*")
 _LAYER = re.compile(r' inkscape:(?:groupmode|label)="[^"]*"| xmlns:(?:inkscape|ev|xlink)="[^"]*"| baseProfile="[^"]*"')
 _ID = re.compile(r' id="[^"]*"')
-_LAYER_ID = re.compile(r' id="(?:construction|mechanism|velocity|acceleration|centres|answers|labels)"')
+_LAYER_ID = re.compile(r' id="(?:construction|mechanism|velocity|acceleration|forces|centres|answers|labels)"')
 _LENGTH = re.compile(' (?:lengthAdjust|textLength)="[^"]*"')  # the page has the faces, and many thousands of runs
 _FIRST_RUN = re.compile(
     '(?P<text><text[^>]*?(?P<size> font-size="[^"]*")[^>]*?(?P<place> x="[^"]*" y="[^"]*")><tspan)'

@@ -17,18 +17,22 @@ from graphkin.drawing.centre_marks import centre_marks, near_box
 from graphkin.drawing.centres import background
 from graphkin.drawing.conventions import scale_statement
 from graphkin.drawing.drawing import Drawing
+from graphkin.drawing.force_stages import force_stages
+from graphkin.drawing.forces import group_equation, group_picture
 from graphkin.drawing.headings import FIGURE_WORDS, drivers, term
 from graphkin.drawing.insets import polygon_with_insets, strip_height
+from graphkin.drawing.lever import lever_figure
 from graphkin.drawing.mechanism import mechanism_piece
 from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
 from graphkin.drawing.polygon_on_page import extent
 from graphkin.drawing.stepwise import births, stepped
+from graphkin.papers.blocks import said
 from graphkin.papers.html import blocks_html, figure_svg, said_html, words_html
 from graphkin.papers.lesson import Lesson, Stage, plain_words
 from graphkin.papers.pictures import ROOM, equation_picture
 from graphkin.papers.problem import equation_words, given
 from graphkin.papers.solution import results_blocks, stage_title, step_items
-from graphkin.papers.trial import found_in
+from graphkin.papers.trial import force_found, found_in
 from graphkin.scene.model import AngleDriver
 from graphkin.words import languages
 
@@ -37,6 +41,7 @@ __all__ = ["POSITIONS", "Progress", "View", "common_scales", "positions_data"]
 Progress = Callable[[int, int], None]  # positions done, and all of them
 POSITIONS = 12
 MECHANISM, POLYGON = (160.0, 218.0), 190.0  # mm that the mechanism in all positions and a polygon may fill
+WIDE = 96.0  # mm of the sketch of a group, its polygon below
 SERIES = (1.0, 2.0, 2.5, 5.0)
 POLYGONS: tuple[DiagramName, ...] = ("velocity", "acceleration")
 FigureName: TypeAlias = Literal["mechanism", "velocity", "acceleration", "centres", "force"]
@@ -122,12 +127,13 @@ class _Frames:
                 "caption": caption + f'<span class="scale">{words_html(self._scale(lesson, name))}</span>',
             })  # fmt: skip
         stages = lesson.stages
+        shown, more, steps = self._forces(lesson, len(stages))
         return {
             "name": plain_words(drivers(lesson.sheet, lesson.letters)),
             "label": words_html(drivers(lesson.sheet, lesson.letters)),
             "at": _at(lesson.sheet),
-            "figures": figures,
-            "stages": [self._stage(lesson, stage) for stage in stages],
+            "figures": [*figures, *shown],
+            "stages": [*(self._stage(lesson, stage) for stage in stages), *more],
             "results": blocks_html(results_blocks(lesson)) if lesson.report.rows else "",
             "given": blocks_html(given(lesson)),
             "steps": [
@@ -136,8 +142,49 @@ class _Frames:
                  "text": " ".join(plain_words(markup) for _, markup in item.words), **found_in(lesson, step)}
                 for number, stage in enumerate(stages)
                 for step, item in zip(stage.steps, step_items(lesson, stage), strict=True)
-            ],
+            ] + steps,
         }  # fmt: skip
+
+    def _forces(
+        self, lesson: Lesson, before: int
+    ) -> tuple[list[dict[str, str]], list[int], list[dict[str, object]]]:
+        """Figures, stages and steps of the forces, the numbers of the stages behind those of the motion."""
+        forces = lesson.forces
+        if forces is None:
+            return [], [], []
+        sheet = replace(lesson.sheet, scales=replace(lesson.sheet.scales, force=forces.per_mm))
+        figures, numbers, steps = list[dict[str, str]](), list[int](), list[dict[str, object]]()
+        told = force_stages(sheet, forces, lesson.letters, lesson.language)
+        scale = words_html(scale_statement(sheet, lesson.letters.convention, "force"))
+        for number, stage in enumerate(told):
+            name, svg = str(stage.figure), ""
+            if stage.group is not None:
+                name = f"force-{number}"
+                drawn = group_picture(
+                    sheet, forces, stage, stage.group, lesson.letters, lesson.language, WIDE, f"-{number}"
+                )  # fmt: skip
+                links = said("force on links", lesson.language, ", ".join(stage.group.links))
+                caption = f'{said_html(links)} <span class="scale">{scale}</span>'
+                figures.append({"name": name, "svg": figure_svg(drawn, named=True), "caption": caption})
+                equation = group_equation(sheet, stage.group, lesson.letters, lesson.language, WIDE)
+                svg = "" if equation is None else figure_svg(equation)
+            title = said_html(stage.title)
+            if len(forces.states) > 1 and stage.group is not None:
+                load = said("force with load" if stage.again else "force without load", lesson.language)
+                title += f" <small>{said_html(load)}</small>"
+            numbers.append(self._told({"title": title, "svg": svg}))
+            steps += [
+                {"d": name, "e": before + number, "n": step.number, "html": said_html(step.words, "p")
+                 + "".join(f'<p class="work">{words_html(line)}</p>' for line in step.work),
+                 "text": " ".join(plain_words(markup) for _, markup in step.words),
+                 **force_found(lesson, stage, step)}
+                for step in stage.steps
+            ]  # fmt: skip
+        lever = lever_figure(sheet, forces, language=lesson.language, convention=lesson.convention)
+        if lever is not None:
+            caption = said_html(said("lever", lesson.language))
+            figures.append({"name": "lever", "svg": figure_svg(lever), "caption": caption})
+        return figures, numbers, steps
 
     def _stage(self, lesson: Lesson, stage: Stage) -> int:
         """Place of a stage in the table of all: most of them are the same in every position."""
@@ -145,7 +192,9 @@ class _Frames:
         if stage.equation is not None:
             words = equation_words(lesson, stage.equation)
             svg = figure_svg(equation_picture(lesson.sheet, stage.equation, lesson.letters, lesson.language, words))
-        whole = {"title": said_html(stage_title(lesson, stage)), "svg": svg}
+        return self._told({"title": said_html(stage_title(lesson, stage)), "svg": svg})
+
+    def _told(self, whole: dict[str, str]) -> int:
         if whole not in self.stages:
             self.stages.append(whole)
         return self.stages.index(whole)

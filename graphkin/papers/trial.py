@@ -6,15 +6,17 @@ from __future__ import annotations
 
 import cmath
 import math
+from dataclasses import replace
 from typing import Any
 
 from graphkin.checking.uncertainty import COVERAGE
 from graphkin.construction.polygon_acts import MeasuredRate, PlanDrawn
 from graphkin.construction.sheet import Step, Vector
+from graphkin.drawing.force_stages import ForceStage, ForceStep
 from graphkin.papers.html import words_html
 from graphkin.papers.lesson import Lesson
 
-__all__ = ["found_in", "tolerances"]
+__all__ = ["force_found", "found_in", "tolerances"]
 
 LEAST, MOST = 0.01, 0.08  # parts of a value: what is taken for right at least, and at most
 
@@ -42,6 +44,27 @@ def found_in(lesson: Lesson, step: Step) -> dict[str, Any]:
         "size": _short(lesson.in_unit(last.symbol, abs(value))), "unit": lesson.unit(last.symbol),
         "angle": round(math.degrees(cmath.phase(value)), 1),
     }}  # fmt: skip
+
+
+def force_found(lesson: Lesson, stage: ForceStage, step: ForceStep) -> dict[str, Any]:
+    """What a step of the forces finds, where it finds one force or moment; as `found_in`."""
+    if len(step.found) != 1 or lesson.forces is None:
+        return {}
+    (symbol,) = step.found
+    name = words_html(f"${lesson.letters.vector(symbol)}$")
+    back = replace(symbol, link=symbol.other, other=symbol.link) if symbol.other else symbol
+    for one, sign in ((symbol, 1.0), (back, -1.0)):
+        value = stage.state.moments.get(one)
+        span = stage.state.vectors.get(one)
+        if value:
+            size, unit = _short(lesson.in_unit(symbol, abs(value))), lesson.unit(symbol)
+            return {"find": {"symbol": str(symbol), "name": name, "size": size, "unit": unit,
+                             "sense": 1 if sign * value > 0 else -1}}  # fmt: skip
+        if span:
+            size = _short(lesson.in_unit(symbol, abs(span) * lesson.forces.per_mm))
+            return {"find": {"symbol": str(symbol), "name": name, "size": size, "unit": lesson.unit(symbol),
+                             "angle": round(math.degrees(cmath.phase(sign * span)), 1)}}  # fmt: skip
+    return {}
 
 
 def _short(value: float) -> float:

@@ -28,7 +28,8 @@
 
   function readable(root) {
     for (const svg of root.querySelectorAll("svg[viewBox]")) {
-      svg.style.minWidth = `${svg.viewBox.baseVal.width * LETTER}px`;
+      const letter = svg.closest("#figure-lever") ? 0.7 * LETTER : LETTER; // its smallest letters are larger
+      svg.style.minWidth = `${svg.viewBox.baseVal.width * letter}px`;
     }
   }
 
@@ -38,7 +39,7 @@
       aria-label="${f.name}">${f.svg}</div><figcaption>${f.caption}</figcaption></figure>`);
     // the mechanism and its centres stand beside the polygons
     const [left, right] = [0, 1].map((side) =>
-      shown.filter((_, i) => /velocity|acceleration/.test(now.figures[i].name) === Boolean(side)).join(""));
+      shown.filter((_, i) => /velocity|acceleration|force|lever/.test(now.figures[i].name) === Boolean(side)).join(""));
     figures.innerHTML = `<div>${left}</div><div>${right}</div>`;
     for (const [i, f] of now.figures.entries()) {
       figures.querySelector(`#figure-${f.name} .pane`).setAttribute("aria-label", figures.querySelectorAll("figcaption")[i].textContent);

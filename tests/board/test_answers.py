@@ -70,6 +70,13 @@ def test_a_scene_is_shown_whole_with_its_readings_and_steps() -> None:
     assert list(range(1, len(found["steps"]) + 1)) == [step["n"] for step in found["steps"]]
 
 
+def test_steps_of_forces_follow_those_of_the_motion() -> None:
+    found = told("show", text=library_text("shaper-forces"), figures=["forces"])
+    steps = [step for step in found["steps"] if step["figure"] in ("forces", "lever")]
+    assert {"forces", "lever"} == {step["figure"] for step in steps}
+    assert f'step-{steps[0]["n"]:02d}' in found["figures"]["forces"]
+
+
 def test_a_pulled_crank_pin_turns_the_driver_and_leaves_the_text() -> None:
     found = told("pull", point="B", x=0.0, y=3.0, final=True)
     assert pytest.approx(90.0) == found["at"]["1"]

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import base64
+import json
 import re
+import zlib
 from pathlib import Path
 
 import pytest
@@ -37,6 +40,22 @@ def test_the_solution_cuts_each_group_free_and_has_the_lever(papers):
     text = words(papers["handout.html"])
     for said in ("Links 3, 4 (RRP) cut free", "Links 2 (driven) cut free", "−116.31", "Zhukovsky"):
         assert said in text
+
+
+def test_the_forces_are_found_step_by_step_on_the_page(papers):
+    packed = re.search(r'id="positions">(.*?)</script>', papers["handout.html"], re.DOTALL)[1]
+    (position,) = json.loads(zlib.decompress(base64.b64decode(packed)))["positions"]
+    svg = "".join(figure["svg"] for figure in position["figures"])
+    ids = re.findall(r' id="([^"]*)"', svg)
+    assert len(ids) == len(set(ids))
+    steps = {step["n"]: step for step in position["steps"]}
+    assert sorted(steps) == list(range(1, len(steps) + 1))
+    found = [step for step in steps.values() if step["d"].startswith("force") and "find" in step]
+    assert {"F_2/3", "M_2"} <= {step["find"]["symbol"] for step in found} | {
+        step["find"]["symbol"] for step in steps.values() if step["d"] == "lever" and "find" in step
+    }
+    drawn = set(map(int, re.findall(r"step-(\d+)", svg)))
+    assert {step["n"] for step in found} <= drawn
 
 
 def test_the_key_has_the_forces_with_what_to_accept(papers):
