@@ -29,7 +29,7 @@ from graphkin.api.results import OfScene, Result
 from graphkin.checking.readings import read_off
 from graphkin.checking.report import Compared, Report, compare
 from graphkin.checking.uncertainty import Advice, advise, predict
-from graphkin.construction import EXACT, Cad, Instrument, Plan, Sheet, execute, pencil, plan
+from graphkin.construction import EXACT, Cad, Exact, Instrument, Plan, Sheet, execute, pencil, plan
 from graphkin.construction.sheet import DiagramName
 from graphkin.errors import CallError, Problem, Unsolvable, as_text, did_you_mean
 from graphkin.files import path_of
@@ -59,6 +59,7 @@ class Checked(Result, OfScene):
 
     ``advice`` names the least certain reading of a drawing with finite tools, and what would help it; ``asked`` is
     what the drawing was limited to, empty where it was not; ``passed`` are the change points on the way to it.
+    ``at_contacts`` is the same with sliding contacts drawn at the contact itself, where exact hands have drawn it so.
     """
 
     sheet: Sheet
@@ -66,6 +67,7 @@ class Checked(Result, OfScene):
     advice: Advice | None = None
     asked: tuple[Symbol, ...] = ()
     passed: tuple[ChangePoint, ...] = ()
+    at_contacts: Checked | None = None
 
     @property
     def mechanism(self) -> Mechanism:
@@ -80,7 +82,7 @@ class Checked(Result, OfScene):
     def ok(self) -> bool:
         """Whether the drawing is whole and every reading lies within its tolerance; readings that are not determined
         at this position count for nothing, and a drawing of such alone agrees with nothing."""
-        return self.report.ok and self.complete
+        return self.report.ok and self.complete and (self.at_contacts is None or self.at_contacts.ok)
 
     @property
     def complete(self) -> bool:
@@ -123,8 +125,10 @@ class Checked(Result, OfScene):
             "instrument": self.report.instrument,
             "ok": self.ok,
             "scales": self.scales,
-            "readings": [{**reading_row(self.mechanism, row), **self._by_centres(row), **self._by_lever(row)}
-                         for row in self.report.rows],
+            "readings": [
+                {**reading_row(self.mechanism, row), **self._by_centres(row), **self._by_lever(row),
+                 **self._at_contact(row)} for row in self.report.rows
+            ],
             **({"advice": say(self.advice.phrase())} if self.advice else {}),
             **self._construction,
         }
@@ -186,6 +190,14 @@ class Checked(Result, OfScene):
 
         return speeds(self.centres)
 
+    def _at_contact(self, row: Compared) -> dict[str, float]:
+        """A reading of the drawing at the contacts, in scene units."""
+        other = self.at_contacts
+        rows = {} if other is None else {r.symbol: r for r in other.report.rows}
+        if row.symbol not in rows:
+            return {}
+        return {"at_contact": reading_row(self.mechanism, rows[row.symbol])["measured"]}
+
     def _by_centres(self, row: Compared) -> dict[str, float]:
         """A velocity by centres, in scene units; nothing for accelerations."""
         from graphkin.construction.centres import by_centres
@@ -244,7 +256,14 @@ def check(
 
 
 def checked(what: Plan, motion: Motion, hand: Instrument) -> Checked:
-    """Draw a plan and hold everything on it against the solver at the same position."""
+    """Draw a plan and hold everything on it against the solver at the same position; sliding contacts at the contact
+    itself too, by hands that draw exactly."""
+    made = _checked(what, motion, hand)
+    other = what.at_contacts() if hand.faultless and isinstance(hand, Exact) else None
+    return made if other is None else replace(made, at_contacts=_checked(other, motion, hand))
+
+
+def _checked(what: Plan, motion: Motion, hand: Instrument) -> Checked:
     from graphkin.solver import as_drawn, exact_values
 
     passed, motion = motion.passed, as_drawn(motion, what.structure)

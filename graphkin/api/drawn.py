@@ -238,6 +238,23 @@ def _rolls(scene: Mechanism) -> bool:
     return bool(scene.gears) or any(c.rolling for c in scene.contacts)
 
 
+def _contacts(drawn: Drawn) -> Drawing | None:
+    from graphkin.drawing import acceleration_figure, velocity_figure
+
+    other = drawn.checked.at_contacts
+    if other is None:
+        return None
+    spoken = {"language": drawn.language, "convention": drawn.convention}
+    pages = [velocity_figure(other.sheet, **spoken)]
+    if other.sheet.vectors("acceleration"):
+        pages.append(acceleration_figure(other.sheet, **spoken))
+    return replace(pages[0], further=tuple(pages[1:]))
+
+
+def _touches(scene: Mechanism) -> bool:
+    return any(not c.rolling for c in scene.contacts)
+
+
 def _loops(drawn: Drawn) -> Drawing | None:
     from graphkin.drawing.loops import loops_figure
 
@@ -330,6 +347,7 @@ FIGURES: Mapping[str, FigureKind] = {
     "positions": FigureKind(lambda scene: scene.positions is not None, _positions),
     "polygons": FigureKind(lambda scene: False, _polygons),
     "cam": FigureKind(lambda scene: bool(scene.cams), _cams),
+    "contacts": FigureKind(_touches, _contacts),
     "plan": FigureKind(_rolls, _plan),
     "loops": FigureKind(lambda scene: bool(scene.loops), _loops),
     "forces": FigureKind(lambda scene: bool(scene.loading), _forces),

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from graphkin.api.arguments import own_unit, passed_words
 from graphkin.api.checked import Checked
 from graphkin.checking.reading_words import deviation, exact, measured, paper
+from graphkin.construction.remarks import AtContact
 from graphkin.construction.sheet import Equation, Sheet, Term
 from graphkin.construction.sizes import Direction
 from graphkin.errors import Unsolvable
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
     from graphkin.study.trace import Extreme
     from graphkin.study.turn import Output, TurnStudy
 
-__all__ = ["lever_lines", "reading_words", "report_text", "show", "turn_text"]
+__all__ = ["contact_lines", "lever_lines", "reading_words", "report_text", "show", "turn_text"]
 
 _SIGNS = {"square": "⊥", "along": "∥"}
 
@@ -73,7 +74,10 @@ def report_text(checked: Checked, language: str) -> str:
     for symbol, length, found, true, ok in reading_words(checked):
         mark = {True: "", False: "  !", None: "  ?"}[ok]
         lines.append(f"{symbol:<16}{length:>12}{found:>16}{true:>16}{mark}")
-    lines += ["", *lever_lines(checked, language)]
+    lines += ["", *lever_lines(checked, language), *contact_lines(checked, language)]
+    if checked.at_contacts is not None:
+        steps = (s for s in checked.at_contacts.sheet.steps if s.diagram in ("velocity", "acceleration"))
+        lines += ["", *(f"{s.number:3}  {say(s.phrase, language, show)}" for s in steps), ""]
     lines += [say(note, language, show) for note in (*sheet.left_out, *sheet.notes)]
     lines.append(verdict(checked, language))
     return "\n".join(lines) + "\n"
@@ -146,6 +150,26 @@ def verdict(checked: Checked, language: str) -> str:
     elif not report.rows:
         said.append(Phrase("nothing checked"))
     return " ".join(say(phrase, language) for phrase in said)
+
+
+def contact_lines(checked: Checked, language: str) -> list[str]:
+    """Whether the drawing at the sliding contacts themselves agrees with that of what replaces them, and the rates and
+    contacts that it finds."""
+    other = checked.at_contacts
+    if other is None:
+        return []
+    names = [n.contact for n in other.sheet.remarks if isinstance(n, AtContact)]
+    first = {row.symbol: row for row in checked.report.rows}
+    both = [(row, first[row.symbol]) for row in other.report.rows if row.symbol in first]
+    alike = sum(abs(a.reading.value - b.reading.value) <= a.tolerance + b.tolerance for a, b in both)
+    found = [
+        f"{symbol} {length} {said}" if length != "–" else f"{symbol} {said}"
+        for symbol, length, said, _, _ in reading_words(other)
+        if any(f"_{n}@" in symbol for n in names)
+    ]
+    key = "at contact agrees" if other.ok and alike == len(both) else "at contact differs"
+    lines = [say(Phrase(key, (", ".join(dict.fromkeys(names)), alike, len(both))), language)]
+    return [*lines, *(f"  {line}" for line in found)]
 
 
 def _rows(equation: Equation, language: str) -> list[str]:

@@ -86,7 +86,7 @@ def print_check(checked: Checked, language: str, as_json: bool, quiet: bool) -> 
 
 def _print_readings(checked: Checked, language: str) -> None:
     from graphkin.api.arguments import passed_words
-    from graphkin.api.report_text import lever_lines, reading_words, show, verdict
+    from graphkin.api.report_text import contact_lines, lever_lines, reading_words, show, verdict
     from graphkin.words import say, word
 
     rows = [
@@ -95,7 +95,7 @@ def _print_readings(checked: Checked, language: str) -> None:
     ]
     heads = [word(key, language) for key in ("quantity", "on paper", "measured", "exact")]
     print_table([*heads, ""], rows, right=(1, 2, 3))
-    for line in lever_lines(checked, language):
+    for line in (*lever_lines(checked, language), *contact_lines(checked, language)):
         tell(line)
     for note in checked.sheet.notes:
         tell(say(note, language, show))

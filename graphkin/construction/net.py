@@ -23,8 +23,8 @@ class Edge:
     """The motion of ``end`` relative to ``start``.
 
     ``link`` is the rigid link between them, or ``slide`` the sliding pair they belong to, or ``weld`` the driven
-    turning pair.  ``unknown`` names what is not known of it ("omega 3", "slide 2/3"); "" if nothing.  ``labels`` are
-    the nodes as written, coincident points with their links.
+    turning pair, or ``contact`` the sliding contact.  ``unknown`` names what is not known of it ("omega 3", "slide
+    2/3"); "" if nothing.  ``labels`` are the nodes as written, coincident points with their links.
     """
 
     start: PointRef
@@ -34,6 +34,7 @@ class Edge:
     link: str = ""
     slide: Slide | None = None
     weld: Weld | None = None
+    contact: str = ""
     forward: bool = True
     unknown: str = ""
 

@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING
 
+from graphkin.construction.at_contacts import chains_at_contacts
 from graphkin.construction.board import EXACT, Instrument
 from graphkin.construction.cam_outline import outlines_on_paper
 from graphkin.construction.carried_out import carried_out, finished
@@ -154,6 +155,20 @@ class Plan(Task):
     def with_branches(self, branches: Mapping[int, int]) -> Plan:
         """The same task in another assembly, at the same scales.  Raises Unsolvable where it cannot be drawn."""
         return replace(_planned(replace(self, branches=branches, chains={}, plans={}), None), scales=self.scales)
+
+    def at_contacts(self) -> Plan | None:
+        """The same task with sliding contacts drawn at the contact itself instead of by what replaces them, at scales
+        that suit it; None where there is no such contact in a dyad."""
+        chains = chains_at_contacts(self.structure, self.exact)
+        inside = {dyad: chain for dyad, chain in chains.items() if dyad in self.elements}
+        if not inside:
+            return None
+        other = replace(self, chains={**self.chains, **inside})
+        exact = finished(other, carried_out(other, NATURAL))
+        extents = _extents_of(exact)
+        return replace(
+            other, exact=exact, extents=extents, scales=_chosen_scales(self.structure.scene, extents, None)
+        )
 
 
 def plan(

@@ -13,7 +13,9 @@ from typing import Self
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase
 
-__all__ = ["Magnified", "OffTheSheet", "ParallelLegs", "Remark", "SharpCrossing", "ShortArm", "ZeroVector"]
+__all__ = [
+    "AtContact", "Magnified", "OffTheSheet", "ParallelLegs", "Remark", "SharpCrossing", "ShortArm", "ZeroVector",
+]  # fmt: skip
 
 REACH = 2000.0  # mm to either side: how far a construction line is drawn
 SHARP = math.sin(math.radians(15.0))
@@ -134,4 +136,22 @@ class ParallelLegs:
         return self
 
 
-Remark = Magnified | ParallelLegs | SharpCrossing | OffTheSheet | ZeroVector | ShortArm
+@dataclass(frozen=True)
+class AtContact:
+    """A sliding contact is drawn at the contact itself, not by what replaces it."""
+
+    contact: str
+
+    @property
+    def holds(self) -> bool:
+        return True
+
+    @property
+    def phrase(self) -> Phrase:
+        return Phrase("at contact", (self.contact,))
+
+    def scaled(self, times: float) -> Self:
+        return self
+
+
+Remark = AtContact | Magnified | ParallelLegs | SharpCrossing | OffTheSheet | ZeroVector | ShortArm

@@ -7,7 +7,7 @@ from typing import Literal
 
 from graphkin.scene.symbol import Symbol
 
-__all__ = ["Direction", "Given", "RateTimes", "Size", "SquareOverRadius"]
+__all__ = ["Direction", "Given", "OffCurves", "RateTimes", "Size", "SquareOverRadius"]
 
 
 @dataclass(frozen=True)
@@ -66,4 +66,30 @@ class SquareOverRadius:
         return f"({self.velocity})²/ρ"
 
 
-Size = Given | RateTimes | SquareOverRadius
+@dataclass(frozen=True)
+class OffCurves:
+    """What the curvatures of two outlines give along the normal of their contact, by the slip and the relative rate of
+    the two ``links``; ``round`` where both are round, else the second is flat.
+
+    >>> str(OffCurves(Symbol.parse("v_K@2/K@1"), ("2", "1"), False))
+    '2ω_{21}·v_K@2/K@1 − ω_{21}²ρ_{1}'
+    """
+
+    velocity: Symbol
+    links: tuple[str, str]
+    round: bool
+
+    def written(self, velocity: str) -> str:
+        """With the slip as it is written somewhere."""
+        two, one = self.links
+        omega = f"ω_{{{two}{one}}}"
+        if not self.round:
+            return f"2{omega}·{velocity} − {omega}²ρ_{{{one}}}"
+        parts = "".join(f"({omega}ρ_{{{n}}} − {velocity})" for n in (one, two))
+        return f"{omega}·{velocity} − {parts}/(ρ_{{{two}}} − ρ_{{{one}}})"
+
+    def __str__(self) -> str:
+        return self.written(str(self.velocity))
+
+
+Size = Given | RateTimes | SquareOverRadius | OffCurves

@@ -6,8 +6,10 @@ from typing import Literal
 
 from graphkin.construction.net import Edge
 from graphkin.construction.plot import Order, Plot
-from graphkin.construction.sizes import Direction, Given, RateTimes, SquareOverRadius
+from graphkin.construction.remarks import AtContact
+from graphkin.construction.sizes import Direction, Given, OffCurves, RateTimes, SquareOverRadius
 from graphkin.construction.slip import Component
+from graphkin.construction.touching import Touching
 from graphkin.plane import dot, unit
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import Symbol
@@ -20,6 +22,8 @@ def parts_of(plot: Plot, order: Order, edge: Edge) -> list[Component]:
     """The terms of the motion of an edge's end relative to its start."""
     if edge.weld is not None:
         return _weld_parts(plot, order, edge, edge.weld)
+    if edge.contact:
+        return _contact_parts(plot, order, edge)
     if edge.slide is not None:
         return _slide_parts(plot, order, edge, edge.slide)
     return _rigid_parts(plot, order, edge)
@@ -93,6 +97,43 @@ def _slide_parts(plot: Plot, order: Order, edge: Edge, slide: Slide) -> list[Com
     )
     sliding = Component(symbol_of(plot, "ar", edge), "sliding", sense, span, edge.direction, _given_size(span))
     return [coriolis, *bent, sliding]
+
+
+def _contact_parts(plot: Plot, order: Order, edge: Edge) -> list[Component]:
+    """The material point of one body at a contact relative to that of the other: slip along the tangent; with the term
+    of Coriolis, and along the normal what the curvatures of both outlines give."""
+    one, two = (ref.link for ref in edge.labels)
+    contact = next(c for c in plot.structure.scene.contacts if c.name == edge.contact)
+    touching = Touching(plot.structure.scene, plot.frame.mm, plot.frame.poses)
+    place, normal = touching.contact(contact)
+    plot.board.notice(order, AtContact(contact.name))
+    tangent = -1j * normal
+    fixed = plot.fixed(edge.start)
+    role: Literal["resultant", "relative"] = "resultant" if fixed else "relative"
+    if order == "velocity":
+        return [Component(symbol_of(plot, "v", edge), role, tangent, None, edge.direction)]
+    centres = dict(zip((d.link for d in contact.round), touching.centres(contact), strict=True))
+    # 1/m, positive where the centre of curvature lies on the side of the normal
+    bends = [plot.frame.mm / dot(centres[n] - place, normal) if n in centres else 0.0 for n in (one, two)]
+    omega, other = (plot.rates["velocity"][n].value for n in (one, two))
+    slip = plot.end("velocity", edge.end) - plot.end("velocity", edge.start)
+    speed = plot.board.instrument.read(abs(slip)) * plot.scales.velocity * (1 if dot(slip, tangent) >= 0 else -1)
+    turning = other - omega
+    off = turning * speed - (turning - bends[0] * speed) * (turning - bends[1] * speed) / (bends[0] - bends[1])
+    velocity = symbol_of(plot, "v", edge)
+    if one in centres:
+        size: RateTimes | OffCurves = OffCurves(velocity, (two, one), two in centres)
+    else:
+        size = RateTimes("omega", (two, one), (contact.round[0].centre, contact.name), square=True)
+    way, square = Direction("turned", edge.direction.names), Direction("along", ("n-n",))
+    per = plot.scales.acceleration
+    coriolis = Component(
+        symbol_of(plot, "ak", edge), "coriolis", normal, normal * (2 * omega * speed / per), way,
+        RateTimes("omega", (one,), velocity, twice=True),
+    )  # fmt: skip
+    curved = Component(symbol_of(plot, "an", edge), "normal", normal, normal * (off / per), square, size)
+    sliding = Component(symbol_of(plot, "ar", edge), "sliding", tangent, None, edge.direction)
+    return [*([] if one in plot.still else [coriolis]), curved, sliding]
 
 
 def _bent_parts(plot: Plot, edge: Edge, slide: Slide, sense: complex) -> list[Component]:

@@ -14,7 +14,7 @@ from functools import lru_cache
 from typing import Literal
 
 from graphkin.construction.sheet import DiagramName, Sheet
-from graphkin.construction.sizes import Direction, RateTimes, Size, SquareOverRadius
+from graphkin.construction.sizes import Direction, OffCurves, RateTimes, Size, SquareOverRadius
 from graphkin.drawing.force_letters import force_letters
 from graphkin.scene.sheet_tables import Convention
 from graphkin.scene.symbol import PointRef, Symbol
@@ -165,6 +165,8 @@ class Letters:
         """The rule that gives a size: ``ω_{1}^{2} l_{AB}``."""
         if isinstance(rule, SquareOverRadius):
             return f"({self.vector(rule.velocity)})^{{2}} / ρ"
+        if isinstance(rule, OffCurves):
+            return rule.written(self.vector(rule.velocity)).replace("²", "^{2}").replace("·", " ")
         if not isinstance(rule, RateTimes):
             return str(rule).replace("²", "^{2}")
         letter = "ω" if rule.rate == "omega" else "α"

@@ -46,6 +46,8 @@ def evaluate(motion: Motion, symbol: Symbol) -> Array:
         across = 1j * motion.poses[curved.b].u * curved.guide.direction
         bent = across * dot(across, whole)
         return np.asarray(bent if symbol.kind == "an" else whole - bent)
+    if symbol.to is not None and symbol.of.point == symbol.to.point and _touches(motion, symbol.of, symbol.to):
+        return _at_contact(motion, symbol, symbol.of, symbol.to)
     hinge = _hinge(motion, symbol.of, symbol.to)
     if symbol.to is not None and hinge is not None and symbol.kind != "ar":
         return _turned(motion, symbol, symbol.of, symbol.to, hinge)
@@ -62,15 +64,40 @@ def _curved(motion: Motion, symbol: Symbol) -> Slide | None:
     return next((s for s in motion.slides if s.guide.curvature and s.pin == symbol.of.point and s.b in links), None)
 
 
+def _touches(motion: Motion, of: PointRef, to: PointRef) -> bool:
+    return any(c.name == of.point and {of.link, to.link} == set(c.links) for c in motion.scene.contacts)
+
+
+def _at_contact(motion: Motion, symbol: Symbol, of: PointRef, to: PointRef) -> Array:
+    """Coriolis term of the slip at a contact, and what is left of the relative acceleration: along the normal by the
+    curvatures, along the tangent."""
+    contact = next(c for c in motion.scene.contacts if c.name == of.point)
+    one, two = motion.point(of.point, of.link), motion.point(to.point, to.link)
+    coriolis = 2j * motion.poses[to.link].omega * (one.v - two.v)
+    if symbol.kind == "ak":
+        return np.asarray(coriolis)
+    # the centre of a disc lies on the normal
+    disc = contact.round[0]
+    normal = one.z - motion.point(disc.centre, disc.link).z
+    if disc.radius == 0.0 and len(contact.round) > 1:
+        disc = contact.round[1]
+        normal = one.z - motion.point(disc.centre, disc.link).z
+    normal = normal / np.abs(normal)
+    left = one.a - two.a - coriolis
+    across = normal * dot(normal, left)
+    return np.asarray(across if symbol.kind == "an" else left - across)
+
+
 def _is_on(motion: Motion, ref: PointRef, link: str) -> bool:
     """True where the point is one of the link's, or the link's point under that pin."""
     holders = motion.scene.holders
-    if ref.point not in holders:
-        motion.point(ref.point)
+    held = holders.get(ref.point, ())
+    if not held:
+        motion.point(ref.point, ref.link)
     if ref.link == link:
         return True
-    own = not ref.link or ref.link in holders[ref.point]
-    return own and (link in holders[ref.point] or ref.point in motion.link(link).points)
+    own = not ref.link or ref.link in held
+    return own and (link in held or ref.point in motion.link(link).points)
 
 
 def _hinge(motion: Motion, of: PointRef, to: PointRef | None) -> str | None:
