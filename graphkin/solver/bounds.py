@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import replace
-from typing import Any, Protocol
+from typing import Protocol
 
 from graphkin.scene.cams import LawCam, SlidingFollower
 from graphkin.scene.model import AngleDriver
 from graphkin.solver.dyads import DyadSolution, Joints
-from graphkin.solver.expressions import ExpressionGraph, Real, Vec, fmax, root
+from graphkin.solver.expressions import ExpressionGraph, PoseFormula, Real, Vec, fmax, root
 from graphkin.solver.frame_errors import FrameError, carried, of_dyad, seen, within
 from graphkin.solver.joints import Frames, body_shape
-from graphkin.solver.pose import FIELDS, Pose
+from graphkin.solver.pose import FIELDS
 from graphkin.solver.rounding import Rounding
 from graphkin.structure import Driven, Dyad, Element, Pair, Rolled, links_of
 
@@ -26,11 +26,11 @@ class Formulas(Frames, Protocol):
     """What the bounds are made from: the formulas of the poses and of each dyad, by its place among the elements."""
 
     graph: ExpressionGraph
-    poses: dict[str, Pose]
-    joints: dict[int, Joints]
-    groups: dict[int, DyadSolution]
+    poses: dict[str, PoseFormula]
+    joints: dict[int, Joints[Vec, Real]]
+    groups: dict[int, DyadSolution[Vec, Real]]
 
-    def at_rest(self, place: Any, direction: Any) -> Pose:
+    def at_rest(self, place: Vec | complex, direction: Vec | complex) -> PoseFormula:
         """Axes that do not move."""
 
 
@@ -106,8 +106,8 @@ class ErrorFormulas:
         return {k for k in found if lines[k][0] != "param" or lines[k][1][0] in ("rate", "second")}
 
     @staticmethod
-    def _own(pose: Pose, rounding: Rounding) -> FrameError:
-        def of(z: Any) -> Real:
+    def _own(pose: PoseFormula, rounding: Rounding) -> FrameError:
+        def of(z: Real | Vec) -> Real:
             if isinstance(z, Real):
                 return rounding.of(z)
             x, y = rounding.of(z.real), rounding.of(z.imag)

@@ -17,17 +17,17 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any, Generic, NamedTuple
 
 from graphkin.plane import cross, dot
 from graphkin.solver.expressions import fmax, fmin, root, two_sum
-from graphkin.solver.pose import Pose
+from graphkin.solver.pose import Number, Pose, R, V
 
 __all__ = ["DyadSolution", "Joints", "solve_dyad"]
 
 
 @dataclass(frozen=True)
-class Joints:
+class Joints(Generic[V, R]):
     """The joint frames of a dyad.
 
     ``known1``, ``known2`` in the world; ``outer1``, ``inner1`` in the axes of the first body, ``outer2``, ``inner2``
@@ -35,17 +35,17 @@ class Joints:
     (RRP, PRP, RPP: the outer one of ``second``), -1 where it carries the guide.  ``size`` (m) makes lengths small.
     """
 
-    known1: Pose
-    outer1: Pose
-    inner1: Pose
-    known2: Pose
-    outer2: Pose
-    inner2: Pose
+    known1: Pose[V, R]
+    outer1: Pose[V, R]
+    inner1: Pose[V, R]
+    known2: Pose[V, R]
+    outer2: Pose[V, R]
+    inner2: Pose[V, R]
     sense: float
-    size: Any
+    size: R
 
 
-class DyadSolution(NamedTuple):
+class DyadSolution(NamedTuple, Generic[V, R]):
     """What a dyad gives.
 
     first, second : the axes of the two bodies
@@ -55,16 +55,16 @@ class DyadSolution(NamedTuple):
     load : right side of the velocity equation
     """
 
-    first: Pose
-    second: Pose
-    discriminant: Any
-    sine: Any
-    e1: Any
-    e2: Any
-    load: Any
+    first: Pose[V, R]
+    second: Pose[V, R]
+    discriminant: R
+    sine: R
+    e1: V
+    e2: V
+    load: V
 
 
-def solve_dyad(kind: str, joints: Joints, sign: Any) -> DyadSolution:
+def solve_dyad(kind: str, joints: Joints[V, R], sign: R) -> DyadSolution[V, R]:
     """Solve a dyad of the given kind.
 
     Parameters
@@ -76,30 +76,30 @@ def solve_dyad(kind: str, joints: Joints, sign: Any) -> DyadSolution:
     return _SOLVERS[kind](joints, sign)
 
 
-def _square(z: Any) -> Any:
+def _square(z: Number) -> Any:
     return z.real * z.real + z.imag * z.imag
 
 
-def _length(z: Any) -> Any:
+def _length(z: Number) -> Any:
     return root(_square(z))
 
 
-def _by(arm: Any, local: Any, long: Any) -> Any:
+def _by(arm: Number, local: Number, long: Number) -> Any:
     """The direction of a body from one of its vectors in the world and in its own axes."""
     return arm * (local * (1.0 / (long * long))).conjugate()
 
 
-def _slip(u: Any, outer: Pose, inner: Pose) -> Any:
+def _slip(u: V, outer: Pose[V, R], inner: Pose[V, R]) -> Any:
     """Rate of the vector from the outer to the inner joint, seen from the body itself."""
     return u * (inner.v - outer.v)
 
 
-def _bent(arm: Any, u: Any, outer: Pose, inner: Pose, omega: Any) -> Any:
+def _bent(arm: V, u: V, outer: Pose[V, R], inner: Pose[V, R], omega: R) -> Any:
     """Second rate of that vector in the world when the body turns with ``omega`` and no angular acceleration."""
     return u * (inner.a - outer.a + omega * (2j * (inner.v - outer.v))) - (omega * omega) * arm
 
 
-def _rrr(j: Joints, sign: Any) -> DyadSolution:
+def _rrr(j: Joints[V, R], sign: R) -> DyadSolution[V, R]:
     r1, r2 = j.inner1.z - j.outer1.z, j.inner2.z - j.outer2.z
     long1, long2 = _length(r1), _length(r2)
     line = j.known2.z - j.known1.z
@@ -132,7 +132,7 @@ def _rrr(j: Joints, sign: Any) -> DyadSolution:
     )
 
 
-def _rrp(j: Joints, sign: Any) -> DyadSolution:
+def _rrp(j: Joints[V, R], sign: R) -> DyadSolution[V, R]:
     guide = j.known2
     u2 = guide.u * j.outer2.u.conjugate()
     w2, al2 = guide.omega - j.outer2.omega, guide.alpha - j.outer2.alpha
@@ -167,7 +167,7 @@ def _rrp(j: Joints, sign: Any) -> DyadSolution:
     )
 
 
-def _rpr(j: Joints, sign: Any) -> DyadSolution:
+def _rpr(j: Joints[V, R], sign: R) -> DyadSolution[V, R]:
     # both outer points in the axes of the guide: q is what the shapes of the bodies add to the travel
     one, two = j.inner1.inverse().of(j.outer1), j.inner2.inverse().of(j.outer2)
     q, dq, ddq = one.z - two.z, one.v - two.v, one.a - two.a
@@ -195,17 +195,17 @@ def _rpr(j: Joints, sign: Any) -> DyadSolution:
     )
 
 
-def _greater(a: Any, b: Any) -> Any:
+def _greater(a: Number, b: Number) -> Any:
     """A smooth stand-in for the greater of two lengths, at most 1.42 times as large."""
     return root(a * a + b * b)
 
 
-def _two(e1: Any, e2: Any, over: Any, w: Any) -> tuple[Any, Any]:
+def _two(e1: Number, e2: Number, over: Number, w: Number) -> tuple[Any, Any]:
     """Solve x e1 + y e2 = w for real x, y, with over = 1 / (e1 x e2)."""
     return cross(w, e2) * over, cross(e1, w) * over
 
 
-def _prp(j: Joints, sign: Any) -> DyadSolution:
+def _prp(j: Joints[V, R], sign: R) -> DyadSolution[V, R]:
     g1, g2 = j.known1, j.known2
     u1, u2 = g1.u * j.outer1.u.conjugate(), g2.u * j.outer2.u.conjugate()
     w1, w2 = g1.omega - j.outer1.omega, g2.omega - j.outer2.omega
@@ -235,7 +235,7 @@ def _prp(j: Joints, sign: Any) -> DyadSolution:
     )
 
 
-def _rpp(j: Joints, sign: Any) -> DyadSolution:
+def _rpp(j: Joints[V, R], sign: R) -> DyadSolution[V, R]:
     guide = j.known2
     u2 = guide.u * j.outer2.u.conjugate()
     w2, al2 = guide.omega - j.outer2.omega, guide.alpha - j.outer2.alpha
@@ -249,7 +249,7 @@ def _rpp(j: Joints, sign: Any) -> DyadSolution:
     over = 1.0 / sine
     none = 0.0 * sine
 
-    def inner_at(t: Any, dt: Any) -> Pose:
+    def inner_at(t: R, dt: R) -> Pose[V, R]:
         return guide.along(t, dt, none).pinned(j.outer2, u2, w2, al2).of(j.inner2)
 
     t, s = _two(e1, e2, over, end1.z - inner_at(none, none).z)
@@ -259,7 +259,7 @@ def _rpp(j: Joints, sign: Any) -> DyadSolution:
     return DyadSolution(first, guide.along(t, dt, ddt).pinned(j.outer2, u2, w2, al2), sign * sine, sine, e1, e2, load)
 
 
-_SOLVERS: dict[str, Callable[[Joints, Any], DyadSolution]] = {
+_SOLVERS: dict[str, Callable[[Joints[Any, Any], Any], DyadSolution[Any, Any]]] = {
     "RRR": _rrr,
     "RRP": _rrp,
     "RPR": _rpr,

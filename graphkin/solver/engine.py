@@ -185,7 +185,7 @@ class _Run:
         for i in dyads:
             given = dict(zip(parts, values, strict=False))
             groups[i] = DyadSolution(
-                *(poses[body.links[0]] for body in elements[i].bodies),  # type: ignore[union-attr]
+                *(poses[body.links[0]] for body in elements[i].bodies),  # type: ignore[union-attr, arg-type]
                 *(given.get(p, _LOST) for p in DyadSolution._fields[2:]),
             )
         found = list(values)

@@ -7,13 +7,15 @@ or 1 is folded away, what is computed twice is computed once, and what leads to 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any, cast, overload
+from typing import Any, TypeAlias, cast, overload
 
 import numpy as np
 
-from graphkin.solver.pose import Array
+from graphkin.solver.pose import Array, Pose
 
-__all__ = ["LEAVES", "ExpressionGraph", "Line", "Real", "Vec", "fmax", "fmin", "operands", "root", "two_sum"]
+__all__ = [
+    "LEAVES", "ExpressionGraph", "Line", "PoseFormula", "Real", "Vec", "fmax", "fmin", "operands", "root", "two_sum",
+]  # fmt: skip
 
 Line = tuple[Any, ...]
 """One operation: ("add", i, j), ("root", i), ("const", 2.0), ("param", name), ("input", name)."""
@@ -277,6 +279,10 @@ class Vec:
 
     def conjugate(self) -> Vec:
         return Vec(self.real, -self.imag)
+
+
+PoseFormula: TypeAlias = "Pose[Vec, Real]"
+"""A pose given by formulas."""
 
 
 @overload

@@ -10,12 +10,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from typing import Any
 
 from graphkin.plane import cross
 from graphkin.solver.dyads import DyadSolution, Joints
 from graphkin.solver.error_bound import ErrorBound
-from graphkin.solver.expressions import Real, Vec, fmax, root
+from graphkin.solver.expressions import PoseFormula, Real, Vec, fmax, root
 from graphkin.solver.pose import Pose
 
 __all__ = ["FrameError", "carried", "of_dyad", "seen", "within"]
@@ -26,11 +25,11 @@ SAFE = 4.0
 
 FrameError = ErrorBound[Real]
 """How far a frame of axes may be off; formulas."""
-_Off = tuple[Any, Any, Any]
+_Off = tuple[Real, Real, Real] | tuple[float, float, float]
 """Errors of an unknown of a dyad, an angle or a travel, and of its rates."""
 
 
-_Way = tuple[Any, Any, Any]
+_Way = tuple[Real, Real, Real]
 """Lengths of an arm as seen from its frame, and of its rates."""
 
 
@@ -39,12 +38,12 @@ def _lengths(*vectors: Vec) -> _Way:
     return r, s, b
 
 
-def within(start: Pose, end: Pose) -> _Way:
+def within(start: PoseFormula, end: PoseFormula) -> _Way:
     """The arm between two frames of one body, both in its axes."""
     return _lengths(end.z - start.z, end.v - start.v, end.a - start.a)
 
 
-def seen(frame: Pose, point: Pose) -> _Way:
+def seen(frame: PoseFormula, point: PoseFormula) -> _Way:
     """The arm from a frame to a point that moves in it, both in the world."""
     arm, spin = point.z - frame.z, 1j * frame.omega
     slip = point.v - frame.v - spin * arm
@@ -52,7 +51,7 @@ def seen(frame: Pose, point: Pose) -> _Way:
     return _lengths(arm, slip, push)
 
 
-def carried(error: FrameError, frame: Pose, way: _Way, off: _Off = (0.0, 0.0, 0.0)) -> FrameError:
+def carried(error: FrameError, frame: PoseFormula, way: _Way, off: _Off = (0.0, 0.0, 0.0)) -> FrameError:
     """The error of a point at the end of an arm, with the direction of the frame that the arm is seen from.
 
     Parameters
@@ -78,7 +77,7 @@ def carried(error: FrameError, frame: Pose, way: _Way, off: _Off = (0.0, 0.0, 0.
 
 
 def of_dyad(
-    kind: str, joints: Joints, solved: DyadSolution, first: FrameError, second: FrameError
+    kind: str, joints: Joints[Vec, Real], solved: DyadSolution[Vec, Real], first: FrameError, second: FrameError
 ) -> tuple[FrameError, FrameError]:
     """The errors of the two bodies of a dyad.
 
@@ -107,23 +106,23 @@ def of_dyad(
 
 
 _Ends = Callable[[_Off, _Off], tuple[FrameError, FrameError]]
-_Rigid = Callable[[Any, Any], Any]
+_Rigid = Callable[[Real, Real], Real]
 _Parts = tuple[_Ends, _Ends, _Rigid]
 """FrameErrors of the inner joint by both ways to it, doubts of both bodies, errors of the two directions together."""
 
 
-def _still(joint: Pose) -> Pose:
+def _still(joint: PoseFormula) -> PoseFormula:
     """The origin of a body, in its axes, like a joint."""
     none = 0.0 * joint.z
     return Pose(none, joint.u, none, joint.omega, none, joint.alpha)
 
 
-def _origin(joint: Pose) -> _Way:
+def _origin(joint: PoseFormula) -> _Way:
     """The arm from a joint of a body to the body's own origin, both in its axes."""
     return within(_still(joint), joint)
 
 
-def _rrr(j: Joints, s: DyadSolution, first: FrameError, second: FrameError) -> _Parts:
+def _rrr(j: Joints[Vec, Real], s: DyadSolution[Vec, Real], first: FrameError, second: FrameError) -> _Parts:
     arm1, arm2 = within(j.outer1, j.inner1), within(j.outer2, j.inner2)
     back1, back2 = _origin(j.outer1), _origin(j.outer2)
 
@@ -136,7 +135,7 @@ def _rrr(j: Joints, s: DyadSolution, first: FrameError, second: FrameError) -> _
     return ends, bodies, lambda x, y: x + y
 
 
-def _rrp(j: Joints, s: DyadSolution, first: FrameError, second: FrameError) -> _Parts:
+def _rrp(j: Joints[Vec, Real], s: DyadSolution[Vec, Real], first: FrameError, second: FrameError) -> _Parts:
     slid, arm1, arm2 = seen(j.known2, s.second.of(j.outer2)), within(j.outer1, j.inner1), within(j.outer2, j.inner2)
     back1, back2 = _origin(j.outer1), _origin(j.outer2)
 
@@ -151,7 +150,7 @@ def _rrp(j: Joints, s: DyadSolution, first: FrameError, second: FrameError) -> _
     return ends, bodies, lambda x, y: x + second.angle
 
 
-def _rpr(j: Joints, s: DyadSolution, first: FrameError, second: FrameError) -> _Parts:
+def _rpr(j: Joints[Vec, Real], s: DyadSolution[Vec, Real], first: FrameError, second: FrameError) -> _Parts:
     bar = s.second.of(j.inner2)
     # from one known point to the other, seen from the common direction
     axes = Pose(j.known2.z, bar.u, j.known2.v, bar.omega, j.known2.a, bar.alpha)
@@ -166,7 +165,7 @@ def _rpr(j: Joints, s: DyadSolution, first: FrameError, second: FrameError) -> _
     return ends, bodies, lambda x, y: y + y
 
 
-def _prp(j: Joints, s: DyadSolution, first: FrameError, second: FrameError) -> _Parts:
+def _prp(j: Joints[Vec, Real], s: DyadSolution[Vec, Real], first: FrameError, second: FrameError) -> _Parts:
     slid1, slid2 = seen(j.known1, s.first.of(j.outer1)), seen(j.known2, s.second.of(j.outer2))
     arm1, arm2 = within(j.outer1, j.inner1), within(j.outer2, j.inner2)
     back1, back2 = _origin(j.outer1), _origin(j.outer2)
@@ -185,7 +184,7 @@ def _prp(j: Joints, s: DyadSolution, first: FrameError, second: FrameError) -> _
     return ends, bodies, lambda x, y: first.angle + second.angle
 
 
-def _rpp(j: Joints, s: DyadSolution, first: FrameError, second: FrameError) -> _Parts:
+def _rpp(j: Joints[Vec, Real], s: DyadSolution[Vec, Real], first: FrameError, second: FrameError) -> _Parts:
     bar = s.second.of(j.inner2)
     hinge, along = first.turning_as(*second.of_turning), seen(bar, s.first.of(j.inner1))
     slid, arm1, arm2 = seen(j.known2, s.second.of(j.outer2)), within(j.outer1, j.inner1), within(j.outer2, j.inner2)
@@ -201,7 +200,7 @@ def _rpp(j: Joints, s: DyadSolution, first: FrameError, second: FrameError) -> _
     return ends, bodies, lambda x, y: second.angle + second.angle
 
 
-_KINDS: Mapping[str, Callable[[Joints, DyadSolution, FrameError, FrameError], _Parts]] = {
+_KINDS: Mapping[str, Callable[[Joints[Vec, Real], DyadSolution[Vec, Real], FrameError, FrameError], _Parts]] = {
     "RRR": _rrr,
     "RRP": _rrp,
     "RPR": _rpr,

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Protocol
 
 import numpy as np
 
 from graphkin.scene.cams import LawCam
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
 from graphkin.solver.dyads import Joints
-from graphkin.solver.pose import Array, Pose
+from graphkin.solver.expressions import PoseFormula, Real, Vec
+from graphkin.solver.pose import Array
 from graphkin.structure import Body, Driven, Dyad, Pair, Rolled, Structure, Turn
 
 __all__ = ["Drive", "Frames", "body_shape", "driven", "driver_text", "dyad_joints", "joint_place", "members", "turned"]
@@ -80,25 +81,25 @@ class Frames(Protocol):
 
     structure: Structure
 
-    def rest(self, pair: Pair, link: str) -> Pose:
+    def rest(self, pair: Pair, link: str) -> PoseFormula:
         """The joint's frame in the axes of one of its links."""
 
-    def turn(self, driver: AngleDriver) -> Pose:
+    def turn(self, driver: AngleDriver) -> PoseFormula:
         """The rotation that an angle driver gives."""
 
-    def travel(self, driver: AnyDriver) -> tuple[Any, Any, Any]:
+    def travel(self, driver: AnyDriver) -> tuple[Real, Real, Real]:
         """Value, rate and second rate of a slide driver."""
 
-    def lift(self, cam: LawCam) -> tuple[Any, Any, Any]:
+    def lift(self, cam: LawCam) -> tuple[Real | Vec, Real, Real]:
         """Where a follower stands, its travel or the direction of its own axis, and its first and second derivative by
         the angle of the cam."""
 
 
-    def rolled(self, rolled: Rolled) -> tuple[Any, Any, Any]:
+    def rolled(self, rolled: Rolled) -> tuple[Real | Vec, Real, Real]:
         """Where what rolls stands, its travel or the direction of its own axis, with its rates."""
 
 
-def driven(frames: Frames, element: Driven, poses: Mapping[str, Pose]) -> Pose:
+def driven(frames: Frames, element: Driven, poses: Mapping[str, PoseFormula]) -> PoseFormula:
     """The pose of a link that a driver or a cam moves from known links: crank, driven slider, follower."""
     pair, link = element.pair, element.link
     base = pair.b if pair.a == link else pair.a
@@ -108,12 +109,12 @@ def driven(frames: Frames, element: Driven, poses: Mapping[str, Pose]) -> Pose:
         stands, slope, bend = frames.lift(element.driver)
         cam = poses[element.driver.link]
         rate, second = slope * cam.omega, bend * (cam.omega * cam.omega) + slope * cam.alpha
-        if isinstance(pair, Turn):
+        if isinstance(stands, Vec):
             return at.pinned(mine, stands, rate, second)
         return at.along(stands, rate, second).of(mine.inverse())
     if isinstance(element.driver, Rolled):
         stands, rate, second = frames.rolled(element.driver)
-        if isinstance(pair, Turn):
+        if isinstance(stands, Vec):
             return at.pinned(mine, stands, rate, second)
         sense = 1.0 if pair.a == link else -1.0
         return at.along(stands * sense, rate * sense, second * sense).of(mine.inverse())
@@ -129,7 +130,7 @@ def driven(frames: Frames, element: Driven, poses: Mapping[str, Pose]) -> Pose:
     return at.along(-travel, -rate, -second).of(mine.inverse())
 
 
-def body_shape(frames: Frames, body: Body, rest: Pose) -> dict[str, Pose]:
+def body_shape(frames: Frames, body: Body, rest: PoseFormula) -> dict[str, PoseFormula]:
     """Every link of a body in the axes of its base; ``rest`` are axes that do not move."""
     shape = {body.links[0]: rest}
     for weld in body.welds:
@@ -147,16 +148,17 @@ def body_shape(frames: Frames, body: Body, rest: Pose) -> dict[str, Pose]:
 
 
 def dyad_joints(
-    frames: Frames, dyad: Dyad, shapes: tuple[dict[str, Pose], dict[str, Pose]], poses: Mapping[str, Pose], size: Any
-) -> Joints:
+    frames: Frames, dyad: Dyad, shapes: tuple[dict[str, PoseFormula], dict[str, PoseFormula]],
+    poses: Mapping[str, PoseFormula], size: Real,
+) -> Joints[Vec, Real]:  # fmt: skip
     """The six joint frames of a dyad."""
 
-    def inside(pair: Pair, shape: Mapping[str, Pose]) -> tuple[Pose, str]:
+    def inside(pair: Pair, shape: Mapping[str, PoseFormula]) -> tuple[PoseFormula, str]:
         link = pair.a if pair.a in shape else pair.b
         at = frames.rest(pair, link)
         return shape[link].fixed(at.z, at.u), link
 
-    def known(pair: Pair, link: str) -> Pose:
+    def known(pair: Pair, link: str) -> PoseFormula:
         base = pair.b if link == pair.a else pair.a
         at = frames.rest(pair, base)
         return poses[base].fixed(at.z, at.u)
@@ -175,6 +177,6 @@ def dyad_joints(
     )
 
 
-def members(shape: Mapping[str, Pose], base: Pose) -> dict[str, Pose]:
+def members(shape: Mapping[str, PoseFormula], base: PoseFormula) -> dict[str, PoseFormula]:
     """The links of a body in the world, from the base's pose."""
     return {link: base.of(pose) for link, pose in shape.items()}

@@ -7,38 +7,67 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any, Generic, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["FIELDS", "Array", "Pose", "rest", "together"]
+__all__ = ["FIELDS", "Array", "Number", "Pose", "R", "V", "rest", "together"]
 
 Array = NDArray[Any]
+
+
+class Number(Protocol):
+    """What poses are made of and computed with: arrays, or formulas."""
+
+    @property
+    def real(self) -> Any: ...
+    @property
+    def imag(self) -> Any: ...
+    def conjugate(self) -> Any: ...
+    def __neg__(self) -> Any: ...
+    def __add__(self, other: Any, /) -> Any: ...
+    def __radd__(self, other: Any, /) -> Any: ...
+    def __sub__(self, other: Any, /) -> Any: ...
+    def __rsub__(self, other: Any, /) -> Any: ...
+    def __mul__(self, other: Any, /) -> Any: ...
+    def __rmul__(self, other: Any, /) -> Any: ...
+
+
+if TYPE_CHECKING:
+    from typing_extensions import TypeVar
+
+    V = TypeVar("V", bound=Number, default=Array)
+    R = TypeVar("R", bound=Number, default=Array)
+else:
+    from typing import TypeVar
+
+    V, R = TypeVar("V"), TypeVar("R")
+
 FIELDS = ("z", "u", "v", "omega", "a", "alpha")
 REAL = ("omega", "alpha")
 
 
 @dataclass(frozen=True)
-class Pose:
+class Pose(Generic[V, R]):
     """A moving frame of axes, in other axes (the world's, or those of another link).
 
-    Every field is an array of shape (positions,), or one that broadcasts to it; or a formula (``Vec``, ``Real``), so
-    that the same lines here make the formulas of a mechanism and compute with their results.
+    Every field is an array of shape (positions,), or one that broadcasts to it (``Pose``); or a formula (``Pose[Vec,
+    Real]``), so that the same lines here make the formulas of a mechanism and compute with their results.
 
     z, v, a : complex, origin (m) and its rates (m/s, m/s2)
     u : complex, direction of the x axis, of unit length
     omega, alpha : real, rates of the direction (rad/s, rad/s2)
     """
 
-    z: Any
-    u: Any
-    v: Any
-    omega: Any
-    a: Any
-    alpha: Any
+    z: V
+    u: V
+    v: V
+    omega: R
+    a: V
+    alpha: R
 
-    def fixed(self, place: Any, direction: Any = 1 + 0j) -> Pose:
+    def fixed(self, place: V | complex, direction: V | complex = 1 + 0j) -> Pose[V, R]:
         """The axes fixed to this frame at ``place``, turned by ``direction``."""
         if place == 0:
             u = self.u if direction == 1 else self.u * direction
@@ -53,14 +82,14 @@ class Pose:
             self.alpha,
         )
 
-    def carrying(self, place: Any) -> Pose:
+    def carrying(self, place: V) -> Pose[V, R]:
         """The axes fixed to this frame whose origin lies at ``place`` of the outer axes now."""
         arm, spin = place - self.z, 1j * self.omega
         return Pose(
             place, self.u, self.v + spin * arm, self.omega, self.a + (1j * self.alpha + spin * spin) * arm, self.alpha
         )
 
-    def of(self, inner: Pose) -> Pose:
+    def of(self, inner: Pose[V, R]) -> Pose[V, R]:
         """The frame ``inner``, given in these axes, in the axes that these are given in.
 
         The acceleration has the guiding, the Coriolis (2 i omega v_rel) and the relative part.
@@ -76,7 +105,7 @@ class Pose:
             self.alpha + inner.alpha,
         )
 
-    def inverse(self) -> Pose:
+    def inverse(self) -> Pose[V, R]:
         """The outer axes as seen from this frame."""
         back = self.u.conjugate()
         spin = 1j * self.omega
@@ -89,7 +118,7 @@ class Pose:
             -self.alpha,
         )
 
-    def along(self, travel: Any, velocity: Any, acceleration: Any) -> Pose:
+    def along(self, travel: R, velocity: R, acceleration: R) -> Pose[V, R]:
         """This frame moved along its own direction by a travel with rates."""
         spin = 1j * self.omega
         return Pose(
@@ -101,7 +130,7 @@ class Pose:
             self.alpha,
         )
 
-    def pinned(self, joint: Pose, u: Any, omega: Any, alpha: Any) -> Pose:
+    def pinned(self, joint: Pose[V, R], u: V, omega: R, alpha: R) -> Pose[V, R]:
         """The link whose direction is known and whose ``joint`` (in its axes) lies at the origin of this frame."""
         spin = 1j * omega
         return Pose(
@@ -113,25 +142,25 @@ class Pose:
             alpha,
         )
 
-    def still(self, n: int) -> Pose:
+    def still(self: Pose, n: int) -> Pose:
         """The same at n positions, in the memory of one."""
         fields = (self.z, self.u, self.v, self.omega, self.a, self.alpha)
         return Pose(*(np.broadcast_to(np.ravel(x)[0], (n,)) for x in fields))
 
-    def rows(self, rows: slice) -> Pose:
+    def rows(self: Pose, rows: slice) -> Pose:
         """The same at some positions, in the same memory."""
         return Pose(*(x[rows] for x in (self.z, self.u, self.v, self.omega, self.a, self.alpha)))
 
-    def put(self, rows: slice, some: Pose) -> None:
+    def put(self: Pose, rows: slice, some: Pose) -> None:
         """Write the same of some positions into the arrays of these."""
         for name in ("z", "u", "v", "omega", "a", "alpha"):
             getattr(self, name)[rows] = getattr(some, name)
 
-    def where(self, ok: Array) -> Pose:
+    def where(self: Pose, ok: Array) -> Pose:
         """The same where ok, NaN elsewhere."""
         return Pose(*(np.where(ok, x, np.nan) for x in (self.z, self.u, self.v, self.omega, self.a, self.alpha)))
 
-    def spread(self, n: int) -> Pose:
+    def spread(self: Pose, n: int) -> Pose:
         """The same with every field of shape (n,)."""
         z, u, v, a = (np.array(np.broadcast_to(x, (n,)), dtype=np.complex128) for x in (self.z, self.u, self.v, self.a))
         omega, alpha = (np.array(np.broadcast_to(x, (n,)), dtype=np.float64) for x in (self.omega, self.alpha))

@@ -17,7 +17,7 @@ from graphkin.solver.bounds import ErrorFormulas
 from graphkin.solver.code import Code
 from graphkin.solver.decimals import DIGITS, meant, meant_direction
 from graphkin.solver.dyads import DyadSolution, Joints, solve_dyad
-from graphkin.solver.expressions import ExpressionGraph, Name, Real, Vec
+from graphkin.solver.expressions import ExpressionGraph, Name, PoseFormula, Real, Vec
 from graphkin.solver.joints import body_shape, driven, dyad_joints, members
 from graphkin.solver.pose import FIELDS, Pose
 from graphkin.solver.rounding import UNIT
@@ -46,9 +46,9 @@ class Program:
         self._moving = moving
         self._open = open_
         self._numbers = _numbers(structure)
-        self.joints: dict[int, Joints] = {}
-        self.poses: dict[str, Pose] = {structure.scene.frame.name: self.at_rest(0j, 1 + 0j)}
-        self.groups: dict[int, DyadSolution] = {}
+        self.joints: dict[int, Joints[Vec, Real]] = {}
+        self.poses: dict[str, PoseFormula] = {structure.scene.frame.name: self.at_rest(0j, 1 + 0j)}
+        self.groups: dict[int, DyadSolution[Vec, Real]] = {}
         for i, element in enumerate(structure.elements):
             self._add(i, element)
         self.bounds = ErrorFormulas(self)
@@ -56,7 +56,7 @@ class Program:
 
     # numbers
 
-    def at_rest(self, place: Any, direction: Any) -> Pose:
+    def at_rest(self, place: Vec | complex, direction: Vec | complex) -> PoseFormula:
         """Axes that do not move."""
         zero = self.graph.const(0)
         none = Vec(zero, zero)
@@ -71,7 +71,7 @@ class Program:
         plain = value in SPECIAL and (*name, axis) not in self._open
         return self.graph.const(value) if plain else self.graph.param((*name, axis))
 
-    def rest(self, pair: Pair, link: str) -> Pose:
+    def rest(self, pair: Pair, link: str) -> PoseFormula:
         """The joint's frame in the axes of one of its links."""
         if isinstance(pair, Turn):
             return self.at_rest(self.number("point", link, pair.point), 1 + 0j)
@@ -79,7 +79,7 @@ class Program:
             return self.at_rest(0j, self.number("turn", pair.key).conjugate())
         return self.at_rest(self.number("through", pair.key), self.number("direction", pair.key))
 
-    def guide(self, slide: Slide) -> Pose:
+    def guide(self, slide: Slide) -> PoseFormula:
         """The guide of a sliding pair in the world."""
         return self.poses[slide.b].fixed(self.number("through", slide.key), self.number("direction", slide.key))
 
@@ -88,7 +88,7 @@ class Program:
         second = self.graph.param(("second", k)) if self._moving[k] else self.graph.const(0)
         return self.graph.param(("rate", k)), second
 
-    def turn(self, driver: AngleDriver) -> Pose:
+    def turn(self, driver: AngleDriver) -> PoseFormula:
         """The rotation that an angle driver gives."""
         k = self.structure.drivers.index(driver)
         rate, second = self._rates(driver)
@@ -145,7 +145,7 @@ class Program:
             self.poses.update(members(shapes[0], solved.first))
             self.poses.update(members(shapes[1], solved.second))
 
-    def _placed(self, name: str) -> Pose:
+    def _placed(self, name: str) -> PoseFormula:
         """A link of a larger group, whose pose is given."""
         parts: dict[str, Any] = {}
         for part in FIELDS:

@@ -8,9 +8,8 @@ from typing import cast
 from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver.engine import SLACK
-from graphkin.solver.expressions import Real, Vec, fmax
+from graphkin.solver.expressions import PoseFormula, Real, Vec, fmax
 from graphkin.solver.frame_errors import FrameError
-from graphkin.solver.pose import Pose
 from graphkin.solver.program import Program
 from graphkin.structure import Structure, in_stages
 
@@ -106,7 +105,7 @@ class _Quantity:
         if self.kind == "s":
             slide = self.structure.slide(self.link)
             guide = program.guide(slide)
-            return cast(Real, ((program.poses[slide.a].z - guide.z) * guide.u.conjugate()).real)
+            return ((program.poses[slide.a].z - guide.z) * guide.u.conjugate()).real
         if self.kind == "theta":
             u = self._pose(self.link).u
             return program.graph.line("atan2", u.imag.at, u.real.at)
@@ -140,7 +139,7 @@ class _Quantity:
             return FrameError(*(self.program.graph.input(("bound", k)) for k in range(6)))
         return self.program.bounds.of_link(link)
 
-    def _pose(self, name: str) -> Pose:
+    def _pose(self, name: str) -> PoseFormula:
         if name not in self.program.poses:
             raise CallError(
                 Problem(f'link "{name}"', "there is no such link", did_you_mean(name, self.structure.links))
@@ -155,7 +154,7 @@ class _Quantity:
             raise CallError(Problem(f'point "{ref.point}"', "there is no such point", did_you_mean(ref.point, known)))
         return holders
 
-    def _point(self, ref: PointRef) -> Pose:
+    def _point(self, ref: PointRef) -> PoseFormula:
         """A point of a link, or what of a link lies at a point now."""
         program, holders = self.program, self._holders(ref)
         pose = self._pose(ref.link or holders[0])
