@@ -14,6 +14,7 @@ from graphkin.errors import Problem, SceneError, did_you_mean
 from graphkin.scene.background import background_of
 from graphkin.scene.cam_reading import cams_of
 from graphkin.scene.cams import LawCam
+from graphkin.scene.carriages import with_carriages
 from graphkin.scene.circular_slots import with_bars
 from graphkin.scene.contacts import PlacedDisc
 from graphkin.scene.drawn_position import DrawnPosition, find_position, starts_of, travel_of
@@ -75,7 +76,7 @@ def resolve(file: SceneTables, name: str, problems: list[Problem], flaws: Flaws)
         raise SceneError(*problems)
 
     metres = file.units.metres
-    file, slots = with_bars(file, flaws, problems)
+    file, slots = with_bars(with_carriages(file), flaws, problems)
     names = Names.of(file, flaws)
     problems += unwritable_texts(file)
     problems += wrong_own_points(file, names, flaws)
