@@ -11,12 +11,12 @@ from typing import Any
 import numpy as np
 
 from graphkin import solver
-from graphkin.api.arguments import driver_values, known_words, own_unit
+from graphkin.api.arguments import driver_values, known_words, own_unit, placed
 from graphkin.api.checked import checked, hand_of, here, solved_here
 from graphkin.api.drawn import FIGURES, Drawn, known_figures
 from graphkin.api.report_text import reading_words, show
 from graphkin.board.moving import movable
-from graphkin.construction import execute, plan
+from graphkin.construction import Plan, execute, plan
 from graphkin.construction.sheet import DiagramName, Scales, Sheet
 from graphkin.drawing.conventions import Letters, letters_of
 from graphkin.drawing.force_stages import force_stages
@@ -35,6 +35,7 @@ from graphkin.words import Phrase, languages, say
 __all__ = ["Wishes", "beside", "drawn_at", "mobility_text", "motion_at", "scene_of", "shown", "thumbnail"]
 
 NEAR_END = 1e-6  # of the range: so far from its end the drawing is whole
+FAST = 1e3  # times a driver's own speed over the size: so fast is what stands beside a dead point
 
 
 @dataclass(frozen=True)
@@ -124,7 +125,7 @@ def reach(scene: Mechanism) -> dict[str, Any]:
 
 def motion_at(scene: Mechanism, at: Mapping[str, float] | None) -> Motion:
     """The exact motion at a position of the drivers.  Raises Unsolvable where it cannot be had."""
-    return solved_here(scene, driver_values(scene, at or None))
+    return solved_here(*placed(scene, at or None))
 
 
 def drawn_at(structure: Structure, at: Mapping[str, float] | None, wishes: Wishes) -> tuple[Drawn, Motion]:
@@ -134,8 +135,8 @@ def drawn_at(structure: Structure, at: Mapping[str, float] | None, wishes: Wishe
     ------
     CallError : unknown figures or drivers; Unsolvable : a position that cannot be had
     """
-    scene = structure.scene
-    values = driver_values(scene, at or None)
+    scene, values = placed(structure.scene, at or None)
+    structure = structure if scene is structure.scene else solver.structure_of(scene)
     asked = tuple(scene.find)
     motion = solved_here(structure, values, here(asked))
     what = plan(structure, values, here(asked))
@@ -190,15 +191,18 @@ _IN_MOTION: Mapping[str, DiagramName] = {n: n for n in ("mechanism", "velocity",
 
 def _in_motion(structure: Structure, at: Mapping[str, float] | None, wishes: Wishes) -> dict[str, Any]:
     """The same while a hand moves: nothing is checked, and names stand where there may be others."""
-    scene = structure.scene
-    values = driver_values(scene, at or None)
+    scene, values = placed(structure.scene, at or None)
+    structure = structure if scene is structure.scene else solver.structure_of(scene)
     said = ""
     try:
         what = plan(structure, values, here(tuple(scene.find)))
+        if _is_fast(what):  # beside a limit of the motion the solver has the last word, in fifty digits
+            solved_here(structure, values, here(tuple(scene.find)))
     except Unsolvable as error:
         if not at or len(scene.drivers) != 1:
             raise
-        values, said = driver_values(scene, _last(scene, at)), error.why
+        said = _why(structure, values, error)
+        values = driver_values(scene, _last(scene, at))
         what = plan(structure, values, here(tuple(scene.find)))
     sheet = execute(replace(what, scales=wishes.scales or what.scales))
     words = {"language": wishes.language, "convention": wishes.convention}
@@ -215,6 +219,23 @@ def _in_motion(structure: Structure, at: Mapping[str, float] | None, wishes: Wis
         "perMm": unit,
         "limit": said,
     }
+
+
+def _why(structure: Structure, values: Mapping[str, float] | None, stop: Unsolvable) -> str:
+    """Why a position cannot be had, in the words of the solver, which tells it in fifty digits, if it finds so too."""
+    try:
+        solved_here(structure, values, here(tuple(structure.scene.find)))
+    except Unsolvable as exact:
+        return exact.why
+    return stop.why
+
+
+def _is_fast(what: Plan) -> bool:
+    """Whether something moves so fast for the drivers that the position may be a dead point or beyond one."""
+    scene, sheet = what.structure.scene, what.exact
+    fastest = max((abs(z) for z in sheet.ends["velocity"].values()), default=0.0) * sheet.scales.velocity
+    rates = (abs(d.values[1]) * (scene.size if isinstance(d, AngleDriver) else 1.0) for d in scene.drivers)
+    return not fastest <= FAST * max(rates, default=0.0)
 
 
 def _is_there(sheet: Sheet, figure: str) -> bool:

@@ -56,8 +56,10 @@ def pick(
     for by, given in (("drawn", scene.drawn), ("sketch", scene.sketch)):
         sums = [sum(abs(z - given[p]) ** 2 for p, z in c.items() if p in given) for c in candidates]
         best = min(range(len(sums)), key=sums.__getitem__)
-        rest = min(s for i, s in enumerate(sums) if i != best)
-        if rest - sums[best] > 1e-9 * scene.size**2:
+        rest = min((s, i) for i, s in enumerate(sums) if i != best)
+        # beside a dead point two assemblies lie close to each other, and a sketch still tells them apart
+        apart = max((abs(z - candidates[best][p]) for p, z in candidates[rest[1]].items() if p in given), default=0.0)
+        if rest[0] - sums[best] > TOLD * scene.size * apart:
             return Choice(best, "drawn" if by == "drawn" else "sketch")
     if default is None:
         raise SceneError(_several(scene, links, candidates))
@@ -137,6 +139,8 @@ class ChangePoint:
 
 
 Reals = NDArray[np.float64]
+TOLD = 1e-9
+"""Of the size, by how far two assemblies are apart: by so much their distances from the sketch differ."""
 TOUCH = 1e-12
 """A least value of a discriminant (no unit) within this of zero is a touch."""
 START = 1e-6

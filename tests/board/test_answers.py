@@ -8,10 +8,11 @@ import pytest
 
 import graphkin
 from graphkin.board.answers import QUESTIONS, Desk, answer, scene_link, text_of_link
+from graphkin.board.pictures import Wishes, shown
 from graphkin.board.scene_text import changed, line_of, places
 from graphkin.board.shelf import Shelf, mark_of
 from graphkin.errors import CallError, Problem
-from graphkin.scene.source import library_text
+from graphkin.scene.source import library_text, mechanism_of
 
 pytestmark = pytest.mark.quick
 
@@ -308,3 +309,21 @@ def test_a_folder_takes_new_scene_files_but_no_path_out_of_it(tmp_path) -> None:
     for name in ("../x.toml", "out.toml", "x.txt"):
         with pytest.raises(CallError):
             shelf.save(name, "x = 1\n", "")
+
+
+@pytest.mark.parametrize("at", [29.9999999999, 30.0, 30.00000000000001, 30.0000000000001, 30.00000000001, 30.1])
+def test_beside_a_limit_the_page_says_the_same_while_a_hand_moves_as_when_it_rests(at: float) -> None:
+    scene = mechanism_of(
+        {
+            "frame": {"points": {"A": [0, 0]}, "guides": {"h": {"through": [0, 0], "angle": 0}}},
+            "links": {
+                "1": {"points": ["A", "B"], "length": 100},
+                "2": {"points": ["B", "C"], "length": 50},
+                "3": {"points": ["C"], "on": "0.h"},
+            },
+            "driver": {"link": "1", "angle": 20, "omega": 10},
+        }
+    )
+    moving, resting = (shown(scene, {"1": at}, Wishes(figures=("velocity",)), quick) for quick in (True, False))
+    assert (resting["at"], resting["limit"]) == (moving["at"], moving["limit"])
+    assert (at < 30) == (moving["limit"] == "")

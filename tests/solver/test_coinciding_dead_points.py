@@ -1,0 +1,62 @@
+"""Two groups at their dead points together: what each gives is within the bound, however near."""
+
+import mpmath
+import pytest
+
+import graphkin
+
+SPEED, PUSH = 7, 3
+
+
+def chain(distance, side=-1):
+    """A block that drives a rod to a vertical guide, and another rod from there to a horizontal one: at 30 mm both are
+    square to their guides."""
+    guides = {
+        "x": {"through": [0, 0], "angle": 0},
+        "v": {"through": [80, 0], "angle": 90},
+        "w": {"through": [0, 40 * side], "angle": 0},
+    }
+    return {
+        "frame": {"guides": guides},
+        "links": {
+            "1": {"points": ["P"], "on": "0.x"},
+            "2": {"points": ["P", "Q"], "length": 50},
+            "3": {"points": ["Q"], "on": "0.v"},
+            "4": {"points": ["Q", "R"], "length": 40},
+            "5": {"points": ["R"], "on": "0.w"},
+        },
+        "driver": {
+            "slide": "1", "from": "dead point", "travel": distance, "near": 30, "velocity": SPEED, "acceleration": PUSH,
+        },
+        "sketch": {"Q": [80, 30 * side], "R": [115, 40 * side]},
+    }  # fmt: skip
+
+
+def exact(distance):
+    """Q's and R's coordinates along their guides, and their rates, in 60 digits."""
+    with mpmath.workdps(60):
+        d = 50 - mpmath.mpf(repr(distance))
+        y = -mpmath.sqrt(2500 - d * d)
+        v = d * SPEED / y
+        a = (d * PUSH - SPEED**2 - v * v) / y
+        h = y + 40
+        w = mpmath.sqrt(1600 - h * h)
+        s = -h * v / w
+        return y, v, a, 80 + w, s, (-v * v - h * a - s * s) / w
+
+
+@pytest.mark.parametrize("distance", [1e-2, 1e-6, 1e-9, 1e-12, 1e-14, 1e-16, 1e-18, 1e-20, 1e-24])
+def test_a_group_that_hangs_on_one_beside_its_dead_point_knows_the_bound_of_it(distance):
+    solved = graphkin.solve(chain(distance))
+    assert "ok" == solved.motion.status[0]
+    bound = [float(b[0]) * 1e3 for b in solved.motion.bound.of_point]
+    found = [solved[n][0] for n in ("Q", "v_Q", "a_Q", "R", "v_R", "a_R")]
+    along = [z.imag for z in found[:3]] + [z.real for z in found[3:]]
+    for value, got, allowed in zip(exact(distance), along, bound * 2, strict=True):
+        with mpmath.workdps(60):
+            assert abs(mpmath.mpf(float(got)) - value) <= allowed
+
+
+def test_a_sketch_tells_assemblies_apart_that_lie_close_together_beside_a_dead_point():
+    for side in (1, -1):
+        assert side * graphkin.solve(chain(1e-20, side))["Q"][0].imag > 0
