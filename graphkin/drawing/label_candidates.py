@@ -18,7 +18,7 @@ from graphkin.drawing.primitives import Segment, page_direction
 
 __all__ = [
     "LEADER_FROM", "LEADER_LEAST", "RINGS", "Candidates", "LabelRequest", "LabelRequests", "Mark", "candidates",
-    "ends",
+    "ends", "led_candidates",
 ]  # fmt: skip
 
 Mark: TypeAlias = complex | Segment
@@ -35,6 +35,9 @@ _HOLDS = np.clip(1.6 * _WAYS.real, -1, 1), np.clip(1.6 * _WAYS.imag, -1, 1)
 _SHARES = np.array((0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9))
 # Far from a mark every second angle, and places about the middle of a vector, will do.
 _SOME = np.arange(24) % 2 == 0, np.arange(9) < 5
+# What a leader that runs over a vector is tried with further.
+_FEET = np.array((0.35, 0.65, 0.2, 0.8))
+_MANY_WAYS = np.exp(-2j * np.pi * np.arange(48) / 48)
 _SIDES = np.array((1.0, -1.0))
 # Where nothing is liked, up and to the right reads best (Imhof, Positioning names on maps, 1975).
 _LIKED = math.radians(40)
@@ -108,6 +111,22 @@ def candidates(requests: LabelRequests, who: Indices, gaps: tuple[float, ...]) -
             # Far from a vector there is more room all round its middle than square to it.
             middles = (requests.start[who[segments]] + requests.end[who[segments]]) / 2
             parts.append(_off_points(requests, who, segments, middles, far))
+    return Candidates(*map(np.concatenate, zip(*parts, strict=True)))
+
+
+def led_candidates(requests: LabelRequests, who: Indices) -> Candidates:
+    """Further places of labels that want leaders: at more angles from a point, or from more places of a vector."""
+    gaps = np.array([gap for gap in RINGS if gap >= LEADER_LEAST])[:, None]
+    parts = []
+    for i, label in enumerate(who):
+        ways, shares = (_MANY_WAYS, _SHARES[:1]) if requests.is_point[label] else (_WAYS, _FEET)
+        start, end, half = requests.start[label], requests.end[label], requests.half[label]
+        hold = np.clip(1.6 * ways.real, -1, 1) * half.real + 1j * np.clip(1.6 * ways.imag, -1, 1) * half.imag
+        feet = (start + shares * (end - start))[:, None, None]
+        centres = feet + gaps * ways + hold
+        costs = gaps + 2.0 * np.abs(shares - 0.5)[:, None, None]
+        columns = [np.broadcast_to(column, centres.shape).ravel() for column in (centres, costs, feet, gaps)]
+        parts.append((*columns, np.full(centres.size, i)))
     return Candidates(*map(np.concatenate, zip(*parts, strict=True)))
 
 

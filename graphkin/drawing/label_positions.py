@@ -23,6 +23,7 @@ from graphkin.drawing.label_candidates import (
     Mark,
     candidates,
     ends,
+    led_candidates,
 )
 from graphkin.drawing.obstacles import (
     Flags,
@@ -39,7 +40,7 @@ from graphkin.drawing.obstacles import (
 from graphkin.drawing.primitives import Segment
 from graphkin.plane import cross
 
-__all__ = ["HeldPositions", "LabelPanel", "LabelPosition", "LabelPositions", "least_cost"]
+__all__ = ["TANGLED", "HeldPositions", "LabelPanel", "LabelPosition", "LabelPositions", "least_cost"]
 
 FEW = 6
 """Places that a label tries one by one, before all of them are judged together."""
@@ -186,8 +187,9 @@ NEARER = 1.2  # by so much a label is nearer to its own mark than to any other
 # What a place costs beside its distance (mm): a leader, whatever the leader crosses, a dashed line under the label, a
 # leader to a line that ends nearer than NEAR_END to a point at its end.
 LEADER_COST, CROSSED_COST, DASHED_COST, END_COST = 4.0, 12.0, 10.0, 3.0
-AREA_WEIGHT = 3.0
+AREA_WEIGHT, THICK_WEIGHT = 6.0, 3.0  # of what a leader crosses, where a thin line counts 1
 FORBIDDEN = 1000.0
+TANGLED = LEADER_COST + CROSSED_COST * THICK_WEIGHT  # what a place costs at least whose leader crosses a vector
 OUTSIDE = 100  # faults that leaving the panel counts for
 # What lies nearer to the foot of a leader is the mark itself: a point with its symbol, or the line of a vector, mm.
 POINT_REACH, LINE_REACH = 1.5, 0.4
@@ -221,7 +223,12 @@ class LabelPanel:
         self.reach = sides_around(self.start, self.end)
         self.areas = len(diagonals)
         self.solid = len(diagonals) + len(obstacles.solid)
-        self.writing = np.array([*(area in writing for area in obstacles.areas), False])
+        thick = set(obstacles.thick)
+        self.weights = np.array(
+            [FORBIDDEN if area in writing else AREA_WEIGHT for area in obstacles.areas]
+            + [THICK_WEIGHT if line in thick else 1.0 for line in obstacles.solid]
+            + [1.0] * len(obstacles.dashed)
+        )
         # Labels at the same place share one mark: coincident points are told apart by their letters.
         distinct = list(dict.fromkeys((*((one.start, one.end) for one in requests), *map(ends, marks))))
         index = {pair: i for i, pair in enumerate(distinct)}
@@ -234,7 +241,22 @@ class LabelPanel:
     def free(self, labels: Sequence[int], first: int, last: int) -> list[LabelPositions]:
         """Places without a fault in the rings from ``first`` up to ``last`` for each of some labels."""
         who = np.array(labels)
-        places = candidates(self.requests, who, RINGS[first:last])
+        return self._without_fault(who, candidates(self.requests, who, RINGS[first:last]))
+
+    def further(self, labels: Sequence[int]) -> list[LabelPositions]:
+        """Further places without a fault for each of some labels, with leaders."""
+        who = np.array(labels)
+        return self._without_fault(who, led_candidates(self.requests, who))
+
+    def tangled(self, place: LabelPosition) -> bool:
+        """Whether the leader of a place crosses a vector, a link, a joint or an arrowhead."""
+        if place.leader is None:
+            return False
+        foot, tip = (np.array([z]) for z in place.leader)
+        start = foot + (tip - foot) / np.abs(tip - foot) * LINE_REACH
+        return bool(self._crossed(foot, start, tip, self.weights * (self.weights > 1.0))[0] > 0)
+
+    def _without_fault(self, who: Indices, places: Candidates) -> list[LabelPositions]:
         half = self.requests.half[who]
         places = places.at(~self._outside(places.centres, half[places.owners]))
         which, what = self._touched(places.centres, half[places.owners] + complex(CLEARANCE, CLEARANCE))
@@ -284,7 +306,7 @@ class LabelPanel:
         tips: Points = feet + way * np.maximum(0.0, 1.0 - LEADER_GAP / length)
         is_point = self.requests.is_point[owners]
         start = feet + way / length * np.where(is_point, POINT_REACH, LINE_REACH)
-        places.costs[led] += LEADER_COST + CROSSED_COST * self._crossed(feet, start, tips)
+        places.costs[led] += LEADER_COST + CROSSED_COST * self._crossed(feet, start, tips, self.weights)
         nearest = np.minimum(np.abs(self.requests.start[owners] - feet), np.abs(self.requests.end[owners] - feet))
         places.costs[led] += END_COST * (~is_point & (nearest < NEAR_END))
         return tips
@@ -315,9 +337,8 @@ class LabelPanel:
         led[which[~separated(centres[which], reach[which], self.mark_start[what], self.mark_end[what])]] = True
         return led
 
-    def _crossed(self, feet: Points, start: Points, to: Points) -> Floats | Indices:
-        """How many obstacles each leader runs over; an area counts for several: it is a joint or an arrowhead; writing
-        is not to be run over."""
+    def _crossed(self, feet: Points, start: Points, to: Points, weights: Floats) -> Floats | Indices:
+        """What each leader runs over, by weights: areas are joints and arrowheads, or writing."""
         count = len(start)
         which, what = near(sides_around(start, to), self.reach)
         start, to = start[which], to[which]
@@ -326,11 +347,10 @@ class LabelPanel:
         areas = what < self.areas  # a leader over an area crosses one of its diagonals
         a, b = a[areas], b[areas]
         other = a.real + 1j * b.imag, b.real + 1j * a.imag
-        weight = np.where(self.writing[what[areas]], FORBIDDEN, AREA_WEIGHT)
         foot = feet[which[areas]]
         own = (a.real <= foot.real) & (foot.real <= b.real) & (a.imag <= foot.imag) & (foot.imag <= b.imag)
-        over[areas] = weight * ~own * (over[areas] + crosses(start[areas], to[areas], *other))
-        return np.bincount(which, over, minlength=count)
+        over[areas] = ~own * (over[areas] + crosses(start[areas], to[areas], *other))
+        return np.bincount(which, over * weights[what], minlength=count)
 
 
 def _held(off: Floats, half: Floats) -> Floats:

@@ -18,8 +18,16 @@ from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.label_candidates import RINGS, LabelRequest, Mark, ends
-from graphkin.drawing.label_positions import FEW, HeldPositions, LabelPanel, LabelPosition, LabelPositions, least_cost
-from graphkin.drawing.obstacles import Obstacles
+from graphkin.drawing.label_positions import (
+    FEW,
+    TANGLED,
+    HeldPositions,
+    LabelPanel,
+    LabelPosition,
+    LabelPositions,
+    least_cost,
+)
+from graphkin.drawing.obstacles import Flags, Obstacles
 from graphkin.drawing.primitives import Line, Text
 
 __all__ = ["Label", "Mark", "Placed", "place"]
@@ -30,6 +38,7 @@ _STAGES = (0, 2, 5, len(RINGS))
 _WORTH = (12, 5, 4, 3, 2, 1)
 _DRIVES = 4  # how often labels may drive out others, for each label
 _SPACE = 0.9  # between two labels, mm
+_TRIED = 8  # places tried to get round a vector
 _NOTHING = Obstacles()
 
 
@@ -137,6 +146,7 @@ class _Placement:
         for i in left:
             if self.ranks[i] == 0:
                 self._insist(i)
+        self._untangle()
 
     def _look(self, who: Sequence[int], last: int) -> None:
         """Look for places in the rings up to ``last`` that some labels have not yet seen."""
@@ -207,6 +217,49 @@ class _Placement:
             if position.cost > self.found[i].costs[0]:
                 self._leave(i)
                 self._stand(i)
+
+    def _untangle(self) -> None:
+        """Find places for labels whose leaders cross vectors or joints, if need be by moving those in their way."""
+        tangled = [i for i, place in self.standing.items() if place.cost > TANGLED and self.clear[i]]
+        tangled = [i for i in tangled if self.panel.tangled(self.standing[i])]
+        if not tangled:
+            return
+        tangled.sort(key=lambda i: (-self.standing[i].cost, i))
+        for i, positions in zip(tangled, self.panel.further(tangled), strict=True):
+            self.found[i] = self.found[i].joined(positions)
+        for i in tangled:
+            self._make_room(i)
+
+    def _make_room(self, i: int) -> None:
+        """Move a label, and one in its way, to where they cost less together."""
+        positions, here = self.found[i], self.standing[i]
+        self._leave(i)
+        met = positions.met(self.held, _SPACE)
+        tried = np.flatnonzero((positions.costs < here.cost) & (met.sum(axis=1) <= 1))[:_TRIED]
+        best, chosen = here.cost, {i: here}
+        others: dict[int, Flags] = {}
+        for k in map(int, tried):
+            if positions.costs[k] >= best:
+                break
+            position = positions.position(k)
+            if not met[k].any():
+                best, chosen = position.cost, {i: position}
+                continue
+            j = int(np.argmax(met[k]))
+            its = self.found[j]
+            if j not in others:
+                others[j] = its.met(self.held, _SPACE)
+                others[j] = others[j].sum(axis=1) == others[j][:, j]
+            alone = HeldPositions(1)
+            alone.take(0, position)
+            free = others[j] & ~its.met(alone, _SPACE)[:, 0]
+            if free.any():
+                moved = its.position(int(np.argmax(free)))
+                cost = position.cost + moved.cost - self.standing[j].cost
+                if cost < best:
+                    best, chosen = cost, {i: position, j: moved}
+        for label, position in chosen.items():
+            self._take(label, position)
 
     def _insist(self, i: int) -> None:
         """Put a label where it does least harm, and give up those in its way that may be given up."""

@@ -46,18 +46,20 @@ MOST_PAIRS = 1 << 20  # of boxes compared at a time
 # A filled polygon up to this size (mm) is a block or a corner, which no label may cover; a larger one is the tint of a
 # link, on which labels may stand, clear of its edges.  For one no larger than an arrowhead the upright box will do.
 SMALL, TINY = 12.0, 3.2
+THICK = 0.3  # mm: lines as wide as this are vectors and links
 _ARC_STEP = math.radians(12)
 
 
 @dataclass(frozen=True)
 class Obstacles:
     """Segments, and areas as upright boxes, on the page in mm; ``writing`` are those of the areas that leaders may not
-    run over either."""
+    run over either, ``thick`` those of the solid segments that they are to go round: vectors and links."""
 
     solid: tuple[Segment, ...] = ()
     dashed: tuple[Segment, ...] = ()
     areas: tuple[Box, ...] = ()
     writing: tuple[Box, ...] = ()
+    thick: tuple[Segment, ...] = ()
 
     def __add__(self, other: Obstacles) -> Obstacles:
         return Obstacles(
@@ -65,6 +67,7 @@ class Obstacles:
             self.dashed + other.dashed,
             self.areas + other.areas,
             self.writing + other.writing,
+            self.thick + other.thick,
         )
 
 
@@ -75,6 +78,7 @@ def obstacles_of(children: tuple[Primitive, ...]) -> Obstacles:
     dashed: list[Segment] = []
     areas: list[Box] = []
     writing: list[Box] = []
+    thick: list[Segment] = []
     for thing in walk(children):
         if isinstance(thing, Text):
             if thing.runs:
@@ -93,8 +97,11 @@ def obstacles_of(children: tuple[Primitive, ...]) -> Obstacles:
                 solid.extend(pairwise(_course(thing)))
                 solid.extend((thing.points[i], thing.points[(i + count // 2) % count]) for i in range(count // 2))
         elif isinstance(thing, Line | Polyline | Polygon | Arc) and thing.stroke is not None:
-            (solid if thing.stroke.solid else dashed).extend(pairwise(_course(thing)))
-    return Obstacles(tuple(solid), tuple(dashed), (*writing, *areas), tuple(writing))
+            course = tuple(pairwise(_course(thing)))
+            (solid if thing.stroke.solid else dashed).extend(course)
+            if thing.stroke.solid and thing.stroke.width >= THICK:
+                thick.extend(course)
+    return Obstacles(tuple(solid), tuple(dashed), (*writing, *areas), tuple(writing), tuple(thick))
 
 
 def _course(thing: Line | Polyline | Polygon | Arc) -> tuple[complex, ...]:

@@ -1,0 +1,44 @@
+"""Leaders go round what they do not name: joints, arrowheads, vectors."""
+
+from __future__ import annotations
+
+import xml.etree.ElementTree as ET
+
+import pytest
+import shapely
+
+from graphkin import draw
+
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+def line(element: ET.Element) -> shapely.LineString:
+    x1, y1, x2, y2 = (float(element.get(key)) for key in ("x1", "y1", "x2", "y2"))
+    return shapely.LineString([(x1, y1), (x2, y2)])
+
+
+def read(scene: str, figure: str) -> tuple[list[shapely.LineString], list[shapely.LineString], list[shapely.Polygon]]:
+    """Leaders, lines of vectors, and joints of a finished figure."""
+    root = ET.fromstring(draw(scene).figures[figure].content("svg"))
+    groups = list(root.iter(f"{SVG}g"))
+    labels = next(group for group in groups if group.get("id") == "labels")
+    vectors = [line(group[0]) for group in groups if "vector" in (group.get("class") or "").split()]
+    circles = [c for c in root.iter(f"{SVG}circle") if float(c.get("r")) <= 1.6]
+    joints = [shapely.Point(float(c.get("cx")), float(c.get("cy"))).buffer(float(c.get("r"))) for c in circles]
+    return [line(one) for one in labels if one.tag == f"{SVG}line"], vectors, joints
+
+
+@pytest.mark.parametrize("figure", ["mechanism", "velocity", "acceleration", "sheet", "centres"])
+@pytest.mark.parametrize("scene", ["sixbar-AE70", "sixbar-1A-last-link"])
+def test_no_leader_runs_through_a_joint(scene, figure):
+    leaders, _, joints = read(scene, figure)
+    assert not [one for one in leaders for joint in joints
+                if one.intersects(joint) and joint.distance(shapely.Point(one.coords[0])) > 1.3]  # fmt: skip
+
+
+@pytest.mark.parametrize("scene", ["sixbar-AE70", "shaper-scheme-2", "sixbar-guide-40deg"])
+def test_hardly_a_leader_runs_across_a_velocity(scene):
+    leaders, vectors, _ = read(scene, "velocity")
+    crossed = [one for one in leaders for vector in vectors
+               if one.intersects(vector) and vector.distance(shapely.Point(one.coords[0])) > 0.45]  # fmt: skip
+    assert len(crossed) <= 1
