@@ -20,7 +20,7 @@ from graphkin.errors import CallError, Problem
 from graphkin.files import path_of
 from graphkin.scene.cams import LawCam, SwingingFollower
 from graphkin.scene.model import AngleDriver, Mechanism
-from graphkin.words import Phrase, say
+from graphkin.words import Phrase, languages, say
 
 if TYPE_CHECKING:
     from graphkin.drawing import Drawing
@@ -172,7 +172,7 @@ class CamMade:
         """The cam by inversion, on a page of its own."""
         from graphkin.drawing.cam import cam_figure
 
-        told = list(zip(*(self.sentences(each) for each in ("en", "zh")), strict=True))
+        told = {each: self.sentences(each) for each in languages(language)}
         return cam_figure(self.mechanism, self.sheet, told, language)
 
     def profile_dxf(self) -> bytes:

@@ -31,7 +31,7 @@ from graphkin.scene.synthesis import (
     scene_table,
 )
 from graphkin.scene.written import Scene
-from graphkin.words import LANGUAGES, Phrase, say, word
+from graphkin.words import LANGUAGES, Phrase, languages, say, word
 
 if TYPE_CHECKING:
     from graphkin.drawing import ChartPage, Drawing
@@ -243,7 +243,7 @@ class Designed(Result):
         from graphkin.drawing.synthesis import choice_chart, design_figure
 
         spoken = self.language or self.given.sheet.language
-        notes = list(zip(self.sentences("en"), self.sentences("zh"), strict=True))
+        notes = {each: self.sentences(each) for each in languages(spoken)}
         made: dict[str, Drawing | ChartPage] = {
             "design": design_figure(self.given, self.sheet, self.rows, self.confirmed, notes, spoken)
         }

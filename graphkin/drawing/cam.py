@@ -5,20 +5,20 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from graphkin.construction.cam_sheet import CamDivision, CamSheet
 from graphkin.construction.extent import Extent, fitting_scale
 from graphkin.drawing import strokes, symbols
 from graphkin.drawing.box import Box
-from graphkin.drawing.dimensions import check_bar
 from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.font_widths import runs_width
 from graphkin.drawing.headings import number, term
 from graphkin.drawing.labels import Label
 from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
 from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Stroke, Text
-from graphkin.drawing.text import plain, rich, symbol, wrapped
+from graphkin.drawing.text import plain, rich, symbol
+from graphkin.drawing.told_page import FOOT, LETTER, LINE, MARGIN, WIDTH, foot, heading, notes_told, steps_told
 from graphkin.scene.cams import LawCam, SlidingFollower, SwingingFollower
 from graphkin.scene.follower_law import TURN
 from graphkin.scene.model import Mechanism
@@ -27,10 +27,9 @@ from graphkin.words import languages, say, word
 
 __all__ = ["cam_figure", "cam_given", "cam_pictures", "cam_scale"]
 
-WIDTH, MARGIN, FOOT = 210.0, 12.0, 14.0
 PANEL = (150.0, 140.0)
 """mm that the cam may fill."""
-LETTER, LINE, SMALL = 3.0, 4.6, 2.4
+SMALL = 2.4
 LONG = 180.0
 """mm for a turn of the cam in the diagram."""
 HIGH = (16.0, 40.0)
@@ -53,47 +52,34 @@ def cam_scale(scene: Mechanism, cam: LawCam, natural: CamSheet) -> float:
     return fitting_scale(Extent(box.width, box.height), room, natural.scale / per) * per
 
 
-def cam_figure(scene: Mechanism, sheet: CamSheet, told: Sequence[tuple[str, str]], language: str) -> Drawing:
+def cam_figure(scene: Mechanism, sheet: CamSheet, told: Mapping[str, Sequence[str]], language: str) -> Drawing:
     """Draw a cam on a page of its own.
 
     Parameters
     ----------
-    told : what is found of it, in English and in Chinese
+    told : what is found of it, by language
     language : "en", "zh" or "both"
     """
     cam = sheet.cam
     title = " / ".join(dict.fromkeys(scene.title_in(each) or scene.name for each in languages(language)))
-    head = [rich(title.replace("$", "$$"), 4.0, bold=True)]
-    head += wrapped(_given(scene, cam, language), 3.2, WIDTH - 2 * MARGIN)
-    words: list[Primitive] = [
-        Text(complex(MARGIN, MARGIN + 3.5 + 5.0 * i), runs, classes=("heading",)) for i, runs in enumerate(head)
-    ]
-    top = MARGIN + 5.0 * len(head) + 4.0
+    words = heading(title, _given(scene, cam, language))
+    top = MARGIN + 5.0 * len(words) + 4.0
     diagram, y = _diagram(scene, sheet, top, language)
     drawn, y = _cam(scene, sheet, y + 6.0)
     y += 6.0
     for each in languages(language):
-        for i, phrase in enumerate(sheet.steps, 1):
-            lines = wrapped(say(phrase, each), LETTER, WIDTH - 2 * MARGIN - 8.0)
-            numeral = plain(str(i), LETTER, bold=True)
-            words.append(Text(complex(MARGIN + 5.0, y), numeral, "end", classes=("told",), step=i))
-            for line in lines:
-                words.append(Text(complex(MARGIN + 8.0, y), line, classes=("told",), step=i))
-                y += LINE
+        steps, y = steps_told(((i, say(phrase, each)) for i, phrase in enumerate(sheet.steps, 1)), y)
+        words += steps
         y += 2.0
     table, y = _table(scene, sheet, language, y + 1.0)
-    for each in languages(language):
-        for note in (zh if each == "zh" else en for en, zh in told):
-            for line in wrapped(note, LETTER, WIDTH - 2 * MARGIN):
-                words.append(Text(complex(MARGIN, y), line, classes=("told",)))
-                y += LINE
+    notes, y = notes_told(told, language, y)
+    words += notes
     height = y + FOOT
     unit, per = scene.units.length, sheet.scale / scene.units.metres
-    words.append(Text(complex(MARGIN, height - 6.0), rich(f"$μ_{{l}}$ = {number(per)} {unit}/mm", 3.5)))
-    words += check_bar(complex(WIDTH - MARGIN - 50.0, height - 6.0), rich(term("check bar", language), 2.5))
+    words += foot(f"$μ_{{l}}$ = {number(per)} {unit}/mm", height - 6.0, 3.5, language)
     page = joined((diagram, drawn, Piece({"labels": tuple(words), "answers": table})))
     first = languages(language)[0]
-    spoken = " ".join(say(phrase, first) + "." for phrase in sheet.steps) + " " + " ".join(en for en, _ in told)
+    spoken = " ".join(say(phrase, first) + "." for phrase in sheet.steps) + " " + " ".join(told[first])
     facts = {"figure": "cam", "scene": scene.name, "cam": cam.link, "units": {"length": unit, "paper": "mm"},
              "scales": {"length": per}, "instrument": "exact", "graphkin": __version__}  # fmt: skip
     return Drawing(WIDTH, height, layer_groups(page), f"{title}: {word('cam figure', first)}", spoken, first, facts)
@@ -105,9 +91,8 @@ def cam_pictures(scene: Mechanism, sheet: CamSheet, language: str, begun: bool =
     diagram, low = _diagram(scene, sheet, 5.0, language, begun)
     drawn, bottom = _cam(scene, sheet, 2.0, begun)
     unit, per = scene.units.length, sheet.scale / scene.units.metres
-    foot: list[Primitive] = [Text(complex(MARGIN, bottom + 5.0), rich(f"$μ_{{l}}$ = {number(per)} {unit}/mm", 3.0))]
-    foot += check_bar(complex(WIDTH - MARGIN - 50.0, bottom + 5.0), rich(term("check bar", language), 2.5))
-    drawn = joined((drawn, Piece({"labels": tuple(foot)})))
+    scale = tuple(foot(f"$μ_{{l}}$ = {number(per)} {unit}/mm", bottom + 5.0, 3.0, language))
+    drawn = joined((drawn, Piece({"labels": scale})))
     facts = {"figure": "cam", "scene": scene.name, "cam": sheet.cam.link, "graphkin": __version__}
     told = word("cam figure", first)
     pages = []
@@ -125,7 +110,7 @@ def cam_given(scene: Mechanism, cam: LawCam, language: str) -> str:
     for piece in cam.law.pieces:
         said = f"{number(math.degrees(piece.start))}°–{number(math.degrees(piece.end))}°"
         way = _lift(scene, cam, piece.high - piece.low)
-        law = term(f"law {piece.by}" if piece.by else "law dwell", language)
+        law = term(f"law {piece.by}", language, piece.by) if piece.by else term("law dwell", language)
         told.append(f"{said} {law}" + (f" {'+' if way > 0 else '−'}{number(abs(way))}{unit}" if piece.by else ""))
     return f"{_given(scene, cam, language)}; {', '.join(told)}"
 
@@ -184,7 +169,7 @@ def _diagram(
     for piece in law.pieces:
         start, end = at(piece.start, law.least) + 6.8j, at(piece.end, law.least) + 6.8j
         said = f"{number(math.degrees(piece.end - piece.start))}°"
-        name = term(f"law {piece.by}" if piece.by else "law dwell", language)
+        name = term(f"law {piece.by}", language, piece.by) if piece.by else term("law dwell", language)
         text = rich(f"{said} {name}", SMALL)
         short = rich(said, SMALL)
         runs = text if runs_width(text) <= (end - start).real - 2.0 else short

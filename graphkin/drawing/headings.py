@@ -31,9 +31,9 @@ FIGURE_WORDS: Mapping[DiagramName, str] = {
 
 
 
-def term(key: str, language: str) -> str:
-    """A word in a language; both beside each other for "both"."""
-    return " ".join(dict.fromkeys(word(key, each) for each in languages(language)))
+def term(key: str, language: str, otherwise: str | None = None) -> str:
+    """A word in a language; both beside each other for "both".  ``otherwise`` stands for one that no table has."""
+    return " ".join(dict.fromkeys(word(key, each, otherwise) for each in languages(language)))
 
 
 def punctuation(key: str, language: str) -> str:

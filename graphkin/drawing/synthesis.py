@@ -6,7 +6,7 @@ from __future__ import annotations
 import cmath
 import math
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -30,7 +30,8 @@ from graphkin.drawing.headings import number, term
 from graphkin.drawing.labels import Label
 from graphkin.drawing.piece import Piece, cut_to, joined, layer_groups, moved_piece, with_labels
 from graphkin.drawing.primitives import Arc, Circle, Group, Line, Primitive, Run, Stroke, Text
-from graphkin.drawing.text import plain, rich, wrapped
+from graphkin.drawing.text import rich
+from graphkin.drawing.told_page import FOOT, LETTER, LINE, MARGIN, WIDTH, foot, heading, notes_told, steps_told
 from graphkin.scene.synthesis import Design
 from graphkin.version import __version__
 from graphkin.words import Phrase, languages, say, word
@@ -43,9 +44,8 @@ __all__ = [
     "step_words",
 ]  # fmt: skip
 
-WIDTH, MARGIN, ROOM = 210.0, 12.0, 9.0
+ROOM = 9.0
 PANEL = (168.0, 128.0)  # mm that the construction may fill
-LINE, FOOT, LETTER = 4.6, 14.0, 3.0
 FAR, WHOLE = 2.2, 1.3  # a help point, or the whole of a circle, that makes the figure so many times larger is cut off
 _KINDS: dict[LineKind, Stroke] = {
     "given": strokes.LINK,
@@ -97,59 +97,46 @@ def _content(sheet: DesignSheet) -> Box:
 
 def design_figure(
     design: Design, sheet: DesignSheet, rows: Sequence[FoundLength], confirmed: Sequence[Confirmed],
-    notes: Sequence[tuple[str, str]], language: str,
+    notes: Mapping[str, Sequence[str]], language: str,
 ) -> Drawing:  # fmt: skip
     """Draw a synthesis on a page of its own.
 
     Parameters
     ----------
     rows : the lengths measured and compared
-    notes : sentences to be said of the result, in English and Chinese
+    notes : sentences to be said of the result, by language
     language : "en", "zh" or "both"
     """
     content = _content(sheet)
     content = Box(content.left, -content.bottom, content.right, -content.top)  # y down
     title = " / ".join(dict.fromkeys(design.title_in(each) or design.name for each in languages(language)))
-    head = [rich(title.replace("$", "$$"), 4.0, bold=True)]
-    head += wrapped(asked_words(design, language), 3.2, WIDTH - 2 * MARGIN)
-    top = MARGIN + 5.0 * len(head) + 1.0
+    words = heading(title, asked_words(design, language))
+    top = MARGIN + 5.0 * len(words) + 1.0
     panel = Box(MARGIN, top, WIDTH - MARGIN, top + max(content.height, 40.0) + 2 * ROOM)
     origin = panel.centre - content.centre
     around = panel.moved(-origin)
     piece = with_labels(joined([_strokes(step.strokes, step.number, around) for step in sheet.steps]), around)
     drawn = moved_piece(piece, origin)
-    words: list[Primitive] = [
-        Text(complex(MARGIN, MARGIN + 3.5 + 5.0 * i), runs, classes=("heading",)) for i, runs in enumerate(head)
-    ]
     y = panel.bottom + 5.0
     for each in languages(language):
-        for step in sheet.steps:
-            lines = wrapped(step_words(step.phrase, each), LETTER, WIDTH - 2 * MARGIN - 8.0)
-            words.append(Text(complex(MARGIN + 5.0, y), plain(str(step.number), LETTER, bold=True), "end",
-                              classes=("told",), step=step.number))  # fmt: skip
-            for line in lines:
-                words.append(Text(complex(MARGIN + 8.0, y), line, classes=("told",), step=step.number))
-                y += LINE
+        steps, y = steps_told(((step.number, step_words(step.phrase, each)) for step in sheet.steps), y)
+        words += steps
         y += 2.0
     table, y = _tables(design, rows, confirmed, language, y + 1.0)
-    for each in languages(language):
-        for note in (zh if each == "zh" else en for en, zh in notes):
-            for line in wrapped(note, LETTER, WIDTH - 2 * MARGIN):
-                words.append(Text(complex(MARGIN, y), line, classes=("told",)))
-                y += LINE
+    told, y = notes_told(notes, language, y)
+    words += told
     height = y + FOOT
     unit = design.units.length
     scale = f"1 mm = {number(sheet.scale)} {unit}"
-    words.append(Text(complex(MARGIN, height - 6.0), rich(scale, 3.5)))
-    words += check_bar(complex(WIDTH - MARGIN - 50.0, height - 6.0), rich(term("check bar", language), 2.5))
+    words += foot(scale, height - 6.0, 3.5, language)
     page = joined((drawn, Piece({"labels": tuple(words), "answers": table})))
-    steps = " ".join(_spoken(say(s.phrase, languages(language)[0])) + "." for s in sheet.steps)
+    spoken = " ".join(_spoken(say(s.phrase, languages(language)[0])) + "." for s in sheet.steps)
     found = "; ".join(f"{row.symbol} = {row.measured:.6g} {unit}" for row in rows)
     facts = {"figure": "design", "design": design.name, "kind": design.task.kind,
              "units": {"length": unit, "paper": "mm"},
              "scales": {"length": sheet.scale}, "instrument": sheet.instrument, "graphkin": __version__}  # fmt: skip
     first = languages(language)[0]
-    return Drawing(WIDTH, height, layer_groups(page), f"{title}: {word('design figure', first)}", f"{steps} {found}",
+    return Drawing(WIDTH, height, layer_groups(page), f"{title}: {word('design figure', first)}", f"{spoken} {found}",
                    first, facts)  # fmt: skip
 
 

@@ -10,14 +10,13 @@ from graphkin.errors import Problem
 from graphkin.plane import cross, dot
 from graphkin.scene.cam_tables import Cam, LawPiece
 from graphkin.scene.cams import LawCam, SlidingFollower, SwingingFollower
-from graphkin.scene.follower_law import FollowerLaw, Piece, form_of
+from graphkin.scene.follower_law import LAWS, FollowerLaw, Piece, form_of
 from graphkin.scene.names import Flaws, Names
 from graphkin.scene.tables import SceneTables
 
 __all__ = ["cams_of"]
 
 AGREES = 1e-6
-LAWS = 'by = "uniform", "parabolic", "harmonic", "cycloidal", "345" or "4567"'
 
 
 def cams_of(
@@ -141,6 +140,7 @@ class _CamReading:
             good = False
             self.say(f"{where}.law.{i}", said, wanted)
 
+        names = [f'"{name}"' for name in LAWS]
         for i, piece in enumerate(pieces, 1):
             rise = (piece.rise or 0.0) - (piece.fall or 0.0)
             if piece.rise is not None and piece.fall is not None:
@@ -150,7 +150,7 @@ class _CamReading:
                 if not getattr(piece, key) > 0.0:
                     wrong(i, f"{key} = {getattr(piece, key):g}", "it must be positive; a dwell has neither")
                 if piece.by is None:
-                    wrong(i, "does not say its law", LAWS)
+                    wrong(i, "does not say its law", f"by = {', '.join(names[:-1])} or {names[-1]}")
             elif piece.by is not None:
                 wrong(i, f'has by = "{piece.by}" without rise or fall', "a dwell has no law")
             if not piece.to > start:

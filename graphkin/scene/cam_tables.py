@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
 from graphkin.scene.file_table import FileTable, about
+from graphkin.scene.follower_law import SPELLINGS
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -19,7 +20,10 @@ if TYPE_CHECKING:
 
 __all__ = ["AllowedPressure", "BaseCircle", "Cam", "LawName", "LawPiece"]
 
-LawName = Literal["uniform", "parabolic", "harmonic", "cycloidal", "345", "4567", "3-4-5", "4-5-6-7"]
+if TYPE_CHECKING:
+    LawName = Literal["uniform", "parabolic", "harmonic", "cycloidal", "345", "4567"] | str
+else:
+    LawName = Literal[SPELLINGS]  # as many as there are laws
 
 
 @dataclass(frozen=True)

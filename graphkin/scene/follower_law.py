@@ -1,5 +1,6 @@
 """The law of a follower: its lift over the angle of the cam, piece by piece, with three derivatives.
 
+A further law is its form and a row of `LAWS`; scenes, the schema, the solver, figures and sentences know it by that.
 Laws after Norton, Cam Design and Manufacturing Handbook, ch. 2 and 3, and Sun Huan, Mechanical Principles, ch. 9.
 """
 
@@ -13,7 +14,7 @@ from functools import cached_property
 from types import ModuleType
 from typing import Any, NamedTuple
 
-__all__ = ["FollowerLaw", "Lift", "Piece", "SmoothPart", "form_of"]
+__all__ = ["LAWS", "SPELLINGS", "FollowerLaw", "Lift", "Piece", "SmoothPart", "form_of"]
 
 TURN = 2 * math.pi
 SEAM = 1e-12
@@ -27,6 +28,10 @@ class Lift(NamedTuple):
     slope: Any
     bend: Any
     jerk: Any
+
+
+Form = Callable[[Any, ModuleType], tuple[Any, Any, Any, Any]]
+"""From 0 to 1 over 0 to 1, with three derivatives; of floats with the functions of math, of arrays with NumPy's."""
 
 
 def _uniform(x: Any, _: ModuleType) -> tuple[Any, Any, Any, Any]:
@@ -62,10 +67,17 @@ def _4567(x: Any, _: ModuleType) -> tuple[Any, Any, Any, Any]:
     return lift, 140 * xy**3, 420 * xy**2 * (1 - 2 * x), 840 * xy * (1 - 5 * xy)
 
 
-_FORMS: Mapping[str, Callable[[Any, ModuleType], tuple[Any, Any, Any, Any]]] = {
-    "uniform": _uniform, "accelerated": _accelerated, "decelerated": _decelerated, "harmonic": _harmonic,
-    "cycloidal": _cycloidal, "345": _345, "4567": _4567,
-}  # fmt: skip
+LAWS: Mapping[str, tuple[tuple[float, Form], ...]] = {
+    "uniform": ((1.0, _uniform),),
+    "parabolic": ((0.5, _accelerated), (1.0, _decelerated)),
+    "harmonic": ((1.0, _harmonic),),
+    "cycloidal": ((1.0, _cycloidal),),
+    "345": ((1.0, _345),),
+    "4567": ((1.0, _4567),),
+}
+"""Laws by their names in a scene: the forms of their smooth parts, each up to a share of the angle and of the lift."""
+SPELLINGS = (*LAWS, *("-".join(name) for name in LAWS if name.isdigit()))
+"""The names as people write them: "3-4-5" too."""
 
 
 def form_of(by: str | None) -> str:
@@ -75,20 +87,23 @@ def form_of(by: str | None) -> str:
 
 @dataclass(frozen=True)
 class SmoothPart:
-    """A part of the law with derivatives of every order; of a parabolic piece each half is one."""
+    """A part of the law with derivatives of every order: the piece itself, or of a parabolic piece each half; ``by`` is
+    the law ("" of a dwell), ``which`` the part of it."""
 
     start: float
     end: float
     low: float
     high: float
-    form: str
+    by: str
+    which: int = 0
 
     def at(self, angle: Any, m: ModuleType = math) -> Lift:
         """The lift at angles inside (rad), plain, or arrays with the functions of NumPy."""
         wide, h = self.end - self.start, self.high - self.low
         if h == 0.0:
             return Lift(self.low + 0 * angle, 0.0 * angle, 0.0 * angle, 0.0 * angle)
-        f, f1, f2, f3 = _FORMS[self.form]((angle - self.start) / wide, m)
+        _, form = LAWS[self.by][self.which]
+        f, f1, f2, f3 = form((angle - self.start) / wide, m)
         return Lift(self.low + h * f, h * f1 / wide, h * f2 / wide**2, h * f3 / wide**3)
 
 
@@ -104,12 +119,11 @@ class Piece:
 
     @property
     def parts(self) -> tuple[SmoothPart, ...]:
-        if self.by != "parabolic":
-            return (SmoothPart(self.start, self.end, self.low, self.high, self.by),)
-        middle, half = (self.start + self.end) / 2, (self.low + self.high) / 2
-        return (
-            SmoothPart(self.start, middle, self.low, half, "accelerated"),
-            SmoothPart(middle, self.end, half, self.high, "decelerated"),
+        shares = [share for share, _ in LAWS[self.by]] if self.by else [1.0]
+        angles = [self.start, *(self.start * (1.0 - share) + self.end * share for share in shares)]
+        lifts = [self.low, *(self.low * (1.0 - share) + self.high * share for share in shares)]
+        return tuple(
+            SmoothPart(angles[k], angles[k + 1], lifts[k], lifts[k + 1], self.by, k) for k in range(len(shares))
         )
 
 

@@ -62,9 +62,9 @@ def class_of(order: int) -> Phrase | str:
     return Phrase(f"class {order}") if f"class {order}" in _table("en") else str(order)
 
 
-def word(key: str, language: str = "en") -> str:
-    """A heading or a term in a language."""
-    return _table(language)[key]
+def word(key: str, language: str = "en", otherwise: str | None = None) -> str:
+    """A heading or a term in a language; ``otherwise`` stands for one that the table does not have."""
+    return _table(language)[key] if otherwise is None else _table(language).get(key, otherwise)
 
 
 def languages(language: str) -> tuple[str, ...]:

@@ -9,7 +9,7 @@ import pytest
 
 from graphkin.errors import SceneError
 from graphkin.scene import library_text, mechanism_of
-from graphkin.scene.follower_law import FollowerLaw, Piece
+from graphkin.scene.follower_law import LAWS, FollowerLaw, Piece
 
 pytestmark = pytest.mark.quick
 
@@ -82,7 +82,7 @@ def test_the_sketch_tells_the_side_of_a_swinging_follower():
     assert 1 == mechanism_of(scene("cam-swinging-roller", sketch={"B": [30, -40]})).cams[0].motion.side
 
 
-@pytest.mark.parametrize("by", ["uniform", "parabolic", "harmonic", "cycloidal", "345", "4567"])
+@pytest.mark.parametrize("by", LAWS)
 def test_each_law_rises_by_its_lift_with_the_derivatives_that_it_tells(by):
     law = FollowerLaw((Piece(0.0, 2.0, 0.0, 3.0, by), Piece(2.0, math.tau, 3.0, 0.0, by)))
     assert (0.0, pytest.approx(3.0)) == (law.at(0.0).lift, law.at(2.0).lift)

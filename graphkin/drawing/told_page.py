@@ -1,0 +1,53 @@
+"""What stands in words on the page of one construction: heading, numbered steps, sentences on what is found, foot."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+
+from graphkin.drawing.dimensions import check_bar
+from graphkin.drawing.headings import term
+from graphkin.drawing.primitives import Primitive, Run, Text
+from graphkin.drawing.text import plain, rich, wrapped
+from graphkin.words import languages
+
+__all__ = ["FOOT", "LETTER", "LINE", "MARGIN", "WIDTH", "foot", "heading", "notes_told", "steps_told"]
+
+WIDTH, MARGIN, FOOT = 210.0, 12.0, 14.0
+LETTER, LINE = 3.0, 4.6
+INDENT = 8.0
+
+
+def heading(title: str, given: str) -> list[Primitive]:
+    """The title, and below it what is given, from the upper margin on."""
+    head: list[tuple[Run, ...]] = [rich(title.replace("$", "$$"), 4.0, bold=True)]
+    head += wrapped(given, 3.2, WIDTH - 2 * MARGIN)
+    return [Text(complex(MARGIN, MARGIN + 3.5 + 5.0 * i), runs, classes=("heading",)) for i, runs in enumerate(head)]
+
+
+def steps_told(steps: Iterable[tuple[int, str]], y: float) -> tuple[list[Primitive], float]:
+    """Steps with their numbers (markup), and where they end."""
+    words: list[Primitive] = []
+    for number, said in steps:
+        numeral = plain(str(number), LETTER, bold=True)
+        words.append(Text(complex(MARGIN + 5.0, y), numeral, "end", classes=("told",), step=number))
+        for line in wrapped(said, LETTER, WIDTH - 2 * MARGIN - INDENT):
+            words.append(Text(complex(MARGIN + INDENT, y), line, classes=("told",), step=number))
+            y += LINE
+    return words, y
+
+
+def notes_told(notes: Mapping[str, Sequence[str]], language: str, y: float) -> tuple[list[Primitive], float]:
+    """Sentences by language (markup), and where they end."""
+    words: list[Primitive] = []
+    for each in languages(language):
+        for note in notes[each]:
+            for line in wrapped(note, LETTER, WIDTH - 2 * MARGIN):
+                words.append(Text(complex(MARGIN, y), line, classes=("told",)))
+                y += LINE
+    return words, y
+
+
+def foot(scale: str, y: float, size: float, language: str) -> list[Primitive]:
+    """The scale (markup, mm high) on a base line, and a bar to check it by."""
+    bar = check_bar(complex(WIDTH - MARGIN - 50.0, y), rich(term("check bar", language), 2.5))
+    return [Text(complex(MARGIN, y), rich(scale, size)), *bar]
