@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -58,8 +58,9 @@ class Checked(Result, OfScene):
     """A drawing, its readings, and how they compare with the exact values.
 
     ``advice`` names the least certain reading of a drawing with finite tools, and what would help it; ``asked`` is
-    what the drawing was limited to, empty where it was not; ``passed`` are the change points on the way to it.
-    ``at_contacts`` is the same with sliding contacts drawn at the contact itself, where exact hands have drawn it so.
+    what the drawing was limited to, empty where it was not; ``passed`` are the change points on the way to it;
+    ``at_contacts`` is the same with sliding contacts drawn at the contact itself, where exact hands have drawn it so;
+    ``over_turn`` are asked values of the whole turn that stand in no single position, as they are computed.
     """
 
     sheet: Sheet
@@ -67,6 +68,7 @@ class Checked(Result, OfScene):
     advice: Advice | None = None
     asked: tuple[Symbol, ...] = ()
     passed: tuple[ChangePoint, ...] = ()
+    over_turn: Mapping[Symbol, float] = field(default_factory=dict)
     at_contacts: Checked | None = None
 
     @property
@@ -129,6 +131,9 @@ class Checked(Result, OfScene):
                 {**reading_row(self.mechanism, row), **self._by_centres(row), **self._by_lever(row),
                  **self._at_contact(row)} for row in self.report.rows
             ],
+            **({"not_drawn": [str(symbol) for symbol in self.report.missing]} if self.report.missing else {}),
+            **({"computed_over_turn": {str(s): in_scene_units(self.mechanism, s, v) for s, v in self.over_turn.items()}}
+               if self.over_turn else {}),
             **({"advice": say(self.advice.phrase())} if self.advice else {}),
             **self._construction,
         }
@@ -281,6 +286,7 @@ def _checked(what: Plan, motion: Motion, hand: Instrument) -> Checked:
         def value(symbol: Symbol) -> complex | float:
             return of_force(symbol) if symbol.scope == "force" else of_motion(symbol)
 
+    turning = {s: float(value(s).real) for s in what.asked if s.scope == "cycle"}
     readings = read_off(sheet, (), hand)
     rounding: dict[DiagramName, float] = {
         "mechanism": float(np.nan_to_num(motion.bound.position[0], posinf=0.0)),
@@ -290,12 +296,12 @@ def _checked(what: Plan, motion: Motion, hand: Instrument) -> Checked:
     }
     if hand is EXACT:
         report = compare(sheet, readings, value, what.asked, rounding=rounding, force_scale=scale)
-        return Checked(sheet, report, None, what.asked, passed)
+        return Checked(sheet, report, None, what.asked, passed, turning)
     tools = what.structure.scene.sheet.tools
     predicted = predict(what, hand.name, tools)
     advice = advise(what, hand.name, tools, readings, predicted)
     report = compare(sheet, readings, value, what.asked, predicted, rounding, scale)
-    return Checked(sheet, report, advice, what.asked, passed)
+    return Checked(sheet, report, advice, what.asked, passed, turning)
 
 
 def drawn_symbols(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tuple[Symbol, ...]:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from graphkin.api.arguments import own_unit, passed_words
 from graphkin.api.checked import Checked
+from graphkin.api.reading_rows import in_scene_units
 from graphkin.checking.reading_words import deviation, exact, measured, paper
 from graphkin.construction.remarks import AtContact
 from graphkin.construction.sheet import Equation, Sheet, Term
@@ -137,8 +138,12 @@ def verdict(checked: Checked, language: str) -> str:
     """Does the drawing agree with the solver; what is missing is said first."""
     report = checked.report
     said = []
-    if report.missing:
-        said.append(Phrase("not drawn", (", ".join(map(str, report.missing)),)))
+    if missing := [str(s) for s in report.missing if s not in checked.over_turn]:
+        said.append(Phrase("not drawn", (", ".join(missing),)))
+    for symbol, value in checked.over_turn.items():
+        unit = symbol.unit(checked.mechanism.units)
+        shown = amount(in_scene_units(checked.mechanism, symbol, value), MOST)
+        said.append(Phrase("over the turn", (str(symbol), f"{shown} {unit}")))
     off = [str(r.symbol) for r in report.rows if r.ok is False]
     if report.undetermined:
         said.append(Phrase("not determined", (", ".join(map(str, report.undetermined)),)))
@@ -147,7 +152,7 @@ def verdict(checked: Checked, language: str) -> str:
     elif agree := sum(r.ok is True for r in report.rows):
         whole = not said
         said.append(Phrase("check passed" if whole else "rest agrees", (agree,)))
-    elif not report.rows:
+    elif not report.rows and not checked.over_turn:
         said.append(Phrase("nothing checked"))
     return " ".join(say(phrase, language) for phrase in said)
 
@@ -237,7 +242,30 @@ def turn_text(turn: TurnStudy, language: str) -> list[str]:
         angle = f"{math.degrees(least.angle):.6g}°"
         lines.append(f"{word('least transmission', language)} {names}{colon}{angle} ({where}); {pressure}")
     lines += _curves(turn, language)
+    lines += _forces_of_turn(turn, language)
     return lines + _flywheel(turn, language)
+
+
+def _forces_of_turn(turn: TurnStudy, language: str) -> list[str]:
+    """The greatest and the least of each joint force, couple and balance."""
+    from graphkin.study.force_diagrams import force_extremes
+
+    scene = turn.scene
+    if not scene.loading:
+        return []
+    try:
+        found = force_extremes(turn.reach)
+    except Unsolvable as stop:
+        return [word("forces", language) + word("colon", language) + stop.why]
+    lines = []
+    for name, (quantity, marks) in found.items():
+        parts = [
+            f"{word({'max': 'greatest', 'min': 'least'}[kind], language)} {value:.6g} @ "
+            f"{own_unit(scene, scene.drivers[0], at)}" if math.isfinite(value) else word("unbounded", language)
+            for kind, at, value in marks
+        ]  # fmt: skip
+        lines.append(f"{name} ({quantity.unit(scene)}): {'; '.join(parts)}")
+    return lines
 
 
 def _flywheel(turn: TurnStudy, language: str) -> list[str]:

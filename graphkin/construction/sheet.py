@@ -357,7 +357,7 @@ class Sheet:
     @property
     def has_forces(self) -> bool:
         """Whether forces are drawn of it: there are masses or loads, and all is drawn that they need."""
-        wanted = not self.asked or any(s.scope == "force" for s in self.asked)
+        wanted = not self.asked or any(s.scope in ("force", "cycle") for s in self.asked)
         return bool(self.scene.loading) and wanted
 
     def at(self, scales: Scales) -> Sheet:

@@ -52,7 +52,7 @@ class Task:
         """What each polygon needs for what is asked: accelerations only of what leads to accelerations."""
         pushes = [s for s in self.asked if s.measure in ("acceleration", "angular acceleration")]
         wanted = needed(self.opened, pushes) if pushes else []
-        every = not self.asked or any(s.scope == "force" for s in self.asked)
+        every = not self.asked or any(s.scope in ("force", "cycle") for s in self.asked)
         pushed = self.elements if every else tuple(e for e in self.elements if e in wanted)
         return {"velocity": self.elements, "acceleration": pushed}
 

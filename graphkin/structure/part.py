@@ -21,7 +21,7 @@ def needed(structure: Structure, asked: Sequence[Symbol]) -> list[Element]:
     ------
     CallError : a symbol that names no point of a link here
     """
-    if not asked or any(symbol.scope == "force" for symbol in asked):  # every link may push any other
+    if not asked or any(symbol.scope in ("force", "cycle") for symbol in asked):  # every link may push any other
         return list(structure.elements)
     wanted: set[str] = set()
     for symbol in asked:

@@ -25,23 +25,28 @@ from graphkin.drawing.chart import (
     marker,
 )
 from graphkin.drawing.primitives import Stroke
+from graphkin.scene.force_names import force_names
 from graphkin.scene.model import AngleDriver
 from graphkin.solver import DriverRange, forces_of
 from graphkin.solver.load_edges import load_edges
 from graphkin.study.driver_axis import LEFT, RIGHT, WIDTH, DriverAxis, driver_axis, heading, number, title_of
-from graphkin.study.quantities import Quantity
+from graphkin.study.quantities import Quantity, force_quantity
 from graphkin.words import Phrase, say, word
 
 if TYPE_CHECKING:
     from graphkin.drawing.chart import Axes, Figure
 
-__all__ = ["Course", "course", "force_page", "force_title", "polar_page", "whole_turn"]
+__all__ = ["Course", "course", "force_extremes", "force_page", "force_title", "polar_page", "whole_turn"]
 
 Array = NDArray[np.float64]
 
 TOP, TALL = 40.0, 95.0  # mm
 JUMP = 1e-8
 """Of the range: so far on both sides of where a load begins or ends its two values are taken."""
+GROWS = 50.0
+"""Beside the samples next to an end of the motion: what grows more there goes away without bound."""
+NOUGHT = 1e-12
+"""Of the greatest force or moment: less is nothing but rounding."""
 MARGIN = 0.14
 ZERO, LEAP = Stroke(0.18), Stroke(0.25, (1.2, 0.9))
 FINER = 33
@@ -118,9 +123,9 @@ def force_page(reach: DriverRange, quantity: Quantity, language: str) -> ChartPa
         box = Box(LEFT, TOP, WIDTH - RIGHT, TOP + TALL)
         axes = add_panel(figure, box, quantity.name.replace("/", "-"), f"{name} ({unit})", axis.title)
         draw_course(axes, axis, found, values)
-        for k, (x, value) in enumerate(marks):
+        for k, (x, value, _) in enumerate(marks):
             axes.plot([x], [value], **marker("down" if k else "up"))
-        labels = [(number(value), (x, value)) for x, value in marks]
+        labels = [(number(value), (x, value)) for x, value, _ in marks]
         add_labels(axes, labels, toward=[(math.pi / 2,), (-math.pi / 2,)][: len(labels)])
 
     return ChartPage(
@@ -154,14 +159,58 @@ def _jumps(found: Course, values: Array) -> list[int]:
     return np.flatnonzero((step < 1e-5 * float(np.ptp(found.x))) & (leap > 1e-6 * wide)).tolist()
 
 
-def _extremes(axis: DriverAxis, quantity: Quantity, found: Course, values: Array) -> list[tuple[float, float]]:
-    """Place on the axis and value of the greatest and the least."""
+def force_extremes(reach: DriverRange) -> dict[str, tuple[Quantity, list[tuple[str, float, float]]]]:
+    """Of each joint force by its size, each couple and balance that is not nought the greatest and the least over the
+    way of the driver: ``max`` or ``min``, the driver's value (rad, m), and the value in the scene's units,
+    infinite where it goes away without bound at an end of the motion.
+
+    Raises
+    ------
+    Unsolvable : a load acts on a part of a stroke, and the driver makes no whole turn
+    """
+    scene, found = reach.scene, dict[str, tuple[Quantity, list[tuple[str, float, float]]]]()
+    names = [n for n in force_names(scene) if n.startswith(("F_", "M_"))]
+    if not names:
+        return found
+    axis = driver_axis(reach, "en")
+    offsets = whole_turn(axis)
+    forces, x = forces_of(reach.motion(offsets)), axis.at(offsets)
+    most = max(float(np.nanmax(np.abs(v), initial=0.0)) for v in (*forces.forces.values(), *forces.moments.values()))
+    for name in names:
+        value, quantity = forces.value(name), force_quantity(scene, name)
+        if value is None or quantity is None or not np.nanmax(np.abs(value), initial=0.0) > NOUGHT * most:
+            continue
+        values = np.asarray(np.abs(value) if quantity.is_size else value.real) / scene.units.newtons
+        marks = _extremes(axis, quantity, Course(offsets, x, value), values)
+        found[name] = quantity, [
+            (kind, _driver_at(reach, at), math.inf if _unbounded(reach, offsets, values, at, size) else size)
+            for kind, (_, size, at) in zip(("max", "min"), marks, strict=False)
+        ]  # fmt: skip
+    return found
+
+
+def _driver_at(reach: DriverRange, offset: float) -> float:
+    value = float(reach.value(np.array(offset)))
+    return value % math.tau if reach.full and reach.turns <= 1 else value
+
+
+def _unbounded(reach: DriverRange, offsets: Array, values: Array, at: float, value: float) -> bool:
+    """Whether a value goes away without bound at an end of the motion."""
+    if reach.full:
+        return False
+    low, high = (at <= offsets[2], at >= offsets[-3])
+    inside = np.abs(values[3:6] if low else values[-6:-3])
+    return bool((low or high) and abs(value) > GROWS * np.nanmax(inside, initial=0.0))
+
+
+def _extremes(axis: DriverAxis, quantity: Quantity, found: Course, values: Array) -> list[tuple[float, float, float]]:
+    """Place on the axis, value and offset of the greatest and the least."""
     marks = []
     for pick in (np.nanargmax, np.nanargmin):
         if not np.isfinite(values).any():
             return []
         k = int(pick(values))
-        x, value = float(found.x[k]), float(values[k])
+        x, value, at = float(found.x[k]), float(values[k]), float(found.offsets[k])
         near = found.offsets[max(k - 1, 0) : k + 2]
         if len(near) == 3 and 0 < near[2] - near[0] < 0.1 * (axis.reach.ends[1] - axis.reach.ends[0]):
             finer = np.concatenate([np.linspace(near[0], near[1], FINER), np.linspace(near[1], near[2], FINER)])
@@ -169,8 +218,8 @@ def _extremes(axis: DriverAxis, quantity: Quantity, found: Course, values: Array
             assert both is not None
             own = (np.abs(both) if quantity.is_size else both.real) / axis.reach.scene.units.newtons
             best = int(pick(own))
-            x, value = float(axis.at(finer[best : best + 1])[0]), float(own[best])
-        marks.append((x, value))
+            x, value, at = float(axis.at(finer[best : best + 1])[0]), float(own[best]), float(finer[best])
+        marks.append((x, value, at))
     return marks if marks[0][1] > marks[1][1] else marks[:1]
 
 

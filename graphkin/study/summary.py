@@ -9,6 +9,7 @@ import numpy as np
 
 from graphkin.errors import Unsolvable
 from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.study.force_diagrams import force_extremes
 from graphkin.study.trace import Extreme, Traced
 from graphkin.study.turn import Output, TurnStudy
 
@@ -92,8 +93,28 @@ def to_json(turn: TurnStudy) -> dict[str, Any]:
             for least in turn.transmission
         ],
         "curves": {t.quantity.name: _curve(turn, t) for t in turn.curves},
+        **_forces(turn),
         **_flywheel(turn),
     }
+
+
+def _forces(turn: TurnStudy) -> dict[str, Any]:
+    """Greatest and least of joint forces, couples and balances; nothing without masses and loads."""
+    if not turn.scene.loading:
+        return {}
+    try:
+        found = force_extremes(turn.reach)
+    except Unsolvable as stop:
+        return {"forces": {}, "why_no_forces": stop.why}
+    return {"forces": {
+        name: {"unit": quantity.unit(turn.scene), "extremes": [
+            {"kind": kind, "driver": _driver(turn.scene, at), **_bounded(value)} for kind, at, value in marks
+        ]} for name, (quantity, marks) in found.items()
+    }}  # fmt: skip
+
+
+def _bounded(value: float) -> dict[str, float | str | None]:
+    return {"value": value} if math.isfinite(value) else {"value": None, "why": UNBOUNDED}
 
 
 def _driver(scene: Mechanism, value: float) -> float:

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import graphkin
+from graphkin.api.report_text import verdict
 from graphkin.scene import mechanism_of
 from graphkin.solver import driver_range
 from graphkin.solver.flywheel import flywheel_of, needed_moment
@@ -112,3 +113,28 @@ def test_a_sweep_without_wishes_draws_the_balance_and_the_flywheel():
     assert {"diagram-M_2", "flywheel"} <= set(swept.figures)
     assert "飞轮" in swept.text
     assert json.dumps(swept.data)
+
+
+def test_greatest_and_least_forces_stand_in_the_summary_of_a_turn():
+    exact = graphkin.sweep("engine-gas-force", positions=3600, find=["M_2", "F_3/4"])
+    found = graphkin.sweep("engine-gas-force").data["forces"]
+    (high, low) = found["M_2"]["extremes"]
+    assert np.max(exact["M_2"]) == pytest.approx(high["value"], rel=1e-4)
+    assert np.min(exact["M_2"]) == pytest.approx(low["value"], rel=1e-3)
+    assert np.max(np.abs(exact["F_3/4"])) == pytest.approx(found["F_3/4"]["extremes"][0]["value"], rel=1e-4)
+
+
+def test_a_force_that_grows_without_bound_is_said_to():
+    high, _ = graphkin.sweep("boom-lifted").data["forces"]["F_2"]["extremes"]
+    assert high["value"] is None
+    assert "without bound" in high["why"]
+
+
+def test_a_flywheel_asked_of_one_position_is_told_as_computed_over_the_turn():
+    scene = graphkin.read("engine-gas-force").to_dict() | {"flywheel": {"on": "2", "delta": 0.05}}
+    checked = graphkin.check(scene, find=["J_F", "M_2"])
+    assert ["J_F"] == checked.data["not_drawn"]
+    assert graphkin.solve(scene).data["positions"][0]["moments"]["J_F"] == pytest.approx(
+        checked.data["computed_over_turn"]["J_F"]
+    )
+    assert "computed over the whole turn" in verdict(checked, "en")
