@@ -160,9 +160,9 @@ def shown(scene: Mechanism, at: Mapping[str, float] | None, wishes: Wishes, quic
     ------
     Unsolvable : not even the scene's own position can be had
     """
-    structure = solver.structure_of(scene)
+    structure = _moved(scene).structure
     if quick and wishes.instrument == "exact":
-        answer = _in_motion(structure, at, wishes)
+        answer = _in_motion(_moved(scene), at, wishes)
         rest = tuple(name for name in wishes.figures if name not in _IN_MOTION)
         if rest and not answer["limit"]:
             answer["figures"] |= _figures(drawn_at(structure, at, replace(wishes, figures=rest))[0])
@@ -189,21 +189,42 @@ def shown(scene: Mechanism, at: Mapping[str, float] | None, wishes: Wishes, quic
 _IN_MOTION: Mapping[str, DiagramName] = {n: n for n in ("mechanism", "velocity", "acceleration")}
 
 
-def _in_motion(structure: Structure, at: Mapping[str, float] | None, wishes: Wishes) -> dict[str, Any]:
+@dataclass
+class _Moved:
+    """A scene while a hand moves it: its structure, and what was drawn last, from where the assembly is followed."""
+
+    structure: Structure
+    last: Plan | None = None
+
+    def plan(self, values: Mapping[str, float] | None) -> Plan:
+        """What to draw at values of the drivers.  Raises Unsolvable for a position that cannot be had."""
+        asked = here(tuple(self.structure.scene.find))
+        try:
+            return plan(self.structure, values, asked, follows=self.last)
+        except Unsolvable:  # the way from there may be barred
+            return plan(self.structure, values, asked)
+
+
+@lru_cache(maxsize=16)
+def _moved(scene: Mechanism) -> _Moved:
+    return _Moved(solver.structure_of(scene))
+
+
+def _in_motion(moved: _Moved, at: Mapping[str, float] | None, wishes: Wishes) -> dict[str, Any]:
     """The same while a hand moves: nothing is checked, and names stand where there may be others."""
-    scene, values = placed(structure.scene, at or None)
-    structure = structure if scene is structure.scene else solver.structure_of(scene)
+    scene, values = placed(moved.structure.scene, at or None)
+    moved = moved if scene is moved.structure.scene else _moved(scene)
     said = ""
     try:
-        what = plan(structure, values, here(tuple(scene.find)))
+        what = moved.plan(values)
         if _is_fast(what):  # beside a limit of the motion the solver has the last word, in fifty digits
-            solved_here(structure, values, here(tuple(scene.find)))
+            solved_here(moved.structure, values, here(tuple(scene.find)))
     except Unsolvable as error:
         if not at or len(scene.drivers) != 1:
             raise
-        said = _why(structure, values, error)
-        values = driver_values(scene, _last(scene, at))
-        what = plan(structure, values, here(tuple(scene.find)))
+        said = _why(moved.structure, values, error)
+        what = moved.plan(driver_values(scene, _last(scene, at)))
+    moved.last = what
     sheet = execute(replace(what, scales=wishes.scales or what.scales))
     words = {"language": wishes.language, "convention": wishes.convention}
     there = [name for name in wishes.figures if name in _IN_MOTION and _is_there(sheet, name)]

@@ -33,36 +33,44 @@ export function figureBoard(parent, { word, pull, name, again }) {
     return { section, port, zoom: MM, anchor: null };
   };
 
-  const put = (figure, text, moving) => {
+  /** Lays a figure into its place; null where it is no drawing but words. */
+  const put = (figure, text) => {
     if (!shown.has(figure)) shown.set(figure, make(figure));
     const one = shown.get(figure);
     const svg = figureOf(text);
     one.port.replaceChildren(svg);
-    if (svg.nodeName !== "svg") return;
+    if (svg.nodeName !== "svg") return null;
     const [, , width, height] = svg.getAttribute("viewBox").split(" ").map(Number);
-    if (!moving) {
-      one.zoom = Math.min(one.port.clientWidth / width, 2.2 * MM) || MM;
-      one.port.style.height = `${height * one.zoom}px`;
-    }
+    return { figure, one, svg, width, height };
+  };
+
+  /** At rest a figure fills the width there is. */
+  const fill = ({ figure, one, svg, width, height }) => {
+    one.zoom = Math.min(one.port.clientWidth / width, 2.2 * MM) || MM;
+    one.port.style.height = `${height * one.zoom}px`;
     svg.setAttribute("width", width * one.zoom);
     svg.setAttribute("height", height * one.zoom);
-    svg.style.transform = "";
-    const anchor = anchorOf(figure, svg);
-    if (!moving) one.anchor = anchor;
-    else if (anchor && one.anchor && anchor.id === one.anchor.id) {
-      // the pole and the pivots stay where they were, as long as all of the figure is seen
-      const kept = (shift, long, room) => (long <= room ? Math.min(Math.max(shift, 0), room - long) : (room - long) / 2);
-      const less = Math.min(1, one.port.clientWidth / (width * one.zoom), one.port.clientHeight / (height * one.zoom));
-      const zoom = figure === "mechanism" ? one.zoom : one.zoom * less;
+    one.anchor = anchorOf(figure, svg);
+    if (figure === "mechanism") makePulled(svg);
+  };
+
+  /** While a hand moves, the pole and the pivots stay where they were, as long as all of the figure is seen. */
+  const keep = (figures) => {
+    // all are measured before any is moved, so that the page is laid out once
+    const measured = figures.map((it) => ({ ...it, anchor: anchorOf(it.figure, it.svg),
+      roomWide: it.one.port.clientWidth, roomHigh: it.one.port.clientHeight }));
+    const kept = (shift, long, room) => (long <= room ? Math.min(Math.max(shift, 0), room - long) : (room - long) / 2);
+    for (const { figure, one, svg, width, height, anchor, roomWide, roomHigh } of measured) {
+      const there = anchor && one.anchor && anchor.id === one.anchor.id;
+      const less = Math.min(1, roomWide / (width * one.zoom), roomHigh / (height * one.zoom));
+      const zoom = figure === "mechanism" || !there ? one.zoom : one.zoom * less;
+      svg.setAttribute("width", width * zoom);
+      svg.setAttribute("height", height * zoom);
+      if (!there) continue;
       let [dx, dy] = [one.anchor.x * one.zoom - anchor.x * zoom, one.anchor.y * one.zoom - anchor.y * zoom];
-      if (figure !== "mechanism") {
-        svg.setAttribute("width", width * zoom);
-        svg.setAttribute("height", height * zoom);
-        [dx, dy] = [kept(dx, width * zoom, one.port.clientWidth), kept(dy, height * zoom, one.port.clientHeight)];
-      }
+      if (figure !== "mechanism") [dx, dy] = [kept(dx, width * zoom, roomWide), kept(dy, height * zoom, roomHigh)];
       svg.style.transform = `translate(${dx}px, ${dy}px)`;
     }
-    if (figure === "mechanism" && !moving) makePulled(svg);
   };
 
   const makePulled = (svg) => {
@@ -133,7 +141,9 @@ export function figureBoard(parent, { word, pull, name, again }) {
           shown.delete(figure);
         }
       }
-      for (const [figure, svg] of Object.entries(told.figures)) put(figure, svg, moving);
+      const drawn = Object.entries(told.figures).map(([figure, svg]) => put(figure, svg)).filter((it) => it);
+      if (moving) keep(drawn);
+      else drawn.forEach(fill);
       const order = (figure) => wanted.indexOf(figure.replace(/-\d+$/, "")) + Number(/-(\d+)$/.exec(figure)?.[1] ?? 0) / 100;
       for (const figure of [...shown.keys()].sort((a, b) => order(a) - order(b))) {
         if (!moving && parent.lastElementChild !== shown.get(figure).section) parent.append(shown.get(figure).section);
