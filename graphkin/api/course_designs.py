@@ -28,7 +28,7 @@ from graphkin.api.arguments import (
 )
 from graphkin.api.checked import solved_here
 from graphkin.api.drawn import draw
-from graphkin.api.problem_sets import schemes_of
+from graphkin.api.problem_sets import drawn_schemes, schemes_of
 from graphkin.api.results import OfScene, Result
 from graphkin.api.swept import sweep
 from graphkin.checking.readings import read_off
@@ -158,6 +158,8 @@ def course_design(
     convention: str | None = None,
     positions: int | None = None,
     progress: Progress | None = None,
+    variants: int | None = None,
+    seed: int = 0,
 ) -> CourseDesigns:
     """The reports of a course project: one position of one mechanism for each student, and the table of the class.
 
@@ -169,6 +171,7 @@ def course_design(
         has no scheme the next one that has a position left.  Without it one report with a blank cover (one for each
         scheme)
     rows : a CSV file with a row of data for each scheme, as `problem_set` reads it
+    variants, seed : instead, so many schemes drawn as those of a problem set
     at : the position of the one report where there are no students; the scene's own if None
     positions : of the driver, numbered from 1, where the scene has no `[positions]`; 12 if None
     out : folder for the files; none are written without it
@@ -188,7 +191,14 @@ def course_design(
         raise CallError(Problem("at", "beside students", "write each position into the table of the students"))
     count = 12 if positions is None else whole_number("positions", positions, 2, 72)
     spoken, letters = language or given.sheet.language, convention or given.sheet.convention
-    sources, data = ({"": scene}, ()) if rows is None else schemes_of(scene, rows)
+    if rows is not None and variants is not None:
+        raise CallError(Problem("variants", "beside rows", "give one of them"))
+    sources: Mapping[str, SceneLike] = {"": scene}
+    data: tuple[tuple[str, ...], ...] = ()
+    if rows is not None:
+        sources, data = schemes_of(scene, rows)
+    elif variants is not None:
+        sources, data = drawn_schemes(scene, variants, seed, find)
     course = {name: _scheme(name, source, find, count) for name, source in sources.items()}
     if students is None:
         dealt = [(Student(scheme=name), driver_values(one.scene, at)) for name, one in course.items()]
@@ -216,7 +226,7 @@ def course_design(
             tuple(one.places.values()), asked, _unit(one.scene), **shared[one.name],
         )  # fmt: skip
         document = report(made)
-        stem = "report" if students is None and rows is None else _stem(k, len(dealt), who)
+        stem = "report" if len(dealt) == 1 and students is None and not data else _stem(k, len(dealt), who)
         if "html" in formats:
             content[f"{stem}.html"] = document_page(document).encode()
         if "pdf" in formats and can_typeset():

@@ -7,10 +7,12 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import nullcontext
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from graphkin.api.answers import Rows, table_of, with_points
 from graphkin.api.arguments import (
@@ -23,27 +25,28 @@ from graphkin.api.arguments import (
     write_files,
 )
 from graphkin.api.results import OfScene, Result
-from graphkin.errors import CallError, GraphkinError, Problem, as_text, did_you_mean
+from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable, as_text, did_you_mean
 from graphkin.files import folder_alone, path_of
 from graphkin.jobs import Progress, Workers
 from graphkin.papers.data_rows import Columns, columns_of, replaced
 from graphkin.papers.exports import BANKED, bank
 from graphkin.papers.pdf import can_join, one_after_another
-from graphkin.papers.problem_set import Job, MadeSet, Render, jobs_of_rows, jobs_of_seed, make
+from graphkin.papers.problem_set import Job, MadeSet, Render, accepted, jobs_of_rows, jobs_of_seed, make
 from graphkin.papers.solution import answers_template
 from graphkin.papers.variants import Answer, Spread, Variant, asked_of, varied_keys
 from graphkin.papers.vary_rules import rules_checked
 from graphkin.scene.mapping import as_mapping, toml_text
-from graphkin.scene.model import Mechanism
+from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.source import written
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.written import safe_name
 from graphkin.study.designs import applied
 from graphkin.table import Table
 
-__all__ = ["ProblemSet", "problem_set", "schemes_of"]
+__all__ = ["ProblemSet", "drawn_schemes", "problem_set", "schemes_of"]
 
 MOST = 100_000
+MOST_OF_A_TURN = 355.0  # degrees: a driver that goes farther is free to stand anywhere
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -225,9 +228,21 @@ def _jobs(
         asked_symbols(as_scene(source), (source.get("vary") or {}).get("find", ()))
         if not varied_keys(source):
             raise CallError(Problem("variants", "nothing in the scene can vary", "give lengths and a driver"))
+        spread = spread if spread.reach else replace(spread, reach=_reach(as_scene(source)))
         return list(jobs_of_seed(source, count, whole_number("seed", seed, -MOST_SEED, MOST_SEED), spread)), ()
     table, columns = _data_of(source, rows)
     return list(jobs_of_rows(_rows(source, columns, table.rows))), columns.unused
+
+
+def _reach(scene: Mechanism) -> tuple[float, float] | None:
+    """Between which angles (degrees) a first driver goes that cannot turn fully; None for any other."""
+    from graphkin.solver import driver_range
+
+    if not isinstance(scene.drivers[0], AngleDriver):
+        return None
+    found = driver_range(scene)
+    low, high = sorted(np.degrees(found.value(np.array(found.ends))).tolist())
+    return None if found.full or high - low > MOST_OF_A_TURN else (low, high)
 
 
 def _data_of(source: Mapping[str, Any], rows: str | os.PathLike[str]) -> tuple[Rows, Columns]:
@@ -270,6 +285,49 @@ def schemes_of(
     lines = [tuple(cells[i] if i < len(cells) else "" for i in order) for _, cells in table.rows]
     heads = ("", *(table.heads[i] for i in order))
     return made, (heads, *((name, *line) for name, line in zip(made, lines, strict=True)))
+
+
+def drawn_schemes(
+    scene: SceneLike, variants: int, seed: int = 0, find: Iterable[str | Symbol] | None = None
+) -> tuple[dict[str, Mechanism], tuple[tuple[str, ...], ...]]:
+    """So many mechanisms with other numbers, drawn as those of a problem set, by their names, and the table of what
+    varies, the names first.
+
+    Raises
+    ------
+    SceneError, CallError : the scene or the call is wrong
+    Unsolvable : one that is drawn nowhere as a good problem
+    """
+    source, _ = _source(scene)
+    if find is not None:
+        source["find"] = [str(s) for s in asked_symbols(as_scene(source), find)]
+    jobs, _ = _jobs(source, variants, seed, None, Spread())
+    made: dict[str, Mechanism] = {}
+    lines: list[tuple[str, ...]] = []
+    keys = [path for path, _ in varied_keys(source)]
+    with Workers(None, 1) as working:
+        for job, attempt in accepted(jobs, {}, working):
+            if attempt.variant is None:
+                raise Unsolvable("not drawn", Problem(f"variant {job.name}", attempt.why))
+            made[job.name] = attempt.variant.scene
+            lines.append((job.name, *(f"{_number(attempt.variant.source, path):.6g}" for path in keys)))
+    return made, (("", *(_told(source, path) for path in keys)), *lines)
+
+
+def _number(source: Any, path: Sequence[str | int]) -> float:
+    for part in path:
+        source = source[part]
+    return float(source)
+
+
+def _told(source: Mapping[str, Any], path: Sequence[str | int]) -> str:
+    """A datum as a table heads it: the letters of a bar, the place of a point, or its key."""
+    if path[0] == "links":
+        points = source["links"][path[1]].get("points", ())
+        return "".join(points) if len(points) == 2 else f"{path[1]}"
+    if path[0] == "frame":
+        return f"{path[2]}.{'xy'[int(path[-1])]}" if isinstance(path[-1], int) else f"{path[2]}.{path[-1]}"
+    return str(path[-1])
 
 
 def _rows(

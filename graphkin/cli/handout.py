@@ -81,10 +81,11 @@ def handout(
     if template not in TEMPLATES:
         raise CallError(Problem("template", f'"{template}"', did_you_mean(template, TEMPLATES)))
     if template == "course-design":
-        if variants is not None or export:
-            raise CallError(Problem("template course-design", "with --variants or --export", "give schemes as --rows"))
+        if export:
+            raise CallError(Problem("template course-design", "with --export", "leave one of them out"))
         place = driver_values(at, position)
-        _course(scene, students, rows, out, place, find, wanted, lang, convention, positions, as_json, quiet)
+        drawn = variants, seed
+        _course(scene, students, rows, out, place, find, wanted, lang, convention, positions, drawn, as_json, quiet)
         return
     if students is not None:
         raise CallError(Problem("students", "without a course design", "add --template course-design"))
@@ -127,14 +128,14 @@ def handout(
 def _course(
     scene: str, students: Path | None, rows: Path | None, out: Path | None,
     at: float | str | dict[str, float] | None, find: list[str] | None, formats: list[str], lang: str | None,
-    convention: str | None, positions: int | None, as_json: bool, quiet: bool,
+    convention: str | None, positions: int | None, drawn: tuple[int | None, int], as_json: bool, quiet: bool,
 ) -> None:  # fmt: skip
     from graphkin.api.course_designs import course_design
     from graphkin.words import languages, say
 
     with short_bar(not as_json and not quiet) as progress:
         made = course_design(
-            scene, students, rows, None, at, find or None, formats, lang, convention, positions, progress
+            scene, students, rows, None, at, find or None, formats, lang, convention, positions, progress, *drawn
         )  # fmt: skip
         paths = made.write(out)
     if as_json:

@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import json
 import re
+import time
 from collections import Counter, deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, field, is_dataclass, replace
+from dataclasses import asdict, dataclass, field, is_dataclass
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -19,12 +20,14 @@ from graphkin.errors import GraphkinError
 from graphkin.jobs import Checkpoints, Progress, Started, Workers, key_of
 from graphkin.papers.variants import Answer, Spread, Unfit, Variant, candidate, examined, varied_keys
 from graphkin.papers.vary_rules import level_of
+from graphkin.scene import mechanism_of
+from graphkin.structure import Cluster, analyse
 
-__all__ = ["Failure", "Job", "MadeSet", "Render", "distinct", "jobs_of_rows", "jobs_of_seed", "make"]
+__all__ = ["Failure", "Job", "MadeSet", "Render", "accepted", "distinct", "jobs_of_rows", "jobs_of_seed", "make"]
 
-STRICT = 30  # of them that hold the level's tolerance
-WIDEST = 0.15  # an answer that a pencil cannot give more closely is no answer to grade
-ATTEMPTS = 60  # tries at one variant before it is given up
+MANY, FEW = 30, 4  # of them for everything that may be asked, of mechanisms of dyads and with larger groups
+ATTEMPTS = 120  # tries at one variant before it is given up
+PATIENCE = 12.0  # s of the processor, after which no further one is begun
 
 # of a title: the data that it names ("…, scheme 2, position 7", "… 150, 500, 300")
 _DATA = re.compile(r"(?:\s+[\d.]+(?=[,、]\s*\d))?\s*[,:，：;；(（、][^,:，：;；(（、]*\d.*$")
@@ -96,23 +99,34 @@ def jobs_of_rows(rows: Iterable[tuple[str, Source, Source | None, str]]) -> Iter
 
 
 def work(job: Job, attempt: int) -> Attempt:
-    """The first good variant of a job from an attempt on; depends on nothing else, so it runs anywhere."""
+    """The first good variant of a job from an attempt on; depends on nothing else, so it runs anywhere.
+
+    Only how soon it is given up depends on the machine.
+    """
     if job.spread is None:
         return _row(job)
     why: Counter[str] = Counter()
+    begun = time.process_time()
+    large = any(isinstance(group, Cluster) for group in analyse(mechanism_of(job.source)).elements)
+    patient = FEW if large else MANY
     for k in range(attempt, ATTEMPTS):
+        if time.process_time() - begun > PATIENCE:
+            break
         try:
-            source = _named(candidate(job.source, job.spread, job.seed, job.number, k), job.name)
+            fewer = k - attempt >= patient
+            spread = job.spread.narrower() if fewer and large else job.spread
+            source = _named(candidate(job.source, spread, job.seed, job.number, k), job.name)
+            was = _where_it_was(source, job.source)
             bounds = level_of(job.source)
-            if k >= STRICT:  # some mechanisms cannot be drawn so closely anywhere
-                bounds = replace(bounds, tolerance=max(bounds.tolerance, WIDEST))
-            return Attempt(examined(source, _where_it_was(source, job.source), job.name, bounds=bounds), k)
+            return Attempt(examined(source, was, job.name, bounds=bounds, fewer=fewer), k)
         except Unfit as unfit:
             why[str(unfit)] += 1
         except Exception as error:  # whatever goes wrong with one must not take the others along
             why[_reason(error)] += 1
     reason = why.most_common(1)[0][0] if why else "every attempt has the answers of another variant"
-    return Attempt(None, ATTEMPTS, f"none of {ATTEMPTS} attempts is a good problem, for example: {reason}")
+    tried = why.total()
+    easier = 'ask for less in "find", narrow [vary] ranges, or allow more by [vary] level = "hard"'
+    return Attempt(None, ATTEMPTS, f"none of {tried} attempts is a good problem, for example: {reason}; {easier}")
 
 
 def _row(job: Job) -> Attempt:
@@ -218,7 +232,7 @@ def make(
             progress(len(made.names) + len(made.failures), len(jobs))
 
     waiting: deque[tuple[Job, Attempt, Started[RenderedPapers] | None]] = deque()
-    for job, result in _accepted(jobs, done, workers):
+    for job, result in accepted(jobs, done, workers):
         new = result.variant is not None and job.number not in done
         waiting.append((job, result, workers.start(_rendered, render, result.variant) if new else None))
         while len(waiting) > (workers.ahead if render is not None else 0):
@@ -232,7 +246,7 @@ def make(
     return made
 
 
-def _accepted(jobs: Iterable[Job], done: Mapping[int, Attempt], workers: Workers) -> Iterator[tuple[Job, Attempt]]:
+def accepted(jobs: Iterable[Job], done: Mapping[int, Attempt], workers: Workers) -> Iterator[tuple[Job, Attempt]]:
     """What becomes of each job, in order; variants drawn from a seed are distinct from all before them."""
     taken: list[tuple[Answer, ...]] = []
     refused: Attempt | None = None

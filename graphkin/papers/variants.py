@@ -9,8 +9,8 @@ from __future__ import annotations
 import copy
 import math
 import random
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
 
@@ -35,16 +35,24 @@ Path = tuple[str | int, ...]
 
 LEAST_READING = 10.0  # mm on paper
 STEPS = (1.0, 2.0, 5.0)
+AMPLE = 0.8  # of a tolerance, to which errors that act together may still add
+SHY = 0.12  # part of its reach that a driver keeps off both ends
 
 
 @dataclass(frozen=True)
 class Spread:
-    """How far the data vary: lengths and rates by a part of their size, places by a part of theirs, angles by all."""
+    """How far the data vary: lengths and rates by a part of their size, places by a part of theirs, angles by all, or
+    within the ``reach`` (degrees) of a first driver that cannot turn fully."""
 
     lengths: float = 0.15
     places: float = 0.08
     rates: float = 0.25
     angle_step: float = 5.0
+    reach: tuple[float, float] | None = None
+
+    def narrower(self) -> Spread:
+        """For mechanisms that do not assemble with lengths much unlike their own."""
+        return replace(self, lengths=0.4 * self.lengths, places=0.4 * self.places)
 
 
 @dataclass(frozen=True)
@@ -118,7 +126,9 @@ def candidate(source: Source, spread: Spread, seed: int, number: int, attempt: i
     dice = random.Random(f"{seed}/{number}/{attempt}")
     made = copy.deepcopy(dict(source))
     for path, kind in free_of_rules(source, varied_keys(source)):
-        _put(made, path, _drawn(dice, float(_at(source, path)), kind, spread))
+        limited = spread.reach if path in (("driver", "angle"), ("driver", 0, "angle")) else None
+        value = float(_at(source, path))
+        _put(made, path, _drawn(dice, value, kind, spread) if limited is None else _within(dice, limited, spread))
     ruled(source, made, dice, {"angle": spread.angle_step})
     asked = asked_now(source, dice)
     return {**made, "find": asked} if asked else made
@@ -134,6 +144,15 @@ def _drawn(dice: random.Random, value: float, kind: str, spread: Spread) -> floa
     low, high = math.ceil(abs(value) * (1 - part) / step), math.floor(abs(value) * (1 + part) / step)
     steps = dice.randint(low, high) if low <= high else max(1, round(abs(value) / step))
     return math.copysign(float(f"{steps * step:.12g}"), value)
+
+
+def _within(dice: random.Random, reach: tuple[float, float], spread: Spread) -> float:
+    """An angle well inside the reach of a driver, since other lengths move its ends."""
+    low, high = reach
+    margin = SHY * (high - low)
+    step = min(spread.angle_step, round_step((high - low) * 10.0))
+    first, last = math.ceil((low + margin) / step), math.floor((high - margin) / step)
+    return float(f"{step * dice.randint(first, max(first, last)):.12g}")
 
 
 def _at(source: Any, path: Path) -> Any:
@@ -173,8 +192,9 @@ def _joints(group: Dyad | Cluster) -> tuple[Pair, ...]:
 
 
 def examined(
-    source: Source, base: Source | None, name: str, strict: bool = True, bounds: Bounds = LEVELS["usual"]
-) -> Variant:
+    source: Source, base: Source | None, name: str, strict: bool = True, bounds: Bounds = LEVELS["usual"],
+    fewer: bool = False,
+) -> Variant:  # fmt: skip
     """A variant from the mapping of a scene file, if it makes a good problem.
 
     Parameters
@@ -184,6 +204,7 @@ def examined(
         followed
     strict : refuse what cannot be drawn well; else say it in the remarks
     bounds : how well lines must cross, and how far a pencil drawing may miss an answer
+    fewer : ask only for what a pencil drawing does not miss, where the scene does not say what is asked
 
     Raises
     ------
@@ -210,19 +231,44 @@ def examined(
         raise Unfit(str(error).splitlines()[0]) from None
     except ArithmeticError as error:
         raise Unfit(f"the numbers run out of range: {error}") from None
+    if strict:  # what errors do together only adds to it
+        first = {s: u.bound for s, u in predict(what, "pencil", scene.sheet.tools, together=False).items()}
+        if fewer and not source.get("find"):
+            asked = _within_reach(answers, first, bounds.tolerance)
+            answers = tuple(one for one in answers if one[0] in asked)
+            made["find"] = [str(s) for s in asked]
+        _held(answers, first, bounds.tolerance)
     predicted = predict(what, "pencil", scene.sheet.tools)
     bounded = []
     for symbol, value in answers:
         bound = predicted[symbol].bound if symbol in predicted else 0.0
         unit = symbol.per_unit(scene.units)
-        if not math.isfinite(bound):
-            raise Unfit(f"{symbol} cannot be drawn: so near a dead point a pencil misses it")
-        if bound > bounds.tolerance * abs(value):
-            remarks.append(f"{symbol} cannot be drawn more closely than to {100 * bounds.tolerance:.0f} %")
-            if strict:
-                raise Unfit(remarks[-1])
+        try:
+            _held([(symbol, value)], {symbol: bound}, bounds.tolerance)
+        except Unfit as unfit:
+            if strict or not math.isfinite(bound):
+                raise
+            remarks.append(str(unfit))
         bounded.append(Answer(str(symbol), float(f"{value / unit:.12g}"), float(f"{bound / unit:.6g}")))
     return Variant(name, made, tuple(bounded), tuple(remarks))
+
+
+def _held(answers: Sequence[tuple[Symbol, float]], bounds: Mapping[Symbol, float], tolerance: float) -> None:
+    """Raise Unfit for an answer that a pencil can miss by more than a part of it."""
+    for symbol, value in answers:
+        bound = bounds.get(symbol, 0.0)
+        if not math.isfinite(bound):
+            raise Unfit(f"{symbol} cannot be drawn: so near a dead point a pencil misses it")
+        if bound > tolerance * abs(value):
+            raise Unfit(f"{symbol} cannot be drawn more closely than to {100 * tolerance:.0f} %")
+
+
+def _within_reach(
+    answers: Sequence[tuple[Symbol, float]], bounds: Mapping[Symbol, float], tolerance: float
+) -> tuple[Symbol, ...]:
+    """What a pencil does not miss of what may be asked, where that is two quantities at least, or else everything."""
+    kept = tuple(s for s, value in answers if bounds.get(s, 0.0) <= AMPLE * tolerance * abs(value))
+    return kept if len(kept) > 1 else tuple(s for s, _ in answers)
 
 
 def _moved(source: Source, base: Source) -> dict[str, Any]:

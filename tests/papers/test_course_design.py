@@ -79,3 +79,11 @@ def test_a_template_that_there_is_not_is_said(tmp_path):
     done = command.run("handout", SCENE, "--template", "course-desing", cwd=tmp_path)
     assert 2 == done.returncode
     assert 'did you mean "course-design"' in done.stderr
+
+
+def test_schemes_of_a_course_are_drawn_as_a_set_of_problems_is(tmp_path):
+    names = _file(tmp_path, "name\nA\nB\nC\n")
+    made = graphkin.course_design(SCENE, names, find=["v_C"], positions=2, formats=("html",), variants=2, seed=4)
+    assert ["01", "01", "02"] == [row.student.scheme for row in made.rows]
+    whole = made.files["01-A-01-1.html"].decode()
+    assert all(f'<span lang="en">{head}</span></th>' in whole for head in ("AB", "BC", "h.y"))

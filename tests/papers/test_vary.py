@@ -82,3 +82,10 @@ def test_a_level_gives_more_or_less_of_the_equations(level, equations):
 
     small = [d for d in _pictures(problem(lesson)) if d.height < 60 and not d.desc]
     assert equations == len(small)
+
+
+def test_a_driver_that_cannot_turn_fully_is_placed_within_its_reach():
+    spread = Spread(reach=(20.0, 50.0))
+    source = graphkin.read("triad-slider").to_dict()
+    angles = {candidate(source, spread, 1, number, 0)["driver"]["angle"] for number in range(40)}
+    assert {25.0, 30.0, 35.0, 40.0, 45.0} == angles
