@@ -163,7 +163,8 @@ def contact_lines(checked: Checked, language: str) -> list[str]:
     other = checked.at_contacts
     if other is None:
         return []
-    names = [n.contact for n in other.sheet.remarks if isinstance(n, AtContact)]
+    ways = dict.fromkeys(n for n in other.sheet.remarks if isinstance(n, AtContact))
+    names, curve = [n.contact for n in ways], any(n.on_curve for n in ways)
     first = {row.symbol: row for row in checked.report.rows}
     both = [(row, first[row.symbol]) for row in other.report.rows if row.symbol in first]
     alike = sum(abs(a.reading.value - b.reading.value) <= a.tolerance + b.tolerance for a, b in both)
@@ -172,8 +173,9 @@ def contact_lines(checked: Checked, language: str) -> list[str]:
         for symbol, length, said, _, _ in reading_words(other)
         if any(f"_{n}@" in symbol for n in names)
     ]
-    key = "at contact agrees" if other.ok and alike == len(both) else "at contact differs"
-    lines = [say(Phrase(key, (", ".join(dict.fromkeys(names)), alike, len(both))), language)]
+    key = "at pitch curve" if curve else "at contact"
+    key += " agrees" if other.ok and alike == len(both) else " differs"
+    lines = [say(Phrase(key, (", ".join(names), alike, len(both))), language)]
     return [*lines, *(f"  {line}" for line in found)]
 
 

@@ -25,8 +25,9 @@ __all__ = ["cams_in_place", "follower_limits"]
 STEP = math.radians(3.0)
 
 
-def cams_in_place(structure: Structure, values: Mapping[str, float]) -> Structure:
-    """What stands for a mechanism with cams at driver values (rad, m).
+def cams_in_place(structure: Structure, values: Mapping[str, float], bars: bool = True) -> Structure:
+    """What stands for a mechanism with cams at driver values (rad, m); with ``bars`` for rollers and edges, as far as
+    they can, else pins on the pitch curves.
 
     Raises
     ------
@@ -36,7 +37,7 @@ def cams_in_place(structure: Structure, values: Mapping[str, float]) -> Structur
     own = {d.key: d.values[0] for d in scene.drivers}
     groups = [e for e in structure.elements if not isinstance(e, Driven)]
     if not groups or any(isinstance(e, Cluster) for e in groups):
-        return analyse(_replaced(scene, values, {}))
+        return analyse(_replaced(scene, values, {}, bars))
     first, goal = [own[d.key] for d in scene.drivers], [values[d.key] for d in scene.drivers]
     way = next(iter(ways(scene.drivers, first, goal)), goal)
     far = max((abs(b - a) / (1.0 if isinstance(d, AngleDriver) else scene.size)
@@ -46,10 +47,12 @@ def cams_in_place(structure: Structure, values: Mapping[str, float]) -> Structur
     for k in range(count):
         at = {d.key: a + (b - a) * k / count for d, a, b in zip(scene.drivers, first, way, strict=True)}
         seen = _places(analyse(_replaced(scene, at, seen)), at)
-    return analyse(_replaced(scene, values, seen))
+    return analyse(_replaced(scene, values, seen, bars))
 
 
-def _replaced(scene: Mechanism, values: Mapping[str, float], seen: Mapping[str, complex]) -> Mechanism:
+def _replaced(
+    scene: Mechanism, values: Mapping[str, float], seen: Mapping[str, complex], bars: bool = False
+) -> Mechanism:
     """The scene with all cams replaced; their angles come from the drivers, or are drawn."""
     turns: dict[str, float] = {}
     for cam in scene.cams:
@@ -58,7 +61,7 @@ def _replaced(scene: Mechanism, values: Mapping[str, float], seen: Mapping[str, 
             turns[cam.link] = values[driver.key]
         else:
             turns[cam.link] = _drawn_turn(scene, cam, values, seen)
-    return replace(cams_replaced(scene, turns, values, seen), starts=_rolled(scene, values))
+    return replace(cams_replaced(scene, turns, values, seen, bars), starts=_rolled(scene, values))
 
 
 def _drawn_turn(scene: Mechanism, cam: LawCam, values: Mapping[str, float], seen: Mapping[str, complex]) -> float:

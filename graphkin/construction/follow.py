@@ -11,10 +11,11 @@ import numpy as np
 from graphkin.construction.dyads import drive, meet
 from graphkin.construction.reduced_mechanism import ReducedMechanism, clusters, reduced_mechanisms
 from graphkin.construction.rigid import PlacedLinks, Poses
+from graphkin.construction.rolled_places import rolled_near
 from graphkin.construction.sheet import Pose
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import AngleDriver
-from graphkin.structure import Cluster, Driven, Dyad, Element, Structure
+from graphkin.structure import Cluster, Driven, Dyad, Element, Rolled, Structure
 from graphkin.structure.assembly import ways
 
 __all__ = ["Choices", "best_reduced", "drawn_near", "fitted", "found_near", "moved_to"]
@@ -100,16 +101,19 @@ def _moved(one: Poses, other: Poses, size: float = 1.0) -> float:
 
 
 def found_near(
-    choices: Choices, elements: Sequence[Element], values: Mapping[str, float], guess: Poses
+    choices: Choices, elements: Sequence[Element], values: Mapping[str, float], guess: Poses, start: Poses | None = None
 ) -> dict[str, Pose] | None:
     """All links of the elements at driver values near which a position is guessed, on paper of the mechanism's size;
-    None where nothing fits near by."""
+    None where nothing fits near by.  What rolls is followed from ``start``."""
     structure = choices.structure
     ground = structure.scene.frame.name
     values = structure.followed(values)
     frame = PlacedLinks(structure.links, 1.0 / structure.scene.size, values, {ground: Pose(0j, 1 + 0j)})
     for element in elements:
         if isinstance(element, Driven):
+            if isinstance(element.driver, Rolled):
+                value = rolled_near(structure, frame, element.driver, guess if start is None else start, guess)
+                frame.values = {**frame.values, element.driver.key: value}
             frame.poses[element.link], _ = drive(frame, element)
             continue
         if isinstance(element, Dyad):

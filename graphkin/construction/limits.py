@@ -85,9 +85,9 @@ class TurnOfCrank:
                                                       "ask for s_, theta_ or d_ at single positions"))  # fmt: skip
         choices = Choices(structure, elements)
         placed = {structure.scene.frame.name, *(n for e in elements for n in links_of(e))}
-        turn = cls(structure, elements, values, choices, ())
         start = {name: pose for name, pose in poses.items() if name in placed}
         before = at = Turned(values[driver.key], start)
+        turn = cls(structure, elements, values, choices, (at,))
         found = [at]
         end, step = at.value + math.tau, STEP
         last = step
@@ -112,7 +112,7 @@ class TurnOfCrank:
         """The position at a crank's value, near to where it is expected; None where nothing fits there."""
         driver = self.structure.scene.drivers[0]
         values = {**self.values, driver.key: value}
-        poses = found_near(self.choices, self.elements, values, guess)
+        poses = found_near(self.choices, self.elements, values, guess, self.positions[0].poses)
         return None if poses is None else Turned(value, poses)
 
     def limits(self, output: Slide | str, why: str) -> tuple[Turned, Turned, float]:

@@ -157,8 +157,13 @@ class Plan(Task):
         return replace(_planned(replace(self, branches=branches, chains={}, plans={}), None), scales=self.scales)
 
     def at_contacts(self) -> Plan | None:
-        """The same task with sliding contacts drawn at the contact itself instead of by what replaces them, at scales
-        that suit it; None where there is no such contact in a dyad."""
+        """The same task with sliding contacts, or rollers and edges of cams, drawn at the contact itself instead of by
+        what replaces them, at scales that suit it; None where there is none in a dyad."""
+        scene = self.structure.scene
+        if scene.instead_of is not None:
+            if not any(slot.bar not in scene.instead_of.by_name for slot in scene.slots):
+                return None
+            return plan(scene.instead_of, self.values, self.asked, bars=False)
         chains = chains_at_contacts(self.structure, self.exact)
         inside = {dyad: chain for dyad, chain in chains.items() if dyad in self.elements}
         if not inside:
@@ -178,11 +183,12 @@ def plan(
     room: Room | None = None,
     near: Sheet | None = None,
     follows: Plan | None = None,
+    bars: bool = True,
 ) -> Plan:
     """Decide what to draw, and carry it out exactly; parameters and errors as for `draft`.
 
     ``follows`` is the same task at another position: the assembly is followed from there, which is shorter than from
-    the scene's own.
+    the scene's own.  With ``bars`` these stand for rollers and edges of cams, else pins on the pitch curves.
     """
     structure = analyse(with_cams(scene))
     scene = structure.scene
@@ -190,7 +196,7 @@ def plan(
     if scene.cams:
         from graphkin.construction.cams_in_place import cams_in_place
 
-        structure = cams_in_place(structure, {d.key: d.values[0] for d in scene.drivers} | dict(at or {}))
+        structure = cams_in_place(structure, {d.key: d.values[0] for d in scene.drivers} | dict(at or {}), bars)
         scene = structure.scene
     opened = opened_at_triangles(structure)
     if any(isinstance(e, Cluster) for e in needed(opened, asked)):

@@ -138,9 +138,11 @@ class ParallelLegs:
 
 @dataclass(frozen=True)
 class AtContact:
-    """A sliding contact is drawn at the contact itself, not by what replaces it."""
+    """A sliding contact is drawn at the contact itself, not by what replaces it; or, ``on_curve``, the point of a
+    follower as a pin on the pitch curve."""
 
     contact: str
+    on_curve: bool = False
 
     @property
     def holds(self) -> bool:
@@ -148,7 +150,7 @@ class AtContact:
 
     @property
     def phrase(self) -> Phrase:
-        return Phrase("at contact", (self.contact,))
+        return Phrase("at pitch curve" if self.on_curve else "at contact", (self.contact,))
 
     def scaled(self, times: float) -> Self:
         return self

@@ -3,15 +3,14 @@ have turned or slid that it rolls on is read off, whole turns included."""
 
 from __future__ import annotations
 
-import cmath
 import math
 from collections.abc import Mapping, Sequence
 
 from graphkin.construction.dyads import drive, meet
 from graphkin.construction.position import choose, start_board
 from graphkin.construction.rigid import PlacedLinks, Poses
+from graphkin.construction.rolled_places import coordinate_on_paper
 from graphkin.errors import Problem, Unsolvable
-from graphkin.plane import dot
 from graphkin.scene.model import AngleDriver
 from graphkin.structure import Driven, Dyad, Element, Rolled, Structure
 from graphkin.structure.model import Coordinate
@@ -35,7 +34,7 @@ def rolled_position(
     start: dict[Coordinate, float] = {}
     for i, element in enumerate(elements):
         if isinstance(element, Driven) and isinstance(element.driver, Rolled):
-            start |= {c: _reading(structure, frame, c) for c, _ in element.driver.factors}
+            start |= {c: coordinate_on_paper(structure, frame, c) for c, _ in element.driver.factors}
             frame = _with(frame, element.driver.key, element.driver.start)
         elif not isinstance(element, Driven | Dyad):
             names = ", ".join(element.links)
@@ -72,7 +71,7 @@ def _placed(
             if isinstance(element.driver, Rolled):
                 value = element.driver.start
                 for coordinate, factor in element.driver.factors:
-                    read = _reading(structure, frame, coordinate)
+                    read = coordinate_on_paper(structure, frame, coordinate)
                     if coordinate[0] == "angle":
                         read += math.tau * round((near[coordinate] - read) / math.tau)
                     near[coordinate] = read
@@ -85,16 +84,6 @@ def _placed(
 def _with(frame: PlacedLinks, key: str, value: float) -> PlacedLinks:
     frame.values = {**frame.values, key: value}
     return frame
-
-
-def _reading(structure: Structure, frame: PlacedLinks, coordinate: Coordinate) -> float:
-    """An angle within a turn (rad), or a travel (m)."""
-    kind, name = coordinate
-    if kind == "angle":
-        return cmath.phase(frame.poses[name].axis)
-    slide = structure.slide(name)
-    along = frame.poses[slide.b].axis * slide.guide.direction
-    return dot(frame.poses[slide.a].origin - frame.place(slide.b, slide.guide.through), along) / frame.mm
 
 
 def _off(one: Poses, other: Poses) -> float:

@@ -147,6 +147,7 @@ def _bent_parts(plot: Plot, edge: Edge, slide: Slide, sense: complex) -> list[Co
     inward = 1j * sense * (1 if bends > 0.0 else -1)
     span = inward * (speed**2 * abs(bends) / plot.scales.acceleration)
     size = SquareOverRadius(symbol_of(plot, "v", edge), 1.0 / abs(bends))
+    plot.board.notice("acceleration", AtContact(edge.start.point, True))
     way = Direction("turned", edge.direction.names)
     return [Component(symbol_of(plot, "an", edge), "normal", inward, span, way, size)]
 

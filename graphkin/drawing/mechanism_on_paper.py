@@ -134,7 +134,7 @@ class MechanismOnPaper:
     def curved(self) -> tuple[CurvedSlot, ...]:
         """The circular slots between links that stand on paper."""
         found = []
-        for slot in self.scene.slots:
+        for slot in (self.scene.instead_of or self.scene).slots:  # what stands for a cam is no slot
             if slot.on not in self.sheet.poses or not {slot.centre, slot.point} <= set(self.places):
                 continue
             centre, at = self.places[slot.centre], self.places[slot.point]

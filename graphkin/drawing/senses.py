@@ -149,9 +149,10 @@ def _slide_arrow(here: MechanismOnPaper, driver: SlideDriver) -> Piece:
 def found_rates(here: MechanismOnPaper, clear: SenseClearance) -> Piece:
     """Angular velocities and accelerations measured on the drawing."""
     pieces = [Piece({"answers": ()})]
+    named = (here.scene.instead_of or here.scene).by_name  # not of bars that stand for cams
     for sign, kind, own, heads in (("ω", "omega", here.sheet.omega, 1), ("α", "alpha", here.sheet.alpha, 2)):
         for link, rate in own.items():
-            if not rate.is_own or link not in here.scene.by_name or abs(rate.value) < 1e-12:
+            if not rate.is_own or link not in named or abs(rate.value) < 1e-12:
                 continue
             place = clear.arc(_centres_of_turn(here, link, here.ground), RADIUS)
             sense = 1 if rate.value > 0 else -1

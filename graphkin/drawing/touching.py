@@ -135,8 +135,8 @@ def _marks(places: Iterable[tuple[str, complex, complex]], tag: str = "") -> Pie
 
 
 def stand_ins(here: MechanismOnPaper) -> Piece:
-    """What replaces the higher pairs, dashed: the bar between two centres of curvature, the block at the one of a disc
-    whose guide runs along the face."""
+    """What replaces the higher pairs, dashed: the bar between two centres of curvature, that of a cam's pitch curve
+    among them, the block at the one of a disc whose guide runs along the face."""
     links, drawn = _on_paper(here), list[Primitive]()
     for contact in links.contacts():
         if contact.carrier:
@@ -151,4 +151,9 @@ def stand_ins(here: MechanismOnPaper) -> Piece:
             drawn.append(Line(page(spots[0] - reach), page(spots[0] + reach), strokes.DIRECTION))
         else:
             drawn.append(Line(page(spots[0]), page(spots[1]), strokes.REDUNDANT.coloured(colour)))
+    own = {slot.bar for slot in (here.scene.instead_of or here.scene).slots}
+    for slot in here.scene.slots:
+        if slot.bar not in own and {slot.centre, slot.point} <= here.places.keys():
+            ends = page(here.places[slot.centre]), page(here.places[slot.point])
+            drawn.append(Line(*ends, strokes.REDUNDANT.coloured(here.colour(slot.bar))))
     return Piece({"construction": tuple(drawn)})

@@ -375,6 +375,8 @@ class Mechanism:
     @cached_property
     def size(self) -> float:
         """A length that says how large the mechanism is (m): the largest distance given in the file."""
+        if self.instead_of is not None:
+            return self.instead_of.size
         spans = [abs(z) for link in self.links for z in link.points.values()]
         fixed = list(self.frame.points.values()) + [g.through for n, g in self.frame.guides.items() if n]
         spans += [abs(a - b) for i, a in enumerate(fixed) for b in fixed[:i]]

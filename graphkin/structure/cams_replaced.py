@@ -1,7 +1,9 @@
 """A mechanism without cams that moves as one with cams at one position, in velocity and acceleration (高副低代).
 
-The roller's centre, or the edge, runs as a pin on the pitch curve, of which a straight guide stands for the tangent and
-carries the curvature; a flat face is moved by the centre of curvature of the profile, a pin in a slot along the face.
+The roller's centre, or the edge, turns about the centre of curvature of the pitch curve, on a bar; a flat face is moved
+by the centre of curvature of the profile, a pin in a slot along the face.  Or, at the contact itself and where the
+pitch curve is nearly straight: the centre runs as a pin on the pitch curve, of which a straight guide stands for the
+tangent and carries the curvature.
 """
 
 from __future__ import annotations
@@ -13,11 +15,13 @@ from dataclasses import replace
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, unit
 from graphkin.scene.cams import LawCam, SwingingFollower
-from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PinInSlot, PlacedGuide, PlacedLink
+from graphkin.scene.model import AngleDriver, AnyDriver, CircularSlot, Mechanism, PinInSlot, PlacedGuide, PlacedLink
 from graphkin.structure.model import Structure
 
 __all__ = ["cams_replaced", "with_cams"]
 
+STRAIGHT = 0.02
+"""A pitch curve of less curvature, times the base radius, has its centre of curvature too far away for a bar."""
 SHARP = 1e-9
 """A pitch curve whose tangent is shorter than this, of the base radius, has a cusp."""
 
@@ -29,7 +33,8 @@ def with_cams(scene: Mechanism | Structure) -> Mechanism | Structure:
 
 
 def cams_replaced(
-    scene: Mechanism, turns: Mapping[str, float], values: Mapping[str, float], seen: Mapping[str, complex]
+    scene: Mechanism, turns: Mapping[str, float], values: Mapping[str, float], seen: Mapping[str, complex],
+    bars: bool = True,
 ) -> Mechanism:
     """The mechanism that stands for one with cams at a position.
 
@@ -38,6 +43,7 @@ def cams_replaced(
     turns : the angle of each cam's own axis (rad)
     values : of the drivers, by key (rad, m)
     seen : roughly where points of moving links lie there (m)
+    bars : whether bars stand for rollers and edges, as far as they can
 
     Raises
     ------
@@ -45,6 +51,8 @@ def cams_replaced(
     """
     links = {link.name: link for link in scene.links}
     pins: list[PinInSlot] = []
+    made: dict[str, PlacedLink] = {}
+    slots: list[CircularSlot] = []
     places = dict(seen)
     names = _free_names(scene)
     for cam in scene.cams:
@@ -72,13 +80,24 @@ def cams_replaced(
             point = next(names)
             links[cam.follower] = replace(follower, points={point: 0j})
         bends = cross(tangent, course.bend) / abs(tangent) ** 3
+        places[point] = cam.axis + course.point
+        if bars and abs(bends) * cam.base >= STRAIGHT:
+            # about the centre of curvature, as in a slot along a circle
+            centre = next(names)
+            links[cam.link] = replace(link, points={
+                **link.points, centre: (course.point + 1j * unit(tangent) / bends) / turn})  # fmt: skip
+            bar = PlacedLink(f"{centre}{point}", {centre: 0j, point: complex(1.0 / abs(bends))}, (centre, point),
+                             {"": PlacedGuide("", 0j, 1 + 0j)})  # fmt: skip
+            made[bar.name] = bar
+            slots.append(CircularSlot(bar.name, cam.link, centre, 1.0 / abs(bends), bar.name, point))
+            continue
         slot = _guide(link, "t", course.point / turn, unit(tangent) / turn, bends)
         links[cam.link] = replace(link, guides={**link.guides, slot.name: slot})
         pins.append(PinInSlot(point, cam.follower, cam.link, slot.name))
-        places[point] = cam.axis + course.point
-    made = tuple(links[link.name] for link in scene.links)
+    whole = (*(links[link.name] for link in scene.links), *made.values())
     return replace(
-        scene, links=made, pins=(*scene.pins, *pins), drivers=tuple(_at(d, values) for d in scene.drivers),
+        scene, links=whole, pins=(*scene.pins, *pins), slots=(*scene.slots, *slots),
+        drivers=tuple(_at(d, values) for d in scene.drivers),
         sketch={**scene.sketch, **places}, drawn={}, instead_of=scene,
     )  # fmt: skip
 

@@ -32,6 +32,9 @@ def needed(structure: Structure, asked: Sequence[Symbol]) -> list[Element]:
         kept = [e for e in structure.elements if wanted.intersection(links_of(e))]
         for element in kept:
             wanted |= _outside(element)
+        # what stands for a contact is there only with both links
+        blocks = {n for element in kept for n in links_of(element)}
+        wanted |= {n for c in structure.scene.contacts if c.block in blocks for n in c.links}
         if len(wanted) == before:
             return kept
 

@@ -50,3 +50,31 @@ def test_the_figure_of_contacts_has_both_polygons():
 def test_each_reading_says_what_the_other_way_gives():
     rows = {row["symbol"]: row for row in check("disc-on-disc").data["readings"]}
     assert rows["alpha_2"]["measured"] == pytest.approx(rows["alpha_2"]["at_contact"], rel=1e-9)
+
+
+@pytest.mark.parametrize("name", ["cam-offset-roller", "cam-swinging-roller"])
+def test_a_roller_turns_about_the_centre_of_curvature_of_its_pitch_curve(name):
+    result = check(name)
+    assert "omega_OB" in {str(row.symbol) for row in result.report.rows}
+    for row in (*result.report.rows, *result.at_contacts.report.rows):
+        assert row.exact == pytest.approx(row.reading.value, rel=1e-9, abs=1e-9)
+
+
+WHEEL_BY_ROD = {
+    "frame": {"points": {"A": [0, 30]}, "guides": {"r": {"through": [0, 0], "angle": 0}}},
+    "links": {
+        "1": {"points": ["A", "B"], "length": 25}, "2": {"points": ["B", "C"], "length": 90},
+        "3": {"points": ["C", "P"], "length": 20, "discs": {"w": {"centre": "C", "r": 30}}, "start": 20},
+    },
+    "contacts": {"K": {"between": ["3.w", "0.r"], "rolling": True}},
+    "driver": {"link": "1", "angle": 50, "omega": 6, "alpha": 2},
+    "sketch": {"C": [100, 30]},
+}  # fmt: skip
+
+
+def test_a_wheel_that_a_rod_rolls_swings_by_the_stroke_over_its_radius():
+    assert 50 / 30 == pytest.approx(check(WHEEL_BY_ROD, find=["swing_3"])["swing_3"].measured)
+
+
+def test_a_rod_whose_wheel_is_not_asked_for_is_held_by_it_all_the_same():
+    assert check(WHEEL_BY_ROD, find=["omega_2"]).ok

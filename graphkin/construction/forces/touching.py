@@ -72,10 +72,10 @@ class _Pairs:
 
     def sheet_of(self, scene: Mechanism) -> Sheet:
         """The drawing with these pairs instead of what touches."""
-        links = tuple(self.links[link.name] for link in scene.links)
+        links = tuple(self.links[link.name] for link in (scene.instead_of or scene).links)  # without bars for cams
         other = replace(
             scene, frame=self.links[scene.frame.name], links=links, pins=(*_own_pins(scene), *self.pins), contacts=(),
-            gears=(), cams=(),
+            gears=(), cams=(), slots=(scene.instead_of or scene).slots,
         )  # fmt: skip
         structure: Structure = analyse(other)
         poses: Mapping[str, Pose] = {**self.sheet.poses, **self.blocks}
