@@ -11,13 +11,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from graphkin.api.answers import Answers, AnswersLike, Unread, as_answers
-from graphkin.api.arguments import At, SceneLike, as_scene, known_words, write_files
+from graphkin.api.arguments import At, SceneLike, as_scene, known_words, placed, write_files
+from graphkin.api.checked import solved_here
 from graphkin.api.class_results import Scheme, people_of, quantities_of, scheme_of
 from graphkin.api.judging import MOST_DRAWN, evidence_at, judged_table
 from graphkin.api.reading_rows import in_scene_units
 from graphkin.api.results import OfScene, Result
 from graphkin.checking.audit import Judged, Value, judge, with_gaps
+from graphkin.checking.scans import JudgedScan, judge_scans
 from graphkin.checking.slips import Evidence, ValuesElsewhere
+from graphkin.construction import execute, plan
 from graphkin.errors import CallError, Problem, as_text, did_you_mean
 from graphkin.files import path_of
 from graphkin.scene.model import Mechanism
@@ -36,7 +39,8 @@ MOST_LOOPS = 24  # rows of a table of which wrong angles are told with the gaps 
 class Audited(Result, OfScene):
     """The values of each person with their verdicts; of a scene's ``[printed]`` values the person is "".
 
-    ``unused`` are heads of the table of answers that are no quantities, ``scheme`` how many points there are.
+    ``unused`` are heads of the table of answers that are no quantities, ``scheme`` how many points there are, ``scans``
+    drawings judged line by line.
     """
 
     mechanism: Mechanism
@@ -44,10 +48,13 @@ class Audited(Result, OfScene):
     language: str = "en"
     unused: tuple[str, ...] = ()
     scheme: Scheme | None = None
+    scans: tuple[JudgedScan, ...] = ()
 
     @property
     def ok(self) -> bool:
-        """Whether no value is wrong, nor one that cannot be read."""
+        """Whether no value is wrong, nor one that cannot be read, nor a line of a scan off."""
+        if not all(scan.ok for scan in self.scans):
+            return False
         wrong = ("wrong", "right from own values")
         return not any(j.verdict in wrong for _, judged in self.people for j in judged) and not any(
             u.why for who, _ in self.people for u in who.unread
@@ -61,7 +68,31 @@ class Audited(Result, OfScene):
         if self.is_class:
             found["people"] = list(people_of(self.people, self.scheme, "en"))
             found["quantities"] = list(quantities_of(self.people, "en"))
+        if self.scans:
+            found["scans"] = {scan.diagram: self._scan(scan) for scan in self.scans}
         return {**found, **({"unused": list(self.unused)} if self.unused else {})}
+
+    def _scan(self, judged: JudgedScan) -> dict[str, Any]:
+        lines = [
+            {
+                "line": line.name, "on_paper_mm": abs(line.read), "exact_mm": abs(line.exact),
+                "turned_deg": math.degrees(line.turned), "ok": line.ok, "said": say(line.said, "en"),
+            }
+            for line in judged.lines
+        ]  # fmt: skip
+        return {"ok": judged.ok, "off": judged.off.name if judged.off else None, "lines": lines}
+
+    @property
+    def scan_lines(self) -> list[str]:
+        """What is to be said of the scans, in the language of the call."""
+        said = []
+        for judged in self.scans:
+            said.append(f"{word(f'scan of {judged.diagram}', self.language)}{word('colon', self.language)}")
+            said += [f"  {line.name}: {say(line.said, self.language)}" for line in judged.lines]
+            off = judged.off
+            end = Phrase("scan right") if off is None else Phrase("scan off", (off.name, off.said))
+            said.append("  " + say(end, self.language))
+        return said
 
     @property
     def is_class(self) -> bool:
@@ -234,7 +265,7 @@ def audit(
     variants: str | os.PathLike[str] | Mapping[str, SceneLike] | None = None,
     grading: Mapping[str, float] | None = None,
 ) -> Audited:
-    """Judge the scene's ``[printed]`` values, or the answers of several people.
+    """Judge the scene's ``[printed]`` values and its ``[scans]``, or the answers of several people.
 
     Parameters
     ----------
@@ -265,10 +296,11 @@ def audit(
     """
     given = as_scene(scene)
     known_words(language=language)
-    if answers is None and not given.stated:
+    if answers is None and not given.stated and not given.scans:
         raise CallError(
             Problem("printed", "the scene has no printed values", "write them in [printed], or give answers as CSV")
         )
+    scans = _scanned(given, at) if given.scans and answers is None else ()
     scheme = scheme_of(given, grading)
     people, unused = (_stated(given), ()) if answers is None else as_answers(given, answers)
     asked = list(dict.fromkeys(p.symbol for who in people for p in who.values if not p.symbol.at))
@@ -289,7 +321,14 @@ def audit(
         )
     told = {id(who): with_gaps(case(who.at, who.variant), own) for who, own in [*filter(_opens, judged)][:MOST_LOOPS]}
     judged = tuple((who, told.get(id(who), own)) for who, own in judged)
-    return Audited(given, judged, language or given.sheet.language, unused, scheme)
+    return Audited(given, judged, language or given.sheet.language, unused, scheme, scans)
+
+
+def _scanned(scene: Mechanism, at: At) -> tuple[JudgedScan, ...]:
+    """The scans of a scene, held against the exact drawing."""
+    given, values = placed(scene, at)
+    solved_here(given, values)
+    return judge_scans(execute(plan(given, values, ())))
 
 
 def _opens(one: tuple[Answers, tuple[Judged, ...]]) -> bool:

@@ -84,7 +84,10 @@ def beside(made: dict[str, Any], folder: Path | None) -> dict[str, Any]:
     """The mapping of a scene, with the files that it names looked for in one folder and nowhere else."""
     sheet = made.get("sheet")
     under = sheet.get("background") if isinstance(sheet, dict) else None
-    for where, table in (("printed_table", made.get("printed_table")), ("sheet.background", under)):
+    scans = made.get("scans")
+    tables = [("printed_table", made.get("printed_table")), ("sheet.background", under)]
+    tables += [(f"scans.{name}", scan) for name, scan in (scans.items() if isinstance(scans, dict) else ())]
+    for where, table in tables:
         if not isinstance(table, dict) or not isinstance(table.get("file"), str):
             continue
         name = table["file"]

@@ -189,7 +189,10 @@ def audit(
         print_json(audited.data)
     elif not quiet:
         first = len(audited.heads) - 6
-        print_table(audited.heads, audited.rows, right=(first + 1, first + 2, first + 3))
+        if audited.rows or not audited.scans:
+            print_table(audited.heads, audited.rows, right=(first + 1, first + 2, first + 3))
+        if audited.scans:
+            tell("\n".join(audited.scan_lines))
         for summary in (audited.students, audited.matrix) if audited.is_class else ():
             tell("")
             print_table(list(summary.heads), [list(row) for row in summary.texts()])

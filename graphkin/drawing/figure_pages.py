@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from graphkin.checking.report import Report
 from graphkin.construction.sheet import DiagramName, Sheet
-from graphkin.drawing.background import background_piece
+from graphkin.drawing.background import background_piece, scan_piece
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, letters_of, scale_statement
 from graphkin.drawing.dimensions import check_bar
@@ -85,6 +85,8 @@ def _figure(sheet: Sheet, diagram: DiagramName, language: str | None, convention
         bottom += strip_height(sheet, diagram, panel.width)
         strip = Box(panel.left, panel.bottom, panel.right, bottom)
         piece, _ = polygon_with_insets(sheet, diagram, letters, spoken, panel, origin, strip)
+    if sheet.scene.scans:
+        piece = joined((scan_piece(sheet, diagram, origin, panel), piece))
     height = bottom + FOOT
     words: list[Primitive] = [
         Text(complex(MARGIN, MARGIN + 3.5 + LINE * i), runs, classes=("heading",)) for i, runs in enumerate(head)

@@ -9,9 +9,9 @@ from io import BytesIO
 from pathlib import Path
 
 from graphkin.errors import Problem, did_you_mean
-from graphkin.scene.sheet_tables import Background
+from graphkin.scene.sheet_tables import Background, ReadScan
 
-__all__ = ["PlacedBackground", "background_of"]
+__all__ = ["PlacedBackground", "PlacedScan", "background_of", "scans_of"]
 
 LARGEST, MOST_PIXELS = 10_000_000, 50_000_000
 KINDS = {"PNG": "image/png", "JPEG": "image/jpeg"}
@@ -29,6 +29,45 @@ class PlacedBackground:
     corner: complex
     step: complex
     data: bytes = field(repr=False)
+
+
+@dataclass(frozen=True)
+class PlacedScan:
+    """What was read off the scan of a drawing, in pixels x - iy from its left upper corner, by the names of ends.
+
+    ``points`` are the two that set scale and direction; ``within`` is what a line may be off, as a part of the longest.
+    ``kind``, ``width``, ``height`` and ``data`` are those of the picture, "" and 0 where there is none.
+    """
+
+    diagram: str
+    points: Mapping[str, complex]
+    read: Mapping[str, complex]
+    within: float
+    kind: str = ""
+    width: int = 0
+    height: int = 0
+    data: bytes = field(default=b"", repr=False)
+
+
+def scans_of(tables: Mapping[str, ReadScan], problems: list[Problem]) -> tuple[PlacedScan, ...]:
+    """The scans of a file; what is wrong with them is added to ``problems``."""
+    made = []
+    for diagram, table in tables.items():
+        where, before = f"scans.{diagram}", len(problems)
+        points, read = ({n: complex(x, -y) for n, (x, y) in own.items()} for own in (table.points, table.read))
+        if len(points) != 2 or len(set(points.values())) < len(points):
+            hint = "two ends at two places set scale and direction"
+            problems.append(Problem(f"{where}.points", f"found {len(points)}", hint))
+        for name in sorted(set(points) & set(read)):
+            problems.append(Problem(f"{where}.read.{name}", "stands in points too", "leave one of them out"))
+        if not read:
+            problems.append(Problem(f"{where}.read", "is empty", "write the ends that were read: { C = [812, 340] }"))
+        found = _picture(f"{where}.file", table.file) if table.file is not None else ("", 0, 0, b"")
+        if isinstance(found, Problem):
+            problems.append(found)
+        elif len(problems) == before:
+            made.append(PlacedScan(diagram, points, read, table.within, *found))
+    return tuple(made)
 
 
 def background_of(

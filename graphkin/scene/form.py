@@ -14,6 +14,7 @@ from pydantic import Discriminator, Field, Strict, StringConstraints, Tag, TypeA
 from graphkin.scene.asked_tables import StrokeStart
 from graphkin.scene.cam_tables import LawPiece
 from graphkin.scene.law_tables import TimePiece
+from graphkin.scene.sheet_tables import ReadScan
 from graphkin.scene.tables import SMALLEST, Compass, DrivenSlide, Driver, Link, Polar, SceneTables
 from graphkin.words import LANGUAGES
 
@@ -51,6 +52,8 @@ TwoPoints = Annotated[list[PointName], Field(min_length=2, max_length=2)]
 TwoLengths = Annotated[list[Magnitude], Field(min_length=2, max_length=2)]
 Links = Annotated[dict[LinkName, Link], Field(min_length=1)]
 LawPieces = list[LawPiece]
+EndName = Annotated[str, StringConstraints(strict=True, pattern=r"^[A-Za-z][A-Za-z0-9@/_]*$", max_length=80)]
+Scans = dict[Literal["mechanism", "velocity", "acceleration"], ReadScan]
 TimePieces = Annotated[list[TimePiece], Field(max_length=1000)]
 Knots = Annotated[list[Place], Field(max_length=5000)]
 

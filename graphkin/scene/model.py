@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Literal
 
-from graphkin.scene.background import PlacedBackground
+from graphkin.scene.background import PlacedBackground, PlacedScan
 from graphkin.scene.cams import LawCam
 from graphkin.scene.class_tables import Vary
 from graphkin.scene.contacts import PlacedContact, PlacedDisc, PlacedGear
@@ -302,7 +302,7 @@ class Mechanism:
     ``instead_of`` is the mechanism with cams in whose place this one moves alike at this position, in velocity and
     acceleration.  ``starts`` say where what rolls stands at the scene's own position: the angle of a link's own axis
     (rad), or the travel (m) of a sliding pair or of a contact by its block.  ``background`` lies under the drawing;
-    ``written`` is what it was read from, None where it was made otherwise.
+    ``scans`` are drawings to be judged; ``written`` is what it was read from, None where it was made otherwise.
     """
 
     name: str
@@ -332,6 +332,7 @@ class Mechanism:
     starts: Mapping[str, float] = field(default_factory=dict)
     slots: tuple[CircularSlot, ...] = ()
     background: PlacedBackground | None = None
+    scans: tuple[PlacedScan, ...] = ()
     source_zh: str = ""
     written: SceneTables | None = field(default=None, compare=False, repr=False)
 

@@ -132,7 +132,7 @@ def _cut(path: Path) -> Path:
         return path[: 3 if len(path) > 2 and path[2] not in ("follower", "law", "base") else 2]
     inside = (
         "pins", "contacts", "gears", "sketch", "drawn", "printed", "sheet", "units", "masses", "loads", "springs",
-        "positions", "loops",
+        "positions", "loops", "scans",
     )  # fmt: skip
     return path[:2] if head and head[0] in inside else head
 
@@ -207,6 +207,7 @@ _TABLES: tuple[tuple[tuple[str, ...], type[FileTable]], ...] = (
     (("flywheel",), load_tables.Flywheel),
     (("sheet",), sheet_tables.SheetWishes),
     (("sheet", "background"), sheet_tables.Background),
+    (("scans", "*"), sheet_tables.ReadScan),
     (("positions",), asked_tables.Positions),
     (("positions", "first", "<polar>"), asked_tables.StrokeStart),
     (("positions", "also", "*", "<polar>"), asked_tables.StrokeStart),

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from graphkin.errors import Problem, SceneError, did_you_mean
-from graphkin.scene.background import background_of
+from graphkin.scene.background import background_of, scans_of
 from graphkin.scene.cam_reading import cams_of
 from graphkin.scene.cams import LawCam
 from graphkin.scene.carriages import with_carriages
@@ -130,6 +130,7 @@ def resolve(file: SceneTables, name: str, problems: list[Problem], flaws: Flaws)
         places = {n: b.local for n, b in bodies.items()}
         loading = loading_of(file, names, places, (*(s.key for s in slidings), *(p.key for p in pins)), problems)
     under = background_of(file.sheet.background, fixed, drawn, problems) if file.sheet.background else None
+    scans = scans_of(file.scans, problems)
     hopeless = bool(problems) and (bool(drawn) or flaws.under("drawn"))
     drivers = [_driver(d, position, [] if hopeless else problems) for d in driven]
     if positions is not None and drivers and isinstance(drivers[0], AngleDriver) and drivers[0].position:
@@ -168,6 +169,7 @@ def resolve(file: SceneTables, name: str, problems: list[Problem], flaws: Flaws)
         slots=slots,
         source_zh=file.source_zh,
         background=under,
+        scans=scans,
         written=file,
     )
     _ask_for_forces(made)

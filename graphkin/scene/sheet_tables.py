@@ -15,9 +15,10 @@ if TYPE_CHECKING:
     Text = str
     Language = str
     PointName = str
+    EndName = str
     Place = Sequence[float]
 
-__all__ = ["PAPERS", "Background", "Convention", "SheetWishes", "Tools"]
+__all__ = ["PAPERS", "Background", "Convention", "ReadScan", "SheetWishes", "Tools"]
 
 Convention = Literal["chinese", "us", "british", "russian"]
 
@@ -51,6 +52,25 @@ class Background(FileTable):
     file: Text = field(metadata=about("A PNG or JPEG, by its path from the scene file."))
     points: dict[PointName, Place] = field(
         metadata=closed("Two points of the frame or of [drawn], with their pixels [x, y] from the left upper corner.")
+    )
+
+
+@dataclass(frozen=True)
+class ReadScan(FileTable):
+    """A drawing that somebody made of a figure, with what was read off the scan of it, in pixels."""
+
+    points: dict[EndName, Place] = field(
+        metadata=about(
+            "Two ends that lie right, and so set scale and direction: of a polygon pole, B, B@3 or the symbol of a "
+            "part whose tip it is (an_C/B); of the mechanism points. Pixels [x, y] from the left upper corner."
+        )
+    )
+    read: dict[EndName, Place] = field(metadata=about("The other ends as they were read off, in pixels."))
+    file: Text | None = field(
+        default=None, metadata=about("The scan itself, under the exact figure: PNG or JPEG, from the scene file.")
+    )
+    within: Magnitude = field(
+        default=0.01, metadata=about("What a line may be off, as a part of the longest: 0.01 if left out.")
     )
 
 

@@ -115,7 +115,9 @@ def written(source: SceneLike) -> tuple[dict[str, Any], str]:
 def _beside(made: dict[str, Any], path: Path) -> dict[str, Any]:
     """The mapping of a file, with the places of the table and the picture that stand beside it."""
     sheet = made.get("sheet")
-    for table in (made.get("printed_table"), sheet.get("background") if isinstance(sheet, dict) else None):
+    scans = made.get("scans")
+    tables = [made.get("printed_table"), sheet.get("background") if isinstance(sheet, dict) else None]
+    for table in (*tables, *(scans.values() if isinstance(scans, dict) else ())):
         if isinstance(table, dict) and isinstance(table.get("file"), str):
             table["file"] = str(path.parent / table["file"])
     return made

@@ -18,7 +18,7 @@ from graphkin.scene.contact_tables import Contact, Disc, Gear
 from graphkin.scene.file_table import FileTable, about, closed
 from graphkin.scene.law_tables import DriverLaw
 from graphkin.scene.load_tables import Balance, Flywheel, Gravity, Load, Mass, Spring
-from graphkin.scene.sheet_tables import SheetWishes
+from graphkin.scene.sheet_tables import ReadScan, SheetWishes
 
 SMALLEST = 1e-15
 """The smallest length, and the smallest rate that is not 0."""
@@ -47,6 +47,7 @@ if TYPE_CHECKING:
     ShownName = str | int
     FramePlace: TypeAlias = "Sequence[float] | Polar | Compass"
     At: TypeAlias = "Sequence[float] | Polar | Compass | Literal['drawn']"
+    Scans: TypeAlias = "Mapping[str, ReadScan]"
     Links: TypeAlias = "Mapping[str, Link]"
     Drivers: TypeAlias = "Driver | DrivenSlide | Sequence[Driver | DrivenSlide]"
 
@@ -318,6 +319,10 @@ class SceneTables(FileTable):
         default=(), metadata=about("The same over a turn: tables with at (driver value or name of a position).")
     )
     printed_table: PrintedTable | None = field(default=None, metadata=about("The same from a CSV file."))
+    scans: Scans = field(
+        default_factory=dict,
+        metadata=closed("Drawings to be judged by what was read off their scans: mechanism, velocity, acceleration."),
+    )
     positions: Positions | None = field(default=None, metadata=about("Positions with names, and their figure."))
     loops: dict[LinkName, PointNames] = field(
         default_factory=dict, metadata=closed("Vector loops by name, each the points that it goes through.")

@@ -259,8 +259,9 @@ def test_questions_of_the_page_are_those_that_are_answered() -> None:
 
 
 @pytest.mark.parametrize("file", ["/etc/hostname", "../x.png", "sub/x.png", ".x.png", "x.png"])
-def test_a_scene_on_the_page_reads_no_file_from_elsewhere(file: str) -> None:
-    text = SIXBAR + f'\n[sheet.background]\nfile = "{file}"\npoints = {{ A = [1, 2], D = [3, 4] }}\n'
+@pytest.mark.parametrize("table", ["sheet.background", "scans.velocity"])
+def test_a_scene_on_the_page_reads_no_file_from_elsewhere(file: str, table: str) -> None:
+    text = SIXBAR + f'\n[{table}]\nfile = "{file}"\npoints = {{ A = [1, 2], D = [3, 4] }}\n'
     found = asked("show", text=text)
     assert "names files of its own folder" in found["problems"][0]["text"]
 

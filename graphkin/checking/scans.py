@@ -1,0 +1,169 @@
+"""Drawings that somebody made, judged line by line by what was read off their scans.
+
+Two ends that lie right lay the scan on the exact figure; every line between two ends that were read is compared with
+the exact one by size and direction.  The line that is off is the first, in the order of construction, whose known size
+or direction is not kept: the others follow from it.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from itertools import combinations
+
+from graphkin.construction.sheet import DiagramName, Sheet
+from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.scene.background import PlacedScan
+from graphkin.words import Phrase
+
+__all__ = ["JudgedScan", "ReadLine", "judge_scans"]
+
+POLE = "pole"
+SAME = 1e-9
+"""Of the largest vector: two ends as near lie at one place."""
+
+
+@dataclass(frozen=True)
+class ReadLine:
+    """A line as it was read beside the exact one, in mm on the paper of the sheet, y up.
+
+    ``tail`` and ``tip`` are those read.  ``known`` says of size and direction whether the construction knows them
+    before the line is drawn.
+    """
+
+    name: str
+    exact: complex
+    tail: complex
+    tip: complex
+    known: tuple[bool, bool]
+    room: float
+
+    @property
+    def read(self) -> complex:
+        return self.tip - self.tail
+
+    @property
+    def ok(self) -> bool:
+        """Whether it is the exact one, within what is allowed."""
+        return abs(self.read - self.exact) <= self.room
+
+    @property
+    def longer(self) -> float:
+        """By how much it is too long (mm)."""
+        return abs(self.read) - abs(self.exact)
+
+    @property
+    def turned(self) -> float:
+        """By how much it is turned (rad), counter-clockwise; 0 where there is nothing to turn."""
+        return cmath.phase(self.read / self.exact) if self.exact and self.read else 0.0
+
+    @property
+    def breaks_a_rule(self) -> bool:
+        """Whether a size or a direction that is known beforehand is not kept."""
+        size, direction = self.known
+        off_line = abs(self.exact) * (1.0 if abs(self.turned) > math.pi / 2 else math.sin(abs(self.turned)))
+        return (size and abs(self.longer) > self.room) or (direction and off_line > self.room)
+
+    @property
+    def said(self) -> Phrase:
+        """What is the matter with it, in words."""
+        percent = f"{100 * self.longer / abs(self.exact):+.1f} %" if self.exact else f"{self.longer:+.2f} mm"
+        angle = f"{math.degrees(self.turned):+.1f}°"
+        if self.ok:
+            return Phrase("line right")
+        if abs(self.turned) > math.radians(170):
+            return Phrase("line reversed")
+        length = abs(self.longer) > self.room / 2
+        direction = abs(self.exact) * abs(math.sin(self.turned)) > self.room / 2
+        if length and direction:
+            return Phrase("line both", (percent, angle))
+        return Phrase("line turned", (angle,)) if direction else Phrase("line long", (percent,))
+
+
+@dataclass(frozen=True)
+class JudgedScan:
+    """A scan laid on the exact figure: the pixel x - iy lies at ``corner + step (x - iy)`` (mm, y up)."""
+
+    scan: PlacedScan
+    diagram: DiagramName
+    lines: tuple[ReadLine, ...]
+    corner: complex
+    step: complex
+
+    @property
+    def ok(self) -> bool:
+        return all(line.ok for line in self.lines)
+
+    @property
+    def off(self) -> ReadLine | None:
+        """The line that is off, from which the others follow; None where all are right."""
+        wrong = [line for line in self.lines if not line.ok]
+        return next((line for line in wrong if line.breaks_a_rule), wrong[0] if wrong else None)
+
+
+def judge_scans(sheet: Sheet, diagram: DiagramName | None = None) -> tuple[JudgedScan, ...]:
+    """All scans of a scene, or those of a figure, held against its sheet.
+
+    Raises
+    ------
+    CallError : an end that the figure does not have; two ends that lie at one place; no line between those read
+    """
+    return tuple(_judged(sheet, scan) for scan in sheet.scene.scans if diagram in (None, scan.diagram))
+
+
+def _judged(sheet: Sheet, scan: PlacedScan) -> JudgedScan:
+    diagram: DiagramName = scan.diagram  # type: ignore[assignment]
+    ends, where = _ends(sheet, diagram), f"scans.{scan.diagram}"
+    unknown = [n for n in (*scan.points, *scan.read) if n not in ends]
+    if unknown:
+        raise CallError(*(Problem(f"{where}.{n}", "is no end of this figure", did_you_mean(n, ends)) for n in unknown))
+    (p, q), (one, other) = scan.points, scan.points.values()
+    largest = max(abs(a - b) for a, b in combinations(ends.values(), 2))
+    if abs(ends[p] - ends[q]) <= SAME * largest:
+        raise CallError(Problem(f"{where}.points", f"{p} and {q} lie at one place", "name two ends apart"))
+    step = (ends[q] - ends[p]) / (other - one)
+    corner = ends[p] - step * one
+    places = {name: corner + step * at for name, at in {**scan.points, **scan.read}.items()}
+    lines = tuple(_lines(sheet, diagram, ends, places, scan.within))
+    if not lines:
+        raise CallError(Problem(where, "no line goes from one of these ends to another", "read both ends of a line"))
+    return JudgedScan(scan, diagram, lines, corner, step)
+
+
+def _ends(sheet: Sheet, diagram: DiagramName) -> dict[str, complex]:
+    """The ends of the lines of a figure by their names (mm, y up)."""
+    if diagram == "mechanism":
+        return {str(ref): z for ref, z in sheet.points.items() if not ref.link}
+    ends = {POLE: 0j, **{str(ref): z for ref, z in sheet.ends[diagram].items()}}
+    return ends | {str(s): v.tip for s, v in sheet.vectors(diagram).items() if s.kind not in ("v", "a")}
+
+
+def _lines(
+    sheet: Sheet, diagram: DiagramName, ends: Mapping[str, complex], places: Mapping[str, complex], within: float
+) -> Iterator[ReadLine]:
+    """The lines between ends that were read, in the order of construction."""
+    if diagram == "mechanism":
+        largest = max(abs(a - b) for a, b in combinations(ends.values(), 2))
+        for link in (sheet.scene.frame, *sheet.scene.links):
+            for a, b in combinations([p for p in link.points if p in places], 2):
+                if abs(ends[b] - ends[a]) > SAME * largest:
+                    known = (True, link.name == sheet.scene.frame.name)
+                    yield ReadLine(f"{a}{b}", ends[b] - ends[a], places[a], places[b], known, within * largest)
+        return
+    vectors = sheet.vectors(diagram)
+    largest = max((abs(v.span) for v in vectors.values()), default=0.0)
+    known_of = {t.symbol: (t.size_known, t.direction_known)
+                for e in sheet.equations if e.diagram == diagram for side in e.sides for t in side}  # fmt: skip
+    drawn = sorted(vectors.values(), key=lambda v: known_of.get(v.symbol, (False, False)) == (False, False))
+    for vector in drawn:
+        tail, tip = (_name_at(z, ends, places, SAME * largest) for z in (vector.tail, vector.tip))
+        if tail and tip and abs(vector.span) > SAME * largest:
+            known = known_of.get(vector.symbol, (False, False))
+            yield ReadLine(str(vector.symbol), vector.span, places[tail], places[tip], known, within * largest)
+
+
+def _name_at(place: complex, ends: Mapping[str, complex], read: Mapping[str, complex], near: float) -> str:
+    """An end that was read and lies exactly at a place, "" where none does."""
+    return next((name for name in read if abs(ends[name] - place) <= near), "")
