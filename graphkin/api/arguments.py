@@ -7,6 +7,7 @@ folder for the files of the result.
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
 from numbers import Integral, Real
@@ -38,6 +39,7 @@ __all__ = [
     "for_paper",
     "known_words",
     "may_be_called",
+    "own_folder",
     "own_unit",
     "passed_words",
     "placed",
@@ -289,6 +291,13 @@ def _unknown_names(scene: Mechanism, symbol: Symbol) -> list[Problem]:
     known = missing_names(symbol, missing("link", scene.by_name), missing("point", points), scene.by_name)
     no_such = None if known else no_force(scene, f"find {symbol}", symbol)
     return known if no_such is None else [no_such]
+
+
+def own_folder(folder: str | os.PathLike[str] | None, name: str) -> Path:
+    """The folder that was given, or else one with the name of the scene.  Raises CallError for what is no path."""
+    from graphkin.files import path_of
+
+    return path_of(folder) if folder is not None else Path(name)
 
 
 def write_files(folder: Path, files: Mapping[str, bytes | Iterable[bytes]]) -> list[Path]:

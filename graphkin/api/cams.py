@@ -12,12 +12,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from graphkin.api.arguments import ON_SHEETS, SceneLike, for_paper, known_words, write_files
+from graphkin.api.arguments import ON_SHEETS, SceneLike, for_paper, known_words, own_folder, write_files
 from graphkin.api.results import OfScene, Result
 from graphkin.checking.cam_points import CamPoints, compare_cam
 from graphkin.construction.cam_sheet import CamSheet, cam_sheet
 from graphkin.errors import CallError, Problem
-from graphkin.files import path_of
 from graphkin.scene.cams import LawCam, SwingingFollower
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.words import Phrase, languages, say
@@ -308,7 +307,7 @@ class Cams(Result, OfScene):
             files["cam.csv"] = self.table.csv().encode()
         if "dxf" in formats:
             files |= {f"profile-{one.cam.link}.dxf": one.profile_dxf() for one in self.made}
-        return write_files(path_of(folder) if folder is not None else Path(self.mechanism.name), files)
+        return write_files(own_folder(folder, self.mechanism.name), files)
 
     def __repr__(self) -> str:
         return f"<Cams {self.mechanism.name}: {self._links}>"

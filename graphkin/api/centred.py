@@ -17,6 +17,7 @@ from graphkin.api.arguments import (
     as_scene,
     for_paper,
     known_words,
+    own_folder,
     placed,
     write_files,
 )
@@ -35,7 +36,6 @@ from graphkin.construction.centres import (
 )
 from graphkin.construction.centres.pairs import LinkPair, normal, wedge
 from graphkin.errors import CallError, Problem, as_text, did_you_mean
-from graphkin.files import path_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Structure
@@ -296,7 +296,7 @@ class Centred(Result, OfScene):
         files["centres.csv"] = self.table.csv().encode()
         if motion:
             files["centres-motion.svg"] = self.in_motion.content("svg", text=text)
-        return write_files(path_of(folder) if folder is not None else Path(self.mechanism.name), files)
+        return write_files(own_folder(folder, self.mechanism.name), files)
 
     def __repr__(self) -> str:
         return f"<Centred {self.mechanism.name}: {len(self.centres.table)} centres>"

@@ -12,13 +12,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.api.arguments import ON_SHEETS, At, SceneLike, as_scene, known_words, placed, write_files
+from graphkin.api.arguments import ON_SHEETS, At, SceneLike, as_scene, known_words, own_folder, placed, write_files
 from graphkin.api.centred import found_centres
 from graphkin.api.checked import solved_here
 from graphkin.api.results import OfScene, Result
 from graphkin.construction.centres import Centres
 from graphkin.errors import CallError, Problem, as_text, did_you_mean
-from graphkin.files import path_of
 from graphkin.scene.model import Mechanism
 
 if TYPE_CHECKING:
@@ -114,7 +113,7 @@ class Centroded(Result, OfScene):
         known_words(formats, text=text)
         files = {f"centrode.{kind}": self.figure.content(kind, text=text) for kind in formats}
         files["centrode.csv"] = self.table.csv().encode()
-        return write_files(path_of(folder) if folder is not None else Path(self.mechanism.name), files)
+        return write_files(own_folder(folder, self.mechanism.name), files)
 
     def __repr__(self) -> str:
         return f"<Centroded {self.mechanism.name}: link {self.link}>"

@@ -22,6 +22,7 @@ from graphkin.api.arguments import (
     for_paper,
     known_words,
     may_be_called,
+    own_folder,
     own_unit,
     whole_number,
     write_files,
@@ -36,7 +37,6 @@ from graphkin.checking.report import compare
 from graphkin.construction import execute
 from graphkin.drawing import ChartPage
 from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
-from graphkin.files import path_of
 from graphkin.jobs import Progress
 from graphkin.papers.blocks import Picture, Plate
 from graphkin.papers.course_design import (
@@ -140,7 +140,7 @@ class CourseDesigns(Result, OfScene):
         ------
         CallError : the folder cannot be written
         """
-        return write_files(path_of(folder) if folder is not None else Path(safe_name(self.mechanism.name)), self.files)
+        return write_files(own_folder(folder, self.mechanism.name), self.files)
 
     def __repr__(self) -> str:
         return f"<CourseDesigns {self.mechanism.name}: {len(self.rows)} reports>"

@@ -10,14 +10,13 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from graphkin.api.arguments import MOST_SEED, ON_SHEETS, known_words, whole_number, write_files
+from graphkin.api.arguments import MOST_SEED, ON_SHEETS, known_words, own_folder, whole_number, write_files
 from graphkin.api.results import Result
 from graphkin.checking.synthesis import FoundLength, compare_lengths
 from graphkin.construction import EXACT, Cad, Instrument, pencil
 from graphkin.construction.design_sheet import DesignSheet
 from graphkin.construction.synthesis import construct
 from graphkin.errors import CallError, Problem, Unsolvable, as_text, did_you_mean
-from graphkin.files import path_of
 from graphkin.plane import degrees, direction
 from graphkin.scene.design_file import DesignLike, design_of
 from graphkin.scene.synthesis import (
@@ -266,7 +265,7 @@ class Designed(Result):
         known_words(formats)
         files = {f"{name}.{kind}": page.content(kind) for name, page in self.figures.items() for kind in formats}
         files["scene.toml"] = toml_text(self.scene.to_dict()).encode()
-        return write_files(path_of(folder) if folder is not None else Path(self.given.name), files)
+        return write_files(own_folder(folder, self.given.name), files)
 
     def __repr__(self) -> str:
         told = ", ".join(f"{name} {length:.6g}" for name, length in self.found.lengths.items())

@@ -16,6 +16,7 @@ from graphkin.api.arguments import (
     driver_values,
     for_paper,
     known_words,
+    own_folder,
     placed,
     write_files,
 )
@@ -25,7 +26,6 @@ from graphkin.api.report_text import report_text
 from graphkin.api.results import OfScene, Result
 from graphkin.construction import EXACT, Plan, execute, plan
 from graphkin.errors import CallError, Problem, as_list, as_text, did_you_mean
-from graphkin.files import path_of
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, SlideDriver
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Structure, analyse
@@ -125,7 +125,7 @@ class Drawn(Result, OfScene):
         CallError : an unknown format, a folder that cannot be written
         """
         known_words(formats, text=text)
-        target = path_of(folder) if folder is not None else Path(self.checked.mechanism.name)
+        target = own_folder(folder, self.checked.mechanism.name)
         files: dict[str, bytes] = {}
         figures = self.figures
         overleaf = {id(page) for figure in figures.values() for page in figure.further}

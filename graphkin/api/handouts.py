@@ -18,6 +18,7 @@ from graphkin.api.arguments import (
     for_paper,
     known_words,
     may_be_called,
+    own_folder,
     placed,
     whole_number,
     write_files,
@@ -25,7 +26,6 @@ from graphkin.api.arguments import (
 from graphkin.api.checked import solved_here
 from graphkin.api.results import OfScene, Result
 from graphkin.errors import CallError, Problem, as_text, did_you_mean
-from graphkin.files import path_of
 from graphkin.papers.exports import PLATFORMS, Question, files_for, question_of
 from graphkin.papers.lesson import Lesson
 from graphkin.papers.paper import paper_plan
@@ -36,7 +36,6 @@ from graphkin.papers.solution import KeyRow, key_rows
 from graphkin.scene.model import Mechanism
 from graphkin.scene.over_time import moves_by_law
 from graphkin.scene.symbol import Symbol
-from graphkin.scene.written import safe_name
 from graphkin.words import Phrase
 
 if TYPE_CHECKING:
@@ -138,7 +137,7 @@ class Handout(Result, OfScene):
         ------
         CallError : the folder cannot be written
         """
-        return write_files(path_of(folder) if folder is not None else Path(safe_name(self.mechanism.name)), self.files)
+        return write_files(own_folder(folder, self.mechanism.name), self.files)
 
     def __repr__(self) -> str:
         return f"<Handout {self.mechanism.name}: {', '.join(self.formats)}>"

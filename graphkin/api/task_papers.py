@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 
-from graphkin.api.arguments import known_words, write_files
+from graphkin.api.arguments import known_words, own_folder, write_files
 from graphkin.api.cams import CamMade
 from graphkin.api.designed import Designed
 from graphkin.checking.synthesis import predict_lengths
@@ -16,7 +16,6 @@ from graphkin.checking.uncertainty import COVERAGE
 from graphkin.drawing.cam import cam_given, cam_pictures
 from graphkin.drawing.headings import number
 from graphkin.drawing.synthesis import asked_words, construction_picture, step_words
-from graphkin.files import path_of
 from graphkin.papers.blocks import Said
 from graphkin.papers.drawn_task import DrawnTask, Result, papers_of_task
 from graphkin.papers.paper import Paper
@@ -79,7 +78,7 @@ def write_design_papers(
     CallError : an unknown format, a folder that cannot be written
     """
     known_words(formats, known_formats=("html", "pdf"))
-    target = path_of(folder) if folder is not None else Path(designed.given.name)
+    target = own_folder(folder, designed.given.name)
     return write_files(target, design_papers(designed, formats))
 
 

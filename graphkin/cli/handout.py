@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -23,6 +24,10 @@ from graphkin.cli.options import (
 )
 from graphkin.cli.output import print_json, print_paths, progress_bar, short_bar, tell, tell_unused
 from graphkin.errors import CallError, Problem, did_you_mean
+
+if TYPE_CHECKING:
+    from graphkin.api.course_designs import CourseDesigns
+    from graphkin.api.handouts import Handout
 
 __all__ = ["handout"]
 
@@ -75,7 +80,6 @@ def handout(
     """Problem sheet, worked solution with every step, and answer key; a set of them with other numbers; or reports."""
     from graphkin.api.handouts import handout as handing
     from graphkin.scene.design_file import is_design
-    from graphkin.words import languages, say
 
     wanted = listed(formats)
     if template not in TEMPLATES:
@@ -115,14 +119,7 @@ def handout(
             scene, None, values, find or None, wanted, lang, convention, positions, progress, listed(export)
         )
         paths = made.write(out)
-    if as_json:
-        print_json(made.data | {"files": [str(p) for p in paths]})
-    elif not quiet:
-        print_paths(paths)
-    for note in made.notes:
-        tell(f"graphkin: {say(note, languages(made.lesson.language)[0])}", err=True)
-    if not made.ok:
-        raise typer.Exit(1)
+    _tell_written(made, paths, made.lesson.language, as_json, quiet)
 
 
 def _course(
@@ -131,19 +128,27 @@ def _course(
     convention: str | None, positions: int | None, drawn: tuple[int | None, int], as_json: bool, quiet: bool,
 ) -> None:  # fmt: skip
     from graphkin.api.course_designs import course_design
-    from graphkin.words import languages, say
 
     with short_bar(not as_json and not quiet) as progress:
         made = course_design(
             scene, students, rows, None, at, find or None, formats, lang, convention, positions, progress, *drawn
         )  # fmt: skip
         paths = made.write(out)
+    _tell_written(made, paths, lang or made.mechanism.sheet.language, as_json, quiet)
+
+
+def _tell_written(
+    made: Handout | CourseDesigns, paths: Sequence[Path], language: str, as_json: bool, quiet: bool
+) -> None:
+    """Say what was written, and what was not done as asked."""
+    from graphkin.words import languages, say
+
     if as_json:
         print_json(made.data | {"files": [str(p) for p in paths]})
     elif not quiet:
         print_paths(paths)
     for note in made.notes:
-        tell(f"graphkin: {say(note, languages(lang or made.mechanism.sheet.language)[0])}", err=True)
+        tell(f"graphkin: {say(note, languages(language)[0])}", err=True)
     if not made.ok:
         raise typer.Exit(1)
 

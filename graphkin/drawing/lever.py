@@ -16,12 +16,13 @@ from graphkin.drawing.dimensions import check_bar
 from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.force_letters import force_letters
 from graphkin.drawing.force_words import lever_sum
-from graphkin.drawing.headings import drivers, facts, figure_title, term, titles, written
+from graphkin.drawing.headings import drivers, facts, figure_title, term, written
 from graphkin.drawing.labels import Label
 from graphkin.drawing.piece import Piece, cut_to, joined, layer_groups, middle_of, moved_piece, with_labels
 from graphkin.drawing.primitives import Circle, Group, Line, Primitive, Run, Text
 from graphkin.drawing.symbols import COMPONENT, RESULTANT, arrow
 from graphkin.drawing.text import fitted, rich, symbol, wrapped
+from graphkin.drawing.told_page import titled
 from graphkin.plane import unit
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, languages, say
@@ -53,13 +54,7 @@ def lever_figure(
         return None
     spoken = language or sheet.scene.sheet.language
     letters = letters_of(sheet, convention or sheet.scene.sheet.convention)  # type: ignore[arg-type]
-    words: list[Primitive] = []
-    y = MARGIN
-    for text in titles(sheet, spoken):
-        y += 4.8
-        words.append(Text(complex(MARGIN, y), rich(text, 4.0, bold=True), classes=("heading",)))
-    y += 5.0
-    words.append(Text(complex(MARGIN, y), rich(f"{term('lever', spoken)}:  {drivers(sheet, letters)}", 3.2)))
+    words, y = titled(sheet, spoken, f"{term('lever', spoken)}:  {drivers(sheet, letters)}", MARGIN)
     y += 1.5
     inside = WIDTH - 2 * MARGIN
     for each in languages(spoken):

@@ -14,7 +14,7 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import letters_of
 from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.font_widths import runs_width
-from graphkin.drawing.headings import drivers, facts, figure_title, number, term, titles
+from graphkin.drawing.headings import drivers, facts, figure_title, number, term
 from graphkin.drawing.labels import Label
 from graphkin.drawing.loop_words import MatrixEquation, equation, matrices, projections, root, size_name
 from graphkin.drawing.piece import Piece, joined, layer_groups, moved_piece, with_labels
@@ -22,6 +22,7 @@ from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polyline, Prim
 from graphkin.drawing.strokes import colour_of_link
 from graphkin.drawing.symbols import POINTER, arrowhead
 from graphkin.drawing.text import rich, symbol, wrapped
+from graphkin.drawing.told_page import titled
 from graphkin.structure.loop_values import LoopBlock, LoopValue, loops_in_numbers
 from graphkin.words import Phrase, languages, say
 
@@ -58,13 +59,7 @@ def loops_figure(sheet: Sheet, *, language: str | None = None, convention: str |
     spoken = language or sheet.scene.sheet.language
     letters = letters_of(sheet, convention or sheet.scene.sheet.convention)  # type: ignore[arg-type]
     pieces: list[Piece] = []
-    words: list[Primitive] = []
-    y = MARGIN
-    for text in titles(sheet, spoken):
-        y += 4.8
-        words.append(Text(complex(MARGIN, y), rich(text, 4.0, bold=True), classes=("heading",)))
-    y += 5.0
-    words.append(Text(complex(MARGIN, y), rich(f"{term('loops', spoken)}:  {drivers(sheet, letters)}", 3.2)))
+    words, y = titled(sheet, spoken, f"{term('loops', spoken)}:  {drivers(sheet, letters)}", MARGIN)
     y += 4.0
     scale = _scale(blocks)
     for block in blocks:

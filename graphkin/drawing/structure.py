@@ -12,7 +12,7 @@ from graphkin.drawing import strokes, symbols
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, letters_of
 from graphkin.drawing.drawing import Drawing
-from graphkin.drawing.headings import facts, figure_title, term, titles
+from graphkin.drawing.headings import facts, figure_title, term
 from graphkin.drawing.labels import Label
 from graphkin.drawing.mechanism import bare_mechanism, links_alone
 from graphkin.drawing.mechanism_on_paper import MechanismOnPaper, page
@@ -20,6 +20,7 @@ from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_p
 from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Primitive, Text
 from graphkin.drawing.symbols import JOINT_RADIUS
 from graphkin.drawing.text import plain, rich, symbol, wrapped
+from graphkin.drawing.told_page import titled
 from graphkin.drawing.touching import stand_ins
 from graphkin.structure import Cluster, Driven, Dyad, Element, Pair, Slide, Structure, Turn, links_of, replaced_pairs
 from graphkin.words import Phrase, class_of, languages, say
@@ -47,13 +48,7 @@ def structure_figure(
     """
     spoken = language or sheet.scene.sheet.language
     letters = letters_of(sheet, convention or sheet.scene.sheet.convention)  # type: ignore[arg-type]
-    words: list[Primitive] = []
-    y = MARGIN
-    for text in titles(sheet, spoken):
-        y += 4.8
-        words.append(Text(complex(MARGIN, y), rich(text, 4.0, bold=True), classes=("heading",)))
-    y += 5.0
-    words.append(Text(complex(MARGIN, y), rich(term("structure", spoken), 3.2)))
+    words, y = titled(sheet, spoken, term("structure", spoken), MARGIN)
     y += 3.0
     panel = Box(MARGIN, y, MARGIN + DIAGRAM[0], y + DIAGRAM[1])
     pieces = [_diagram(sheet, letters, spoken, panel)]

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 
+from graphkin.construction.sheet import Sheet
 from graphkin.drawing.dimensions import check_bar
-from graphkin.drawing.headings import term
+from graphkin.drawing.headings import term, titles
 from graphkin.drawing.primitives import Primitive, Run, Text
 from graphkin.drawing.text import plain, rich, wrapped
 from graphkin.words import languages
 
-__all__ = ["FOOT", "LETTER", "LINE", "MARGIN", "WIDTH", "foot", "heading", "notes_told", "steps_told"]
+__all__ = ["FOOT", "LETTER", "LINE", "MARGIN", "WIDTH", "foot", "heading", "notes_told", "steps_told", "titled"]
 
 WIDTH, MARGIN, FOOT = 210.0, 12.0, 14.0
 LETTER, LINE = 3.0, 4.6
@@ -22,6 +23,18 @@ def heading(title: str, given: str) -> list[Primitive]:
     head: list[tuple[Run, ...]] = [rich(title.replace("$", "$$"), 4.0, bold=True)]
     head += wrapped(given, 3.2, WIDTH - 2 * MARGIN)
     return [Text(complex(MARGIN, MARGIN + 3.5 + 5.0 * i), runs, classes=("heading",)) for i, runs in enumerate(head)]
+
+
+def titled(sheet: Sheet, language: str, below: str, margin: float = MARGIN) -> tuple[list[Primitive], float]:
+    """The titles of a figure of a mechanism, and below them what it shows (markup), with the base line of that."""
+    words: list[Primitive] = []
+    y = margin
+    for text in titles(sheet, language):
+        y += 4.8
+        words.append(Text(complex(margin, y), rich(text, 4.0, bold=True), classes=("heading",)))
+    y += 5.0
+    words.append(Text(complex(margin, y), rich(below, 3.2)))
+    return words, y
 
 
 def steps_told(steps: Iterable[tuple[int, str]], y: float) -> tuple[list[Primitive], float]:

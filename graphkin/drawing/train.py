@@ -13,12 +13,13 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, letters_of, scale_statement
 from graphkin.drawing.dimensions import check_bar
 from graphkin.drawing.drawing import Drawing
-from graphkin.drawing.headings import drivers, facts, figure_title, number, term, titles
+from graphkin.drawing.headings import drivers, facts, figure_title, number, term
 from graphkin.drawing.labels import Label
 from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
 from graphkin.drawing.primitives import Circle, Group, Line, Primitive, Text
 from graphkin.drawing.symbols import COMPONENT, arrow
 from graphkin.drawing.text import fitted, rich, symbol, wrapped
+from graphkin.drawing.told_page import titled
 from graphkin.drawing.train_scheme import scheme
 from graphkin.words import Phrase, languages, say
 from graphkin.words.written import on_paper
@@ -51,14 +52,8 @@ def train_figure(sheet: Sheet, *, language: str | None = None, convention: str |
 
 
 def _page(sheet: Sheet, plan: TrainPlan, letters: Letters, spoken: str, count: int) -> Drawing:
-    words: list[Primitive] = []
-    y = MARGIN
-    for text in titles(sheet, spoken):
-        y += 4.8
-        words.append(Text(complex(MARGIN, y), rich(text, 4.0, bold=True), classes=("heading",)))
-    y += 5.0
     name = "plan" if plan.order == "velocity" else "plan accelerations"
-    words.append(Text(complex(MARGIN, y), rich(f"{term(name, spoken)}:  {drivers(sheet, letters)}", 3.2)))
+    words, y = titled(sheet, spoken, f"{term(name, spoken)}:  {drivers(sheet, letters)}", MARGIN)
     y += 1.0
     for each in languages(spoken):
         key = "plan reason" if plan.order == "velocity" else "plan reason accelerations"
