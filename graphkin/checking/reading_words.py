@@ -13,11 +13,15 @@ __all__ = ["deviation", "exact", "measured", "paper"]
 
 
 def paper(reading: Reading, compared: Compared | None = None) -> str:
-    """The length on paper, or a dash for what has none: angles, given rates; 0 where it cannot be told from zero."""
+    """The length on paper, or a dash for what has none: angles, given rates; where it cannot be told from zero, 0, or
+    with a pencil what it is less than."""
     if not reading.on_paper:
         return "0" if reading.symbol.is_vector else "–"
-    nothing = compared is not None and compared.measured == 0.0
-    return "0" if nothing else on_paper(reading.on_paper)
+    if compared is None or compared.measured != 0.0:
+        return on_paper(reading.on_paper)
+    if compared.uncertainty is None or not reading.value:
+        return "0"
+    return f"< {amount(compared.bound * abs(reading.on_paper / reading.value), 2)}"
 
 
 def measured(reading: Reading, scales: Scales, units: Units, compared: Compared | None = None) -> str:
