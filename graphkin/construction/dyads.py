@@ -40,13 +40,20 @@ class Meeting:
     ``gap`` is positive where they cross, zero where they touch, negative where they miss each other; for two lines
     it is the sine of their angle, and they meet once.  ``poses`` are the possible places of the group's links, the one
     of the default rule first; ``tell`` gives what is drawn for each.  ``sine`` of the crossing angle is 0 where the
-    crossing is lost.
+    crossing is lost; a guide between two pivots is lost as they fall together, at whatever angle its lines
+    ``cross``.
     """
 
     gap: float
     sine: float
     poses: tuple[Poses, ...]
     tell: Callable[[int], Story]
+    cross: float | None = None
+
+    @property
+    def sharpness(self) -> float:
+        """Sine of the angle at which the two loci cross on paper."""
+        return min(1.0, self.sine if self.cross is None else self.cross)
 
 
 def _nothing(_: int) -> Story:
@@ -162,7 +169,8 @@ def _rpr(frame: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meet
         arcs = CompassArc((p1 + p2) / 2, span / 2, foot), CompassArc(p2, abs(offset), foot)
         return ((act, (*arcs, Bar(foot, p1, ""))),)
 
-    return Meeting(gap, math.sqrt(max(gap, 0.0)), tuple(poses), tell)
+    angle = roots[0] / span if roots and abs(offset) >= 1e-9 * size else 1.0  # a line through both pivots crosses none
+    return Meeting(gap, math.sqrt(max(gap, 0.0)), tuple(poses), tell, angle)
 
 
 def _prp(frame: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:

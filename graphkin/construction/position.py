@@ -287,7 +287,7 @@ def draw_position(
             story = trial_story(frame, so_far, (trials or {})[element])
         else:
             meeting = position.meetings[i]
-            board.notice("mechanism", SharpCrossing(_inner_name(element), min(meeting.sine, 1.0)))
+            board.notice("mechanism", SharpCrossing(_inner_name(element), meeting.sharpness))
             _remark_arm(board, element, frame)
             index = branches.get(i, 0) % len(meeting.poses)
             story = meeting.tell(index)
