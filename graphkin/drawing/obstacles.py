@@ -148,7 +148,10 @@ def near(boxes: Sides, others: Sides) -> tuple[Indices, Indices]:
     found = [np.empty(0, dtype=np.intp)]
     for first in range(0, len(boxes[0]), rows):
         own_left, own_top, own_right, own_bottom = (side[first : first + rows, None] for side in boxes)
-        meeting = (left <= own_right) & (right >= own_left) & (top <= own_bottom) & (bottom >= own_top)
+        meeting = left <= own_right
+        meeting &= right >= own_left
+        meeting &= top <= own_bottom
+        meeting &= bottom >= own_top
         found.append(np.flatnonzero(meeting) + first * len(left))
     which, what = np.divmod(np.concatenate(found), max(1, len(left)))
     return which, what

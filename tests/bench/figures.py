@@ -1,24 +1,38 @@
-"""How long the worked job of a scene takes after import: run by hand, ``python -m tests.bench.figures [SCENE ...]``.
+"""How long the figures of a scene take: run by hand, ``python -m tests.bench.figures [SCENE ...]``.
 
-Drawing, readings and check; the four figures (mechanism, both polygons, instant centres) with their labels, written as
-SVG; the share of placing labels among them; and the A4 sheet, which shows the same construction at its own scales.
-Times depend on the machine; the last column is the job in units of the solver's own part of it.
+Processor times of the public call: `graphkin.draw` of the five figures with readings and check, to the bytes of their
+SVG, after import; the share of placing labels in it; the same in units of `graphkin.solve` alone, which does not depend
+on the machine; the first call of a new process; and the whole process ``graphkin draw``, files written.
+
+Asked after import: the shaper 100 ms, a six-bar with a class III group 200 ms, the double butterfly 400 ms.
 """
 
 from __future__ import annotations
 
+import resource
+import subprocess
 import sys
+import tempfile
 import time
 from collections.abc import Callable
 from unittest.mock import patch
 
 import graphkin
-from graphkin.construction.centres import speeds
-from graphkin.drawing import figures, labels, svg_bytes
-from graphkin.drawing.centres import centres_figure
-from graphkin.scene import library
+from graphkin.drawing import labels, svg_bytes
+from tests.command import PROGRAM
 
-REPEATS = 7
+REPEATS = 9
+FIVE = ("mechanism", "velocity", "acceleration", "sheet", "centres")
+ASKED = {"shaper-scheme-2": 100, "sixbar-coupler-1A": 200, "double-butterfly": 400}  # ms
+FIRST = """
+import sys, time
+import graphkin, graphkin.api.drawn, graphkin.drawing.sheet, graphkin.drawing.centres, svgwrite
+from tests.bench.figures import five
+start = time.process_time()
+five(sys.argv[1])
+assert not {"matplotlib", "scipy", "shapely"} & set(sys.modules)
+print(time.process_time() - start)
+"""
 
 
 def best(call: Callable[[], object]) -> float:
@@ -31,18 +45,10 @@ def best(call: Callable[[], object]) -> float:
     return 1e3 * found
 
 
-def job(name: str) -> None:
-    """Everything from the scene to the bytes of its four figures."""
-    checked = graphkin.check(name)
-    assert checked.ok
-    for figure in figures(checked.sheet).values():
-        svg_bytes(figure)
-    svg_bytes(centres_figure(checked.centres, speeds(checked.centres)))
-
-
-def whole(name: str) -> None:
-    """The four figures and the sheet."""
-    drawn = graphkin.draw(name)
+def five(name: str) -> None:
+    """Everything from the name of a scene to the bytes of its five figures."""
+    drawn = graphkin.draw(name, figures=FIVE)
+    assert drawn.ok
     for figure in drawn.figures.values():
         svg_bytes(figure)
 
@@ -66,22 +72,39 @@ def placed(name: str) -> tuple[float, int]:
         for module in modules:
             module.place = timed  # type: ignore[attr-defined]
         try:
-            job(name)
+            five(name)
         finally:
             for module in modules:
                 module.place = own  # type: ignore[attr-defined]
     return 1e3 * spent, times
 
 
+def first(name: str) -> float:
+    """The first call of a new process, ms of the processor, imports left out."""
+    said = subprocess.run([sys.executable, "-c", FIRST, name], capture_output=True, text=True, check=True).stdout
+    return 1e3 * float(said)
+
+
+def process(name: str) -> float:
+    """The whole process that draws a scene and writes its files, ms of the processor."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([*PROGRAM, "draw", name, "-o", folder], capture_output=True, check=True)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return 1e3 * (after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
+
+
 def main() -> None:
-    names = sys.argv[1:] or sorted(library())
-    whole(names[0])  # imports, fonts
-    print(f"{'scene':<32}{'job, ms':>10}{'labels, ms':>12}{'placings':>10}{'with sheet':>12}{'job / solve':>13}")
+    names = sys.argv[1:] or list(ASKED)
+    five(names[0])  # imports, fonts
+    heads = ("five, ms", "asked", "labels", "placings", "five / solve", "first call", "process")
+    print(f"{'scene':<32}" + "".join(f"{head:>14}" for head in heads))
     for name in names:
-        four, five = best(lambda name=name: job(name)), best(lambda name=name: whole(name))
-        alone = best(lambda name=name: graphkin.solve(name))
-        labels, times = placed(name)
-        print(f"{name:<32}{four:>10.0f}{labels:>12.1f}{times:>10}{five:>12.0f}{four / alone:>13.0f}")
+        whole, alone = best(lambda name=name: five(name)), best(lambda name=name: graphkin.solve(name))
+        spent, times = placed(name)
+        cells = (f"{whole:.0f}", str(ASKED.get(name, "")), f"{spent:.0f}", str(times), f"{whole / alone:.0f}",
+                 f"{first(name):.0f}", f"{process(name):.0f}")  # fmt: skip
+        print(f"{name:<32}" + "".join(f"{cell:>14}" for cell in cells))
 
 
 if __name__ == "__main__":
