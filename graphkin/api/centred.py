@@ -21,6 +21,7 @@ from graphkin.api.arguments import (
     placed,
     write_files,
 )
+from graphkin.api.centre_speeds import TOLERANCE, Velocity, velocities_by_centres
 from graphkin.api.checked import solved_here
 from graphkin.api.results import OfScene, Result
 from graphkin.construction import Room
@@ -28,8 +29,6 @@ from graphkin.construction.centres import (
     Centre,
     Centres,
     Turning,
-    by_centres,
-    error_by_centres,
     find_centres,
     speeds,
     velocity_sentences,
@@ -37,7 +36,7 @@ from graphkin.construction.centres import (
 from graphkin.construction.centres.pairs import LinkPair, normal, wedge
 from graphkin.errors import CallError, Problem, as_text, did_you_mean
 from graphkin.scene.model import Mechanism
-from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.scene.symbol import PointRef
 from graphkin.structure import Structure
 from graphkin.words import Phrase, languages, say, word
 
@@ -113,31 +112,9 @@ def _line(through: tuple[LinkPair, LinkPair] | tuple[str], name: Callable[[objec
     return "".join(name(p) if isinstance(p, tuple) else f"n({p})" for p in through)
 
 
-TOLERANCE = 1e-9
 MOST_PLAYED = 6  # links all of whose centres are played
-FAIR = 1e-3  # of the largest: a value that may be off by more is not determined by the centres
 NO_MOTION = 1e-9
-SAFETY = 4.0  # the bound of a velocity by centres over its error of first order
 ROOM = Room(mechanism=(90.0, 75.0))  # mm: the mechanism is drawn small, so that its centres find room around it
-
-
-@dataclass(frozen=True)
-class Velocity:
-    """A velocity or angular velocity by centres beside the exact one (SI).
-
-    ``tolerance`` is how far the two may be apart: 1e-9 of the largest velocity of the mechanism (of the largest rate,
-    or that velocity over the size), or what rounding does to the centres and to the position where that is more.  Where
-    it exceeds a thousandth of the largest, or where centres are missing, they do not determine the value: ``ok`` is
-    None, and ``by_centres`` is None where there is none at all.
-    """
-
-    symbol: Symbol
-    by_centres: complex | float | None
-    exact: complex | float
-    chain: tuple[str, ...]
-    tolerance: float
-    largest: float
-    ok: bool | None
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -341,48 +318,6 @@ def _error(centres: Centres, motion: Motion, centre: Centre) -> tuple[float, flo
     places = float(motion.bound.position[0]) / unit + float(motion.rough[0][0]) / (unit * strength)
     # as do the numbers of the file, where they lie far apart
     return sine, TOLERANCE + 1e-14 * largest / strength + (places if math.isfinite(places) else 0.0)
-
-
-def velocities_by_centres(centres: Centres, turning: Mapping[str, Turning], motion: Motion) -> tuple[Velocity, ...]:
-    """Velocities measured through centres beside the exact ones: those the scene asks for, or all."""
-    scene = centres.links.scene
-    asked = [s for s in scene.find if s.kind in ("v", "omega")]
-    symbols = asked if scene.find else _all(centres)
-    found = []
-    # what is asked may be nought beside the rest: it is judged by the whole mechanism
-    exact = {s: complex(motion.value(s)[0]) for s in dict.fromkeys((*symbols, *_all(centres)))}
-    largest = {kind: max((abs(x) for s, x in exact.items() if s.kind == kind), default=0.0) for kind in ("v", "omega")}
-    size = scene.size
-    largest["omega"] = max(largest["omega"], largest["v"] / size)
-    rounded = float(motion.rough[0][0])
-    for symbol in symbols:
-        value = by_centres(centres, turning, symbol)
-        wanted = exact[symbol] if symbol.is_vector else exact[symbol].real
-        if value is None:
-            found.append(Velocity(symbol, None, wanted, (), math.inf, largest[symbol.kind], None))
-            continue
-        most = max(largest[symbol.kind], 1e-300)
-        own = rounded / (1.0 if symbol.is_vector else size)
-        tolerance = max(TOLERANCE * most, own, SAFETY * error_by_centres(centres, turning, symbol))
-        close = None if tolerance > FAIR * most else abs(value - wanted) <= tolerance
-        found.append(Velocity(symbol, value, wanted, _chain(centres, turning, symbol), tolerance, most, close))
-    return tuple(found)
-
-
-def _all(centres: Centres) -> list[Symbol]:
-    links = centres.links
-    frame = links.scene.frame
-    moving = [name for name in links.names if name != frame.name]
-    pins = [p for p, names in links.scene.holders.items() if p not in frame.points and any(n in moving for n in names)]
-    return [Symbol("omega", link=name) for name in moving] + [Symbol("v", PointRef(p)) for p in pins]
-
-
-def _chain(centres: Centres, turning: Mapping[str, Turning], symbol: Symbol) -> tuple[str, ...]:
-    if symbol.link:
-        return turning[symbol.link].chain
-    assert symbol.of is not None
-    holders = [symbol.of.link] if symbol.of.link else centres.links.scene.holders[symbol.of.point]
-    return next((turning[n].chain for n in holders if n in turning), ())
 
 
 def centres(

@@ -14,7 +14,7 @@ from graphkin.drawing.conventions import Letters, letters_of, scale_statement
 from graphkin.drawing.coriolis import CoriolisTerm
 from graphkin.drawing.dimensions import check_bar
 from graphkin.drawing.drawing import Drawing
-from graphkin.drawing.equations import WrittenLine, equations_in_room, written_lines
+from graphkin.drawing.equations import WrittenLine, equations_in_room
 from graphkin.drawing.headings import (
     FIGURE_WORDS,
     describe,
@@ -38,6 +38,7 @@ from graphkin.drawing.sheet_plan import BLOCK, GUTTER, SheetPlan, sheet_plan
 from graphkin.drawing.tables import given_data, given_lines, readings_table, table_rows
 from graphkin.drawing.text import fitted, plain, wrapped
 from graphkin.drawing.train import train_figure
+from graphkin.drawing.written_lines import written_lines
 from graphkin.words import Phrase, languages, say, word
 
 __all__ = ["sheet_page"]

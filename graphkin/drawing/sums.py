@@ -19,8 +19,8 @@ from graphkin.scene.tables import Units
 from graphkin.words.written import MOST, amount, figures, on_paper, product, quotient
 
 __all__ = [
-    "factors_of", "lengths_measured", "plan_sum", "rate_sum", "rule_sum", "scale_of", "substituted", "times_scale",
-    "unit_of",
+    "bound", "factors_of", "lengths_measured", "plan_sum", "rate_sum", "rule_sum", "scale_of", "substituted",
+    "times_scale", "unit_of",
 ]  # fmt: skip
 
 _TAILS = {"mechanism": "", "velocity": "/s", "acceleration": "/s²"}
@@ -150,3 +150,8 @@ def _length(sheet: Sheet, one: str, other: str) -> str | None:
 def _speed(sheet: Sheet, symbol: Symbol) -> str | None:
     vector = sheet.vectors("velocity").get(symbol)
     return None if vector is None else amount(abs(vector.span) * scale_of(sheet, "velocity"), MOST)
+
+
+def bound(text: str) -> str:
+    """A sum that breaks only before the sign of equality."""
+    return text.replace(" ", "\u00a0").replace("\u00a0=\u00a0", " =\u00a0")

@@ -7,144 +7,22 @@ matrix gives velocity and acceleration (Haug, Computer Aided Kinematics and Dyna
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
-from weakref import finalize
 
 import numpy as np
 
-from graphkin.scene.model import AngleDriver
-from graphkin.solver.joints import Drive, joint_place, turned
+from graphkin.solver.group_layout import NOTHING, Layout, layout_of
+from graphkin.solver.joints import Drive, turned
 from graphkin.solver.pose import FIELDS, Array, Pose, rest, together
 from graphkin.solver.rounding import UNIT
-from graphkin.structure import Cluster, Driven, Dyad, Pair, Slide, Structure, Turn
+from graphkin.structure import Cluster, Driven, Dyad, Pair, Structure
 
 __all__ = ["ClusterSolved", "System", "as_place", "solve_all", "solve_cluster"]
 
 ROUNDS = 40
 ROUNDINGS = 32 * UNIT
-
-
-class _Ends(NamedTuple):
-    """One side of some joints: columns of their links, place and direction of the joint's frame in the link's axes."""
-
-    link: Array
-    place: Array
-    direction: Array
-
-    def of(self, all_: Pose, order: int) -> Pose:
-        """The joints' frames in the world, fields of shape (n, joints); rates up to the order, the others nothing."""
-        z, u = all_.z[:, self.link], all_.u[:, self.link]
-        arm = u * self.place
-        z, u = z + arm, u * self.direction
-        if order == 0:
-            return Pose(z, u, _NOTHING, _NOTHING, _NOTHING, _NOTHING)
-        omega, alpha = all_.omega[:, self.link], all_.alpha[:, self.link]
-        spin = 1j * omega
-        v = all_.v[:, self.link] + spin * arm
-        return Pose(z, u, v, omega, all_.a[:, self.link] + (1j * alpha + spin * spin) * arm, alpha)
-
-
-class _Entries(NamedTuple):
-    """Entries of the matrix by links of the group: of which joints, in which row and column, with which sense."""
-
-    joint: Array
-    row: Array
-    column: Array
-    sense: Array
-
-
-_NOTHING = np.zeros(1)
-
-
-class _Layout:
-    """What stands where among the constraints of a group: the rows of its pairs, then of its drivers."""
-
-    def __init__(self, structure: Structure, group: Cluster) -> None:
-        drivers = structure.drivers
-        self.names = (*group.members, *dict.fromkeys(n for n in self._used(group) if n not in group.members))
-        self.link = {name: k for k, name in enumerate(self.names)}
-        self.members = len(group.members)
-        self.size = structure.scene.size
-        turns: list[tuple[int, Turn]] = []
-        lines: list[tuple[int, Slide, complex]] = []
-        slides: list[int] = []
-        angles: list[tuple[int, str, str, int]] = []
-        self.travels: list[tuple[int, int, int]] = []
-        row = 0
-        for pair in group.pairs:
-            if isinstance(pair, Turn):
-                turns.append((row, pair))
-            else:
-                slides.append(row)
-                lines.append((row + 1, pair, -1j))
-            row += 2
-        self.slides = len(slides)
-        for driver in group.drivers:
-            i = drivers.index(driver)
-            if isinstance(driver, AngleDriver):
-                angles.append((row, driver.link, driver.relative_to, i))
-            else:
-                self.travels.append((row, len(lines), i))
-                lines.append((row, structure.slide(driver.key), 1 + 0j))
-            row += 1
-        self.rows = row
-        self.turns = [self._ends(structure, [(p, getattr(p, side)) for _, p in turns]) for side in "ab"]
-        self.lines = [self._ends(structure, [(p, getattr(p, side)) for _, p, _ in lines]) for side in "ab"]
-        self.turn_rows = np.array([r for r, _ in turns], dtype=int)
-        self.slide_rows = np.array(slides, dtype=int)
-        self.line_rows = np.array([r for r, _, _ in lines], dtype=int)
-        self.part = np.array([part for _, _, part in lines], dtype=complex)
-        """By this times a number its real part is the part that a line wants: along the guide or across."""
-        both = [(link, base) for _, link, base, _ in angles]
-        self.angle_rows = np.array([r for r, *_ in angles], dtype=int)
-        self.turned = [np.array([self.link[x] for x in side], dtype=int) for side in zip(*both, strict=True)]
-        self.angle_drivers = np.array([i for *_, i in angles], dtype=int)
-        self.turn_entries = [self._entries(e, self.turn_rows, s) for e, s in zip(self.turns, (1.0, -1.0), strict=True)]
-        self.line_entries = [self._entries(e, self.line_rows, s) for e, s in zip(self.lines, (1.0, -1.0), strict=True)]
-        self.same = np.zeros((self.rows, 3 * self.members))
-        for entries in self.turn_entries:
-            self.same[entries.row, entries.column] = entries.sense
-            self.same[entries.row + 1, entries.column + 1] = entries.sense
-        turning = [(r, p.a, p.b) for r, (_, p, _) in zip(slides, lines, strict=False)]
-        for r, one, two in [*turning, *((r, one, two) for r, one, two, _ in angles)]:
-            for name, sign in ((one, 1.0), (two, -1.0)):
-                if self.link[name] < self.members:
-                    self.same[r, 3 * self.link[name] + 2] += sign
-
-    @staticmethod
-    def _used(group: Cluster) -> Iterator[str]:
-        for pair in group.pairs:
-            yield from (pair.a, pair.b)
-        for driver in group.drivers:
-            if isinstance(driver, AngleDriver):
-                yield from (driver.link, driver.relative_to)
-
-    def _ends(self, structure: Structure, joints: Sequence[tuple[Pair, str]]) -> _Ends:
-        frames = [joint_place(structure, pair, link) for pair, link in joints]
-        return _Ends(
-            np.array([self.link[link] for _, link in joints], dtype=int),
-            np.array([place for place, _ in frames], dtype=complex),
-            np.array([direction for _, direction in frames], dtype=complex),
-        )
-
-    def _entries(self, ends: _Ends, rows: Array, sense: float) -> _Entries:
-        own = np.flatnonzero(ends.link < self.members)
-        return _Entries(own, rows[own], 3 * ends.link[own], np.full(len(own), sense))
-
-
-_LAYOUTS: dict[tuple[int, tuple[str, ...], tuple[str, ...]], _Layout] = {}
-
-
-def _layout(structure: Structure, group: Cluster) -> _Layout:
-    """The layout of a group, made once."""
-    key = (id(structure), group.members, tuple(driver.key for driver in group.drivers))
-    if key not in _LAYOUTS:
-        _LAYOUTS[key] = _Layout(structure, group)
-        finalize(structure, _LAYOUTS.pop, key, None)
-    return _LAYOUTS[key]
 
 
 @dataclass(frozen=True)
@@ -160,8 +38,8 @@ class System:
     drive: Drive
 
     @cached_property
-    def _layout(self) -> _Layout:
-        return _layout(self.structure, self.group)
+    def _layout(self) -> Layout:
+        return layout_of(self.structure, self.group)
 
     @cached_property
     def _outside(self) -> Pose:
@@ -204,7 +82,7 @@ class System:
             )
 
         if rate is None and second is None:
-            return Pose(z, u, _NOTHING, _NOTHING, _NOTHING, _NOTHING)
+            return Pose(z, u, NOTHING, NOTHING, NOTHING, NOTHING)
         return Pose(z, u, *rates(rate, out.v, out.omega), *rates(second, out.a, out.alpha))
 
     def of(self, members: Mapping[str, Pose]) -> Pose:
@@ -283,7 +161,7 @@ class System:
 def _seen(one: Pose, two: Pose) -> Pose:
     """Place and direction of a frame in the axes of another."""
     back = np.conj(two.u)
-    return Pose(back * (one.z - two.z), back * one.u, _NOTHING, _NOTHING, _NOTHING, _NOTHING)
+    return Pose(back * (one.z - two.z), back * one.u, NOTHING, NOTHING, NOTHING, NOTHING)
 
 
 @dataclass(frozen=True)

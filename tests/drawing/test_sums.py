@@ -9,8 +9,8 @@ import pytest
 from graphkin.construction import draft
 from graphkin.construction.polygon_acts import LaidOff, MeasuredRate
 from graphkin.drawing.conventions import letters_of
-from graphkin.drawing.equations import written_lines
 from graphkin.drawing.sums import lengths_measured, rate_sum, rule_sum
+from graphkin.drawing.written_lines import written_lines
 from graphkin.scene import library, mechanism_of
 
 

@@ -1,0 +1,130 @@
+"""What is written to repeat a construction, in its order: lengths measured, equations with products, angular rates."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+
+from graphkin.construction.mechanism_acts import SpecialPoint, TrialPositions
+from graphkin.construction.polygon_acts import LaidOff, MeasuredRate, PlanDrawn, Superposed, TrialDrawn
+from graphkin.construction.sheet import Equation, Rate, Sheet, Step
+from graphkin.drawing.conventions import Letters
+from graphkin.drawing.equations import WrittenLine, rule_alone
+from graphkin.drawing.headings import number, term
+from graphkin.drawing.sums import bound, lengths_measured, plan_sum, rate_sum, rule_sum
+from graphkin.scene.symbol import Symbol
+from graphkin.words import Phrase, languages, say
+
+__all__ = ["written_lines"]
+
+
+def written_lines(sheet: Sheet, letters: Letters, language: str) -> list[WrittenLine]:
+    """Everything that is written to repeat a construction, in its order: what is measured on the mechanism, each vector
+    equation with its products in numbers, and the angular rates where they are known."""
+    spoken = languages(language)[0]
+    lines: list[WrittenLine] = [bound(line) for line in lengths_measured(sheet, letters)]
+    written: set[int] = set()
+    for step in sheet.steps:
+        if step.equation is not None and step.equation not in written:
+            written.add(step.equation)
+            equation = sheet.equations[step.equation - 1]
+            if step.diagram not in {one.diagram for one in lines if isinstance(one, Equation)}:
+                lines += _shared_with_drivers(sheet, equation)
+            lines.append(equation)
+            lines += _products(sheet, equation, letters)
+        if isinstance(step.act, MeasuredRate):
+            lines.append(_measured(sheet, step.act, letters, language))
+        elif isinstance(step.act, PlanDrawn) and not step.act.known:
+            lines.append(_off_plan(step.act, language))
+        elif isinstance(step.act, SpecialPoint):
+            act = step.act
+            lines.append(say(Phrase("written special", _in_dollars(act.point, *act.joints)), spoken))
+        elif isinstance(step.act, TrialPositions):
+            names = ", ".join(step.act.left_out), ", ".join(step.act.driven)
+            lines.append(say(Phrase("written trial", names), spoken))
+        elif isinstance(step.act, Superposed):
+            lines += _trials(sheet, step, letters, spoken)
+    return lines
+
+
+def _in_dollars(*letters: str) -> tuple[str, ...]:
+    return tuple(f"${name}$" for name in letters)
+
+
+def _trials(sheet: Sheet, last: Step, letters: Letters, language: str) -> Iterator[str]:
+    """``I: ω_3 = 0.2 rad/s; left open at 8: 3.21 mm``, a line for each trial, and what follows."""
+    act = last.act
+    assert isinstance(act, Superposed)
+    units = {"omega": "rad/s", "alpha": "rad/s²", "v": f"{sheet.scene.units.rates.length}/s"}
+
+    def rates(found: Sequence[tuple[Symbol, float]]) -> str:
+        push = f"{sheet.scene.units.rates.length}/s²"
+        return ", ".join(
+            f"${letters.vector(s)}$ = {number(value, 5)} {units.get(s.kind, push)}" for s, value in found
+        )
+
+    drawn = [s.act for s in sheet.steps if s.diagram == last.diagram and s.number < last.number]
+    trials = [a for a in drawn if isinstance(a, TrialDrawn)][-len(act.apart):]
+    for trial, row in zip(trials, act.apart, strict=True):
+        apart = ", ".join(number(mm, 4) for mm in row)
+        numeral = "I" * trial.number if trial.number < 4 else str(trial.number)
+        args = numeral, rates(trial.assumed), ", ".join(act.closing), apart
+        yield say(Phrase("written trial polygon", args), language)
+    yield say(Phrase("written superposed", (rates(act.found),)), language)
+
+
+def _measured(sheet: Sheet, act: MeasuredRate, letters: Letters, language: str) -> str:
+    """``ω_4 = ω_3 = v_A4 / l_AO4 = 0.74 rad/s, clockwise``."""
+    rates = sheet.omega if act.rate == "omega" else sheet.alpha
+    rate = rates[act.link]
+    names = [act.link, *_alike(rates.values(), rate)]
+    rule = f"${letters.vector(act.vector)}$ / ${letters.length(act.bar)}$"
+    unit = "rad/s" if act.rate == "omega" else "rad/s²"
+    way = "" if rate.value == 0.0 else f",  {term('clockwise' if rate.value < 0 else 'counter-clockwise', language)}"
+    value = bound(rate_sum(sheet, act, units=False)) or f"{number(abs(rate.value), 5)} {unit}"
+    return " = ".join((*(_rate_name(act.rate, n) for n in names), rule, value)) + way
+
+
+def _off_plan(act: PlanDrawn, language: str) -> str:
+    """``ω_3 = 30.00 mm × 0.25 (rad/s)/mm = 7.5 rad/s, clockwise``: read off the plan of a train."""
+    way = "" if act.value == 0.0 else f",  {term('clockwise' if act.value < 0 else 'counter-clockwise', language)}"
+    return f"{_rate_name(act.rate, act.link)} = {bound(plan_sum(act))}{way}"
+
+
+def _products(sheet: Sheet, equation: Equation, letters: Letters) -> list[str]:
+    """``a^n_CB = 0.7396² × 383.14 = 209.58 mm/s²``: the sizes in an equation that follow from rates, in numbers, each
+    once; that of an equation which is only a rule stands in it."""
+    if rule_alone(sheet, equation):
+        return []
+    acts = (s.act for s in sheet.steps if s.equation == equation.number)
+    laid_off = {act.symbol: act for act in acts if isinstance(act, LaidOff)}
+    sums = {
+        one.symbol: rule_sum(sheet, one.size, equation.diagram)
+        for side in equation.sides
+        for one in side
+        if one.symbol in laid_off and not laid_off[one.symbol].is_zero
+    }
+    said = [f"${letters.vector(symbol)}$ = {bound(text)}" for symbol, text in sums.items() if text]
+    return [";  ".join(said)] if said else []
+
+
+def _shared_with_drivers(sheet: Sheet, equation: Equation) -> Iterator[str]:
+    """``ω_2 = ω_1``: links that slide on a driven one turn as it does."""
+    kind = "omega" if equation.diagram == "velocity" else "alpha"
+    rates = sheet.omega if kind == "omega" else sheet.alpha
+    for rate in rates.values():
+        if rate.vector is None and not rate.same_as and rate.value != 0.0:
+            alike = _alike(rates.values(), rate)
+            if alike:
+                yield " = ".join(_rate_name(kind, name) for name in (*alike[::-1], rate.link))
+
+
+def _alike(rates: Iterable[Rate], rate: Rate) -> list[str]:
+    """Links that turn as another, blocks of pins left out."""
+    return [
+        other.link for other in rates if other.same_as == rate.link and other.value == rate.value
+        and "/" not in other.link
+    ]  # fmt: skip
+
+
+def _rate_name(kind: str, link: str) -> str:
+    return f"${'ω' if kind == 'omega' else 'α'}_{{{link}}}$"
