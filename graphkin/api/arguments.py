@@ -10,6 +10,7 @@ import math
 import os
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
+from importlib.util import find_spec
 from numbers import Integral, Real
 from pathlib import Path
 from typing import get_args
@@ -17,12 +18,10 @@ from typing import get_args
 from graphkin.errors import CallError, Problem, as_list, did_you_mean
 from graphkin.scene.force_names import no_force
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
-from graphkin.scene.over_time import at_time
 from graphkin.scene.sheet_tables import Convention
 from graphkin.scene.source import SceneLike, mechanism_of
 from graphkin.scene.symbol import Symbol, missing_names
 from graphkin.structure.assembly import ChangePoint
-from graphkin.table import have
 from graphkin.words import BOTH, LANGUAGES, Phrase
 
 __all__ = [
@@ -95,7 +94,7 @@ def known_words(
     ]
     if not formats:
         wrong.append(Problem("format", "none given", f"known here: {', '.join(known_formats)}"))
-    if "dxf" in (formats or ()) and not have("ezdxf"):
+    if "dxf" in (formats or ()) and find_spec("ezdxf") is None:
         wrong.append(Problem("format", '"dxf"', 'it needs the extra cad: pip install "graphkin[cad]"'))
     if wrong:
         raise CallError(*wrong)
@@ -193,6 +192,8 @@ def placed(scene: Mechanism, at: At) -> tuple[Mechanism, dict[str, float] | None
         time = at[TIME]
         if not isinstance(time, Real) or not math.isfinite(time):
             raise CallError(Problem(f"at {TIME}", f"{time!r} is no time", "give seconds"))
+        from graphkin.scene.over_time import at_time
+
         return at_time(scene, float(time))
     values = driver_values(scene, at) or {}
     drivers = []

@@ -28,7 +28,6 @@ from graphkin.api.reading_rows import in_scene_units, reading_row
 from graphkin.api.results import OfScene, Result
 from graphkin.checking.readings import read_off
 from graphkin.checking.report import Compared, Report, compare
-from graphkin.checking.uncertainty import Advice, advise, predict
 from graphkin.construction import EXACT, Cad, Exact, Instrument, Plan, Sheet, execute, pencil, plan
 from graphkin.construction.sheet import DiagramName
 from graphkin.errors import CallError, Problem, Unsolvable, as_text, did_you_mean
@@ -40,6 +39,7 @@ from graphkin.structure.assembly import ChangePoint
 from graphkin.words import say
 
 if TYPE_CHECKING:
+    from graphkin.checking.uncertainty import Advice
     from graphkin.construction.centres import Centres, Turning
     from graphkin.construction.forces import ForceSheet
     from graphkin.solver import Motion
@@ -277,7 +277,7 @@ def _checked(what: Plan, motion: Motion, hand: Instrument) -> Checked:
     scale = lost = 0.0
     if sheet.has_forces:
         from graphkin.construction.forces import force_scale
-        from graphkin.solver import force_values
+        from graphkin.solver.force_values import force_values
 
         of_motion = value
         of_force, lost = force_values(motion)
@@ -297,6 +297,8 @@ def _checked(what: Plan, motion: Motion, hand: Instrument) -> Checked:
     if hand is EXACT:
         report = compare(sheet, readings, value, what.asked, rounding=rounding, force_scale=scale)
         return Checked(sheet, report, None, what.asked, passed, turning)
+    from graphkin.checking.uncertainty import advise, predict
+
     tools = what.structure.scene.sheet.tools
     predicted = predict(what, hand.name, tools)
     advice = advise(what, hand.name, tools, readings, predicted)

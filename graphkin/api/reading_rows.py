@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from graphkin.checking.report import Compared
-from graphkin.checking.uncertainty import Uncertainty
 from graphkin.construction.steps import phrase_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase, say
+
+if TYPE_CHECKING:
+    from graphkin.checking.uncertainty import Uncertainty
 
 __all__ = ["finite", "in_scene_units", "reading_row"]
 

@@ -6,11 +6,14 @@ import cmath
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 from graphkin.checking.readings import Reading
-from graphkin.checking.uncertainty import Uncertainty
 from graphkin.construction.sheet import DiagramName, Scales, Sheet
 from graphkin.scene.symbol import PointRef, Symbol
+
+if TYPE_CHECKING:
+    from graphkin.checking.uncertainty import Uncertainty
 
 __all__ = ["Compared", "Report", "compare"]
 

@@ -9,16 +9,18 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from graphkin.construction.remarks import Remark
 from graphkin.construction.sizes import Direction, Size
 from graphkin.construction.steps import Act, Cause, phrase_of, scaled
-from graphkin.construction.train_sheet import TrainPlan
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure.model import Cluster, Element, Structure
 from graphkin.words import Phrase
+
+if TYPE_CHECKING:
+    from graphkin.construction.train_sheet import TrainPlan
 
 __all__ = [
     "DIAGRAMS",

@@ -4,18 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from graphkin.construction.board import Instrument
 from graphkin.construction.centre_lines import CentreLine, centre_lines, trains
 from graphkin.construction.plot import Order
 from graphkin.construction.polygon_acts import PlanDrawn, PlanTravel, PlanTried
 from graphkin.construction.steps import Act
-from graphkin.construction.train_plan import Travel, Turned, train_plan
-from graphkin.construction.train_sheet import TrainPlan
 from graphkin.errors import Problem, Unsolvable
 from graphkin.structure import Structure, meshes_of
 from graphkin.structure.model import Coordinate
+
+if TYPE_CHECKING:
+    from graphkin.construction.train_plan import Travel, Turned
+    from graphkin.construction.train_sheet import TrainPlan
 
 __all__ = ["Wheels"]
 
@@ -61,6 +63,8 @@ class Wheels:
             if plan is None or not _leads(plan, wanted):
                 units = self.structure.scene.units.rates.metres
                 ground = self.structure.scene.frame.name
+                from graphkin.construction.train_plan import train_plan
+
                 plan = train_plan(order, on, rates, travel, turns, ground, wanted, units, hand)
                 if plan is None:
                     continue

@@ -1,17 +1,23 @@
 """The analytic solver: dyads in closed form, higher groups by Newton, whole sweeps as arrays."""
 
-from graphkin.solver.acting import without_line
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
 from graphkin.solver.driver_range import DriverRange, driver_range
 from graphkin.solver.exact_values import exact_values, value_of
 from graphkin.solver.findings import structure_of
-from graphkin.solver.force_values import force_values
-from graphkin.solver.forces import Forces, forces_of
 from graphkin.solver.in_place_of_cams import as_drawn
 from graphkin.solver.motion import Motion, Sliding
 from graphkin.solver.over_time import over_time
-from graphkin.solver.prepared import PreparedMechanism, prepare
 from graphkin.solver.solve import solve
-from graphkin.solver.table import json_text, listed_points, own_slides, to_json
+
+if TYPE_CHECKING:
+    from graphkin.solver.acting import without_line
+    from graphkin.solver.forces import Forces, forces_of
+    from graphkin.solver.prepared import PreparedMechanism, prepare
+    from graphkin.solver.table import json_text, listed_points, own_slides, to_json
 
 __all__ = [
     "DriverRange",
@@ -22,7 +28,6 @@ __all__ = [
     "as_drawn",
     "driver_range",
     "exact_values",
-    "force_values",
     "forces_of",
     "json_text",
     "listed_points",
@@ -35,3 +40,18 @@ __all__ = [
     "value_of",
     "without_line",
 ]
+
+_PLACES = {
+    "acting": ["without_line"],
+    "forces": ["Forces", "forces_of"],
+    "prepared": ["PreparedMechanism", "prepare"],
+    "table": ["json_text", "listed_points", "own_slides", "to_json"],
+}
+
+
+def __getattr__(name: str) -> Any:
+    # what few ask for is loaded when it is asked for
+    for place, names in _PLACES.items():
+        if name in names:
+            return getattr(import_module(f"graphkin.solver.{place}"), name)
+    raise AttributeError(f"module 'graphkin.solver' has no attribute {name!r}")

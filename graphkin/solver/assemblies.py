@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,7 +13,6 @@ from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import State, positions
 from graphkin.solver.joints import Drive, driver_text
-from graphkin.solver.larger_groups import ClusterSolved, System, as_place, solve_all, solve_cluster
 from graphkin.solver.pose import Array, Pose
 from graphkin.structure import (
     Cluster,
@@ -28,6 +28,9 @@ from graphkin.structure import (
 )
 from graphkin.structure.assembly import TOUCH, last_true
 from graphkin.structure.model import Coordinate
+
+if TYPE_CHECKING:
+    from graphkin.solver.larger_groups import ClusterSolved, System
 
 __all__ = ["choose_forms", "new_places", "own_values", "reading"]
 
@@ -177,6 +180,8 @@ def new_places(structure: Structure, i: int, links: Sequence[str], state: State)
 
 def _choose_place(structure: Structure, i: int, group: Cluster, drive: Drive, known: Mapping[str, Pose]) -> Array:
     """All assemblies of a larger group by Newton's method from many starts, and the one that is meant."""
+    from graphkin.solver.larger_groups import System
+
     drive = drive.followed(structure)
     found = _assemblies(structure, group, drive, known)
     if not len(found):
@@ -192,6 +197,8 @@ def _choose_place(structure: Structure, i: int, group: Cluster, drive: Drive, kn
 
 
 def _assemblies(structure: Structure, group: Cluster, drive: Drive, known: Mapping[str, Pose]) -> Array:
+    from graphkin.solver.larger_groups import System, solve_cluster
+
     place = _starts(structure, group, known)
     many = Drive(*(np.repeat(x, len(place), axis=0) for x in (drive.value, drive.rate, drive.second)))
     missed = _descended(System(structure, group, known, many), place)
@@ -208,6 +215,8 @@ def _descended(system: System, place: Array) -> Array:
 
     Levenberg and Marquardt's method: singular starts need no care (Nocedal and Wright, Numerical Optimization, 10.3).
     """
+    from graphkin.solver.larger_groups import solve_all
+
     active, damping = np.arange(len(place)), np.ones(len(place))
     missed = np.full(len(place), np.inf)
     all_ = system.at(place)
@@ -285,6 +294,8 @@ def _starts(structure: Structure, group: Cluster, known: Mapping[str, Pose]) -> 
 def _distinct(structure: Structure, group: Cluster, solved: ClusterSolved) -> Array:
     """The different assemblies; of those that differ only in the sense of a bar without length the one where what
     slides lies on the positive side."""
+    from graphkin.solver.larger_groups import as_place
+
     good = solved.missed < 1e-11
     size = structure.scene.size
     rows: list[int] = []

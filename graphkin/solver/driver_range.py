@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -21,11 +22,13 @@ from graphkin.solver.error_bound import ErrorBound
 from graphkin.solver.findings import assembly_words, limit_why, singular, structure_of, without_singular
 from graphkin.solver.joints import Drive
 from graphkin.solver.motion import Motion
-from graphkin.solver.path import FAR, Path, follow_path
 from graphkin.solver.pose import Array, Pose, rest
 from graphkin.solver.redundant import all_slides, place_redundant
 from graphkin.structure import Structure
 from graphkin.structure.assembly import MOST_TURNS, ChangePoint, ways
+
+if TYPE_CHECKING:
+    from graphkin.solver.path import Path
 
 __all__ = ["DriverRange", "driver_range", "goal_values", "motion_of", "range_from", "stopped_why", "way_to"]
 
@@ -276,6 +279,8 @@ range in which the motion runs asks for the same."""
 
 
 def _followed(structure: Structure, forms: Mapping[int, Array], start: Array, which: int) -> DriverRange:
+    from graphkin.solver.path import FAR, follow_path
+
     driver = structure.scene.drivers[which]
     turning = isinstance(driver, AngleDriver)
     wide = float(np.copysign(2 * np.pi if turning else FAR * structure.scene.size, driver.values[1]))
@@ -333,6 +338,8 @@ def stopped_why(structure: Structure, forms: Mapping[int, Array], start: Array, 
 def way_to(structure: Structure, forms: Mapping[int, Array], goal: Array) -> Path:
     """The way from the scene's own position to other driver values: straight, whole turns included, else the other way
     round for drivers that turn; the straight one if none gets there."""
+    from graphkin.solver.path import Path, follow_path
+
     start, ended = own_values(structure.scene), list[tuple[Mapping[int, Array], Path]]()
     for end in ways(structure.scene.drivers, start.tolist(), goal.tolist(), structure.rolls):
         path = follow_path(structure, forms, start, np.array(end))

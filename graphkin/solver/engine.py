@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -15,13 +16,14 @@ from graphkin.solver.error_bound import ErrorBound
 from graphkin.solver.expressions import Name, Real, Vec
 from graphkin.solver.extended_precision import ExtendedPrecision
 from graphkin.solver.followers import follower_inputs, greatest_jerk
-from graphkin.solver.group_errors import bounds as bounds_together
 from graphkin.solver.joints import Drive, turned
-from graphkin.solver.larger_groups import ClusterSolved, solve_cluster
 from graphkin.solver.pose import FIELDS, Array, Pose, rest
 from graphkin.solver.program import GIVEN, Program, program_of
 from graphkin.solver.rounding import UNIT
 from graphkin.structure import Cluster, Driven, Dyad, Rolled, Structure, in_stages, links_of
+
+if TYPE_CHECKING:
+    from graphkin.solver.larger_groups import ClusterSolved
 
 __all__ = ["SINGULAR", "State", "extended_precision_of", "positions"]
 
@@ -191,6 +193,8 @@ class _Run:
         found = list(values)
         sure = self.sure and (not self.clusters or upto >= len(self.structure.elements))
         if sure and self.clusters:
+            from graphkin.solver.group_errors import bounds as bounds_together
+
             found = [*bounds_together(self.structure, poses, self.drive, self._known)]
             rough = _rough(found, size)
         bounds = ErrorBound(*(_sure(b) for b in found)) if sure else None
@@ -234,6 +238,8 @@ class _Run:
 
     def _together(self, i: int, group: Cluster) -> None:
         """Solve a larger group, and give its poses to the formulas of what follows."""
+        from graphkin.solver.larger_groups import solve_cluster
+
         program = self.dimensioned.program
         known = [n for n in self.structure.links if n in _ends(group) and n in program.poses]
         known = [n for n in known if n not in group.members and n != self.structure.scene.frame.name]

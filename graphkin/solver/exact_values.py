@@ -14,13 +14,9 @@ from graphkin.scene.force_names import no_force
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import Symbol
 from graphkin.solver.driver_range import DriverRange, driver_range
-from graphkin.solver.flywheel import flywheel_of
-from graphkin.solver.force_values import force_values
-from graphkin.solver.forces import forces_of
 from graphkin.solver.motion import Motion
 from graphkin.solver.pose import Array
 from graphkin.solver.solve import solve
-from graphkin.solver.whole_turn import extremes
 
 __all__ = ["exact_values", "value_of"]
 
@@ -39,8 +35,12 @@ def value_of(motion: Motion, symbol: Symbol) -> Array:
     if problem is not None:
         raise CallError(problem)
     if symbol.scope == "cycle":
+        from graphkin.solver.flywheel import flywheel_of
+
         wheel = flywheel_of(driver_range(motion.structure))
         return np.full(len(motion), wheel.excess if symbol.kind == "excess" else wheel.inertia)
+    from graphkin.solver.forces import forces_of
+
     found = forces_of(motion).value(str(symbol.here))
     if found is None:
         raise CallError(Problem(str(symbol), "is read off the drawing alone", "ask `check` for it"))
@@ -62,6 +62,8 @@ def exact_values(motion: Motion, asked: Sequence[Symbol] = ()) -> Callable[[Symb
 
     @cache
     def of_forces() -> Callable[[Symbol], Value]:
+        from graphkin.solver.force_values import force_values
+
         return force_values(motion)[0]
 
     def value(symbol: Symbol) -> Value:
@@ -78,6 +80,8 @@ def exact_values(motion: Motion, asked: Sequence[Symbol] = ()) -> Callable[[Symb
 
 
 def _of_turn(reach: DriverRange, symbol: Symbol) -> float:
+    from graphkin.solver.whole_turn import extremes
+
     found = extremes(reach, symbol)
     return {"K": found.ratio, "theta_lag": found.lag}.get(symbol.kind, found.stroke)
 

@@ -6,23 +6,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from graphkin.errors import GraphkinError, Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.solver.assemblies import choose_forms, own_values
-from graphkin.solver.closing import closes
-from graphkin.solver.dead_points import from_dead_point, nearest_dead_point
 from graphkin.solver.decimals import meant_value
 from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import SINGULAR, State, positions
 from graphkin.solver.followers import meeting_followers
-from graphkin.solver.given_speed import at_given_speed
 from graphkin.solver.joints import Drive, driver_text
-from graphkin.solver.larger_groups import ClusterSolved
-from graphkin.solver.path import Path
 from graphkin.solver.pose import Array
 from graphkin.solver.redundant import Fit, fit
 from graphkin.solver.slot_sense import with_sensible_slots
@@ -38,6 +33,9 @@ from graphkin.structure import (
     named_with_contact,
 )
 from graphkin.structure.cams_replaced import with_cams
+
+if TYPE_CHECKING:
+    from graphkin.solver.path import Path
 
 __all__ = ["assembly_words", "limit_why", "singular", "structure_of", "without_singular"]
 
@@ -98,6 +96,8 @@ def _beyond_limits(
 
     ``status`` and ``reasons`` are changed.
     """
+    from graphkin.solver.closing import closes
+
     n = len(status)
     for i, solved in state.groups.items():
         group = structure.elements[i]
@@ -168,6 +168,8 @@ def _ending(group: Dyad | Cluster) -> str:
 
 def _dead_why(structure: Structure, i: int, values: Array, forms: Mapping[int, Array]) -> str:
     """Why group ``i`` stands in a dead point: an infinite rate, or a velocity that is not unique."""
+    from graphkin.solver.larger_groups import ClusterSolved
+
     scene = structure.scene
     group = structure.elements[i]
     assert isinstance(group, Dyad | Cluster)
@@ -198,6 +200,8 @@ def _dead_why(structure: Structure, i: int, values: Array, forms: Mapping[int, A
 
 def _where(structure: Structure, i: int, values: Array, forms: Mapping[int, Array]) -> str:
     """Where the dead point lies, and how far away."""
+    from graphkin.solver.dead_points import nearest_dead_point
+
     signs = {j: float(np.ravel(f)[0]) for j, f in forms.items() if isinstance(structure.elements[j], Dyad) and j < i}
     value = float(values[0])
     point = nearest_dead_point(structure, i, signs, value)
@@ -310,9 +314,13 @@ def structure_of(scene: Mechanism | Structure) -> Structure:
             raise
         raise Unsolvable("mobility", *stop.problems, found) from None
     if any(d.dead_point and not d.dead_point.exact for d in scene.drivers):
+        from graphkin.solver.dead_points import from_dead_point
+
         structure = from_dead_point(structure)
     structure = with_sensible_slots(structure)
     if any(isinstance(d, AngleDriver) and d.given_speed for d in scene.drivers):
+        from graphkin.solver.given_speed import at_given_speed
+
         return at_given_speed(structure)
     return structure
 

@@ -14,7 +14,6 @@ from graphkin.plane import dot
 from graphkin.scene.model import Mechanism, PlacedLink
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver.error_bound import ErrorBound
-from graphkin.solver.places import position
 from graphkin.solver.pose import Array, Pose
 from graphkin.structure import Slide, Structure
 from graphkin.structure.assembly import ChangePoint
@@ -31,6 +30,8 @@ def evaluate(motion: Motion, symbol: Symbol) -> Array:
     if symbol.scope == "force":
         raise CallError(Problem(str(symbol), "is no motion", "forces stand in `solve` of a scene with masses or loads"))
     if symbol.scope != "motion":
+        from graphkin.solver.places import position
+
         return position(motion.structure, motion.poses, symbol)
     assert symbol.of is not None
     if symbol.kind in ("v", "a"):

@@ -21,7 +21,6 @@ from graphkin.solver.error_bound import ErrorBound
 from graphkin.solver.findings import assembly_words, limit_why, structure_of
 from graphkin.solver.joints import Drive
 from graphkin.solver.motion import Motion
-from graphkin.solver.path import follow_path
 from graphkin.solver.pose import Array, Pose
 from graphkin.solver.rounding import UNIT
 from graphkin.structure import Structure
@@ -68,6 +67,8 @@ def _one_driver(structure: Structure, value: Array) -> At:
 
 def _several_drivers(structure: Structure, value: Array) -> At:
     """Along the way from moment to moment; what is not reached is left out, and the way goes on from before it."""
+    from graphkin.solver.path import follow_path
+
     forms = choose_forms(structure)
     assembly = assembly_words(structure, forms)
     here, found = own_values(structure.scene), []

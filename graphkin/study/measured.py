@@ -34,12 +34,13 @@ def measured(
         return found
     low, high = reach.ends
     count *= max(reach.turns, 1)
+    sheet: Sheet | None = None
     for k in range(count):
         offset = low + (high - low) * (k / count if reach.full else (k + 0.5) / count)
         values = {d.key: float(v) for d, v in zip(scene.drivers, reach.start, strict=True)}
         values[scene.drivers[0].key] = float(reach.value(np.array(offset)))
         try:
-            sheet = draft(reach.structure, values, asked)
+            sheet = draft(reach.structure, values, asked, near=sheet)  # a larger group is followed from the last
         except GraphkinError:
             continue
         for quantity in outputs:
