@@ -24,9 +24,11 @@ from graphkin.drawing.chart import (
     look,
     marker,
 )
+from graphkin.drawing.force_letters import force_letters
 from graphkin.drawing.primitives import Stroke
 from graphkin.scene.force_names import force_names
-from graphkin.scene.model import AngleDriver
+from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.symbol import Symbol
 from graphkin.solver import DriverRange, forces_of
 from graphkin.solver.load_edges import load_edges
 from graphkin.study.driver_axis import LEFT, RIGHT, WIDTH, DriverAxis, driver_axis, heading, number, title_of
@@ -36,7 +38,7 @@ from graphkin.words import Phrase, say, word
 if TYPE_CHECKING:
     from graphkin.drawing.chart import Axes, Figure
 
-__all__ = ["Course", "course", "force_extremes", "force_page", "force_title", "polar_page", "whole_turn"]
+__all__ = ["Course", "course", "force_extremes", "force_page", "polar_page", "whole_turn"]
 
 Array = NDArray[np.float64]
 
@@ -88,18 +90,9 @@ def course(axis: DriverAxis, name: str) -> Course:
     return Course(offsets, x, value / reach.scene.units.newtons)
 
 
-def force_title(name: str) -> str:
-    """A force as it is printed.
-
-    >>> force_title("F_5/6"), force_title("M_2"), force_title("Fi_6")
-    ('$F_{56}$', '$M_{2}$', '$F_{i6}$')
-    """
-    letter, _, rest = name.partition("_")
-    pair, _, point = rest.partition("@")
-    first, between, second = pair.partition("/")
-    long = between and max(len(first), len(second)) > 1
-    index = f"{letter[1:]}{first}{',' if long else ''}{second}{point}"
-    return f"${letter[0]}_{{{index}}}$"
+def _written(scene: Mechanism, name: str) -> str:
+    """A force or a moment in the letters of the scene's convention."""
+    return f"${force_letters(scene.sheet.convention, Symbol.parse(name))}$"
 
 
 def force_page(reach: DriverRange, quantity: Quantity, language: str) -> ChartPage:
@@ -109,7 +102,7 @@ def force_page(reach: DriverRange, quantity: Quantity, language: str) -> ChartPa
     found = course(axis, quantity.of)
     values = np.abs(found.values) if quantity.is_size else np.asarray(found.values.real)
     unit = quantity.unit(scene).replace(" m", "·m")
-    name = force_title(quantity.of)
+    name = _written(scene, quantity.of)
     title = say(Phrase("diagram of", (name,)), language)
     marks = _extremes(axis, quantity, found, values)
     jumps = _jumps(found, values)
@@ -231,7 +224,7 @@ def polar_page(reach: DriverRange, quantity: Quantity, language: str) -> ChartPa
     vector = np.asarray(found.values, dtype=complex)
     sizes = np.abs(vector)
     jumps = _jumps(found, vector.real) + [k for k in _jumps(found, vector.imag) if k not in _jumps(found, vector.real)]
-    unit, name = quantity.unit(scene), force_title(quantity.of)
+    unit, name = quantity.unit(scene), _written(scene, quantity.of)
     title = say(Phrase("polar diagram of", (name,)), language)
     k = int(np.nanargmax(sizes))
     mark = "°" if isinstance(scene.drivers[0], AngleDriver) else f" {scene.units.length}"

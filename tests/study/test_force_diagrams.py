@@ -138,3 +138,10 @@ def test_a_flywheel_asked_of_one_position_is_told_as_computed_over_the_turn():
         checked.data["computed_over_turn"]["J_F"]
     )
     assert "computed over the whole turn" in verdict(checked, "en")
+
+
+@pytest.mark.parametrize(("convention", "written"), [("chinese", "FR56"), ("us", "F56"), ("russian", "R56")])
+def test_diagrams_of_forces_bear_the_letters_of_the_convention(convention, written):
+    scene = graphkin.read("shaper-forces").replace("sheet.convention", convention)
+    page = graphkin.sweep(scene, positions=12, find=["F_5/6"]).figures["polar-F_5-6"]
+    assert f"diagramof{written}" in re.sub(r"<[^>]+>|\s", "", page.content("svg").decode())
