@@ -74,7 +74,7 @@ def _walk(
         step = min(step, longest, 1.0 - t)
         here = {k: own[k] + (t + step) * (target[k] - own[k]) for k in own}
         guess = _ahead(before, at, step / last) if t > 0.0 else at
-        found = found_near(choices, elements, here, guess)
+        found = found_near(choices, elements, here, guess, at)
         if found is None or _moved(guess, found) > SURPRISE + _moved(at, found) * (0.3 if t > 0.0 else 0.0):
             step /= 2
             if step < longest / 1e5:

@@ -205,7 +205,8 @@ def plan(
     own = {d.key: d.values[0] for d in scene.drivers}
     values = own | dict(at or {})
     if any(isinstance(e, Cluster) for e in elements):
-        branches, trials = _by_trial(structure, elements, values, near)
+        branches, trials, rolled = _by_trial(structure, elements, values, near)
+        values |= rolled
         task = Task(structure, structure, asked, elements, values, branches, trials, {}, {}, (), {}, {}, ())
         return _planned(task, room)
     dyads = [e for e in elements if isinstance(e, Driven | Dyad)]
@@ -231,10 +232,12 @@ def plan(
 
 def _by_trial(
     structure: Structure, elements: Sequence[Element], values: Mapping[str, float], near: Sheet | None
-) -> tuple[dict[int, int], dict[Cluster, GroupTrial]]:
-    """The assembly of each dyad, and by what trial positions each larger group is placed."""
+) -> tuple[dict[int, int], dict[Cluster, GroupTrial], dict[str, float]]:
+    """The assembly of each dyad, by what trial positions each larger group is placed, and how far what rolls on them
+    has gone (rad, m)."""
     from graphkin.construction.follow import Choices, best_reduced
     from graphkin.construction.group_position import GroupTrial
+    from graphkin.construction.rolled_places import coordinate_on_paper
     from graphkin.construction.trial import found_by_trial
 
     choices = Choices(structure, elements)
@@ -256,7 +259,8 @@ def _by_trial(
             trials[element] = GroupTrial(reduced, poses)
         for name in links_of(element):
             frame.poses[name] = poses[name]
-    return branches, trials
+    rolling = [e.driver for e in elements if isinstance(e, Driven) and isinstance(e.driver, Rolled)]
+    return branches, trials, {r.key: coordinate_on_paper(structure, frame, r.coordinate) for r in rolling}
 
 
 def _off(one: Poses, other: Poses) -> float:

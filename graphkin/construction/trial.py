@@ -20,7 +20,7 @@ from graphkin.construction.sheet import Pose
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot
 from graphkin.scene.model import AngleDriver, Mechanism
-from graphkin.structure import Cluster, Driven, Dyad, Element, Slide, Structure, pick
+from graphkin.structure import Cluster, Driven, Dyad, Element, Rolled, Slide, Structure, pick
 
 __all__ = ["Known", "found_by_trial"]
 
@@ -70,6 +70,8 @@ def _own_position(choices: Choices, elements: Sequence[Element], own: Mapping[st
     frame = PlacedLinks(structure.links, 1.0 / scene.size, placed, {scene.frame.name: Pose(0j, 1 + 0j)})
     for element in elements:
         if isinstance(element, Driven):
+            if isinstance(element.driver, Rolled):
+                frame.values = {**frame.values, element.driver.key: element.driver.start}
             frame.poses[element.link], _ = drive(frame, element)
         elif isinstance(element, Dyad):
             _dyad_by_sketch(scene, structure, frame, element)

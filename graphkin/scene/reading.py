@@ -342,6 +342,8 @@ def _about_size(loc: Path, value: Any) -> tuple[str, str]:
         "from": "two points of the link are wanted",
         "r": "two lengths are wanted, one for each point",
         "driver": "two values of the driver are wanted",
+        "between": 'two outlines or wheels are wanted: ["1.k", "2.f"]',
+        "teeth": 'two are wanted, one for each wheel: [20, 40], [20, "rack"]',
     }
     return f"found {shown(value)}", wanted.get(str(written_path(loc)[-1]), "a place is [x, y]")
 

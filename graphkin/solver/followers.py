@@ -13,7 +13,7 @@ from graphkin.scene.follower_law import SEAM, TURN, FollowerLaw, Lift
 from graphkin.scene.tables import Units
 from graphkin.solver.joints import turned
 from graphkin.solver.pose import Array
-from graphkin.structure import Cluster, Structure
+from graphkin.structure import Structure
 
 __all__ = ["beginning", "cam_angle", "follower_inputs", "greatest_jerk", "lifts", "meeting_followers"]
 
@@ -76,13 +76,8 @@ def _apart(cam: LawCam, units: Units) -> tuple[str, str]:
 
 
 def meeting_followers(structure: Structure) -> Structure:
-    """The structure itself, if every follower comes to its base circle and no larger group stands beside a cam.  Raises
-    Unsolvable, all of them named."""
+    """The structure itself, if every follower comes to its base circle.  Raises Unsolvable, all of them named."""
     problems: list[Problem] = []
-    larger = [e for e in structure.elements if isinstance(e, Cluster)]
-    if structure.scene.cams and larger:
-        said = "beside a cam by its law groups of more than two links are not solved"
-        problems += [Problem(f"links {', '.join(group.links)}", said, "replace the cam by a disc") for group in larger]
     for cam in structure.scene.cams:
         try:
             beginning(cam, structure.scene.units)

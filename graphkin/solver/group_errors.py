@@ -8,7 +8,7 @@ constraints of the rates off, errors of place and rates those of the second rate
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -18,6 +18,7 @@ from graphkin.solver.error_bound import ErrorBound
 from graphkin.solver.expressions import Name
 from graphkin.solver.joints import Drive, joint_place
 from graphkin.solver.larger_groups import System
+from graphkin.solver.led_links import LedLink, with_led_links
 from graphkin.solver.pose import Array, Pose
 from graphkin.solver.rounding import UNIT
 from graphkin.structure import Pair, Structure, Turn
@@ -40,6 +41,19 @@ def bounds(
     poses : of all links, with their rates
     given : how far a number of the scene may be off, by its name as in ``graphkin.solver.program``
     """
+    structure, drive, led = with_led_links(structure, poses, drive)
+    before: Mapping[str, Errors] = {}
+    for _ in led:  # each may be led by what another leads
+        before = _bounds(structure, poses, drive, given, led, before)[0]
+    found = _bounds(structure, poses, drive, given, led, before)[1]
+    return Errors(*(np.max(np.broadcast_arrays(*column), axis=0) for column in zip(*found, strict=True)))
+
+
+def _bounds(
+    structure: Structure, poses: Mapping[str, Pose], drive: Drive, given: Callable[[Name], float],
+    led: Sequence[LedLink], before: Mapping[str, Errors],
+) -> tuple[Mapping[str, Errors], list[Errors]]:  # fmt: skip
+    """Errors of each link, and the most of any point of it; ``before`` are those of what leads the ``led``."""
     system = System.whole(structure, drive)
     names, n = system.group.members, len(drive)
     members = {name: poses[name].spread(n) for name in names}
@@ -50,7 +64,8 @@ def bounds(
         open_ = np.abs(system.constraints(all_))
 
         def off(order: int, errors: Mapping[str, Errors]) -> Array:
-            return np.asarray(open_[order] + np.stack(_all(_Rows(system, every, errors, given).off(order), n), axis=1))
+            rows = _Rows(system, every, errors, given, led, before).off(order)
+            return np.asarray(open_[order] + np.stack(_all(rows, n), axis=1))
 
         alone = [off(order, {}) for order in range(3)]
         change = np.zeros(n)
@@ -67,8 +82,7 @@ def bounds(
             loose = loose + (grown - 1) * loose.max(axis=1, keepdims=True)
             found = _with(found, order, tight + (grown - 1) * loose.max(axis=1, keepdims=True), system)
             chained = _with(chained, order, loose, system)
-        points = [_points(structure, name, members, found[name]) for name in names]
-        return Errors(*(np.max(np.broadcast_arrays(*column), axis=0) for column in zip(*points, strict=True)))
+        return found, [_points(structure, name, members, found[name]) for name in names]
 
 
 _BINOMIAL = ((1,), (1, 1), (1, 2, 1))
@@ -188,6 +202,8 @@ class _Rows:
     poses: Mapping[str, Pose]
     errors: Mapping[str, Errors]
     given: Callable[[Name], float]
+    led: Sequence[LedLink] = ()
+    before: Mapping[str, Errors] = field(default_factory=dict)
 
     def off(self, order: int) -> list[Array]:
         """In the order of the constraints, of their values (0), first (1) or second rates (2)."""
@@ -203,7 +219,12 @@ class _Rows:
         for driver in self.system.group.drivers:
             i = structure.drivers.index(driver)
             turns = isinstance(driver, AngleDriver)
-            given = self.given(("error", ("angle" if turns else "travel", "rate", "second")[order], i))
+            first = len(structure.drivers) - len(self.led)
+            given: float | Array
+            if i >= first:
+                given = self.led[i - first].off(order, structure, self.poses, self.before, self.given)
+            else:
+                given = self.given(("error", ("angle" if turns else "travel", "rate", "second")[order], i))
             if isinstance(driver, AngleDriver):
                 one, two = (_Joint(self.poses[k], self._errors(k)) for k in (driver.link, driver.relative_to))
                 rows.append(_turning(one, two, order) + given)

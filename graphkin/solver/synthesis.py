@@ -120,6 +120,9 @@ def _(task: CrankRockerTask) -> Synthesis:
     widest = math.pi / 2 + psi / 2
     theta = _quick_return(task.K, (math.pi + widest) / (math.pi - widest))
     low, high = sorted((c, c * abs(math.sin(psi - theta)) / math.sin(theta)))
+    if high - low <= 1e-9 * c:
+        said = f"{task.swing:.6g} is twice 180 (K - 1) / (K + 1): the circle over C1C2 is that about D"
+        raise _refused("swing", said, "another swing or another K")
     if not low < d < high:
         raise _refused(
             "frame", f"the circle about D with {d:.6g} does not cut the circle over C1C2 where A may lie",

@@ -1,0 +1,63 @@
+"""Groups of more than two links beside a cam by its law, and beside what rolls on them."""
+
+from __future__ import annotations
+
+import copy
+import math
+
+import pytest
+
+from graphkin import check, solve
+
+TRIAD = {
+    "frame": {
+        "name": "1", "points": {"A": [0, 0], "G": [150, -20], "N": [100, 110], "O": [-40, -60]},
+        "guides": {"h": {"through": [0, 86], "angle": 0}},
+    },
+    "links": {
+        "2": {"points": ["A", "B"], "length": 25}, "3": {"points": ["B", "C"], "length": 70},
+        "4": {"points": ["C", "D"], "length": 60, "at": {"E": {"from": ["C", "D"], "r": [50, 52], "side": "left"}}},
+        "5": {"points": ["G", "D"], "length": 65}, "6": {"points": ["E"], "on": "1.h"},
+    },
+    "driver": {"link": "2", "angle": 60, "omega": 10, "alpha": 3},
+    "sketch": {"C": [70, 55], "D": [130, 45], "E": [105, 86]},
+}  # fmt: skip
+
+
+def pinion():
+    """A pinion rolls on the group's slider, a rack."""
+    made = copy.deepcopy(TRIAD)
+    made["links"]["7"] = {"points": ["N", "P"], "length": 10, "start": 15}
+    made["gears"] = {"g": {"between": ["7", "6"], "teeth": [12, "rack"]}}
+    return made
+
+
+def cam():
+    """A cam swings the crank that moves the group."""
+    made = copy.deepcopy(TRIAD)
+    made["links"]["9"] = {"points": ["O"]}
+    law = [{"to": 180, "rise": 15, "by": "345"}, {"to": 360, "fall": 15, "by": "cycloidal"}]
+    made["cams"] = {"9": {"follower": "2", "law": law, "base": {"r": 80}, "roller": 5}}
+    made["driver"] = {"link": "9", "angle": 30, "omega": 10, "alpha": -4}
+    return made
+
+
+@pytest.mark.parametrize("made", [pinion, cam])
+def test_the_drawing_agrees_with_the_solver_on_larger_groups_beside(made):
+    scene = made()
+    result = check(scene, at=scene["driver"]["angle"] + 9)
+    assert result.ok
+    for row in result.report.rows:
+        assert row.exact == pytest.approx(row.reading.value, rel=1e-8, abs=1e-8)
+
+
+@pytest.mark.parametrize("made", [pinion, cam])
+def test_their_rates_are_the_differences_of_their_places(made):
+    scene = made()
+    at, rate, step = scene["driver"]["angle"] + 9, scene["driver"]["omega"], 1e-5
+    before, here, after = (
+        solve(scene, at=at + math.degrees(k * step)).data["positions"][0]["links"] for k in (-1, 0, 1)
+    )
+    for name, link in here.items():
+        slope = (after[name]["angle"] - before[name]["angle"]) / (2 * step)
+        assert slope * rate == pytest.approx(link["omega"], abs=1e-6)
