@@ -27,6 +27,7 @@ from graphkin.papers.blocks import (
     Together,
     clean,
 )
+from graphkin.papers.spoken import spoken_symbol
 from graphkin.words import word
 
 __all__ = ["blocks_html", "figure_svg", "said_html", "used_characters", "words_html"]
@@ -45,12 +46,17 @@ _FIRST_RUN = re.compile(
 _DATA = re.compile(r"<(metadata|title|desc)>.*?</\1>", re.DOTALL)
 
 
-def words_html(markup: str) -> str:
-    """Words with symbols between dollar signs."""
+def words_html(markup: str, language: str = "en") -> str:
+    """Words with symbols between dollar signs, which are read aloud in words of a language."""
     return "".join(
-        escape(clean(part)) if isinstance(part, str) else f'<span class="sym">{_atoms(part)}</span>'
-        for part in parsed(markup)
+        escape(clean(part)) if isinstance(part, str) else _symbol(part, language) for part in parsed(markup)
     )
+
+
+def _symbol(atoms: tuple[Atom, ...], language: str) -> str:
+    aloud = escape(clean(spoken_symbol(atoms, language)))
+    read = f' role="math" aria-label="{aloud}"' if aloud else ""
+    return f'<span class="sym"{read}>{_atoms(atoms)}</span>'
 
 
 def _atoms(atoms: tuple[Atom, ...]) -> str:
@@ -66,7 +72,9 @@ def _atoms(atoms: tuple[Atom, ...]) -> str:
 
 def said_html(said: Said, tag: str = "span") -> str:
     """Words in each language, each in an element that names it."""
-    return "".join(f'<{tag} lang="{word("code in pages", each)}">{words_html(markup)}</{tag}>' for each, markup in said)
+    return "".join(
+        f'<{tag} lang="{word("code in pages", each)}">{words_html(markup, each)}</{tag}>' for each, markup in said
+    )
 
 
 def figure_svg(drawing: Drawing, named: bool = False) -> str:
@@ -126,12 +134,12 @@ def _wide(thing: Primitive) -> Primitive:
     return replace(thing, children=children)
 
 
-def blocks_html(blocks: Iterable[Block]) -> str:
-    """Blocks one after the other."""
-    return "\n".join(map(_block, blocks))
+def blocks_html(blocks: Iterable[Block], language: str = "en") -> str:
+    """Blocks one after the other; what is the same in every language is read aloud in one."""
+    return "\n".join(_block(block, language) for block in blocks)
 
 
-def _block(block: Block) -> str:
+def _block(block: Block, language: str) -> str:
     if isinstance(block, Heading):
         fresh = ' class="fresh"' if block.fresh else ""
         return f"<h{block.level}{fresh}>{said_html(block.words)}</h{block.level}>"
@@ -143,7 +151,7 @@ def _block(block: Block) -> str:
     if isinstance(block, Steps):
         items = "".join(
             f'<li value="{item.number}">{said_html(item.words, "p")}'
-            + "".join(f'<p class="work">{words_html(line)}</p>' for line in item.work)
+            + "".join(f'<p class="work">{words_html(line, language)}</p>' for line in item.work)
             + "</li>"
             for item in block.items
         )
@@ -161,22 +169,23 @@ def _block(block: Block) -> str:
         words = escape(clean(block.words))
         return f'<figure><img alt="{words}" {size} src="data:image/svg+xml;base64,{data}">{caption}</figure>'
     if isinstance(block, Beside):
-        inner = "\n".join(map(_block, block.blocks))
-        return f'<div class="beside"><div>{inner}</div>{_block(block.picture)}</div>'
+        inner = blocks_html(block.blocks, language)
+        return f'<div class="beside"><div>{inner}</div>{_block(block.picture, language)}</div>'
     if isinstance(block, Together):
-        return f'<div class="together">{blocks_html(block.blocks)}</div>'
-    return _table(block)
+        return f'<div class="together">{blocks_html(block.blocks, language)}</div>'
+    return _table(block, language)
 
 
-def _table(table: TableBlock) -> str:
+def _table(table: TableBlock, language: str) -> str:
     ways = {"l": "", "r": ' class="right"', "c": ' class="middle"'}
     heads = "".join(
         f'<th scope="col"{ways[a]}>{said_html(h)}</th>' for h, a in zip(table.heads, table.align, strict=True)
     )
     rows = []
     for i, row in enumerate(table.rows):
-        first = f'<th scope="row">{words_html(row[0])}</th>'
-        cells = "".join(f"<td{ways[a]}>{words_html(c)}</td>" for c, a in zip(row[1:], table.align[1:], strict=True))
+        first = f'<th scope="row">{words_html(row[0], language)}</th>'
+        others = zip(row[1:], table.align[1:], strict=True)
+        cells = "".join(f"<td{ways[a]}>{words_html(c, language)}</td>" for c, a in others)
         asked = ' class="asked"' if i in table.bold else ""
         rows.append(f"<tr{asked}>{first}{cells}</tr>")
     kind = ' class="roomy"' if table.roomy else ""

@@ -22,14 +22,14 @@ from graphkin.papers.problem import given, scene_title
 from graphkin.papers.screen_positions import Progress, View, positions_data
 from graphkin.papers.solution import results_blocks, solution, solution_blocks
 from graphkin.papers.trial import tolerances
-from graphkin.words import word
+from graphkin.words import languages, word
 
 __all__ = ["document_page", "handout_page"]
 
 
 def document_page(document: Document) -> str:
     """A document as a page without scripts."""
-    return _page(document, f"<main>\n{blocks_html(document.blocks)}\n</main>")
+    return _page(document, f"<main>\n{blocks_html(document.blocks, document.languages[0])}\n</main>")
 
 
 def handout_page(
@@ -53,6 +53,7 @@ def handout_page(
     """
     stages = tuple(solution_blocks(lesson, tuple(given(lesson))) if worked is None else worked)
     whole = solution(lesson, stages)
+    first = languages(lesson.language)[0]
 
     def words(key: str, *args: object) -> str:
         return said_html(said(key, lesson.language, *args))
@@ -75,7 +76,7 @@ def handout_page(
     names = _attribute(said("the figures", lesson.language))
     body = f"""<header>
 <h1>{said_html(scene_title(lesson))}</h1>
-<div class="given" id="given">{blocks_html(given(lesson))}</div>
+<div class="given" id="given">{blocks_html(given(lesson), first)}</div>
 </header>
 <main>
 <section id="viewer" class="viewer" aria-labelledby="steps-title" hidden>
@@ -116,10 +117,10 @@ def handout_page(
 </div>
 </section>
 <article class="paper" id="paper">
-{blocks_html((Heading(scene_title(lesson), 2), *stages))}
+{blocks_html((Heading(scene_title(lesson), 2), *stages), first)}
 </article>
 <section class="results" id="results">
-{blocks_html(results_blocks(lesson))}
+{blocks_html(results_blocks(lesson), first)}
 </section>
 </main>
 """

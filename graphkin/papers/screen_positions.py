@@ -19,7 +19,7 @@ from graphkin.drawing.conventions import scale_statement
 from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.force_stages import force_stages
 from graphkin.drawing.forces import group_equation, group_picture
-from graphkin.drawing.headings import FIGURE_WORDS, drivers, term
+from graphkin.drawing.headings import FIGURE_WORDS, drivers, number, term
 from graphkin.drawing.insets import polygon_with_insets, strip_height
 from graphkin.drawing.lever import lever_figure
 from graphkin.drawing.mechanism import mechanism_piece
@@ -31,7 +31,8 @@ from graphkin.papers.html import blocks_html, figure_svg, said_html, words_html
 from graphkin.papers.lesson import Lesson, Stage, plain_words
 from graphkin.papers.pictures import ROOM, equation_picture
 from graphkin.papers.problem import equation_words, given
-from graphkin.papers.solution import results_blocks, stage_title, step_items
+from graphkin.papers.solution import results_blocks, stage_title, step_items, way
+from graphkin.papers.spoken import spoken_words
 from graphkin.papers.trial import force_found, found_in
 from graphkin.scene.model import AngleDriver
 from graphkin.words import languages
@@ -99,6 +100,16 @@ def positions_data(views: Sequence[View], progress: Progress | None = None) -> d
     return {"positions": positions, "stages": frames.stages}
 
 
+def _described(lesson: Lesson, name: str, language: str) -> str:
+    """What a polygon shows at this position, in words: each vector with its size and direction."""
+    rows = (row for row in lesson.results if row.symbol.is_vector and row.symbol.measure == name)
+    return "; ".join(
+        f"{spoken_words(f'${lesson.letters.vector(row.symbol)}$', language)} "
+        f"{number(lesson.in_unit(row.symbol, abs(row.true)), 4)} {lesson.unit(row.symbol)}, {way(row, language)}"
+        for row in rows
+    )
+
+
 class _Frames:
     """The frames that hold the figures of all positions: equally large, and the fixed pivots always at their places."""
 
@@ -116,31 +127,34 @@ class _Frames:
 
     def data(self, view: View) -> dict[str, object]:
         lesson = view.lesson
+        first = languages(lesson.language)[0]
         born = births(lesson.sheet)
         figures = []
         for name, drawing in self._figures(view):
             layers = replace(drawing, children=stepped(drawing.children, born)) if name != "centres" else drawing
-            caption = f"{words_html(_title(lesson, name))} "
+            layers = replace(layers, desc=f"{spoken_words(drivers(lesson.sheet, lesson.letters), first)}. "
+                                          f"{_described(lesson, name, first)}")  # fmt: skip
+            caption = f"{words_html(_title(lesson, name), first)} "
             figures.append({
                 "name": name,
                 "svg": figure_svg(layers, named=name != "centres"),
-                "caption": caption + f'<span class="scale">{words_html(self._scale(lesson, name))}</span>',
+                "caption": caption + f'<span class="scale">{words_html(self._scale(lesson, name), first)}</span>',
             })  # fmt: skip
         stages = lesson.stages
         shown, more, steps = self._forces(lesson, len(stages))
         return {
             "name": plain_words(drivers(lesson.sheet, lesson.letters)),
-            "label": words_html(drivers(lesson.sheet, lesson.letters)),
+            "label": words_html(drivers(lesson.sheet, lesson.letters), first),
             "at": _at(lesson.sheet),
             "figures": [*figures, *shown],
             "stages": [*(self._stage(lesson, stage) for stage in stages), *more],
-            "results": blocks_html(results_blocks(lesson)) if lesson.report.rows else "",
-            "given": blocks_html(given(lesson)),
+            "results": blocks_html(results_blocks(lesson), first) if lesson.report.rows else "",
+            "given": blocks_html(given(lesson), first),
             "steps": [
-                {"d": stage.diagram, "e": number, "n": item.number, "html": said_html(item.words, "p")
-                 + "".join(f'<p class="work">{words_html(line)}</p>' for line in item.work),
-                 "text": " ".join(plain_words(markup) for _, markup in item.words), **found_in(lesson, step)}
-                for number, stage in enumerate(stages)
+                {"d": stage.diagram, "e": k, "n": item.number, "html": said_html(item.words, "p")
+                 + "".join(f'<p class="work">{words_html(line, first)}</p>' for line in item.work),
+                 "text": " ".join(spoken_words(markup, each) for each, markup in item.words), **found_in(lesson, step)}
+                for k, stage in enumerate(stages)
                 for step, item in zip(stage.steps, step_items(lesson, stage), strict=True)
             ] + steps,
         }  # fmt: skip
@@ -153,15 +167,16 @@ class _Frames:
         if forces is None:
             return [], [], []
         sheet = replace(lesson.sheet, scales=replace(lesson.sheet.scales, force=forces.per_mm))
+        first = languages(lesson.language)[0]
         figures, numbers, steps = list[dict[str, str]](), list[int](), list[dict[str, object]]()
         told = force_stages(sheet, forces, lesson.letters, lesson.language)
-        scale = words_html(scale_statement(sheet, lesson.letters.convention, "force"))
-        for number, stage in enumerate(told):
+        scale = words_html(scale_statement(sheet, lesson.letters.convention, "force"), first)
+        for turn, stage in enumerate(told):
             name, svg = str(stage.figure), ""
             if stage.group is not None:
-                name = f"force-{number}"
+                name = f"force-{turn}"
                 drawn = group_picture(
-                    sheet, forces, stage, stage.group, lesson.letters, lesson.language, WIDE, f"-{number}"
+                    sheet, forces, stage, stage.group, lesson.letters, lesson.language, WIDE, f"-{turn}"
                 )  # fmt: skip
                 links = said("force on links", lesson.language, ", ".join(stage.group.links))
                 caption = f'{said_html(links)} <span class="scale">{scale}</span>'
@@ -174,9 +189,9 @@ class _Frames:
                 title += f" <small>{said_html(load)}</small>"
             numbers.append(self._told({"title": title, "svg": svg}))
             steps += [
-                {"d": name, "e": before + number, "n": step.number, "html": said_html(step.words, "p")
-                 + "".join(f'<p class="work">{words_html(line)}</p>' for line in step.work),
-                 "text": " ".join(plain_words(markup) for _, markup in step.words),
+                {"d": name, "e": before + turn, "n": step.number, "html": said_html(step.words, "p")
+                 + "".join(f'<p class="work">{words_html(line, first)}</p>' for line in step.work),
+                 "text": " ".join(spoken_words(markup, each) for each, markup in step.words),
                  **force_found(lesson, stage, step)}
                 for step in stage.steps
             ]  # fmt: skip

@@ -281,7 +281,7 @@
     const caption = document.createElement("figcaption");
     caption.textContent = label;
     byId("moving").append(figure);
-    const svg = shape(figure, "svg", { role: "img", "aria-label": label,
+    const svg = shape(figure, "svg", { role: "img", "data-name": label,
       viewBox: `${left - room} ${top - room} ${right - left + 2 * room} ${bottom - top + 2 * room}` });
     figure.append(caption);
     return svg;
@@ -360,8 +360,8 @@
   // letters of 12 px, however wide the figures are
   function letters() {
     for (const svg of byId("moving").querySelectorAll("svg")) {
-      const wide = svg.getBoundingClientRect().width;
-      const size = wide ? (13 * svg.viewBox.baseVal.width) / wide : 4;
+      const scale = svg.getClientRects().length ? svg.getScreenCTM().a : 0;
+      const size = scale ? 13 / scale : 4;
       for (const text of svg.querySelectorAll("text")) text.setAttribute("font-size", size);
     }
   }
@@ -370,7 +370,9 @@
     frame = k;
     for (const draw of draws) draw(k);
     byId("turn").value = k;
-    byId("turn-out").textContent = `${m.driver.replace(/[_{}]/g, "")} = ${m.at[k]}${m.unit}`;
+    const at = `${m.driver.replace(/[_{}]/g, "")} = ${m.at[k]}${m.unit}`;
+    byId("turn-out").textContent = at;
+    for (const svg of byId("moving").querySelectorAll("svg")) svg.setAttribute("aria-label", `${svg.dataset.name}. ${at}`);
   }
 
   const apart = (a, b) => (m.unit === "°" ? Math.abs(((a - b) % 360 + 540) % 360 - 180) : Math.abs(a - b));

@@ -265,13 +265,58 @@ def test_try_first_hides_the_step_checks_what_is_entered_and_shows_it_when_right
 def test_letters_of_figures_have_12_pixels(page, width):
     page.set_viewport_size({"width": width, "height": 800})
     page.keyboard.press("End")
-    sizes = page.evaluate("""() => [...document.querySelectorAll("#figures svg")].flatMap((svg) => {
-      const scale = svg.getBoundingClientRect().width / svg.viewBox.baseVal.width;
-      return [...svg.querySelectorAll("text")].filter((t) => t.getClientRects().length && scale)
-        .map((t) => scale * parseFloat(t.getAttribute("font-size") ?? 99));
-    })""")
-    assert sizes
-    assert min(sizes) >= 11.5
+    page.wait_for_timeout(100)
+    sizes = page.evaluate("""() => [...document.querySelectorAll("#figures svg, #moving svg, #list svg")]
+      .filter((svg) => svg.getClientRects().length).flatMap((svg) => {
+        const matrix = svg.getScreenCTM(), scale = Math.hypot(matrix.a, matrix.b);
+        return [...svg.querySelectorAll("text")].filter((t) => t.getClientRects().length)
+          .map((t) => scale * parseFloat(t.getAttribute("font-size") ?? getComputedStyle(t).fontSize));
+      })""")
+    assert len(sizes) > 30
+    assert min(sizes) >= 11.99
+
+
+def test_what_was_drawn_before_keeps_a_contrast_of_four_and_a_half(page):
+    page.locator("#step").fill("40")
+    worst = page.evaluate("""() => {
+      const linear = (c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4);
+      const contrast = (colour) => {
+        const [r, g, b] = colour.match(/[0-9.]+/g).map((v) => v / 255);
+        return 1.05 / (linear(0.2126 * r + 0.7152 * g + 0.0722 * b) + 0.05);  // grey, as the page shows it
+      };
+      const past = [...document.querySelectorAll("#figures .past")];
+      const seen = past.flatMap((e) => [e, ...e.querySelectorAll("*")]).filter((e) => !e.closest(".hit, .halo"));
+      const texts = seen.filter((e) => e.matches("text")).map((e) => getComputedStyle(e));
+      const lines = seen.filter((e) => e.matches("line, polyline")).map((e) => getComputedStyle(e));
+      const clear = [...texts, ...lines].filter((s) => Number(s.opacity) < 1 || Number(s.fillOpacity) < 1);
+      return [texts.length, lines.length, clear.length,
+        Math.min(...texts.map((s) => contrast(s.fill)), ...lines.map((s) => contrast(s.stroke)))];
+    }""")
+    assert worst[0] > 10
+    assert worst[1] > 10
+    assert 0 == worst[2]
+    assert worst[3] >= 4.5
+
+
+def test_symbols_are_read_aloud_in_words(page):
+    page.locator("#step").fill("14")
+    said = page.locator("#live .sym[role=math]").evaluate_all("all => all.map((e) => e.ariaLabel)")
+    assert "velocity of A4" in said
+    assert "velocity of A4 relative to A3" in page.locator("#results .sym").evaluate_all(
+        "all => all.map((e) => e.ariaLabel)"
+    )
+
+
+def test_each_figure_is_described_as_it_stands_at_the_position_shown(page):
+    def told():
+        return page.locator("#figure-velocity svg").get_attribute("aria-label")
+
+    first = told()
+    assert "velocity of A4 relative to A3 532.5 mm/s, 76.9°" in first
+    page.locator("#place").fill("1")
+    at = page.locator("#place-out").inner_text().split("°")[0].split("=")[-1].strip()
+    assert at in told()
+    assert first != told()
 
 
 def test_headings_follow_their_order_and_tables_take_the_focus(page):
