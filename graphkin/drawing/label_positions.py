@@ -40,10 +40,12 @@ from graphkin.drawing.obstacles import (
 from graphkin.drawing.primitives import Segment
 from graphkin.plane import cross
 
-__all__ = ["TANGLED", "HeldPositions", "LabelPanel", "LabelPosition", "LabelPositions", "least_cost"]
+__all__ = ["SOME", "TANGLED", "HeldPositions", "LabelPanel", "LabelPosition", "LabelPositions", "least_cost"]
 
 FEW = 6
-"""Places that a label tries one by one, before all of them are judged together."""
+"""Places that a label tries one by one, before more of them are judged together."""
+SOME = 48
+"""Places judged together, before all the others are."""
 LEADER_GAP = 0.4  # mm between the end of a leader and the box of its label
 LEADER_SPACE = 0.25  # mm between a leader and the box of any other label
 
@@ -125,6 +127,14 @@ class LabelPositions:
     def first(self) -> Iterator[LabelPosition]:
         """The few cheapest."""
         return map(self.position, range(min(len(self), FEW)))
+
+    def part(self, first: int, last: int) -> LabelPositions:
+        """Those of some indices."""
+        some = slice(first, last)
+        return LabelPositions(
+            self.half, self.centres[some], self.costs[some], self.feet[some], self.tips[some], self.led[some],
+            self.faults[some],
+        )  # fmt: skip
 
     def joined(self, other: LabelPositions) -> LabelPositions:
         """These and others, cheapest first."""

@@ -20,6 +20,7 @@ from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.label_candidates import RINGS, LabelRequest, Mark, ends
 from graphkin.drawing.label_positions import (
     FEW,
+    SOME,
     TANGLED,
     HeldPositions,
     LabelPanel,
@@ -166,12 +167,13 @@ class _Placement:
             else:
                 self._take(i, position)
                 return True
-        if len(positions) <= FEW:
-            return False
-        free = np.flatnonzero(~positions.met(self.held, _SPACE).any(axis=1))
-        if free.size:
-            self._take(i, positions.position(int(free[0])))
-        return bool(free.size)
+        for first, last in ((FEW, SOME), (SOME, len(positions))):
+            if first < len(positions):
+                free = np.flatnonzero(~positions.part(first, last).met(self.held, _SPACE).any(axis=1))
+                if free.size:
+                    self._take(i, positions.position(first + int(free[0])))
+                    return True
+        return False
 
     def _drive_out(self, left: list[int]) -> list[int]:
         """Place labels in a crowd by driving out whoever is in the way, who then finds a place in the same way; each
@@ -232,10 +234,11 @@ class _Placement:
 
     def _make_room(self, i: int) -> None:
         """Move a label, and one in its way, to where they cost less together."""
-        positions, here = self.found[i], self.standing[i]
+        here, found = self.standing[i], self.found[i]
+        positions = found.part(0, int(np.searchsorted(found.costs, here.cost)))
         self._leave(i)
         met = positions.met(self.held, _SPACE)
-        tried = np.flatnonzero((positions.costs < here.cost) & (met.sum(axis=1) <= 1))[:_TRIED]
+        tried = np.flatnonzero(met.sum(axis=1) <= 1)[:_TRIED]
         best, chosen = here.cost, {i: here}
         others: dict[int, Flags] = {}
         for k in map(int, tried):
