@@ -31,19 +31,22 @@ FEW = 8 * UNIT
 """Relative error of putting a motion together."""
 
 
-def over_time(scene: Mechanism, times: Array) -> Motion:
+def over_time(of: Mechanism | Structure, times: Array, fine: bool = True) -> Motion:
     """The motion at moments (s) of the laws by which drivers move, from the scene's own assembly on.
+
+    ``fine`` is False for curves: 16 digits throughout, and no reasons where the status is not ok.
 
     Raises
     ------
     Unsolvable : wrong mobility; of a single driver also where the scene's own position cannot be assembled
     CallError : a moment before or after all laws
     """
+    structure = structure_of(of)
+    scene = structure.scene
     moments = [at_time(scene, float(t)) for t in times]
     value = np.array([[values[d.key] for d in scene.drivers] for _, values in moments])
     rates = np.array([[d.values[1:] for d in moved.drivers] for moved, _ in moments])
-    structure = structure_of(scene)
-    at = _one_driver(structure, value) if value.shape[1] == 1 else _several_drivers(structure, value)
+    at = _one_driver(structure, value, fine) if value.shape[1] == 1 else _several_drivers(structure, value, fine)
     return _together(list(_terms(at, rates[..., 0], rates[..., 1])), structure.scene.size)
 
 
@@ -51,13 +54,13 @@ At = Callable[[Array], Motion]
 """The motion at all moments with these rates of the drivers, shape (drivers,), without second rates."""
 
 
-def _one_driver(structure: Structure, value: Array) -> At:
+def _one_driver(structure: Structure, value: Array, fine: bool) -> At:
     reach = driver_range(structure)
     offset, rounds = reach.sense * (value[:, 0] - reach.start[0]), np.zeros(len(value))
     if reach.full:
         rounds = np.floor(offset / abs(reach.wide))
         offset = np.remainder(offset, abs(reach.wide))
-    along = reach.motion(offset, unit=True)  # at the rate 1 in its sense
+    along = reach.motion(offset, unit=True, fine=fine)  # at the rate 1 in its sense
     poses = {n: replace(p, v=reach.sense * p.v, omega=reach.sense * p.omega) for n, p in along.poses.items()}
     whole = reach.turned(np.ones(1))
     turned = {name: angle + rounds * whole[name] for name, angle in along.turned.items()}
@@ -65,7 +68,7 @@ def _one_driver(structure: Structure, value: Array) -> At:
     return lambda unit: motion
 
 
-def _several_drivers(structure: Structure, value: Array) -> At:
+def _several_drivers(structure: Structure, value: Array, fine: bool) -> At:
     """Along the way from moment to moment; what is not reached is left out, and the way goes on from before it."""
     from graphkin.solver.path import follow_path
 
@@ -89,7 +92,7 @@ def _several_drivers(structure: Structure, value: Array) -> At:
 
     def at(unit: Array) -> Motion:
         drive = Drive(value, np.broadcast_to(unit, value.shape), np.zeros_like(value))
-        motion = motion_of(structure, drive, stacked, assembly, good)
+        motion = motion_of(structure, drive, stacked, assembly, good, fine=fine)
         said = tuple(a or b for a, b in zip(motion.why, why, strict=True))
         return replace(motion, why=said, turned={n: np.array([s.get(n, 0.0) for s in sums]) for n in motion.poses})
 

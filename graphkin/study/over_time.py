@@ -14,7 +14,8 @@ from graphkin.drawing import Box, ChartPage
 from graphkin.drawing.chart import add_legend, add_panel, add_words
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.over_time import time_span
-from graphkin.solver import Motion, over_time
+from graphkin.solver import Motion, over_time, structure_of
+from graphkin.structure import Structure
 from graphkin.study.diagram_panels import MARGIN, DiagramPanel, draw_panel, quantity_title, signs_of
 from graphkin.study.driver_axis import HEIGHT, LEFT, RIGHT, WIDTH, heading, next_step, number, title_of
 from graphkin.study.quantities import Quantity, link_quantities, slide_quantities
@@ -55,8 +56,12 @@ class TimeStudy:
         return np.unique(np.concatenate([even, inner, inner - BEFORE * (high - low)]))
 
     @cached_property
+    def structure(self) -> Structure:
+        return structure_of(self.scene)
+
+    @cached_property
     def motion(self) -> Motion:
-        return over_time(self.scene, self.times)
+        return over_time(self.structure, self.times, fine=False)
 
     def values(self, quantity: Quantity) -> Array:
         """Values over ``times`` (SI), NaN where there is none."""
@@ -78,7 +83,7 @@ class TimeStudy:
             at, value = float(self.times[k]), float(values[k])
             for _ in range(2):
                 near = np.linspace(low, high, 41)
-                found = np.asarray(quantity.values(None, over_time(self.scene, near)), dtype=float)
+                found = np.asarray(quantity.values(None, over_time(self.structure, near, fine=False)), dtype=float)
                 if quantity.measure == "angle":  # whole turns as on the curve
                     found = found + 2 * np.pi * np.rint((value - found) / (2 * np.pi))
                 j = int(best(np.where(np.isfinite(found), found, value)))

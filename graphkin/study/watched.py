@@ -266,7 +266,7 @@ class Design:
             return self.table_of(self._arrays(self.engine, *found), n, first, last)
         if moves_by_law(self.scene):
             times = np.array(moments(self.scene, n)[first:last])
-            motion = over_time(self.scene, times)
+            motion = over_time(self.structure, times)
             parts = tuple(w.parts(None, motion) for w in self.watched)
             return self._table(first, motion.values, parts, motion.status.tolist(), motion.why, times)
         motion = self.reach.motion(self.reach.table_offsets(n, first, last))
