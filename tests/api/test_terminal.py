@@ -36,6 +36,25 @@ def test_a_full_disk_under_what_is_printed_is_a_sentence() -> None:
     assert (2, said) == (ended.returncode, ended.stderr)
 
 
+@POSIX
+@pytest.mark.parametrize("module", ["typer", "graphkin.cli.check", "numpy", "graphkin.construction.plan"])
+def test_an_interruption_while_a_command_loads_ends_it_without_a_traceback(module: str) -> None:
+    interrupting = f"""
+import os, signal, sys
+class Interrupting:
+    def find_spec(self, name, path=None, target=None):
+        if name == {module!r}:
+            os.kill(os.getpid(), signal.SIGINT)
+sys.meta_path.insert(0, Interrupting())
+from graphkin.cli import main
+main()
+"""
+    call = [sys.executable, "-c", interrupting, "check", SIXBAR]
+    ended = subprocess.run(call, capture_output=True, text=True, check=False)
+    assert (130, "") == (ended.returncode, ended.stdout)
+    assert "Traceback" not in ended.stderr
+
+
 @pytest.mark.parametrize("bad", ["\x1b[2J", "\x9b31m", "\u202e", "\x7f"])
 def test_control_characters_of_a_file_never_reach_the_terminal(tmp_path: Path, bad: str) -> None:
     quoted = json.dumps(bad).replace("\x7f", "\\u007f").replace("\x9b", "\\u009b")
