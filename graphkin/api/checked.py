@@ -60,7 +60,8 @@ class Checked(Result, OfScene):
     ``advice`` names the least certain reading of a drawing with finite tools, and what would help it; ``asked`` is
     what the drawing was limited to, empty where it was not; ``passed`` are the change points on the way to it;
     ``at_contacts`` is the same with sliding contacts drawn at the contact itself, where exact hands have drawn it so;
-    ``over_turn`` are asked values of the whole turn that stand in no single position, as they are computed.
+    ``over_turn`` are asked values of the whole turn that stand in no single position, as they are computed;
+    ``forces`` are drawn by the same hands, None where there is neither mass nor load, or nothing of them is asked.
     """
 
     sheet: Sheet
@@ -69,6 +70,7 @@ class Checked(Result, OfScene):
     asked: tuple[Symbol, ...] = ()
     passed: tuple[ChangePoint, ...] = ()
     over_turn: Mapping[Symbol, float] = field(default_factory=dict)
+    forces: ForceSheet | None = None
     at_contacts: Checked | None = None
 
     @property
@@ -169,15 +171,6 @@ class Checked(Result, OfScene):
 
         return centres_on(self.sheet, self.asked)
 
-    @cached_property
-    def forces(self) -> ForceSheet | None:
-        """The forces as they are drawn; None where there is neither mass nor load, or nothing of them is asked."""
-        if not self.sheet.has_forces:
-            return None
-        from graphkin.construction.forces import forces_on
-
-        return forces_on(self.sheet)
-
     def _by_lever(self, row: Compared) -> dict[str, float]:
         """What balances by Zhukovsky's lever, in the scene's force unit."""
         if self.forces is None or row.symbol.scope != "force":
@@ -274,20 +267,21 @@ def _checked(what: Plan, motion: Motion, hand: Instrument) -> Checked:
     passed, motion = motion.passed, as_drawn(motion, what.structure)
     value = exact_values(motion, what.asked)
     sheet = execute(what, hand)
-    scale = lost = 0.0
+    scale, lost, forces = 0.0, 0.0, None
     if sheet.has_forces:
-        from graphkin.construction.forces import force_scale
+        from graphkin.construction.forces import forces_on
         from graphkin.solver.force_values import force_values
 
         of_motion = value
         of_force, lost = force_values(motion)
-        scale = force_scale(sheet)
+        forces = forces_on(sheet, hand)
+        scale = forces.per_mm
 
         def value(symbol: Symbol) -> complex | float:
             return of_force(symbol) if symbol.scope == "force" else of_motion(symbol)
 
     turning = {s: float(value(s).real) for s in what.asked if s.scope == "cycle"}
-    readings = read_off(sheet, (), hand)
+    readings = read_off(sheet, (), hand, forces)
     rounding: dict[DiagramName, float] = {
         "mechanism": float(np.nan_to_num(motion.bound.position[0], posinf=0.0)),
         "velocity": float(motion.rough[0][0]),
@@ -296,14 +290,14 @@ def _checked(what: Plan, motion: Motion, hand: Instrument) -> Checked:
     }
     if hand is EXACT:
         report = compare(sheet, readings, value, what.asked, rounding=rounding, force_scale=scale)
-        return Checked(sheet, report, None, what.asked, passed, turning)
+        return Checked(sheet, report, None, what.asked, passed, turning, forces)
     from graphkin.checking.uncertainty import advise, predict
 
     tools = what.structure.scene.sheet.tools
     predicted = predict(what, hand.name, tools)
     advice = advise(what, hand.name, tools, readings, predicted)
     report = compare(sheet, readings, value, what.asked, predicted, rounding, scale)
-    return Checked(sheet, report, advice, what.asked, passed, turning)
+    return Checked(sheet, report, advice, what.asked, passed, turning, forces)
 
 
 def drawn_symbols(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tuple[Symbol, ...]:

@@ -13,6 +13,7 @@ from graphkin.scene.symbol import Symbol, centre_links
 
 if TYPE_CHECKING:
     from graphkin.construction.centres import Centres
+    from graphkin.construction.forces import ForceSheet
 
 __all__ = ["Reading", "read_off"]
 
@@ -32,9 +33,11 @@ class Reading:
     diagram: DiagramName
 
 
-def read_off(sheet: Sheet, asked: Sequence[Symbol] = (), instrument: Instrument = EXACT) -> tuple[Reading, ...]:
+def read_off(
+    sheet: Sheet, asked: Sequence[Symbol] = (), instrument: Instrument = EXACT, forces: ForceSheet | None = None
+) -> tuple[Reading, ...]:
     """Measure every vector and every rate that was drawn, and the positions that the drawing was asked for, or only
-    what is asked for here, with the instrument's eyes.
+    what is asked for here, with the instrument's eyes; ``forces`` where they are drawn already.
 
     >>> from graphkin.scene import mechanism_of
     >>> from graphkin.construction import draft
@@ -55,9 +58,10 @@ def read_off(sheet: Sheet, asked: Sequence[Symbol] = (), instrument: Instrument 
             found[symbol] = Reading(symbol, r.mm, r.value, name)
     found |= _measured(sheet, (*sheet.asked, *asked), instrument)
     if sheet.has_forces:
-        from graphkin.construction.forces import force_readings
+        from graphkin.construction.forces import force_readings, readings_of
 
-        found |= {r.symbol: Reading(r.symbol, r.mm, r.value, r.diagram) for r in force_readings(sheet, instrument)}
+        told = force_readings(sheet, instrument) if forces is None else readings_of(sheet, forces, instrument)
+        found |= {r.symbol: Reading(r.symbol, r.mm, r.value, r.diagram) for r in told}
         for symbol in (*sheet.asked, *asked):
             same = _as_drawn(symbol, found)
             if same is not None and symbol not in found:

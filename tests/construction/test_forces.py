@@ -17,6 +17,7 @@ from graphkin.construction.forces import known as acting
 from graphkin.construction.forces.cut_free import CutFree
 from graphkin.errors import Unsolvable
 from graphkin.scene import mechanism_of
+from graphkin.scene.symbol import Symbol
 from tests.mechanisms import KINDS, floating_cylinder, random_scene
 from tests.solver.test_forces import CASES, PLACES, loaded, number, opposite, scene_of
 
@@ -132,6 +133,15 @@ def test_where_a_load_ends_both_polygons_are_drawn():
 
 def test_a_pencil_keeps_its_promise():
     assert graphkin.check(scene_of("engine"), instrument="pencil", seed=3).ok
+
+
+def test_what_a_pencil_draws_of_forces_is_what_is_read_off():
+    checked = graphkin.check("engine-gas-force", instrument="pencil", seed=3)
+    drawn = checked.forces.states[0].vectors[Symbol.parse("F_2/3")]
+    exact = graphkin.check("engine-gas-force").forces.states[0].vectors[Symbol.parse("F_2/3")]
+    assert abs(drawn) == pytest.approx(checked["F_2/3"].on_paper, abs=0.8)  # what is read errs a little more
+    assert abs(drawn - exact) > 1e-3
+    assert checked["F_2/3"].uncertainty.deviation > 0
 
 
 def test_a_balance_that_does_no_work_is_a_dead_point():
