@@ -13,7 +13,7 @@ from typing import Any
 from graphkin.api.arguments import SceneLike, as_scene, write_files
 from graphkin.api.results import Result
 from graphkin.errors import Problem, Unsolvable
-from graphkin.exchange import FRAME, READ, Bodies, Drive, Slide, is_address, read_bodies, write_bodies
+from graphkin.exchange import FRAME, READ, Bodies, BodyDrive, BodySlide, is_address, read_bodies, write_bodies
 from graphkin.files import path_of
 from graphkin.scene.mapping import toml_text
 from graphkin.scene.model import AngleDriver, Mechanism, PlacedLink
@@ -152,13 +152,13 @@ def _bodies(scene: Mechanism) -> Bodies:
         line = scene.by_name[on].guides[guide]
         origin, turn = poses[on]
         made.slides.append(
-            Slide(_name(scene, body), pin, _name(scene, on), origin + turn * line.through / unit,
+            BodySlide(_name(scene, body), pin, _name(scene, on), origin + turn * line.through / unit,
                   cmath.phase(turn * line.direction), turns)
         )  # fmt: skip
     made.left += [f"cam {cam.link} with its follower {cam.follower}" for cam in scene.cams]
     for driver in scene.drivers:
         if isinstance(driver, AngleDriver) and driver.relative_to == scene.frame.name:
-            made.drives.append(Drive(driver.link, driver.omega))
+            made.drives.append(BodyDrive(driver.link, driver.omega))
         else:
             made.left.append(f"driver {driver.key}")
     return made

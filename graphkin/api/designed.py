@@ -35,7 +35,7 @@ from graphkin.words import LANGUAGES, Phrase, languages, say, word
 if TYPE_CHECKING:
     from graphkin.drawing import ChartPage, Drawing
     from graphkin.drawing.synthesis import Confirmed
-    from graphkin.solver.synthesis import Choice, Synthesis
+    from graphkin.solver.synthesis import FreeDatum, Synthesis
     from graphkin.study.turn import TurnStudy
     from graphkin.table import Table
 
@@ -169,7 +169,7 @@ class Designed(Result):
         return wished if wished in LANGUAGES else "en"
 
     @cached_property
-    def choice(self) -> Choice | None:
+    def choice(self) -> FreeDatum | None:
         """The datum that might be chosen otherwise, and the best for the transmission; None where there is none."""
         from graphkin.solver.synthesis import choice
 

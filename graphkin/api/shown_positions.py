@@ -14,7 +14,7 @@ from graphkin.errors import GraphkinError, Unsolvable
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Dyad, Structure, Turn
-from graphkin.structure.transmitting import Joint, joint_of_dyad
+from graphkin.structure.transmitting import TransmissionAngle, joint_of_dyad
 
 __all__ = ["shown_positions"]
 
@@ -141,7 +141,7 @@ def _least(
     return sheet, gamma(best), (at, -first, -second)
 
 
-def _ways(structure: Structure, joint: Joint, one: Turned) -> tuple[complex, complex]:
+def _ways(structure: Structure, joint: TransmissionAngle, one: Turned) -> tuple[complex, complex]:
     def of(spot: tuple[str, complex]) -> complex:
         pose = one.poses[spot[0]]
         return pose.origin + pose.axis * (spot[1] / structure.scene.size)

@@ -17,7 +17,7 @@ from graphkin.drawing.cam import cam_given, cam_pictures
 from graphkin.drawing.headings import number
 from graphkin.drawing.synthesis import asked_words, construction_picture, step_words
 from graphkin.papers.blocks import Said
-from graphkin.papers.drawn_task import DrawnTask, Result, papers_of_task
+from graphkin.papers.drawn_task import DrawnTask, TaskResult, papers_of_task
 from graphkin.papers.paper import Paper
 from graphkin.scene.cams import SwingingFollower
 from graphkin.words import languages, say, word
@@ -51,7 +51,7 @@ def design_papers(designed: Designed, formats: Sequence[str]) -> Mapping[str, by
         near = off if math.isfinite(off) else None
         within = "" if near is None else f"{number(max(row.exact - near, 0.0), 4)} … {number(row.exact + near, 4)}"
         name = row.symbol if row.symbol == "ram" else f"${row.symbol}$"
-        results.append(Result(name, unit, number(row.measured), number(row.exact), within))
+        results.append(TaskResult(name, unit, number(row.measured), number(row.exact), within))
     find = ", ".join(result.name for result in results)
     task = DrawnTask(
         title=_each(language, lambda each: _plain(given.title_in(each) or given.name)),
@@ -106,13 +106,13 @@ def cam_papers(made: CamMade, formats: Sequence[str], language: str, prefix: str
     for d in sheet.divisions if not cam.flat else ():
         angle = math.degrees(d.pressure)
         within = f"{max(angle - PROTRACTOR, 0.0):.1f} … {angle + PROTRACTOR:.1f}"
-        results.append(Result(f"$α_{{{d.number}}}$", "°", f"{angle:.1f}", f"{angle:.3f}", within))
+        results.append(TaskResult(f"$α_{{{d.number}}}$", "°", f"{angle:.1f}", f"{angle:.3f}", within))
     metres = scene.units.metres
     for d in sheet.divisions:
         value = math.degrees(d.lift) if swings else d.lift / metres
         letter, unit = ("ψ", "°") if swings else ("s", scene.units.length)
         shown = number(value, 5)
-        results.append(Result(f"${letter}_{{{d.number}}}$", unit, shown, shown))
+        results.append(TaskResult(f"${letter}_{{{d.number}}}$", unit, shown, shown))
     spoken = {each: made.sentences(each) for each in languages(language)}
     notes = tuple(_by_sentence(spoken))
     task = DrawnTask(

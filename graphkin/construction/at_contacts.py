@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from graphkin.construction.net import Chain, Edge, node
+from graphkin.construction.net import Edge, TwoWays, node
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.sizes import Direction
 from graphkin.scene.contacts import PlacedContact
@@ -22,10 +22,10 @@ __all__ = ["chains_at_contacts"]
 TINY = 1e-9  # of the mechanism: a contact nearer to a pivot has no arm
 
 
-def chains_at_contacts(structure: Structure, sheet: Sheet) -> Mapping[Dyad, Chain]:
+def chains_at_contacts(structure: Structure, sheet: Sheet) -> Mapping[Dyad, TwoWays]:
     """For each dyad that has what replaces a sliding contact the equation at the contact, where it has one: the contact
     moved with the follower about its other joint, or along it, and with the body that moves it by the slip."""
-    found: dict[Dyad, Chain] = {}
+    found: dict[Dyad, TwoWays] = {}
     for dyad in (e for e in structure.elements if isinstance(e, Dyad)):
         contact = _contact_of(structure, dyad)
         chain = _chain(structure, sheet, dyad, contact) if contact else None
@@ -40,7 +40,7 @@ def _contact_of(structure: Structure, dyad: Dyad) -> PlacedContact | None:
     return next(sliding, None)
 
 
-def _chain(structure: Structure, sheet: Sheet, dyad: Dyad, contact: PlacedContact) -> Chain | None:
+def _chain(structure: Structure, sheet: Sheet, dyad: Dyad, contact: PlacedContact) -> TwoWays | None:
     inside = [n for n in contact.links if n in dyad.links]
     if len(inside) != 1 or any(len(body.links) > 1 for body in dyad.bodies):
         return None
@@ -66,4 +66,4 @@ def _chain(structure: Structure, sheet: Sheet, dyad: Dyad, contact: PlacedContac
                    unknown=f"slide {outer.key}")  # fmt: skip
     else:
         return None
-    return Chain(end, (own,), (slip,))
+    return TwoWays(end, (own,), (slip,))

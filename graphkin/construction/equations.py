@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from graphkin.construction.net import Chain, Edge, Joined, Net
+from graphkin.construction.net import Edge, Joined, Net, TwoWays
 from graphkin.scene.model import PlacedLink
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import Dyad
@@ -24,7 +24,7 @@ def equation_of(
     drawn: Mapping[PointRef, complex],
     same_turn: Mapping[str, str],
     tiny: float,
-) -> Chain | None:
+) -> TwoWays | None:
     """Find the shortest equation of a dyad with two unknown sizes.
 
     Parameters
@@ -41,7 +41,7 @@ def equation_of(
     joined = Joined(inside, (*pairs, *(w.pair for w in welds)), welds)
     net = Net(links, frame, joined, places, guide_names, same_turn, tiny)
     known = [n for n in net.nodes if net.known(n)]
-    best: tuple[tuple[float, ...], Chain] | None = None
+    best: tuple[tuple[float, ...], TwoWays] | None = None
     for start in known:
         for path in net.paths(start):
             chain = _as_chain(path, frame, links)
@@ -59,7 +59,7 @@ def equation_of(
     return best[1] if best else None
 
 
-def _as_chain(path: Sequence[Edge], frame: str, links: Mapping[str, PlacedLink]) -> Chain | None:
+def _as_chain(path: Sequence[Edge], frame: str, links: Mapping[str, PlacedLink]) -> TwoWays | None:
     """Split a path with two unknowns at the node before the second."""
     places = [i for i, e in enumerate(path) if e.unknown]
     if len(places) != 2 or path[places[0]].unknown == path[places[1]].unknown:
@@ -67,4 +67,4 @@ def _as_chain(path: Sequence[Edge], frame: str, links: Mapping[str, PlacedLink])
     cut = places[1]
     right = tuple(path[:cut])
     left = tuple(e.reversed() for e in reversed(path[cut:]))
-    return Chain(right[-1].end, left, right)
+    return TwoWays(right[-1].end, left, right)

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from graphkin.construction.group_plan import Closed, Crossed, Move, OneLine, Path, Special
 from graphkin.construction.mechanism_acts import SpecialPoint
-from graphkin.construction.net import Chain, Edge, Joined, Net
+from graphkin.construction.net import Edge, Joined, Net, TwoWays
 from graphkin.construction.plot import Order, letter
 from graphkin.construction.polygon_acts import Carried, DirectionLine, FoundVector, MeasuredRate
 from graphkin.construction.polygons import Polygons, same_turn
@@ -80,7 +80,7 @@ class GroupMoves(Polygons):
                     found.append(replace(edge, unknown=edge.unknown))
         return found
 
-    def _equation(self, order: Order, group: Cluster, chain: Chain) -> None:
+    def _equation(self, order: Order, group: Cluster, chain: TwoWays) -> None:
         number = len(self.board.equations) + 1
         sides = [self._side(order, chain.left), self._side(order, chain.right)]
         terms = [self._terms(order, side) for side in sides]
@@ -144,7 +144,7 @@ class GroupMoves(Polygons):
                 leg = (*leg, square if link not in self.rates[order] else replace(square, unknown=""))
             ways.append(leg)
         right, left = ways
-        self._equation(order, group, Chain(ref, left, right))
+        self._equation(order, group, TwoWays(ref, left, right))
 
     def _mark_special(self, move: Special) -> None:
         """The special point on the mechanism: where the lines of two legs cross."""

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, replace
 from itertools import combinations
 from typing import Literal
 
-from graphkin.construction.net import Chain, Edge, Net
+from graphkin.construction.net import Edge, Net, TwoWays
 from graphkin.plane import cross, cross_lines, unit
 from graphkin.scene.symbol import PointRef
 
@@ -30,7 +30,7 @@ LONGEST = 5  # edges of an equation
 class Crossed:
     """An equation with two unknown sizes."""
 
-    chain: Chain
+    chain: TwoWays
 
 
 @dataclass(frozen=True)
@@ -223,7 +223,7 @@ class _Search:
             return False
         path = best[1]
         second = [i for i, e in enumerate(path) if e.unknown][1]
-        chain = Chain(path[second].start, tuple(e.reversed() for e in reversed(path[second:])), path[:second])
+        chain = TwoWays(path[second].start, tuple(e.reversed() for e in reversed(path[second:])), path[:second])
         self.moves.append(Crossed(chain))
         self.learn(path)
         return True

@@ -17,7 +17,7 @@ from graphkin.plane import dot
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Slide
-from graphkin.structure.transmitting import Joint, joint_between, joint_of_follower, sliding_pair
+from graphkin.structure.transmitting import TransmissionAngle, joint_between, joint_of_follower, sliding_pair
 
 __all__ = ["Measured", "measured"]
 
@@ -106,7 +106,7 @@ def _travel(slide: Slide, poses: Poses, mm: float) -> float:
     return dot(poses[slide.a].origin - start, guide.axis * slide.guide.direction)
 
 
-def ways(sheet: Sheet, joint: Joint) -> tuple[complex, complex]:
+def ways(sheet: Sheet, joint: TransmissionAngle) -> tuple[complex, complex]:
     """The two directions on paper between which a transmission angle lies (`graphkin.structure.transmitting`)."""
 
     def of(spot: tuple[str, complex]) -> complex:

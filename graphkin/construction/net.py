@@ -15,7 +15,7 @@ from graphkin.scene.model import PlacedLink
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import Pair, Slide, Turn, Weld
 
-__all__ = ["Chain", "Edge", "Joined", "Net", "node"]
+__all__ = ["Edge", "Joined", "Net", "TwoWays", "node"]
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ class Edge:
 
 
 @dataclass(frozen=True)
-class Chain:
+class TwoWays:
     """An equation: two ways to the node ``middle``, each from a known node and with one unknown."""
 
     middle: PointRef

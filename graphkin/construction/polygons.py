@@ -12,7 +12,7 @@ from typing import Literal
 
 from graphkin.construction.board import Board
 from graphkin.construction.equations import equation_of
-from graphkin.construction.net import Chain, Edge, node
+from graphkin.construction.net import Edge, TwoWays, node
 from graphkin.construction.plot import Order, Plot, letter
 from graphkin.construction.polygon_acts import (
     Carried,
@@ -49,7 +49,7 @@ class Polygons(Plot):
         self, board: Board, structure: Structure, frame: PlacedLinks, scales: Scales, slip: Slip = NO_SLIP
     ) -> None:
         super().__init__(board, structure, frame, scales, slip)
-        self.chains: dict[Dyad, Chain] = {}
+        self.chains: dict[Dyad, TwoWays] = {}
         self.wheels = Wheels.of(structure)
 
     def draw(self, order: Order, element: Driven | Dyad) -> None:
@@ -157,7 +157,7 @@ class Polygons(Plot):
             for edge in edges:
                 self._measure(order, edge, dyad)
 
-    def _find(self, dyad: Dyad) -> Chain:
+    def _find(self, dyad: Dyad) -> TwoWays:
         slides = [p for p in (dyad.outer_first, dyad.inner, dyad.outer_second) if isinstance(p, Slide)]
         slides += [w.pair for body in dyad.bodies for w in body.welds if isinstance(w.pair, Slide)]
         chain = equation_of(
@@ -240,7 +240,7 @@ class Polygons(Plot):
         self.record(order, vector, LaidOff(part.symbol, part.size, size, part.written, part.role), equation)
         return tip
 
-    def _cross(self, order: Order, chain: Chain, sides: list[_Side], equation: int) -> None:
+    def _cross(self, order: Order, chain: TwoWays, sides: list[_Side], equation: int) -> None:
         """Draw both sides of an equation up to their unknowns, and let these meet.
 
         A side may have several unknowns along one direction, as those of a special point have: their sum is found.

@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from graphkin.construction.held_still import Inversion
-from graphkin.construction.net import Chain
+from graphkin.construction.net import TwoWays
 from graphkin.construction.plot import Order
 from graphkin.construction.sheet import Limits, Sheet
 from graphkin.scene.symbol import Symbol
@@ -40,7 +40,7 @@ class Task:
     values: Mapping[str, float]
     branches: Mapping[int, int]
     trials: Mapping[Cluster, GroupTrial]
-    chains: Mapping[Dyad, Chain]
+    chains: Mapping[Dyad, TwoWays]
     plans: Mapping[Cluster, GroupPlan]
     triangles: tuple[tuple[Inversion, int], ...]
     limits: Mapping[str, Limits]

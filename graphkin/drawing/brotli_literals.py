@@ -12,7 +12,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from heapq import heapify, heappop, heappush
 
-__all__ = ["Code", "as_brotli", "code_for"]
+__all__ = ["PrefixCode", "as_brotli", "code_for"]
 
 _MOST = 1 << 16  # bytes of a block
 _LONGEST, _LONGEST_OF_LENGTHS = 15, 5  # bits in a code of bytes, and in the code that tells how long those are
@@ -27,22 +27,22 @@ _COMMANDS = (128, 256, 448)  # the first for each eight of these
 
 
 @dataclass(frozen=True)
-class Code:
+class PrefixCode:
     """The bits of each byte, and those that tell a reader which they are."""
 
     of: tuple[str, ...]
     told: str
 
 
-def code_for(sample: bytes) -> Code:
+def code_for(sample: bytes) -> PrefixCode:
     """The best code for bytes as frequent as in a sample, with room for every other byte."""
     counts = Counter(sample)
     lengths = _lengths({byte: 1 + 4 * counts[byte] for byte in range(256)}, _LONGEST)
     codes = _codes(lengths)
-    return Code(tuple(codes[byte] for byte in range(256)), _told(lengths))
+    return PrefixCode(tuple(codes[byte] for byte in range(256)), _told(lengths))
 
 
-def as_brotli(parts: Iterable[tuple[bytes, Code]]) -> bytes:
+def as_brotli(parts: Iterable[tuple[bytes, PrefixCode]]) -> bytes:
     """Parts one after the other as one stream, each in its code.
 
     >>> as_brotli([]).hex()
@@ -57,7 +57,7 @@ def as_brotli(parts: Iterable[tuple[bytes, Code]]) -> bytes:
     return int(stream[::-1], 2).to_bytes(-(-len(stream) // 8), "little")
 
 
-def _block(data: bytes, code: Code) -> list[str]:
+def _block(data: bytes, code: PrefixCode) -> list[str]:
     """One block as bits in the order of the stream: one command inserts all its bytes."""
     command = bisect_right(_INSERTED, len(data)) - 1
     symbol = _COMMANDS[command >> 3] + ((command & 7) << 3)

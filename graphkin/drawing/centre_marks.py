@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from graphkin.construction.centres import Centre, Centres
-from graphkin.construction.centres.kennedy import Relation
+from graphkin.construction.centres.kennedy import CentreRelation
 from graphkin.construction.centres.pairs import Line as Straight
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
@@ -40,7 +40,7 @@ def mark_of(centre: Centre, frame: str, at: complex) -> tuple[Primitive, ...]:
     return *cross_, Circle(at, 0.65, strokes.BLACK)
 
 
-def line_name(relation: Relation, letters: Letters) -> str:
+def line_name(relation: CentreRelation, letters: Letters) -> str:
     """A line on which a centre lies, by the centres that it leads through, or the normal of a pin in a slot."""
     if len(relation.through) == 1:
         point = str(relation.through[0]).split("/")[0]
@@ -172,7 +172,7 @@ class _Marks:
                 found.append(Line(*line, strokes.OF_CENTRES))
         return found
 
-    def _known(self, relation: Relation) -> list[complex]:
+    def _known(self, relation: CentreRelation) -> list[complex]:
         """The places (mm, y up) that a line leads through: those of its two centres, or of the pin whose path it is
         square to."""
         places: list[complex | None] = []

@@ -14,7 +14,7 @@ from functools import cache, cached_property, lru_cache
 from pathlib import Path
 from typing import Literal
 
-from graphkin.drawing.brotli_literals import Code, code_for
+from graphkin.drawing.brotli_literals import PrefixCode, code_for
 from graphkin.drawing.woff2 import Streams, streams, woff2
 
 __all__ = ["EM", "FAMILY", "FOLDER", "Glyph", "Style", "glyph", "holds", "part"]
@@ -124,7 +124,7 @@ def part(style: Style, characters: str) -> bytes:
 
 
 @cache
-def _codes() -> tuple[Code, ...]:
+def _codes() -> tuple[PrefixCode, ...]:
     """The codes in which parts are packed: made for letters as figures have them, since one of its own would take
     each part longer than it saves."""
     return tuple(map(code_for, _streams("regular", _SAMPLE).parts))

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
-from graphkin.drawing.brotli_literals import Code, as_brotli
+from graphkin.drawing.brotli_literals import PrefixCode, as_brotli
 
 __all__ = ["Streams", "streams", "woff2"]
 
@@ -71,7 +71,7 @@ def streams(tables: Mapping[str, bytes], outlines: Sequence[bytes], advances: Se
     )  # fmt: skip
 
 
-def woff2(face: Streams, codes: Sequence[Code]) -> bytes:
+def woff2(face: Streams, codes: Sequence[PrefixCode]) -> bytes:
     """A face as WOFF2, each kind of bytes in its code."""
     packed = as_brotli(zip(face.parts, codes, strict=True))
     long = 48 + len(face.directory) + len(packed)

@@ -12,7 +12,7 @@ from typing import Any
 
 from graphkin.errors import CallError, Problem
 
-__all__ = ["FRAME", "Bodies", "Drive", "Slide", "number"]
+__all__ = ["FRAME", "Bodies", "BodyDrive", "BodySlide", "number"]
 
 FRAME = "0"
 FARTHEST = 1e12
@@ -21,7 +21,7 @@ SAME = 1e-9
 
 
 @dataclass
-class Slide:
+class BodySlide:
     """``body`` slides by its point on a line of body ``on``: through a place, in a direction (rad), both in the world.
 
     turns : a pin in a slot, which turns in it; else the body keeps its angle to the line
@@ -36,7 +36,7 @@ class Slide:
 
 
 @dataclass
-class Drive:
+class BodyDrive:
     """What drives: a body that turns (rate in rad/s), or a slide by its body and point (rate in the length unit/s)."""
 
     body: str
@@ -52,8 +52,8 @@ class Bodies:
     title: str
     places: dict[str, complex] = field(default_factory=dict)
     bodies: dict[str, list[str]] = field(default_factory=dict)
-    slides: list[Slide] = field(default_factory=list)
-    drives: list[Drive] = field(default_factory=list)
+    slides: list[BodySlide] = field(default_factory=list)
+    drives: list[BodyDrive] = field(default_factory=list)
     unit: str = "mm"
     left: list[str] = field(default_factory=list)
 
@@ -149,9 +149,9 @@ class Bodies:
         self.left += [f"driver of {d.body}" for d in self.drives if d.body not in self.bodies]
         self.drives = [d for d in self.drives if d.body in self.bodies]
 
-    def _lines(self) -> tuple[dict[str, dict[str, Slide]], list[tuple[Slide, str]]]:
+    def _lines(self) -> tuple[dict[str, dict[str, BodySlide]], list[tuple[BodySlide, str]]]:
         """The lines of each body by their names, and with each slide the name of its line."""
-        lines: dict[str, dict[str, Slide]] = {}
+        lines: dict[str, dict[str, BodySlide]] = {}
         refs = []
         for slide in self.slides:
             own = lines.setdefault(slide.on, {})
@@ -182,7 +182,7 @@ class Bodies:
             return [p for p in (first,) if p], rest
         return [first, second], [p for p in rest if p != second]
 
-    def _link(self, name: str, lines: dict[str, Slide]) -> dict[str, Any]:
+    def _link(self, name: str, lines: dict[str, BodySlide]) -> dict[str, Any]:
         own, further = self._ordered(name)
         origin, axis = self._axis(name)
         table: dict[str, Any] = {"points": own}
@@ -200,7 +200,7 @@ class Bodies:
             }
         return table
 
-    def _on(self, slide: Slide, ref: str, table: dict[str, Any]) -> dict[str, Any]:
+    def _on(self, slide: BodySlide, ref: str, table: dict[str, Any]) -> dict[str, Any]:
         """What a link says of a line that it slides on, beside what it says already."""
         angle = _degrees(cmath.phase(self._axis(slide.body)[1]) - slide.angle)
         before, angles = table.get("on"), table.get("angle_on", 0)
@@ -210,7 +210,7 @@ class Bodies:
             raise CallError(Problem(f"link {slide.body}", "slides on more than two others", "a scene has two at most"))
         return {"on": [before, ref], "angle_on": [angles, angle]}
 
-    def _driver(self, drive: Drive) -> dict[str, Any]:
+    def _driver(self, drive: BodyDrive) -> dict[str, Any]:
         if drive.point:
             slide = next(s for s in self.slides if s.body == drive.body and s.point == drive.point)
             at = (self.places[slide.point] - slide.through) / cmath.rect(1.0, slide.angle)

@@ -15,7 +15,7 @@ from xml.etree import ElementTree
 from zipfile import BadZipFile, ZipFile
 
 from graphkin.errors import CallError, Problem
-from graphkin.exchange.bodies import FRAME, Bodies, Drive, Slide
+from graphkin.exchange.bodies import FRAME, Bodies, BodyDrive, BodySlide
 
 __all__ = ["read_geogebra"]
 
@@ -82,13 +82,13 @@ class _Construction:
                 self.made.left.append(f"point {point} on {line} (no link has that line)")
             else:
                 self.made.slides.append(
-                    Slide(body, self.points[point], on, one, cmath.phase(two - one), turns=True)
+                    BodySlide(body, self.points[point], on, one, cmath.phase(two - one), turns=True)
                 )
         for pivot, end in self.driven:
             ends = {self.points[pivot], self.points[end]}
             crank = next((n for n, own in holders.items() if n != FRAME and ends <= set(own)), None)
             if crank is not None:
-                self.made.drives.append(Drive(crank, INPUT_SPEED))
+                self.made.drives.append(BodyDrive(crank, INPUT_SPEED))
         return self.made
 
     def _command(self, name: str, given: list[str], got: list[str]) -> None:

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from graphkin.exchange.bodies import FRAME, Bodies, Slide
+from graphkin.exchange.bodies import FRAME, Bodies, BodySlide
 
-__all__ = ["Joint", "bodies_of"]
+__all__ = ["FileJoint", "bodies_of"]
 
 
 @dataclass(frozen=True)
-class Joint:
+class FileJoint:
     """A joint of so many links.
 
     kind : "R" turning; "P" the others slide on a line of the first link and keep their angle; "RP" a pin of the others
@@ -26,7 +26,7 @@ class Joint:
     angle: float = 0.0
 
 
-def bodies_of(title: str, joints: Sequence[Joint]) -> Bodies:
+def bodies_of(title: str, joints: Sequence[FileJoint]) -> Bodies:
     """Bodies with the points of their joints; ``ground`` is the frame."""
     made = Bodies(title)
     names: dict[str, str] = {}
@@ -44,7 +44,8 @@ def bodies_of(title: str, joints: Sequence[Joint]) -> Bodies:
             continue
         for link in others:
             made.bodies[names[link]].append(point)
-        made.slides.append(Slide(names[others[0]], point, names[first], joint.place, joint.angle, joint.kind == "RP"))
+        turns = joint.kind == "RP"
+        made.slides.append(BodySlide(names[others[0]], point, names[first], joint.place, joint.angle, turns))
     return made
 
 

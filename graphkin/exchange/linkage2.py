@@ -13,7 +13,7 @@ import math
 from xml.etree import ElementTree
 
 from graphkin.errors import CallError, Problem
-from graphkin.exchange.bodies import FRAME, Bodies, Drive, Slide
+from graphkin.exchange.bodies import FRAME, Bodies, BodyDrive, BodySlide
 
 __all__ = ["read_linkage2", "write_linkage2"]
 
@@ -66,7 +66,7 @@ def read_linkage2(text: str, title: str) -> Bodies:
             if not turned:
                 made.left.append(f"motor at {node.get('name') or key} (no link turns about it)")
             else:
-                made.drives.append(Drive(turned[0], _number(node, "rpm", RPM) * math.tau / 60))
+                made.drives.append(BodyDrive(turned[0], _number(node, "rpm", RPM) * math.tau / 60))
     return made
 
 
@@ -109,17 +109,17 @@ def _slider(
     if point in made.bodies.get(on, []):
         made.left.append(f"slider {label} (it is a point of the link that guides it)")
         return
-    made.slides.append(Slide(own[0], point, on, one, cmath.phase(two - one), turns=True))
+    made.slides.append(BodySlide(own[0], point, on, one, cmath.phase(two - one), turns=True))
 
 
 def _cylinder(made: Bodies, element: ElementTree.Element, label: str, ends: list[str]) -> None:
     """A bar whose length is driven: a cylinder about its first end, and a rod that slides in it."""
     one, two = (made.places[p] for p in ends)
     cylinder, rod = made.body(f"{label}c", ends[:1]), made.body(f"{label}r", ends[1:])
-    made.slides.append(Slide(rod, ends[1], cylinder, one, cmath.phase(two - one)))
+    made.slides.append(BodySlide(rod, ends[1], cylinder, one, cmath.phase(two - one)))
     throw = _number(element, "throw") or abs(two - one)
     # out and in again once a cycle
-    made.drives.append(Drive(rod, 2 * throw * _number(element, "cpm", RPM) / 60, ends[1]))
+    made.drives.append(BodyDrive(rod, 2 * throw * _number(element, "cpm", RPM) / 60, ends[1]))
 
 
 def write_linkage2(bodies: Bodies) -> str:
@@ -161,6 +161,6 @@ def write_linkage2(bodies: Bodies) -> str:
     return ElementTree.tostring(root, encoding="unicode") + "\n"
 
 
-def _on_line(place: complex, slide: Slide) -> bool:
+def _on_line(place: complex, slide: BodySlide) -> bool:
     off = (place - slide.through) * cmath.rect(1.0, -slide.angle)
     return abs(off.imag) <= 1e-9 * max(1.0, abs(off))

@@ -14,8 +14,8 @@ import re
 from urllib.parse import parse_qs, unquote, urlparse
 
 from graphkin.errors import CallError, Problem
-from graphkin.exchange.bodies import FRAME, Bodies, Drive, Slide
-from graphkin.exchange.joints import Joint, bodies_of
+from graphkin.exchange.bodies import FRAME, Bodies, BodyDrive, BodySlide
+from graphkin.exchange.joints import FileJoint, bodies_of
 
 __all__ = ["is_address", "read_address", "read_table"]
 
@@ -57,13 +57,13 @@ def read_table(text: str, title: str) -> Bodies:
             problems.append(Problem(f"{title}, row {number}", f'"{row.strip()[:60]}" is no joint', wanted))
             continue
         angle = math.radians(numbers[2]) if cells[at].upper() != "R" else 0.0
-        joints.append(Joint("", cells[at].upper(), complex(*numbers[:2]), tuple(cells[:at]), angle))
+        joints.append(FileJoint("", cells[at].upper(), complex(*numbers[:2]), tuple(cells[:at]), angle))
     if problems:
         raise CallError(*problems)
     made = bodies_of(title, joints)
     moved = next((n for n in made.bodies if n.lower() == "input"), None)
     if moved is not None:
-        made.drives.append(Drive(moved, INPUT_SPEED))
+        made.drives.append(BodyDrive(moved, INPUT_SPEED))
     return made
 
 
@@ -126,7 +126,7 @@ def read_address(text: str, title: str) -> Bodies:
         if joint.driven and not joint.slides:
             turned = [n for n, own in made.bodies.items() if n != FRAME and names[key] in own]
             if turned and joint.grounded:
-                made.drives.append(Drive(turned[0], turning))
+                made.drives.append(BodyDrive(turned[0], turning))
             else:
                 made.left.append(f"input at {joint.name or key} (it is no pivot of the frame)")
     return made
@@ -167,9 +167,9 @@ def _block(
     point = names[pin.id]
     holders = [n for n, own in made.bodies.items() if n not in (FRAME, on) and point in own]
     block = holders[0] if pin.welded and holders else made.body("".join(ends), [point])
-    made.slides.append(Slide(block, point, on, through, angle))
+    made.slides.append(BodySlide(block, point, on, through, angle))
     if line.driven:
-        made.drives.append(Drive(block, rate, point))
+        made.drives.append(BodyDrive(block, rate, point))
 
 
 def _exact(angle: float) -> float:

@@ -14,7 +14,7 @@ import math
 from typing import Any
 
 from graphkin.errors import CallError, Problem
-from graphkin.exchange.bodies import FRAME, Bodies, Drive, Slide, number
+from graphkin.exchange.bodies import FRAME, Bodies, BodyDrive, BodySlide, number
 from graphkin.plane import cross_arcs
 
 __all__ = ["read_pylinkage", "write_pylinkage"]
@@ -64,7 +64,7 @@ def _mechanism(made: Bodies, data: dict[str, Any]) -> None:
         own += [points[t["id"]] for t in trackers if {t["ref_joint1_id"], t["ref_joint2_id"]} <= set(link["joints"])]
         name = made.body(str(link.get("name") or link["id"]), dict.fromkeys(own))
         if "driver" in str(link.get("type")):
-            made.drives.append(Drive(name, float(link.get("angular_velocity", STEP))))
+            made.drives.append(BodyDrive(name, float(link.get("angular_velocity", STEP))))
             if link["type"] == "arc_driver":
                 made.left.append(f"ends of the arc of {name}")
     for key, joint in sliding.items():
@@ -72,7 +72,7 @@ def _mechanism(made: Bodies, data: dict[str, Any]) -> None:
         axis = complex(*map(float, joint.get("axis", (1, 0))))
         holders = [n for n, own in made.bodies.items() if n != FRAME and points[key] in own]
         if holders:
-            made.slides.append(Slide(holders[0], points[key], FRAME, line, cmath.phase(axis), turns=True))
+            made.slides.append(BodySlide(holders[0], points[key], FRAME, line, cmath.phase(axis), turns=True))
 
 
 def _linkage(made: Bodies, joints: list[dict[str, Any]]) -> None:
@@ -123,7 +123,7 @@ def _linkage(made: Bodies, joints: list[dict[str, Any]]) -> None:
             points[name] = made.point(name, one + float(joint.get("distance", abs(way))) * way / abs(way))
             join(name, first)
             crank = frozenset((first, name))
-            made.drives.append(Drive("|".join(sorted(crank)), float(joint.get("angle", STEP))))
+            made.drives.append(BodyDrive("|".join(sorted(crank)), float(joint.get("angle", STEP))))
             continue
         two = made.places[points[second]]
         if kind == "fixed":
@@ -149,7 +149,7 @@ def _linkage(made: Bodies, joints: list[dict[str, Any]]) -> None:
     names: dict[str, str] = {}
     for key, own in bars.items():
         names["|".join(sorted(key))] = made.body("".join(points[k] for k in own)[:20], [points[k] for k in own])
-    made.drives = [Drive(names[d.body], d.rate) for d in made.drives if d.body in names]
+    made.drives = [BodyDrive(names[d.body], d.rate) for d in made.drives if d.body in names]
     for name, one_end, two_end in lines:
         a, b = made.places[points[one_end]], made.places[points[two_end]]
         held = next((n for n, own in made.bodies.items() if {points[one_end], points[two_end]} <= set(own)), None)
@@ -157,7 +157,7 @@ def _linkage(made: Bodies, joints: list[dict[str, Any]]) -> None:
         if held is None or not holders:
             made.left.append(f"joint {name} (its line belongs to no link)")
         else:
-            made.slides.append(Slide(holders[0], points[name], held, a, cmath.phase(b - a), turns=True))
+            made.slides.append(BodySlide(holders[0], points[name], held, a, cmath.phase(b - a), turns=True))
 
 
 def write_pylinkage(bodies: Bodies) -> str:

@@ -12,8 +12,8 @@ import re
 from collections.abc import Iterable
 
 from graphkin.errors import CallError, Problem
-from graphkin.exchange.bodies import FRAME, Bodies, Drive, number
-from graphkin.exchange.joints import Joint, bodies_of
+from graphkin.exchange.bodies import FRAME, Bodies, BodyDrive, number
+from graphkin.exchange.joints import FileJoint, bodies_of
 
 __all__ = ["INPUT_SPEED", "read_pyslvs", "write_pyslvs"]
 
@@ -33,7 +33,7 @@ def read_pyslvs(text: str, title: str) -> Bodies:
     if begin is None:
         raise CallError(Problem(title, "holds no expression M[...]", "copy the expression from pyslvs"))
     inner, end = _inside(plain, begin.end(), title)
-    joints: list[Joint] = []
+    joints: list[FileJoint] = []
     rest = _JOINT.sub("", inner)
     if re.sub(r"[\s,]+", "", rest):
         found = f'"{rest.strip(" ,")[:60]}" is no joint'
@@ -43,7 +43,7 @@ def read_pyslvs(text: str, title: str) -> Bodies:
         if not names:
             raise CallError(Problem(title, f"the joint at {x}, {y} has no link", "write L[ground, link_1]"))
         place, turn = complex(float(x), float(y)), math.radians(float(angle or 0))
-        joints.append(Joint(f"P{len(joints)}", kind, place, names, turn))
+        joints.append(FileJoint(f"P{len(joints)}", kind, place, names, turn))
     made = bodies_of(title, joints)
     points = list(made.places)
     pairs = re.findall(r"base\W+(\d+)\D+?drive\W+(\d+)", plain[end:]) or re.findall(
@@ -55,7 +55,7 @@ def read_pyslvs(text: str, title: str) -> Bodies:
         ends = [points[int(k)] for k in (base, drive) if int(k) < len(points)]
         turned = [n for n, own in made.bodies.items() if n != FRAME and len(ends) == 2 and set(ends) <= set(own)]
         if turned:
-            made.drives.append(Drive(turned[0], INPUT_SPEED))
+            made.drives.append(BodyDrive(turned[0], INPUT_SPEED))
         else:
             made.left.append(f"input from {base} to {drive} (no link has both)")
     return made

@@ -26,11 +26,11 @@ from graphkin.papers.paper import A4, Paper
 from graphkin.papers.pdf import can_typeset, pdf
 from graphkin.words import languages, word
 
-__all__ = ["DrawnTask", "Result", "papers_of_task"]
+__all__ = ["DrawnTask", "TaskResult", "papers_of_task"]
 
 
 @dataclass(frozen=True)
-class Result:
+class TaskResult:
     """A result of a construction: its name (markup), unit, as read off, the exact value, and what may be accepted of a
     pencil drawing ("" where nothing is said)."""
 
@@ -58,7 +58,7 @@ class DrawnTask:
     start: tuple[Drawing, ...]
     whole: tuple[Drawing, ...]
     steps: tuple[Said, ...]
-    results: tuple[Result, ...]
+    results: tuple[TaskResult, ...]
     notes: tuple[Said, ...]
     language: str
     paper: Paper = A4

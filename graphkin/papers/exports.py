@@ -25,7 +25,7 @@ from graphkin.papers.solution import key_rows
 from graphkin.scene.symbol import Symbol
 from graphkin.words import languages, say, word
 
-__all__ = ["BANKED", "PLATFORMS", "Asked", "KnownSlip", "Question", "bank", "files_for", "question_of"]
+__all__ = ["BANKED", "PLATFORMS", "AskedNumber", "KnownSlip", "Question", "bank", "files_for", "question_of"]
 
 PLATFORMS = ("moodle", "gift", "prairielearn")
 BANKED = ("moodle.xml", "questions.gift")
@@ -45,7 +45,7 @@ class KnownSlip:
 
 
 @dataclass(frozen=True)
-class Asked:
+class AskedNumber:
     """One number that is asked for: its symbol, how it is written (HTML and plain), unit, right value, tolerance."""
 
     symbol: str
@@ -66,7 +66,7 @@ class Question:
     html: str
     plain: tuple[str, ...]
     picture: bytes
-    asked: tuple[Asked, ...]
+    asked: tuple[AskedNumber, ...]
     sign_rule: str
     number: str
 
@@ -92,7 +92,7 @@ def question_of(lesson: Lesson, evidence: Evidence, name: str) -> Question:
         markup = f"${lesson.letters.vector(symbol)}$"
         slips = tuple(_slips(lesson, evidence, symbol, row.exact, row.tolerance, first))
         names = row.symbol, words_html(markup), plain_words(markup), row.unit
-        asked.append(Asked(*names, row.exact, row.tolerance, slips))
+        asked.append(AskedNumber(*names, row.exact, row.tolerance, slips))
     return Question(
         name,
         clean(plain_words(scene_title(lesson)[0][1])),
@@ -190,7 +190,7 @@ def _named(text: str) -> str:
     return f"<name><text>{escape(text)}</text></name>"
 
 
-def _numerical(question: Question, one: Asked) -> str:
+def _numerical(question: Question, one: AskedNumber) -> str:
     answers = [_answer(100, one.value, one.tolerance, "")]
     answers += [_answer(0, slip.value, one.tolerance / 2, slip.words) for slip in one.slips]
     ask = f"<p>{one.html} = ? ({escape(one.unit)})</p>"
@@ -218,7 +218,7 @@ def _cloze(question: Question) -> str:
     )
 
 
-def _cloze_field(one: Asked) -> str:
+def _cloze_field(one: AskedNumber) -> str:
     answers = [f"={one.value:.10g}:{one.tolerance:.3g}"]
     answers += [f"%0%{slip.value:.10g}:{one.tolerance / 2:.3g}#{_cloze_words(slip.words)}" for slip in one.slips]
     return "{1:NUMERICAL:" + "~".join(answers) + "}"

@@ -10,7 +10,7 @@ from graphkin.errors import Problem
 from graphkin.plane import cross, dot
 from graphkin.scene.cam_tables import Cam, LawPiece
 from graphkin.scene.cams import LawCam, SlidingFollower, SwingingFollower
-from graphkin.scene.follower_law import LAWS, FollowerLaw, Piece, form_of
+from graphkin.scene.follower_law import LAWS, FollowerLaw, LiftPiece, form_of
 from graphkin.scene.names import Flaws, Names
 from graphkin.scene.tables import SceneTables
 
@@ -131,7 +131,7 @@ class _CamReading:
 
     def _law(self, where: str, pieces: Sequence[LawPiece], unit: float) -> FollowerLaw | None:
         """The law in rad and m, or rad of a follower that swings."""
-        found: list[Piece] = []
+        found: list[LiftPiece] = []
         start = low = most = 0.0
         good = True
 
@@ -161,7 +161,8 @@ class _CamReading:
             most = max(most, abs(high), abs(low))
             if abs(high) < 1e-9 * most:
                 high = 0.0
-            found.append(Piece(math.radians(start), math.radians(piece.to), low * unit, high * unit, form_of(piece.by)))
+            ends = math.radians(start), math.radians(piece.to)
+            found.append(LiftPiece(*ends, low * unit, high * unit, form_of(piece.by)))
             start, low = piece.to, high
         if not pieces:
             self.say(f"{where}.law", "is empty", 'write [{ to = 60, rise = 28, by = "harmonic" }, ...]')

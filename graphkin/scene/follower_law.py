@@ -14,7 +14,7 @@ from functools import cached_property
 from types import ModuleType
 from typing import Any, NamedTuple
 
-__all__ = ["LAWS", "SPELLINGS", "FollowerLaw", "Lift", "Piece", "SmoothPart", "form_of"]
+__all__ = ["LAWS", "SPELLINGS", "FollowerLaw", "Lift", "LiftPiece", "SmoothPart", "form_of"]
 
 TURN = 2 * math.pi
 SEAM = 1e-12
@@ -108,7 +108,7 @@ class SmoothPart:
 
 
 @dataclass(frozen=True)
-class Piece:
+class LiftPiece:
     """A piece of the law between two cam angles (rad), from one lift to another (m or rad); ``by`` is "" of a dwell."""
 
     start: float
@@ -131,12 +131,13 @@ class Piece:
 class FollowerLaw:
     """The lift over a turn of the cam; a seam belongs to the later piece.
 
-    >>> law = FollowerLaw((Piece(0.0, math.pi, 0.0, 2.0, "harmonic"), Piece(math.pi, TURN, 2.0, 0.0, "harmonic")))
+    >>> rise, fall = LiftPiece(0.0, math.pi, 0.0, 2.0, "harmonic"), LiftPiece(math.pi, TURN, 2.0, 0.0, "harmonic")
+    >>> law = FollowerLaw((rise, fall))
     >>> round(law.at(math.pi / 2).lift, 12), law.at(-math.pi / 2).slope
     (1.0, -1.0)
     """
 
-    pieces: tuple[Piece, ...]
+    pieces: tuple[LiftPiece, ...]
 
     @cached_property
     def parts(self) -> tuple[SmoothPart, ...]:
@@ -166,7 +167,7 @@ class FollowerLaw:
         """The part in which an angle (rad) lies."""
         return self.parts[bisect_right(self.starts, self.reduced(angle)) - 1]
 
-    def piece(self, angle: float) -> Piece:
+    def piece(self, angle: float) -> LiftPiece:
         """The piece in which an angle (rad) lies."""
         within = self.reduced(angle)
         return next(piece for piece in reversed(self.pieces) if piece.start <= within)

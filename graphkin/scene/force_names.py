@@ -11,11 +11,11 @@ from graphkin.errors import Problem, did_you_mean
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol
 
-__all__ = ["Joint", "force_names", "joints", "no_force", "opposite"]
+__all__ = ["ForceJoint", "force_names", "joints", "no_force", "opposite"]
 
 
 @dataclass(frozen=True)
-class Joint:
+class ForceJoint:
     """A joint, with a force of link ``first`` on link ``second``: a turning pair or a pin in a slot at ``point``, or a
     sliding pair (``point`` is the sliding link's first point, or empty), or a cam (``first``) with its follower, or
     what slides or rolls on each other, or meshes, in a contact or gear ``point``.  ``second`` slides, or has the pin.
@@ -30,24 +30,24 @@ class Joint:
     name: str = ""
 
 
-def joints(mechanism: Mechanism) -> tuple[Joint, ...]:
+def joints(mechanism: Mechanism) -> tuple[ForceJoint, ...]:
     """All joints: at each point the first link that has it, the frame if it does, with each later one; then sliding
     pairs, guiding link first, and pins in slots.  Redundant links carry nothing."""
     here = {mechanism.frame.name, *(link.name for link in mechanism.links if not link.redundant)}
-    found: list[Joint] = []
+    found: list[ForceJoint] = []
     for point, holders in mechanism.holders.items():
         first, *later = [name for name in holders if name in here] or [""]
-        found += [Joint("turning", first, second, point) for second in later]
-    found += [Joint("sliding", s.on, s.link, s.pin or "") for s in mechanism.slidings if {s.on, s.link} <= here]
-    found += [Joint("slot", p.on, p.of, p.point) for p in mechanism.pins if {p.on, p.of} <= here]
+        found += [ForceJoint("turning", first, second, point) for second in later]
+    found += [ForceJoint("sliding", s.on, s.link, s.pin or "") for s in mechanism.slidings if {s.on, s.link} <= here]
+    found += [ForceJoint("slot", p.on, p.of, p.point) for p in mechanism.pins if {p.on, p.of} <= here]
     if mechanism.instead_of is None:
-        found += [Joint("cam", c.link, c.follower, "") for c in mechanism.cams if {c.link, c.follower} <= here]
+        found += [ForceJoint("cam", c.link, c.follower, "") for c in mechanism.cams if {c.link, c.follower} <= here]
     for contact in mechanism.contacts:
         if set(contact.links) <= here:
             # where another link holds the centres apart only the force along the tangent is the contact's
             kind = "contact" if not contact.rolling else "gear" if contact.carrier else "rolling"
-            found.append(Joint(kind, *contact.links, contact.name))  # type: ignore[arg-type]
-    found += [Joint("gear", *g.wheels, g.name) for g in mechanism.gears if {*g.wheels, g.carrier} <= here]
+            found.append(ForceJoint(kind, *contact.links, contact.name))  # type: ignore[arg-type]
+    found += [ForceJoint("gear", *g.wheels, g.name) for g in mechanism.gears if {*g.wheels, g.carrier} <= here]
     shared = Counter(frozenset((joint.first, joint.second)) for joint in found)
     several = [shared[frozenset((joint.first, joint.second))] > 1 and joint.point != "" for joint in found]
     return tuple(

@@ -9,7 +9,7 @@ from typing import Any
 from graphkin.plane import degrees
 from graphkin.scene.cams import LawCam, SwingingFollower
 from graphkin.scene.contacts import PlacedContact, PlacedGear
-from graphkin.scene.follower_law import Piece
+from graphkin.scene.follower_law import LiftPiece
 from graphkin.scene.loads import Phase
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedLink
 from graphkin.scene.motion_law import CubicPart, MotionLaw
@@ -215,7 +215,7 @@ def _law(law: MotionLaw, unit: float) -> dict[str, Any]:
         return {"time": law.time, "law": {"table": [*rows, [law.duration, _tidy(law.pieces[-1].high / unit)]]}}
     pieces: list[dict[str, Any]] = []
     for piece in law.pieces:
-        assert isinstance(piece, Piece)
+        assert isinstance(piece, LiftPiece)
         way = _tidy((piece.high - piece.low) / unit)
         moved = {"rise" if way > 0 else "fall": abs(way), "by": piece.by} if piece.by else {}
         pieces.append({"to": piece.end, **moved})

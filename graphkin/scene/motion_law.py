@@ -12,7 +12,7 @@ from functools import cached_property
 from itertools import pairwise
 
 from graphkin.errors import Problem
-from graphkin.scene.follower_law import Lift, Piece, SmoothPart, form_of
+from graphkin.scene.follower_law import Lift, LiftPiece, SmoothPart, form_of
 from graphkin.scene.law_tables import DriverLaw
 
 __all__ = ["CubicPart", "MotionLaw", "law_of"]
@@ -71,12 +71,12 @@ class MotionLaw:
 
     ``time`` is the moment that is asked.
 
-    >>> law = MotionLaw((Piece(0.0, 2.0, 1.0, 4.0, "harmonic"),))
+    >>> law = MotionLaw((LiftPiece(0.0, 2.0, 1.0, 4.0, "harmonic"),))
     >>> law.at(1.0).lift, round(law.at(1.0).slope, 6), law.reached(2.5)
     (2.5, 2.356194, 1.0)
     """
 
-    pieces: tuple[Piece | CubicPart, ...]
+    pieces: tuple[LiftPiece | CubicPart, ...]
     time: float = 0.0
 
     @cached_property
@@ -156,7 +156,7 @@ def law_of(where: str, table: DriverLaw, unit: float, problems: list[Problem]) -
     return None if wrong else MotionLaw(tuple(pieces))
 
 
-def _one(where: str, table: DriverLaw, unit: float, wrong: list[Problem]) -> list[Piece]:
+def _one(where: str, table: DriverLaw, unit: float, wrong: list[Problem]) -> list[LiftPiece]:
     if (table.to is None) == (table.rise is None):
         both = "stands beside rise" if table.to is not None else "is missing"
         wrong.append(Problem(f"{where}.to", both, "write to (the value at the end), or rise"))
@@ -166,11 +166,11 @@ def _one(where: str, table: DriverLaw, unit: float, wrong: list[Problem]) -> lis
         wrong.append(Problem(f"{where}.by", "is missing", 'write by = "cycloidal", "harmonic", "345" or another law'))
     start = table.origin or 0.0
     end = table.to if table.to is not None else start + (table.rise or 0.0)
-    return [Piece(0.0, table.duration or 1.0, start * unit, end * unit, form_of(table.by))]
+    return [LiftPiece(0.0, table.duration or 1.0, start * unit, end * unit, form_of(table.by))]
 
 
-def _several(where: str, table: DriverLaw, unit: float, start: float, wrong: list[Problem]) -> list[Piece]:
-    pieces: list[Piece] = []
+def _several(where: str, table: DriverLaw, unit: float, start: float, wrong: list[Problem]) -> list[LiftPiece]:
+    pieces: list[LiftPiece] = []
     time, low = 0.0, start
     for i, piece in enumerate(table.pieces, 1):
         here = f"{where}.pieces.{i}"
@@ -183,7 +183,7 @@ def _several(where: str, table: DriverLaw, unit: float, start: float, wrong: lis
         if not piece.to > time:
             wrong.append(Problem(here, f"ends at {piece.to:g} s, where it begins at {time:g}", "seconds grow"))
         high = low + ((piece.rise or 0.0) - (piece.fall or 0.0)) * unit
-        pieces.append(Piece(time, piece.to, low, high, form_of(piece.by)))
+        pieces.append(LiftPiece(time, piece.to, low, high, form_of(piece.by)))
         time, low = piece.to, high
     return pieces
 

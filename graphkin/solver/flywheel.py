@@ -23,7 +23,7 @@ from graphkin.solver.motion import Motion
 from graphkin.solver.pair_forces import balances
 from graphkin.solver.pose import Array
 
-__all__ = ["Flywheel", "MomentArea", "flywheel_of", "needed_moment"]
+__all__ = ["FlywheelStudy", "MomentArea", "flywheel_of", "needed_moment"]
 
 PANEL = np.radians(10.0)
 """Between two edges of loads the moment is smooth: over so much of the driver twelve nodes give its work to the last
@@ -42,7 +42,7 @@ class MomentArea:
 
 
 @dataclass(frozen=True)
-class Flywheel:
+class FlywheelStudy:
     """A flywheel on a link.
 
     driving : constant driving moment on the driver (N m), in its sense positive
@@ -79,7 +79,7 @@ def needed_moment(reach: DriverRange, offset: Array) -> Array:
     return np.asarray(made)
 
 
-def flywheel_of(reach: DriverRange) -> Flywheel:
+def flywheel_of(reach: DriverRange) -> FlywheelStudy:
     """The flywheel that a scene asks for.
 
     Raises
@@ -94,11 +94,11 @@ def flywheel_of(reach: DriverRange) -> Flywheel:
     return made
 
 
-_LATEST: list[tuple[DriverRange, Flywheel]] = []
+_LATEST: list[tuple[DriverRange, FlywheelStudy]] = []
 """What was found last: it is the same in every position."""
 
 
-def _found(reach: DriverRange) -> Flywheel:
+def _found(reach: DriverRange) -> FlywheelStudy:
     wanted = reach.scene.loading.flywheel
     assert wanted is not None
     if not isinstance(reach.driver, AngleDriver) or not reach.full or len(reach.scene.drivers) > 1:
@@ -123,7 +123,7 @@ def _found(reach: DriverRange) -> Flywheel:
     low, high = int(np.argmin(energy)), int(np.argmax(energy))
     excess = float(energy[high] - energy[low])
     inertia = excess / (wanted.delta * speed**2)
-    return Flywheel(
+    return FlywheelStudy(
         wanted.link, wanted.delta, driving, driving * cycle, areas, excess, float(places[low]), float(places[high]),
         speed, inertia,
     )  # fmt: skip

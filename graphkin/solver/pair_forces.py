@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphkin.scene.force_names import Joint, joints
+from graphkin.scene.force_names import ForceJoint, joints
 from graphkin.scene.loads import BalanceAt
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.solver.cam_profile import contact_of
@@ -68,7 +68,7 @@ class _Pairs:
         pose = self.motion.poses[link]
         return np.asarray(pose.z + pose.u * at)
 
-    def of_joint(self, joint: Joint) -> list[PairForce]:
+    def of_joint(self, joint: ForceJoint) -> list[PairForce]:
         name, first, second = f"F_{joint.name}", joint.first, joint.second
         if joint.kind == "turning":
             at = np.asarray(self.motion.point(joint.point).z)
@@ -92,7 +92,7 @@ class _Pairs:
             PairForce(f"M_{joint.name}", first, second, None, at),
         ]
 
-    def _touching(self, joint: Joint) -> tuple[tuple[complex | Array, ...], Array]:
+    def _touching(self, joint: ForceJoint) -> tuple[tuple[complex | Array, ...], Array]:
         """Along what forces act where two links touch, and there: the normal of what slides, the tangent of pitch
         circles, whose centres another link holds apart, both components of what rolls otherwise."""
         contact = next((c for c in self.scene.contacts if c.name == joint.point), None)

@@ -12,7 +12,13 @@ from graphkin.scene.symbol import Symbol, centre_links
 from graphkin.solver.cam_profile import cam_at
 from graphkin.solver.pose import Array, Pose
 from graphkin.structure import Dyad, Structure
-from graphkin.structure.transmitting import Joint, joint_between, joint_of_dyad, joint_of_follower, sliding_pair
+from graphkin.structure.transmitting import (
+    TransmissionAngle,
+    joint_between,
+    joint_of_dyad,
+    joint_of_follower,
+    sliding_pair,
+)
 
 __all__ = ["Crossing", "pole", "position", "transmission"]
 
@@ -104,7 +110,7 @@ def transmission(structure: Structure, dyad: Dyad, poses: Poses) -> Crossing:
     return _crossing(poses, joint_of_dyad(structure, dyad))
 
 
-def _crossing(poses: Poses, joint: Joint) -> Crossing:
+def _crossing(poses: Poses, joint: TransmissionAngle) -> Crossing:
     first, second = (poses[end[0]].fixed(end[1]).z - poses[start[0]].fixed(start[1]).z
                      for start, end in (joint.first, joint.second))  # fmt: skip
     with np.errstate(all="ignore"):

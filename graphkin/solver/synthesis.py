@@ -25,7 +25,7 @@ from graphkin.scene.synthesis import (
     SliderCrankTask,
 )
 
-__all__ = ["Choice", "Synthesis", "choice", "crank_angle", "synthesise"]
+__all__ = ["FreeDatum", "Synthesis", "choice", "crank_angle", "synthesise"]
 
 IN_LINE = 1e-12  # of the size: three points whose circle is larger than this allows lie in one line
 
@@ -50,7 +50,7 @@ class Synthesis:
 
 
 @dataclass(frozen=True)
-class Choice:
+class FreeDatum:
     """A datum that may be chosen freely: from ``low`` to ``high`` it meets the rest of the wish; ``best`` gives the
     greatest ``least`` transmission angle (degrees)."""
 
@@ -271,7 +271,7 @@ _FREE: dict[type[DesignTask], str] = {SliderCrankTask: "offset", CrankRockerTask
 _SAMPLES = 400
 
 
-def choice(task: DesignTask) -> Choice | None:
+def choice(task: DesignTask) -> FreeDatum | None:
     """The datum that could be chosen otherwise while the rest of the wish stays, and the best for the transmission;
     None where there is none.
 
@@ -305,4 +305,4 @@ def choice(task: DesignTask) -> Choice | None:
     top = (low + high) / 2
     if (least(top) or 0.0) < (least(best) or 0.0):
         top = best
-    return Choice(key, min(good), max(good), top, least(top) or 0.0, least)
+    return FreeDatum(key, min(good), max(good), top, least(top) or 0.0, least)

@@ -15,7 +15,7 @@ from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, AnyDriver
 from graphkin.structure.constraints import Constraints
 from graphkin.structure.model import Body, Cluster, Driven, Dyad, Element, Pair, Turn, Weld, driver_pair
-from graphkin.structure.rolling import Relation, rolled_by
+from graphkin.structure.rolling import RollingRelation, rolled_by
 
 __all__ = ["components", "element_of", "match"]
 
@@ -140,7 +140,7 @@ def element_of(system: Constraints, members: list[str], known: set[str]) -> Elem
     return dyad or Cluster(tuple(members), tuple(pairs), tuple(drivers), real, _order(members, pairs))
 
 
-def _touches(system: Constraints, relation: Relation, inside: set[str], known: set[str]) -> bool:
+def _touches(system: Constraints, relation: RollingRelation, inside: set[str], known: set[str]) -> bool:
     """Whether a relation holds members of a group, all else in it being known."""
     frame = system.scene.frame.name
     within = {n for n in relation.links if n != frame}

@@ -20,10 +20,10 @@ from graphkin.scene.model import AngleDriver, AngleFollower, Follower, Mechanism
 from graphkin.scene.touching import rack_place
 from graphkin.structure.model import Coordinate, Pair, Rolled, Slide, Turn
 
-__all__ = ["Mesh", "Relation", "followers_of", "meshes_of", "relations_of", "rolled_by"]
+__all__ = ["Mesh", "RollingRelation", "followers_of", "meshes_of", "relations_of", "rolled_by"]
 
 @dataclass(frozen=True)
-class Relation:
+class RollingRelation:
     """A sum of coordinates with factors that keeps its value; ``links`` are all that it is between."""
 
     name: str
@@ -85,7 +85,7 @@ def meshes_of(
     return tuple(found)
 
 
-def relations_of(scene: Mechanism, meshes: Iterable[Mesh]) -> tuple[Relation, ...]:
+def relations_of(scene: Mechanism, meshes: Iterable[Mesh]) -> tuple[RollingRelation, ...]:
     """The relations of everything that rolls."""
     found = []
     for mesh in meshes:
@@ -105,12 +105,12 @@ def relations_of(scene: Mechanism, meshes: Iterable[Mesh]) -> tuple[Relation, ..
 
 def _relation(
     scene: Mechanism, name: str, links: Sequence[str], terms: Sequence[tuple[Coordinate, Fraction]]
-) -> Relation:
+) -> RollingRelation:
     summed: dict[Coordinate, Fraction] = {}
     for coordinate, factor in terms:
         if coordinate != ("angle", scene.frame.name):
             summed[coordinate] = summed.get(coordinate, Fraction(0)) + factor
-    return Relation(name, {c: f for c, f in summed.items() if f}, tuple(dict.fromkeys(links)))
+    return RollingRelation(name, {c: f for c, f in summed.items() if f}, tuple(dict.fromkeys(links)))
 
 
 class _Rows:
@@ -148,8 +148,8 @@ class _Rows:
 
 
 def followers_of(
-    scene: Mechanism, relations: Sequence[Relation], links: Mapping[str, PlacedLink], slides: Sequence[Slide]
-) -> tuple[tuple[Follower, ...], tuple[Relation, ...]]:
+    scene: Mechanism, relations: Sequence[RollingRelation], links: Mapping[str, PlacedLink], slides: Sequence[Slide]
+) -> tuple[tuple[Follower, ...], tuple[RollingRelation, ...]]:
     """What rolling makes follow the drivers in constant ratios, as drivers of their own; and the relations that are
     left, between coordinates that also depend on lengths."""
     if not relations:
@@ -210,7 +210,7 @@ def _drawn_angle(scene: Mechanism, link: PlacedLink) -> float:
     return cmath.phase(ends[1] - ends[0]) if len(ends) == 2 and ends[0] != ends[1] else 0.0
 
 
-def rolled_by(scene: Mechanism, relation: Relation, member: str, pair: Pair) -> Rolled | None:
+def rolled_by(scene: Mechanism, relation: RollingRelation, member: str, pair: Pair) -> Rolled | None:
     """What moves a link that one pair joins to known links, by a relation to them; None where it does not."""
     own: Coordinate = ("angle", member) if isinstance(pair, Turn) else ("travel", pair.key)
     if own not in relation.terms or (own[0] == "travel" and ("angle", member) in relation.terms):

@@ -24,7 +24,7 @@ from graphkin.scene.contacts import PlacedContact
 from graphkin.scene.symbol import Symbol
 from graphkin.structure.model import Cluster, Dyad, Slide, Structure, Turn
 
-__all__ = ["Joint", "joint_between", "joint_of_dyad", "joint_of_follower", "sliding_pair"]
+__all__ = ["TransmissionAngle", "joint_between", "joint_of_dyad", "joint_of_follower", "sliding_pair"]
 
 Spot = tuple[str, complex]
 """A link, and a place in its own axes (m)."""
@@ -33,7 +33,7 @@ Way = tuple[Spot, Spot]
 
 
 @dataclass(frozen=True)
-class Joint:
+class TransmissionAngle:
     """Two directions; where they are ``square``, the angle is that from one to the normal of the other."""
 
     first: Way
@@ -49,7 +49,7 @@ def _spot(structure: Structure, turn: Turn) -> Spot:
     return turn.a, structure.links[turn.a].points[turn.point]
 
 
-def joint_of_dyad(structure: Structure, dyad: Dyad) -> Joint:
+def joint_of_dyad(structure: Structure, dyad: Dyad) -> TransmissionAngle:
     """The joint of a group of two links; where one of them stands for a sliding contact, the contact itself."""
     for contact in structure.scene.contacts:
         if not contact.rolling and any(contact.block in body.links for body in dyad.bodies):
@@ -63,15 +63,15 @@ def joint_of_dyad(structure: Structure, dyad: Dyad) -> Joint:
         first, second = (
             (_spot(structure, pair), here) if isinstance(pair, Turn) else _guide(pair) for pair in (one, two)
         )
-        return Joint(first, second, isinstance(one, Turn) != isinstance(two, Turn))
+        return TransmissionAngle(first, second, isinstance(one, Turn) != isinstance(two, Turn))
     if isinstance(one, Turn) and isinstance(two, Turn):
-        return Joint(_guide(inner), (_spot(structure, two), _spot(structure, one)), True)
+        return TransmissionAngle(_guide(inner), (_spot(structure, two), _spot(structure, one)), True)
     other = two if isinstance(two, Slide) else one
     assert isinstance(other, Slide)
-    return Joint(_guide(inner), _guide(other))
+    return TransmissionAngle(_guide(inner), _guide(other))
 
 
-def joint_between(structure: Structure, a: str, b: str, symbol: Symbol) -> Joint:
+def joint_between(structure: Structure, a: str, b: str, symbol: Symbol) -> TransmissionAngle:
     """The joint that two links share.  Raises CallError where they share none that has a transmission angle."""
     blocks = {p.key: {p.of, p.key} for p in structure.scene.pins}
     for dyad in structure.groups:
@@ -84,7 +84,7 @@ def joint_between(structure: Structure, a: str, b: str, symbol: Symbol) -> Joint
     for point in shared:
         ways = [_arm(structure, name, point) for name in (a, b)]
         if ways[0] and ways[1]:
-            return Joint(ways[0], ways[1])
+            return TransmissionAngle(ways[0], ways[1])
     wanted = "name two links of one joint, bars or a rod and its slider"
     raise CallError(Problem(str(symbol), f"links {a} and {b} share no joint at which a force is passed on", wanted))
 
@@ -99,7 +99,7 @@ def _arm(structure: Structure, name: str, point: str) -> Way | None:
     return ((slide.b, 0j), (slide.b, 1j * slide.guide.direction)) if slide else None
 
 
-def joint_of_follower(structure: Structure, name: str, symbol: Symbol) -> Joint:
+def joint_of_follower(structure: Structure, name: str, symbol: Symbol) -> TransmissionAngle:
     """The joint through which a link is driven, a sliding contact first.  Raises CallError where none can be told."""
     for contact in structure.scene.contacts:
         joint = _at_contact(structure, contact, name) if not contact.rolling and name in contact.links else None
@@ -122,16 +122,16 @@ def joint_of_follower(structure: Structure, name: str, symbol: Symbol) -> Joint:
             bar = (other.name, other.points[far]), (other.name, other.points[point])
             slide = next((s for s in structure.slides if s.a == name and s.b == frame.name), None)
             if slide:
-                return Joint(bar, _guide(slide), True)
+                return TransmissionAngle(bar, _guide(slide), True)
             pivot = next((p for p in link.points if p in frame.points and link.points[p] != link.points[point]), None)
             if pivot:
-                return Joint(bar, ((name, link.points[pivot]), (name, link.points[point])))
+                return TransmissionAngle(bar, ((name, link.points[pivot]), (name, link.points[point])))
     raise CallError(
         Problem(str(symbol), f"link {name} is driven through no joint of a group of two links", "name a follower")
     )
 
 
-def _at_contact(structure: Structure, contact: PlacedContact, name: str) -> Joint | None:
+def _at_contact(structure: Structure, contact: PlacedContact, name: str) -> TransmissionAngle | None:
     """The common normal, and what the velocity of the link's point at the contact is square to: a guide of the frame on
     which it slides, or the line to its fixed pivot."""
     block, frame = contact.block, structure.scene.frame
@@ -143,12 +143,12 @@ def _at_contact(structure: Structure, contact: PlacedContact, name: str) -> Join
     normal = (block, centre), (block, far)
     slide = next((s for s in structure.slides if s.a == name and s.b == frame.name and not s.slot), None)
     if slide is not None:
-        return Joint(normal, _guide(slide), True)
+        return TransmissionAngle(normal, _guide(slide), True)
     link = structure.links[name]
     pivot = next((p for p in link.points if p in frame.points), None)
     if pivot is None:
         return None
-    return Joint(normal, ((name, link.points[pivot]), (block, stand_in.points[contact.name])))
+    return TransmissionAngle(normal, ((name, link.points[pivot]), (block, stand_in.points[contact.name])))
 
 
 def sliding_pair(structure: Structure, symbol: Symbol) -> Slide:

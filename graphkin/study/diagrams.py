@@ -12,7 +12,7 @@ from graphkin.drawing import Box, ChartPage, Drawing
 from graphkin.drawing.chart import add_legend, add_panel, add_words, look
 from graphkin.scene.force_names import force_names
 from graphkin.scene.model import AngleDriver
-from graphkin.solver.flywheel import Flywheel
+from graphkin.solver.flywheel import FlywheelStudy
 from graphkin.study.coupler import coupler_points, curve_page
 from graphkin.study.diagram_panels import LIMIT, DiagramPanel, draw_panel, panel_of, signs_of, unit_words
 from graphkin.study.driver_axis import HEIGHT, LEFT, RIGHT, WIDTH, driver_axis, driver_number, heading, number, title_of
@@ -86,7 +86,7 @@ def _balance_pages(turn: TurnStudy, language: str) -> dict[str, ChartPage | Draw
     for name, kind in force_names(turn.scene).items():
         if name[:2] in ("F_", "M_") and "/" not in name:
             pages[f"diagram-{name}"] = force_page(turn.reach, Quantity(kind, name), language)
-    if isinstance(turn.flywheel, Flywheel):
+    if isinstance(turn.flywheel, FlywheelStudy):
         pages["flywheel"] = flywheel_page(turn.reach, turn.flywheel, language)
     return pages
 

@@ -21,13 +21,13 @@ from graphkin.scene.model import AngleDriver
 from graphkin.solver import Motion
 from graphkin.structure import Cluster, Driven, Dyad, Pair, Slide, Structure, Turn
 
-__all__ = ["DOUBLES", "Equations", "Numbers", "Solution", "solve_many"]
+__all__ = ["DOUBLES", "Arithmetic", "Equations", "Solution", "solve_many"]
 
 Array = NDArray[Any]
 
 
 @dataclass(frozen=True)
-class Numbers:
+class Arithmetic:
     """What the equations need beyond the four operations: elementwise functions of arrays, and a linear solver.
 
     ``unturned`` takes whole turns off a difference of angles; ``solve`` solves matrix (m, m, ...) x = right (m, ...).
@@ -55,7 +55,7 @@ def solve_many(matrix: Array, right: Array) -> Array:
     return np.moveaxis(found[..., 0], 0, -1)
 
 
-DOUBLES = Numbers(
+DOUBLES = Arithmetic(
     np.cos, np.sin, cmath.phase, lambda d: d - 2 * math.pi * np.rint(np.real(d) / (2 * math.pi)), solve_many
 )
 
@@ -75,7 +75,7 @@ class Equations:
     Driver values and their rates are given as sequences, one entry a driver, each a number or an array over positions.
     """
 
-    def __init__(self, structure: Structure, numbers: Numbers = DOUBLES) -> None:
+    def __init__(self, structure: Structure, numbers: Arithmetic = DOUBLES) -> None:
         self.structure, self.numbers = structure, numbers
         frame = structure.scene.frame.name
         self.names = tuple(n for n in structure.links if n != frame)

@@ -23,9 +23,9 @@ from graphkin.drawing.chart import (
 )
 from graphkin.drawing.primitives import Stroke
 from graphkin.solver import DriverRange
-from graphkin.solver.flywheel import Flywheel, MomentArea, needed_moment
+from graphkin.solver.flywheel import FlywheelStudy, MomentArea, needed_moment
 from graphkin.study.driver_axis import LEFT, RIGHT, WIDTH, driver_axis, heading, number, title_of
-from graphkin.study.force_diagrams import MARGIN, Course, draw_course, whole_turn
+from graphkin.study.force_diagrams import MARGIN, ForceRun, draw_course, whole_turn
 from graphkin.words import Phrase, say, word
 
 if TYPE_CHECKING:
@@ -40,7 +40,7 @@ DRIVING = Stroke(0.35, (6.0, 1.2))
 MORE, LESS = "#dcdcdc", "#b8b8b8"
 
 
-def flywheel_page(reach: DriverRange, found: Flywheel, language: str) -> ChartPage:
+def flywheel_page(reach: DriverRange, found: FlywheelStudy, language: str) -> ChartPage:
     """The page of a flywheel."""
     scene, axis = reach.scene, driver_axis(reach, language)
     per, force = scene.units.newtons, scene.units.force
@@ -66,7 +66,7 @@ def flywheel_page(reach: DriverRange, found: Flywheel, language: str) -> ChartPa
                    (look(DRIVING), word("driving moment", language))]  # fmt: skip
         add_legend(figure, complex(LEFT, TOP - 9.5), entries)
         axes = add_panel(figure, Box(LEFT, TOP, WIDTH - RIGHT, TOP + TALL), "moments", f"$M$ ({moment})")
-        draw_course(axes, axis, Course(offsets, x, needed), needed)
+        draw_course(axes, axis, ForceRun(offsets, x, needed), needed)
         low, high = axes.get_ylim()
         axes.set_ylim(min(low, driving - MARGIN * (high - low)), max(high, driving + MARGIN * (high - low)))
         axes.axhline(driving, **look(DRIVING))

@@ -38,7 +38,7 @@ from graphkin.words import Phrase, say, word
 if TYPE_CHECKING:
     from graphkin.drawing.chart import Axes, Figure
 
-__all__ = ["Course", "course", "force_extremes", "force_page", "polar_page", "whole_turn"]
+__all__ = ["ForceRun", "course", "force_extremes", "force_page", "polar_page", "whole_turn"]
 
 Array = NDArray[np.float64]
 
@@ -56,7 +56,7 @@ TICKS = 12
 
 
 @dataclass(frozen=True)
-class Course:
+class ForceRun:
     """A force (complex) or a moment over the way of the driver, in the scene's units.
 
     offsets, x, values : shape (n,), as the axis goes; NaN where it has none, and between the two values of a jump
@@ -79,7 +79,7 @@ def whole_turn(axis: DriverAxis) -> Array:
     return np.unique(np.concatenate([axis.offsets, beside[(beside > low) & (beside < high)]]))
 
 
-def course(axis: DriverAxis, name: str) -> Course:
+def course(axis: DriverAxis, name: str) -> ForceRun:
     """A force or a moment by its name over the way of the driver."""
     reach, offsets = axis.reach, whole_turn(axis)
     value = forces_of(reach.motion(offsets)).value(name)
@@ -87,7 +87,7 @@ def course(axis: DriverAxis, name: str) -> Course:
     x = axis.at(offsets)
     if reach.full:
         x[0], x[-1] = axis.left, axis.right
-    return Course(offsets, x, value / reach.scene.units.newtons)
+    return ForceRun(offsets, x, value / reach.scene.units.newtons)
 
 
 def _written(scene: Mechanism, name: str) -> str:
@@ -127,7 +127,7 @@ def force_page(reach: DriverRange, quantity: Quantity, language: str) -> ChartPa
     )  # fmt: skip
 
 
-def draw_course(axes: Axes, axis: DriverAxis, found: Course, values: Array) -> None:
+def draw_course(axes: Axes, axis: DriverAxis, found: ForceRun, values: Array) -> None:
     """The curve over the driver, its jumps dashed."""
     good = values[np.isfinite(values)]
     low, high = (min(0.0, good.min()), max(0.0, good.max())) if len(good) else (0.0, 1.0)
@@ -144,7 +144,7 @@ def draw_course(axes: Axes, axis: DriverAxis, found: Course, values: Array) -> N
         axes.plot(found.x[k : k + 2], values[k : k + 2], **look(LEAP))
 
 
-def _jumps(found: Course, values: Array) -> list[int]:
+def _jumps(found: ForceRun, values: Array) -> list[int]:
     """After which values the curve jumps."""
     step = np.abs(np.diff(found.x))
     leap = np.abs(np.diff(values))
@@ -174,7 +174,7 @@ def force_extremes(reach: DriverRange) -> dict[str, tuple[Quantity, list[tuple[s
         if value is None or quantity is None or not np.nanmax(np.abs(value), initial=0.0) > NOUGHT * most:
             continue
         values = np.asarray(np.abs(value) if quantity.is_size else value.real) / scene.units.newtons
-        marks = _extremes(axis, quantity, Course(offsets, x, value), values)
+        marks = _extremes(axis, quantity, ForceRun(offsets, x, value), values)
         found[name] = quantity, [
             (kind, _driver_at(reach, at), math.inf if _unbounded(reach, offsets, values, at, size) else size)
             for kind, (_, size, at) in zip(("max", "min"), marks, strict=False)
@@ -196,7 +196,7 @@ def _unbounded(reach: DriverRange, offsets: Array, values: Array, at: float, val
     return bool((low or high) and abs(value) > GROWS * np.nanmax(inside, initial=0.0))
 
 
-def _extremes(axis: DriverAxis, quantity: Quantity, found: Course, values: Array) -> list[tuple[float, float, float]]:
+def _extremes(axis: DriverAxis, quantity: Quantity, found: ForceRun, values: Array) -> list[tuple[float, float, float]]:
     """Place on the axis, value and offset of the greatest and the least."""
     marks = []
     for pick in (np.nanargmax, np.nanargmin):

@@ -11,14 +11,14 @@ from dataclasses import dataclass, replace
 from graphkin.scene.model import Mechanism
 from graphkin.structure import Dyad, Pair, Slide, Structure, Turn
 
-__all__ = ["Loop", "loops"]
+__all__ = ["BasicLoop", "loops"]
 
 EQUAL = 1e-9
 """Lengths that differ by less than this part of the longest count as equal: a change point."""
 
 
 @dataclass(frozen=True)
-class Loop:
+class BasicLoop:
     """One basic mechanism.
 
     kind : "four-bar", "slider-crank", "guide bar", "oscillating block", "double slider"
@@ -38,9 +38,9 @@ class Loop:
     turns: tuple[str, ...]
 
 
-def loops(structure: Structure) -> tuple[Loop, ...]:
+def loops(structure: Structure) -> tuple[BasicLoop, ...]:
     """The basic mechanisms of a structure: groups of two links between the frame and a link pivoted to the frame."""
-    found: list[Loop] = []
+    found: list[BasicLoop] = []
     for group in structure.groups:
         if isinstance(group, Dyad) and all(len(body.links) == 1 for body in group.bodies):
             loop = _FINDERS[group.kind](structure, group)
@@ -75,7 +75,7 @@ def _named(scene: Mechanism, links: tuple[str, ...]) -> tuple[str, ...]:
     return (*(sorted(links, key=lambda name: scene.order.get(name, -1))), scene.frame.name)
 
 
-def _four_bar(structure: Structure, group: Dyad) -> Loop | None:
+def _four_bar(structure: Structure, group: Dyad) -> BasicLoop | None:
     scene = structure.scene
     frame = scene.frame.name
     one, two, inner = group.outer_first, group.outer_second, group.inner
@@ -97,7 +97,7 @@ def _four_bar(structure: Structure, group: Dyad) -> Loop | None:
     }
     name, grashof, by = four_bar_class(**lengths)
     names = {"crank": crank, "rocker": rocker}
-    return Loop(
+    return BasicLoop(
         "four-bar", name, _named(scene, (crank, coupler, rocker)), lengths, grashof, tuple(names[b] for b in by)
     )
 
@@ -126,7 +126,7 @@ def four_bar_class(crank: float, coupler: float, rocker: float, frame: float) ->
     return "crank-rocker", True, (short_one,)
 
 
-def _slider_crank(structure: Structure, group: Dyad) -> Loop | None:
+def _slider_crank(structure: Structure, group: Dyad) -> BasicLoop | None:
     scene = structure.scene
     frame = scene.frame.name
     one, two, inner = group.outer_first, group.outer_second, group.inner
@@ -169,7 +169,7 @@ def _offset(structure: Structure, slide: Slide, pin: str, centre: complex) -> fl
     return float(((centre - at) * slide.guide.direction.conjugate()).imag)
 
 
-def _slider_crank_named(scene: Mechanism, lengths: dict[str, float], links: tuple[str, ...], crank: str) -> Loop:
+def _slider_crank_named(scene: Mechanism, lengths: dict[str, float], links: tuple[str, ...], crank: str) -> BasicLoop:
     r, rod, e = lengths["crank"], lengths["rod"], lengths["offset"]
     equal = EQUAL * max(r, rod, e)
     place = "in-line" if e <= equal else "offset"
@@ -183,24 +183,24 @@ def _slider_crank_named(scene: Mechanism, lengths: dict[str, float], links: tupl
         name = f"{place} slider-crank whose rod turns fully"
     else:
         name = f"{place} rocker-slider"
-    return Loop("slider-crank", name, _named(scene, links), lengths, grashof, turns)
+    return BasicLoop("slider-crank", name, _named(scene, links), lengths, grashof, turns)
 
 
-def _guide_bar(scene: Mechanism, lengths: dict[str, float], crank: str, bar: str, links: tuple[str, ...]) -> Loop:
+def _guide_bar(scene: Mechanism, lengths: dict[str, float], crank: str, bar: str, links: tuple[str, ...]) -> BasicLoop:
     r, d, e = lengths["crank"], lengths["centres"], lengths["offset"]
     equal = EQUAL * max(r, d, e)
     if abs(abs(r - d) - e) <= equal:
-        return Loop("guide bar", "guide bar at a change point", _named(scene, links), lengths, True, (crank,))
+        return BasicLoop("guide bar", "guide bar at a change point", _named(scene, links), lengths, True, (crank,))
     if r - d > e:
-        return Loop(
+        return BasicLoop(
             "guide bar", "rotating guide bar (Whitworth)", _named(scene, links), lengths, True, (crank, bar)
         )
     if d - r > e:
-        return Loop("guide bar", "swinging guide bar", _named(scene, links), lengths, True, (crank,))
-    return Loop("guide bar", "guide bar without a full turn", _named(scene, links), lengths, False, ())
+        return BasicLoop("guide bar", "swinging guide bar", _named(scene, links), lengths, True, (crank,))
+    return BasicLoop("guide bar", "guide bar without a full turn", _named(scene, links), lengths, False, ())
 
 
-def _inverted(structure: Structure, group: Dyad) -> Loop | None:
+def _inverted(structure: Structure, group: Dyad) -> BasicLoop | None:
     scene = structure.scene
     frame = scene.frame.name
     one, two, inner = group.outer_first, group.outer_second, group.inner
@@ -231,14 +231,15 @@ def _inverted(structure: Structure, group: Dyad) -> Loop | None:
     name = loop.name.replace("rotating guide bar (Whitworth)", "rotating block").replace(
         "swinging guide bar", "oscillating block"
     )
-    return Loop("oscillating block", name.replace("guide bar", "block"), loop.links, lengths, loop.grashof, loop.turns)
+    name = name.replace("guide bar", "block")
+    return BasicLoop("oscillating block", name, loop.links, lengths, loop.grashof, loop.turns)
 
 
 def _joint(one: Turn, two: Turn, link: str) -> str:
     return one.point if one.a == link else two.point
 
 
-def _double_slider(structure: Structure, group: Dyad) -> Loop | None:
+def _double_slider(structure: Structure, group: Dyad) -> BasicLoop | None:
     scene = structure.scene
     frame = scene.frame.name
     pairs: tuple[Pair, ...] = (group.outer_first, group.inner, group.outer_second)
@@ -251,7 +252,7 @@ def _double_slider(structure: Structure, group: Dyad) -> Loop | None:
     links = _named(scene, (other, *group.links))
     if group.kind == "RPP" and pivot is not None and turns and turns[0].b == other:
         crank = {"crank": _between(structure, other, pivot, turns[0].point)}
-        return Loop("double slider", "Scotch yoke", links, crank, True, (other,))
+        return BasicLoop("double slider", "Scotch yoke", links, crank, True, (other,))
     return None
 
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from graphkin.errors import CallError, Problem
 from graphkin.structure import Structure
-from graphkin.study.equations import Equations, Numbers, Solution
+from graphkin.study.equations import Arithmetic, Equations, Solution
 
 if TYPE_CHECKING:
     from mpmath import MPContext
@@ -50,7 +50,7 @@ def reference(structure: Structure, mp: MPContext) -> Equations:
     turn = 2 * mp.pi
     return Equations(
         structure,
-        Numbers(
+        Arithmetic(
             cos=np.frompyfunc(mp.cos, 1, 1),
             sin=np.frompyfunc(mp.sin, 1, 1),
             arg=lambda z: mp.arg(mp.mpc(z)),

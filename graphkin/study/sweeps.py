@@ -21,7 +21,7 @@ from graphkin.jobs import Checkpoints, Progress, Workers, key_of
 from graphkin.scene import mechanism_of
 from graphkin.scene.model import Mechanism
 from graphkin.study.designs import Designs, Value, applied
-from graphkin.study.watched import BLOCK, Design, Watched, word_column
+from graphkin.study.watched import BLOCK, FollowedDesign, Watched, word_column
 from graphkin.table import Column, Table
 from graphkin.table.csv_files import parquet_of_csv
 
@@ -69,7 +69,7 @@ class Sweep:
     """A whole sweep: positions of one mechanism, or of many designs of it.
 
     source : the scene, or the mapping of its file where designs replace numbers in it
-    asked, at : as for a `Design`
+    asked, at : as for a `FollowedDesign`
     """
 
     source: Mechanism | Mapping[str, Any]
@@ -99,10 +99,10 @@ class Sweep:
         return self.base.scene
 
     @cached_property
-    def base(self) -> Design:
+    def base(self) -> FollowedDesign:
         """The scene itself as a design."""
         scene = self.source if isinstance(self.source, Mechanism) else mechanism_of(self.source)
-        return _same(Design(scene, self.asked, self.at))
+        return _same(FollowedDesign(scene, self.asked, self.at))
 
     @cached_property
     def head(self) -> Table:
@@ -172,18 +172,18 @@ class PieceResult:
     good: int
 
 
-_BASE: list[Design] = []
+_BASE: list[FollowedDesign] = []
 """The scene that was swept last: to sweep it again, it need not be prepared again."""
 
 
-def _same(design: Design) -> Design:
+def _same(design: FollowedDesign) -> FollowedDesign:
     """The design, or that which was swept last where it is the same."""
     if not _BASE or _BASE[0] != design:
         _BASE[:] = [design]
     return _BASE[0]
 
 
-_LATEST: dict[tuple[str, int], Design | tuple[str, str]] = {}
+_LATEST: dict[tuple[str, int], FollowedDesign | tuple[str, str]] = {}
 """The design that was followed last, or why there is none: the pieces of a long one share it."""
 
 
@@ -226,14 +226,14 @@ def _rows(piece: SweepPiece, number: int, values: tuple[Value, ...]) -> tuple[Ta
     return _with_design(table, keys, number, shown), Outcome(number, status, why, cells, good)
 
 
-def _followed(sweep: Sweep, values: tuple[Value, ...]) -> Design | tuple[str, str]:
+def _followed(sweep: Sweep, values: tuple[Value, ...]) -> FollowedDesign | tuple[str, str]:
     """A design whose way is known, or the status and the reason why it has none."""
     try:
         if isinstance(sweep.source, Mechanism):
             design = sweep.base
         else:
             scene = mechanism_of(applied(sweep.source, sweep.designs.keys, values))
-            design = Design(scene, sweep.asked, sweep.at)
+            design = FollowedDesign(scene, sweep.asked, sweep.at)
         if design.engine is None or sweep.designs.keys:
             _ = design.reach
         return design

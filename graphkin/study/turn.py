@@ -13,9 +13,9 @@ from graphkin.errors import Unsolvable
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import DriverRange, Motion, own_slides
-from graphkin.solver.flywheel import Flywheel, flywheel_of
+from graphkin.solver.flywheel import FlywheelStudy, flywheel_of
 from graphkin.solver.whole_turn import extremes
-from graphkin.study.grashof import Loop, loops
+from graphkin.study.grashof import BasicLoop, loops
 from graphkin.study.quantities import Quantity, link_quantities, slide_quantities, symbol_quantity
 from graphkin.study.ranges import AssemblyRange, not_searched, ranges
 from graphkin.study.trace import Extreme, Least, Traced, trace
@@ -73,7 +73,7 @@ class TurnStudy:
     outputs: tuple[Output, ...]
     curves: tuple[Traced, ...]
     transmission: tuple[Least, ...]
-    loops: tuple[Loop, ...]
+    loops: tuple[BasicLoop, ...]
 
     @property
     def scene(self) -> Mechanism:
@@ -93,7 +93,7 @@ class TurnStudy:
         return self.reach.motion(low + (high - low) * part)
 
     @cached_property
-    def flywheel(self) -> Flywheel | Unsolvable | None:
+    def flywheel(self) -> FlywheelStudy | Unsolvable | None:
         """The flywheel that the scene asks for, or why it has none; None where it asks for none."""
         if self.scene.loading.flywheel is None:
             return None

@@ -40,7 +40,7 @@ __all__ = [
     "BLOCK",
     "MANY",
     "Arrays",
-    "Design",
+    "FollowedDesign",
     "Watched",
     "driver_columns",
     "everything",
@@ -196,7 +196,7 @@ class Arrays:
 
 
 @dataclass(frozen=True)
-class Design:
+class FollowedDesign:
     """One mechanism, whose motion is followed.
 
     asked : what the table shows; nothing: everything that moves

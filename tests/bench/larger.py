@@ -24,7 +24,7 @@ from graphkin.solver.findings import singular
 from graphkin.solver.joints import Drive
 from graphkin.solver.path import Path, follow_path
 from graphkin.structure import Cluster, Driven, Dyad, Structure, analyse
-from graphkin.study.equations import Equations, Numbers
+from graphkin.study.equations import Arithmetic, Equations
 from graphkin.study.reference import context
 
 from .tally import Tally
@@ -214,7 +214,7 @@ class _Exact:
         self.mp = context()
         self.structure = structure
         turn = 2 * self.mp.pi
-        self.equations = Equations(_meant(structure, self.mp), Numbers(
+        self.equations = Equations(_meant(structure, self.mp), Arithmetic(
             cos=np.frompyfunc(self.mp.cos, 1, 1),
             sin=np.frompyfunc(self.mp.sin, 1, 1),
             arg=lambda z: self.mp.arg(self.mp.mpc(z)),

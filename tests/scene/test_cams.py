@@ -9,7 +9,7 @@ import pytest
 
 from graphkin.errors import SceneError
 from graphkin.scene import library_text, mechanism_of
-from graphkin.scene.follower_law import LAWS, FollowerLaw, Piece
+from graphkin.scene.follower_law import LAWS, FollowerLaw, LiftPiece
 
 pytestmark = pytest.mark.quick
 
@@ -84,7 +84,7 @@ def test_the_sketch_tells_the_side_of_a_swinging_follower():
 
 @pytest.mark.parametrize("by", LAWS)
 def test_each_law_rises_by_its_lift_with_the_derivatives_that_it_tells(by):
-    law = FollowerLaw((Piece(0.0, 2.0, 0.0, 3.0, by), Piece(2.0, math.tau, 3.0, 0.0, by)))
+    law = FollowerLaw((LiftPiece(0.0, 2.0, 0.0, 3.0, by), LiftPiece(2.0, math.tau, 3.0, 0.0, by)))
     assert (0.0, pytest.approx(3.0)) == (law.at(0.0).lift, law.at(2.0).lift)
     h = 1e-4
     for angle in (0.3, 0.8, 1.3, 1.7, 3.0, 5.5):
@@ -94,6 +94,6 @@ def test_each_law_rises_by_its_lift_with_the_derivatives_that_it_tells(by):
 
 
 def test_a_seam_belongs_to_the_later_piece():
-    law = FollowerLaw((Piece(0.0, 2.0, 0.0, 3.0, "uniform"), Piece(2.0, math.tau, 3.0, 0.0, "uniform")))
+    law = FollowerLaw((LiftPiece(0.0, 2.0, 0.0, 3.0, "uniform"), LiftPiece(2.0, math.tau, 3.0, 0.0, "uniform")))
     assert -3.0 / (math.tau - 2.0) == law.at(2.0 - 1e-14).slope
     assert 1.5 == law.at(-1e-14).slope

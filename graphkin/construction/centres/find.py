@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from graphkin.construction.board import EXACT, Instrument
-from graphkin.construction.centres.kennedy import CrossedCentre, Known, Relation, Search, closure
+from graphkin.construction.centres.kennedy import CentreRelation, CrossedCentre, Known, Search, closure
 from graphkin.construction.centres.motion import Way, relative_centre, work, worked
 from graphkin.construction.centres.pairs import (
     LinkPair,
@@ -48,7 +48,7 @@ class Centre:
     number: int = 0
     joint: str = ""
     rolls: bool = False
-    lines: tuple[Relation, ...] = ()
+    lines: tuple[CentreRelation, ...] = ()
     way: Way | Literal[""] = ""
     why: Phrase | None = None
     error: float = 0.0

@@ -15,7 +15,7 @@ from heapq import heappop, heappush
 
 from graphkin.construction.centres.pairs import Line, LinkPair, Normal, Place, wedge
 
-__all__ = ["ROUNDING", "CrossedCentre", "Known", "Relation", "Search", "closure"]
+__all__ = ["ROUNDING", "CentreRelation", "CrossedCentre", "Known", "Search", "closure"]
 
 ROUNDING = 2e-16
 SURE = 1e-10
@@ -33,7 +33,7 @@ class Known:
 
 
 @dataclass(frozen=True)
-class Relation:
+class CentreRelation:
     """A line on which a centre lies: through two centres with a third link, or the common normal of a pin in a slot.
 
     ``via`` is the third link ("" for a normal); ``through`` names the two centres, or the pin in slot.
@@ -52,7 +52,7 @@ class CrossedCentre:
 
     pair: LinkPair
     place: Place
-    lines: tuple[Relation, Relation]
+    lines: tuple[CentreRelation, CentreRelation]
     sine: float
     error: float
 
@@ -62,13 +62,13 @@ class Search:
 
     def __init__(self, pairs: Sequence[LinkPair], names: Sequence[str], normals: Sequence[Normal]) -> None:
         self.pairs, self.names, self.known = pairs, names, dict[LinkPair, Known]()
-        self.lines: dict[LinkPair, list[Relation]] = {pair: [] for pair in pairs}
+        self.lines: dict[LinkPair, list[CentreRelation]] = {pair: [] for pair in pairs}
         self.best: dict[LinkPair, CrossedCentre] = {}
         self._place = {pair: i for i, pair in enumerate(pairs)}
         self._ranked: list[tuple[int, int]] = []  # powers of ten of the errors, with the place of the pair: a heap
         self._as_written = {frozenset(pair): pair for pair in pairs}
         for normal in normals:
-            self._add(Relation(normal.pair, normal.line, ROUNDING, "", (normal.key,)))
+            self._add(CentreRelation(normal.pair, normal.line, ROUNDING, "", (normal.key,)))
 
     def learn(self, pair: LinkPair, known: Known) -> None:
         """Take in a centre, and with it all lines that it completes."""
@@ -100,9 +100,9 @@ class Search:
         if sine > TOGETHER:
             if missing[0] not in one:
                 one, two = two, one
-            self._add(Relation(missing, line, (a.error + b.error + ROUNDING) / sine, via, (one, two)))
+            self._add(CentreRelation(missing, line, (a.error + b.error + ROUNDING) / sine, via, (one, two)))
 
-    def _add(self, relation: Relation) -> None:
+    def _add(self, relation: CentreRelation) -> None:
         pair = relation.pair
         if len(self.lines[pair]) == MOST_LINES:
             return
@@ -115,7 +115,7 @@ class Search:
         self.lines[pair].append(relation)
 
 
-def _cross(a: Relation, b: Relation) -> CrossedCentre | None:
+def _cross(a: CentreRelation, b: CentreRelation) -> CrossedCentre | None:
     place, sine = wedge(a.line, b.line)
     if sine == 0.0:
         return None

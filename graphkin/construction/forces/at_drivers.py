@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
-from graphkin.construction.forces.cut_free import Chain, CutFree
-from graphkin.construction.forces.force_sheet import Acting, ForceGroup, ForceTerm, ForceVector, Turning
+from graphkin.construction.forces.cut_free import CutFree, HeadToTail
+from graphkin.construction.forces.force_sheet import Acting, ForceGroup, ForceTerm, ForceVector, KnownMoment
 from graphkin.construction.forces.group_figure import (
     CutBody,
     GroupFigure,
@@ -18,7 +18,7 @@ from graphkin.construction.forces.group_figure import (
     slide_found,
 )
 from graphkin.construction.forces.naming import opposite
-from graphkin.construction.forces.order import Balance
+from graphkin.construction.forces.order import BalanceForm
 from graphkin.plane import dot
 from graphkin.structure import Body, Driven, Turn
 
@@ -26,12 +26,12 @@ __all__ = ["at_driver", "between_welded"]
 
 
 def between_welded(
-    cut: CutFree, side: CutBody, found: tuple[Acting, ...], figure: GroupFigure, balances: Mapping[str, Balance]
+    cut: CutFree, side: CutBody, found: tuple[Acting, ...], figure: GroupFigure, balances: Mapping[str, BalanceForm]
 ) -> None:
     """The forces between links of a body that drivers hold together, from the outermost link on, with what balances
     there."""
     extra: dict[str, list[Acting]] = {}
-    turning: dict[str, list[Turning]] = {}
+    turning: dict[str, list[KnownMoment]] = {}
     for one in found:
         extra.setdefault(one.link, []).append(one)
     for weld in reversed(side.body.welds):
@@ -40,7 +40,7 @@ def between_welded(
         acting = [*cut.forces_on((leaf,)), *extra.get(leaf, ())]
         turns = turning.get(leaf, [])
         pair = weld.pair
-        chain = Chain()
+        chain = HeadToTail()
         for one in acting:
             cut.lay(chain, one)
         force = -chain.at * cut.per_mm
@@ -59,7 +59,7 @@ def between_welded(
             cut.set_pin(pair.point, leaf, force)
             cut.set_pin(pair.point, other, -force)
             extra.setdefault(other, []).append(Acting(opposite(symbol), other, -force, at))
-            turning.setdefault(other, []).append(Turning(named, other, -equation.value, not turned))
+            turning.setdefault(other, []).append(KnownMoment(named, other, -equation.value, not turned))
             figure.inner[leaf] = (*chain.vectors, cut.drawn(symbol, leaf, at, chain.at, 0j))
             continue
         at, along = cut.images.foot(pair), cut.images.along(pair)
@@ -83,10 +83,10 @@ def between_welded(
         extra.setdefault(other, []).extend([
             Acting(opposite(symbol), other, -square, at), Acting(balance.symbol, other, -push, at, mine),
         ])  # fmt: skip
-        turning.setdefault(other, []).append(Turning(opposite(equation.symbol), other, -equation.value))
+        turning.setdefault(other, []).append(KnownMoment(opposite(equation.symbol), other, -equation.value))
 
 
-def at_driver(cut: CutFree, element: Driven, balance: Balance) -> ForceGroup:
+def at_driver(cut: CutFree, element: Driven, balance: BalanceForm) -> ForceGroup:
     """The forces of a link that is driven from links still to come, and what balances it there."""
     link = element.link
     cut.load_pins((link,))
@@ -119,7 +119,7 @@ def at_driver(cut: CutFree, element: Driven, balance: Balance) -> ForceGroup:
     return figure.group((link,) if link not in cut.names.blocks else (), "driver", polygon, True)
 
 
-def _balancing(cut: CutFree, balance: Balance, link: str) -> Acting:
+def _balancing(cut: CutFree, balance: BalanceForm, link: str) -> Acting:
     """A balancing force of unit size on a link."""
     images = cut.images
     if balance.slide:
@@ -132,7 +132,7 @@ def _balancing(cut: CutFree, balance: Balance, link: str) -> Acting:
     return Acting(balance.symbol, link, along if mine else -along, at, not mine)
 
 
-def _at_crank(cut: CutFree, side: CutBody, balance: Balance, figure: GroupFigure) -> tuple[ForceVector, ...]:
+def _at_crank(cut: CutFree, side: CutBody, balance: BalanceForm, figure: GroupFigure) -> tuple[ForceVector, ...]:
     assert isinstance(side.outer, Turn)
     link, letter, chain = side.links[0], side.outer.point, figure.chain
     if balance.is_moment:
@@ -142,7 +142,7 @@ def _at_crank(cut: CutFree, side: CutBody, balance: Balance, figure: GroupFigure
         cut.balances[balance.symbol] = equation.value if mine else -equation.value
         other = balance.other if mine else balance.link
         if other != cut.names.structure.scene.frame.name:
-            cut.turn(Turning(balance.symbol, other, -equation.value, mine))
+            cut.turn(KnownMoment(balance.symbol, other, -equation.value, mine))
     else:
         push = _balancing(cut, balance, link)
         equation = cut.by_moments((link,), side.at, letter, push, "")
@@ -157,7 +157,7 @@ def _at_crank(cut: CutFree, side: CutBody, balance: Balance, figure: GroupFigure
     return (*chain.vectors, cut.drawn(side.symbol, link, side.at, chain.at, 0j))
 
 
-def _react(cut: CutFree, balance: Balance, link: str, push: Acting) -> None:
+def _react(cut: CutFree, balance: BalanceForm, link: str, push: Acting) -> None:
     """What drives a link from another one loads that one."""
     other = balance.other if balance.link == link else balance.link
     if other != cut.names.structure.scene.frame.name:

@@ -14,10 +14,10 @@ from graphkin.construction.forces.force_sheet import (
     Acting,
     Arm,
     ForceVector,
+    KnownMoment,
     MomentEquation,
     MomentTerm,
     Part,
-    Turning,
 )
 from graphkin.construction.forces.images import Images
 from graphkin.construction.forces.naming import JointNames, opposite
@@ -26,7 +26,7 @@ from graphkin.plane import cross, cross_lines, dot, unit
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Slide
 
-__all__ = ["Chain", "CutFree", "dead_point"]
+__all__ = ["CutFree", "HeadToTail", "dead_point"]
 
 PARALLEL = 1e-12
 
@@ -38,7 +38,7 @@ def dead_point(links: Sequence[str]) -> Unsolvable:
 
 
 @dataclass
-class Chain:
+class HeadToTail:
     """Vectors of a polygon laid head to tail, from its first tail on."""
 
     vectors: list[ForceVector] = field(default_factory=list)
@@ -58,7 +58,7 @@ class CutFree:
     per_mm: float
     names: JointNames
     forces: dict[str, list[Acting]]
-    moments: dict[str, list[Turning]]
+    moments: dict[str, list[KnownMoment]]
     pins: dict[tuple[str, str], complex] = field(default_factory=lambda: defaultdict(complex))
     slides: dict[str, tuple[complex, float]] = field(default_factory=dict)
     balances: dict[Symbol, complex | float] = field(default_factory=dict)
@@ -69,7 +69,7 @@ class CutFree:
     def push(self, one: Acting) -> None:
         self.forces.setdefault(one.link, []).append(one)
 
-    def turn(self, one: Turning) -> None:
+    def turn(self, one: KnownMoment) -> None:
         self.moments.setdefault(one.link, []).append(one)
 
     def load_pins(self, members: Iterable[str]) -> None:
@@ -106,13 +106,13 @@ class CutFree:
             named = (symbol, turned) if sign > 0 else (opposite(symbol), opposite(turned))
             self.push(Acting(named[0], link, sign * force, at))
             if couple:
-                self.turn(Turning(named[1], link, sign * couple))
+                self.turn(KnownMoment(named[1], link, sign * couple))
 
     def forces_on(self, links: Iterable[str]) -> list[Acting]:
         """Known forces on some links, those of no size left out."""
         return [one for link in links for one in self.forces.get(link, ()) if one.force]
 
-    def moments_on(self, links: Iterable[str]) -> list[Turning]:
+    def moments_on(self, links: Iterable[str]) -> list[KnownMoment]:
         return [one for link in links for one in self.moments.get(link, ()) if one.moment]
 
     # -- moments -------------------------------------------------------------------------------------------------------
@@ -137,7 +137,7 @@ class CutFree:
         size = abs(one.force)
         return MomentTerm(one.symbol, part, size, arm, size * arm.mm / self.images.mm, one.turned)
 
-    def terms(self, forces: Iterable[Acting], moments: Iterable[Turning], about: complex) -> list[MomentTerm]:
+    def terms(self, forces: Iterable[Acting], moments: Iterable[KnownMoment], about: complex) -> list[MomentTerm]:
         found = [self.term(one, about) for one in forces]
         return found + [MomentTerm(m.symbol, "", m.moment, None, m.moment, m.turned) for m in moments]
 
@@ -161,7 +161,7 @@ class CutFree:
 
     def couple(
         self, links: Sequence[str], about: complex, letter: str, symbol: Symbol, more: Sequence[Acting] = (),
-        turning: Sequence[Turning] = (),
+        turning: Sequence[KnownMoment] = (),
     ) -> MomentEquation:  # fmt: skip
         """The couple that is left of the moments of all that acts on some links."""
         forces = [*self.forces_on(links), *(m for m in more if m.force)]
@@ -174,7 +174,7 @@ class CutFree:
 
     # -- polygons ------------------------------------------------------------------------------------------------------
 
-    def lay(self, chain: Chain, one: Acting, part: Part = "", known: bool = True) -> complex:
+    def lay(self, chain: HeadToTail, one: Acting, part: Part = "", known: bool = True) -> complex:
         """Lay off a force head to tail; what it is then in N."""
         mm = abs(one.force) / self.per_mm
         tip = chain.at
@@ -186,7 +186,7 @@ class CutFree:
         chain.at = tip
         return (tip - chain.vectors[-1].tail) * self.per_mm
 
-    def lay_known(self, chain: Chain, links: Iterable[str]) -> None:
+    def lay_known(self, chain: HeadToTail, links: Iterable[str]) -> None:
         for one in self.forces_on(links):
             self.lay(chain, one)
 
@@ -207,7 +207,7 @@ class CutFree:
 
     def projected(self, forces: Sequence[Acting], along: complex) -> float:
         """Part of some known forces along a direction (N), laid off and projected."""
-        chain = Chain()
+        chain = HeadToTail()
         for one in forces:
             self.lay(chain, one)
         return dot(chain.at, along) * self.per_mm

@@ -13,14 +13,14 @@ from graphkin.construction.forces.force_sheet import (
     ForceGroup,
     ForceSheet,
     ForceState,
-    Turning,
+    KnownMoment,
 )
 from graphkin.construction.forces.groups import of_dyad
 from graphkin.construction.forces.images import Images
 from graphkin.construction.forces.known import from_outside, inertias
 from graphkin.construction.forces.lever import levers_of
 from graphkin.construction.forces.naming import JointNames
-from graphkin.construction.forces.order import Balance, balance_of, driver_of, force_groups
+from graphkin.construction.forces.order import BalanceForm, balance_of, driver_of, force_groups
 from graphkin.construction.forces.system import of_larger_group
 from graphkin.construction.forces.touching import held_by_pairs
 from graphkin.construction.sheet import Sheet
@@ -71,7 +71,7 @@ def _drawn(sheet: Sheet, hand: Instrument, per_mm: float) -> ForceSheet:
 
 
 def _state(
-    held: Sheet, hand: Instrument, per_mm: float, known: tuple[Acting, ...], turning: tuple[Turning, ...]
+    held: Sheet, hand: Instrument, per_mm: float, known: tuple[Acting, ...], turning: tuple[KnownMoment, ...]
 ) -> ForceState:
     names = JointNames(held.structure)
     cut = CutFree(Images(held), hand, per_mm, names, {}, {})
@@ -93,7 +93,7 @@ def _state(
 
 def _group(cut: CutFree, element: Element) -> ForceGroup:
     structure = cut.names.structure
-    balances: Mapping[str, Balance] = {d.key: balance_of(structure, d) for d in driver_of(element)}
+    balances: Mapping[str, BalanceForm] = {d.key: balance_of(structure, d) for d in driver_of(element)}
     if isinstance(element, Driven):
         return at_driver(cut, element, balances[element.driver.key])
     if isinstance(element, Dyad):

@@ -14,8 +14,22 @@ from graphkin.construction.sizes import Direction
 from graphkin.scene.symbol import Symbol
 
 __all__ = [
-    "Acting", "Arm", "ForceGroup", "ForceLine", "ForceSheet", "ForceState", "ForceTerm", "ForceVector", "Inertia",
-    "Lever", "LeverRow", "MomentEquation", "MomentTerm", "Part", "Turning", "Way",
+    "Acting",
+    "Arm",
+    "ForceGroup",
+    "ForceLine",
+    "ForceSheet",
+    "ForceState",
+    "ForceTerm",
+    "ForceVector",
+    "Inertia",
+    "KnownMoment",
+    "Lever",
+    "LeverRow",
+    "MomentEquation",
+    "MomentTerm",
+    "Part",
+    "Way",
 ]  # fmt: skip
 
 Part = Literal["", "t", "n"]
@@ -36,7 +50,7 @@ class Acting:
 
 
 @dataclass(frozen=True)
-class Turning:
+class KnownMoment:
     """A known moment (N m) on a link; ``turned`` where it is the opposite of its symbol's."""
 
     symbol: Symbol
@@ -177,7 +191,7 @@ class ForceState:
     """
 
     known: tuple[Acting, ...]
-    turning: tuple[Turning, ...]
+    turning: tuple[KnownMoment, ...]
     groups: tuple[ForceGroup, ...]
     vectors: Mapping[Symbol, complex]
     moments: Mapping[Symbol, float]

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
-from graphkin.construction.forces.cut_free import Chain, CutFree
+from graphkin.construction.forces.cut_free import CutFree, HeadToTail
 from graphkin.construction.forces.force_sheet import (
     Acting,
     ForceGroup,
     ForceLine,
     ForceTerm,
     ForceVector,
+    KnownMoment,
     MomentEquation,
     Part,
-    Turning,
 )
 from graphkin.construction.forces.naming import opposite
 from graphkin.construction.sizes import Direction
@@ -82,7 +82,7 @@ class GroupFigure:
 
     moments: list[MomentEquation] = field(default_factory=list)
     terms: list[ForceTerm] = field(default_factory=list)
-    chain: Chain = field(default_factory=Chain)
+    chain: HeadToTail = field(default_factory=HeadToTail)
     inner: dict[str, tuple[ForceVector, ...]] = field(default_factory=dict)
     couples: list[MomentEquation] = field(default_factory=list)
     lines: list[ForceLine] = field(default_factory=list)
@@ -137,7 +137,7 @@ def foot_name(pair: Pair) -> str:
 
 def outer_couple(
     cut: CutFree, side: CutBody, force: Acting, about: complex, letter: str, figure: GroupFigure,
-    more: tuple[Acting, ...], turning: tuple[Turning, ...] = (),
+    more: tuple[Acting, ...], turning: tuple[KnownMoment, ...] = (),
 ) -> float:  # fmt: skip
     """The couple of an outer sliding pair on the body, and the line of action of its force."""
     symbol = replace(side.symbol, kind="M")

@@ -13,7 +13,7 @@ from dataclasses import replace
 
 from graphkin.construction.forces.at_drivers import between_welded
 from graphkin.construction.forces.cut_free import CutFree
-from graphkin.construction.forces.force_sheet import Acting, ForceGroup, ForceTerm, ForceVector, Turning
+from graphkin.construction.forces.force_sheet import Acting, ForceGroup, ForceTerm, ForceVector, KnownMoment
 from graphkin.construction.forces.group_figure import (
     CutBody,
     GroupFigure,
@@ -25,14 +25,14 @@ from graphkin.construction.forces.group_figure import (
     slide_found,
 )
 from graphkin.construction.forces.naming import opposite
-from graphkin.construction.forces.order import Balance
+from graphkin.construction.forces.order import BalanceForm
 from graphkin.plane import dot, unit
 from graphkin.structure import Dyad, Slide, Turn, links_of
 
 __all__ = ["of_dyad"]
 
 
-def of_dyad(cut: CutFree, dyad: Dyad, balances: Mapping[str, Balance]) -> ForceGroup:
+def of_dyad(cut: CutFree, dyad: Dyad, balances: Mapping[str, BalanceForm]) -> ForceGroup:
     """The forces of a dyad: those of its outer pairs, then the force inside, then those between links that drivers
     hold together.
 
@@ -269,7 +269,7 @@ def _rpp(cut: CutFree, dyad: Dyad, one: CutBody, two: CutBody, figure: GroupFigu
     inner = _inner_slide(cut, dyad, slide, figure, own, start, one, one.outer_force(r1))
     on_two = two.outer_force(n2)
     known = figure.couples[-1]
-    back = Turning(opposite(known.symbol), inner[1][0].link, -known.value)
+    back = KnownMoment(opposite(known.symbol), inner[1][0].link, -known.value)
     couple = outer_couple(cut, two, on_two, two.at, foot_name(two.outer), figure, inner[1], (back,))
     slide_found(cut, two, n2, couple, links_of(dyad))
     return tuple(figure.chain.vectors), {one.name: (*inner[0], one.outer_force(r1)), two.name: (*inner[1], on_two)}

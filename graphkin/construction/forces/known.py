@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from graphkin.construction.board import Instrument
-from graphkin.construction.forces.force_sheet import Acting, Inertia, Turning
+from graphkin.construction.forces.force_sheet import Acting, Inertia, KnownMoment
 from graphkin.construction.forces.images import Images
 from graphkin.construction.forces.phases import against
 from graphkin.construction.sheet import Sheet
@@ -50,7 +50,7 @@ def _inertia(sheet: Sheet, images: Images, mass: LinkMass, hand: Instrument) -> 
 def from_outside(
     sheet: Sheet, growing: Sheet, found: Mapping[str, Inertia], acts: Mapping[str, bool | None], with_edges: bool,
     hand: Instrument,
-) -> tuple[tuple[Acting, ...], tuple[Turning, ...]]:  # fmt: skip
+) -> tuple[tuple[Acting, ...], tuple[KnownMoment, ...]]:  # fmt: skip
     """All known forces and moments, those of no size among them.
 
     Parameters
@@ -60,13 +60,13 @@ def from_outside(
     """
     images, loading = Images(sheet), sheet.scene.loading
     forces: list[Acting] = []
-    moments: list[Turning] = []
+    moments: list[KnownMoment] = []
     for mass in loading.masses:
         one = found[mass.link]
         forces.append(Acting(Symbol("Fi", link=mass.link), mass.link, one.force, one.centre))
         if loading.gravity:
             forces.append(Acting(Symbol("G", link=mass.link), mass.link, mass.mass * loading.gravity, one.centre))
-        moments.append(Turning(Symbol("Mi", link=mass.link), mass.link, one.moment))
+        moments.append(KnownMoment(Symbol("Mi", link=mass.link), mass.link, one.moment))
     for load in loading.loads:
         on = with_edges if acts[load.name] is None else acts[load.name]
         symbol = Symbol("P", name=load.name, turning=not load.is_force)
@@ -74,7 +74,7 @@ def from_outside(
             force = _force(sheet, growing, load) if on else 0j
             forces.append(Acting(symbol, load.link, force, images.place(load.link, load.at)))
         else:
-            moments.append(Turning(symbol, load.link, load.size if on else 0.0))
+            moments.append(KnownMoment(symbol, load.link, load.size if on else 0.0))
     for spring in loading.springs:
         forces += _spring(images, spring, hand)
     return tuple(forces), tuple(moments)

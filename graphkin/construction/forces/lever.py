@@ -11,9 +11,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from graphkin.construction.board import Instrument
-from graphkin.construction.forces.force_sheet import Acting, ForceState, Lever, LeverRow, Turning
+from graphkin.construction.forces.force_sheet import Acting, ForceState, KnownMoment, Lever, LeverRow
 from graphkin.construction.forces.images import Images
-from graphkin.construction.forces.order import Balance, balance_of
+from graphkin.construction.forces.order import BalanceForm, balance_of
 from graphkin.construction.sheet import Sheet
 from graphkin.plane import cross, unit
 from graphkin.scene.symbol import Symbol
@@ -37,7 +37,7 @@ def levers_of(sheet: Sheet, state: ForceState, hand: Instrument) -> tuple[Lever,
     return tuple(lever for lever in made if lever is not None)
 
 
-def _lever(sheet: Sheet, drawn: Sheet, state: ForceState, balance: Balance, hand: Instrument) -> Lever | None:
+def _lever(sheet: Sheet, drawn: Sheet, state: ForceState, balance: BalanceForm, hand: Instrument) -> Lever | None:
     images = Images(drawn)
     ends = {str(ref): TURN * z for ref, z in drawn.ends["velocity"].items()}
     rows = [_force(images, one, hand) for one in _at(images, sheet, state.known)]
@@ -70,7 +70,7 @@ def _force(images: Images, one: Acting, hand: Instrument) -> LeverRow:
     return LeverRow(one.symbol, one.force, end, arm, abs(one.force) * arm, None, one.turned)
 
 
-def _couple(images: Images, one: Turning, hand: Instrument) -> LeverRow:
+def _couple(images: Images, one: KnownMoment, hand: Instrument) -> LeverRow:
     return _pair(images, one.symbol, one.link, one.moment, hand)
 
 
@@ -91,7 +91,7 @@ def _pair(images: Images, symbol: Symbol, link: str, moment: float, hand: Instru
     return LeverRow(symbol, force, tip, arm, moment / (abs(bar) / images.mm) * arm, (tail, tip))
 
 
-def _unknown(images: Images, balance: Balance, hand: Instrument) -> LeverRow:
+def _unknown(images: Images, balance: BalanceForm, hand: Instrument) -> LeverRow:
     """What balances, of unit size, between both links that it acts on."""
     frame = images.sheet.scene.frame.name
     if balance.is_moment:

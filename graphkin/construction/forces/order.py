@@ -10,11 +10,11 @@ from graphkin.scene.model import AngleDriver, AnyDriver, SlideDriver
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Cluster, Driven, Dyad, Element, Rolled, Structure, analyse
 
-__all__ = ["Balance", "balance_of", "force_groups"]
+__all__ = ["BalanceForm", "balance_of", "force_groups"]
 
 
 @dataclass(frozen=True)
-class Balance:
+class BalanceForm:
     """What balances at a driver: a moment (``along`` is 0) or a force on ``link`` at a place of its own axes (m), its
     opposite on ``other``; ``along`` is a direction in the frame, ``square`` one square to the link's own axis."""
 
@@ -31,7 +31,7 @@ class Balance:
         return self.symbol.kind == "M"
 
 
-def balance_of(structure: Structure, driver: AnyDriver) -> Balance:
+def balance_of(structure: Structure, driver: AnyDriver) -> BalanceForm:
     """What balances in place of a driver of a structure: what the scene says, else a moment where it turns and a force
     along the guide where it slides."""
     scene = structure.scene
@@ -39,12 +39,12 @@ def balance_of(structure: Structure, driver: AnyDriver) -> Balance:
     if said is not None:
         symbol = Symbol("M" if said.kind == "moment" else "F", link=said.link)
         along = 0j if said.kind == "moment" else said.turn
-        return Balance(symbol, said.link, scene.frame.name, said.at, along, said.square)
+        return BalanceForm(symbol, said.link, scene.frame.name, said.at, along, said.square)
     if isinstance(driver, AngleDriver):
-        return Balance(Symbol("M", link=driver.link), driver.link, driver.relative_to)
+        return BalanceForm(Symbol("M", link=driver.link), driver.link, driver.relative_to)
     slide = structure.slide(driver.key)
     of = next((pin.of for pin in scene.pins if pin.key == driver.key), slide.a)
-    return Balance(Symbol("F", link=of), slide.a, slide.b, slide=slide.key)
+    return BalanceForm(Symbol("F", link=of), slide.a, slide.b, slide=slide.key)
 
 
 def force_groups(structure: Structure) -> tuple[Element, ...]:

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphkin.construction.forces.cut_free import Chain, CutFree, dead_point
+from graphkin.construction.forces.cut_free import CutFree, HeadToTail, dead_point
 from graphkin.construction.forces.force_sheet import Acting, ForceGroup, ForceLine, ForceTerm, ForceVector
 from graphkin.construction.forces.group_figure import across
 from graphkin.construction.forces.naming import opposite
-from graphkin.construction.forces.order import Balance
+from graphkin.construction.forces.order import BalanceForm
 from graphkin.plane import cross, unit
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Cluster, Slide
@@ -35,7 +35,7 @@ class _Unknown:
     slide: Slide | None = None
 
 
-def of_larger_group(cut: CutFree, group: Cluster, balances: Sequence[Balance]) -> ForceGroup:
+def of_larger_group(cut: CutFree, group: Cluster, balances: Sequence[BalanceForm]) -> ForceGroup:
     """The forces of a group larger than a dyad, or of one that a balance holds otherwise than by a driven link."""
     members = group.members
     cut.load_pins(members)
@@ -72,7 +72,7 @@ def _slides(cut: CutFree, members: Sequence[str]) -> list[_Unknown]:
     return found
 
 
-def _balance(cut: CutFree, balance: Balance) -> _Unknown:
+def _balance(cut: CutFree, balance: BalanceForm) -> _Unknown:
     images = cut.images
     if balance.is_moment:
         return _Unknown(balance.symbol, balance.link, balance.other, 0j, 0j)
@@ -141,7 +141,7 @@ def _carried_over(
             key = one.symbol, one.on, one.off
             forces[key] = forces.get(key, 0j) + value * one.along
             places[key] = one
-    polygons: dict[str, Chain] = {name: Chain() for name in members}
+    polygons: dict[str, HeadToTail] = {name: HeadToTail() for name in members}
     for name in members:
         cut.lay_known(polygons[name], (name,))
     terms = [ForceTerm(f.symbol, "", True, True, None, f.turned) for name in members for f in cut.forces_on((name,))]
