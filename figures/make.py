@@ -47,6 +47,8 @@ GALLERY: dict[str, tuple[str, ...]] = {
     "centres-shaper": ("centres",),
     "centres-six-bar-us": ("centres",),
     "centres-double-butterfly": ("centres",),
+    # a train of wheels
+    "gear-train-epicyclic": ("mechanism", "plan"),
     # cams by their law
     "cam-offset-roller": ("mechanism", "cam"),
     "cam-swinging-zh": ("cam",),
