@@ -150,3 +150,26 @@ def test_what_is_wrong_with_a_law_is_said_by_name(driver, said):
 def test_a_value_that_the_law_never_takes_is_refused():
     with pytest.raises(CallError, match=r"at 1: 200° is not on its way; its law goes from 20° to 110°"):
         graphkin.check(crank(angle=50, law=LAW), at=200)
+
+
+def lawful(name):
+    """A scene that comes along, its driver moved by a law about where it stands."""
+    scene = graphkin.read(name).to_dict()
+    driver = scene["driver"]
+    value = "angle" if "angle" in driver else "travel"
+    way = 10 if value == "angle" else 5
+    kept = {key: driver[key] for key in ("link", "slide", "relative_to", value) if key in driver}
+    law = {"from": driver[value] - way, "rise": 2 * way, "duration": 0.5, "by": "345"}
+    return {**scene, "driver": {**kept, "law": law}}
+
+
+@pytest.mark.parametrize(
+    "name", ["sixbar-guide-40deg", "engine-gas-force", "hydraulic-cylinder", "gears-epicyclic", "cam-offset-roller"]
+)
+def test_mechanisms_of_every_kind_move_by_a_law_and_are_drawn_so(name):
+    scene = lawful(name)
+    turn, alone = graphkin.solve(scene, sweep=5), graphkin.solve(scene, at={"time": 0.375})
+    for link in turn.mechanism.links:
+        rates, own = turn[f"alpha_{link.name}"], alone[f"alpha_{link.name}"][0]
+        assert own == pytest.approx(rates[3], abs=1e-9 * np.abs(rates).max() + 1e-12)
+    assert graphkin.check(scene, at={"time": 0.2}).ok
