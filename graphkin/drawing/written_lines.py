@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from typing import Literal
 
 from graphkin.construction.mechanism_acts import SpecialPoint, TrialPositions
-from graphkin.construction.polygon_acts import LaidOff, MeasuredRate, PlanDrawn, Superposed, TrialDrawn
+from graphkin.construction.polygon_acts import ByRate, LaidOff, MeasuredRate, PlanDrawn, Superposed, TrialDrawn
 from graphkin.construction.sheet import Equation, Rate, Sheet, Step
+from graphkin.construction.sizes import Direction, RateTimes
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.equations import WrittenLine, rule_alone
 from graphkin.drawing.headings import number, term
@@ -33,6 +35,8 @@ def written_lines(sheet: Sheet, letters: Letters, language: str) -> list[Written
             lines += _products(sheet, equation, letters)
         if isinstance(step.act, MeasuredRate):
             lines.append(_measured(sheet, step.act, letters, language))
+        elif isinstance(step.act, ByRate):
+            lines += _by_rates(sheet, step, step.act, letters)
         elif isinstance(step.act, PlanDrawn) and not step.act.known:
             lines.append(_off_plan(step.act, language))
         elif isinstance(step.act, SpecialPoint):
@@ -84,10 +88,33 @@ def _measured(sheet: Sheet, act: MeasuredRate, letters: Letters, language: str) 
     return " = ".join((*(_rate_name(act.rate, n) for n in names), rule, value)) + way
 
 
+def _by_rates(sheet: Sheet, step: Step, act: ByRate, letters: Letters) -> Iterator[str]:
+    """``v_CB = ω_3 l_CB = 1.4737 × 151.21 = 222.84 mm/s,  ⊥CB``: how an end point is laid off from another of its link
+    whose rates are known."""
+    ends = act.point.point, act.start.point
+    way = letters.direction(Direction("square", ends), sheet.scene.frame.name)
+    inwards = letters.direction(Direction("towards", ends), sheet.scene.frame.name)
+    parts: tuple[tuple[Literal["v", "an", "at"], RateTimes, str], ...] = (
+        ("v", RateTimes("omega", (act.link,), ends), way),
+    )
+    if step.diagram == "acceleration":
+        parts = (
+            ("an", RateTimes("omega", (act.link,), ends, square=True), inwards),
+            ("at", RateTimes("alpha", (act.link,), ends), way),
+        )
+    for kind, rule, direction in parts:
+        rates = sheet.omega if rule.rate == "omega" else sheet.alpha
+        if rates[act.link].value and (said := rule_sum(sheet, rule, step.diagram)):
+            symbol = Symbol(kind, act.point, act.start)
+            yield f"${letters.vector(symbol)}$ = ${letters.size(rule)}$ = {bound(said)},  {direction}"
+
+
 def _off_plan(act: PlanDrawn, language: str) -> str:
     """``ω_3 = 30.00 mm × 0.25 (rad/s)/mm = 7.5 rad/s, clockwise``: read off the plan of a train."""
-    way = "" if act.value == 0.0 else f",  {term('clockwise' if act.value < 0 else 'counter-clockwise', language)}"
-    return f"{_rate_name(act.rate, act.link)} = {bound(plan_sum(act))}{way}"
+    if act.value == 0.0:
+        return f"{_rate_name(act.rate, act.link)} = 0"
+    way = term("clockwise" if act.value < 0 else "counter-clockwise", language)
+    return f"{_rate_name(act.rate, act.link)} = {bound(plan_sum(act))},  {way}"
 
 
 def _products(sheet: Sheet, equation: Equation, letters: Letters) -> list[str]:
