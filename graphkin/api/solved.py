@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
@@ -100,16 +99,6 @@ class Solved(Result, OfScene):
         watched = watched_named(scene, name) or watched_symbol(*asked_symbols(scene, [name]))
         return watched.columns(scene, watched.parts(None, self._moved))
 
-    def _values(self) -> list[dict[str, Any]]:
-        """For each position what is asked by its name: a number, or a vector's components; angles in radians."""
-        found: list[dict[str, Any]] = [{} for _ in range(len(self.motion))]
-        for name in self.find:
-            own, unit = self[name], self.columns(name)[0].unit
-            for entry, value in zip(found, np.radians(own) if unit == "deg" else own, strict=True):
-                plain = [float(value.real), float(value.imag)] if np.iscomplexobj(own) else float(value)
-                entry[name] = plain if np.isfinite(value) else None
-        return found
-
     @property
     def mechanism(self) -> Mechanism:
         return self.motion.scene
@@ -122,25 +111,39 @@ class Solved(Result, OfScene):
     @cached_property
     def data(self) -> dict[str, Any]:
         """The object that ``graphkin solve --json`` prints."""
-        from graphkin.solver import to_json
+        return {**self.head, "positions": list(self.entries())}
+
+    @cached_property
+    def head(self) -> dict[str, Any]:
+        """What ``data`` says before its positions."""
+        from graphkin.solver import head
+
+        return head(self.motion)
+
+    def entries(self) -> Iterator[dict[str, Any]]:
+        """What ``data`` says of each position, one after the other: of a long sweep only some are in memory."""
+        from graphkin.solver import entries
         from graphkin.solver.named_positions import named_positions
 
-        data = to_json(self.motion, self.forces)
         places = named_positions(self.mechanism) if self.motion.ok.any() else None
-        if places is not None:
-            for entry, value in zip(data["positions"], self.motion.values[:, 0].tolist(), strict=True):
-                name = places.name_of(value)
-                if name:
-                    entry["name"] = name
-        for entry, time in zip(data["positions"], self.times, strict=bool(self.times)):
-            entry["time"] = time
-        if self.find:
-            kept = ("driver", "time", "name", "status", "why", "error_bound")
-            data["positions"] = [
-                {key: entry[key] for key in kept if key in entry} | ({"values": own} if entry["status"] == "ok" else {})
-                for entry, own in zip(data["positions"], self._values(), strict=True)
-            ]
-        return data
+        asked = {name: self._plain(name) for name in self.find}
+        for k, entry in enumerate(entries(self.motion, self.forces)):
+            if places is not None and (name := places.name_of(float(self.motion.values[k, 0]))):
+                entry["name"] = name
+            if self.times:
+                entry["time"] = self.times[k]
+            if self.find:
+                kept = ("driver", "time", "name", "status", "why", "error_bound")
+                entry = {key: entry[key] for key in kept if key in entry}
+                if entry["status"] == "ok":
+                    entry["values"] = {name: _finite(values[k]) for name, values in asked.items()}
+            yield entry
+
+    def _plain(self, name: str) -> NDArray[Any]:
+        """What has a name, shape (positions,) or (positions, 2) for vectors; angles in radians."""
+        own = self[name]
+        own = np.radians(own) if self.columns(name)[0].unit == "deg" else own
+        return np.stack([own.real, own.imag], axis=1) if np.iscomplexobj(own) else own
 
     def loops(self, language: str | None = None) -> LoopText:
         """The vector loops of the first position that is solved, with their equations in numbers.
@@ -165,11 +168,13 @@ class Solved(Result, OfScene):
     def json(self) -> Iterator[bytes]:
         """``data`` as the text of JSON, piece by piece."""
         from graphkin.solver import json_text
-        from graphkin.solver.named_positions import named_positions
 
-        if self.find or self.times or (self.motion.ok.any() and named_positions(self.motion.scene) is not None):
-            return iter([(json.dumps(self.data, ensure_ascii=False, allow_nan=False) + "\n").encode()])
-        return (piece.encode() for piece in json_text(self.motion, self.forces))
+        return (piece.encode() for piece in json_text(self.head, self.entries()))
+
+
+def _finite(value: Any) -> float | list[float] | None:
+    """A number or the components of a vector for JSON; None where it is not known."""
+    return value.tolist() if np.isfinite(value).all() else None
 
 
 def refused(scene: SceneLike, at: At, stop: Unsolvable) -> dict[str, Any]:

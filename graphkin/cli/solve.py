@@ -167,18 +167,19 @@ def solve(
 
 def _print_solution(solved: Solved, lang: str | None) -> None:
     from graphkin.api.arguments import passed_words
-    from graphkin.words import Phrase, class_of, say
+    from graphkin.words import Phrase, class_of, say, word
 
-    data, scene = solved.data, solved.motion.scene
+    said_first, scene = solved.head, solved.motion.scene
     language = lang or scene.sheet.language
-    tell(f"{scene.title_in(language)}   F = {data['mobility']}")
-    for group in data["groups"]:
+    tell(f"{scene.title_in(language)}   F = {said_first['mobility']}")
+    for group in said_first["groups"]:
         links = ", ".join(group["links"])
         args = links, group["kind"], class_of(group["class"]), group["assembly"]
         tell(say(Phrase("solved group", args), language))
     for said in passed_words(scene, solved.motion.passed):
         tell(say(said, language))
-    for number, position in enumerate(data["positions"]):
+    columns = [column for name in solved.find for column in solved.columns(name)]
+    for number, position in enumerate(solved.entries()):
         tell("")
         values = ", ".join(f"{k} = {v:.6g}" for k, v in position["driver"].items())
         tell(say(Phrase("solved driver", (values,)), language))
@@ -186,20 +187,12 @@ def _print_solution(solved: Solved, lang: str | None) -> None:
             tell(f"{position['status']}: {position['why']}")
             continue
         if solved.find:
-            print_table(*_asked_rows(solved, number, language), right=(1,))
+            rows = [[c.name, _number(float(c.values[number])), c.unit] for c in columns]
+            print_table([word("quantity", language), "", ""], rows, right=(1,))
             continue
         _print_position(position, scene.units.length, language)
         if "forces" in position:
             _print_forces(position, scene.units.force, language)
-
-
-def _asked_rows(solved: Solved, number: int, language: str) -> tuple[list[str], list[list[str]]]:
-    """What is asked at a position: heads and rows of quantity, value, unit; a vector by its size and components."""
-    from graphkin.words import word
-
-    columns = [column for name in solved.find for column in solved.columns(name)]
-    rows = [[c.name, _number(float(c.values[number])), c.unit] for c in columns]
-    return [word("quantity", language), "", ""], rows
 
 
 def _print_position(position: Mapping[str, Any], unit: str, language: str) -> None:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from graphkin.solver.acting import without_line
     from graphkin.solver.forces import Forces, forces_of
     from graphkin.solver.prepared import PreparedMechanism, prepare
-    from graphkin.solver.table import json_text, listed_points, own_slides, to_json
+    from graphkin.solver.table import entries, head, json_text, listed_points, own_slides, to_json
 
 __all__ = [
     "DriverRange",
@@ -27,8 +27,10 @@ __all__ = [
     "Sliding",
     "as_drawn",
     "driver_range",
+    "entries",
     "exact_values",
     "forces_of",
+    "head",
     "json_text",
     "listed_points",
     "over_time",
@@ -45,7 +47,7 @@ _PLACES = {
     "acting": ["without_line"],
     "forces": ["Forces", "forces_of"],
     "prepared": ["PreparedMechanism", "prepare"],
-    "table": ["json_text", "listed_points", "own_slides", "to_json"],
+    "table": ["entries", "head", "json_text", "listed_points", "own_slides", "to_json"],
 }
 
 

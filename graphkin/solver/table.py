@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import islice
 from typing import Any
 
 import numpy as np
@@ -22,7 +23,7 @@ from graphkin.solver.pose import Array
 from graphkin.structure import Cluster, Dyad, Slide
 from graphkin.structure.assembly import ChangePoint
 
-__all__ = ["json_text", "listed_points", "own_slides", "to_json"]
+__all__ = ["entries", "head", "json_text", "listed_points", "own_slides", "to_json"]
 
 BLOCK = 1024
 """Positions that are made into objects at once."""
@@ -51,16 +52,17 @@ def own_slides(scene: Mechanism, slides: Sequence[Slide]) -> tuple[Slide, ...]:
 def to_json(motion: Motion, forces: Forces | None = None) -> dict[str, Any]:
     """The object that ``solve --json`` prints: numbers in the scene's length unit, seconds, radians; forces, where
     there are any, in its force unit, moments in that times metre."""
-    entries = [entry for block in _positions(motion, forces) for entry in block]
-    return {**_head(motion), "positions": entries}
+    return {**head(motion), "positions": list(entries(motion, forces))}
 
 
-def json_text(motion: Motion, forces: Forces | None = None) -> Iterator[str]:
-    """``to_json`` as the text of JSON, with a line feed at its end, piece by piece: of a long sweep only a block is in
-    memory.  What would command a terminal is escaped."""
-    yield _text(_head(motion))[:-1] + ', "positions": ['
-    for k, block in enumerate(_positions(motion, forces)):
-        yield (", " if k else "") + _text(block)[1:-1]
+def json_text(first: Mapping[str, Any], positions: Iterable[Mapping[str, Any]]) -> Iterator[str]:
+    """A head and the entries of positions as one object in the text of JSON, with a line feed at its end, piece by
+    piece: of a long sweep only some entries are in memory.  What would command a terminal is escaped."""
+    yield _text(first)[:-1] + ', "positions": ['
+    between, rest = "", iter(positions)
+    while block := list(islice(rest, BLOCK)):
+        yield between + _text(block)[1:-1]
+        between = ", "
     yield "]}\n"
 
 
@@ -69,7 +71,8 @@ def _text(data: object) -> str:
     return re.sub("[\x7f-\x9f]", lambda found: f"\\u{ord(found[0]):04x}", text)
 
 
-def _head(motion: Motion) -> dict[str, Any]:
+def head(motion: Motion) -> dict[str, Any]:
+    """What is said of a motion before its positions: title, units, mobility, change points passed, groups."""
     scene = motion.scene
     force = {"force": scene.units.force} if scene.loading else {}
     speed = {"speed": scene.units.speed} if scene.units.speed else {}
@@ -89,8 +92,8 @@ def _change_point(scene: Mechanism, one: ChangePoint) -> dict[str, Any]:
     return {"links": list(one.links), "driver": at}
 
 
-def _positions(motion: Motion, forces: Forces | None) -> Iterator[list[dict[str, Any]]]:
-    """The entries of the positions, some thousand at a time."""
+def entries(motion: Motion, forces: Forces | None = None) -> Iterator[dict[str, Any]]:
+    """What is said of each position, one after the other; some thousand are made at a time."""
     scene = motion.scene
     metres = scene.units.metres
     flywheel = _flywheel(motion)
@@ -108,11 +111,10 @@ def _positions(motion: Motion, forces: Forces | None) -> Iterator[list[dict[str,
         }
         own = {key: v[some].tolist() for key, v in drivers.items()}
         touching = _touching(motion.rows(some)) if scene.contacts or scene.gears else [{}] * BLOCK
-        block: list[dict[str, Any]] = []
         for k, status in enumerate(motion.status[some].tolist()):
             entry: dict[str, Any] = {"driver": {key: v[k] for key, v in own.items()}, "status": status}
             if status != "ok":
-                block.append({**entry, "why": motion.why[first + k]})
+                yield {**entry, "why": motion.why[first + k]}
                 continue
             for part, table in cells.items():
                 entry[part] = {key: {what: v[k] for what, v in row.items()} for key, row in table.items()}
@@ -121,8 +123,7 @@ def _positions(motion: Motion, forces: Forces | None) -> Iterator[list[dict[str,
             if forces is not None:
                 entry |= _forces(scene, forces, first + k)
                 entry["moments"] |= flywheel
-            block.append(entry)
-        yield block
+            yield entry
 
 
 def _columns(motion: Motion, angles: Mapping[str, Array]) -> dict[str, dict[str, dict[str, Array]]]:

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from graphkin.scene import library, mechanism_of, mechanism_of_text
-from graphkin.solver import json_text, solve, to_json
+from graphkin.solver import entries, head, json_text, solve, to_json
 from graphkin.solver import table as table_room
 from tests import scenes
 
@@ -29,7 +29,7 @@ def test_what_is_written_as_it_goes_is_the_object(name: str, monkeypatch: pytest
     monkeypatch.setattr(table_room, "BLOCK", 5)
     motion = solve(mechanism_of(name), sweep=12)
     whole = json.dumps(to_json(motion), ensure_ascii=False, allow_nan=False) + "\n"
-    assert whole == "".join(json_text(motion))
+    assert whole == "".join(json_text(head(motion), entries(motion)))
 
 
 def test_points_are_listed_on_every_link_and_under_every_sliding_pin() -> None:
