@@ -69,7 +69,7 @@ def exact_values(motion: Motion, asked: Sequence[Symbol] = ()) -> Callable[[Symb
     def value(symbol: Symbol) -> Value:
         if symbol in of_turn:
             return of_turn[symbol]
-        if symbol.scope == "force" and no_force(scene, str(symbol), symbol) is None:
+        if symbol.scope == "force" and no_force(scene.instead_of or scene, str(symbol), symbol) is None:
             return of_forces()(symbol)
         found = value_of(motion, symbol)[0]
         if symbol.kind == "d" and math.isnan(found):  # the centre of links at rest: that of any motion

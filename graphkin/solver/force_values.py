@@ -11,9 +11,11 @@ from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot
 from graphkin.scene.symbol import Symbol
 from graphkin.solver.acting import without_line
+from graphkin.solver.findings import structure_of
 from graphkin.solver.forces import Forces, forces_of
 from graphkin.solver.motion import Motion
 from graphkin.solver.pose import Pose
+from graphkin.solver.redundant import all_slides
 from graphkin.solver.solve import solve
 
 __all__ = ["force_values"]
@@ -32,6 +34,7 @@ def force_values(motion: Motion) -> tuple[Callable[[Symbol], Value], float]:
     ------
     Unsolvable : "dead point": the balance does no work
     """
+    motion = _of_cams(motion)
     forces = forces_of(motion)
     for name, where in without_line(motion).items():
         if where[0]:
@@ -54,6 +57,15 @@ def force_values(motion: Motion) -> tuple[Callable[[Symbol], Value], float]:
         return float("nan") if known is None else _plain(known)
 
     return value, float(forces.bound[0][0])
+
+
+def _of_cams(motion: Motion) -> Motion:
+    """The motion of a mechanism with cams itself, where another stands in its place; the links move alike."""
+    whole = motion.scene.instead_of
+    if whole is None:
+        return motion
+    structure = structure_of(whole)
+    return replace(motion, structure=structure, slides=all_slides(structure))
 
 
 def _plain(value: np.ndarray) -> Value:
