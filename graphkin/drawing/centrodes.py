@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import pairwise
+
+import numpy as np
 
 from graphkin.construction.centres import Centres
 from graphkin.drawing.box import Box
@@ -108,22 +109,9 @@ def centrodes_figure(
 
 def _clipped(branches: Sequence[Branch], stroke: Stroke, box: Box) -> tuple[Primitive, ...]:
     """The parts of curves inside a box, each as one polyline."""
-    parts: list[Primitive] = []
-    for branch in branches:
-        run: list[complex] = []
-        for a, b in pairwise(branch):
-            inside = box.clip(a.conjugate(), b.conjugate())
-            if inside is None:
-                run = _lift(run, parts, stroke)
-                continue
-            if run and run[-1] != inside[0]:
-                run = _lift(run, parts, stroke)
-            run += [inside[1]] if run else list(inside)
-        _lift(run, parts, stroke)
-    return tuple(parts)
+    import shapely  # a centrode is cut at the panel's edge; no other figure needs it
 
-
-def _lift(run: list[complex], parts: list[Primitive], stroke: Stroke) -> list[complex]:
-    if len(run) > 1:
-        parts.append(Polyline(tuple(run), stroke))
-    return []
+    places = [np.conj(np.array(branch)) for branch in branches if len(branch) > 1]
+    curves = [shapely.linestrings(z.real, z.imag) for z in places]
+    inside = shapely.get_parts(shapely.clip_by_rect(curves, box.left, box.top, box.right, box.bottom))
+    return tuple(Polyline(tuple(complex(x, y) for x, y in part.coords), stroke) for part in inside)
