@@ -269,11 +269,14 @@ class LabelPanel:
     def _without_fault(self, who: Indices, places: Candidates) -> list[LabelPositions]:
         half = self.requests.half[who]
         places = places.at(~self._outside(places.centres, half[places.owners]))
-        which, what = self._touched(places.centres, half[places.owners] + complex(CLEARANCE, CLEARANCE))
-        np.add.at(places.costs, which[what >= self.solid], DASHED_COST)
-        kept = np.ones(len(places.owners), dtype=bool)
-        kept[which[what < self.solid]] = False
-        places = places.at(kept)
+        clear = half + complex(CLEARANCE, CLEARANCE)
+        # the few areas first: lines are looked at only where these leave room
+        for first, last in ((0, self.areas), (self.areas, self.solid)):
+            kept = np.ones(len(places.owners), dtype=bool)
+            kept[self._touched(places.centres, clear[places.owners], first, last)] = False
+            places = places.at(kept)
+        dashed = self._touched(places.centres, clear[places.owners], self.solid, len(self.start))
+        np.add.at(places.costs, dashed, DASHED_COST)
         led = self._led(who, places)
         kept = ~led | (places.gaps >= LEADER_LEAST)
         return self._positions(who, places.at(kept), led[kept], None)
@@ -284,8 +287,7 @@ class LabelPanel:
         places = candidates(self.requests, who, RINGS)
         half = self.requests.half[who][places.owners]
         faults = OUTSIDE * self._outside(places.centres, half).astype(int)
-        which, what = self._touched(places.centres, half + complex(CLEARANCE, CLEARANCE))
-        np.add.at(faults, which[what < self.solid], 1)
+        np.add.at(faults, self._touched(places.centres, half + complex(CLEARANCE, CLEARANCE), 0, self.solid), 1)
         return self._positions(who, places, self._led(who, places), faults)[0]
 
     def _positions(self, who: Indices, places: Candidates, led: Flags, faults: Indices | None) -> list[LabelPositions]:
@@ -325,14 +327,17 @@ class LabelPanel:
         low, high, panel = centres - half, centres + half, self.panel
         return (low.real < panel.left) | (high.real > panel.right) | (low.imag < panel.top) | (high.imag > panel.bottom)
 
-    def _touched(self, centres: Points, half: Points) -> tuple[Indices, Indices]:
-        """Pairs of box and obstacle that meet; obstacles count areas, solid, dashed in turn."""
-        which, what = near(sides(centres - half, centres + half), self.reach)
+    def _touched(self, centres: Points, half: Points, first: int, last: int) -> Indices:
+        """The boxes that meet some of the obstacles, each as often as it meets one; obstacles count areas, solid,
+        dashed in turn."""
+        left, top, right, bottom = (side[first:last] for side in self.reach)
+        which, what = near(sides(centres - half, centres + half), (left, top, right, bottom))
+        what += first
         lines = np.flatnonzero(what >= self.areas)  # for what lies around an area its box will do
         i, j = which[lines], what[lines]
         meeting = np.ones(len(what), dtype=bool)
         meeting[lines] = ~separated(centres[i], half[i], self.start[j], self.end[j])
-        return which[meeting], what[meeting]
+        return which[meeting]
 
     def _led(self, who: Indices, places: Candidates) -> Flags:
         """Which places need a leader: far ones, and those about as near to another mark of the same kind as to their
