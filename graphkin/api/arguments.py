@@ -295,10 +295,11 @@ def _unknown_names(scene: Mechanism, symbol: Symbol) -> list[Problem]:
 
 
 def own_folder(folder: str | os.PathLike[str] | None, name: str) -> Path:
-    """The folder that was given, or else one with the name of the scene.  Raises CallError for what is no path."""
+    """The folder that was given, or else one here with the name of the scene.  Raises CallError for what is no path."""
     from graphkin.files import path_of
+    from graphkin.scene.written import safe_name
 
-    return path_of(folder) if folder is not None else Path(name)
+    return path_of(folder) if folder is not None else Path(safe_name(name))
 
 
 def write_files(folder: Path, files: Mapping[str, bytes | Iterable[bytes]]) -> list[Path]:

@@ -248,6 +248,8 @@ def train_plan(
         if names is None:
             return None
         rough, _ = _by_trial(given, natural, EXACT, names)
+    if not any((*rough.rates.values(), *rough.speeds.values())):
+        hand = EXACT  # every line lies on that of the centres: there is nothing to draw
     scales = _scales(rough, units)
     drawing, trial = _by_trial(given, scales, hand, names) if names else (given.drawn(scales, hand, {}), None)
     lines = tuple(drawing.lines.values())
