@@ -9,8 +9,9 @@ point-feature label placement, ACM Trans. Graphics 14, 1995).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import islice
 
 import numpy as np
 
@@ -237,32 +238,36 @@ class _Placement:
         here, found = self.standing[i], self.found[i]
         positions = found.part(0, int(np.searchsorted(found.costs, here.cost)))
         self._leave(i)
-        met = positions.met(self.held, _SPACE)
-        tried = np.flatnonzero(met.sum(axis=1) <= 1)[:_TRIED]
         best, chosen = here.cost, {i: here}
-        others: dict[int, Flags] = {}
-        for k in map(int, tried):
-            if positions.costs[k] >= best:
+        others: dict[int, list[int]] = {}  # its places that are free but for the label
+        for position, meeting in islice(self._nearly_free(positions), _TRIED):
+            if position.cost >= best:
                 break
-            position = positions.position(k)
-            if not met[k].any():
+            if not meeting.any():
                 best, chosen = position.cost, {i: position}
                 continue
-            j = int(np.argmax(met[k]))
+            j = int(np.argmax(meeting))
             its = self.found[j]
             if j not in others:
-                others[j] = its.met(self.held, _SPACE)
-                others[j] = others[j].sum(axis=1) == others[j][:, j]
-            alone = HeldPositions(1)
-            alone.take(0, position)
-            free = others[j] & ~its.met(alone, _SPACE)[:, 0]
-            if free.any():
-                moved = its.position(int(np.argmax(free)))
-                cost = position.cost + moved.cost - self.standing[j].cost
-                if cost < best:
+                met = its.met(self.held, _SPACE)
+                others[j] = np.flatnonzero(met.sum(axis=1) == met[:, j]).tolist()
+            for k in others[j]:
+                cost = position.cost + float(its.costs[k]) - self.standing[j].cost
+                if cost >= best:
+                    break
+                moved = its.position(k)
+                if not moved.meets(position, _SPACE):
                     best, chosen = cost, {i: position, j: moved}
+                    break
         for label, position in chosen.items():
             self._take(label, position)
+
+    def _nearly_free(self, positions: LabelPositions) -> Iterator[tuple[LabelPosition, Flags]]:
+        """Places that meet at most one other label, cheapest first, with what they meet."""
+        for first, last in ((0, SOME), (SOME, len(positions))):
+            met = positions.part(first, last).met(self.held, _SPACE)
+            for k in np.flatnonzero(met.sum(axis=1) <= 1):
+                yield positions.position(first + int(k)), met[k]
 
     def _insist(self, i: int) -> None:
         """Put a label where it does least harm, and give up those in its way that may be given up."""
