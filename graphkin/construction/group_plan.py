@@ -107,7 +107,7 @@ class _Search:
 
     def seen(self, edge: Edge) -> Edge:
         """An edge with what is unknown of it now."""
-        return replace(edge, unknown=self.open(edge))
+        return replace(edge, unknown="") if edge.unknown in self.known else edge
 
     def of(self, link: str) -> list[PointRef]:
         return [n for n in self.net.nodes if link in self.net.owners[n]]

@@ -86,11 +86,10 @@ class LabelPosition(NamedTuple):
     def lies_under(self, leader: Segment) -> bool:
         """Whether a leader runs over the box, or nearly."""
         a, b = leader
-        space = LEADER_SPACE
-        left, top, right, bottom = self.left - space, self.top - space, self.right + space, self.bottom + space
-        x1, y1, x2, y2 = a.real, a.imag, b.real, b.imag
+        x1, x2, left, right = a.real, b.real, self.left - LEADER_SPACE, self.right + LEADER_SPACE
         if (x1 < left and x2 < left) or (x1 > right and x2 > right):
             return False
+        y1, y2, top, bottom = a.imag, b.imag, self.top - LEADER_SPACE, self.bottom + LEADER_SPACE
         if (y1 < top and y2 < top) or (y1 > bottom and y2 > bottom):
             return False
         dx, dy = x2 - x1, y2 - y1
