@@ -48,6 +48,19 @@ def test_a_centre_stands_at_each_frame_where_it_is_drawn_at_that_position(frame)
             assert expected == pytest.approx(place(own[name], frame), abs=1e-9)
 
 
+@pytest.mark.parametrize("frame", [17, 60, 111])
+def test_joints_and_links_are_carried_to_where_they_lie_at_that_position(frame):
+    scene = "slider-crank-s50-e16-K1.2"
+    there = graphkin.centres(scene)
+    own = groups(there.in_motion)
+    start = graphkin.read(scene).driver.angle
+    places = [graphkin.solve(scene, at=start + 3 * k).data["positions"][0]["points"] for k in (0, frame)]
+    for part, point in (("point-B", "B@2"), ("point-C", "C@3"), ("link-2", "B@2"), ("link-3", "C@3")):
+        (x0, y0), (x, y) = (table[point]["position"] for table in places)
+        expected = complex(x - x0, y0 - y) * there.centres.links.mm / 1000
+        assert expected == pytest.approx(own[part].motion.moves[frame], abs=1e-9)
+
+
 def test_links_turn_with_the_motion():
     motion = groups(graphkin.centres("slider-crank-s50-e16-K1.2").in_motion)["link-1"].motion
     assert [0, -90, -180, -360] == pytest.approx([motion.turns[k] for k in (0, 30, 60, 120)])
