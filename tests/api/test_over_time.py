@@ -91,6 +91,14 @@ def test_two_drivers_with_laws_of_their_own_move_together_as_one_position_after_
             assert alone[name][0] == pytest.approx(turn[name][k], abs=1e-12 * size), (time, name)
 
 
+@pytest.mark.parametrize(("time", "angle"), [(0.1, 80), (0.9, 70)])
+def test_before_its_law_begins_and_after_it_ends_a_driver_stands_still(time, angle):
+    scene = five_bar()
+    scene["driver"][1]["law"] = {"table": [[0.2, 80], [0.4, 60], [0.7, 70]]}
+    solved = graphkin.solve(scene, at={"time": time})
+    assert [angle, 0, 0] == pytest.approx([solved[name][0] for name in ("theta_3", "omega_3", "alpha_3")])
+
+
 def test_a_driver_without_a_law_goes_on_at_its_own_rate():
     scene = five_bar()
     scene["driver"][1] = {"link": "3", "angle": 70, "omega": -0.5, "alpha": 0.25}
