@@ -51,6 +51,25 @@ def test_the_drawing_agrees_with_the_solver_on_larger_groups_beside(made):
         assert row.exact == pytest.approx(row.reading.value, rel=1e-8, abs=1e-8)
 
 
+@pytest.mark.parametrize("at", [95, 300])
+def test_a_rack_beside_a_cam_by_its_law_stands_as_far_on_its_guide_as_its_wheel_has_turned(at):
+    scene = {
+        "frame": {"points": {"A": [0, 0]},
+                  "guides": {"g": {"through": [8, 0], "angle": 90}, "r": {"through": [0, -60], "angle": 15}}},
+        "links": {"1": {"points": ["A"]}, "2": {"points": ["B"], "on": "0.g"}, "3": {"points": ["R"], "on": "0.r"}},
+        "cams": {"1": {"follower": "2", "base": {"r": 32}, "roller": 9,
+                       "law": [{"to": 180, "rise": 24, "by": "cycloidal"}, {"to": 360, "fall": 24, "by": "345"}]}},
+        "gears": {"g": {"between": ["1", "3"], "teeth": [40, "rack"]}},
+        "driver": {"link": "1", "angle": 50, "omega": 8},
+    }  # fmt: skip
+    found = check(scene, at=at, find=["x_R", "y_R"])
+    radius = math.sin(math.radians(75)) * 60  # the rack's line passes the axis at this distance, below it
+    for name, part in (("x_R", math.cos), ("y_R", math.sin)):
+        expected = radius * math.radians(at - 50) * part(math.radians(15)) - (60 if name == "y_R" else 0)
+        assert expected / 1000 == pytest.approx(found[name].reading.value, abs=1e-9)
+        assert expected / 1000 == pytest.approx(found[name].exact, abs=1e-9)
+
+
 @pytest.mark.parametrize("made", [pinion, cam])
 def test_their_rates_are_the_differences_of_their_places(made):
     scene = made()
