@@ -54,7 +54,7 @@ def judged_table(
     turning = [s for s in symbols if s.scope in ("turn", "cycle")]
     value = exact_values(solved_here(scene, None), turning)
     exact = exact_rows(motion, symbols, {s: float(value(s).real) for s in turning})
-    drawn = _Bounds(table, case)
+    bounds = _Bounds(table, case)
     names = [_named(scene, who.at, motion.values[row, 0]) for row, who in enumerate(table)]
     made: dict[int, tuple[Judged, ...]] = {}
     looked_into = 0
@@ -64,7 +64,7 @@ def judged_table(
             right = exact(row, printed)
             one = judged_by_digits(printed, right, who.by, 0.0)
             if one.verdict != "right" and who.by == "drawing":
-                one = judged_by_digits(printed, right, who.by, drawn.bound(row, printed.symbol))
+                one = judged_by_digits(printed, right, who.by, bounds.bound(row, printed.symbol))
             if one.verdict == "wrong":
                 one = told_by_digits(one, exact, row, symbols, names)
             judged.append(one)
@@ -78,8 +78,9 @@ def judged_table(
                     for j in judged
                 ]  # fmt: skip
             wrong = [one.printed.symbol for one in judged if one.verdict == "wrong"]
+            drawn = who.by == "drawing"
             judged = [
-                explained(evidence, j, values, wrong) if j.verdict == "wrong" and not j.looks_like else j
+                explained(evidence, j, values, wrong, drawn) if j.verdict == "wrong" and not j.looks_like else j
                 for j in judged
             ]
         made[id(who)] = tuple(judged)

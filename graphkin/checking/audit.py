@@ -185,8 +185,13 @@ def comparable(printed: Printed, value: Value, line: complex | None) -> Value:
     return signed if isinstance(value, complex) else float(value)
 
 
-def explained(case: Evidence, judged: Judged, own: Mapping[Symbol, Value], wrong: Iterable[Symbol]) -> Judged:
-    """A wrong value with what it looks like; one that is right on somebody's own earlier values is so called."""
+def explained(
+    case: Evidence, judged: Judged, own: Mapping[Symbol, Value], wrong: Iterable[Symbol], drawn: bool = True
+) -> Judged:
+    """A wrong value with what it looks like; one that is right on somebody's own earlier values is so called.
+
+    ``drawn`` is whether it may have been drawn badly, which no computed value was.
+    """
     symbol = judged.printed.symbol
     chance = CHANCE / max(abs(judged.printed.value), abs(judged.exact), judged.printed.step)
     found = list(_weighed(case, judged))
@@ -194,9 +199,9 @@ def explained(case: Evidence, judged: Judged, own: Mapping[Symbol, Value], wrong
     if others:
         found += _following(case, judged, own, others, chance)
     best = max(found, key=lambda w: w[1], default=None)
-    if best is None or best[1] <= chance:
+    if (best is None or best[1] <= chance) and drawn:
         best = _drawn_badly(judged, [s for s, _ in found], line_of(case.sheet, symbol))
-    if best is None:
+    if best is None or (not drawn and best[1] <= chance):
         return judged
     verdict: Verdict = "right from own values" if best[0].follows_from else "wrong"
     return replace(judged, verdict=verdict, looks_like=best[0].phrase, follows_from=best[0].follows_from)
@@ -224,12 +229,15 @@ def _drawn_badly(judged: Judged, found: Sequence[Suspect], line: complex | None)
     near: list[tuple[Suspect, float]] = []
     for suspect in found if judged.printed.value else ():
         value = comparable(judged.printed, suspect.value, line)
+        if _changes_nothing(judged, value):
+            continue
         bound = judged.bound / abs(judged.exact) if judged.exact else 0.0
         reach = max(CLUMSY, min(BAD * bound, 2 * CLUMSY)) * abs(value)
         off = abs(judged.printed.value - value)
         within = min(reach, max(off, NEAT * abs(value)))
         by_chance = CHANCE * 2 * within / max(abs(judged.printed.value), abs(judged.exact))
-        if suspect.drawn and not suspect.copied and off <= reach and suspect.share > SURE * by_chance:
+        told = suspect.drawn and not suspect.copied and 0.5 * judged.printed.step <= reach
+        if told and off <= reach and suspect.share > SURE * by_chance:
             near.append((suspect, suspect.share / max(off, reach / 3, judged.printed.step / 2)))
     return max(near, key=lambda w: w[1], default=None)
 
@@ -256,12 +264,17 @@ def _weighed(case: Evidence, judged: Judged) -> Iterator[tuple[Suspect, float]]:
 def _weight(judged: Judged, suspect: Suspect, line: complex | None) -> tuple[Suspect, float]:
     printed = judged.printed
     value = comparable(printed, suspect.value, line)
-    same = abs(value - judged.exact) <= NEVER * abs(judged.exact)  # in the form of what is written it changes nothing
-    if same or (not printed.value and abs(value) > NEVER * abs(judged.exact)):  # nobody writes 0 for what is small
+    small = not printed.value and abs(value) > NEVER * abs(judged.exact)  # nobody writes 0 for it
+    if small or _changes_nothing(judged, value):
         return suspect, 0.0
     relative = judged.bound / 3 / abs(judged.exact) if judged.exact and math.isfinite(judged.bound) else 0.0
     spread = relative * abs(value) if suspect.drawn else 0.0
     return suspect, suspect.share * _likelihood(printed, abs(printed.value - value), spread, value)
+
+
+def _changes_nothing(judged: Judged, value: Value) -> bool:
+    """Whether a slip gives the right value in the form of what is written."""
+    return abs(value - judged.exact) <= NEVER * abs(judged.exact)
 
 
 def _likelihood(printed: Printed, off: float, spread: float, value: Value) -> float:

@@ -13,12 +13,14 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from graphkin.checking.force_slips import SlippedForces, slipped_forces
+from graphkin.checking.gear_slips import SlippedGears, slipped_gears
 from graphkin.checking.readings import read_off
 from graphkin.checking.uncertainty import Uncertainty
 from graphkin.construction import Plan, Sheet, Slip, execute
 from graphkin.construction.slip import Component
 from graphkin.errors import GraphkinError
 from graphkin.plane import unit
+from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver import Motion
 from graphkin.structure import Slide
@@ -72,6 +74,8 @@ def _pivot(sheet: Sheet, of: PointRef) -> complex | None:
 Value = complex | float
 ValuesElsewhere = Callable[[Symbol], Sequence[tuple[str, Value]]]
 RPM = 60.0 / math.tau
+LENGTHS = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254, "ft": 0.3048}
+INCHES = ("in", "ft")
 DEGREE = 180.0 / math.pi
 
 
@@ -110,6 +114,11 @@ class Evidence:
     def slipped_forces(self) -> tuple[SlippedForces, ...]:
         """The forces with each of their usual slips."""
         return slipped_forces(self.motion) if self.motion is not None else ()
+
+    @cached_property
+    def slipped_gears(self) -> tuple[SlippedGears, ...]:
+        """The motion with each of the usual slips in its wheels."""
+        return slipped_gears(self.motion) if self.motion is not None else ()
 
     @cached_property
     def sheet(self) -> Sheet:
@@ -182,6 +191,10 @@ def _suspects(case: Evidence, symbol: Symbol) -> Iterator[Suspect]:
     yield Suspect(Phrase("slip sign"), -exact, 0.15)
     if symbol.scope == "force":
         yield from _of_forces(case, symbol, exact)
+    for slipped in case.slipped_gears:
+        value = slipped.value(symbol)
+        if value is not None and abs(value - exact) > 1e-9 * abs(exact):
+            yield Suspect(slipped.phrase, value, slipped.share)
     if symbol.kind == "ak":
         yield Suspect(Phrase("slip coriolis factor", (str(symbol),)), exact / 2, 0.1)
     for phrase, share, values in case.altered:
@@ -190,6 +203,7 @@ def _suspects(case: Evidence, symbol: Symbol) -> Iterator[Suspect]:
             yield Suspect(Phrase("slip and sign", (phrase,)), -values[symbol], 0.1 * share)
     yield from _factors(case, symbol, exact)
     yield from _own_parts(case, symbol)
+    yield from _relative(case, symbol, exact)
     yield from _others(case, symbol, exact)
     own = case.variants(symbol)
     for name, value in own:
@@ -221,6 +235,11 @@ def _factors(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
             yield Suspect(Phrase(f"slip {name}"), exact * way, 0.01 if symbol.is_vector else 0.03)
             if second:
                 yield Suspect(Phrase(f"slip {name}"), exact * way**2, 0.01)
+    by_rpm = any(isinstance(d, AngleDriver) and d.rpm for d in case.plan.structure.scene.drivers)
+    for factor in (60.0, 1 / math.tau):  # n taken for n/60, or n/60 for omega
+        yield Suspect(Phrase("slip rpm"), exact * factor, 0.02 if by_rpm else 0.005)
+    for factor in _other_lengths(case, symbol):
+        yield Suspect(Phrase("slip factor", (f"{factor:.4g}",)), exact * factor, 0.02)
     yield Suspect(Phrase("slip double"), exact * 2, 0.02)
     yield Suspect(Phrase("slip half"), exact / 2, 0.02)
     scales, wanted = case.plan.scales, case.plan.structure.scene.sheet
@@ -234,6 +253,41 @@ def _factors(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
     if given and symbol.is_vector:
         # the length on paper written down as if it were the value, in scene units
         yield Suspect(Phrase("slip millimetres"), exact / given, 0.05)
+
+
+def _other_lengths(case: Evidence, symbol: Symbol) -> Iterator[float]:
+    """What a value is multiplied by in another unit of length, where powers of ten do not say it: in and ft."""
+    own = case.plan.structure.scene.units.length
+    if own in INCHES and symbol.measure in ("velocity", "acceleration", "length"):
+        yield from (LENGTHS[own] / metres for unit, metres in LENGTHS.items() if unit != own)
+
+
+def _relative(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
+    """What is relative to another point of the same link, or to a link that one is joined to, in place of the whole."""
+    scene = case.plan.structure.scene
+    if symbol.kind in ("omega", "alpha"):
+        beside = _beside(scene, symbol.link)
+        for name in beside:
+            value = exact - case.exact(Symbol(symbol.kind, link=name))
+            yield Suspect(Phrase("slip relative rate", (name,)), value, 0.08 / len(beside))
+        return
+    if symbol.kind not in ("v", "a") or symbol.of is None or symbol.to is not None:
+        return
+    for link in scene.links:
+        if symbol.of.point not in link.points or symbol.of.link not in ("", link.name):
+            continue
+        others = [Symbol(symbol.kind, symbol.of, PointRef(p)) for p in link.points if p != symbol.of.point]
+        for other in others:
+            if other not in case.others and other.to and other.to.point not in scene.frame.points:
+                value = exact - case.exact(Symbol(symbol.kind, other.to))
+                yield Suspect(Phrase("slip relative", (str(other),)), value, 0.08 / len(others))
+
+
+def _beside(scene: Mechanism, link: str) -> tuple[str, ...]:
+    """The moving links that share a turning pair with one, or carry it as a wheel."""
+    own = next((k.points for k in scene.links if k.name == link), {})
+    carriers = {g.carrier for g in scene.gears if link in g.wheels} - {scene.frame.name}
+    return tuple(k.name for k in scene.links if k.name != link and (k.name in carriers or set(k.points) & set(own)))
 
 
 def _own_parts(case: Evidence, symbol: Symbol) -> Iterator[Suspect]:

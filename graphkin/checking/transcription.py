@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from itertools import combinations, pairwise
 
@@ -10,6 +11,7 @@ from graphkin.scene.tables import Units
 
 __all__ = ["transcription_errors"]
 
+_DOUBLE_ZERO = re.compile(r"[+-]?0\d")  # nobody writes so
 SWAPPED, MISREAD, TWICE_MISREAD, MISSED = 0.05, 0.05, 0.02, 0.02
 
 
@@ -37,8 +39,13 @@ def transcription_errors(printed: Printed) -> Iterator[tuple[str, float, float]]
     unit = printed.step / stated(printed.symbol, [text], Units("m")).step
     for share, texts in kinds:
         for other in dict.fromkeys(texts):
-            if other != text:
+            if _digits(other) != _digits(text) and not _DOUBLE_ZERO.match(other):
                 yield other, share / len(texts), float(other) * unit
+
+
+def _digits(text: str) -> str:
+    """The significant digits: numbers that share them differ by a power of ten, which is another slip."""
+    return "".join(filter(str.isdigit, text)).strip("0")
 
 
 def _put(text: str, digits: dict[int, str]) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal, InvalidOperation
@@ -12,7 +13,7 @@ from graphkin.scene.tables import Units
 __all__ = ["Printed", "stated"]
 
 Value = complex | float
-MOST_PARDONED = 0.01  # part of a value that its rounding may take away
+MOST_PARDONED = 0.01  # part of a value that rounding to one digit may take away
 SMALLEST = -300  # power of ten of a last digit that a double still holds
 
 
@@ -46,13 +47,15 @@ class Printed:
 
     @property
     def rounding(self) -> float:
-        """How far a right value may lie from it (SI): half a unit of the last digit, but never more than a hundredth.
+        """How far a right value may lie from it (SI): half a unit of the last digit, but of a single digit never more
+        than a hundredth.
 
-        Few digits say what was meant, they pardon nothing.  A zero is zero to the decimals written.
+        One digit says what was meant, it pardons nothing.  A zero is zero to the decimals written.
         """
         if not self.value:
             return (0.5 if any("." in text for text in self.texts) else MOST_PARDONED) * self.step
-        return min(0.5 * self.step, MOST_PARDONED * abs(self.value)) * (1 + 1e-9)
+        most = MOST_PARDONED * abs(self.value) if self.digits < 2 else math.inf
+        return min(0.5 * self.step, most) * (1 + 1e-9)
 
     @property
     def coarse(self) -> float:

@@ -19,7 +19,8 @@ __all__ = ["Spelling", "plain_text", "unit_factor"]
 
 _GREEK = {"ω": "omega", "Ω": "omega", "α": "alpha", "ε": "alpha", "ϵ": "alpha", "θ": "theta", "φ": "theta",
           "ϕ": "theta", "ψ": "theta", "γ": "gamma", "τ": "t"}  # fmt: skip
-_WRITTEN = {"w": "omega", "epsilon": "alpha", "phi": "theta", "ac": "ak", "l": "d", "V": "v", **{k: k for k in KINDS}}
+_WRITTEN = {"w": "omega", "epsilon": "alpha", "phi": "theta", "ac": "ak", "l": "d", "V": "v",
+            "F_R": "F", "FR": "F", "R": "F", **{k: k for k in KINDS}}
 _SPOKEN = sorted(_WRITTEN, key=len, reverse=True)
 _PART = re.compile(r"\^\{?([a-z])\}?")
 _HEAD_UNIT = re.compile(r"^(.*?)\s*(?:\(([^()]*(?:\([^()]*\)[^()]*)*)\)|\[([^\[\]]*)\])\s*$")
@@ -46,8 +47,8 @@ def plain_text(text: str) -> str:
 
 @dataclass(frozen=True)
 class Spelling:
-    """Reads names of quantities of one scene: its points, each with the links that own it, its links with the frame,
-    and its units."""
+    """Reads names of quantities of one scene: its points, each with the links that own it (none owns one at which
+    outlines touch), its links with the frame, and its units."""
 
     points: Mapping[str, frozenset[str]]
     links: frozenset[str]
@@ -56,12 +57,13 @@ class Spelling:
     @classmethod
     def of(cls, scene: Mechanism) -> Spelling:
         moving = {link.name: tuple(link.points) for link in scene.links}
-        return cls.by_link({scene.frame.name: tuple(scene.frame.points), **moving}, scene.units)
+        contacts = [contact.name for contact in scene.contacts]
+        return cls.by_link({scene.frame.name: tuple(scene.frame.points), **moving}, scene.units, contacts)
 
     @classmethod
-    def by_link(cls, points: Mapping[str, Iterable[str]], units: Units) -> Spelling:
-        """From the points of each link, the frame's included."""
-        owners: dict[str, frozenset[str]] = {}
+    def by_link(cls, points: Mapping[str, Iterable[str]], units: Units, contacts: Iterable[str] = ()) -> Spelling:
+        """From the points of each link, the frame's included, and the names of contacts."""
+        owners: dict[str, frozenset[str]] = dict.fromkeys(contacts, frozenset())
         for link, names in points.items():
             for name in names:
                 owners[name] = owners.get(name, frozenset()) | {link}
@@ -113,6 +115,8 @@ class Spelling:
                 rest = bare[len(kind) :]
                 joined = rest.lstrip("_")
                 for form in self._of_kind(_WRITTEN[kind], joined):
+                    if kind.endswith("R") and "/" not in form:
+                        continue  # a reaction is of two links
                     yield self._usual(Symbol.parse(f"{form} at {place}" if place else form))
 
     def _of_kind(self, kind: str, rest: str) -> Iterator[str]:

@@ -67,7 +67,7 @@ def asked(file: SceneTables, names: Names, problems: list[Problem]) -> tuple[Sym
 def stated_values(file: SceneTables, names: Names, problems: list[Problem]) -> tuple[StatedValues, ...]:
     """All values that somebody states: ``[printed]``, ``[[printed_rows]]``, and the file of ``[printed_table]``."""
     known = _names_of(file.positions)
-    spelling = Spelling.by_link(names.points, file.units)
+    spelling = Spelling.by_link(names.points, file.units, names.contacts)
     by = file.printed.get("by", "drawing")
     if by not in BY:
         problems.append(Problem("printed.by", f"found {by!r:.40}", 'one of "drawing", "computation" is possible'))

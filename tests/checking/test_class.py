@@ -250,3 +250,56 @@ def test_a_printed_value_that_cannot_be_read_is_refused_by_name(value, said):
 
 def test_no_slip_explains_a_value_by_what_it_would_be_anyway():
     assert "sign" != judged(v_B="1e3")[0].get("looks_like")
+
+
+TRAIN = {
+    "frame": {"name": "0", "points": {"A": [0, 0]}},
+    "links": {
+        "1": {"points": ["A"]},
+        "2": {"points": ["A", "B"], "length": 60},
+        "3": {"points": ["B", "P"], "length": 20, "start": 30},
+    },
+    "gears": {
+        "sun": {"between": ["1", "3"], "teeth": [36, 24], "carrier": "2"},
+        "ring": {"between": ["3", "0"], "teeth": [24, -84], "carrier": "2"},
+    },
+    "driver": {"link": "2", "angle": 20, "omega": 5},
+}  # Willis: omega_3 = 5 (1 - 84/24) = -12.5, omega_1 = 5 + 17.5 * 24/36 = 16.67
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "slip"),
+    [
+        ("omega_3", "-17.50", "relative to link 2"),
+        ("omega_1", "31.25", "teeth exchanged (gear sun)"),  # 5 + 17.5 * 36/24
+        ("omega_1", "-6.667", "sense of turning (gear sun)"),  # 5 - 17.5 * 24/36
+        ("omega_1", "8.333", "carrier taken as standing (gear sun)"),  # 12.5 * 24/36
+    ],
+)
+def test_the_usual_slips_with_wheels_have_names(name, value, slip):
+    (found,) = graphkin.audit(TRAIN, {"x": {name: value}}).data["values"]
+    assert slip in found["looks_like"]
+
+
+def test_points_of_a_contact_are_spelled_as_other_points_are(tmp_path):
+    (tmp_path / "a.csv").write_text("name,v_K1,vK2\nx,1,1\n")
+    found = graphkin.audit("cam-eccentric-flat-slider", tmp_path / "a.csv").data["values"]
+    assert ["v_K@1", "v_K@2"] == [v["symbol"] for v in found]
+
+
+def test_millimetres_for_inches_are_a_wrong_unit():
+    scene = {**graphkin.read("four-bar-coupler-point").to_dict(), "units": {"length": "in"}, "find": ["v_B"]}
+    exact = graphkin.audit(scene, {"x": {"v_B": 1}}).data["values"][0]["exact"]
+    (found,) = graphkin.audit(scene, {"x": {"v_B": f"{exact * 25.4:.5g}"}}).data["values"]
+    assert "wrong unit: 25.4 times the right value" == found["looks_like"]
+
+
+@pytest.mark.parametrize(("text", "verdict"), [("1.2e3", "right"), ("1e3", "wrong"), ("1.3e3", "wrong")])
+def test_two_digits_are_right_where_they_are_rounded_rightly_and_one_is_not(text, verdict):
+    assert verdict == judged(v_B=text)[0]["verdict"]
+
+
+def test_a_computed_value_a_little_off_is_accused_of_nothing():
+    source = graphkin.read("shaper-scheme-2").to_dict() | {"printed": {"by": "computation", "a_C": "4143.1"}}
+    (found,) = graphkin.audit(source).data["values"]
+    assert ("wrong", None) == (found["verdict"], found.get("looks_like"))
