@@ -108,7 +108,7 @@ class Prepared(Tabled, OfScene):
 
     def driver_values(self, n: int) -> Reals:
         """The values of the first driver at which ``sweep(n)`` computes, shape (n,)."""
-        return self.ready.values(n) / self.own_unit
+        return self.ready.range.grid(n).values / self.own_unit
 
     @cached_property
     def own_unit(self) -> float:

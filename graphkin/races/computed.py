@@ -59,7 +59,7 @@ def closed_forms(work: Work, repeats: int) -> Iterator[Entry]:
     slow, both = (solver.prepare(work.structure, columns_of(work, kinds)) for kinds in ("v", "va"))
     ways, rooms = (slow, both), [np.empty((len(p.names), work.count)) for p in (slow, both)]
     values = work.values[:, 0]
-    many = both.values(work.count)
+    many = both.range.grid(work.count).values
 
     def entry(key: str, columns: Array, costs: Sequence[float]) -> Entry:
         found = vectors(columns)
@@ -220,7 +220,7 @@ def differences(work: Work, repeats: int) -> Iterator[Entry]:
     work = work.only([o for o in work.outputs if o.own])
     closed = solver.prepare(work.structure, columns_of(work, "z"))
     _, first, second = work.scene.drivers[0].values
-    many = closed.values(work.count)
+    many = closed.range.grid(work.count).values
 
     def places(values: Array, t: float) -> Array:
         return vectors(closed.columns(values + first * t + second * (t * t / 2))[0])

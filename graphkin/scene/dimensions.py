@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedLink
 
-__all__ = ["Dimension", "dimensions", "with_dimensions"]
+__all__ = ["Dimension", "dimensions", "same_but_for_dimensions", "with_dimensions"]
 
 Dimension = tuple[str | int, ...]
 """("point", link, point), ("through", link, guide), ("direction", link, guide), ("turn", sliding pair), and of the
@@ -48,7 +48,8 @@ def with_dimensions(mechanism: Mechanism, changed: Mapping[Dimension, complex]) 
             for what, x in zip(("value", "rate", "second"), old.values, strict=True)
         )
         if isinstance(old, AngleDriver):
-            return replace(old, angle=value, omega=rate, alpha=second)
+            rpm = None if ("rate", k) in changed else old.rpm
+            return replace(old, angle=value, omega=rate, alpha=second, rpm=rpm)
         return replace(old, travel=value, velocity=rate, acceleration=second)
 
     return replace(
@@ -60,3 +61,9 @@ def with_dimensions(mechanism: Mechanism, changed: Mapping[Dimension, complex]) 
         sketch={**mechanism.drawn, **mechanism.sketch},
         drawn={},
     )
+
+
+def same_but_for_dimensions(one: Mechanism, other: Mechanism) -> bool:
+    """Whether two mechanisms differ in nothing but these numbers, and in what was drawn."""
+    own = dimensions(one)
+    return with_dimensions(one, own) == with_dimensions(other, own)

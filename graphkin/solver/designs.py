@@ -205,7 +205,7 @@ class PreparedMechanisms:
     def values(self, n: int) -> Array:
         """Values of the first driver in ``sweep(n)``, shape (n,), or (designs, n) where they differ (rad, m)."""
         if not self.ready.turns or len(self._start) == len(self._way) == 1:
-            return self.ready.values(n)
+            return self.ready.range.grid(n).values
         start, way = (np.broadcast_to(x, (self.count,)) for x in (self._start, self._way))
         return np.asarray(start[:, None] + way[:, None] / n * np.arange(n))
 
@@ -214,7 +214,7 @@ class PreparedMechanisms:
         shape = len(which), n
         values = self.values(n)
         if values.ndim == 1:
-            c, s = self.ready.grid(n).turn
+            c, s = self.ready.range.grid(n).turn
             return np.broadcast_to(c, shape), np.broadcast_to(s, shape)
         c, s = GivenValues(np.ravel(values[which])).turn
         return c.reshape(shape), s.reshape(shape)

@@ -17,6 +17,7 @@ import numpy as np
 from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
 from graphkin.solver.assemblies import choose_forms, own_values
+from graphkin.solver.driver_values import UniformGrid
 from graphkin.solver.engine import positions
 from graphkin.solver.error_bound import ErrorBound
 from graphkin.solver.findings import assembly_words, limit_why, singular, structure_of, without_singular
@@ -131,6 +132,15 @@ class DriverRange:
             return np.asarray(2 * np.pi * k / n)
         low, high = self.ends
         return np.asarray(low + (k + 0.5) / n * (high - low))
+
+    def grid(self, n: int, first: int = 0, last: int | None = None) -> UniformGrid:
+        """Values of the first driver at positions ``first`` to ``last`` (not included) of a table of n: a turn from the
+        start on in the sense of the driver, or evenly inside the range of travel."""
+        last, start = n if last is None else last, float(self.start[0])
+        if isinstance(self.driver, AngleDriver):
+            return UniformGrid(start, self.sense * 2 * np.pi, n, first, last)
+        low, high = self.ends
+        return UniformGrid(start + self.sense * ((high - low) / n / 2 + low), self.sense * (high - low), n, first, last)
 
     # the assembly
 

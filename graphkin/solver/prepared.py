@@ -179,7 +179,7 @@ class PreparedMechanism:
         code = Code(self.dimensioned.program.graph, (*self.asked, *self._sines), self.fixed)
         function, params, names, count = code.floats, self.given(code), code.inputs, len(self.asked)
         everywhere, steady, turns = self.whole, self.signs is not None, self.turns
-        (start, sense), (low, high) = self._start, self.range.ends
+        start, sense, (low, high) = float(self.range.start[0]), self.range.sense, self.range.ends
         place = {"cos": 0, "sin": 1, "travel": 2}
         order = [place.get(name[0], 3) for name in names]
 
@@ -249,7 +249,7 @@ class PreparedMechanism:
     @cached_property
     def _numbers(self) -> Array:
         """What compiled code takes: the params, then start and way of the driver over its range."""
-        grid = self.grid(1)
+        grid = self.range.grid(1)
         return np.array([*self._params, grid.start, grid.way])
 
     @cached_property
@@ -350,24 +350,6 @@ class PreparedMechanism:
             out[:, ~ok] = 0.0
         return ok
 
-    def grid(self, n: int, first: int = 0, last: int | None = None) -> UniformGrid:
-        last = n if last is None else last
-        start, sense = self._start
-        if self.turns:
-            return UniformGrid(start, sense * 2 * math.pi, n, first, last)
-        low, high = self.range.ends
-        return UniformGrid(start + sense * ((high - low) / n / 2 + low), sense * (high - low), n, first, last)
-
-    @cached_property
-    def _start(self) -> tuple[float, float]:
-        """Where the driver starts, and its sense."""
-        return float(self.range.start[0]), self.range.sense
-
-    def values(self, n: int, first: int = 0, last: int | None = None) -> Array:
-        """Values of the first driver at positions ``first`` to ``last`` (not included) of n over the whole range: a
-        turn from the start on in the sense of the driver, or evenly inside the range of travel."""
-        return self.grid(n, first, last).values
-
     def sweep(self, n: int, out: Array | None = None, fast: bool = False) -> tuple[Array, Array]:
         """``columns`` at n positions of the whole range."""
         out = np.empty((self.rows, n)) if out is None else out
@@ -375,7 +357,7 @@ class PreparedMechanism:
             # nothing but the call: at some hundred positions each line here would be felt
             self._on_grid.run(0, n, self._numbers, n, 0, out)
             return out, _every(n)
-        return out, self._all(self.grid(n), out, fast)
+        return out, self._all(self.range.grid(n), out, fast)
 
 
 @lru_cache

@@ -19,9 +19,11 @@ from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable
 from graphkin.files import folder_alone, whole_file
 from graphkin.jobs import Checkpoints, Progress, Workers, key_of
 from graphkin.scene import mechanism_of
+from graphkin.scene.dimensions import Dimension, dimensions, same_but_for_dimensions
 from graphkin.scene.model import Mechanism
+from graphkin.solver.designs import PreparedMechanisms
 from graphkin.study.designs import Designs, Value, applied
-from graphkin.study.watched import BLOCK, FollowedDesign, Watched, word_column
+from graphkin.study.watched import BLOCK, Arrays, FollowedDesign, Watched, word_column
 from graphkin.table import Column, Table
 from graphkin.table.csv_files import parquet_of_csv
 
@@ -189,7 +191,10 @@ _LATEST: dict[tuple[str, int], FollowedDesign | tuple[str, str]] = {}
 
 def make(piece: SweepPiece) -> PieceResult:
     """Make one piece.  What goes wrong with a design is said in its rows; nothing is raised for it."""
-    made = [_rows(piece, number, values) for number, values in piece.designs]
+    designs = {number: _design(piece, number, values) for number, values in piece.designs}
+    whole = piece.first == 0 and piece.last == piece.sweep.positions
+    arrays = _together(piece.sweep, designs) if whole and piece.sweep.designs.keys else {}
+    made = [_rows(piece, number, values, designs[number], arrays.get(number)) for number, values in piece.designs]
     table = Table.joined([t for t, _ in made])
     outcomes = tuple(o for _, o in made)
     text = b""
@@ -201,19 +206,58 @@ def make(piece: SweepPiece) -> PieceResult:
     return PieceResult(None if piece.text else table, text, outcomes if piece.sweep.designs.keys else (), good)
 
 
-def _rows(piece: SweepPiece, number: int, values: tuple[Value, ...]) -> tuple[Table, Outcome]:
+def _design(piece: SweepPiece, number: int, values: tuple[Value, ...]) -> FollowedDesign | tuple[str, str]:
+    """A design whose way is known, or the status and the reason why it has none."""
     design = _LATEST.get((piece.key, number))
     if design is None:
         design = _followed(piece.sweep, values)
         _LATEST.clear()
         _LATEST[piece.key, number] = design
+    return design
+
+
+def _together(sweep: Sweep, designs: Mapping[int, FollowedDesign | tuple[str, str]]) -> dict[int, Arrays]:
+    """What the prepared scene gives for those designs that are the scene itself with other dimensions, in the same
+    assembly: as ``prepare(...).over(...)``, which is that of no others."""
+    try:
+        ready = sweep.base.engine
+    except Unsolvable:
+        return {}
+    if ready is None or ready.signs is None:
+        return {}
+    form, alike = ready.range.forms(np.zeros(1)), dict[int, Mapping[Dimension, complex]]()
+    for number, design in designs.items():
+        if isinstance(design, FollowedDesign) and same_but_for_dimensions(sweep.scene, design.scene):
+            here = design.reach.forms(np.zeros(1))
+            if all(np.array_equal(here[i], form[i]) for i in form):
+                alike[number] = dimensions(design.scene)
+    changed = [name for name, z in ready.dimensions.items() if any(own[name] != z for own in alike.values())]
+    given = {name: np.array([own[name] for own in alike.values()]) for name in changed}
+    if not given:
+        return {}
+    together = PreparedMechanisms(ready, given).together
+    numbers = np.array([*alike])[together]
+    if not len(numbers):
+        return {}
+    columns, ok = PreparedMechanisms(ready, {name: x[together] for name, x in given.items()}).sweep(sweep.positions)
+    return {n: sweep.base.arrays_of(ready, columns[:, k], ok[k]) for k, n in enumerate(numbers.tolist())}
+
+
+def _rows(
+    piece: SweepPiece,
+    number: int,
+    values: tuple[Value, ...],
+    design: FollowedDesign | tuple[str, str],
+    arrays: Arrays | None,
+) -> tuple[Table, Outcome]:
     keys = piece.sweep.designs.keys
     cells: dict[str, float | str | None] = {}
     if isinstance(design, tuple):
         status, why = design
         good, table = 0, piece.sweep.base.blank(piece.first, piece.last, status, why)
     else:
-        table = design.table(piece.sweep.positions, piece.first, piece.last)
+        n, first, last = piece.sweep.positions, piece.first, piece.last
+        table = design.table(n, first, last) if arrays is None else design.table_of(arrays, n, first, last)
         bad = np.flatnonzero(table["status"] != "ok")
         good = len(table) - len(bad)
         status, why = (table["status"][bad[0]], table["why"][bad[0]]) if len(bad) else ("ok", "")
@@ -234,8 +278,7 @@ def _followed(sweep: Sweep, values: tuple[Value, ...]) -> FollowedDesign | tuple
         else:
             scene = mechanism_of(applied(sweep.source, sweep.designs.keys, values))
             design = FollowedDesign(scene, sweep.asked, sweep.at)
-        if design.engine is None or sweep.designs.keys:
-            _ = design.reach
+        _ = design.reach
         return design
     except Unsolvable as error:
         return error.status, error.why

@@ -241,7 +241,7 @@ class FollowedDesign:
             return None
         units = 1.0 / self.scene.units.metres, float(np.degrees(1.0)), 1.0 / self.scene.units.rates.metres
         try:
-            return prepare(self.structure, [w.name for w in self.asked], units)
+            return prepare(self.structure, [w.name for w in self.asked], units, along=self.reach)
         except CallError:  # a redundant link is none of its
             return None
 
@@ -249,9 +249,10 @@ class FollowedDesign:
         """All of n positions at once, where the mechanism can be prepared; very many by compiled code."""
         if self.engine is None:
             return None
-        return self._arrays(self.engine, *self.engine.sweep(n, fast=n >= MANY and have("numba")))
+        return self.arrays_of(self.engine, *self.engine.sweep(n, fast=n >= MANY and have("numba")))
 
-    def _arrays(self, engine: PreparedMechanism, columns: Array, ok: Array) -> Arrays:
+    def arrays_of(self, engine: PreparedMechanism, columns: Array, ok: Array) -> Arrays:
+        """What an engine gave, shapes (columns, positions) and (positions,), by what is watched."""
         good = len(ok) if engine.clear else int(np.count_nonzero(ok))
         if good < len(ok):
             columns[:, ~ok] = np.nan
@@ -262,8 +263,8 @@ class FollowedDesign:
     def table(self, n: int, first: int, last: int) -> Table:
         """Positions ``first`` to ``last`` (not included) of n: driver values, what is watched, status and reason."""
         if self.engine is not None:
-            found = self.engine.columns(self.engine.values(n, first, last))
-            return self.table_of(self._arrays(self.engine, *found), n, first, last)
+            found = self.engine.columns(self.reach.grid(n, first, last).values)
+            return self.table_of(self.arrays_of(self.engine, *found), n, first, last)
         if moves_by_law(self.scene):
             times = np.array(moments(self.scene, n)[first:last])
             motion = over_time(self.structure, times)
@@ -275,10 +276,9 @@ class FollowedDesign:
 
     def table_of(self, arrays: Arrays, n: int, first: int, last: int) -> Table:
         """The table of what a prepared mechanism gave at positions ``first`` to ``last`` of n."""
-        assert self.engine is not None
         rows = last - first
-        values = np.repeat(self.engine.range.start[None], rows, axis=0)
-        values[:, 0] = self.engine.values(n, first, last)
+        values = np.repeat(self.reach.start[None], rows, axis=0)
+        values[:, 0] = self.reach.grid(n, first, last).values
         status, why, parts = np.full(rows, "ok", object), np.full(rows, "", object), arrays.parts
         bad = np.flatnonzero(~arrays.ok) if arrays.good < rows else np.zeros(0, int)
         if len(bad):

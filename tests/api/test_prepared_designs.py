@@ -168,3 +168,11 @@ def test_a_scene_that_is_read_already_has_designs():
     found = graphkin.prepare(scene, "v_C").over({"links.2.length": [80.0]}).sweep(10)
     anew = graphkin.prepare(applied(SHAPER, ("links.2.length",), (80.0,)), "v_C").sweep(10)
     assert anew["v_C"] == pytest.approx(found["v_C"][0], rel=1e-12)
+
+
+def test_a_sweep_over_designs_holds_what_they_give():
+    designs = {"links.2.length": [80.0, 90.0, 30.0], "driver.rpm": [-60.0, 70.0]}
+    table = graphkin.sweep(SHAPER, positions=5, find=["omega_4"], designs=designs).table
+    every = {"links.2.length": np.repeat(designs["links.2.length"], 2), "driver.rpm": designs["driver.rpm"] * 3}
+    over = graphkin.prepare(SHAPER, "omega_4").over(every).sweep(5)
+    assert over["omega_4"].ravel() == pytest.approx(table["omega_4 (rad/s)"], rel=1e-12)

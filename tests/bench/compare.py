@@ -110,7 +110,7 @@ def rows(case: Case) -> list[tuple[str, int, float, str]]:
             calls["fast, all threads"] = lambda n=n, out=out: ready.sweep(n, out, fast=True)
             values["graphkin, fast"] = agree("fast", mine, ready.sweep(n, fast=True)[0])
             if case.name == "shaper":
-                start, step = float(ready.values(1)[0]), 2 * math.pi / n
+                start, step = float(ready.range.grid(1).values[0]), 2 * math.pi / n
                 shaper(start, step, out)
                 calls["by hand, numba"] = one_thread(lambda a=start, d=step, out=out: shaper(a, d, out))
                 values["by hand, numba"] = agree("hand", mine, out)
@@ -120,13 +120,13 @@ def rows(case: Case) -> list[tuple[str, int, float, str]]:
                 calls[name] = getattr(call, "timed", call)
                 values[name] = agree(name, mine, call())
         if case.name in by_hand.WRITTEN:
-            hand, angles = by_hand.WRITTEN[case.name], ready.values(n)
+            hand, angles = by_hand.WRITTEN[case.name], ready.range.grid(n).values
             calls["by hand, NumPy"] = lambda v=angles, h=hand: h(v)
             values["by hand, NumPy"] = agree("hand", mine, hand(angles))
         copy = np.empty_like(mine)
         calls["copying the columns"] = lambda c=copy, m=mine: np.copyto(c, m)
         found += [(name, n, took, values.get(name, "")) for name, took in best(calls).items()]
-    value = float(ready.values(360)[17])
+    value = float(ready.range.grid(360).values[17])
     took = best({"one": lambda: [ready.at(value) for _ in range(1000)]})["one"] / 1000
     found.append(("graphkin, plain floats", 1, took, "ok"))
     return found

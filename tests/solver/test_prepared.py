@@ -46,7 +46,7 @@ def test_one_position_in_plain_floats_is_the_same_to_the_last_bit() -> None:
 def test_a_sweep_in_pieces_is_the_sweep() -> None:
     ready = four_bar()
     whole, _ = ready.sweep(1000)
-    pieces = np.hstack([ready.columns(ready.values(1000, k, k + 250))[0] for k in range(0, 1000, 250)])
+    pieces = np.hstack([ready.columns(ready.range.grid(1000, k, k + 250).values)[0] for k in range(0, 1000, 250)])
     assert pieces == pytest.approx(whole, abs=1e-14 * np.abs(whole).max())
 
 
@@ -63,7 +63,7 @@ def test_one_position_is_there_where_positions_of_an_array_are() -> None:
 def test_many_even_steps_are_as_exact_as_single_ones(n: int) -> None:
     ready = four_bar()
     columns, _ = ready.sweep(n)
-    single, _ = ready.columns(ready.values(n))
+    single, _ = ready.columns(ready.range.grid(n).values)
     assert np.abs(columns - single).max() < 2e-14 * np.abs(single).max()
 
 
@@ -125,7 +125,7 @@ def test_a_travel_is_that_of_solve() -> None:
 
 def test_a_driven_slide_is_swept_inside_its_range() -> None:
     ready = prepare(mechanism_of_text(scenes.CYLINDER, "c"), ("v_B",))
-    assert ready.values(10) == pytest.approx(0.1 + 0.4 * (np.arange(10) + 0.5) / 10, rel=1e-9)
+    assert ready.range.grid(10).values == pytest.approx(0.1 + 0.4 * (np.arange(10) + 0.5) / 10, rel=1e-9)
 
 
 @pytest.mark.parametrize(
