@@ -207,9 +207,11 @@ class Centred(Result, OfScene):
         from graphkin.drawing.centres_in_motion import centres_in_motion
         from graphkin.study.centre_paths import centre_paths
 
-        frame = self.mechanism.frame.name
+        frame, whole = self.mechanism.frame.name, self.mechanism.instead_of or self.mechanism
         few = len(self.centres.links.names) <= MOST_PLAYED
-        pairs = [pair for pair in self.centres.table if few or frame in pair]
+        # what stands for a cam at one position is none of the links that move
+        standing = {slot.bar for slot in self.mechanism.slots if slot.bar not in whole.by_name}
+        pairs = [p for p in self.centres.table if (few or frame in p) and not standing.intersection(p)]
         own = {d.key: float(v) for d, v in zip(self.mechanism.drivers, self.motion.values[0], strict=True)}
         found, mm = centre_paths(self.mechanism, own, pairs), self.centres.links.mm
         return centres_in_motion(

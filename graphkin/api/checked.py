@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping, Sequence
+from copy import deepcopy
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -28,7 +29,7 @@ from graphkin.api.reading_rows import in_scene_units, reading_row
 from graphkin.api.results import OfScene, Result
 from graphkin.checking.readings import read_off
 from graphkin.checking.report import Compared, Report, compare
-from graphkin.construction import EXACT, Cad, Exact, Instrument, Plan, Sheet, execute, pencil, plan
+from graphkin.construction import EXACT, Cad, Instrument, Plan, Sheet, execute, pencil, plan
 from graphkin.construction.sheet import DiagramName
 from graphkin.errors import CallError, Problem, Unsolvable, as_text, did_you_mean
 from graphkin.files import path_of
@@ -189,8 +190,8 @@ class Checked(Result, OfScene):
         return speeds(self.centres)
 
     def _at_contact(self, row: Compared) -> dict[str, float]:
-        """A reading of the drawing at the contacts, in scene units."""
-        other = self.at_contacts
+        """A reading of the drawing at the contacts, in scene units; of pins in straight slots it is this one."""
+        other = self if self.at_contacts is None and self.mechanism.pins else self.at_contacts
         rows = {} if other is None else {r.symbol: r for r in other.report.rows}
         if row.symbol not in rows:
             return {}
@@ -255,10 +256,10 @@ def check(
 
 def checked(what: Plan, motion: Motion, hand: Instrument) -> Checked:
     """Draw a plan and hold everything on it against the solver at the same position; sliding contacts at the contact
-    itself too, by hands that draw exactly."""
+    itself too, by the same hands on another sheet."""
+    other, again = what.at_contacts(), hand if hand is EXACT else deepcopy(hand)
     made = _checked(what, motion, hand)
-    other = what.at_contacts() if hand.faultless and isinstance(hand, Exact) else None
-    return made if other is None else replace(made, at_contacts=_checked(other, motion, hand))
+    return made if other is None else replace(made, at_contacts=_checked(other, motion, again))
 
 
 def _checked(what: Plan, motion: Motion, hand: Instrument) -> Checked:

@@ -252,7 +252,7 @@ def _contacts(drawn: Drawn) -> Drawing | None:
 
 
 def _touches(scene: Mechanism) -> bool:
-    return any(not c.rolling for c in scene.contacts) or any(not c.flat for c in scene.cams)
+    return any(not c.rolling for c in scene.contacts) or bool(scene.cams) or any(not s.block for s in scene.slots)
 
 
 def _loops(drawn: Drawn) -> Drawing | None:

@@ -162,7 +162,8 @@ def contact_lines(checked: Checked, language: str) -> list[str]:
     contacts that it finds."""
     other = checked.at_contacts
     if other is None:
-        return []
+        pins = dict.fromkeys(p.point for p in checked.mechanism.pins)
+        return [say(Phrase("at pins", (", ".join(pins),)), language)] if pins else []
     ways = dict.fromkeys(n for n in other.sheet.remarks if isinstance(n, AtContact))
     names, curve = [n.contact for n in ways], any(n.on_curve for n in ways)
     first = {row.symbol: row for row in checked.report.rows}

@@ -57,6 +57,7 @@ def positioned(
     board.causes[:] = [*before, *position.causes]
     polygons = GroupPolygons(board, task.opened, position.frame, scales, slip)
     polygons.given.update(rates)
+    polygons.at_contacts = task.touching
     polygons.chains.update(task.chains)
     polygons.plans.update(task.plans)
     for name, act in told:

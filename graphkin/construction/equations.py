@@ -10,7 +10,6 @@ from collections.abc import Mapping, Sequence
 from graphkin.construction.net import Edge, Joined, Net, TwoWays
 from graphkin.scene.model import PlacedLink
 from graphkin.scene.symbol import PointRef
-from graphkin.structure import Dyad
 
 __all__ = ["equation_of"]
 
@@ -18,14 +17,14 @@ __all__ = ["equation_of"]
 def equation_of(
     links: Mapping[str, PlacedLink],
     frame: str,
-    dyad: Dyad,
+    joined: Joined,
     places: Mapping[str, complex],
     guide_names: Mapping[str, tuple[str, ...]],
     drawn: Mapping[PointRef, complex],
     same_turn: Mapping[str, str],
     tiny: float,
 ) -> TwoWays | None:
-    """Find the shortest equation of a dyad with two unknown sizes.
+    """Find the shortest equation with two unknown sizes of a dyad's links and all pairs that hold them.
 
     Parameters
     ----------
@@ -35,10 +34,6 @@ def equation_of(
     same_turn : for each link of the group the one link whose angular velocity it shares
     tiny : points nearer to each other than this (mm) give no direction
     """
-    pairs = (dyad.outer_first, dyad.inner, dyad.outer_second)
-    welds = tuple(w for body in dyad.bodies for w in body.welds)
-    inside = [name for body in dyad.bodies for name in body.links]
-    joined = Joined(inside, (*pairs, *(w.pair for w in welds)), welds)
     net = Net(links, frame, joined, places, guide_names, same_turn, tiny)
     known = [n for n in net.nodes if net.known(n)]
     best: tuple[tuple[float, ...], TwoWays] | None = None

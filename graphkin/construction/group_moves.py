@@ -10,7 +10,7 @@ from graphkin.construction.mechanism_acts import SpecialPoint
 from graphkin.construction.net import Edge, Joined, Net, TwoWays
 from graphkin.construction.plot import Order, letter
 from graphkin.construction.polygon_acts import Carried, DirectionLine, FoundVector, MeasuredRate
-from graphkin.construction.polygons import Polygons, same_turn
+from graphkin.construction.polygons import Polygons
 from graphkin.construction.sheet import Aid, Bar, Equation, Mark, Rate, Ray, Term
 from graphkin.plane import cross, unit
 from graphkin.scene.model import AngleDriver, SlideDriver
@@ -37,13 +37,15 @@ class GroupMoves(Polygons):
             if pair is not None and isinstance(driver, AngleDriver):
                 welds.append(Weld(pair, driver, pair.b, pair.a))
         driven = frozenset(d.key for d in group.drivers if isinstance(d, SlideDriver))
-        joined = Joined(group.members, group.pairs, welds, driven, near=True)
+        joined = self._at_contacts(group, Joined(group.members, group.pairs, welds, driven, near=True))
         names = {s.key: self.guide_names(s) for s in slides}
-        return Net(self.links, self.ground, joined, self.places, names, same_turn(group), self.tiny)
+        return Net(self.links, self.ground, joined, self.places, names, self._same_turn(group), self.tiny)
 
     def _way(self, edge: Edge, places: Mapping[str, complex]) -> complex:
         if edge.slide is not None:
             return self.frame.poses[edge.slide.b].axis * edge.slide.guide.direction
+        if edge.contact:
+            return -1j * self.contact(edge.contact)[2]
         return 1j * unit(places[edge.end.point] - places[edge.start.point])
 
     def _move(self, order: Order, group: Cluster, move: Move) -> None:
@@ -68,12 +70,12 @@ class GroupMoves(Polygons):
                 left.remove(name)
 
     def _left(self, order: Order, net: Net) -> list[Edge]:
-        """What moves along the guides of a group and has not been drawn."""
+        """What moves along the guides of a group, or slips at its contacts, and has not been drawn."""
         found = []
         for ref in net.nodes:
             for edge in net.edges[ref]:
                 s = edge.slide
-                if s is None or edge.start.point != s.pin or not edge.forward:
+                if not edge.forward or not (edge.contact or (s is not None and edge.start.point == s.pin)):
                     continue
                 symbol = Symbol(letter(order), self.label(edge.labels[1]), self.label(edge.labels[0]))
                 if symbol not in self.drawn[order] and not self.fixed(edge.start):
@@ -137,7 +139,7 @@ class GroupMoves(Polygons):
         for leg in move.legs:
             joint = leg[-1].end
             if abs(self.places[joint.point] - self.places[name]) > self.tiny:
-                unknown = f"omega {same_turn(group).get(link, link)}"
+                unknown = f"omega {self._same_turn(group).get(link, link)}"
                 # written as the leg's own direction, for the two lie along one line
                 free = next(e for e in leg if e.unknown)
                 square = Edge(joint, ref, (joint, ref), free.direction, link=link, unknown=unknown)
@@ -179,7 +181,7 @@ class GroupMoves(Polygons):
                 if part.span is not None:
                     self.board.do(order, Carried(part.symbol), Bar(start, start + part.span, ""), equation=number)
                     start += part.span
-                elif edge.link == link and edge.unknown.endswith(same_turn(group).get(link, link)):
+                elif edge.link == link and edge.unknown.endswith(self._same_turn(group).get(link, link)):
                     mine = edge, part
                 else:
                     free = part

@@ -19,7 +19,6 @@ from graphkin.construction.group_plan import GroupPlan, Special, plan_group
 from graphkin.construction.net import Edge
 from graphkin.construction.plot import Order
 from graphkin.construction.polygon_acts import Superposed, TrialDrawn
-from graphkin.construction.polygons import same_turn
 from graphkin.construction.remarks import Magnified, ParallelLegs
 from graphkin.construction.rigid import PlacedLinks
 from graphkin.construction.sheet import Aid, DrawnGroup, Rate, Scales, Vector
@@ -70,7 +69,7 @@ class GroupPolygons(GroupMoves):
     def _first(self, order: Order, group: Cluster) -> None:
         """Find how a group is drawn, and draw it so."""
         best: tuple[float, GroupPlan] | None = None
-        for found in plan_group(self._net(group), same_turn(group), self._way, self._free_letters()):
+        for found in plan_group(self._net(group), self._same_turn(group), self._way, self._free_letters()):
             if not found.tried:
                 best = 1.0, found
                 break
@@ -165,7 +164,8 @@ class GroupPolygons(GroupMoves):
         parts = parts_of(self, order, whole)
         missing = self.end(order, edge.end) - self.end(order, edge.start)
         missing -= sum((p.span for p in parts if p.span is not None), 0j)
-        way = -1j * self._way(edge, self.places) if edge.slide is None else self._way(edge, self.places)
+        way = self._way(edge, self.places)
+        way = way if edge.slide is not None or edge.contact else -1j * way
         if not across:
             return dot(missing, way) if all(p.span is not None for p in parts) else None
         return dot(missing, 1j * way)

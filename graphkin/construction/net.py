@@ -11,6 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from graphkin.construction.sizes import Direction
+from graphkin.scene.contacts import PlacedContact
 from graphkin.scene.model import PlacedLink
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import Pair, Slide, Turn, Weld
@@ -58,7 +59,8 @@ def node(links: Mapping[str, PlacedLink], point: str, link: str) -> PointRef:
 
 @dataclass(frozen=True)
 class Joined:
-    """Links of a group, all pairs that hold them, and what drivers hold together among them.
+    """Links of a group, all pairs that hold them, what drivers hold together among them, and the sliding contacts that
+    nothing replaces.
 
     ``near`` keeps of the points that lie under each other on two links those next to a point of either, as larger
     groups need: all of them would be too many.
@@ -69,6 +71,7 @@ class Joined:
     welds: Sequence[Weld]
     driven: frozenset[str] = frozenset()  # sliding pairs of which a driver gives the motion
     near: bool = False
+    contacts: tuple[PlacedContact, ...] = ()
 
 
 class Net:
@@ -89,10 +92,13 @@ class Net:
         slides = [p for p in pairs if isinstance(p, Slide)]
         turns = [p for p in pairs if isinstance(p, Turn)]
         driven = {w.pair.key for w in welds if isinstance(w.pair, Slide)} | joined.driven
-        letters = list(dict.fromkeys([s.pin for s in slides if s.pin] + [t.point for t in turns]))
+        touching = [c.name for c in joined.contacts]
+        letters = list(dict.fromkeys([s.pin for s in slides if s.pin] + [t.point for t in turns] + touching))
         self.natural = {node(links, t.point, t.a) for t in turns}
         self.natural |= {node(links, s.pin, side) for s in slides if s.pin for side in (s.a, s.b)}
-        around = list(dict.fromkeys([*self.inside, *(n for p in pairs for n in (p.a, p.b))]))
+        self.natural |= {PointRef(c.name, side) for c in joined.contacts for side in c.links}
+        between = [*((p.a, p.b) for p in pairs), *(c.links for c in joined.contacts)]
+        around = list(dict.fromkeys([*self.inside, *(n for both in between for n in both)]))
         on = _near(links, joined, around, letters) if joined.near else {}
         self.owners: dict[PointRef, list[str]] = {}
         for name in around:
@@ -110,6 +116,8 @@ class Net:
         for w in welds:
             if isinstance(w.pair, Turn):
                 self._welded(w, letters)
+        for c in joined.contacts:
+            self._touching(c)
 
     def fixed(self, n: PointRef) -> bool:
         return self.frame in self.owners[n]
@@ -144,6 +152,11 @@ class Net:
                 labels = (PointRef(letter, w.a), PointRef(letter, w.b))
                 hinge = w.pair.point  # type: ignore[union-attr]
                 self._add(Edge(a, b, labels, Direction("square", (hinge, letter)), weld=w))
+
+    def _touching(self, contact: PlacedContact) -> None:
+        a, b = (PointRef(contact.name, link) for link in contact.links)
+        way = Direction("along", ("t-t",))
+        self._add(Edge(a, b, (a, b), way, contact=contact.name, unknown=f"slip {contact.name}"))
 
     def add(self, name: str, letter: str, at: complex, shares: str) -> PointRef:
         """One more point of a link, such as a special point."""
@@ -184,6 +197,9 @@ def _near(
     """For each link the letters at which it is looked at: its own, and those of links that slide on it or that a driver
     turns on it, and of those next to them."""
     on = {name: {p for p in letters if p in links[name].points} for name in around}
+    for c in joined.contacts:
+        for side in c.links:
+            on[side].add(c.name)
     touching = [(p.a, p.b) for p in joined.pairs if isinstance(p, Slide)] + [(w.a, w.b) for w in joined.welds]
     for _ in range(2):
         shared = [(a, b, on[a] | on[b]) for a, b in touching]

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING
 
-from graphkin.construction.at_contacts import chains_at_contacts
+from graphkin.construction.at_contacts import contacts_of
 from graphkin.construction.board import EXACT, Instrument
 from graphkin.construction.cam_outline import outlines_on_paper
 from graphkin.construction.carried_out import carried_out, finished
@@ -37,7 +37,18 @@ from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.loads import Loading
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
-from graphkin.structure import Cluster, Driven, Dyad, Element, Rolled, Structure, analyse, links_of, needed
+from graphkin.structure import (
+    Cluster,
+    Driven,
+    Dyad,
+    Element,
+    Rolled,
+    Structure,
+    analyse,
+    links_of,
+    needed,
+    pins_on_circles,
+)
 from graphkin.structure.cams_replaced import with_cams
 
 if TYPE_CHECKING:
@@ -157,23 +168,41 @@ class Plan(Task):
         return replace(_planned(replace(self, branches=branches, chains={}, plans={}), None), scales=self.scales)
 
     def at_contacts(self) -> Plan | None:
-        """The same task with sliding contacts, or rollers and edges of cams, drawn at the contact itself instead of by
-        what replaces them, at scales that suit it; None where there is none in a dyad."""
-        scene = self.structure.scene
-        if scene.instead_of is not None:
-            if not any(slot.bar not in scene.instead_of.by_name for slot in scene.slots):
-                return None
-            return plan(scene.instead_of, self.values, self.asked, bars=False)
-        chains = chains_at_contacts(self.structure, self.exact)
-        inside = {dyad: chain for dyad, chain in chains.items() if dyad in self.elements}
-        if not inside:
+        """The same task with sliding contacts, or rollers, edges and faces of cams, drawn at the contact itself instead
+        of by what replaces them, at scales that suit it; None where there is none, or where one lies in a pivot."""
+        whole = self.structure.scene.instead_of
+        if whole is None:
+            scene = self.structure.scene
+            if all(slot.block for slot in scene.slots):
+                return self._touching()
+            size = self.exact.scales.length
+            poses = {name: (pose.origin * size, pose.axis) for name, pose in self.exact.poses.items()}
+            drivers = tuple(d.at_value(self.values[d.key]) for d in scene.drivers)
+            other = plan(replace(pins_on_circles(scene, poses), drivers=drivers), None, self.asked)
+            return other._touching() or other
+        barred = any(slot.bar not in whole.by_name for slot in self.structure.scene.slots)
+        if not barred and not whole.contacts and not any(cam.flat for cam in whole.cams):
             return None
-        other = replace(self, chains={**self.chains, **inside})
-        exact = finished(other, carried_out(other, NATURAL))
+        other = plan(whole, self.values, self.asked, bars=False)
+        return other._touching() or (other if barred else None)
+
+    def _touching(self) -> Plan | None:
+        """The same task with its sliding contacts drawn themselves, as far as it has any."""
+        touching = {e for e in self.elements if not isinstance(e, Driven) and contacts_of(self.structure, e)}
+        if not touching:
+            return None
+        chains = {dyad: chain for dyad, chain in self.chains.items() if dyad not in touching}
+        other = replace(self, chains=chains, plans={}, touching=True)
+        try:
+            made = carried_out(other, NATURAL)
+        except Unsolvable:  # a contact at a pivot, which turns nothing there
+            return None
+        exact = finished(other, made)
         extents = _extents_of(exact)
         return replace(
-            other, exact=exact, extents=extents, scales=_chosen_scales(self.structure.scene, extents, None)
-        )
+            other, exact=exact, extents=extents, scales=_chosen_scales(self.structure.scene, extents, None),
+            chains=made.polygons.chains, plans=made.polygons.plans,
+        )  # fmt: skip
 
 
 def plan(

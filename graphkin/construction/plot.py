@@ -15,8 +15,10 @@ from graphkin.construction.rigid import PlacedLinks
 from graphkin.construction.sheet import Aid, Bar, Image, Mark, Rate, Scales, Stroke, Vector
 from graphkin.construction.slip import NO_SLIP, Slip
 from graphkin.construction.steps import Act
+from graphkin.construction.touching import Touching
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, dot
+from graphkin.scene.contacts import PlacedContact
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Slide, Structure
 
@@ -91,6 +93,11 @@ class Plot:
                     still |= {s.a, s.b}
                     grown = True
         return still
+
+    def contact(self, name: str) -> tuple[PlacedContact, complex, complex]:
+        """A contact, where it is made (mm), and the direction of its normal."""
+        found = next(c for c in self.structure.scene.contacts if c.name == name)
+        return found, *Touching(self.structure.scene, self.frame.mm, self.frame.poses).contact(found)
 
     def length(self, arm: complex, between: Sequence[str]) -> float:
         """The length (m) between two points of the mechanism that lie ``arm`` apart on paper: given where one link has

@@ -7,12 +7,13 @@ sliding velocity (Sun Huan, Mechanical Principles, ch. 3; Norton, Design of Mach
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Literal
 
+from graphkin.construction.at_contacts import contacts_of, joined_at_contacts
 from graphkin.construction.board import Board
 from graphkin.construction.equations import equation_of
-from graphkin.construction.net import Edge, TwoWays, node
+from graphkin.construction.net import Edge, Joined, TwoWays, node
 from graphkin.construction.plot import Order, Plot, letter
 from graphkin.construction.polygon_acts import (
     Carried,
@@ -51,6 +52,7 @@ class Polygons(Plot):
         super().__init__(board, structure, frame, scales, slip)
         self.chains: dict[Dyad, TwoWays] = {}
         self.wheels = Wheels.of(structure)
+        self.at_contacts = False  # whether sliding contacts are drawn themselves, instead of what replaces them
 
     def draw(self, order: Order, element: Driven | Dyad) -> None:
         """Draw what an element adds to a polygon."""
@@ -158,16 +160,18 @@ class Polygons(Plot):
                 self._measure(order, edge, dyad)
 
     def _find(self, dyad: Dyad) -> TwoWays:
-        slides = [p for p in (dyad.outer_first, dyad.inner, dyad.outer_second) if isinstance(p, Slide)]
-        slides += [w.pair for body in dyad.bodies for w in body.welds if isinstance(w.pair, Slide)]
+        welds = tuple(w for body in dyad.bodies for w in body.welds)
+        pairs = (dyad.outer_first, dyad.inner, dyad.outer_second, *(w.pair for w in welds))
+        slides = [p for p in pairs if isinstance(p, Slide)]
+        joined = Joined(links_of(dyad), pairs, welds)
         chain = equation_of(
             self.links,
             self.ground,
-            dyad,
+            self._at_contacts(dyad, joined),
             self.places,
             {s.key: self.guide_names(s) for s in slides},
             self.ends["velocity"],
-            same_turn(dyad),
+            self._same_turn(dyad),
             self.tiny,
         )
         if chain is None:
@@ -179,9 +183,17 @@ class Polygons(Plot):
             )
         return chain
 
+    def _at_contacts(self, group: Dyad | Cluster, joined: Joined) -> Joined:
+        contacts = contacts_of(self.structure, group) if self.at_contacts else ()
+        return joined_at_contacts(joined, contacts) if contacts else joined
+
+    def _same_turn(self, group: Dyad | Cluster) -> dict[str, str]:
+        contacts = contacts_of(self.structure, group) if self.at_contacts else ()
+        return same_turn(group, {c.block for c in contacts})
+
     def _known_turns(self, order: Order, group: Dyad | Cluster) -> None:
         """Links that share their rotation with one already known."""
-        for name, other in same_turn(group).items():
+        for name, other in self._same_turn(group).items():
             if other in self.rates[order] and name not in self.rates[order]:
                 self._spread(order, other, group)
 
@@ -340,12 +352,14 @@ def _turned_alike(
     return [*((s.a, s.b, 0.0) for s in slides), *held]
 
 
-def same_turn(group: Dyad | Cluster) -> dict[str, str]:
-    """For each link of a group one link with the same rotation but for given ones: a known one if there is any."""
+def same_turn(group: Dyad | Cluster, without: Collection[str] = ()) -> dict[str, str]:
+    """For each link of a group one link with the same rotation but for given ones: a known one if there is any, none of
+    those it is ``without``."""
     inside = links_of(group)
     alike = {n: {n} for n in inside}
     for a, b, _ in _turned_alike(group, "velocity", {}):
         merged = alike.get(a, {a}) | alike.get(b, {b})
         for n in merged:
             alike[n] = merged
-    return {n: next((m for m in sorted(alike[n]) if m not in inside), min(alike[n])) for n in inside}
+    own = {n: min(alike[n].difference(without), default=n) for n in inside}
+    return {n: next((m for m in sorted(alike[n]) if m not in inside), own[n]) for n in inside}

@@ -132,7 +132,10 @@ def _reduced(structure: Structure, cluster: Cluster, known: set[str], count: int
 
 def _removable(structure: Structure, cluster: Cluster) -> Iterator[RemovedConstraint]:
     driven = {n for d in structure.scene.drivers if isinstance(d, AngleDriver) for n in (d.link, d.relative_to)}
+    touching = {n for c in structure.scene.contacts if not c.rolling for n in c.links}
     for name in cluster.members:
+        if name in touching:
+            continue  # what stands for its contacts would hang on nothing
         hinges = [p for p, names in structure.hinges.items() if name in names]
         slides = [s for s in structure.slides if name in (s.a, s.b)]
         # what later groups hang on it hangs on it still when it is put back
@@ -170,6 +173,7 @@ def _opened(scene: Mechanism, removed: Sequence[RemovedConstraint]) -> Mechanism
         links=tuple(link for link in scene.links if link.name not in gone),
         slidings=tuple(s for s in scene.slidings if not gone & {s.link, s.on}),
         pins=tuple(p for p in scene.pins if p.key not in gone and not gone & {p.of, p.on}),
+        contacts=tuple(c for c in scene.contacts if c.block not in gone),
         drivers=tuple(d for d in scene.drivers if d not in drivers),
         find=(),
         stated=(),

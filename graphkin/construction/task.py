@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -31,6 +31,7 @@ class Task:
     ``opened`` is the structure with groups that driven triangles turn into dyads in their parts, ``triangles`` are
     these, each with its assembly; ``values`` are the drivers', those at the triangles' pairs included; ``limits`` are
     the limit positions of what is asked, on paper of the mechanism's size.  ``acting`` and ``growing`` as in `Sheet`.
+    With ``touching`` sliding contacts are drawn themselves, not what replaces them.
     """
 
     structure: Structure
@@ -46,6 +47,7 @@ class Task:
     limits: Mapping[str, Limits]
     acting: Mapping[str, bool | None]
     growing: tuple[Sheet, ...]
+    touching: bool = field(default=False, kw_only=True)
 
     @cached_property
     def drawn(self) -> Mapping[Order, tuple[Element, ...]]:

@@ -103,9 +103,8 @@ def _contact_parts(plot: Plot, order: Order, edge: Edge) -> list[Component]:
     """The material point of one body at a contact relative to that of the other: slip along the tangent; with the term
     of Coriolis, and along the normal what the curvatures of both outlines give."""
     one, two = (ref.link for ref in edge.labels)
-    contact = next(c for c in plot.structure.scene.contacts if c.name == edge.contact)
+    contact, place, normal = plot.contact(edge.contact)
     touching = Touching(plot.structure.scene, plot.frame.mm, plot.frame.poses)
-    place, normal = touching.contact(contact)
     plot.board.notice(order, AtContact(contact.name))
     tangent = -1j * normal
     fixed = plot.fixed(edge.start)

@@ -22,11 +22,13 @@ from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.headings import describe, drivers, facts, figure_title, punctuation, term, titles
 from graphkin.drawing.mechanism import bare_mechanism
+from graphkin.drawing.mechanism_on_paper import MechanismOnPaper
 from graphkin.drawing.obstacles import cross_product
 from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
 from graphkin.drawing.primitives import Arc, Circle, Group, Line, Primitive, Run, Stroke, Text
 from graphkin.drawing.strokes import colour_of_link
 from graphkin.drawing.text import plain, rich, wrapped
+from graphkin.drawing.touching import stand_ins
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, languages, say, word
 
@@ -135,7 +137,9 @@ def centres_figure(
     sheet = centres.sheet
     spoken = language or sheet.scene.sheet.language
     letters = letters_of(sheet, convention or sheet.scene.sheet.convention)  # type: ignore[arg-type]
-    back = background(bare_mechanism(sheet, letters))
+    back = background(bare_mechanism(sheet, letters), "touch")
+    if sheet.scene.instead_of is not None:  # the bars to centres of curvature, which have centres too
+        back = joined((stand_ins(MechanismOnPaper(sheet, letters)), back))
     mechanism = ink_box(back.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
     content = near_box(centres, mechanism, MOST)
     width = max(content.width, SMALLEST[0]) + 2 * ROOM + SIDE + 2 * MARGIN
@@ -175,12 +179,12 @@ def _heading(centres: Centres, at: str, language: str, width: float) -> list[tup
     return lines + wrapped(term("centres", language) + punctuation("colon", language) + at, 3.2, width)
 
 
-def background(piece: Piece) -> Piece:
-    """The mechanism alone, pale: without lengths, senses and compass arcs."""
+def background(piece: Piece, *also: str) -> Piece:
+    """The mechanism alone, pale: without lengths, senses and compass arcs; with groups of ``also`` these classes."""
     kept = tuple(
         pale(thing)
         for thing in piece.layers["mechanism"]
-        if isinstance(thing, Group) and {"frame", "link", "point"} & set(thing.classes)
+        if isinstance(thing, Group) and {"frame", "link", "point", "cam", *also} & set(thing.classes)
     )
     names = tuple(name for name in piece.labels if name.text.id.startswith(("label-point-", "label-link-")))
     return Piece({"mechanism": kept}, names, piece.marks)

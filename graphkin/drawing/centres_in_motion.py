@@ -75,7 +75,10 @@ def centres_in_motion(
     top = MARGIN + LINE * len(head) + 2.0
     panel = Box(MARGIN, top, width - MARGIN, top + content.height + 2 * ROOM)
     origin = panel.centre - content.centre
-    links = [_moving(thing, origin, origins, turned, points) for thing in moved_piece(back, origin).layers["mechanism"]]
+    fixed = {f"point-{name}" for name in sheet.scene.holders if name not in points}
+    gone = fixed - {f"point-{name}" for name in sheet.scene.frame.points}  # what stands for a cam at one position
+    bodies = [thing for thing in moved_piece(back, origin).layers["mechanism"] if getattr(thing, "id", "") not in gone]
+    links = [_moving(thing, origin, origins, turned, points) for thing in bodies]
     drawn: list[Primitive] = []
     for pair, path in shown.items():
         drawn += _paths(pair, path, origin, colour_of_link(sheet.scene, pair[0]))
@@ -118,7 +121,7 @@ def _moving(
     if not isinstance(thing, Group):
         return thing
     kind, _, name = thing.id.partition("-")
-    if kind == "link" and name in origins:
+    if kind in ("link", "cam", "follower") and name in origins:
         path = origins[name]
         return replace(thing, motion=_travel(path, turned[name], complex(path[0]).conjugate() + origin))
     return replace(thing, motion=_travel(points[name])) if kind == "point" and name in points else thing

@@ -39,7 +39,7 @@ def links(here: MechanismOnPaper) -> Piece:
     """All links, areas first, so that feet of pivots stand on them and bars lie over them."""
     areas = [_link(here, shape) for shape in here.shapes if shape.corners]
     bars = sorted((shape for shape in here.shapes if not shape.corners), key=lambda shape: _depth(here, shape))
-    profiles = [_profile(here, one) for one in here.cams]
+    profiles = [group for one in here.cams for group in _profile(here, one)]
     slots = (Group(tuple(_curved(here, one)), id=f"slot-{one.slot.bar}", classes=("link",)) for one in here.curved)
     return Piece({"mechanism": (*profiles, *areas, _frame(here), *slots, *(_link(here, shape) for shape in bars))})
 
@@ -81,16 +81,18 @@ NORMAL, FACE = 9.0, 13.0
 """mm: how far normal and tangent go on beyond what they touch, and half a flat face."""
 
 
-def _profile(here: MechanismOnPaper, one: CamOnPaper) -> Group:
+def _profile(here: MechanismOnPaper, one: CamOnPaper) -> Iterator[Group]:
     """A cam with its profile, the follower's roller or face, tangent and normal where they touch."""
     across = 1j * one.normal
-    parts: list[Primitive] = [_cam_alone(here, one), *_follower_end(here, one)]
+    yield Group((_cam_alone(here, one),), id=f"cam-{one.cam.link}", classes=("cam",))
+    end = tuple(_follower_end(here, one))
+    if end:
+        yield Group(end, id=f"follower-{one.cam.follower}", classes=("cam",))
     beyond = one.contact + one.roller * one.normal
     thin = ((one.contact - NORMAL * one.normal, beyond + NORMAL * one.normal),
             (one.point - NORMAL * across, one.point + NORMAL * across))  # fmt: skip
-    for start, end in thin[: 1 if one.cam.flat else 2]:
-        parts.append(Line(page(start), page(end), strokes.DIRECTION))
-    return Group(tuple(parts), id=f"cam-{one.cam.link}", classes=("cam",))
+    lines = tuple(Line(page(a), page(b), strokes.DIRECTION) for a, b in thin[: 1 if one.cam.flat else 2])
+    yield Group(lines, id=f"touch-{one.cam.link}", classes=("touch",))
 
 
 def _cam_alone(here: MechanismOnPaper, one: CamOnPaper) -> Polygon:

@@ -132,7 +132,8 @@ def _crank_end(sheet: Sheet) -> tuple[complex, complex] | None:
         return None
     link = sheet.structure.links[driver.link]
     pivot = next((p for p in link.points if p in sheet.scene.frame.points), None)
-    far = [p for p in link.points if p != pivot and len(sheet.scene.holders[p]) > 1]
+    own = (sheet.scene.instead_of or sheet.scene).by_name[driver.link].points  # of a cam none of what stands for it
+    far = [p for p in own if p != pivot and len(sheet.scene.holders[p]) > 1]
     if pivot is None or not far:
         return None
     return sheet.points[PointRef(pivot)], sheet.points[PointRef(far[0])]

@@ -158,6 +158,10 @@ class AngleDriver:
         """Value, rate, second rate (rad, rad/s, rad/s2)."""
         return self.angle, self.omega, self.alpha
 
+    def at_value(self, value: float) -> AngleDriver:
+        """The same driver at another angle (rad)."""
+        return replace(self, angle=value, dead_point=None, position="")
+
     def at_rate(self, rate: float) -> AngleDriver:
         """The same driver at a steady rate (rad/s)."""
         return replace(self, omega=rate, alpha=0.0, rpm=None, law=None)
@@ -183,6 +187,10 @@ class SlideDriver:
     def values(self) -> tuple[float, float, float]:
         """Value, rate, second rate (m, m/s, m/s2)."""
         return self.travel, self.velocity, self.acceleration
+
+    def at_value(self, value: float) -> SlideDriver:
+        """The same driver at another travel (m)."""
+        return replace(self, travel=value, dead_point=None)
 
     def at_rate(self, rate: float) -> SlideDriver:
         """The same driver at a steady rate (m/s)."""

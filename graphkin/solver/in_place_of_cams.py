@@ -17,8 +17,8 @@ __all__ = ["as_drawn"]
 
 def as_drawn(motion: Motion, structure: Structure) -> Motion:
     """A motion at one position, with the blocks and points that a replacing mechanism has there; itself of a mechanism
-    without cams."""
-    if structure.scene.instead_of is None:
+    that nothing replaces."""
+    if structure.scene.instead_of is None and structure.links.keys() == motion.structure.links.keys():
         return motion
     poses = dict(motion.poses)
     for slide in structure.slides:

@@ -19,7 +19,7 @@ from graphkin.structure.model import (
     driver_pair,
 )
 from graphkin.structure.part import in_stages, links_of, needed, part_of
-from graphkin.structure.replacement import named_with_contact, replaced_pairs
+from graphkin.structure.replacement import named_with_contact, pins_on_circles, replaced_pairs
 from graphkin.structure.rolling import Mesh, meshes_of
 
 __all__ = [
@@ -48,6 +48,7 @@ __all__ = [
     "needed",
     "part_of",
     "pick",
+    "pins_on_circles",
     "regrouped",
     "replaced_pairs",
 ]

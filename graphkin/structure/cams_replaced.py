@@ -3,19 +3,20 @@
 The roller's centre, or the edge, turns about the centre of curvature of the pitch curve, on a bar; a flat face is moved
 by the centre of curvature of the profile, a pin in a slot along the face.  Or, at the contact itself and where the
 pitch curve is nearly straight: the centre runs as a pin on the pitch curve, of which a straight guide stands for the
-tangent and carries the curvature.
+tangent and carries the curvature; a flat face touches the circle of curvature of the profile.
 """
 
 from __future__ import annotations
 
 import cmath
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, unit
 from graphkin.scene.cams import LawCam, SwingingFollower
-from graphkin.scene.model import AngleDriver, AnyDriver, CircularSlot, Mechanism, PinInSlot, PlacedGuide, PlacedLink
+from graphkin.scene.contacts import PlacedContact, PlacedDisc
+from graphkin.scene.model import CircularSlot, Mechanism, PinInSlot, PlacedGuide, PlacedLink
 from graphkin.structure.model import Structure
 
 __all__ = ["cams_replaced", "with_cams"]
@@ -43,7 +44,7 @@ def cams_replaced(
     turns : the angle of each cam's own axis (rad)
     values : of the drivers, by key (rad, m)
     seen : roughly where points of moving links lie there (m)
-    bars : whether bars stand for rollers and edges, as far as they can
+    bars : whether bars stand for rollers and edges, as far as they can, and pins for what moves faces
 
     Raises
     ------
@@ -53,6 +54,7 @@ def cams_replaced(
     pins: list[PinInSlot] = []
     made: dict[str, PlacedLink] = {}
     slots: list[CircularSlot] = []
+    contacts: list[PlacedContact] = []
     places = dict(seen)
     names = _free_names(scene)
     for cam in scene.cams:
@@ -68,9 +70,16 @@ def cams_replaced(
             centre = -course.way * (lift.bend + 1j * cam.sense * lift.slope)
             point, radius = next(names), start + lift.lift + lift.bend
             links[cam.link] = replace(link, points={**link.points, point: centre / turn})
-            face = _guide(follower, "f", -radius / _turn(scene, cam), 1j / _turn(scene, cam), 0.0)
+            touches = not bars and abs(radius) >= SHARP * cam.base
+            off = 0.0 if touches else radius
+            face = _guide(follower, "f", -off / _turn(scene, cam), 1j / _turn(scene, cam), 0.0)
             links[cam.follower] = replace(follower, guides={**follower.guides, face.name: face})
-            pins.append(PinInSlot(point, cam.link, cam.follower, face.name))
+            if touches:
+                disc = PlacedDisc(cam.link, point, point, radius)
+                pair, name = (disc, None), _free_name(scene, contacts)
+                contacts.append(PlacedContact(name, cam.link, cam.follower, pair, face.name, True, False))
+            else:
+                pins.append(PinInSlot(point, cam.link, cam.follower, face.name))
             continue
         tangent = course.tangent
         if abs(tangent) < SHARP * cam.base:
@@ -97,16 +106,10 @@ def cams_replaced(
     whole = (*(links[link.name] for link in scene.links), *made.values())
     return replace(
         scene, links=whole, pins=(*scene.pins, *pins), slots=(*scene.slots, *slots),
-        drivers=tuple(_at(d, values) for d in scene.drivers),
+        contacts=(*scene.contacts, *contacts),
+        drivers=tuple(d.at_value(values.get(d.key, d.values[0])) for d in scene.drivers),
         sketch={**scene.sketch, **places}, drawn={}, instead_of=scene,
     )  # fmt: skip
-
-
-def _at(driver: AnyDriver, values: Mapping[str, float]) -> AnyDriver:
-    value = values.get(driver.key, driver.values[0])
-    if isinstance(driver, AngleDriver):
-        return replace(driver, angle=value, dead_point=None, position="")
-    return replace(driver, travel=value, dead_point=None)
 
 
 def _turn(scene: Mechanism, cam: LawCam) -> complex:
@@ -118,6 +121,12 @@ def _guide(link: PlacedLink, name: str, through: complex, direction: complex, be
     while name in link.guides:
         name += "1"
     return PlacedGuide(name, through, direction, bends)
+
+
+def _free_name(scene: Mechanism, contacts: Sequence[PlacedContact]) -> str:
+    """A letter for a contact that no point and no contact has."""
+    taken = {*scene.holders, *(c.name for c in (*scene.contacts, *contacts))}
+    return next(name for name in ("K", *(f"K{k}" for k in range(1, 1000))) if name not in taken)
 
 
 def _free_names(scene: Mechanism) -> Iterator[str]:

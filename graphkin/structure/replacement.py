@@ -10,12 +10,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
+from graphkin.plane import unit
 from graphkin.scene.contacts import PlacedContact
-from graphkin.scene.model import PlacedGuide, PlacedLink
+from graphkin.scene.model import Mechanism, PinInSlot, PlacedGuide, PlacedLink
 from graphkin.structure.model import Dyad, Slide, Structure
 from graphkin.words import Phrase
 
-__all__ = ["named_with_contact", "replaced_pairs", "stand_in"]
+__all__ = ["named_with_contact", "pins_on_circles", "replaced_pairs", "stand_in"]
 
 
 def stand_in(contact: PlacedContact, links: Mapping[str, PlacedLink]) -> tuple[PlacedLink, Slide | None]:
@@ -40,6 +41,30 @@ def stand_in(contact: PlacedContact, links: Mapping[str, PlacedLink]) -> tuple[P
     places = {disc.centre: 0j, contact.name: -contact.normal_to_face * disc.radius}
     block = PlacedLink(contact.block, places, (disc.centre,), own)
     return block, Slide(contact.block, contact.block, contact.face, along, 1 + 0j, disc.centre, True)
+
+
+def pins_on_circles(scene: Mechanism, poses: Mapping[str, tuple[complex, complex]]) -> Mechanism:
+    """The mechanism at one position with pins in its circular slots, instead of the bars that stand for them: in a
+    straight guide along the tangent that carries the curvature; ``poses`` are origin (m) and direction of each link."""
+    links, pins = dict(scene.by_name), list(scene.pins)
+    for slot in scene.slots:
+        if slot.block or slot.bar not in links:
+            continue
+        del links[slot.bar]
+        holder = next(n for n in scene.holders[slot.point] if n != slot.bar)
+        (origin, axis), on = poses[holder], links[slot.on]
+        place = origin + axis * scene.by_name[holder].points[slot.point]
+        at = (place - poses[slot.on][0]) / poses[slot.on][1]
+        way = 1j * unit(at - on.points[slot.centre])
+        guide = PlacedGuide(slot.name, at, way, 1.0 / slot.radius)
+        links[slot.on] = replace(on, guides={**on.guides, guide.name: guide})
+        pins.append(PinInSlot(slot.point, holder, slot.on, guide.name))
+    places = {p: poses[link.name][0] + poses[link.name][1] * z
+              for link in scene.links if link.name in poses for p, z in link.points.items()}  # fmt: skip
+    return replace(
+        scene, frame=links.pop(scene.frame.name), links=tuple(links.values()), pins=tuple(pins),
+        slots=tuple(s for s in scene.slots if s.block), sketch=places, drawn={},
+    )  # fmt: skip
 
 
 def named_with_contact(structure: Structure, dyad: Dyad) -> str:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 
-from graphkin import check, draw
+from graphkin import centres, check, draw
 
 FRAME = {"points": {"A": [0, 0], "C": [110, 15]}, "guides": {"g": {"through": [4, 0], "angle": 80}}}
 ECCENTRIC = {"points": ["A", "O"], "length": 22, "discs": {"k": {"centre": "O", "r": 40}}}
@@ -23,6 +25,99 @@ def scene(name):
         "frame": FRAME, "links": {"1": ECCENTRIC, "2": follower}, "contacts": {"K": {"between": ["1.k", f"2.{part}"]}},
         "driver": {"link": "1", "angle": 50, "omega": 9, "alpha": -4},
     }  # fmt: skip
+
+
+FINGER = {
+    "frame": {"points": {"A": [0, 0], "C": [120, 0]}},
+    "links": {
+        "1": {"points": ["A", "O"], "length": 15, "discs": {"k": {"centre": "O", "r": 40}}},
+        "2": {"points": ["C", "D"], "length": 70},
+        "3": {"points": ["D", "E"], "length": 30, "discs": {"w": {"centre": "E", "r": 10}}},
+    },
+    "contacts": {"K": {"between": ["1.k", "3.w"]}}, "sketch": {"E": [40, 30]},
+    "driver": [{"link": "1", "angle": 50, "omega": 8, "alpha": 1},
+               {"link": "3", "relative_to": "2", "angle": 60, "omega": 2, "alpha": -3}],
+}  # fmt: skip
+FEET = {
+    "frame": {"points": {"A": [0, 0]}, "guides": {"ceiling": {"through": [0, 90], "angle": 10},
+                                                   "wall": {"through": [100, 0], "angle": 80}}},
+    "links": {
+        "1": {"points": ["A", "O"], "length": 12, "discs": {"k": {"centre": "O", "r": 30}}},
+        "2": {"points": ["P", "Q"], "length": 90, "at": {"R": [30, 40]},
+              "discs": {"p": {"centre": "P", "r": 10}, "q": {"centre": "Q", "r": 12}, "r": {"centre": "R", "r": 8}}},
+    },
+    "contacts": {"K": {"between": ["1.k", "2.p"]}, "L": {"between": ["2.q", "0.wall"]},
+                 "M": {"between": ["2.r", "0.ceiling"], "side": "right"}},
+    "sketch": {"P": [5.9, 51.6], "Q": [95, 44], "R": [39, 89]},
+    "driver": {"link": "1", "angle": 80, "omega": 6, "alpha": 2},
+}  # fmt: skip
+TWO_FACES = {
+    "frame": {"points": {"A": [0, 0], "C": [100, 0], "F": [160, 60]}},
+    "links": {
+        "1": {"points": ["A", "B"], "length": 20},
+        "2": {"points": ["B", "P"], "length": 70, "discs": {"p": {"centre": "P", "r": 10}}},
+        "3": {"points": ["C"], "at": {"S": [60, 0]}, "guides": {"f": {"through": [0, 6], "angle": 0}}},
+        "4": {"points": ["S", "T"], "length": 50},
+        "5": {"points": ["F", "T"], "length": 45, "guides": {"h": {"through": [0, 0], "angle": 20}}},
+    },
+    "contacts": {"K": {"between": ["2.p", "3.f"]}, "L": {"between": ["2.p", "5.h"]}},
+    "sketch": {"P": [80, 30], "S": [110, 60], "T": [150, 100]}, "driver": {"link": "1", "angle": 70, "omega": 5},
+}  # fmt: skip
+SLOT = {
+    "frame": {"points": {"A": [0, 0], "C": [90, 0]}},
+    "links": {
+        "1": {"points": ["A", "B"], "length": 25},
+        "2": {"points": ["C"], "guides": {"s": {"centre": [20, 40], "r": 80}}},
+    },
+    "pins": {"B": {"of": "1", "in": "2.s"}}, "driver": {"link": "1", "angle": 70, "omega": 9, "alpha": 4},
+}  # fmt: skip
+FURTHER = {
+    "driver inside": FINGER, "three contacts of one link": FEET, "superposition": TWO_FACES, "circular slot": SLOT,
+    "flat face by law": "cam-flat-face",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", FURTHER)
+def test_both_ways_agree_in_every_class_of_group(name):
+    result = check(FURTHER[name])
+    first = {row.symbol: row.reading.value for row in result.report.rows}
+    both = [(row, first[row.symbol]) for row in result.at_contacts.report.rows if row.symbol in first]
+    assert len(both) >= 10
+    for row, other in both:
+        assert row.exact == pytest.approx(other, rel=1e-9, abs=1e-9)
+        assert row.exact == pytest.approx(row.reading.value, rel=1e-9, abs=1e-9)
+
+
+def test_a_law_s_face_slips_on_the_cam_by_radius_and_rate():
+    other = check("cam-flat-face").at_contacts  # contact 48.2918 + 0.3820 mm from the axis: |v_K1| / omega
+    below = other["v_K@1"].exact.real
+    assert -below == pytest.approx(other["v_K@2/K@1"].exact.real)
+    assert other["v_K@2"].exact.real == 0.0
+
+
+def test_pencil_draws_both_ways_within_what_is_predicted():
+    result = check("disc-on-disc", instrument="pencil", seed=3)
+    row = result.at_contacts["alpha_2"]
+    assert result.at_contacts.ok
+    assert 0.01 * abs(row.exact) < row.tolerance < 0.5 * abs(row.exact)
+
+
+def test_a_pin_in_a_straight_slot_touches_at_its_own_centre():
+    rows = check("geneva-step").data["readings"]
+    assert [row["measured"] for row in rows] == [row["at_contact"] for row in rows]
+
+
+def test_what_stands_for_a_cam_at_one_position_does_not_move_on():
+    page = centres("cam-offset-roller").in_motion._repr_svg_()
+    assert 'id="cam-1"' in page
+    assert 'id="follower-2"' in page
+    assert 'id="point-O"' not in page
+
+
+def test_limit_positions_of_a_cam_are_no_angles_of_a_crank():
+    page = draw("cam-offset-roller", figures=["positions"]).figures["positions"]._repr_svg_()
+    assert "24 mm" in "".join(re.findall(r">([^<]*)<", page))
+    assert "210°" not in page  # what a crank would turn between them
 
 
 @pytest.mark.parametrize("name", FOLLOWERS)
