@@ -15,9 +15,10 @@ from graphkin.errors import CallError, Problem
 from graphkin.files import path_of
 from graphkin.scene.cells import Way, is_blank, read_cell, read_way
 from graphkin.scene.model import Mechanism
-from graphkin.scene.printed import Printed
+from graphkin.scene.printed import Printed, Unreadable
 from graphkin.scene.spelling import Spelling, plain_text, unit_factor
 from graphkin.scene.symbol import KINDS, Symbol
+from graphkin.words import Phrase
 
 __all__ = ["Answers", "AnswersLike", "Unread", "as_answers", "table_of", "with_points"]
 
@@ -49,11 +50,11 @@ class Rows:
 
 @dataclass(frozen=True)
 class Unread:
-    """A cell without a value: nothing was answered (``why`` is ""), or nobody can read it."""
+    """A cell without a value: nothing was answered (``why`` is None), or nobody can read it."""
 
     symbol: Symbol
     text: str = ""
-    why: str = ""
+    why: Phrase | None = None
 
 
 @dataclass(frozen=True)
@@ -251,14 +252,14 @@ def _row(
     values: list[Printed] = []
     unread: list[Unread] = []
     ways: dict[Symbol, Way] = {}
-    bad: dict[Symbol, str] = {}
+    bad: dict[Symbol, Unreadable] = {}
     for i, symbol in columns.ways.items():
         text = cells[i] if i < len(cells) else ""
         if not is_blank(text):
             try:
                 ways[symbol] = read_way(text, symbol)
-            except ValueError as error:
-                bad[symbol] = str(error)
+            except Unreadable as error:
+                bad[symbol] = error
     for i, symbol in columns.values.items():
         if sheet.heads[i] in silent:
             continue
@@ -268,11 +269,11 @@ def _row(
             continue
         try:
             if symbol in bad:
-                raise ValueError(bad[symbol])
+                raise bad[symbol]
             made = read_cell(text, symbol, scene.units, columns.units[i], sheet.sign, ways.get(symbol))
             values.append(made)
-        except ValueError as error:
-            unread.append(Unread(symbol, text, str(error)))
+        except Unreadable as error:
+            unread.append(Unread(symbol, text, error.phrase))
     person = columns.cell("person", cells)
     marks = {role: _mark(columns.cell(role, cells)) for role in ("equations", "drawing") if role in columns.roles}
     return Answers(

@@ -106,7 +106,7 @@ class Audited(Result, OfScene):
             "person": any(w.person for w, _ in self.people), "id": any(w.id for w, _ in self.people),
             "variant": any(w.variant for w, _ in self.people), "at": any(w.at is not None for w, _ in self.people),
         }  # fmt: skip
-        return {key: key if key in ("at", "id") else word(key, self.language) for key, there in known.items() if there}
+        return {key: _head(key, self.language) for key, there in known.items() if there}
 
     @property
     def heads(self) -> list[str]:
@@ -161,7 +161,7 @@ class Audited(Result, OfScene):
         keys = list(dict.fromkeys(k for row in flat for k in row))
         last = [k for k in ("total", "of", "slip") if k in keys]
         keys = [*(k for k in keys if k not in last), *last]
-        heads = [k if k in ("id", "at") else word(k, self.language) for k in keys]
+        heads = [_head(k, self.language) for k in keys]
         return Table.of(heads, [[_cell(row.get(k)) for k in keys] for row in flat])
 
     @cached_property
@@ -190,6 +190,10 @@ class Audited(Result, OfScene):
         )
 
 
+def _head(key: str, language: str) -> str:
+    return word(f"{key} in a class" if key in ("id", "at") else key, language)
+
+
 def _cell(value: object) -> str:
     return "" if value is None else f"{value:g}" if isinstance(value, int | float) else str(value)
 
@@ -201,17 +205,17 @@ def _values(
     lead: dict[str, Any] = {k: v for k, v in (("person", who.person), ("id", who.id), ("variant", who.variant)) if v}
     lead |= {"at": who.at} if who.at is not None else {}
     rows = [(one.printed.symbol, _value(scene, one, language)) for one in judged]
-    rows += [(cell.symbol, _unread(cell)) for cell in who.unread]
+    rows += [(cell.symbol, _unread(cell, language)) for cell in who.unread]
     place = {symbol: i for i, symbol in enumerate(who.order)}
     for _, row in sorted(rows, key=lambda row: place.get(row[0], 0)):
         yield lead | row
 
 
-def _unread(cell: Unread) -> dict[str, Any]:
+def _unread(cell: Unread, language: str) -> dict[str, Any]:
     row: dict[str, Any] = {"symbol": str(cell.symbol), "written": cell.text, "printed": None, "exact": None,
                            "deviation_pct": None}  # fmt: skip
     if cell.why:
-        return row | {"verdict": "not readable", "why": cell.why}
+        return row | {"verdict": "not readable", "why": say(cell.why, language)}
     return row | {"verdict": "missing", "why": "no answer"}
 
 

@@ -17,9 +17,11 @@ import numpy as np
 from graphkin.api.answers import Rows, table_of, with_points
 from graphkin.api.arguments import (
     MOST_SEED,
+    ON_SHEETS,
     SceneLike,
     as_scene,
     asked_symbols,
+    known_words,
     may_be_called,
     whole_number,
     write_files,
@@ -42,6 +44,7 @@ from graphkin.scene.symbol import Symbol
 from graphkin.scene.written import safe_name
 from graphkin.study.designs import applied
 from graphkin.table import Table
+from graphkin.words import languages
 
 __all__ = ["ProblemSet", "drawn_schemes", "problem_set", "schemes_of"]
 
@@ -126,6 +129,7 @@ def problem_set(
     render: Render | None = None,
     progress: Progress | None = None,
     find: Iterable[str | Symbol] | None = None,
+    language: str | None = None,
 ) -> ProblemSet:
     """Make a set of problems from one scene: the same mechanism with other numbers for everyone.
 
@@ -141,6 +145,7 @@ def problem_set(
     progress : called with the variants done and all
     find : what is asked; the scene's own if None, or else the motion of the last joint and the rates of what turns
         about fixed pivots
+    language : of the table for a class to fill in; the scene's own if None
 
     Returns
     -------
@@ -152,6 +157,7 @@ def problem_set(
     """
     if (variants is None) == (rows is None):
         raise CallError(Problem("variants", "neither or both of variants and rows", "give one of them"))
+    known_words(language=language, known_languages=ON_SHEETS)
     may_be_called("render", render)
     may_be_called("progress", progress)
     workers = None if workers is None else whole_number("workers", workers, 1, 1024)
@@ -184,7 +190,8 @@ def problem_set(
             ProblemSet(given, made, unused).write(folder)
             if made.names:
                 asked = dict.fromkeys(Symbol.parse(a.symbol) for answers in made.answers.values() for a in answers)
-                blank = answers_template(tuple(asked), given.units, made.names)
+                speaking = languages(language or given.sheet.language)[0]
+                blank = answers_template(tuple(asked), given.units, speaking, made.names)
                 write_files(folder, {"answers_template.csv": blank.csv().encode("utf-8-sig")})
             for paper in ("problem", "key"):
                 own = [folder / f"{name}-{variant}-{paper}.pdf" for variant in made.names]

@@ -175,6 +175,7 @@ def _problem_set(
             render=papers,
             progress=progress,
             find=find or None,
+            language=lang,
         )
     if as_json:
         print_json(made.data)

@@ -39,6 +39,7 @@ from graphkin.scene.over_time import moves_by_law
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion
 from graphkin.structure import Structure
+from graphkin.words import languages
 
 __all__ = ["FORMATS", "Papers", "evidence_of", "handout_files", "lesson_of", "positions", "usual_count", "views_of"]
 
@@ -199,7 +200,7 @@ def handout_files(
         if typeset is not None:
             made |= typeset.result()
     made["key.csv"] = key_table(lesson).csv().encode()
-    template = answers_template(lesson.questions, lesson.sheet.scene.units)
+    template = answers_template(lesson.questions, lesson.sheet.scene.units, languages(lesson.language)[0])
     made["answers_template.csv"] = template.csv().encode("utf-8-sig")
     return made
 

@@ -152,14 +152,16 @@ def key_table(lesson: Lesson) -> table.Table:
     return table.Table.of(heads, rows, ("", "", "", ".3f", ".9g", ".3g", ".3f"))
 
 
-def answers_template(asked: Sequence[Symbol], units: Units, variants: Iterable[str] = ()) -> table.Table:
+def answers_template(
+    asked: Sequence[Symbol], units: Units, language: str, variants: Iterable[str] = ()
+) -> table.Table:
     """A table for a class to fill in, as ``audit`` reads it: a column for each quantity asked for, and for a vector its
     direction; with ``variants`` a row for each of them."""
     names = tuple(variants)
     columns = [f"{s} ({s.unit(units)})" if s.unit(units) else str(s) for s in asked]
-    heads = ["name", "id", *(["variant"] if names else [])]
+    heads = [word(key, language) for key in ("name in a class", "id in a class", *(["variant"] if names else []))]
     for symbol, column in zip(asked, columns, strict=True):
-        heads += [column, f"{symbol} direction"] if symbol.is_vector else [column]
+        heads += [column, f"{symbol} {word('direction of', language)}"] if symbol.is_vector else [column]
     blank = [""] * (len(heads) - 2 - bool(names))
     return table.Table.of(heads, [["", "", name, *blank] for name in names] or [["", "", *blank]])
 

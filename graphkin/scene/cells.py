@@ -10,10 +10,11 @@ import math
 import re
 from dataclasses import dataclass
 
-from graphkin.scene.printed import Printed, stated
+from graphkin.scene.printed import Printed, Unreadable, stated
 from graphkin.scene.spelling import plain_text, unit_factor
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Units
+from graphkin.words import Phrase
 
 __all__ = ["Way", "is_blank", "read_cell", "read_way"]
 
@@ -24,11 +25,11 @@ _NUMBER = r"[+\-]?(?:\d+(?:[.,]\d+)*[.]?|\.\d+)(?:[eE][+\-]?\d+)?"
 _ABOUT = re.compile(r"[≈~≃≅∼]|\b(?:approx(?:imately)?|about|circa|ca)\b\.?|大约|约(?:为|等于)?|近似", re.IGNORECASE)
 _COUNTER = re.compile(
     r"\b(?:c\.?c\.?w\.?|a\.?c\.?w\.?)(?![a-z])|counter[\s-]*clock[\s-]*wise|anti[\s-]*clock[\s-]*wise"
-    r"|逆(?:时针)?(?:方向|转动|转|旋转)?|[↺⟲⥀]",
+    r"|逆(?:时针)?(?:方向|转动|转|旋转)?|[↺⟲⥀↶]",
     re.IGNORECASE,
 )
 _CLOCKWISE = re.compile(
-    r"\bc\.?w\.?(?![a-z])|clock[\s-]*wise|顺(?:时针)?(?:方向|转动|转|旋转)?|[↻⟳⥁]", re.IGNORECASE
+    r"\bc\.?w\.?(?![a-z])|clock[\s-]*wise|顺(?:时针)?(?:方向|转动|转|旋转)?|[↻⟳⥁↷]", re.IGNORECASE
 )
 _NUMBERED = r"(?P<deg>[+\-]?\d+(?:[.,]\d+)?)\s*(?:°|deg(?:rees?)?|度)"
 _SIDE = re.compile(
@@ -39,28 +40,47 @@ _SIDE = re.compile(
 )
 _SIDE_ZH = re.compile(
     r"(?:与)?(?P<sign>[+\-负正])?\s*(?P<axis>[xX])\s*轴?(?P<half>正向|负向|正方向|负方向)?"
-    r"(?:(?P<side>上方|下方|以上|以下|之上|之下)|成)\s*" + _NUMBERED + "(?:角)?"
+    r"(?:(?P<side>上方|下方|以上|以下|之上|之下)|成|的?夹角为?)\s*" + _NUMBERED + "(?:角)?"
 )
-_ANGLE = re.compile(r"(?:[∠@]|\bat\b|\bdirection\b|方向)\s*(?P<deg>[+\-]?\d+(?:[.,]\d+)?)\s*(?:°|deg(?:rees?)?|度)?",
-                    re.IGNORECASE)  # fmt: skip
+_TURN = r"(?P<deg>[+\-]?\d+(?:[.,]\d+)?)"
+_ANGLE = re.compile(
+    r"(?:[∠@]|\bat\b|\b(?:at )?(?:an )?(?:angle|direction)\b|方向角?|角度)\s*(?:of\b|[=:为是])?\s*" + _TURN
+    + r"\s*(?:°|deg(?:rees?)?|度)?", re.IGNORECASE,
+)  # fmt: skip
+_LETTERED = re.compile(r"[θφϕψαβ]\s*[=:]\s*" + _NUMBERED, re.IGNORECASE)
 _DEGREES = re.compile(_NUMBERED + r"(?!\s*/)", re.IGNORECASE)
+_RADIANS = re.compile(r"[,;(∠@]\s*" + _TURN + r"\s*rad\b(?!\s*/)", re.IGNORECASE)
 _ARROWS = {"→": 0.0, "↗": 45.0, "↑": 90.0, "↖": 135.0, "←": 180.0, "↙": -135.0, "↓": -90.0, "↘": -45.0,
            "⇒": 0.0, "⇑": 90.0, "⇐": 180.0, "⇓": -90.0, "➔": 0.0, "➜": 0.0}  # fmt: skip
+_TO = r"[\s-]*(?:(?:and[\s-]*)?to the[\s-]*)?"
 _WAYS = (
-    (r"(?:to the |to )?(?:upper|up)[\s-]*(?:and[\s-]*to the[\s-]*)?right|(?:向|往|朝)?右上(?:方)?", 45.0),
-    (r"(?:to the |to )?(?:upper|up)[\s-]*(?:and[\s-]*to the[\s-]*)?left|(?:向|往|朝)?左上(?:方)?", 135.0),
-    (r"(?:to the |to )?(?:lower|down)[\s-]*(?:and[\s-]*to the[\s-]*)?left|(?:向|往|朝)?左下(?:方)?", -135.0),
-    (r"(?:to the |to )?(?:lower|down)[\s-]*(?:and[\s-]*to the[\s-]*)?right|(?:向|往|朝)?右下(?:方)?", -45.0),
+    (rf"(?:to the )?(?:upper|up(?:wards?)?){_TO}right|(?:向|往|朝)?右上(?:方)?", 45.0),
+    (rf"(?:to the )?(?:upper|up(?:wards?)?){_TO}left|(?:向|往|朝)?左上(?:方)?", 135.0),
+    (rf"(?:to the )?(?:lower|down(?:wards?)?){_TO}left|(?:向|往|朝)?左下(?:方)?", -135.0),
+    (rf"(?:to the )?(?:lower|down(?:wards?)?){_TO}right|(?:向|往|朝)?右下(?:方)?", -45.0),
     (r"(?:horizontally\s*)?(?:to the |to )?\b(?:right(?:wards?)?)\b|(?:水平)?(?:向|往|朝)?右(?:方)?", 0.0),
     (r"(?:horizontally\s*)?(?:to the |to )?\b(?:left(?:wards?)?)\b|(?:水平)?(?:向|往|朝)?左(?:方)?", 180.0),
     (r"(?:vertically\s*)?\bup(?:wards?)?\b|(?:竖直|垂直|铅垂)?(?:向|往|朝)?上(?:方)?", 90.0),
     (r"(?:vertically\s*)?\bdown(?:wards?)?\b|(?:竖直|垂直|铅垂)?(?:向|往|朝)?下(?:方)?", -90.0),
-    (r"(?:along\s*)?\+\s*x\b|沿?\+?\s*x\s*轴?正(?:方)?向", 0.0),
-    (r"(?:along\s*)?-\s*x\b|沿?-?\s*x\s*轴?负(?:方)?向", 180.0),
-    (r"(?:along\s*)?\+\s*y\b|沿?\+?\s*y\s*轴?正(?:方)?向", 90.0),
-    (r"(?:along\s*)?-\s*y\b|沿?-?\s*y\s*轴?负(?:方)?向", -90.0),
+    (r"(?:along\s*)?(?:\+|positive)\s*x\b|沿?\+?\s*x\s*轴?正(?:方)?向", 0.0),
+    (r"(?:along\s*)?(?:-|negative)\s*x\b|沿?-?\s*x\s*轴?负(?:方)?向", 180.0),
+    (r"(?:along\s*)?(?:\+|positive)\s*y\b|沿?\+?\s*y\s*轴?正(?:方)?向", 90.0),
+    (r"(?:along\s*)?(?:-|negative)\s*y\b|沿?-?\s*y\s*轴?负(?:方)?向", -90.0),
 )  # fmt: skip
 _WAY = [(re.compile(pattern, re.IGNORECASE), angle) for pattern, angle in _WAYS]
+_ASIDE = re.compile(
+    r"\b(?:in|at|of|the|and|with|direct(?:ed|ion)|pointing|sense)\b|方向|转向|指向|大小|为|沿|偏", re.IGNORECASE
+)
+_RAISED = re.compile(r"(?<=[A-Za-z])\s*\^\s*\{?\s*([+-]?\d)\s*\}?")
+_PER_TIME = re.compile(r"(?<=[\d\s])\b1\s*/\s*(?=s|min)")
+_SPACED = re.compile(r"(?<![\d.,])\d{1,3}(?: \d{3})+(?![\d.,]*\d)(?:[.,]\d+)?")
+_HAT = r"\s*[*·]?\s*(?:\\?hat)?\{{?[{0}]\u0302?\}}?"
+_UNIT_VECTORS = re.compile(
+    rf"({_NUMBER}){_HAT.format('iîI')}\s*([+-])\s*({_NUMBER}){_HAT.format('jĵJ')}(?![A-Za-z])"
+)
+_LABELLED = re.compile(
+    rf"[A-Za-z_]*x\s*[=:]\s*({_NUMBER})([^;,=:]*)[;,]?\s*[A-Za-z_]*y\s*[=:]\s*({_NUMBER})", re.IGNORECASE
+)
 ROUGH = math.radians(45.0)  # an arrow or a word is meant for all that lies nearest to it
 
 
@@ -80,17 +100,17 @@ def is_blank(text: str) -> bool:
 
 
 def read_way(text: str, symbol: Symbol) -> Way:
-    """What a cell of a column of directions says: an angle, an arrow, words.  Raises ValueError."""
+    """What a cell of a column of directions says: an angle, an arrow, words.  Raises Unreadable."""
     way, rest = _way(plain_text(text), symbol)
     if symbol.is_vector and way.angle is None:
         bare = rest.strip(" °;,()")
         if re.fullmatch(_NUMBER, bare):
             return Way(*_degrees(bare))
-        raise ValueError(f'"{text[:40]}" is no direction')
+        raise Unreadable(Phrase("cell no direction", (text[:40],)))
     if not symbol.is_vector and not way.sense:
         if rest.strip() in ("+", "-"):
             return Way(sense=1 if rest.strip() == "+" else -1)
-        raise ValueError(f'"{text[:40]}" is no sense')
+        raise Unreadable(Phrase("cell no sense", (text[:40],)))
     return way
 
 
@@ -113,10 +133,12 @@ def _way(text: str, symbol: Symbol) -> tuple[Way, str]:
         if found:
             angle, room = _from_axis(found)
             return Way(angle, room), text[: found.start()] + " " + text[found.end() :]
-    for pattern in (_ANGLE, _DEGREES):
+    for pattern in (_RADIANS, _LETTERED, _ANGLE, _DEGREES):
         match = pattern.search(text)
         if match:
-            return Way(*_degrees(match["deg"])), text[: match.start()] + " " + text[match.end() :]
+            angle, room = _degrees(match["deg"])
+            per = math.degrees(1.0) if pattern is _RADIANS else 1.0
+            return Way(angle * per, room * per), text[: match.start()] + " " + text[match.end() :]
     arrows = [c for c in text if c in _ARROWS]
     if len(arrows) == 1:
         return Way(math.radians(_ARROWS[arrows[0]]), ROUGH), text.replace(arrows[0], " ")
@@ -161,30 +183,36 @@ def read_cell(
 
     Raises
     ------
-    ValueError : what is no such value
+    Unreadable : what is no such value
 
     >>> read_cell("482,7 mm/s", Symbol.parse("v_B"), Units(), sign=";").value
     0.4827
     >>> read_cell("≈2.82 cw", Symbol.parse("omega_3"), Units()).value
     -2.82
     """
-    plain = _ABOUT.sub(" ", plain_text(text))
-    plain = plain.rpartition("=")[2]
+    plain = _PER_TIME.sub("/", _RAISED.sub(r"\1", _ABOUT.sub(" ", plain_text(text))))
+    plain = _joined(plain, symbol)
+    if symbol.is_vector:
+        plain = _LABELLED.sub(r"\1; \3 \2", _UNIT_VECTORS.sub(r"\1; \2\3", plain))
     plain = re.sub(r"(?:±|\+/-|\+-).*$", "", plain)
     own, rest = _way(plain, symbol)
+    rest = rest.rpartition("=")[2]
     way = own if own.sense or own.angle is not None else way or Way()
     numbers = [m[0].rstrip(".") if not m[0].endswith(".") else m[0][:-1] for m in re.finditer(_bare_number(), rest)]
     left = re.sub(_bare_number(), " ", rest)
-    left = re.sub(r"[;,()\[\]\s]+", " ", left).strip()
+    left = re.sub(r"[;:,()\[\]|\s]+", " ", _ASIDE.sub(" ", left))
+    left = " ".join(dict.fromkeys(left.split()))  # both components may bear the unit
+    if not symbol.is_vector:
+        left = re.sub(r"^k\u0302?$", "", left)  # the unit vector out of the paper
     if not numbers or len(numbers) > (2 if symbol.is_vector else 1):
-        few = "is no number" if not numbers else "is more than one number"
-        raise ValueError(f'"{text.strip()[:40]}" {few}')
+        raise Unreadable(Phrase("cell more numbers" if numbers else "cell no number", (text.strip()[:40],)))
     factor = symbol.per_unit(units)
     for said in (left, unit):
         if said:
             found = unit_factor(said, symbol, units)
             if found is None:
-                raise ValueError(f'"{text.strip()[:40]}": {said[:20]} is no unit of {symbol.measure}')
+                measure = Phrase(f"measure {symbol.measure}")
+                raise Unreadable(Phrase("cell no unit", (text.strip()[:40], said[:20], measure)))
             factor = found
             break
     pointed = [_pointed(n, sign) for n in numbers]
@@ -199,13 +227,32 @@ def read_cell(
 
 def _bare_number() -> str:
     # no digit that belongs to a unit (s2, s-1) is a number
-    return rf"(?<![A-Za-z0-9.,/^])(?<![A-Za-z]-){_NUMBER}"
+    return rf"(?<![A-Za-z0-9./^])(?<!\d,)(?<![A-Za-z]-){_NUMBER}"
+
+
+def _joined(text: str, symbol: Symbol) -> str:
+    """Thousands parted by a space or an apostrophe put together: ``1'220``, ``1 220.5``.  Raises Unreadable where they
+    may be two components."""
+    text = re.sub(r"(?<=\d)['’](?=\d{3}(?!\d))", "", text)
+    match = _SPACED.search(text)
+    if match is None:
+        return text
+    whole = match[0].replace(" ", "")
+    if symbol.is_vector and text.startswith(("(", "[")):
+        return text
+    if symbol.is_vector:
+        raise Unreadable(Phrase("cell two components", (text[:40], whole)))
+    return text[: match.start()] + whole + text[match.end() :]
 
 
 def _pointed(number: str, sign: str) -> str:
+    if "," in number and "." in number:  # the last one is the decimal sign
+        aside, point = sorted(",.", key=number.rfind)
+        if number.count(point) == 1:
+            return number.replace(aside, "").replace(point, ".")
     if sign == "," and _THOUSANDS.fullmatch(number):
         if number.count(",") == 1 and "." not in number:
             plain, decimal = number.replace(",", ""), number.replace(",", ".")
-            raise ValueError(f'"{number[:40]}" may be {plain} or {decimal}')
+            raise Unreadable(Phrase("cell two ways", (number[:40], plain, decimal)))
         return number.replace(",", "")
     return number.replace(",", ".") if _DECIMAL.fullmatch(number) else number

@@ -9,12 +9,21 @@ from decimal import Decimal, InvalidOperation
 
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Units
+from graphkin.words import Phrase, say
 
-__all__ = ["Printed", "stated"]
+__all__ = ["Printed", "Unreadable", "stated"]
 
 Value = complex | float
 MOST_PARDONED = 0.01  # part of a value that rounding to one digit may take away
 SMALLEST = -300  # power of ten of a last digit that a double still holds
+
+
+class Unreadable(ValueError):
+    """A text that states no such value; ``phrase`` says why, in any language."""
+
+    def __init__(self, phrase: Phrase) -> None:
+        super().__init__(say(phrase))
+        self.phrase = phrase
 
 
 @dataclass(frozen=True)
@@ -74,7 +83,7 @@ def stated(symbol: Symbol, texts: Sequence[str], units: Units, unit: float | Non
 
     Raises
     ------
-    ValueError : a text that is no number
+    Unreadable : a text that is no number
 
     >>> v = stated(Symbol.parse("v_D"), ["480.0"], Units())
     >>> v.value, v.step, v.digits
@@ -94,8 +103,8 @@ def _number(text: str) -> Decimal:
     try:
         number = Decimal(plain)
     except InvalidOperation:
-        raise ValueError(f'"{plain[:40]}" is no number') from None
+        raise Unreadable(Phrase("cell no number", (plain[:40],))) from None
     fine = number.is_finite() and int(number.as_tuple().exponent) < SMALLEST
     if not number.is_finite() or fine or not abs(number) < Decimal("1e15") or len(plain) > 40:
-        raise ValueError(f'"{plain[:40]}" is no number of a size that can be meant')
+        raise Unreadable(Phrase("cell no size", (plain[:40],)))
     return number

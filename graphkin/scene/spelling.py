@@ -186,10 +186,14 @@ class Spelling:
 _CHINESE_UNITS = (
     ("毫米", "mm"), ("厘米", "cm"), ("米", "m"), ("弧度", "rad"), ("转", "r"), ("度", "deg"), ("分钟", "min"),
     ("分", "min"), ("平方秒", "s2"), ("秒", "s"), ("每", "/"),
+)
+_WORDED_UNITS = (
+    (r"millimet(?:re|er)s?", "mm"), (r"centimet(?:re|er)s?", "cm"), (r"met(?:re|er)s?", "m"), (r"radians?|rads", "rad"),
+    (r"per\s+|\bp(?=s\b)", "/"), (r"minutes?", "min"), (r"seconds?|secs", "s"), (r"newtons?", "n"), ("squared", "2"),
 )  # fmt: skip
 _LENGTHS = {"mm": 1e-3, "cm": 1e-2, "dm": 0.1, "m": 1.0, "km": 1e3, "um": 1e-6, "in": 0.0254, "inch": 0.0254,
             "inches": 0.0254, "\"": 0.0254, "ft": 0.3048, "feet": 0.3048}  # fmt: skip
-_FORCES = {"kn": 1e3, "kgf": 9.80665, "lbf": 4.4482216152605, "n": 1.0}
+_FORCES = {"kn": 1e3, "kgf": 9.80665, "lbf": 4.4482216152605, "lb": 4.4482216152605, "n": 1.0}
 _ANGLES = {"rad": 1.0, "": 1.0, "1": 1.0, "deg": 0.017453292519943295, "°": 0.017453292519943295,
            "degrees": 0.017453292519943295, "r": 6.283185307179586, "rev": 6.283185307179586,
            "turn": 6.283185307179586}  # fmt: skip
@@ -206,11 +210,15 @@ def unit_factor(text: str, symbol: Symbol, units: Units) -> float | None:
     >>> round(unit_factor("r/min", Symbol.parse("omega_3"), Units()), 6)
     0.10472
     """
-    bare = re.sub(r"[\s^·*⋅.]", "", plain_text(text)).lower().replace("µ", "u").replace("μ", "u")
+    plain = plain_text(text).lower()
+    for pattern, unit in _WORDED_UNITS:
+        plain = re.sub(pattern, unit, plain)
+    bare = re.sub(r"[\s^·*⋅.{}]", "", plain).replace("µ", "u").replace("μ", "u")
     for word, unit in _CHINESE_UNITS:
         bare = bare.replace(word, unit)
     if symbol.measure in ("force", "moment"):
         force, arm = next(((f, bare[len(f) :]) for f in _FORCES if bare.startswith(f)), ("", bare))
+        arm = arm.removeprefix("-")
         length = _LENGTHS.get(arm) if symbol.measure == "moment" else 1.0 if not arm else None
         return _FORCES[force] * length if force and length else None
     bare = bare.replace("rpm", "r/min")

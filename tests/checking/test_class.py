@@ -9,6 +9,7 @@ import pytest
 
 import graphkin
 from graphkin.errors import CallError
+from graphkin.papers.solution import answers_template
 from graphkin.scene import mechanism_of
 from graphkin.scene.cells import read_cell
 from graphkin.scene.source import written
@@ -56,7 +57,8 @@ def test_a_word_that_names_nothing_of_the_scene_is_no_symbol(text):
     [
         ("2.82 clockwise", -2.82), ("2.82 cw", -2.82), ("2.82 逆时针", 2.82), ("↻ 2.82", -2.82), ("2.82 (CCW)", 2.82),
         ("−2.82 rad/s", -2.82), ("≈2.82", 2.82), ("ω = 2.82 rad/s", 2.82), ("30 r/min", 3.14159265358979),
-        ("2.82 ± 0.1", 2.82), ("2．82", 2.82), ("0.282×10¹", 2.82),
+        ("2.82 ± 0.1", 2.82), ("2．82", 2.82), ("0.282×10¹", 2.82), ("2.82 s^-1", 2.82), ("2.82 1/s", 2.82),
+        ("2.82 radians per second", 2.82), ("2.82↷", -2.82), ("顺时针方向，大小为2.82", -2.82), ("-2.82 k̂", -2.82),
     ],
 )  # fmt: skip
 def test_a_rate_is_read_as_people_write_it(text, value):
@@ -69,7 +71,10 @@ def test_a_rate_is_read_as_people_write_it(text, value):
         ("0.483 m/s", 0.483, None), ("48,3 cm/s", 0.483, None), ("483 ←", 0.483, 180), ("483 向左", 0.483, 180),
         ("483 mm/s, 12° above x", 0.483, 12), ("483 12° above -x", 0.483, 168), ("483 12° below x", 0.483, -12),
         ("483 ∠168.9°", 0.483, 168.9), ("483 168.9°", 0.483, 168.9), ("约 483 毫米/秒", 0.483, None),
-        ("483 与x轴成30°", 0.483, 30),
+        ("483 与x轴成30°", 0.483, 30), ("483 mm s^{-1}, θ = 180°", 0.483, 180), ("483 at an angle of 12°", 0.483, 12),
+        ("483 in -x direction", 0.483, 180), ("483 downward to the right", 0.483, -45),
+        ("483，方向角 150°", 0.483, 150),
+        ("483 mm/s, 1.2 rad", 0.483, 68.75493541569878),
     ],
 )  # fmt: skip
 def test_a_vector_is_read_with_its_unit_and_direction(text, value, degrees):
@@ -78,9 +83,19 @@ def test_a_vector_is_read_with_its_unit_and_direction(text, value, degrees):
     assert (pytest.approx(value), way) == (found.value, found.direction)
 
 
-@pytest.mark.parametrize("text", ["many", "5 apples", "1 2 3", "nan", "4.8 rad/s"])
+@pytest.mark.parametrize("text", ["v_x = -300 mm/s, v_y = 400 mm/s", "-300 î + 400 ĵ", "(-300|400)", "[-300 400]"])
+def test_two_components_are_read_as_people_write_them(text):
+    assert pytest.approx(-0.3 + 0.4j) == read_cell(text, Symbol.parse("v_D"), Units()).value
+
+
+@pytest.mark.parametrize(("text", "value"), [("1'220", 1.22), ("1.220,5", 1.2205), ("1,220.5", 1.2205)])
+def test_thousands_are_read_as_people_part_them(text, value):
+    assert pytest.approx(value) == read_cell(text, Symbol.parse("v_D"), Units(), sign=";").value
+
+
+@pytest.mark.parametrize("text", ["many", "5 apples", "1 2 3", "nan", "4.8 rad/s", "1 220"])
 def test_what_is_no_such_value_says_so(text):
-    with pytest.raises(ValueError, match=r"is no|more than one|unit"):
+    with pytest.raises(ValueError, match=r"is no|more than one|unit|two components"):
         read_cell(text, Symbol.parse("v_D"), Units())
 
 
@@ -303,3 +318,13 @@ def test_a_computed_value_a_little_off_is_accused_of_nothing():
     source = graphkin.read("shaper-scheme-2").to_dict() | {"printed": {"by": "computation", "a_C": "4143.1"}}
     (found,) = graphkin.audit(source).data["values"]
     assert ("wrong", None) == (found["verdict"], found.get("looks_like"))
+
+
+def test_a_template_filled_in_is_read_in_both_languages(tmp_path):
+    for language in ("en", "zh"):
+        asked = [Symbol.parse("v_D"), Symbol.parse("omega_3")]
+        head = answers_template(asked, Units(), language).csv().splitlines()[0]
+        found = table(tmp_path, f"{head}\n王,007,482.7,180,-2.82\n").data
+        assert ["right", "right"] == [v["verdict"] for v in found["values"]]
+        assert [("王", "007")] == [(p["person"], p["id"]) for p in found["people"]]
+        assert "unused" not in found
