@@ -11,10 +11,11 @@ from pathlib import Path
 from graphkin.api.arguments import known_words, own_folder, write_files
 from graphkin.api.cams import CamMade
 from graphkin.api.designed import Designed
+from graphkin.checking.cam_points import predict_cam
 from graphkin.checking.synthesis import predict_lengths
 from graphkin.checking.uncertainty import COVERAGE
 from graphkin.drawing.cam import cam_given, cam_pictures
-from graphkin.drawing.headings import number
+from graphkin.drawing.headings import number, written
 from graphkin.drawing.synthesis import asked_words, construction_picture, step_words
 from graphkin.papers.blocks import Said
 from graphkin.papers.drawn_task import DrawnTask, TaskResult, papers_of_task
@@ -23,10 +24,6 @@ from graphkin.scene.cams import SwingingFollower
 from graphkin.words import languages, say, word
 
 __all__ = ["cam_papers", "design_papers", "write_design_papers"]
-
-PROTRACTOR = 1.0
-"""Degrees that a pressure angle read off a pencil drawing may be off."""
-
 
 def _each(language: str, text: Callable[[str], str]) -> Said:
     return tuple((each, text(each)) for each in languages(language))
@@ -40,6 +37,15 @@ def _line(key: str, text: str, language: str) -> str:
     return word(key, language) + word("colon", language) + text + word("full stop", language)
 
 
+def _accepted(value: float, deviation: float, least: float = 0.0) -> str:
+    """What may be accepted of a pencil drawing, to two figures of what it may be off; "" where that has no bound."""
+    off = COVERAGE * deviation
+    if not math.isfinite(off):
+        return ""
+    places = max(0, 1 - math.floor(math.log10(off))) if off else 3
+    return " … ".join(written(f"{bound:.{places}f}") for bound in (max(value - off, least), value + off))
+
+
 def design_papers(designed: Designed, formats: Sequence[str]) -> Mapping[str, bytes]:
     """Problem sheet, worked solution and key of a synthesis, as files."""
     given, sheet = designed.given, designed.sheet
@@ -47,9 +53,7 @@ def design_papers(designed: Designed, formats: Sequence[str]) -> Mapping[str, by
     spread = predict_lengths(given.task, sheet.scale, "pencil", given.sheet.tools)
     results = []
     for row in designed.rows:
-        off = COVERAGE * spread.get(row.symbol, math.inf) * sheet.scale
-        near = off if math.isfinite(off) else None
-        within = "" if near is None else f"{number(max(row.exact - near, 0.0), 4)} … {number(row.exact + near, 4)}"
+        within = _accepted(row.exact, spread.get(row.symbol, math.inf) * sheet.scale)
         name = row.symbol if row.symbol == "ram" else f"${row.symbol}$"
         results.append(TaskResult(name, unit, number(row.measured), number(row.exact), within))
     find = ", ".join(result.name for result in results)
@@ -103,16 +107,18 @@ def cam_papers(made: CamMade, formats: Sequence[str], language: str, prefix: str
     scene, sheet, cam = made.mechanism, made.sheet, made.cam
     swings = isinstance(cam.motion, SwingingFollower)
     results = []
-    for d in sheet.divisions if not cam.flat else ():
+    spread = predict_cam(sheet, "pencil", scene.sheet.tools)
+    for d, off in zip(sheet.divisions, spread, strict=True) if not cam.flat else ():
         angle = math.degrees(d.pressure)
-        within = f"{max(angle - PROTRACTOR, 0.0):.1f} … {angle + PROTRACTOR:.1f}"
+        within = _accepted(angle, math.degrees(off.pressure))
         results.append(TaskResult(f"$α_{{{d.number}}}$", "°", f"{angle:.1f}", f"{angle:.3f}", within))
     metres = scene.units.metres
-    for d in sheet.divisions:
-        value = math.degrees(d.lift) if swings else d.lift / metres
+    for d, off in zip(sheet.divisions, spread, strict=True):
+        value, deviation = (math.degrees(x) if swings else x / metres for x in (d.lift, off.lift))
         letter, unit = ("ψ", "°") if swings else ("s", scene.units.length)
         shown = number(value, 5)
-        results.append(TaskResult(f"${letter}_{{{d.number}}}$", unit, shown, shown))
+        within = _accepted(value, deviation, -math.inf)
+        results.append(TaskResult(f"${letter}_{{{d.number}}}$", unit, shown, shown, within))
     spoken = {each: made.sentences(each) for each in languages(language)}
     notes = tuple(_by_sentence(spoken))
     task = DrawnTask(
