@@ -11,7 +11,8 @@ import pytest
 import graphkin
 from graphkin.errors import Unsolvable
 from graphkin.scene import mechanism_of
-from graphkin.solver.cam_profile import cam_at
+from graphkin.scene.follower_law import Lift
+from graphkin.solver.cam_profile import cam_at, cam_with
 
 LAWS = ("parabolic", "harmonic", "cycloidal", "345", "4567")
 LIBRARY = ("cam-offset-roller", "cam-swinging-roller", "cam-flat-face")
@@ -120,6 +121,44 @@ def test_a_disc_s_own_law_drawn_back_gives_the_circle():
     centre = (profile[90] + profile[270]) / 2
     assert np.full(361, R * 1e-3) == pytest.approx(np.abs(profile - centre), abs=1e-15)
     assert e * 1e-3 == pytest.approx(abs(centre), rel=1e-13)
+
+
+UNDER = {
+    "roller on a line": ({"points": ["B"], "on": "0.g", "discs": {"w": {"centre": "B", "r": 12}}}, "w", 12),
+    "edge on a line": ({"points": ["B"], "on": "0.g", "discs": {"w": {"centre": "B", "r": 1e-6}}}, "w", 0),
+    "face on a line": ({"points": ["B"], "on": "0.g", "guides": {"f": {"through": "B", "angle": 90}}}, "f", None),
+    "roller on an arm": ({"points": ["C", "B"], "length": 100, "discs": {"w": {"centre": "B", "r": 12}}}, "w", 12),
+    "edge on an arm": ({"points": ["C", "B"], "length": 100, "discs": {"w": {"centre": "B", "r": 1e-6}}}, "w", 0),
+}
+
+
+@pytest.mark.parametrize("name", UNDER)
+def test_what_a_disc_does_to_its_follower_drawn_back_by_inversion_is_the_disc(name):
+    follower, part, roller = UNDER[name]
+    e, R, off = 22.0, 40.0, 4.0
+    frame = {"points": {"A": [0, 0], "C": [110, 15]}, "guides": {"g": {"through": [off, 0], "angle": 90}}}
+    turned = graphkin.solve({
+        "frame": frame,
+        "links": {"1": {"points": ["A", "O"], "length": e, "discs": {"k": {"centre": "O", "r": R}}}, "2": follower},
+        "contacts": {"K": {"between": ["1.k", f"2.{part}"], "side": "outside" if part == "w" else "left"}},
+        "sketch": {"B": [60, 60] if "arm" in name else [0, 80]}, "driver": {"link": "1", "angle": 0, "omega": 1},
+    }, sweep=36).motion  # fmt: skip
+    plain = {k: v for k, v in follower.items() if k in ("points", "on", "length")}
+    cam = mechanism_of({
+        "frame": frame, "links": {"1": {"points": ["A"]}, "2": plain},
+        "cams": {"1": {"follower": "2", "law": [{"to": 360}], "base": {"r": 50, "of": "profile"},
+                       **({"flat": True} if roller is None else {}), **({"roller": roller} if roller else {})}},
+        "sketch": {"B": [60, 60]}, "driver": {"link": "1", "angle": 0, "omega": 1},
+    }).cams[0]  # fmt: skip
+    if "arm" in name:
+        line = np.angle(cam.axis - cam.motion.centre)
+        told = [cam.motion.side * x for x in (turned.angle("2") - line, turned.omega("2"), turned.alpha("2"))]
+        told[0] = np.mod(told[0], math.tau)
+    else:
+        told = [np.asarray(x).imag for x in (turned.position("B"), turned.velocity("B"), turned.acceleration("B"))]
+    lift = Lift(told[0] - cam.beginning, told[1], told[2], np.zeros(36))
+    profile = cam_with(cam, np.arange(36) * math.tau / 36, lift).profile
+    assert np.full(36, R * 1e-3) == pytest.approx(np.abs(profile - e * 1e-3), abs=2e-9 if roller == 0 else 1e-12)
 
 
 @pytest.mark.parametrize("name", LIBRARY)
