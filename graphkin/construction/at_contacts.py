@@ -9,6 +9,7 @@ s1'/rho1 - s2'/rho2 the relative rate of turning, and its acceleration is the sa
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
+from dataclasses import replace
 from itertools import pairwise
 
 from graphkin.construction.net import Joined
@@ -30,7 +31,7 @@ def joined_at_contacts(group: Joined, contacts: Sequence[PlacedContact]) -> Join
     pairs: list[Pair] = [p for p in group.pairs if not gone & {p.a, p.b}]
     pairs += _past(group.pairs, gone)
     inside = [name for name in group.inside if name not in gone]
-    return Joined(inside, pairs, group.welds, group.driven, group.near, tuple(contacts))
+    return replace(group, inside=inside, pairs=pairs, contacts=tuple(contacts))
 
 
 def _past(pairs: Sequence[Pair], gone: Collection[str]) -> Iterator[Turn]:

@@ -120,6 +120,8 @@ def found_near(
             near = _nearest(frame, element, guess)
         else:
             reduced = best_reduced(choices, element, frame, guess)
+            if reduced is not None and element.rolling:
+                reduced = reduced.rolled_from(guess if start is None else start, frame.mm)
             near = fitted(reduced, frame, guess) if reduced is not None else None
         if near is None:
             return None
@@ -225,6 +227,7 @@ def best_reduced(choices: Choices, cluster: Cluster, known: PlacedLinks, guess: 
 
 
 def _quality(reduced: ReducedMechanism, known: PlacedLinks, guess: Poses) -> float:
+    reduced = reduced.rolled_from(guess, known.mm)
     at = np.array(reduced.values(guess, known.mm))
     one = drawn_near(reduced, known, guess, at)
     if one is None:

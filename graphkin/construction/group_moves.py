@@ -6,12 +6,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from graphkin.construction.group_plan import Closed, Crossed, Move, OneLine, Path, Special
-from graphkin.construction.mechanism_acts import SpecialPoint
-from graphkin.construction.net import Edge, Joined, Net, TwoWays
+from graphkin.construction.mechanism_acts import PitchPoint, SpecialPoint
+from graphkin.construction.net import Edge, Joined, Net, RollingPoint, TwoWays
 from graphkin.construction.plot import Order, letter
 from graphkin.construction.polygon_acts import Carried, DirectionLine, FoundVector, MeasuredRate
 from graphkin.construction.polygons import Polygons
 from graphkin.construction.sheet import Aid, Bar, Equation, Mark, Rate, Ray, Term
+from graphkin.construction.touching import Touching
 from graphkin.plane import cross, unit
 from graphkin.scene.model import AngleDriver, SlideDriver
 from graphkin.scene.symbol import PointRef, Symbol
@@ -26,7 +27,7 @@ class GroupMoves(Polygons):
     """Polygons with the moves by which a group is drawn."""
 
     def _free_letters(self) -> Sequence[str]:
-        taken = {p for link in self.links.values() for p in link.points}
+        taken = {*self.places, *(p for link in self.links.values() for p in link.points)}
         return [name for name in LETTERS if name not in taken]
 
     def _net(self, group: Cluster) -> Net:
@@ -37,11 +38,39 @@ class GroupMoves(Polygons):
             if pair is not None and isinstance(driver, AngleDriver):
                 welds.append(Weld(pair, driver, pair.b, pair.a))
         driven = frozenset(d.key for d in group.drivers if isinstance(d, SlideDriver))
-        joined = self._at_contacts(group, Joined(group.members, group.pairs, welds, driven, near=True))
+        rolling = self._rolling_points(group)
+        whole = Joined(group.members, group.pairs, welds, driven, near=True, rolling=rolling)
+        joined = self._at_contacts(group, whole)
         names = {s.key: self.guide_names(s) for s in slides}
         return Net(self.links, self.ground, joined, self.places, names, self._same_turn(group), self.tiny)
 
+    def _rolling_points(self, group: Cluster) -> list[RollingPoint]:
+        """The points where links of a group roll on each other: contacts by their name, those of wheels by a free
+        letter, marked on the mechanism."""
+        scene = self.structure.scene
+        between = {c.name: c.links for c in scene.contacts} | {g.name: g.wheels for g in scene.gears}
+        found = []
+        for relation in group.rolling:
+            letter = relation.name
+            if relation.name not in self.touching:
+                letter = self.pitch_points.get(relation.name) or self._mark_pitch_point(relation.name)
+            found.append(RollingPoint(relation.name, letter, between[relation.name]))
+        return found
+
+    def _mark_pitch_point(self, name: str) -> str:
+        letter = self.pitch_points[name] = next(iter(self._free_letters()))
+        touching = Touching(self.structure.scene, self.frame.mm, self.frame.poses)
+        at = self.board.instrument.point(touching.rolling_centres(name)[0])
+        self.special.add(letter)
+        self.places[letter] = at
+        wheels = next(g.wheels for g in self.structure.scene.gears if g.name == name)
+        self.board.do("mechanism", PitchPoint(letter, wheels), Mark(PointRef(letter), at))
+        return letter
+
     def _way(self, edge: Edge, places: Mapping[str, complex]) -> complex:
+        if edge.rolling:
+            touching = Touching(self.structure.scene, self.frame.mm, self.frame.poses)
+            return 1j * touching.rolling_centres(edge.rolling)[1]
         if edge.slide is not None:
             return self.frame.poses[edge.slide.b].axis * edge.slide.guide.direction
         if edge.contact:

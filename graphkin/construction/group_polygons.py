@@ -50,6 +50,7 @@ class GroupPolygons(GroupMoves):
             super().draw(order, element)
             return
         self._known_turns(order, element)
+        self._rolling_points(element)
         if element in self.plans:
             self._by_plan(order, element, self.plans[element])
         else:
@@ -118,6 +119,7 @@ class GroupPolygons(GroupMoves):
         made.drawn = {name: dict(found) for name, found in self.drawn.items()}
         made.tried, made.believed = dict(self.tried), set(self.believed)
         made.special, made.places, made.links = set(self.special), dict(self.places), dict(self.links)
+        made.pitch_points = dict(self.pitch_points)
         return made
 
     def _fork(self, number: int) -> GroupPolygons:

@@ -7,6 +7,7 @@ open is divided proportionally, until what was left out fits.
 
 from __future__ import annotations
 
+from cmath import phase
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
@@ -15,13 +16,14 @@ import numpy as np
 from graphkin.construction.board import EXACT
 from graphkin.construction.dyads import Story, drive, meet
 from graphkin.construction.follow import drawn_near, fitted
-from graphkin.construction.mechanism_acts import TrialPositions
+from graphkin.construction.mechanism_acts import RollingStarts, TrialPositions
 from graphkin.construction.reduced_mechanism import ReducedMechanism
 from graphkin.construction.removed_constraint import RemovedConstraint
 from graphkin.construction.rigid import PlacedLinks, Poses
 from graphkin.construction.sheet import Bar, CompassArc, Pose, Stroke, TrialCurve
 from graphkin.construction.steps import Act
 from graphkin.errors import Problem, Unsolvable
+from graphkin.scene.model import AngleDriver, AnyDriver
 from graphkin.structure import Driven, links_of
 
 __all__ = ["GroupTrial", "placed_by_trial", "trial_story"]
@@ -34,10 +36,15 @@ BEFORE = 0.45  # part of the trial positions that lie before the place sought; s
 
 @dataclass(frozen=True)
 class GroupTrial:
-    """By which reduced mechanism a group is placed, and where every link lies then with the mechanism of size 1."""
+    """By which reduced mechanism a group is placed, and where every link lies then with the mechanism of size 1.
+
+    ``given`` where its trial drivers stand as the problem says, at the position from which rolling starts: then it is
+    no trial.
+    """
 
     reduced: ReducedMechanism
     poses: Poses
+    given: bool = False
 
     def on(self, frame: PlacedLinks) -> dict[str, Pose]:
         """Where the links lie, at the scale of a sheet."""
@@ -63,8 +70,9 @@ def placed_by_trial(frame: PlacedLinks, trial: GroupTrial) -> None:
     poses = {**frame.poses, **poses}
     # the last trial by hands that err, what it leaves open, and the drawing that this asks for
     values = np.array(reduced.values(poses, frame.mm))
-    at, slopes = _by_hand(frame, reduced, poses, values)
-    values = values - np.linalg.solve(slopes, at)
+    if not trial.given:
+        at, slopes = _by_hand(frame, reduced, poses, values)
+        values = values - np.linalg.solve(slopes, at)
     last = drawn_near(reduced, frame, poses, values)
     if last is None:
         raise Unsolvable("not assembled", Problem(f"links {names}", "the last trial drawing does not close"))
@@ -102,13 +110,19 @@ def trial_story(frame: PlacedLinks, so_far: PlacedLinks, trial: GroupTrial) -> S
     reduced = trial.reduced
     poses = {**so_far.poses, **{n: frame.poses[n] for n in reduced.cluster.members}}
     values = np.array(reduced.values(poses, frame.mm))
-    driven = tuple(d.key for d in reduced.trial)
-    strokes: tuple[Stroke, ...] = ()
-    point = ""
-    if len(values) == 1:
-        point, strokes = _curve(so_far, reduced, poses, values)
-    told = TrialPositions(reduced.cluster.links, driven, reduced.left_out, point, POINTS)
-    story: list[tuple[Act, tuple[Stroke, ...]]] = [(told, strokes)]
+    story: list[tuple[Act, tuple[Stroke, ...]]] = []
+    if trial.given:
+        story += [(_started(frame, driver), ()) for driver in reduced.cluster.starts]
+    else:
+        driven = tuple(d.key for d in reduced.trial)
+        strokes: tuple[Stroke, ...] = ()
+        point = ""
+        if len(values) == 1:
+            point, strokes = _curve(so_far, reduced, poses, values)
+        rolling = tuple(r.name for r in reduced.removed if r.rolling is not None)
+        left_out = tuple(name for name in reduced.left_out if name not in rolling)
+        told = TrialPositions(reduced.cluster.links, driven, left_out, point, POINTS, rolling)
+        story.append((told, strokes))
     board = reduced.opened(so_far, [float(v) for v in values])
     board = replace(board, instrument=EXACT)
     for element in reduced.elements:
@@ -122,6 +136,13 @@ def trial_story(frame: PlacedLinks, so_far: PlacedLinks, trial: GroupTrial) -> S
         for name in links_of(element):
             board.poses[name] = poses[name]
     return tuple(story)
+
+
+def _started(frame: PlacedLinks, driver: AnyDriver) -> RollingStarts:
+    """What is given of a link, or of a pair, at the position from which rolling starts."""
+    if isinstance(driver, AngleDriver):
+        return RollingStarts(driver.link, "angle", phase(frame.poses[driver.link].axis))
+    return RollingStarts(driver.key, "travel", driver.values[0] * frame.mm)
 
 
 def _off(one: Poses, other: Poses) -> float:

@@ -22,6 +22,8 @@ __all__ = [
     "OnMechanism",
     "PathDrawn",
     "PathsCross",
+    "PitchPoint",
+    "RollingStarts",
     "SlidToMeet",
     "SpecialPoint",
     "TrialPositions",
@@ -140,13 +142,25 @@ class HeldStill:
 @dataclass(frozen=True)
 class TrialPositions:
     """A group placed by trial: ``driven`` names what is moved, ``left_out`` the link (or driver) left out until it
-    fits, ``point`` the free point whose trial curve is drawn ("" for none), in ``count`` trial positions."""
+    fits, ``rolling`` the contacts or gears at which as much must have rolled off as since the scene's own position,
+    ``point`` the free point whose trial curve is drawn ("" for none), in ``count`` trial positions."""
 
     links: tuple[str, ...]
     driven: tuple[str, ...]
     left_out: tuple[str, ...]
     point: str
     count: int
+    rolling: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class RollingStarts:
+    """The angle (rad) to the x axis at which a link stands that rolls, or the travel (mm) of a pair, given at the
+    scene's own position."""
+
+    name: str
+    gives: Literal["angle", "travel"]
+    value: float
 
 
 @dataclass(frozen=True)
@@ -158,9 +172,18 @@ class SpecialPoint:
     joints: tuple[str, str]
 
 
+@dataclass(frozen=True)
+class PitchPoint:
+    """The point where two wheels roll on each other, a point of both links."""
+
+    point: str
+    links: tuple[str, str]
+
+
 OnMechanism = (
     FixedPoints | LaidOffAngle | LaidOffTravel | CompassArcs | PathDrawn | ArcOnPath | GuideThrough | GuideTouching
-    | PathsCross | SlidToMeet | LinkPoints | HeldStill | SpecialPoint | TrialPositions
+    | PathsCross | SlidToMeet | LinkPoints | HeldStill | PitchPoint | RollingStarts | SpecialPoint
+    | TrialPositions
 )  # fmt: skip
 
 
@@ -192,8 +215,17 @@ def mechanism_phrase(act: OnMechanism) -> Phrase:
         case HeldStill(held, link, slide, gives, value):
             shown = math.degrees(value) if gives == "angle" else value
             return Phrase(f"held still {gives}", (held, link, slide, f"{shown:.6g}"))
+        case PitchPoint(point, links):
+            return Phrase("pitch point", (point, *links))
         case SpecialPoint(point, link, joints):
             return Phrase("special point", (point, link, *joints))
-        case TrialPositions(links, driven, left_out, point, count):
+        case RollingStarts(name, "angle", value):
+            return Phrase("rolling starts at angle", (name, f"{math.degrees(value):.6g}"))
+        case RollingStarts(name, _, value):
+            return Phrase("rolling starts at travel", (name, on_paper(value)))
+        case TrialPositions(links, driven, left_out, point, count, rolling):
             key = "trial positions" if point else "trial positions without curve"
-            return Phrase(key, (", ".join(links), ", ".join(driven), ", ".join(left_out), point, count))
+            if rolling:
+                key = "trial positions rolling and others" if left_out else "trial positions rolling"
+            args = (links, driven, left_out, rolling)
+            return Phrase(key, (*(", ".join(names) for names in args[:3]), point, count, ", ".join(rolling)))

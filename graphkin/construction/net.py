@@ -16,7 +16,7 @@ from graphkin.scene.model import PlacedLink
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import Pair, Slide, Turn, Weld
 
-__all__ = ["Edge", "Joined", "Net", "TwoWays", "node"]
+__all__ = ["Edge", "Joined", "Net", "RollingPoint", "TwoWays", "node"]
 
 
 @dataclass(frozen=True)
@@ -24,8 +24,9 @@ class Edge:
     """The motion of ``end`` relative to ``start``.
 
     ``link`` is the rigid link between them, or ``slide`` the sliding pair they belong to, or ``weld`` the driven
-    turning pair, or ``contact`` the sliding contact.  ``unknown`` names what is not known of it ("omega 3", "slide
-    2/3"); "" if nothing.  ``labels`` are the nodes as written, coincident points with their links.
+    turning pair, or ``contact`` the sliding contact, or ``rolling`` what rolls without slip.  ``unknown`` names what is
+    not known of it ("omega 3", "slide 2/3"); "" if nothing.  ``labels`` are the nodes as written, coincident points
+    with their links.
     """
 
     start: PointRef
@@ -36,6 +37,7 @@ class Edge:
     slide: Slide | None = None
     weld: Weld | None = None
     contact: str = ""
+    rolling: str = ""
     forward: bool = True
     unknown: str = ""
 
@@ -52,6 +54,15 @@ class TwoWays:
     right: tuple[Edge, ...]
 
 
+@dataclass(frozen=True)
+class RollingPoint:
+    """Where two links roll on each other: the name of the contact or the wheels, the letter of the point."""
+
+    name: str
+    letter: str
+    links: tuple[str, str]
+
+
 def node(links: Mapping[str, PlacedLink], point: str, link: str) -> PointRef:
     """The node of a point on a link: the pin itself if it is one of the link's own points."""
     return PointRef(point) if point in links[link].points else PointRef(point, link)
@@ -63,7 +74,7 @@ class Joined:
     nothing replaces.
 
     ``near`` keeps of the points that lie under each other on two links those next to a point of either, as larger
-    groups need: all of them would be too many.
+    groups need: all of them would be too many.  ``rolling`` are the points where links of a group roll.
     """
 
     inside: Sequence[str]
@@ -72,6 +83,7 @@ class Joined:
     driven: frozenset[str] = frozenset()  # sliding pairs of which a driver gives the motion
     near: bool = False
     contacts: tuple[PlacedContact, ...] = ()
+    rolling: Sequence[RollingPoint] = ()
 
 
 class Net:
@@ -106,6 +118,11 @@ class Net:
             for letter in letters:
                 if letter in links[name].points or (not block and (not joined.near or letter in on[name])):
                     self.owners.setdefault(node(links, letter, name), []).append(name)
+        for one in joined.rolling:
+            ends = [PointRef(one.letter, link) for link in one.links]
+            self.natural.update(ends)
+            for ref in ends:
+                self.owners[ref] = [ref.link]
         self.nodes = list(self.owners)
         self.order = {n: i for i, n in enumerate(self.nodes)}
         self.edges: dict[PointRef, list[Edge]] = {n: [] for n in self.nodes}
@@ -118,6 +135,9 @@ class Net:
                 self._welded(w, letters)
         for c in joined.contacts:
             self._touching(c)
+        for one in joined.rolling:
+            a, b = (PointRef(one.letter, link) for link in one.links)
+            self._add(Edge(a, b, (a, b), Direction("along", ("n-n",)), rolling=one.name))
 
     def fixed(self, n: PointRef) -> bool:
         return self.frame in self.owners[n]

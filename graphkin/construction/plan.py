@@ -266,6 +266,7 @@ def _by_trial(
     has gone (rad, m)."""
     from graphkin.construction.follow import Choices, best_reduced
     from graphkin.construction.group_position import GroupTrial
+    from graphkin.construction.reduced_mechanism import standing
     from graphkin.construction.rolled_places import coordinate_on_paper
     from graphkin.construction.trial import found_by_trial
 
@@ -281,11 +282,14 @@ def _by_trial(
             found = meet(frame, element).poses
             branches[i] = min(range(len(found)), key=lambda k, found=found: _off(found[k], poses))  # type: ignore[misc]
         elif isinstance(element, Cluster):
-            reduced = best_reduced(choices, element, frame, poses)
+            at_start = all(values[d.key] == d.values[0] for d in scene.drivers)
+            reduced = standing(structure, element) if element.rolling and at_start else None
+            given = reduced is not None
+            reduced = reduced or best_reduced(choices, element, frame, poses)
             if reduced is None:
                 names = ", ".join(element.links)
                 raise Unsolvable("dead point", Problem(f"links {names}", "every trial drawing is at a dead point here"))
-            trials[element] = GroupTrial(reduced, poses)
+            trials[element] = GroupTrial(reduced.rolled_from(poses, frame.mm), poses, given)
         for name in links_of(element):
             frame.poses[name] = poses[name]
     rolling = [e.driver for e in elements if isinstance(e, Driven) and isinstance(e.driver, Rolled)]

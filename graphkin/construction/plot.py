@@ -38,6 +38,7 @@ class Plot:
         self.believed: set[tuple[Order, str]] = set()  # rates of links that a slip has put in place of the measured
         self.links = dict(structure.links)  # with the special points that larger groups get
         self.special: set[str] = set()
+        self.pitch_points: dict[str, str] = {}  # letters where wheels of larger groups roll on each other
         self.trial = 0  # number of the trial polygon that this is; 0: it is none
         self.tried: dict[tuple[Order, str], float] = {}  # rates of sliding pairs moved at a trial speed
         self.ground = structure.scene.frame.name
@@ -55,6 +56,13 @@ class Plot:
         self.touching = {c.name for c in structure.scene.contacts}
         self.block_of = {p.key: p.of for p in structure.scene.pins}
         self.block_of |= {c.block: c.round[0].link for c in structure.scene.contacts if c.flat}
+
+    def centre_letter(self, name: str, link: str) -> str:
+        """The centre of what is round on a link in a contact, or the axis of a wheel."""
+        scene = self.structure.scene
+        discs = [d for c in scene.contacts if c.name == name for d in c.round]
+        axes = [(w, p) for g in scene.gears if g.name == name for w, p in zip(g.wheels, g.axes, strict=True)]
+        return dict([*((d.link, d.centre) for d in discs), *axes])[link]
 
     def label(self, ref: PointRef) -> PointRef:
         """A node as it is written: the block of a pin in a slot bears the name of the pin's link."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from cmath import phase
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import combinations
 
 from graphkin.construction.removed_constraint import RemovedConstraint
@@ -18,9 +18,9 @@ from graphkin.construction.sheet import Pose
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, SlideDriver
-from graphkin.structure import Cluster, Driven, Dyad, Structure, Turn, links_of, regrouped
+from graphkin.structure import Cluster, Driven, Dyad, Structure, Turn, links_of, regrouped, unrolled
 
-__all__ = ["ReducedMechanism", "clusters", "reduced_mechanisms"]
+__all__ = ["ReducedMechanism", "clusters", "reduced_mechanisms", "standing"]
 
 MOST_REMOVED = 4
 MOST_KEPT = 24  # reduced mechanisms with several trial drivers that are looked at
@@ -31,7 +31,8 @@ class ReducedMechanism:
     """A mechanism of one larger group less.
 
     ``removed`` are left out of it, ``trial`` are the trial drivers in their stead, at value and rate 0; ``elements``
-    are those that place the links of the group, in the order of drawing.
+    are those that place the links of the group, in the order of drawing.  ``since`` are angles and travels (rad, m) of
+    what rolls at a position within half a turn at which it fits, by their names.
     """
 
     structure: Structure
@@ -39,18 +40,24 @@ class ReducedMechanism:
     trial: tuple[AnyDriver, ...]
     cluster: Cluster
     elements: tuple[Driven | Dyad, ...]
+    since: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def left_out(self) -> tuple[str, ...]:
-        """Names of the links, or of the drivers, that are left out."""
-        return tuple(r.left_out or (r.driver.key if r.driver else "") for r in self.removed)
+        """Names of the links, of the drivers, or of what rolls, that are left out."""
+        return tuple(r.name for r in self.removed)
+
+    def rolled_from(self, poses: Mapping[str, Pose], mm: float) -> ReducedMechanism:
+        """The same, what rolls counted from a position at which it fits."""
+        since = {name: value for r in self.removed for name, value in r.coordinates(poses, mm).items()}
+        return replace(self, since=since) if since else self
 
     def gaps(self, frame: PlacedLinks) -> list[float]:
         """By how much each of what was left out does not fit: in the mechanism's size, or rad."""
         size = frame.mm * self.structure.scene.size
         found = []
         for r in self.removed:
-            gap = r.gap(frame.links, frame.poses, frame.mm, frame.values)
+            gap = r.gap(frame.links, frame.poses, frame.mm, self.since if r.rolling else frame.values)
             found.append(gap if r.is_angle else gap / size)
         return found
 
@@ -100,7 +107,7 @@ def reduced_mechanisms(structure: Structure, cluster: Cluster) -> list[ReducedMe
     """
     before = structure.elements[: structure.elements.index(cluster)]
     known = {structure.scene.frame.name, *(n for e in before for n in links_of(e))}
-    for count in range(1, MOST_REMOVED + 1):
+    for count in range(max(1, len(cluster.rolling)), len(cluster.rolling) + MOST_REMOVED + 1):
         found: list[ReducedMechanism] = []
         for reduced in _reduced(structure, cluster, known, count):
             found.append(reduced)
@@ -112,8 +119,24 @@ def reduced_mechanisms(structure: Structure, cluster: Cluster) -> list[ReducedMe
     raise Unsolvable("not drawn", Problem(f"links {names}", "nothing can be left out so that only dyads remain"))
 
 
+def standing(structure: Structure, cluster: Cluster) -> ReducedMechanism | None:
+    """A group in which links roll and move each other, at the scene's own position: trial drivers are those that tell
+    how it stands.  None where it is not of dyads then."""
+    before = structure.elements[: structure.elements.index(cluster)]
+    known = {structure.scene.frame.name, *(n for e in before for n in links_of(e))}
+    removed = tuple(_rolling(structure, cluster))
+    opened = _opened(structure.scene, removed)
+    elements = regrouped(replace(opened, drivers=(*opened.drivers, *cluster.starts)), known, cluster.members) or ()
+    drawn = tuple(e for e in elements if isinstance(e, Driven | Dyad))
+    if not drawn or len(drawn) != len(elements):
+        return None
+    return ReducedMechanism(structure, removed, cluster.starts, cluster, drawn)
+
+
 def _reduced(structure: Structure, cluster: Cluster, known: set[str], count: int) -> Iterator[ReducedMechanism]:
-    for removed in combinations(_removable(structure, cluster), count):
+    rolling = tuple(_rolling(structure, cluster))
+    for others in combinations(_removable(structure, cluster), count - len(rolling)):
+        removed = (*rolling, *others)
         gone = {r.left_out for r in removed if r.left_out}
         if len(gone) + sum(not r.left_out for r in removed) < count:
             continue
@@ -130,9 +153,18 @@ def _reduced(structure: Structure, cluster: Cluster, known: set[str], count: int
                 yield ReducedMechanism(structure, removed, trial, cluster, drawn)
 
 
+def _rolling(structure: Structure, cluster: Cluster) -> Iterator[RemovedConstraint]:
+    for relation in cluster.rolling:
+        slides = [structure.slide(name) for kind, name in relation.terms if kind == "travel"]
+        yield RemovedConstraint("", slide=slides[0] if slides else None, rolling=relation)
+
+
 def _removable(structure: Structure, cluster: Cluster) -> Iterator[RemovedConstraint]:
-    driven = {n for d in structure.scene.drivers if isinstance(d, AngleDriver) for n in (d.link, d.relative_to)}
-    touching = {n for c in structure.scene.contacts if not c.rolling for n in c.links}
+    scene = structure.scene
+    touching = {n for c in scene.contacts for n in c.links}
+    touching |= {n for c in scene.contacts if c.rolling for n in (c.block, c.carrier)}
+    touching |= {n for g in scene.gears for n in (*g.wheels, g.carrier)}
+    driven = {n for d in scene.drivers if isinstance(d, AngleDriver) for n in (d.link, d.relative_to)}
     for name in cluster.members:
         if name in touching:
             continue  # what stands for its contacts would hang on nothing
@@ -141,7 +173,7 @@ def _removable(structure: Structure, cluster: Cluster) -> Iterator[RemovedConstr
         # what later groups hang on it hangs on it still when it is put back
         hinges = [p for p in hinges if _within(structure, cluster, p, name)]
         slides = [s for s in slides if s in cluster.pairs]
-        if name in driven or any(s.key == d.key for d in structure.scene.drivers for s in slides):
+        if name in driven or any(s.key == d.key for d in scene.drivers for s in slides):
             continue
         ends = tuple((p, _within(structure, cluster, p, name)) for p in hinges)
         if len(hinges) == 2 and not slides:
@@ -168,6 +200,7 @@ def _opened(scene: Mechanism, removed: Sequence[RemovedConstraint]) -> Mechanism
     """The scene without some constraints of a group."""
     gone = {r.left_out for r in removed if r.left_out}
     drivers = [r.driver for r in removed]
+    scene = unrolled(scene, [r.rolling.name for r in removed if r.rolling is not None])
     return replace(
         scene,
         links=tuple(link for link in scene.links if link.name not in gone),
@@ -180,11 +213,21 @@ def _opened(scene: Mechanism, removed: Sequence[RemovedConstraint]) -> Mechanism
     )
 
 
+def _on_faces(structure: Structure, cluster: Cluster) -> Iterator[tuple[str, str]]:
+    """The wheels of a group that roll on flat faces, with the blocks at their centres, which turn as the faces do."""
+    names = {relation.name for relation in cluster.rolling}
+    for contact in structure.scene.contacts:
+        if contact.name in names and contact.flat and {contact.round[0].link, contact.block} <= set(cluster.members):
+            yield contact.round[0].link, contact.block
+
+
 def _trials(structure: Structure, cluster: Cluster, gone: set[str], known: set[str]) -> Iterator[AnyDriver]:
     """Drivers that can take its place: at a pair of the group that is not driven and not left out; those at known links
     first, for their links are laid off."""
     driven = {d.key for d in structure.scene.drivers}
     blocks = {s.key for s in structure.slides if s.slot}
+    for wheel, block in _on_faces(structure, cluster):
+        yield AngleDriver(wheel, block, 0.0, 0.0, 0.0)
     pairs = [p for p in cluster.pairs if not gone & {p.a, p.b}]
     for pair in sorted(pairs, key=lambda p: not known & {p.a, p.b}):
         if isinstance(pair, Turn):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import cmath
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -10,7 +11,7 @@ from graphkin.construction.rigid import Poses
 from graphkin.construction.sheet import Pose
 from graphkin.plane import cross, cross_lines, dot
 from graphkin.scene.model import AngleDriver, AnyDriver, PlacedLink, SlideDriver
-from graphkin.structure import Slide
+from graphkin.structure import RollingRelation, Slide
 
 __all__ = ["RemovedConstraint"]
 
@@ -19,9 +20,9 @@ __all__ = ["RemovedConstraint"]
 class RemovedConstraint:
     """A constraint removed from a group.
 
-    ``left_out`` names the bar or block, "" for a driver; ``ends`` are (point, link) of a bar's two hinges, or of a
-    block's one; ``slide`` is the sliding pair of a block or a driven slide, ``second`` the other one of a link that
-    slides on two.
+    ``left_out`` names the bar or block, "" for a driver and for rolling; ``ends`` are (point, link) of a bar's two
+    hinges, or of a block's one; ``slide`` is the sliding pair of a block, of a driven slide or of what rolls along it,
+    ``second`` the other one of a link that slides on two; ``rolling`` is what rolled.
     """
 
     left_out: str
@@ -29,6 +30,14 @@ class RemovedConstraint:
     slide: Slide | None = None
     second: Slide | None = None
     driver: AnyDriver | None = None
+    rolling: RollingRelation | None = None
+
+    @property
+    def name(self) -> str:
+        """Of the bar or block, of the driver, or of the contact or the wheels that roll."""
+        if self.rolling is not None:
+            return self.rolling.name
+        return self.left_out or (self.driver.key if self.driver else "")
 
     @property
     def links(self) -> tuple[str, ...]:
@@ -39,15 +48,22 @@ class RemovedConstraint:
                 names += [n for n in (slide.a, slide.b) if n != self.left_out]
         if isinstance(self.driver, AngleDriver):
             names += [self.driver.link, self.driver.relative_to]
+        if self.rolling is not None:
+            names += self.rolling.links
         return tuple(dict.fromkeys(names))
 
     @property
     def is_angle(self) -> bool:
         """Whether its gap is an angle (rad), not a length (mm)."""
+        if self.rolling is not None:
+            return not self.rolling.in_lengths
         return isinstance(self.driver, AngleDriver) or self.second is not None
 
     def gap(self, links: Mapping[str, PlacedLink], poses: Poses, mm: float, values: Mapping[str, float]) -> float:
-        """By how much it does not fit: mm of paper, or rad for a driven angle; ``values`` are those of the drivers."""
+        """By how much it does not fit: mm of paper, or rad for a driven angle; ``values`` are those of the drivers, and
+        of what rolls those at a position within half a turn (rad, m), by the name of the coordinate."""
+        if self.rolling is not None:
+            return self._rolled_off(poses, mm, values)
         if isinstance(self.driver, AngleDriver):
             turn = poses[self.driver.link].axis / poses[self.driver.relative_to].axis
             return cmath.phase(turn * cmath.rect(1.0, -values[self.driver.key]))
@@ -62,6 +78,26 @@ class RemovedConstraint:
             return abs(at[1] - at[0]) - abs(points[self.ends[1][0]] - points[self.ends[0][0]]) * mm
         start, along, _ = self._rail(poses, mm)
         return cross(along, at[0] - start) - self._offset(links) * mm
+
+    def coordinates(self, poses: Poses, mm: float) -> dict[str, float]:
+        """The angles within a turn and the travel of what rolls (rad, m), by the names of the coordinates."""
+        found = {}
+        for kind, name in self.rolling.terms if self.rolling is not None else ():
+            if kind == "angle":
+                found[f"{kind} {name}"] = cmath.phase(poses[name].axis)
+            else:
+                start, along, origin = self._rail(poses, mm)
+                found[f"{kind} {name}"] = dot(along, origin - start) / mm
+        return found
+
+    def _rolled_off(self, poses: Poses, mm: float, values: Mapping[str, float]) -> float:
+        """By how much the sum that rolling keeps is another: mm of paper, or rad of the wheel that turns least."""
+        assert self.rolling is not None
+        gap, here = 0.0, self.coordinates(poses, mm)
+        for (kind, name), weight in self.rolling.weights(1.0).items():
+            moved = here[f"{kind} {name}"] - values[f"{kind} {name}"]
+            gap += weight * (math.remainder(moved, math.tau) if kind == "angle" else moved)
+        return gap * mm if self.rolling.in_lengths else gap
 
     def placed(self, links: Mapping[str, PlacedLink], poses: Poses, mm: float) -> Pose | None:
         """Where the link left out lies, where it fits; None where a driver was left out."""

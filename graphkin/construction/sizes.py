@@ -7,7 +7,7 @@ from typing import Literal
 
 from graphkin.scene.symbol import Symbol
 
-__all__ = ["Direction", "Given", "OffCurves", "RateTimes", "Size", "SquareOverRadius"]
+__all__ = ["Direction", "Given", "OffCurves", "RateTimes", "RollingCurves", "Size", "SquareOverRadius"]
 
 
 @dataclass(frozen=True)
@@ -92,4 +92,23 @@ class OffCurves:
         return self.written(str(self.velocity))
 
 
-Size = Given | RateTimes | SquareOverRadius | OffCurves
+@dataclass(frozen=True)
+class RollingCurves:
+    """What the curvatures of two round outlines that roll on each other give along their normal, by the relative rate
+    of the two ``links``; ``inside`` where one is hollow, the second the larger.
+
+    >>> str(RollingCurves(("2", "3"), False))
+    'ω_{23}²·ρ_{2}ρ_{3}/(ρ_{2} + ρ_{3})'
+    """
+
+    links: tuple[str, str]
+    inside: bool
+
+    def __str__(self) -> str:
+        one, two = self.links
+        sign = "−" if self.inside else "+"
+        first, second = (two, one) if self.inside else (one, two)
+        return f"ω_{{{one}{two}}}²·ρ_{{{one}}}ρ_{{{two}}}/(ρ_{{{first}}} {sign} ρ_{{{second}}})"
+
+
+Size = Given | RateTimes | SquareOverRadius | OffCurves | RollingCurves

@@ -7,7 +7,7 @@ from typing import Literal
 from graphkin.construction.net import Edge
 from graphkin.construction.plot import Order, Plot
 from graphkin.construction.remarks import AtContact
-from graphkin.construction.sizes import Direction, Given, OffCurves, RateTimes, SquareOverRadius
+from graphkin.construction.sizes import Direction, Given, OffCurves, RateTimes, RollingCurves, SquareOverRadius
 from graphkin.construction.slip import Component
 from graphkin.construction.touching import Touching
 from graphkin.plane import dot, unit
@@ -24,6 +24,8 @@ def parts_of(plot: Plot, order: Order, edge: Edge) -> list[Component]:
         return _weld_parts(plot, order, edge, edge.weld)
     if edge.contact:
         return _contact_parts(plot, order, edge)
+    if edge.rolling:
+        return _rolling_parts(plot, order, edge)
     if edge.slide is not None:
         return _slide_parts(plot, order, edge, edge.slide)
     return _rigid_parts(plot, order, edge)
@@ -133,6 +135,33 @@ def _contact_parts(plot: Plot, order: Order, edge: Edge) -> list[Component]:
     curved = Component(symbol_of(plot, "an", edge), "normal", normal, normal * (off / per), square, size)
     sliding = Component(symbol_of(plot, "ar", edge), "sliding", tangent, None, edge.direction)
     return [*([] if one in plot.still else [coriolis]), curved, sliding]
+
+
+def _rolling_parts(plot: Plot, order: Order, edge: Edge) -> list[Component]:
+    """The material point of one link where it rolls relative to that of the other: they have one velocity, and their
+    accelerations differ along the normal alone, by what the curvatures give."""
+    if order == "velocity":
+        return []
+    one, two = (ref.link for ref in edge.labels)
+    mm = plot.frame.mm
+    place, normal, centres = Touching(plot.structure.scene, mm, plot.frame.poses).rolling_centres(edge.rolling)
+    bends = [mm / dot(centres[n] - place, normal) if n in centres else 0.0 for n in (one, two)]
+    turning = plot.rates["velocity"][two].value - plot.rates["velocity"][one].value
+    span = normal * (turning**2 / (bends[1] - bends[0]) / plot.scales.acceleration)
+    links = tuple(n for n in (two, one) if n not in plot.still) or (two,)
+    letter = edge.start.point
+    if len(centres) == 1:
+        ((link, centre),) = centres.items()
+        names = plot.centre_letter(edge.rolling, link), letter
+        size: RateTimes | RollingCurves = RateTimes("omega", links, names, square=True)
+        way = Direction("towards", names if dot(span, place - centre) > 0 else names[::-1])
+    else:
+        inside = bends[0] * bends[1] > 0.0
+        pair = (one, two) if not inside or abs(bends[0]) > abs(bends[1]) else (two, one)
+        size, way = RollingCurves(pair, inside), edge.direction
+    if plot.fixed(edge.start):
+        return [Component(symbol_of(plot, "a", edge), "resultant", unit(span or normal), span, way, size)]
+    return [Component(symbol_of(plot, "an", edge), "normal", unit(span or normal), span, way, size)]
 
 
 def _bent_parts(plot: Plot, edge: Edge, slide: Slide, sense: complex) -> list[Component]:

@@ -112,6 +112,18 @@ class Touching:
         for gear in self.gears():
             yield *gear.wheels, self.pitch_point(gear), gear.name
 
+    def rolling_centres(self, name: str) -> tuple[complex, complex, Mapping[str, complex]]:
+        """Where a contact rolls or wheels mesh, the direction of their normal, and the centres of what is round there,
+        by the links."""
+        contact = next((c for c in self.contacts() if c.name == name), None)
+        if contact is not None:
+            spots = dict(zip((d.link for d in contact.round), self.centres(contact), strict=True))
+            return *self.contact(contact), spots
+        gear = next(g for g in self.gears() if g.name == name)
+        held = self.scene.by_name[gear.carrier].points
+        axes = {w: self.place(gear.carrier, held[p]) for w, p in zip(gear.wheels, gear.axes, strict=True) if p}
+        return self.pitch_point(gear), self.normal(gear), axes
+
     def pitch_circles(self) -> Iterator[tuple[str, complex, float]]:
         """Wheels with the centre and the radius (mm, negative for internal teeth) of each pitch circle."""
         for gear in self.gears():

@@ -168,7 +168,7 @@ class Letters:
         if isinstance(rule, OffCurves):
             return rule.written(self.vector(rule.velocity)).replace("²", "^{2}").replace("·", " ")
         if not isinstance(rule, RateTimes):
-            return str(rule).replace("²", "^{2}")
+            return str(rule).replace("²", "^{2}").replace("·", " ")
         letter = "ω" if rule.rate == "omega" else "α"
         name = f"{'2' * rule.twice}{letter}_{{{''.join(rule.links)}}}{'^{2}' * rule.square}"
         factor = rule.factor

@@ -4,17 +4,20 @@ someone who does not see it; in one language or both.
 
 from __future__ import annotations
 
+import cmath
 import math
 import re
 from collections.abc import Mapping
+from dataclasses import replace
 
 from graphkin.construction.remarks import ZeroVector
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.construction.sizes import Direction
 from graphkin.drawing.conventions import Letters
-from graphkin.scene.model import AngleDriver
+from graphkin.scene.model import AngleDriver, AnyDriver
 from graphkin.scene.over_time import asked_time, moves_by_law
 from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.structure import Cluster
 from graphkin.version import __version__
 from graphkin.words import Phrase, languages, say, word
 from graphkin.words.written import amount, on_paper, product
@@ -107,6 +110,29 @@ def drivers(sheet: Sheet, letters: Letters) -> str:
             if second:
                 parts.append(f"${a}_{{{index}}}$ = {number(second / rates.metres)} {rates.length}/s²")
     return ",  ".join(parts)
+
+
+def rolling_starts(sheet: Sheet) -> list[str]:
+    """Where that stands which rolls and is moved by what it moves, at the scene's own position: ``φ_3 = 60° (φ_1 =
+    50°)``, symbols between dollar signs."""
+    scene, parts = sheet.scene, []
+    own = [_stands(sheet, driver, driver.values[0]) for driver in scene.drivers]
+    for group in sheet.structure.elements:
+        for driver in group.starts if isinstance(group, Cluster) else ():
+            value = driver.values[0]
+            if isinstance(driver, AngleDriver):  # from what never turns
+                value = cmath.phase(sheet.poses[driver.relative_to].axis * cmath.rect(1.0, value))
+                driver = replace(driver, relative_to=scene.frame.name)
+            parts.append(f"{_stands(sheet, driver, value)} ({', '.join(own)})")
+    return parts
+
+
+def _stands(sheet: Sheet, driver: AnyDriver, value: float) -> str:
+    if isinstance(driver, AngleDriver):
+        index = driver.link if driver.relative_to == sheet.scene.frame.name else driver.link + driver.relative_to
+        return f"$φ_{{{index}}}$ = {number(math.degrees(value))}°"
+    unit = sheet.scene.units
+    return f"$s_{{{_slide_index(sheet, driver.key)}}}$ = {number(value / unit.metres)} {unit.length}"
 
 
 def _slide_index(sheet: Sheet, key: str) -> str:

@@ -14,7 +14,7 @@ from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.font_widths import runs_width
-from graphkin.drawing.headings import drivers, number, remarks, term, written
+from graphkin.drawing.headings import drivers, number, remarks, rolling_starts, term, written
 from graphkin.drawing.primitives import Line, Primitive, Run, Text
 from graphkin.drawing.text import rich, wrapped
 from graphkin.plane import degrees
@@ -170,6 +170,7 @@ def given_lines(sheet: Sheet, letters: Letters, language: str, width: float, siz
     scene = sheet.scene
     unit = scene.units.length
     items = drivers(sheet, letters).split(",  ")
+    items += rolling_starts(sheet)
     items += given_teeth(scene)
     items += [f"${name}$ = {number(value)} {unit}" for name, value in given_lengths(scene, letters)]
     fixed = [f"${letters.point(p)}$ ({_pair(z, scene)}) {unit}" for p, z in scene.frame.points.items()]

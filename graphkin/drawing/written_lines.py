@@ -43,8 +43,11 @@ def written_lines(sheet: Sheet, letters: Letters, language: str) -> list[Written
             act = step.act
             lines.append(say(Phrase("written special", _in_dollars(act.point, *act.joints)), spoken))
         elif isinstance(step.act, TrialPositions):
-            names = ", ".join(step.act.left_out), ", ".join(step.act.driven)
-            lines.append(say(Phrase("written trial", names), spoken))
+            out, moved, rolled = (", ".join(n) for n in (step.act.left_out, step.act.driven, step.act.rolling))
+            if rolled:
+                lines.append(say(Phrase("written trial rolling", (moved, rolled)), spoken))
+            else:
+                lines.append(say(Phrase("written trial", (out, moved)), spoken))
         elif isinstance(step.act, Superposed):
             lines += _trials(sheet, step, letters, spoken)
     return lines

@@ -11,7 +11,7 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import pole, scale_statement
 from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.given_loads import given_loads
-from graphkin.drawing.headings import FIGURE_WORDS, drivers, number, titles
+from graphkin.drawing.headings import FIGURE_WORDS, drivers, number, rolling_starts, titles
 from graphkin.drawing.tables import given_lengths, given_teeth
 from graphkin.papers.blocks import (
     Beside,
@@ -173,6 +173,8 @@ def given(lesson: Lesson) -> Iterator[Paragraph]:
             )
         )
     yield Paragraph(_labelled(lesson, "driver", ", ".join((drivers(lesson.sheet, letters), *_speeds(scene)))))
+    if starts := rolling_starts(lesson.sheet):
+        yield Paragraph(_labelled(lesson, "rolling starts", ", ".join(starts)))
     if scene.loading:
         lines = {each: given_loads(lesson.sheet, letters, each) for each in languages(lesson.language)}
         for texts in zip(*lines.values(), strict=True):

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
-from graphkin.construction.mechanism_acts import SpecialPoint
+from graphkin.construction.mechanism_acts import PitchPoint, SpecialPoint
 from graphkin.construction.sheet import Aid, Equation, Term, Vector
 from graphkin.papers.blocks import Paragraph
 from graphkin.papers.lesson import Lesson
 from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.structure import Cluster
 from graphkin.words import Phrase, languages, word
 
 __all__ = ["reasons"]
@@ -42,6 +43,9 @@ def _why(lesson: Lesson, equation: Equation, term: Term) -> Iterator[Phrase]:
     of, to = symbol.of, symbol.to
     if of is None or (symbol.kind in ("ak", "ar") and to is None):
         return
+    for ref in (of, to):
+        if ref is not None and (links := _rolling_at(lesson).get(ref.point)):
+            yield Phrase(f"why rolling {equation.diagram}", (ref.point, *links))
     step = _found_before(lesson, equation, term)
     if step:
         yield Phrase("why known", (symbol, step))
@@ -60,6 +64,14 @@ def _why(lesson: Lesson, equation: Equation, term: Term) -> Iterator[Phrase]:
         fixed = symbol.kind == "an" and to.point in lesson.sheet.scene.frame.points
         key = "why turning parts" if fixed else "why rigid" if symbol.kind == "v" else "why rigid parts"
         yield Phrase(key, (of, to, link)) if link else Phrase("why centres", (of, to))
+
+
+def _rolling_at(lesson: Lesson) -> Mapping[str, tuple[str, str]]:
+    """The points at which links of a group roll on each other, with the links."""
+    scene = lesson.sheet.scene
+    coupled = {r.name for e in lesson.sheet.structure.elements if isinstance(e, Cluster) for r in e.rolling}
+    found = {c.name: c.links for c in scene.contacts if c.name in coupled}
+    return found | {s.act.point: s.act.links for s in lesson.sheet.steps if isinstance(s.act, PitchPoint)}
 
 
 def _found_before(lesson: Lesson, equation: Equation, term: Term) -> int:

@@ -11,7 +11,7 @@ import numpy as np
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.solver.dyads import DyadSolution
-from graphkin.solver.engine import State, positions
+from graphkin.solver.engine import SINGULAR, State, positions
 from graphkin.solver.joints import Drive, driver_text
 from graphkin.solver.pose import Array, Pose
 from graphkin.structure import (
@@ -25,6 +25,7 @@ from graphkin.structure import (
     links_of,
     named_with_contact,
     pick,
+    started,
 )
 from graphkin.structure.assembly import TOUCH, last_true
 from graphkin.structure.model import Coordinate
@@ -63,9 +64,9 @@ def choose_forms(structure: Structure) -> dict[int, Array]:
 
     Returns
     -------
-    dict from the element's place to the sign of a dyad (0-d array) or the places (members, 3) of a larger group; of
-    what rolls for each thing that it rolls on its angle or travel there and now, whole turns included, shape
-    (2 factors,)
+    dict from the element's place to the sign of a dyad (0-d array) or the places (members, 3) of a larger group, see
+    ``graphkin.solver.larger_groups.form_of``; of what rolls for each thing that it rolls on its angle or travel there
+    and now, whole turns included, shape (2 factors,)
 
     Raises
     ------
@@ -76,6 +77,7 @@ def choose_forms(structure: Structure) -> dict[int, Array]:
     """
     drive = Drive.at(structure, own_values(structure.scene)[None])
     forms: dict[int, Array] = {}
+    start: Mapping[str, Pose] = {}
     for i, element in enumerate(structure.elements):
         if isinstance(element, Dyad):
             forms[i] = _choose_sign(structure, i, element, drive, forms)
@@ -83,10 +85,32 @@ def choose_forms(structure: Structure) -> dict[int, Array]:
             state = positions(structure, drive, {k: f[None] for k, f in forms.items()}, i, rates=False)
             own = [reading(structure, state.poses, coordinate)[0] for coordinate, _ in element.driver.factors]
             forms[i] = np.repeat(own, 2)
+        elif isinstance(element, Cluster) and element.rolling:
+            from graphkin.solver.larger_groups import form_of
+
+            start = start or _started(structure)
+            forms[i] = form_of(structure, element, start)
         elif isinstance(element, Cluster):
             state = positions(structure, drive, {k: f[None] for k, f in forms.items()}, i, rates=False)
             forms[i] = _choose_place(structure, i, element, drive, state.poses)
     return forms
+
+
+def _started(structure: Structure) -> Mapping[str, Pose]:
+    """All links at the scene's own position, where drivers tell how what rolls and moves each other stands."""
+    from graphkin.solver.larger_groups import ClusterSolved
+
+    there = started(structure)
+    drive, forms = Drive.at(there, own_values(there.scene)[None]), choose_forms(there)
+    state = positions(there, drive, {k: f[None] for k, f in forms.items()}, rates=False)
+    for i, group in state.groups.items():
+        dead = group.condition[0] * SINGULAR > 1 if isinstance(group, ClusterSolved) else (
+            abs(group.sine[0]) < state.singular[0])  # fmt: skip
+        if dead:
+            names = ", ".join(links_of(there.elements[i]))
+            wanted = "let what rolls start a little beside it"
+            raise Unsolvable("dead point", Problem(f"links {names}", "they start in a dead point", wanted))
+    return state.poses
 
 
 def _choose_sign(structure: Structure, i: int, dyad: Dyad, drive: Drive, forms: Mapping[int, Array]) -> Array:
@@ -97,10 +121,11 @@ def _choose_sign(structure: Structure, i: int, dyad: Dyad, drive: Drive, forms: 
         states.append(positions(structure, drive, given, i + 1, rates=False))
     solved = states[0].groups[i]
     assert isinstance(solved, DyadSolution)
+    links = dyad.links or links_of(dyad)  # what stands for two contacts of one link has no link of the file
     if dyad.is_two_lines:
         sign = float(np.sign(solved.sine[0])) or 1.0
         if abs(solved.sine[0]) >= states[0].singular[0]:
-            pick(scene, dyad.links, [new_places(structure, i, dyad.links, states[0])], 0)
+            pick(scene, links, [new_places(structure, i, links, states[0])], 0)
         return np.array(sign)
     if not solved.discriminant[0] >= -TOUCH:
         raise Unsolvable(
@@ -113,8 +138,8 @@ def _choose_sign(structure: Structure, i: int, dyad: Dyad, drive: Drive, forms: 
         )
     if not abs(solved.sine[0]) >= states[0].singular[0]:
         return np.array(1.0)
-    candidates = [new_places(structure, i, dyad.links, state) for state in states]
-    return np.array((1.0, -1.0)[pick(scene, dyad.links, candidates, 0).index])
+    candidates = [new_places(structure, i, links, state) for state in states]
+    return np.array((1.0, -1.0)[pick(scene, links, candidates, 0).index])
 
 
 def _other_way(structure: Structure, i: int, drive: Drive, forms: Mapping[int, Array]) -> str:

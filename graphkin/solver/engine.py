@@ -195,7 +195,8 @@ class _Run:
         if sure and self.clusters:
             from graphkin.solver.group_errors import bounds as bounds_together
 
-            found = [*bounds_together(self.structure, poses, self.drive, self._known)]
+            open_ = np.concatenate([self.clusters[i].rolling_open for i in sorted(self.clusters)], axis=1)
+            found = [*bounds_together(self.structure, poses, self.drive, self._known, open_)]
             rough = _rough(found, size)
         bounds = ErrorBound(*(_sure(b) for b in found)) if sure else None
         count = len(self.structure.scene.drivers)
@@ -321,4 +322,6 @@ def _ends(group: Cluster) -> set[str]:
     found = {end for pair in group.pairs for end in (pair.a, pair.b)}
     for driver in group.drivers:
         found |= {getattr(driver, "link", ""), getattr(driver, "relative_to", "")}
+    for relation in group.rolling:
+        found |= {*relation.links}
     return found

@@ -232,7 +232,7 @@ def assembly_words(structure: Structure, forms: Mapping[int, Array]) -> tuple[st
 def _cluster_words(structure: Structure, group: Cluster, place: Array) -> str:
     """Sides of the inner joints of a larger group, each seen from the next joint on its one link to that on the other,
     and where the first of them lies: two assemblies may have all sides in common."""
-    row = place if place.ndim == 2 else place[0]
+    row = (place if place.ndim == 2 else place[0])[: len(group.members)]
     at = {name: (complex(x, y), np.exp(1j * angle)) for name, (x, y, angle) in zip(group.members, row, strict=True)}
 
     def world(link: str, point: str) -> complex:

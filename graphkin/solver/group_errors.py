@@ -19,9 +19,9 @@ from graphkin.solver.expressions import Name
 from graphkin.solver.joints import Drive, joint_place
 from graphkin.solver.larger_groups import System
 from graphkin.solver.led_links import LedLink, with_led_links
-from graphkin.solver.pose import Array, Pose
+from graphkin.solver.pose import Array, Pose, rest
 from graphkin.solver.rounding import UNIT
-from graphkin.structure import Pair, Structure, Turn
+from graphkin.structure import Pair, RollingRelation, Structure, Turn
 
 __all__ = ["bounds"]
 
@@ -32,7 +32,7 @@ _NONE = Errors(*(np.zeros(1),) * 6)
 
 
 def bounds(
-    structure: Structure, poses: Mapping[str, Pose], drive: Drive, given: Callable[[Name], float]
+    structure: Structure, poses: Mapping[str, Pose], drive: Drive, given: Callable[[Name], float], rolled: Array
 ) -> Errors:
     """Bounds of the errors of a whole mechanism: the most of any point of any link and of the turning of any.
 
@@ -40,18 +40,19 @@ def bounds(
     ----------
     poses : of all links, with their rates
     given : how far a number of the scene may be off, by its name as in ``graphkin.solver.program``
+    rolled : how far what rolls in groups may be off, shape (n, relations)
     """
     structure, drive, led = with_led_links(structure, poses, drive)
     before: Mapping[str, Errors] = {}
     for _ in led:  # each may be led by what another leads
-        before = _bounds(structure, poses, drive, given, led, before)[0]
-    found = _bounds(structure, poses, drive, given, led, before)[1]
+        before = _bounds(structure, poses, drive, given, led, before, rolled)[0]
+    found = _bounds(structure, poses, drive, given, led, before, rolled)[1]
     return Errors(*(np.max(np.broadcast_arrays(*column), axis=0) for column in zip(*found, strict=True)))
 
 
 def _bounds(
     structure: Structure, poses: Mapping[str, Pose], drive: Drive, given: Callable[[Name], float],
-    led: Sequence[LedLink], before: Mapping[str, Errors],
+    led: Sequence[LedLink], before: Mapping[str, Errors], rolled: Array,
 ) -> tuple[Mapping[str, Errors], list[Errors]]:  # fmt: skip
     """Errors of each link, and the most of any point of it; ``before`` are those of what leads the ``led``."""
     system = System.whole(structure, drive)
@@ -64,7 +65,7 @@ def _bounds(
         open_ = np.abs(system.constraints(all_))
 
         def off(order: int, errors: Mapping[str, Errors]) -> Array:
-            rows = _Rows(system, every, errors, given, led, before).off(order)
+            rows = _Rows(system, every, errors, given, rolled, led, before).off(order)
             return np.asarray(open_[order] + np.stack(_all(rows, n), axis=1))
 
         alone = [off(order, {}) for order in range(3)]
@@ -202,6 +203,7 @@ class _Rows:
     poses: Mapping[str, Pose]
     errors: Mapping[str, Errors]
     given: Callable[[Name], float]
+    rolled: Array
     led: Sequence[LedLink] = ()
     before: Mapping[str, Errors] = field(default_factory=dict)
 
@@ -231,7 +233,24 @@ class _Rows:
             else:
                 pair = structure.slide(driver.key)
                 rows.append((_sliding(self._joint(pair, pair.a), self._joint(pair, pair.b), order) + given) / size)
-        return rows
+        return rows + [self._rolling(k, relation, order) for k, relation in enumerate(self.system.group.rolling)]
+
+    def _rolling(self, k: int, relation: RollingRelation, order: int) -> Array:
+        structure = self.system.structure
+        found = self.rolled[:, k] if order == 0 else np.zeros(1)
+        still = _Joint(rest(), _NONE)
+        for (kind, name), weight in relation.weights(structure.scene.size).items():
+            if kind == "travel":
+                pair = structure.slide(name)
+                one, two = self._joint(pair, pair.a), self._joint(pair, pair.b)
+                off = _sliding(one, two, order)
+                told = np.abs((one.pose.z - two.pose.z, one.pose.v - two.pose.v, one.pose.a - two.pose.a)[order])
+            else:
+                pose = self.poses[name]
+                off = _turning(_Joint(pose, self._errors(name)), still, order)
+                told = np.abs((np.zeros(1), pose.omega, pose.alpha)[order])
+            found = found + abs(weight) * (off + FEW * told)
+        return np.asarray(found)
 
     def _errors(self, name: str) -> Errors:
         """Of a link; a computed direction may be a little longer or shorter than one."""

@@ -79,6 +79,21 @@ class Layout:
                 self.travels.append((row, len(lines), i))
                 lines.append((row, structure.slide(driver.key), 1 + 0j))
             row += 1
+        weights = [relation.weights(self.size) for relation in group.rolling]
+        self.rolling_rows = np.arange(row, row + len(weights))
+        self.rolled = np.zeros((len(weights), len(self.names)))
+        """How much the turning of each link counts in each relation of what rolls."""
+        for k, terms in enumerate(weights):
+            for (kind, name), weight in terms.items():
+                if kind == "angle":
+                    self.rolled[k, self.link[name]] = weight
+                else:
+                    lines.append((row + k, structure.slide(name), complex(weight * self.size)))
+        outside = np.flatnonzero(np.any(self.rolled != 0.0, axis=0))
+        self.outside = outside[outside >= self.members]
+        """Links that the group hangs on of which the turns count."""
+        self.relations_end = self.members + len(weights)
+        row += len(weights)
         self.rows = row
         self.turns = [self._ends(structure, [(p, getattr(p, side)) for _, p in turns]) for side in "ab"]
         self.lines = [self._ends(structure, [(p, getattr(p, side)) for _, p, _ in lines]) for side in "ab"]
@@ -94,6 +109,7 @@ class Layout:
         self.turn_entries = [self._entries(e, self.turn_rows, s) for e, s in zip(self.turns, (1.0, -1.0), strict=True)]
         self.line_entries = [self._entries(e, self.line_rows, s) for e, s in zip(self.lines, (1.0, -1.0), strict=True)]
         self.same = np.zeros((self.rows, 3 * self.members))
+        self.same[self.rolling_rows, 2::3] = self.rolled[:, : self.members]
         for entries in self.turn_entries:
             self.same[entries.row, entries.column] = entries.sense
             self.same[entries.row + 1, entries.column + 1] = entries.sense
@@ -110,6 +126,8 @@ class Layout:
         for driver in group.drivers:
             if isinstance(driver, AngleDriver):
                 yield from (driver.link, driver.relative_to)
+        for relation in group.rolling:
+            yield from relation.links
 
     def _ends(self, structure: Structure, joints: Sequence[tuple[Pair, str]]) -> _Ends:
         frames = [joint_place(structure, pair, link) for pair, link in joints]
@@ -129,7 +147,8 @@ _LAYOUTS: dict[tuple[int, tuple[str, ...], tuple[str, ...]], Layout] = {}
 
 def layout_of(structure: Structure, group: Cluster) -> Layout:
     """The layout of a group, made once."""
-    key = (id(structure), group.members, tuple(driver.key for driver in group.drivers))
+    joined = (*(driver.key for driver in group.drivers), *(relation.name for relation in group.rolling))
+    key = (id(structure), group.members, joined)
     if key not in _LAYOUTS:
         _LAYOUTS[key] = Layout(structure, group)
         finalize(structure, _LAYOUTS.pop, key, None)

@@ -1,14 +1,15 @@
 """Groups larger than a dyad, and groups with a driver that joins no common pair: all their links together.
 
-Unknown are place and angle of each link; every pair and every driver inside gives its equations, with lengths counted
-in the size of the mechanism, so that columns weigh alike.  Newton's method finds the position to rounding, the same
-matrix gives velocity and acceleration (Haug, Computer Aided Kinematics and Dynamics of Mechanical Systems, ch. 3).
+Unknown are place and angle of each link; every pair, every driver inside and everything that rolls gives its equations,
+with lengths counted in the size of the mechanism, so that columns weigh alike.  Newton's method finds the position to
+rounding, the same matrix gives velocity and acceleration (Haug, Computer Aided Kinematics and Dynamics of Mechanical
+Systems, ch. 3).
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -17,12 +18,14 @@ from graphkin.solver.group_layout import NOTHING, Layout, layout_of
 from graphkin.solver.joints import Drive, turned
 from graphkin.solver.pose import FIELDS, Array, Pose, rest, together
 from graphkin.solver.rounding import UNIT
-from graphkin.structure import Cluster, Driven, Dyad, Pair, Structure
+from graphkin.structure import Cluster, Driven, Dyad, Pair, RollingRelation, Structure
 
-__all__ = ["ClusterSolved", "System", "as_place", "solve_all", "solve_cluster"]
+__all__ = ["ClusterSolved", "System", "as_place", "form_of", "solve_all", "solve_cluster"]
 
 ROUNDS = 40
 ROUNDINGS = 32 * UNIT
+TOLD = 8 * UNIT
+"""Relative error of what was given of rolling: radii, and where it starts."""
 
 
 @dataclass(frozen=True)
@@ -30,12 +33,17 @@ class System:
     """The constraints of a group at n positions of what it hangs on.
 
     The links together are one ``Pose``, its fields of shape (n, links): the group's own first, then those it hangs on.
+
+    near : angles of all links to half a turn, whole turns included, shape (n, links) (rad); None where nothing rolls
+    kept : the sums that rolling keeps, no unit, shape (n, relations)
     """
 
     structure: Structure
     group: Cluster
     known: Mapping[str, Pose]
     drive: Drive
+    near: Array | None = None
+    kept: Array | None = None
 
     @cached_property
     def _layout(self) -> Layout:
@@ -51,6 +59,7 @@ class System:
     def whole(cls, structure: Structure, drive: Drive) -> System:
         """The constraints of all links together."""
         pairs: list[Pair] = []
+        rolling: list[RollingRelation] = []
         for e in structure.elements:
             if isinstance(e, Driven):
                 pairs.append(e.pair)
@@ -58,9 +67,10 @@ class System:
                 pairs += [e.outer_first, e.inner, e.outer_second, *(w.pair for body in e.bodies for w in body.welds)]
             else:
                 pairs += e.pairs
+                rolling += e.rolling
         frame = structure.scene.frame.name
         members = tuple(name for name in structure.links if name != frame)
-        every = Cluster(members, tuple(pairs), structure.drivers, members, 0)
+        every = Cluster(members, tuple(pairs), structure.drivers, members, 0, rolling=tuple(rolling))
         return cls(structure, every, {frame: rest()}, drive)
 
     def at(self, place: Array, rate: Array | None = None, second: Array | None = None) -> Pose:
@@ -99,6 +109,36 @@ class System:
             for k, name in enumerate(self.group.members)
         }
 
+    def rolling_from(self, start: Array) -> System:
+        """With the turns and the sums that starting places tell, see ``form_of``."""
+        layout = self._layout
+        if not len(layout.rolling_rows):
+            return self
+        near = np.zeros((len(start), len(layout.names)))
+        near[:, : layout.members] = start[:, : layout.members, 2]
+        near[:, layout.outside] = start[:, layout.relations_end :, 2]
+        return replace(self, near=near, kept=start[:, layout.members : layout.relations_end, 0])
+
+    def with_turns(self, place: Array) -> Array:
+        """Places of the group with the sums that rolling keeps, and the turns of the links outside, see ``form_of``."""
+        layout = self._layout
+        if not len(layout.rolling_rows):
+            return place
+        assert self.kept is not None
+        more = np.zeros((len(place), len(layout.rolling_rows) + len(layout.outside), 3))
+        more[:, : len(layout.rolling_rows), 0] = self.kept
+        more[:, len(layout.rolling_rows) :, 2] = self.angles(self.at(place).u)[:, layout.outside]
+        return np.concatenate((place, more), axis=1)
+
+    def slope(self, poses: Mapping[str, Pose]) -> Array:
+        """Rates of what ``form_of`` tells, shape (rows, 3), at the first position."""
+        names = [*self.group.members, *("" for _ in self._layout.rolling_rows)]
+        names += [self._layout.names[k] for k in self._layout.outside]
+        moved = [poses[k] if k else rest() for k in names]
+        rows = np.array([[p.v.real[0], p.v.imag[0], p.omega[0]] for p in moved])
+        rows[len(self.group.members) :, :2] = 0.0
+        return rows
+
     def open_(self, all_: Pose) -> Array:
         """Each constraint, with lengths in the size, shape (n, rows)."""
         return np.asarray(self.constraints(all_, 0)[0])
@@ -108,6 +148,7 @@ class System:
         layout, drive = self._layout, self.drive
         size = layout.size
         found = np.empty((order + 1, len(drive), layout.rows))
+        found[:, :, layout.rolling_rows] = 0.0
         if len(layout.turn_rows):
             one, two = (ends.of(all_, order) for ends in layout.turns)
             for k, field in enumerate(("z", "v", "a")[: order + 1]):
@@ -131,7 +172,19 @@ class System:
             for k, (field, given) in enumerate((("omega", drive.rate), ("alpha", drive.second))[:order]):
                 rates = getattr(all_, field)
                 found[k + 1][:, layout.angle_rows] = rates[:, link] - rates[:, base] - given[:, which]
+        if len(layout.rolling_rows):
+            if self.near is None or self.kept is None:
+                found[0][:, layout.rolling_rows] = 0.0  # the turns are not counted
+            else:
+                found[0][:, layout.rolling_rows] += self.angles(all_.u) @ layout.rolled.T - self.kept
+            for k, field in enumerate(("omega", "alpha")[:order]):
+                found[k + 1][:, layout.rolling_rows] += getattr(all_, field) @ layout.rolled.T
         return found
+
+    def angles(self, u: Array) -> Array:
+        """Angles of all links, whole turns included, shape (n, links) (rad)."""
+        assert self.near is not None
+        return np.asarray(self.near + np.angle(u * np.exp(-1j * self.near)))
 
     def matrix(self, all_: Pose) -> Array:
         """Derivative of the constraints by (x / size, y / size, angle) of each member, shape (n, rows, columns)."""
@@ -149,7 +202,7 @@ class System:
                     along = back[:, joint] * sense
                     arm = one.z[:, joint] - all_.z[:, ends.link[joint]]
                     found[:, row, column], found[:, row, column + 1] = along.real, -along.imag
-                    found[:, row, column + 2] = -(along * arm).imag / layout.size
+                    found[:, row, column + 2] += -(along * arm).imag / layout.size
         return found
 
     def scaled(self, step: Array) -> Array:
@@ -169,7 +222,8 @@ class ClusterSolved:
     """What a larger group gives.
 
     poses : its links
-    place : the same as an array (n, members, 3) of x, y (m) and angle (rad, not reduced)
+    place : the same as an array (n, members, 3) of x, y (m) and angle (rad, not reduced); where something rolls with
+        more rows, see ``form_of``
     open_ : largest constraint still open, no unit
     matrix : derivative of the constraints by the scaled unknowns, shape (n, rows, columns)
     load : rate of the constraints with the group held still, shape (n, rows)
@@ -205,6 +259,17 @@ class ClusterSolved:
             return np.asarray(np.where(self._whole, 1 / np.maximum(least, 1e-300), np.inf))
 
     @cached_property
+    def rolling_open(self) -> Array:
+        """How far what rolls may be off: what is still open, and the rounding of its turns; shape (n, relations)."""
+        system, layout = self.system, self.system._layout
+        if not len(layout.rolling_rows):
+            return np.zeros((len(self.open_), 0))
+        assert system.kept is not None
+        angles = np.concatenate((self.place[:, : layout.members, 2], self.place[:, layout.relations_end :, 2]), axis=1)
+        turned = np.abs(angles).max(axis=1, initial=1.0)[:, None] * np.abs(layout.rolled).sum(axis=1)
+        return np.asarray(self.open_[:, None] + TOLD * (np.abs(system.kept) + turned))
+
+    @cached_property
     def certificate(self) -> Array:
         """Less than 1/2 where Newton's method has converged quadratically to a position."""
         with np.errstate(all="ignore"):
@@ -219,10 +284,13 @@ def solve_cluster(
     start: Array,
     rates: bool = True,
 ) -> ClusterSolved:
-    """Solve a group by Newton's method from given places, shape (n, members, 3)."""
+    """Solve a group by Newton's method from given places, shape (n, members, 3); where something rolls with more rows,
+    see ``form_of``."""
     n = len(drive)
-    system = System(structure, group, known, drive)
-    place = np.array(np.broadcast_to(start, (n, len(group.members), 3)), dtype=float)
+    system, start = System(structure, group, known, drive), np.asarray(start)
+    start = np.broadcast_to(start, (n, *start.shape[-2:]))
+    system = system.rolling_from(start)
+    place = np.array(start[:, : len(group.members)], dtype=float)
     missed = np.full(n, np.inf)
     best = place
     for _ in range(ROUNDS):
@@ -248,7 +316,23 @@ def solve_cluster(
         second = system.scaled(solve_all(matrix, -bent))
     else:
         load = np.zeros((n, matrix.shape[1]))
-    return ClusterSolved(system, system.poses(place, rate, second), place, missed, matrix, load)
+    form = system.with_turns(place)
+    return ClusterSolved(system, system.poses(place, rate, second), form, missed, matrix, load)
+
+
+def form_of(structure: Structure, group: Cluster, poses: Mapping[str, Pose]) -> Array:
+    """From where Newton's method goes on from the scene's own position, shape (rows, 3): the places of the links; where
+    something rolls also a row for each sum that it keeps, and one for each link outside the group that rolls with it,
+    for the sake of its turns."""
+    drive = Drive(*(np.zeros((1, len(structure.drivers))),) * 3)
+    system = System(structure, group, poses, drive)
+    place = as_place(poses, group.members)[:1]
+    if not group.rolling:
+        return np.asarray(place[0])
+    all_ = system.at(place)
+    system = replace(system, near=np.angle(all_.u), kept=np.zeros((1, len(group.rolling))))
+    kept = system.constraints(all_, 0)[0][:, system._layout.rolling_rows]
+    return np.asarray(replace(system, kept=kept).with_turns(place)[0])
 
 
 def certificate(system: System, members: Mapping[str, Pose], condition: Array, missed: Array) -> Array:

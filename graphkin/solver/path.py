@@ -273,7 +273,7 @@ def follow_path(structure: Structure, forms: Mapping[int, Array], start: Array, 
         elif isinstance(element, Driven) and isinstance(element.driver, Rolled):
             path = _follow_rolled(path, i, element.driver, np.asarray(forms[i]), grid)
         elif isinstance(element, Cluster):
-            path = _follow_cluster(path, i, element, np.asarray(forms[i]))
+            path = _follow_cluster(path, i, np.asarray(forms[i]))
         if path.limit is not None:
             grid = np.append(grid[grid < path.limit], path.limit)
         grid = _refined(path, i, grid)
@@ -334,14 +334,13 @@ def _refined(path: Path, i: int, grid: Array) -> Array:
     return grid
 
 
-def _follow_cluster(path: Path, i: int, group: Cluster, place: Array) -> Path:
+def _follow_cluster(path: Path, i: int, place: Array) -> Path:
     def solved(t: float, start: Array) -> tuple[ClusterSolved, Array]:
         t_ = _off_flips(path.flips, np.array([t]))
         state = positions(path.structure, path.drive(t_), {**path.form(t_), i: start[None]}, i + 1, sure=False)
         found = state.groups[i]
         assert isinstance(found, ClusterSolved)
-        slope = [[state.poses[k].v.real[0], state.poses[k].v.imag[0], state.poses[k].omega[0]] for k in group.members]
-        return found, np.array(slope)
+        return found, found.system.slope(state.poses)
 
     steps = _steps(path.structure, np.abs(path.end - path.start))
     most = min(0.125, CLUSTER_STEP / TURN_STEP / steps)

@@ -1,6 +1,6 @@
 """Mobility and its traps, Assur groups, order of solution."""
 
-from graphkin.structure.analysis import analyse, mobility_of, regrouped
+from graphkin.structure.analysis import analyse, mobility_of, regrouped, started
 from graphkin.structure.assembly import Choice, pick
 from graphkin.structure.model import (
     Body,
@@ -12,6 +12,7 @@ from graphkin.structure.model import (
     Mobility,
     Pair,
     Rolled,
+    RollingRelation,
     Slide,
     Structure,
     Turn,
@@ -21,6 +22,7 @@ from graphkin.structure.model import (
 from graphkin.structure.part import in_stages, links_of, needed, part_of
 from graphkin.structure.replacement import named_with_contact, pins_on_circles, replaced_pairs
 from graphkin.structure.rolling import Mesh, meshes_of
+from graphkin.structure.starts import unrolled
 
 __all__ = [
     "Body",
@@ -34,6 +36,7 @@ __all__ = [
     "Mobility",
     "Pair",
     "Rolled",
+    "RollingRelation",
     "Slide",
     "Structure",
     "Turn",
@@ -51,4 +54,6 @@ __all__ = [
     "pins_on_circles",
     "regrouped",
     "replaced_pairs",
+    "started",
+    "unrolled",
 ]

@@ -15,9 +15,10 @@ from graphkin.structure.groups import components, element_of, match
 from graphkin.structure.loose_ends import loose_ends
 from graphkin.structure.model import Cluster, Driven, DrivenTriangle, Dyad, Element, Mobility, Structure
 from graphkin.structure.part import links_of
+from graphkin.structure.starts import start_drivers, unrolled
 from graphkin.structure.triangles import triangles_of
 
-__all__ = ["analyse", "mobility_of", "regrouped"]
+__all__ = ["analyse", "mobility_of", "regrouped", "started"]
 
 
 def _wrong_count(system: Constraints, mobility: Mobility) -> Problem:
@@ -126,9 +127,9 @@ def analyse(scene: Mechanism | Structure) -> Structure:
     if len(given) < len(equations):
         raise Unsolvable("mobility", _wrong_part(system, unknowns, given), *loose_ends(system))
     elements = _in_order(system, system.nodes(), unknowns, given, {scene.frame.name})
-    return _in_parts(Structure(
+    return _with_starts(_in_parts(Structure(
         scene, system.links, system.slides, system.hinges, mobility, elements, system.followers
-    ))
+    )))
 
 
 def _in_order(
@@ -177,6 +178,37 @@ def _in_parts(structure: Structure) -> Structure:
                 e = replace(e, order=2, triangles=found[e], parts=parts)
         elements.append(e)
     return replace(structure, elements=tuple(elements))
+
+
+def _with_starts(structure: Structure) -> Structure:
+    """Groups with links that roll and move each other, told where they stand at the scene's own position."""
+    groups = [e for e in structure.elements if isinstance(e, Cluster) and e.rolling]
+    if not groups:
+        return structure
+    for drivers in start_drivers(structure, groups):
+        left = list(drivers)
+        told = {g: replace(g, starts=tuple(left.pop(0) for _ in g.rolling)) for g in groups}
+        whole = replace(structure, elements=tuple(told.get(e, e) for e in structure.elements))  # type: ignore[arg-type]
+        try:
+            started(whole)
+        except Unsolvable:
+            continue
+        return whole
+    names = ", ".join(dict.fromkeys(r.name for g in groups for r in g.rolling))
+    wanted = "write the start of a link that rolls"
+    raise Unsolvable("mobility", Problem(names, "nothing tells where what rolls here stands", wanted))
+
+
+def started(structure: Structure) -> Structure:
+    """The mechanism at the scene's own position, without the rolling of groups in which links move each other by it:
+    drivers say where they stand.  Itself where there are none."""
+    groups = [e for e in structure.elements if isinstance(e, Cluster) and e.starts]
+    if not groups:
+        return structure
+    scene = structure.scene
+    names = [r.name for g in groups for r in g.rolling]
+    drivers = (*scene.drivers, *(d for g in groups for d in g.starts))
+    return analyse(replace(unrolled(scene, names), drivers=drivers))
 
 
 def regrouped(scene: Mechanism, known: Iterable[str], members: Iterable[str]) -> tuple[Element, ...] | None:

@@ -14,8 +14,19 @@ from typing import TypeVar
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, AnyDriver
 from graphkin.structure.constraints import Constraints
-from graphkin.structure.model import Body, Cluster, Driven, Dyad, Element, Pair, Turn, Weld, driver_pair
-from graphkin.structure.rolling import RollingRelation, rolled_by
+from graphkin.structure.model import (
+    Body,
+    Cluster,
+    Driven,
+    Dyad,
+    Element,
+    Pair,
+    RollingRelation,
+    Turn,
+    Weld,
+    driver_pair,
+)
+from graphkin.structure.rolling import rolled_by
 
 __all__ = ["components", "element_of", "match"]
 
@@ -121,20 +132,17 @@ def element_of(system: Constraints, members: list[str], known: set[str]) -> Elem
             raise Unsolvable("mobility", Problem(
                 f"cams.{cam.link}", f"link {cam.follower} is not moved by the cam alone",
                 f"drive cam {cam.link}; what else moves hangs on the cam or on its follower"))  # fmt: skip
-    for relation in system.relations:
-        if not _touches(system, relation, inside, known):
-            continue
-        rolled = None
+    rolling = tuple(r for r in system.relations if _touches(system, r, inside, known))
+    real = tuple(m for m in members if m in scene.by_name)
+    if rolling:
         if len(members) == 1 and len(pairs) == 1 and not drivers:
-            rolled = rolled_by(scene, relation, members[0], pairs[0])
-        if rolled is None:
-            names = ", ".join(n for n in members if n in scene.by_name)
-            found = f"links {names} and what rolls here move each other, neither is known before the other"
-            raise Unsolvable("mobility", Problem(relation.name, found, "drive a link from which the others follow"))
-        return Driven(members[0], pairs[0], rolled)
+            rolled = rolled_by(scene, rolling[0], members[0], pairs[0])
+            if rolled is not None:
+                return Driven(members[0], pairs[0], rolled)
+        order = _order(members, pairs)
+        return Cluster(tuple(members), tuple(pairs), tuple(drivers), real, order, rolling=rolling)
     if len(members) == 1 and len(pairs) == 1 and len(drivers) == 1:
         return Driven(members[0], pairs[0], drivers[0])
-    real = tuple(m for m in members if m in scene.by_name)
     bodies, loose = _bodies(system, members, drivers)
     dyad = _dyad(system, bodies, pairs, real) if not loose else None
     return dyad or Cluster(tuple(members), tuple(pairs), tuple(drivers), real, _order(members, pairs))

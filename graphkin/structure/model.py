@@ -7,7 +7,8 @@ one, 高副低代); such a block is a link named ``B/3`` like its pair, and is n
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from fractions import Fraction
 
 from graphkin.scene.cams import LawCam
 from graphkin.scene.model import AngleDriver, AnyDriver, Follower, Mechanism, PlacedGuide, PlacedLink, SlideDriver
@@ -22,6 +23,7 @@ __all__ = [
     "Mobility",
     "Pair",
     "Rolled",
+    "RollingRelation",
     "Slide",
     "Structure",
     "Turn",
@@ -86,6 +88,25 @@ class Body:
 
 Coordinate = tuple[str, str]
 """("angle", link) or ("travel", sliding pair)."""
+
+
+@dataclass(frozen=True)
+class RollingRelation:
+    """A sum of coordinates with factors that keeps its value; ``links`` are all that it is between."""
+
+    name: str
+    terms: Mapping[Coordinate, Fraction] = field(hash=False)
+    links: tuple[str, ...]
+
+    @property
+    def in_lengths(self) -> bool:
+        """Whether it holds a travel, and so its factors of angles are lengths (m)."""
+        return any(kind == "travel" for kind, _ in self.terms)
+
+    def weights(self, size: float) -> Mapping[Coordinate, float]:
+        """The factors so that the sum has no unit, lengths counted in a ``size`` (m)."""
+        whole = size if self.in_lengths else max(abs(float(f)) for f in self.terms.values())
+        return {coordinate: float(factor) / whole for coordinate, factor in self.terms.items()}
 
 
 @dataclass(frozen=True)
@@ -177,11 +198,14 @@ class DrivenTriangle:
 
 @dataclass(frozen=True)
 class Cluster:
-    """A larger group (class III and higher, or with a driver that joins no common pair): solved as a whole.
+    """A larger group (class III and higher, with a driver that joins no common pair, or with links that roll and move
+    each other): solved as a whole.
 
     ``members`` are all its links, blocks of pins included; ``pairs`` all pairs that hold them (each with at least one
-    side among the members); ``drivers`` those inside the group.  With ``triangles`` it is drawn like dyads: ``parts``
-    are the elements that it falls into where each triangle's stand-in takes the place of its driver.
+    side among the members); ``drivers`` those inside the group; ``rolling`` the relations of what rolls in it, and
+    ``starts`` as many drivers that tell where it stands at the scene's own position.  With ``triangles`` it is drawn
+    like dyads: ``parts`` are the elements that it falls into where each triangle's stand-in takes the place of its
+    driver.
     """
 
     members: tuple[str, ...]
@@ -191,6 +215,8 @@ class Cluster:
     order: int
     triangles: tuple[DrivenTriangle, ...] = ()
     parts: tuple[Driven | Dyad, ...] = ()
+    rolling: tuple[RollingRelation, ...] = ()
+    starts: tuple[AnyDriver, ...] = ()
 
     @property
     def kind(self) -> str:
@@ -238,7 +264,8 @@ class Structure:
     def rolls(self) -> bool:
         """Whether something rolls, so that the motion need not close with a turn of the driver."""
         driven = (e.driver for e in self.elements if isinstance(e, Driven))
-        return bool(self.followers) or any(isinstance(driver, Rolled) for driver in driven)
+        coupled = any(isinstance(e, Cluster) and e.rolling for e in self.elements)
+        return bool(self.followers) or coupled or any(isinstance(driver, Rolled) for driver in driven)
 
     def followed(self, values: Mapping[str, float]) -> dict[str, float]:
         """Driver values by key (rad, m), with those of what follows them."""

@@ -136,4 +136,5 @@ def _outside(element: Element) -> set[str]:
     names |= {n for d in drivers if isinstance(d, AngleDriver) for n in (d.link, d.relative_to)}
     held = () if isinstance(element, Driven | Cluster) else (w.driver for body in element.bodies for w in body.welds)
     names |= {n for d in (*drivers, *held) if isinstance(d, Follower) for n in d.through}
+    names |= {n for r in (element.rolling if isinstance(element, Cluster) else ()) for n in r.links}
     return names.difference(links_of(element))

@@ -18,17 +18,9 @@ from typing import Any
 from graphkin.scene.contacts import PlacedContact, PlacedGear
 from graphkin.scene.model import AngleDriver, AngleFollower, Follower, Mechanism, PlacedLink, SlideFollower
 from graphkin.scene.touching import rack_place
-from graphkin.structure.model import Coordinate, Pair, Rolled, Slide, Turn
+from graphkin.structure.model import Coordinate, Pair, Rolled, RollingRelation, Slide, Turn
 
-__all__ = ["Mesh", "RollingRelation", "followers_of", "meshes_of", "relations_of", "rolled_by"]
-
-@dataclass(frozen=True)
-class RollingRelation:
-    """A sum of coordinates with factors that keeps its value; ``links`` are all that it is between."""
-
-    name: str
-    terms: Mapping[Coordinate, Fraction]
-    links: tuple[str, ...]
+__all__ = ["Mesh", "drawn_angle", "followers_of", "meshes_of", "relations_of", "rolled_by"]
 
 
 @dataclass(frozen=True)
@@ -199,15 +191,15 @@ def _follower(
         return SlideFollower(name, scene.starts.get(name, 0.0), rate, second, ratios=ratios, through=through)
     start = scene.starts.get(name)
     if start is None:
-        start = _drawn_angle(scene, links[name])
+        start = drawn_angle(scene, links[name]) or 0.0
     return AngleFollower(name, scene.frame.name, start, rate, second, ratios=ratios, through=through)
 
 
-def _drawn_angle(scene: Mechanism, link: PlacedLink) -> float:
-    """The angle of a bar whose ends are given, in the frame or drawn or else sketched; 0 where they are not."""
+def drawn_angle(scene: Mechanism, link: PlacedLink) -> float | None:
+    """The angle of a bar whose ends are given, in the frame or drawn or else sketched; None where they are not."""
     given = {**scene.sketch, **scene.drawn, **scene.frame.points}
     ends = [given[p] for p in link.bar if p in given]
-    return cmath.phase(ends[1] - ends[0]) if len(ends) == 2 and ends[0] != ends[1] else 0.0
+    return cmath.phase(ends[1] - ends[0]) if len(ends) == 2 and ends[0] != ends[1] else None
 
 
 def rolled_by(scene: Mechanism, relation: RollingRelation, member: str, pair: Pair) -> Rolled | None:
