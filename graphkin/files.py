@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import IO
 
 from graphkin.errors import CallError, Problem
 
-__all__ = ["folder_alone", "path_of", "whole_file"]
+__all__ = ["Json", "folder_alone", "path_of", "whole_file"]
+
+Json = str | float | bool | None | Sequence["Json"] | Mapping[str, "Json"]
+"""What stands in a file of JSON or TOML."""
 
 _LOCK = ".graphkin-writes-here"
 

@@ -17,6 +17,7 @@ from graphkin.api.results import OfScene, Result
 from graphkin.checking.cam_points import CamPoints, compare_cam
 from graphkin.construction.cam_sheet import CamSheet, cam_sheet
 from graphkin.errors import CallError, Problem
+from graphkin.files import Json
 from graphkin.scene.cams import LawCam, SwingingFollower
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.words import Phrase, languages, say
@@ -253,7 +254,7 @@ class Cams(Result, OfScene):
             "discs": {disc.contact: self._disc(disc) for disc in self.discs},
         }
 
-    def _disc(self, disc: DiscCam) -> dict[str, Any]:
+    def _disc(self, disc: DiscCam) -> dict[str, Json]:
         """Plain data of a measured disc: lengths in the scene's unit, angles in radians."""
         metres = self.mechanism.units.metres
         return {

@@ -35,6 +35,7 @@ from graphkin.construction.centres import (
 )
 from graphkin.construction.centres.pairs import LinkPair, normal, wedge
 from graphkin.errors import CallError, Problem, as_text, did_you_mean
+from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import Structure
@@ -167,8 +168,8 @@ class Centred(Result, OfScene):
             "ok": self.ok,
         }
 
-    def _centre(self, centre: Centre) -> dict[str, Any]:
-        row: dict[str, Any] = {}
+    def _centre(self, centre: Centre) -> dict[str, Json]:
+        row: dict[str, Json] = {}
         if centre.point is not None:
             z = centre.point * self.centres.sheet.scales.length / self.mechanism.units.metres
             row["point"] = [_plain(z.real), _plain(z.imag)]
@@ -185,13 +186,13 @@ class Centred(Result, OfScene):
             row["why"] = say(centre.why, languages(self.language or self.mechanism.sheet.language)[0])
         return row
 
-    def _velocity(self, v: Velocity) -> dict[str, Any]:
+    def _velocity(self, v: Velocity) -> dict[str, Json]:
         unit = self.mechanism.units.rates.metres if v.symbol.is_vector else 1.0
         values = (
             None if x is None else abs(x) / unit if v.symbol.is_vector else float(x.real)
             for x in (v.by_centres, v.exact)
         )
-        row: dict[str, Any] = dict(zip(("by_centres", "exact"), values, strict=True))
+        row: dict[str, Json] = dict(zip(("by_centres", "exact"), values, strict=True))
         row |= {"chain": list(v.chain), "ok": v.ok}
         if v.ok and v.tolerance > 1.01 * TOLERANCE * v.largest:
             row["tolerance"] = v.tolerance / unit  # worse than everywhere else

@@ -32,7 +32,7 @@ from graphkin.checking.report import Compared, Report, compare
 from graphkin.construction import EXACT, Cad, Instrument, Plan, Sheet, execute, pencil, plan
 from graphkin.construction.sheet import DiagramName
 from graphkin.errors import CallError, Problem, Unsolvable, as_text, did_you_mean
-from graphkin.files import path_of
+from graphkin.files import Json, path_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Structure, part_of
@@ -142,9 +142,9 @@ class Checked(Result, OfScene):
         }
 
     @property
-    def _construction(self) -> dict[str, Any]:
+    def _construction(self) -> dict[str, Json]:
         """How groups larger than a dyad were drawn: one word for all of them, and each by itself."""
-        groups, forces = self.sheet.groups, {}
+        groups, forces = self.sheet.groups, dict[str, Json]()
         if self.forces is not None:
             forces = {"forces": ["drawn system" if way == "drawn system" else "moments and polygon"
                                  for way in self.forces.ways if way != "driver"]}  # fmt: skip
@@ -189,7 +189,7 @@ class Checked(Result, OfScene):
 
         return speeds(self.centres)
 
-    def _at_contact(self, row: Compared) -> dict[str, float]:
+    def _at_contact(self, row: Compared) -> dict[str, Json]:
         """A reading of the drawing at the contacts, in scene units; of pins in straight slots it is this one."""
         other = self if self.at_contacts is None and self.mechanism.pins else self.at_contacts
         rows = {} if other is None else {r.symbol: r for r in other.report.rows}

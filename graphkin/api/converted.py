@@ -123,7 +123,7 @@ def _bodies(scene: Mechanism) -> Bodies:
     """The bodies of a scene at its own position, in its length unit."""
     from graphkin import solver
 
-    data = solver.to_json(solver.solve(scene))
+    data: dict[str, Any] = solver.to_json(solver.solve(scene))
     at = data["positions"][0]
     if at["status"] != "ok":
         raise Unsolvable(at["status"], Problem(scene.title, at["why"]))

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.errors import CallError, Problem, SceneError
+from graphkin.files import Json
 from graphkin.scene import mechanism_of
 from graphkin.scene.dimensions import Dimension, dimensions
 from graphkin.scene.model import Mechanism
@@ -73,7 +74,7 @@ class DesignKeys:
         return found
 
 
-def design_keys(source: Mapping[str, Any], scene: Mechanism, keys: Sequence[str]) -> DesignKeys:
+def design_keys(source: Mapping[str, Json], scene: Mechanism, keys: Sequence[str]) -> DesignKeys:
     """Find what keys do.
 
     Parameters
@@ -101,7 +102,7 @@ def design_keys(source: Mapping[str, Any], scene: Mechanism, keys: Sequence[str]
     return made
 
 
-def _begin(source: Mapping[str, Any], key: str) -> tuple[float, float]:
+def _begin(source: Mapping[str, Json], key: str) -> tuple[float, float]:
     """A value of a key and a step from it: its own where it has one."""
     place: Any = source
     for part in key.split("."):
@@ -117,7 +118,7 @@ def _begin(source: Mapping[str, Any], key: str) -> tuple[float, float]:
     return float(place), abs(float(place)) / 8
 
 
-def _numbers(source: Mapping[str, Any], values: Mapping[str, float]) -> dict[Dimension, complex]:
+def _numbers(source: Mapping[str, Json], values: Mapping[str, float]) -> dict[Dimension, complex]:
     try:
         return dimensions(mechanism_of(applied(source, tuple(values), tuple(values.values()))))
     except SceneError as error:

@@ -17,6 +17,7 @@ from graphkin.construction import EXACT, Cad, Instrument, pencil
 from graphkin.construction.design_sheet import DesignSheet
 from graphkin.construction.synthesis import construct
 from graphkin.errors import CallError, Problem, Unsolvable, as_text, did_you_mean
+from graphkin.files import Json
 from graphkin.plane import degrees, direction
 from graphkin.scene.design_file import DesignLike, design_of
 from graphkin.scene.synthesis import (
@@ -179,7 +180,7 @@ class Designed(Result):
     @property
     def data(self) -> dict[str, Any]:
         """The object that ``graphkin design --json`` prints."""
-        made: dict[str, Any] = {
+        made: dict[str, Json] = {
             "kind": self.given.task.kind,
             "ok": self.ok,
             "units": {"length": self.given.units.length},

@@ -21,6 +21,7 @@ from graphkin.drawing.loop_words import (
     root,
 )
 from graphkin.errors import CallError, Problem
+from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.solver import Motion
 from graphkin.structure.loop_values import LoopBlock, loops_in_numbers
@@ -44,7 +45,7 @@ class LoopText:
         right side, rows are x and y of each loop in turn."""
         return [self._block(block) for block in self.blocks]
 
-    def _block(self, block: LoopBlock) -> dict[str, Any]:
+    def _block(self, block: LoopBlock) -> dict[str, Json]:
         metres, fast = self.scene.units.metres, self.scene.units.rates.metres
 
         def plain(unknown: Unknown, value: float, per: float) -> float:

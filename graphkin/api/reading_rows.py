@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from graphkin.checking.report import Compared
 from graphkin.construction.steps import phrase_of
+from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase, say
@@ -23,7 +24,7 @@ def in_scene_units(scene: Mechanism, symbol: Symbol, value: float, degrees: bool
     return value / (symbol.per_unit(units) if degrees else symbol.per_unit_of_programs(units))
 
 
-def reading_row(scene: Mechanism, row: Compared, degrees: bool = False) -> dict[str, Any]:
+def reading_row(scene: Mechanism, row: Compared, degrees: bool = False) -> dict[str, Json]:
     """One reading as in the JSON: vectors by size, others with sign; ``degrees`` for tables that people read."""
 
     def unit(value: float) -> float:
@@ -51,7 +52,7 @@ def finite(value: float) -> float | None:
     return value if math.isfinite(value) else None
 
 
-def _predicted(deviation: float | None, uncertainty: Uncertainty) -> dict[str, Any]:
+def _predicted(deviation: float | None, uncertainty: Uncertainty) -> dict[str, Json]:
     """Standard deviation of a reading in its unit, and the step that adds most to it."""
     return {
         "uncertainty": deviation,

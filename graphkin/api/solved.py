@@ -23,7 +23,7 @@ from graphkin.api.arguments import (
 )
 from graphkin.api.results import OfScene, Result
 from graphkin.errors import CallError, Problem, Unsolvable, as_list, as_text
-from graphkin.files import path_of
+from graphkin.files import Json, path_of
 from graphkin.scene.model import Mechanism, SlideDriver
 from graphkin.scene.over_time import asked_time, moments, moves_by_law
 from graphkin.scene.symbol import Symbol
@@ -172,12 +172,12 @@ class Solved(Result, OfScene):
         return (piece.encode() for piece in json_text(self.head, self.entries()))
 
 
-def _finite(value: Any) -> float | list[float] | None:
+def _finite(value: NDArray[np.float64] | NDArray[np.complex128]) -> float | list[float] | None:
     """A number or the components of a vector for JSON; None where it is not known."""
     return value.tolist() if np.isfinite(value).all() else None
 
 
-def refused(scene: SceneLike, at: At, stop: Unsolvable) -> dict[str, Any]:
+def refused(scene: SceneLike, at: At, stop: Unsolvable) -> dict[str, Json]:
     """The object of ``solve --json`` for a mechanism that is refused as a whole: its count, and why."""
     given = as_scene(scene)
     given, found = placed(given, at)

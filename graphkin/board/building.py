@@ -78,7 +78,7 @@ def draft(made: Mapping[str, Any]) -> dict[str, Any]:
     return {"points": points, "fixed": [p for p in fixed if p in points], "links": links, "guides": guides}
 
 
-def _list(value: object) -> list[Any]:
+def _list(value: object) -> list[object]:
     return list(value) if isinstance(value, list) else []
 
 

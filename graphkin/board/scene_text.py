@@ -8,6 +8,7 @@ from itertools import pairwise
 from typing import Any
 
 from graphkin.errors import CallError, Problem, SceneError
+from graphkin.files import Json
 from graphkin.scene.source import LARGEST_FILE, parsed
 
 __all__ = ["changed", "completions", "line_of", "places"]
@@ -15,7 +16,7 @@ __all__ = ["changed", "completions", "line_of", "places"]
 MOST_CHANGES = 500
 
 
-def changed(text: str, changes: Mapping[str, Any]) -> str:
+def changed(text: str, changes: Mapping[str, Json]) -> str:
     """The text with values put at keys (with dots, list items counted from 1: ``frame.points.D.1``).
 
     Parameters
@@ -101,7 +102,7 @@ def _is_inline(place: Any) -> bool:
     return isinstance(place, InlineTable)
 
 
-def _is_small(value: Mapping[str, Any]) -> bool:
+def _is_small(value: Mapping[str, Json]) -> bool:
     return len(value) <= 4 and not any(isinstance(item, Mapping) for item in value.values()) and "points" not in value
 
 

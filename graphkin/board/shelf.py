@@ -10,10 +10,9 @@ import re
 from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
-from typing import Any
 
 from graphkin.errors import CallError, GraphkinError, Problem, did_you_mean
-from graphkin.files import whole_file
+from graphkin.files import Json, whole_file
 from graphkin.scene.source import LARGEST_FILE, file_text, library, library_text
 
 __all__ = ["Shelf", "mark_of"]
@@ -63,9 +62,9 @@ class Shelf:
             return [self.only]
         return sorted(p.name for p in self.folder.glob("*.toml") if _NAME.fullmatch(p.name) and p.is_file())[:500]
 
-    def listing(self) -> list[dict[str, Any]]:
+    def listing(self) -> list[dict[str, Json]]:
         """All that can be opened: own files first, then the scenes that come along."""
-        own: list[dict[str, Any]] = [{"name": name, "own": True} for name in self.files()]
+        own: list[dict[str, Json]] = [{"name": name, "own": True} for name in self.files()]
         return own + [{"name": name, "own": False} for name in library()]
 
     def text(self, name: str) -> str:

@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from importlib import import_module
 from types import FrameType
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
@@ -80,7 +80,7 @@ def _common(
     pass
 
 
-def main(interrupted: Callable[[int, FrameType | None], Any] | None = None) -> None:
+def main(interrupted: Callable[[int, FrameType | None], object] | None = None) -> None:
     """Run the command line; problems are said on stderr, one a line, and give the exit status.
 
     A reader of the output that goes away changes nothing; a place that cannot take it is status 2, an interruption 130.
@@ -113,7 +113,7 @@ def main(interrupted: Callable[[int, FrameType | None], Any] | None = None) -> N
         sys.exit(status)
 
 
-def _run(interrupted: Callable[[int, FrameType | None], Any] | None) -> str | int | None:
+def _run(interrupted: Callable[[int, FrameType | None], object] | None) -> str | int | None:
     """The exit status of the command."""
     try:
         app = app_of(sys.argv[1:])

@@ -8,9 +8,9 @@ import math
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
-from typing import Any
 
 from graphkin.errors import CallError, Problem
+from graphkin.files import Json
 
 __all__ = ["FRAME", "Bodies", "BodyDrive", "BodySlide", "number"]
 
@@ -72,7 +72,7 @@ class Bodies:
         own += [p for p in points if p not in own]
         return made
 
-    def scene(self) -> dict[str, Any]:
+    def scene(self) -> dict[str, Json]:
         """The mapping of a scene file at this position.
 
         Raises
@@ -84,7 +84,7 @@ class Bodies:
         if not moving:
             raise CallError(Problem(self.title, "holds no moving link", "draw one link at least"))
         shift, tables = self._lines()
-        frame: dict[str, Any] = {"name": FRAME}
+        frame: dict[str, Json] = {"name": FRAME}
         frame["points"] = {p: _pair(self.places[p]) for p in self.bodies.get(FRAME, ())}
         if shift.get(FRAME):
             frame["guides"] = {
@@ -92,7 +92,7 @@ class Bodies:
                 for name, line in shift[FRAME].items()
             }
         links = {name: self._link(name, shift.get(name, {})) for name in moving}
-        pins: dict[str, Any] = {}
+        pins: dict[str, Json] = {}
         for line, ref in tables:
             if line.turns:
                 pins[line.point] = {"of": line.body, "in": ref}
@@ -102,7 +102,7 @@ class Bodies:
         joints |= {line.point for line in self.slides}
         fixed = self.bodies.get(FRAME, [])
         sketch = {p: _pair(z) for p, z in self.places.items() if p in joints and p not in fixed}
-        made: dict[str, Any] = {"title": self.title, "units": {"length": self.unit}, "frame": frame, "links": links}
+        made: dict[str, Json] = {"title": self.title, "units": {"length": self.unit}, "frame": frame, "links": links}
         if pins:
             made["pins"] = pins
         drivers = [self._driver(drive) for drive in self.drives]
@@ -182,10 +182,10 @@ class Bodies:
             return [p for p in (first,) if p], rest
         return [first, second], [p for p in rest if p != second]
 
-    def _link(self, name: str, lines: dict[str, BodySlide]) -> dict[str, Any]:
+    def _link(self, name: str, lines: dict[str, BodySlide]) -> dict[str, Json]:
         own, further = self._ordered(name)
         origin, axis = self._axis(name)
-        table: dict[str, Any] = {"points": own}
+        table: dict[str, Json] = {"points": own}
         if len(own) > 1:
             table["length"] = number(abs(self.places[own[1]] - origin))
         if further:
@@ -200,7 +200,7 @@ class Bodies:
             }
         return table
 
-    def _on(self, slide: BodySlide, ref: str, table: dict[str, Any]) -> dict[str, Any]:
+    def _on(self, slide: BodySlide, ref: str, table: dict[str, Json]) -> dict[str, Json]:
         """What a link says of a line that it slides on, beside what it says already."""
         angle = _degrees(cmath.phase(self._axis(slide.body)[1]) - slide.angle)
         before, angles = table.get("on"), table.get("angle_on", 0)
@@ -210,7 +210,7 @@ class Bodies:
             raise CallError(Problem(f"link {slide.body}", "slides on more than two others", "a scene has two at most"))
         return {"on": [before, ref], "angle_on": [angles, angle]}
 
-    def _driver(self, drive: BodyDrive) -> dict[str, Any]:
+    def _driver(self, drive: BodyDrive) -> dict[str, Json]:
         if drive.point:
             slide = next(s for s in self.slides if s.body == drive.body and s.point == drive.point)
             at = (self.places[slide.point] - slide.through) / cmath.rect(1.0, slide.angle)

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.drawing.conventions import Letters
+from graphkin.files import Json
 from graphkin.papers.lesson import plain_words
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
@@ -31,7 +32,7 @@ Array = NDArray[np.complex128]
 
 def motion_data(
     sheet: Sheet, letters: Letters, values: Mapping[str, float] | None, count: int = FRAMES
-) -> dict[str, Any]:
+) -> dict[str, Json]:
     """Everything that moves, ready for the page; empty where the driver reaches no two places.
 
     Returns
@@ -150,7 +151,7 @@ def _centres(motion: Motion, tracks: _Tracks, letters: Letters, size: float, len
 
 def _vectors(
     motion: Motion, sheet: Sheet, letters: Letters, diagram: DiagramName, tracks: _Tracks
-) -> dict[str, Any]:
+) -> dict[str, Json]:
     """Absolute vectors from the pole, relative ones between their end points."""
     scale = sheet.scales.of(diagram)
     scene = motion.scene
@@ -173,7 +174,7 @@ def _vectors(
     if diagram == "acceleration":  # components hide between two ends that are joined
         pairs = [(s.to, s.of) for s in sheet.vectors(diagram) if s.to is not None]
         vectors += [[ends[a], ends[b]] for a, b in dict.fromkeys(pairs) if a in ends and b in ends]
-    named = [[place, plain_words(f"${letters.end(diagram, ref)}$")] for ref, place in ends.items()]
+    named: list[list[Json]] = [[place, plain_words(f"${letters.end(diagram, ref)}$")] for ref, place in ends.items()]
     return {"vectors": [list(v) for v in dict.fromkeys(map(tuple, vectors))], "ends": named}
 
 

@@ -7,12 +7,12 @@ from __future__ import annotations
 import cmath
 import math
 from dataclasses import replace
-from typing import Any
 
 from graphkin.checking.uncertainty import COVERAGE
 from graphkin.construction.polygon_acts import MeasuredRate, PlanDrawn
 from graphkin.construction.sheet import Step, Vector
 from graphkin.drawing.force_stages import ForceStage, ForceStep
+from graphkin.files import Json
 from graphkin.papers.html import words_html
 from graphkin.papers.lesson import Lesson
 
@@ -21,7 +21,7 @@ __all__ = ["force_found", "found_in", "tolerances"]
 LEAST, MOST = 0.01, 0.08  # parts of a value: what is taken for right at least, and at most
 
 
-def found_in(lesson: Lesson, step: Step) -> dict[str, Any]:
+def found_in(lesson: Lesson, step: Step) -> dict[str, Json]:
     """What a step finds: ``find`` with symbol, name, size in its unit, and direction (degrees) or sense; empty for a
     step that finds nothing."""
     sheet, act = lesson.sheet, step.act
@@ -46,7 +46,7 @@ def found_in(lesson: Lesson, step: Step) -> dict[str, Any]:
     }}  # fmt: skip
 
 
-def force_found(lesson: Lesson, stage: ForceStage, step: ForceStep) -> dict[str, Any]:
+def force_found(lesson: Lesson, stage: ForceStage, step: ForceStep) -> dict[str, Json]:
     """What a step of the forces finds, where it finds one force or moment; as `found_in`."""
     if len(step.found) != 1 or lesson.forces is None:
         return {}

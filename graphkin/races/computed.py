@@ -10,7 +10,6 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from graphkin import solver
 from graphkin.races.timing import Entry, best_time
@@ -19,13 +18,13 @@ from graphkin.scene.model import AngleDriver
 from graphkin.solver import PreparedMechanism
 from graphkin.solver.assemblies import choose_forms
 from graphkin.solver.code import Code
+from graphkin.solver.pose import Array
 from graphkin.solver.program import program_of
 from graphkin.solver.quantities import formulas
 from graphkin.study.equations import Equations, Solution
 
 __all__ = ["Numeric", "closed_forms", "complex_step", "copy_time", "differences", "newton", "one_by_one"]
 
-Array = NDArray[Any]
 ITERATIONS = range(1, 7)
 STEPS = range(1, 10)
 COMING = math.radians(5.0)

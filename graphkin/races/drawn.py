@@ -5,10 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from graphkin.checking.readings import read_off
 from graphkin.construction import EXACT, Cad, Instrument, Plan, Scales, execute, pencil, plan
@@ -16,10 +14,10 @@ from graphkin.construction.centres import by_centres, find_centres, speeds
 from graphkin.races.timing import Entry, best_time
 from graphkin.races.work import ComparedPoint, Work
 from graphkin.scene.symbol import Symbol
+from graphkin.solver.pose import Array
 
 __all__ = ["SECONDS", "acts", "drawn", "instant_centres"]
 
-Array = NDArray[Any]
 EVERY = 4
 SEEDS = 3
 SCALES = (0.25, 0.5, 1.0, 2.0, 4.0)

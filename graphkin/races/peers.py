@@ -10,18 +10,17 @@ from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from graphkin.races.computed import Numeric
 from graphkin.races.timing import Entry, best_time
 from graphkin.races.work import FINE, Work
 from graphkin.scene.model import AngleDriver
+from graphkin.solver.pose import Array
 from graphkin.structure import Driven, Dyad, Slide, Turn
 from graphkin.words import Phrase
 
 __all__ = ["PEERS", "Skipped", "pylinkage", "scipy_root"]
 
-Array = NDArray[Any]
 
 
 class Skipped(Exception):

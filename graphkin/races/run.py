@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from graphkin import solver
 from graphkin.construction import plan
+from graphkin.files import Json
 from graphkin.races.computed import closed_forms, complex_step, copy_time, differences, newton, one_by_one
 from graphkin.races.drawn import acts, drawn, instant_centres
 from graphkin.races.peers import PEERS, Skipped
@@ -114,7 +115,7 @@ def race_table(race: Race) -> Table:
     return Table.of(("method", "tag", "family", *numbers), rows, ("", "", "", *(".3g" for _ in numbers)))
 
 
-def to_json(race: Race, language: str = "en") -> dict[str, Any]:
+def to_json(race: Race, language: str = "en") -> dict[str, Json]:
     """Costs in s for a position, errors in parts of the largest value, and what it was measured on."""
     return {
         "scene": race.scene.name,

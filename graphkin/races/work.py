@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from graphkin import solver
 from graphkin.errors import CallError, Problem
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver import Motion
+from graphkin.solver.pose import Array
 from graphkin.structure import Dyad, Structure
 from graphkin.study.equations import Equations, Solution
 from graphkin.study.reference import Split, reference, refined, split
@@ -23,7 +23,6 @@ if TYPE_CHECKING:
 
 __all__ = ["ComparedPoint", "Work", "compared_points", "work_of"]
 
-Array = NDArray[Any]
 PLACES = 24
 FINE = 720
 

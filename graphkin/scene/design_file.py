@@ -107,7 +107,7 @@ def _units_and_sheet(raw: Mapping[str, Any], problems: list[Problem]) -> dict[st
     return {"units": tables.units, "sheet": tables.sheet}
 
 
-def _task(raw: Any, problems: list[Problem]) -> DesignTask | None:
+def _task(raw: object, problems: list[Problem]) -> DesignTask | None:
     if raw is None:
         problems.append(Problem("design", "is missing", "a design file has a table [design] with kind and its data"))
         return None
@@ -141,7 +141,7 @@ def _task(raw: Any, problems: list[Problem]) -> DesignTask | None:
     return made(**values)
 
 
-def _value(where: str, form: str, value: Any, problems: list[Problem]) -> Any:
+def _value(where: str, form: str, value: object, problems: list[Problem]) -> Any:
     """A value in its form; a problem where it is none."""
     if form in ("length", "number", "offset"):
         return _positive(where, value, problems, zero=form == "offset")
@@ -162,7 +162,7 @@ def _value(where: str, form: str, value: Any, problems: list[Problem]) -> Any:
     return [_bar(f"{where}.{i}", one, problems) for i, one in enumerate(value, 1)]
 
 
-def _bar(where: str, value: Any, problems: list[Problem]) -> dict[str, Any]:
+def _bar(where: str, value: object, problems: list[Problem]) -> dict[str, Any]:
     """A place of a bar as it is written: B with C or angle."""
     if not isinstance(value, dict):
         problems.append(Problem(where, f"found {_shown(value)}", "write { B = [x, y], C = [x, y] }"))
@@ -216,7 +216,7 @@ def _bar_positions(values: dict[str, Any], problems: list[Problem]) -> BarPositi
     return None if problems else replace(task, A=values.get("A"), D=values.get("D"))
 
 
-def _positive(where: str, value: Any, problems: list[Problem], zero: bool = False) -> float:
+def _positive(where: str, value: object, problems: list[Problem], zero: bool = False) -> float:
     number = _finite(where, value, problems)
     if number is None:
         return 0.0
@@ -226,7 +226,7 @@ def _positive(where: str, value: Any, problems: list[Problem], zero: bool = Fals
     return number
 
 
-def _finite(where: str, value: Any, problems: list[Problem]) -> float | None:
+def _finite(where: str, value: object, problems: list[Problem]) -> float | None:
     if isinstance(value, bool) or not isinstance(value, int | float):
         problems.append(Problem(where, f"found {_shown(value)}", "a number is wanted"))
     elif not math.isfinite(value) or abs(value) > LARGEST:
@@ -236,7 +236,7 @@ def _finite(where: str, value: Any, problems: list[Problem]) -> float | None:
     return None
 
 
-def _pair(where: str, value: Any, problems: list[Problem], wanted: str) -> tuple[float, float]:
+def _pair(where: str, value: object, problems: list[Problem], wanted: str) -> tuple[float, float]:
     if not isinstance(value, list) or len(value) != 2:
         problems.append(Problem(where, f"found {_shown(value)}", wanted))
         return 0.0, 0.0
@@ -244,11 +244,11 @@ def _pair(where: str, value: Any, problems: list[Problem], wanted: str) -> tuple
     return first or 0.0, second or 0.0
 
 
-def _place(where: str, value: Any, problems: list[Problem]) -> complex:
+def _place(where: str, value: object, problems: list[Problem]) -> complex:
     return complex(*_pair(where, value, problems, "a place is [x, y]"))
 
 
-def _shown(value: Any) -> str:
+def _shown(value: object) -> str:
     from graphkin.scene.reading import shown
 
     return shown(value)

@@ -58,7 +58,7 @@ TimePieces = Annotated[list[TimePiece], Field(max_length=1000)]
 Knots = Annotated[list[Place], Field(max_length=5000)]
 
 
-def _form(value: Any) -> str | None:
+def _form(value: object) -> str | None:
     """Which of the forms of a value that may be written in several ways this is."""
     if isinstance(value, str):
         return "<name>"
@@ -69,11 +69,11 @@ def _form(value: Any) -> str | None:
     return "<number>" if isinstance(value, int | float) and not isinstance(value, bool) else None
 
 
-def _driver_form(value: Any) -> str:
+def _driver_form(value: object) -> str:
     return "<slide>" if isinstance(value, dict) and "slide" in value and "link" not in value else "<angle>"
 
 
-def _count(value: Any) -> str:
+def _count(value: object) -> str:
     return "<list>" if isinstance(value, list) else "<one>"
 
 

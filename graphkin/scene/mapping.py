@@ -190,7 +190,7 @@ def _guide_name(link: str, guide: str) -> str:
     return f"{link}.{guide}" if guide else link
 
 
-def _driver(scene: Mechanism, driver: AnyDriver, length: Any) -> dict[str, Any]:
+def _driver(scene: Mechanism, driver: AnyDriver, length: Callable[[float], float]) -> dict[str, Any]:
     if isinstance(driver, AngleDriver):
         base = {} if driver.relative_to == scene.frame.name else {"relative_to": driver.relative_to}
         angle = _tidy(math.degrees(driver.angle))
@@ -277,7 +277,7 @@ def toml_text(mapping: Mapping[str, Any]) -> str:
     return text.as_string()
 
 
-def _is_table(value: Any) -> bool:
+def _is_table(value: object) -> bool:
     return isinstance(value, Mapping) or (
         isinstance(value, list) and bool(value) and all(isinstance(v, Mapping) for v in value)
     )

@@ -40,7 +40,7 @@ def plain(source: Mapping[Any, Any] | FileTable) -> dict[str, Any]:
     """
     left = MOST_VALUES
 
-    def copy(value: Any, path: Path) -> Any:
+    def copy(value: object, path: Path) -> Any:
         nonlocal left
         left -= 1
         if len(path) > DEEPEST:
@@ -332,7 +332,7 @@ def _about_key(loc: Path) -> str:
     return did_you_mean(key, here)
 
 
-def _about_size(loc: Path, value: Any) -> tuple[str, str]:
+def _about_size(loc: Path, value: object) -> tuple[str, str]:
     if loc == ("links",):
         return "there is none", "a scene has moving links, [links.1] and so on"
     wanted = {

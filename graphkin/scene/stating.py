@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from decimal import Decimal
-from typing import Any, Literal
+from typing import Literal
 
 from graphkin.errors import Problem, did_you_mean
 from graphkin.scene.asked_tables import Positions, StrokeStart
@@ -96,7 +96,7 @@ def stated_values(file: SceneTables, names: Names, problems: list[Problem]) -> t
     return tuple(found)
 
 
-def _how(by: Any) -> Literal["drawing", "computation"]:
+def _how(by: object) -> Literal["drawing", "computation"]:
     return "computation" if by == "computation" else "drawing"
 
 

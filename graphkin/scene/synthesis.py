@@ -12,6 +12,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
+from graphkin.files import Json
 from graphkin.scene.sheet_tables import SheetWishes
 from graphkin.scene.tables import Units
 
@@ -146,15 +147,15 @@ class Design:
         return (self.title_zh or self.title) if language == "zh" else (self.title or self.title_zh)
 
 
-def scene_table(design: Design, lengths: Mapping[str, float], places: Mapping[str, complex]) -> dict[str, Any]:
+def scene_table(design: Design, lengths: Mapping[str, float], places: Mapping[str, complex]) -> dict[str, Json]:
     """The scene of a mechanism that was found, as a mapping, in the position in which its points lie at ``places``.
 
     Frame 0, crank 1, coupler or block 2, output 3 (slider, rocker, guide bar), of a guide bar rod 4 and ram 5.
     """
     task = design.task
     fixed = [name for name in ("A", "C" if isinstance(task, GuideBarTask) else "D") if name in places]
-    frame: dict[str, Any] = {"name": "0", "points": {name: _pair_of(places[name]) for name in fixed}}
-    links: dict[str, Any]
+    frame: dict[str, Json] = {"name": "0", "points": {name: _pair_of(places[name]) for name in fixed}}
+    links: dict[str, Json]
     moving = "B"
     if isinstance(task, SliderCrankTask):
         frame["guides"] = {"h": {"through": [0.0, places["C"].imag], "angle": 0.0}}
@@ -184,7 +185,7 @@ def scene_table(design: Design, lengths: Mapping[str, float], places: Mapping[st
     }  # fmt: skip
 
 
-def _bar_link(first: str, second: str, lengths: Mapping[str, float]) -> dict[str, Any]:
+def _bar_link(first: str, second: str, lengths: Mapping[str, float]) -> dict[str, Json]:
     return {"points": [first, second], "length": lengths[first + second]}
 
 

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from graphkin.errors import Unsolvable
+from graphkin.files import Json
 from graphkin.scene.cams import SwingingFollower
 from graphkin.scene.model import Mechanism, SlideDriver
 from graphkin.solver.cam_profile import contact_of
@@ -49,13 +50,13 @@ def own_slides(scene: Mechanism, slides: Sequence[Slide]) -> tuple[Slide, ...]:
     return tuple(s for s in slides if s.key not in blocks)
 
 
-def to_json(motion: Motion, forces: Forces | None = None) -> dict[str, Any]:
+def to_json(motion: Motion, forces: Forces | None = None) -> dict[str, Json]:
     """The object that ``solve --json`` prints: numbers in the scene's length unit, seconds, radians; forces, where
     there are any, in its force unit, moments in that times metre."""
     return {**head(motion), "positions": list(entries(motion, forces))}
 
 
-def json_text(first: Mapping[str, Any], positions: Iterable[Mapping[str, Any]]) -> Iterator[str]:
+def json_text(first: Mapping[str, Json], positions: Iterable[Mapping[str, Json]]) -> Iterator[str]:
     """A head and the entries of positions as one object in the text of JSON, with a line feed at its end, piece by
     piece: of a long sweep only some entries are in memory.  What would command a terminal is escaped."""
     yield _text(first)[:-1] + ', "positions": ['
@@ -71,7 +72,7 @@ def _text(data: object) -> str:
     return re.sub("[\x7f-\x9f]", lambda found: f"\\u{ord(found[0]):04x}", text)
 
 
-def head(motion: Motion) -> dict[str, Any]:
+def head(motion: Motion) -> dict[str, Json]:
     """What is said of a motion before its positions: title, units, mobility, change points passed, groups."""
     scene = motion.scene
     force = {"force": scene.units.force} if scene.loading else {}
@@ -85,14 +86,14 @@ def head(motion: Motion) -> dict[str, Any]:
     }
 
 
-def _change_point(scene: Mechanism, one: ChangePoint) -> dict[str, Any]:
+def _change_point(scene: Mechanism, one: ChangePoint) -> dict[str, Json]:
     """A change point on the way: the links whose two assemblies meet, and the drivers' values there."""
     values = zip(scene.drivers, one.values, strict=True)
     at = {d.key: v / (scene.units.metres if isinstance(d, SlideDriver) else 1.0) for d, v in values}
     return {"links": list(one.links), "driver": at}
 
 
-def entries(motion: Motion, forces: Forces | None = None) -> Iterator[dict[str, Any]]:
+def entries(motion: Motion, forces: Forces | None = None) -> Iterator[dict[str, Json]]:
     """What is said of each position, one after the other; some thousand are made at a time."""
     scene = motion.scene
     metres = scene.units.metres
@@ -112,7 +113,7 @@ def entries(motion: Motion, forces: Forces | None = None) -> Iterator[dict[str, 
         own = {key: v[some].tolist() for key, v in drivers.items()}
         touching = _touching(motion.rows(some)) if scene.contacts or scene.gears else [{}] * BLOCK
         for k, status in enumerate(motion.status[some].tolist()):
-            entry: dict[str, Any] = {"driver": {key: v[k] for key, v in own.items()}, "status": status}
+            entry: dict[str, Json] = {"driver": {key: v[k] for key, v in own.items()}, "status": status}
             if status != "ok":
                 yield {**entry, "why": motion.why[first + k]}
                 continue
@@ -121,8 +122,9 @@ def entries(motion: Motion, forces: Forces | None = None) -> Iterator[dict[str, 
             entry |= touching[k]
             entry["error_bound"] = _bounds(motion, first + k)
             if forces is not None:
-                entry |= _forces(scene, forces, first + k)
-                entry["moments"] |= flywheel
+                found = _forces(scene, forces, first + k)
+                found["moments"] |= flywheel
+                entry |= found
             yield entry
 
 
@@ -152,10 +154,10 @@ def _columns(motion: Motion, angles: Mapping[str, Array]) -> dict[str, dict[str,
     return columns
 
 
-def _touching(motion: Motion) -> list[dict[str, Any]]:
+def _touching(motion: Motion) -> list[dict[str, dict[str, Json]]]:
     """Contacts and gears of each position."""
     scene, metres = motion.scene, motion.scene.units.metres
-    found: list[dict[str, Any]] = [{} for _ in range(len(motion))]
+    found: list[dict[str, dict[str, Json]]] = [{} for _ in range(len(motion))]
     for contact in scene.contacts:
         at = contact_motion(motion, contact)
         kind = "rolling" if contact.rolling else "sliding"
@@ -173,9 +175,9 @@ def _touching(motion: Motion) -> list[dict[str, Any]]:
     return found
 
 
-def _forces(scene: Mechanism, forces: Forces, k: int) -> dict[str, Any]:
+def _forces(scene: Mechanism, forces: Forces, k: int) -> dict[str, dict[str, Json]]:
     """Forces and moments at one position; a key with + is the value with the loads that begin or end exactly here."""
-    found: dict[str, dict[str, Any]] = {"forces": {}, "moments": {}}
+    found: dict[str, dict[str, Json]] = {"forces": {}, "moments": {}}
     for part, table in (("forces", forces.forces), ("moments", forces.moments)):
         for key, values in table.items():
             here = {key: values[k]}
@@ -185,11 +187,13 @@ def _forces(scene: Mechanism, forces: Forces, k: int) -> dict[str, Any]:
                 shown = value / scene.units.newtons
                 plain = [float(shown.real) + 0.0, float(shown.imag) + 0.0]  # no minus before nought
                 found[part][name] = plain if part == "forces" else plain[0]
-    bound = {name: float(b[k]) / scene.units.newtons for name, b in zip(found, forces.bound, strict=True)}
+    bound: dict[str, Json] = {}
+    for name, b in zip(found, forces.bound, strict=True):
+        bound[name] = float(b[k]) / scene.units.newtons
     return {**found, "force_bound": bound}
 
 
-def _flywheel(motion: Motion) -> dict[str, float]:
+def _flywheel(motion: Motion) -> dict[str, Json]:
     """Excess work and inertia of the flywheel that the scene asks for, where it has one."""
     units = motion.scene.units
     if motion.scene.loading.flywheel is None or not motion.ok.any():
@@ -208,10 +212,10 @@ def _plain(values: Array) -> list[Any]:
     return values.tolist()  # type: ignore[no-any-return]
 
 
-def _bounds(motion: Motion, k: int) -> dict[str, Any]:
+def _bounds(motion: Motion, k: int) -> dict[str, Json]:
     metres, fast = motion.scene.units.metres, motion.scene.units.rates.metres
     moving, turning = motion.bound.of_point, motion.bound.of_turning
-    found: dict[str, Any] = {
+    found: dict[str, Json] = {
         name: float(b[k]) / per if np.isfinite(b[k]) else None
         for name, b, per in zip(("position", "velocity", "acceleration"), moving, (metres, fast, fast), strict=True)
     }
@@ -222,7 +226,7 @@ def _bounds(motion: Motion, k: int) -> dict[str, Any]:
     return found
 
 
-def _group(group: Dyad | Cluster, words: str) -> dict[str, Any]:
+def _group(group: Dyad | Cluster, words: str) -> dict[str, Json]:
     order = group.order if isinstance(group, Cluster) else 2
     return {"class": order, "kind": group.kind, "links": list(group.links), "assembly": words}
 

@@ -15,15 +15,14 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from graphkin.scene.model import AngleDriver
 from graphkin.solver import Motion
+from graphkin.solver.pose import Array
 from graphkin.structure import Cluster, Driven, Dyad, Pair, Slide, Structure, Turn
 
 __all__ = ["DOUBLES", "Arithmetic", "Equations", "Solution", "solve_many"]
 
-Array = NDArray[Any]
 
 
 @dataclass(frozen=True)

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from graphkin.drawing import Box, ChartPage
 from graphkin.drawing.chart import add_legend, add_panel, add_words
+from graphkin.files import Json
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.over_time import time_span
 from graphkin.solver import Motion, over_time, structure_of
@@ -158,7 +159,7 @@ class TimeStudy:
     def data(self) -> dict[str, Any]:
         """The same as plain data: scene units, radians, seconds."""
         low, high = time_span(self.scene)
-        found: dict[str, Any] = {}
+        found: dict[str, Json] = {}
         for quantity, extremes in self.extremes.items():
             ends = {"min": "least", "max": "greatest"}
             found[quantity.name] = {

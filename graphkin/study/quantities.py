@@ -4,19 +4,18 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from graphkin.scene.force_names import force_names, opposite
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import DriverRange, Motion, forces_of
+from graphkin.solver.pose import Array
 
 __all__ = ["Quantity", "force_quantity", "link_quantities", "slide_quantities", "symbol_quantity"]
 
-Array = NDArray[Any]
 Kind = Literal["theta", "omega", "alpha", "s", "v", "a", "force", "moment", "symbol"]
 Measure = Literal[
     "angle", "length", "angular rate", "speed", "angular acceleration", "acceleration", "force", "moment",

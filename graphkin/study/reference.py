@@ -9,9 +9,9 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from graphkin.errors import CallError, Problem
+from graphkin.solver.pose import Array
 from graphkin.structure import Structure
 from graphkin.study.equations import Arithmetic, Equations, Solution
 
@@ -24,7 +24,6 @@ DIGITS = 50
 STEPS = 60
 CLOSED = 1e-38
 
-Array = NDArray[Any]
 
 
 def context() -> MPContext:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 
 from graphkin.errors import Unsolvable
+from graphkin.files import Json
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.study.force_diagrams import force_extremes
 from graphkin.study.trace import Extreme, Traced
@@ -18,7 +18,7 @@ __all__ = ["row", "to_json"]
 UNBOUNDED = "it goes away without bound at an end of the motion"
 
 
-def _flywheel(turn: TurnStudy) -> dict[str, Any]:
+def _flywheel(turn: TurnStudy) -> dict[str, Json]:
     """The flywheel, where the scene asks for one, or why it has none: in the scene's units, works in force x metre."""
     units = turn.scene.units
     found = turn.flywheel
@@ -46,7 +46,7 @@ def _flywheel(turn: TurnStudy) -> dict[str, Any]:
     }
 
 
-def to_json(turn: TurnStudy) -> dict[str, Any]:
+def to_json(turn: TurnStudy) -> dict[str, Json]:
     """The object that ``sweep --json`` prints: numbers in the scene's length unit, seconds, radians.
 
     ``null`` stands where there is no value, with a ``why`` beside it.
@@ -98,7 +98,7 @@ def to_json(turn: TurnStudy) -> dict[str, Any]:
     }
 
 
-def _forces(turn: TurnStudy) -> dict[str, Any]:
+def _forces(turn: TurnStudy) -> dict[str, Json]:
     """Greatest and least of joint forces, couples and balances; nothing without masses and loads."""
     if not turn.scene.loading:
         return {}
@@ -122,17 +122,17 @@ def _driver(scene: Mechanism, value: float) -> float:
     return value if isinstance(first, AngleDriver) else value / scene.units.metres
 
 
-def _extreme(turn: TurnStudy, traced: Traced, extreme: Extreme) -> dict[str, Any]:
-    found: dict[str, Any] = {"kind": extreme.kind, "driver": _driver(turn.scene, extreme.driver)}
+def _extreme(turn: TurnStudy, traced: Traced, extreme: Extreme) -> dict[str, Json]:
+    found: dict[str, Json] = {"kind": extreme.kind, "driver": _driver(turn.scene, extreme.driver)}
     if math.isfinite(extreme.value):
         local = {"local": True} if turn.is_local(traced, extreme) else {}
         return {**found, "value": traced.quantity.in_units(turn.scene, extreme.value), **local}
     return {**found, "value": None, "why": UNBOUNDED}
 
 
-def _curve(turn: TurnStudy, traced: Traced) -> dict[str, Any]:
+def _curve(turn: TurnStudy, traced: Traced) -> dict[str, Json]:
     scene = turn.scene
-    data: dict[str, Any] = {
+    data: dict[str, Json] = {
         "unit": traced.quantity.unit(scene),
         "extremes": [_extreme(turn, traced, e) for e in traced.extremes],
         "zeros": [_driver(scene, z) for z in traced.zeros],
@@ -142,10 +142,10 @@ def _curve(turn: TurnStudy, traced: Traced) -> dict[str, Any]:
     return data
 
 
-def _output(turn: TurnStudy, output: Output) -> dict[str, Any]:
+def _output(turn: TurnStudy, output: Output) -> dict[str, Json]:
     scene, quantity = turn.scene, output.quantity
     name = quantity.of
-    data: dict[str, Any] = {
+    data: dict[str, Json] = {
         "link" if quantity.kind == "theta" else "slide": name,
         "limit_positions": [_extreme(turn, output.position, e) for e in output.position.extremes],
     }

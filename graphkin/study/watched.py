@@ -7,10 +7,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from graphkin.errors import CallError
 from graphkin.scene.force_names import force_names
@@ -30,6 +28,7 @@ from graphkin.solver import (
     value_of,
 )
 from graphkin.solver.named_positions import named_positions
+from graphkin.solver.pose import Array
 from graphkin.solver.prepared import PreparedMechanism
 from graphkin.solver.redundant import all_slides
 from graphkin.structure import Structure, in_stages
@@ -49,7 +48,6 @@ __all__ = [
     "word_column",
 ]
 
-Array = NDArray[Any]
 Parts = tuple[tuple[Array, ...], ...]
 Words = Sequence[str] | Array
 

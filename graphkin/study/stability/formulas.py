@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 import random
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from graphkin import solver
 from graphkin.plane import cross_arcs
@@ -16,6 +15,7 @@ from graphkin.scene import mechanism_of
 from graphkin.solver.assemblies import choose_forms
 from graphkin.solver.engine import positions
 from graphkin.solver.joints import Drive
+from graphkin.solver.pose import Array
 from graphkin.study.equations import Equations
 from graphkin.study.reference import reference, refined
 from graphkin.study.stability.laws import ErrorLaw, Singularity, binned, grid
@@ -26,7 +26,6 @@ if TYPE_CHECKING:
 
 __all__ = ["angle_formulas", "crossing_height", "differences"]
 
-Array = NDArray[Any]
 
 def crossing_height(mp: MPContext, samples: int = 4) -> Singularity:
     """The height of the crossing of two arcs over the line of their centres, radii nearly reaching across.

@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
+from graphkin.files import Json
 from graphkin.study.reference import context
 from graphkin.study.stability.dead_points import dead_point
 from graphkin.study.stability.drawings import drawing_scale, parallel_lines
@@ -62,10 +63,10 @@ def laws_table(found: Sequence[Singularity]) -> Table:
     return Table.of(heads, rows, ("", "", "", ".4g", ".3g", ".2f", ".3g", ".3g", ".3g"))
 
 
-def to_json(found: Sequence[Singularity], language: str = "en") -> dict[str, Any]:
+def to_json(found: Sequence[Singularity], language: str = "en") -> dict[str, Json]:
     """Slopes, theory, and where each method warns and refuses; no ``nan``."""
 
-    def law(one: ErrorLaw) -> dict[str, Any]:
+    def law(one: ErrorLaw) -> dict[str, Json]:
         return {
             "law": one.key,
             "says": word(one.key, language),
