@@ -26,7 +26,7 @@ from graphkin.construction.sheet import Bar, CompassArc, Pose, Stroke
 from graphkin.construction.steps import Act
 from graphkin.plane import cross, cross_arcs, cross_line_arc, cross_lines, direction, dot, unit
 from graphkin.scene.model import AngleDriver
-from graphkin.structure import Driven, Dyad, Rolled, Slide, Turn
+from graphkin.structure import Driven, Dyad, DyadKind, Rolled, Slide, Turn
 
 __all__ = ["Meeting", "Story", "drive", "meet"]
 
@@ -236,7 +236,7 @@ def _two_lines(
 
 
 # The one place in this room where the kinds of dyads are told apart.
-_MEETINGS: Mapping[str, Callable[[PlacedLinks, Dyad, RigidBody, RigidBody], Meeting]] = {
+_MEETINGS: Mapping[DyadKind, Callable[[PlacedLinks, Dyad, RigidBody, RigidBody], Meeting]] = {
     "RRR": _rrr,
     "RRP": _rrp,
     "RPR": _rpr,

@@ -34,8 +34,6 @@ NODES = 360
 """Positions of a turn at which the groups of a design are looked at."""
 TOGETHER = 1 << 16
 """Positions that are computed together."""
-TWO_FORMS = ("RRR", "RRP", "RPR")
-"""Dyads with two assemblies."""
 LOOP = 64
 """From so many positions of each design on its own loop of compiled code pays."""
 
@@ -176,7 +174,7 @@ class PreparedMechanisms:
         except (Unsolvable, SceneError):
             return None
         for i, element in enumerate(structure.elements):
-            if isinstance(element, Dyad) and element.kind in TWO_FORMS:
+            if isinstance(element, Dyad) and not element.is_two_lines:
                 forms[i] = own[i][0]
         along = range_from(structure, forms, own_values(scene))
         return prepare(structure, ready.wanted, ready.units, ready.bounded, along)

@@ -22,6 +22,7 @@ from typing import Any, Generic, NamedTuple
 from graphkin.plane import cross, dot
 from graphkin.solver.expressions import fmax, fmin, root, two_sum
 from graphkin.solver.pose import Number, Pose, R, V
+from graphkin.structure import DyadKind
 
 __all__ = ["DyadSolution", "Joints", "solve_dyad"]
 
@@ -64,7 +65,7 @@ class DyadSolution(NamedTuple, Generic[V, R]):
     load: V
 
 
-def solve_dyad(kind: str, joints: Joints[V, R], sign: R) -> DyadSolution[V, R]:
+def solve_dyad(kind: DyadKind, joints: Joints[V, R], sign: R) -> DyadSolution[V, R]:
     """Solve a dyad of the given kind.
 
     Parameters
@@ -259,7 +260,7 @@ def _rpp(j: Joints[V, R], sign: R) -> DyadSolution[V, R]:
     return DyadSolution(first, guide.along(t, dt, ddt).pinned(j.outer2, u2, w2, al2), sign * sine, sine, e1, e2, load)
 
 
-_SOLVERS: dict[str, Callable[[Joints[Any, Any], Any], DyadSolution[Any, Any]]] = {
+_SOLVERS: dict[DyadKind, Callable[[Joints[Any, Any], Any], DyadSolution[Any, Any]]] = {
     "RRR": _rrr,
     "RRP": _rrp,
     "RPR": _rpr,

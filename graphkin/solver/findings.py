@@ -188,7 +188,7 @@ def _dead_why(structure: Structure, i: int, values: Array, forms: Mapping[int, A
         across = abs((along.conjugate() * load).imag) / (abs(along) or 1.0)
         branch = not across > 1e-5 * abs(load)
         assert isinstance(group, Dyad)
-        if group.kind == "RPR" and abs(e2) < 1e-6 * scene.size:
+        if group.is_slider_on_bar and abs(e2) < 1e-6 * scene.size:
             outer = " and ".join(getattr(p, "point", "") for p in group.outer)
             how, branch = f"have no direction of their own: {outer} fall together", True
         else:
@@ -275,16 +275,20 @@ class _DyadWords(NamedTuple):
 
 def _dyad_words(dyad: Dyad) -> _DyadWords:
     first, inner, second = (getattr(p, "point", "") for p in (dyad.outer_first, dyad.inner, dyad.outer_second))
-    if dyad.kind == "RRR":
-        line, dead = f"{first} to {second}", f"have {first}{inner} and {inner}{second} in line"
-        return _DyadWords(f"{inner} left of {line}", f"{inner} right of {line}", dead)
-    if isinstance(dyad.outer_second, Slide) and dyad.kind == "RRP":
-        guide, dead = _guide(dyad.outer_second), f"have {first}{inner} square to the guide"
-        return _DyadWords(f"further along {guide}", f"less far along {guide}", dead)
-    if isinstance(dyad.inner, Slide) and dyad.kind == "RPR":
-        guide, dead = _guide(dyad.inner), f"have {second}{first} square to the guide"
-        return _DyadWords(f"on the positive side of {guide}", f"on the negative side of {guide}", dead)
-    return _DyadWords("the only one", "the only one", "have parallel guides")
+    guide = next((_guide(p) for p in (dyad.outer_second, dyad.inner) if isinstance(p, Slide)), "")
+    line = f"{first} to {second}"
+    return {
+        "RRR": _DyadWords(
+            f"{inner} left of {line}", f"{inner} right of {line}", f"have {first}{inner} and {inner}{second} in line"
+        ),
+        "RRP": _DyadWords(
+            f"further along {guide}", f"less far along {guide}", f"have {first}{inner} square to the guide"
+        ),
+        "RPR": _DyadWords(
+            f"on the positive side of {guide}", f"on the negative side of {guide}",
+            f"have {second}{first} square to the guide",
+        ),
+    }.get(dyad.kind, _DyadWords("the only one", "the only one", "have parallel guides"))  # fmt: skip
 
 
 def _guide(pair: Slide) -> str:

@@ -16,6 +16,7 @@ from graphkin.solver.dyads import DyadSolution, Joints
 from graphkin.solver.error_bound import ErrorBound
 from graphkin.solver.expressions import PoseFormula, Real, Vec, fmax, root
 from graphkin.solver.pose import Pose
+from graphkin.structure import DyadKind
 
 __all__ = ["FrameError", "carried", "of_dyad", "seen", "within"]
 
@@ -77,7 +78,7 @@ def carried(error: FrameError, frame: PoseFormula, way: _Way, off: _Off = (0.0, 
 
 
 def of_dyad(
-    kind: str, joints: Joints[Vec, Real], solved: DyadSolution[Vec, Real], first: FrameError, second: FrameError
+    kind: DyadKind, joints: Joints[Vec, Real], solved: DyadSolution[Vec, Real], first: FrameError, second: FrameError
 ) -> tuple[FrameError, FrameError]:
     """The errors of the two bodies of a dyad.
 
@@ -200,7 +201,7 @@ def _rpp(j: Joints[Vec, Real], s: DyadSolution[Vec, Real], first: FrameError, se
     return ends, bodies, lambda x, y: second.angle + second.angle
 
 
-_KINDS: Mapping[str, Callable[[Joints[Vec, Real], DyadSolution[Vec, Real], FrameError, FrameError], _Parts]] = {
+_KINDS: Mapping[DyadKind, Callable[[Joints[Vec, Real], DyadSolution[Vec, Real], FrameError, FrameError], _Parts]] = {
     "RRR": _rrr,
     "RRP": _rrp,
     "RPR": _rpr,

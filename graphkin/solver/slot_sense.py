@@ -71,7 +71,7 @@ def _free_guides(structure: Structure) -> list[int]:
         own = {p for name in dyad.links for p in structure.links[name].points}
         known = {p for j in range(i) for n in links_of(structure.elements[j]) for p in structure.links[n].points}
         fresh = own - known - set(scene.frame.points)
-        if dyad.kind == "RPR" and isinstance(dyad.inner, Slide) and fresh and not fresh & told and dyads[-1][0] > i:
+        if dyad.is_slider_on_bar and isinstance(dyad.inner, Slide) and fresh and not fresh & told and dyads[-1][0] > i:
             found.append(i)
     return found[:MOST]
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
 from itertools import pairwise
-from typing import TypeVar
+from typing import Literal, TypeVar
 
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, AnyDriver
@@ -19,6 +19,7 @@ from graphkin.structure.model import (
     Cluster,
     Driven,
     Dyad,
+    DyadKind,
     Element,
     Pair,
     RollingRelation,
@@ -117,7 +118,11 @@ def components(needs: Mapping[N, Sequence[N]]) -> list[tuple[N, ...]]:
     return found
 
 
-_KINDS = {"RRR": "RRR", "RRP": "RRP", "PRR": "RRP", "RPR": "RPR", "PRP": "PRP", "RPP": "RPP", "PPR": "RPP"}
+_KINDS: Mapping[str, tuple[DyadKind, Literal["as found", "the other", "as written", "what slides"]]] = {
+    "RRR": ("RRR", "as written"), "PRP": ("PRP", "as written"), "RPR": ("RPR", "what slides"),
+    "RRP": ("RRP", "as found"), "PRR": ("RRP", "the other"), "RPP": ("RPP", "as found"), "PPR": ("RPP", "the other"),
+}  # fmt: skip
+"""Of three pairs in their order the kind of dyad, and which of its bodies is called the first."""
 
 
 def element_of(system: Constraints, members: list[str], known: set[str]) -> Element:
@@ -237,21 +242,23 @@ def _dyad(system: Constraints, bodies: list[Body], pairs: list[Pair], links: tup
     if len(inner) != 1 or len(outer[0]) != 1 or len(outer[1]) != 1:
         return None
     middle, first, second = inner[0], outer[0][0], outer[1][0]
-    kind = _letter(first) + _letter(middle) + _letter(second)
-    if kind not in _KINDS:
+    known = _KINDS.get(_letter(first) + _letter(middle) + _letter(second))
+    if known is None:
         return None
+    kind, begins = known
 
     def written(pair: Pair, body: Body) -> tuple[int, int, str]:
         return system.place(("link", pair.a if pair.a in body.links else pair.b))
 
-    swap = kind in ("PRR", "PPR")
-    if kind in ("RRR", "PRP"):
-        swap = written(second, two) < written(first, one)
-    elif kind == "RPR":
-        swap = middle.a in two.links
+    swap = {
+        "as found": False,
+        "the other": True,
+        "as written": written(second, two) < written(first, one),
+        "what slides": middle.a in two.links,
+    }[begins]
     if swap:
         one, two, first, second = two, one, second, first
-    return Dyad(_KINDS[kind], one, two, middle, first, second, links)
+    return Dyad(kind, one, two, middle, first, second, links)
 
 
 def _letter(pair: Pair) -> str:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
+from typing import Literal
 
 from graphkin.scene.cams import LawCam
 from graphkin.scene.model import AngleDriver, AnyDriver, Follower, Mechanism, PlacedGuide, PlacedLink, SlideDriver
@@ -19,6 +20,7 @@ __all__ = [
     "Driven",
     "DrivenTriangle",
     "Dyad",
+    "DyadKind",
     "Element",
     "Mobility",
     "Pair",
@@ -146,6 +148,10 @@ class Driven:
     driver: AnyDriver | LawCam | Rolled
 
 
+DyadKind = Literal["RRR", "RRP", "RPR", "PRP", "RPP"]
+"""Turning (R) and sliding (P) pairs: outer, inner, outer."""
+
+
 @dataclass(frozen=True)
 class Dyad:
     """An Assur group of class II: two bodies, one pair between them, one pair from each to known links.
@@ -158,7 +164,7 @@ class Dyad:
     ``links`` are the real links of the group in the order of the file.
     """
 
-    kind: str
+    kind: DyadKind
     first: Body
     second: Body
     inner: Pair
@@ -179,6 +185,11 @@ class Dyad:
     def is_two_lines(self) -> bool:
         """Whether it is found by two straight lines that cross (PRP, RPP), and so in one way only."""
         return self.kind in ("PRP", "RPP")
+
+    @property
+    def is_slider_on_bar(self) -> bool:
+        """Whether one body slides on the other, and both turn about known points (RPR)."""
+        return self.kind == "RPR"
 
 
 @dataclass(frozen=True)

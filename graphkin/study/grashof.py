@@ -6,10 +6,11 @@ Machinery, ch. 2 and 3; 孙桓 《机械原理》, ch. 8; for the offset Hall, K
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 from graphkin.scene.model import Mechanism
-from graphkin.structure import Dyad, Pair, Slide, Structure, Turn
+from graphkin.structure import Dyad, DyadKind, Pair, Slide, Structure, Turn
 
 __all__ = ["BasicLoop", "loops"]
 
@@ -256,7 +257,7 @@ def _double_slider(structure: Structure, group: Dyad) -> BasicLoop | None:
     return None
 
 
-_FINDERS = {
+_FINDERS: Mapping[DyadKind, Callable[[Structure, Dyad], BasicLoop | None]] = {
     "RRR": _four_bar,
     "RRP": _slider_crank,
     "RPR": _inverted,

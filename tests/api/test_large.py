@@ -64,6 +64,6 @@ def test_deep_and_gigantic_texts_are_refused_in_sentences(text):
 
 
 def test_a_bound_that_says_nothing_is_null_with_a_reason():
-    bound = graphkin.solve(chain(60)).data["positions"][0]["error_bound"]
+    bound = graphkin.solve(chain(48)).data["positions"][0]["error_bound"]
     assert bound["velocity"] is None
     assert "says nothing" in bound["why"]

@@ -98,7 +98,7 @@ def test_the_bounds_of_a_shaper_are_a_few_roundings():
 
 @pytest.mark.skipif(find_spec("numba") is None, reason="the extra fast is not installed")
 def test_compiled_samples_are_those_of_numpy():
-    slow, fast = shaper(fast=False).sweep(1000), shaper(fast=True).sweep(1000)
+    slow, fast = (graphkin.prepare("shaper-scheme-2", "v_C", fast=fast).sweep(1000) for fast in (False, True))
     assert np.abs(fast.values - slow.values).max() < 2e-14 * np.abs(slow.values).max()
 
 

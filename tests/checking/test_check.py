@@ -25,8 +25,8 @@ from tests.mechanisms import KINDS, random_scene
 from tests.scenes import four_bar
 
 SIXBAR = "sixbar-guide-40deg"
-# larger groups take their time; at twelve positions like the others where all are asked for
-LARGER = 12 if EVERYTHING else 4
+# larger groups take their time
+POSITIONS, LARGER = (12, 12) if EVERYTHING else (5, 2)
 
 
 def over_its_range(name: str) -> tuple[list[float], float | None]:
@@ -34,7 +34,7 @@ def over_its_range(name: str) -> tuple[list[float], float | None]:
     whole = driver_range(mechanism_of(name))
     larger = any(isinstance(group, Cluster) for group in whole.structure.groups)
     low, high = whole.ends
-    n = LARGER if larger else 12
+    n = LARGER if larger else POSITIONS
     inside = whole.value(low + (np.arange(n) + 0.5) / n * (high - low)).tolist()
     unit = math.radians(1) if isinstance(whole.driver, AngleDriver) else whole.scene.units.metres
     ends = not whole.full and whole.limited[1]  # what rolls goes on, and only does not close

@@ -16,7 +16,7 @@ from graphkin.scene import library, library_text, mechanism_of, mechanism_of_tex
 from . import test_drawn
 from .scenes import FOUR_BAR, SIX_BAR
 
-FEW = settings(max_examples=150, deadline=None, suppress_health_check=list(HealthCheck))
+FEW = settings(max_examples=100, deadline=None, suppress_health_check=list(HealthCheck))
 KEYS = ["title", "links", "frame", "points", "length", "on", "angle_on", "at", "guides", "driver", "pins", "of", "in",
         "from", "r", "angle", "toward", "through", "side", "drawn", "sketch", "find", "printed", "1", "2", "3", "A",
         "B", "C", "<list>", "<polar>", "[key]", "omega", "link", "slide", "name", "units", "sheet", "redundant"]
@@ -55,7 +55,7 @@ def test_any_mapping_gives_a_scene_or_its_problems(source: dict[str, Any]) -> No
     scene_or_problems(source)
 
 
-@settings(FEW, max_examples=600)
+@settings(FEW, max_examples=350)
 @given(st.data())
 def test_a_scene_with_anything_put_in_place_of_an_entry_gives_a_scene_or_its_problems(data: st.DataObject) -> None:
     source = copy.deepcopy(data.draw(st.sampled_from(SEEDS)))

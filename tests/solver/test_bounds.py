@@ -14,9 +14,9 @@ from tests.bench.tally import KINDS, Tally
 
 MANY = 20 if EVERYTHING else 1
 RUNS: dict[str, Callable[[], Tally]] = {
-    "16 digits throughout": lambda: measure(MANY * 300, 7, False, each=3),
-    "as given out": lambda: measure(MANY * 300, 7, True, each=3),
-    "larger groups": lambda: measure_larger(MANY * 80, 3, each=16),
+    "16 digits throughout": lambda: measure(MANY * 180, 7, False, each=3),
+    "as given out": lambda: measure(MANY * 180, 7, True, each=3),
+    "larger groups": lambda: measure_larger(MANY * 48, 3, each=12),
 }
 
 

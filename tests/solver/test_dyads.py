@@ -57,14 +57,13 @@ def scale(found: DyadSolution) -> float:
     return 1 + max(float(np.max(np.abs(np.concatenate([p.z, p.v, p.omega, p.a, p.alpha])))) for p in poses)
 
 
-@pytest.mark.parametrize("what", ["position", "velocity", "acceleration"])
 @pytest.mark.parametrize("kind", KINDS)
 @settings(max_examples=EXAMPLES, deadline=None)
 @given(j=joints(), sign=st.sampled_from([1.0, -1.0]))
-def test_every_pair_of_a_random_dyad_stays_closed(kind: str, what: str, j: Joints, sign: float) -> None:
+def test_every_pair_of_a_random_dyad_stays_closed(kind: str, j: Joints, sign: float) -> None:
     found = solved(kind, j, sign)
     gain = scale(found) / found.sine[0] ** 2
-    assert max(gaps(kind, j, found)[what]) < 1e-14 * gain
+    assert [what for what, open_ in gaps(kind, j, found).items() if not max(open_) < 1e-14 * gain] == []
 
 
 @settings(max_examples=EXAMPLES, deadline=None)

@@ -12,7 +12,7 @@ from tests.bench.hazards import Found, look
 
 @pytest.fixture(scope="module")
 def found() -> Found:
-    return look(30_000 if EVERYTHING else 1500, 11, each=8)
+    return look(30_000 if EVERYTHING else 1000, 11, each=8)
 
 
 def test_nothing_jumps_nor_is_left_open_nor_is_not_a_number(found: Found) -> None:
@@ -25,4 +25,4 @@ def test_dead_points_are_among_them(found: Found) -> None:
 
 def test_a_jump_would_be_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(Passage, "sign", lambda self, t: np.ones_like(t))
-    assert any("jumps" in x for x in look(500, 11, each=6).wrong)
+    assert any("jumps" in x for x in look(240, 11, each=6).wrong)

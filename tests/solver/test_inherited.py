@@ -21,7 +21,7 @@ def test_the_true_error_never_exceeds_the_bound(kind: str, monkeypatch: pytest.M
         return mechanism_of(mechanisms.random_scene(int(rng.integers(10**6)), (kind, kind)))
 
     monkeypatch.setattr(accuracy, "random_scene", drawn)
-    assert accuracy.measure(1200 if EVERYTHING else 60, 3, each=4).broken == []
+    assert accuracy.measure(1200 if EVERYTHING else 36, 3, each=3).broken == []
 
 
 def _bound(scene: dict[str, Any]) -> float:

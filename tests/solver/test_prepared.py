@@ -69,7 +69,7 @@ def test_many_even_steps_are_as_exact_as_single_ones(n: int) -> None:
 
 @pytest.mark.skipif(find_spec("numba") is None, reason="the extra fast is not installed")
 def test_compiled_columns_are_those_of_numpy() -> None:
-    ready = four_bar()
+    ready = prepare(mechanism_of_text(scenes.FOUR_BAR, "four-bar"), ("C", "v_C", "omega_3"))
     slow, _ = ready.sweep(200_000)
     fast, _ = ready.sweep(200_000, fast=True)
     assert np.abs(fast - slow).max() < 2e-14 * np.abs(slow).max()

@@ -28,7 +28,7 @@ MEANINGFUL = 0.05  # an error beyond this is no answer
 
 @cache
 def singularity(kind: str) -> Singularity:
-    return run_singularities([kind], samples=2)[0]
+    return run_singularities([kind], samples=1)[0]
 
 
 LAWS = [

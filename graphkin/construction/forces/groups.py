@@ -27,7 +27,7 @@ from graphkin.construction.forces.group_figure import (
 from graphkin.construction.forces.naming import opposite
 from graphkin.construction.forces.order import BalanceForm
 from graphkin.plane import dot, unit
-from graphkin.structure import Dyad, Slide, Turn, links_of
+from graphkin.structure import Dyad, DyadKind, Slide, Turn, links_of
 
 __all__ = ["of_dyad"]
 
@@ -275,7 +275,7 @@ def _rpp(cut: CutFree, dyad: Dyad, one: CutBody, two: CutBody, figure: GroupFigu
     return tuple(figure.chain.vectors), {one.name: (*inner[0], one.outer_force(r1)), two.name: (*inner[1], on_two)}
 
 
-_KINDS: Mapping[str, Callable[[CutFree, Dyad, CutBody, CutBody, GroupFigure], _Found]] = {
+_KINDS: Mapping[DyadKind, Callable[[CutFree, Dyad, CutBody, CutBody, GroupFigure], _Found]] = {
     "RRR": _rrr,
     "RRP": _rrp,
     "RPR": _rpr,

@@ -7,7 +7,7 @@ acceleration (relative) as distance^-1, whatever the method; unless the distance
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from functools import cached_property
@@ -26,6 +26,7 @@ from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion
 from graphkin.solver.dead_points import dead_points
 from graphkin.solver.decimals import working
+from graphkin.structure import DyadKind
 from graphkin.study.equations import Equations, Solution
 from graphkin.study.reference import reference, refined
 from graphkin.study.stability.laws import ErrorLaw, Singularity, binned, grid
@@ -139,7 +140,7 @@ class DeadPointCase:
         return mp.acos((a * a + d * d - reach * reach) / (2 * a * d))
 
 
-CASES = {
+CASES: Mapping[DyadKind, DeadPointCase] = {
     "RRR": DeadPointCase("RRR", _RRR, "3", -1),
     "RRP": DeadPointCase("RRP", _RRP, "2", -1),
     "RPR": DeadPointCase("RPR", _RPR, "3", 1),
@@ -151,7 +152,7 @@ STEP = 0.02  # rad; where Newton's method comes from
 PATIENCE = 60
 
 
-def dead_point(kind: str, mp: MPContext, samples: int = 4) -> Singularity:
+def dead_point(kind: DyadKind, mp: MPContext, samples: int = 4) -> Singularity:
     """Errors of all methods beside the dead point of a dyad, "RRR", "RRP" or "RPR".
 
     Parameters
