@@ -5,6 +5,8 @@
 
 from __future__ import annotations
 
+import os
+import shutil
 import signal
 from contextlib import suppress
 from pathlib import Path
@@ -26,8 +28,41 @@ def pytest_xdist_auto_num_workers(config: pytest.Config) -> int | None:
     return None if whole else 0
 
 
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """What takes a core for half a minute begins first, so that no core waits for it in the end."""
+    items.sort(key=lambda item: item.path.name != "test_quality.py")
+
+
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
     """Files without a quick test cost seconds to import."""
     if config.option.markexpr != "quick" or collection_path.suffix != ".py":
         return None
     return "mark.quick" not in collection_path.read_text(encoding="utf-8") or None
+
+
+CHROMIUM_FLAGS = [
+    "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
+    "--disable-component-update", "--disable-sync",
+]  # fmt: skip
+
+
+def _missing(why: str) -> None:
+    if os.environ.get("GRAPHKIN_BROWSER") == "required":
+        pytest.fail(why)
+    pytest.skip(why)
+
+
+@pytest.fixture(scope="session")
+def browser():
+    """Debian's Chromium (``CHROMIUM`` names another).  Without it tests skip, unless ``GRAPHKIN_BROWSER=required``."""
+    chromium = os.environ.get("CHROMIUM") or shutil.which("chromium")
+    if not chromium:
+        _missing("Chromium is not installed (Debian: chromium); set CHROMIUM to name another place")
+    try:
+        from playwright.sync_api import sync_playwright
+    except ImportError:
+        _missing("playwright is not installed (pip install playwright)")
+    with sync_playwright() as play:
+        started = play.chromium.launch(executable_path=chromium, args=CHROMIUM_FLAGS)
+        yield started
+        started.close()

@@ -10,7 +10,6 @@ import pytest
 import graphkin
 from graphkin.scene.source import library_text
 from tests.board.served import served
-from tests.papers.test_browser import browser  # noqa: F401
 
 pytest.importorskip("uvicorn", reason="the extra live is not installed")
 
@@ -24,7 +23,7 @@ def url(tmp_path_factory):
 
 
 @pytest.fixture
-def page(browser, url):  # noqa: F811
+def page(browser, url):
     context = browser.new_context(viewport={"width": 1400, "height": 1000})
     tab = context.new_page()
     tab.said, tab.asked = [], []

@@ -20,8 +20,8 @@ def seeds(first: int, count: int) -> range:
 
 @pytest.mark.parametrize(
     ("command", "seed"),
-    [("check", s) for s in seeds(1000, 36)]
-    + [("centres", s) for s in seeds(2000, 24)]
+    [("check", s) for s in seeds(1000, 24)]
+    + [("centres", s) for s in seeds(2000, 14)]
     + [("cad", s) for s in seeds(3000, 2)]
     + [("audit", s) for s in seeds(4000, 2)]
     + [("draw", s) for s in seeds(5000, 2)],

@@ -17,7 +17,7 @@ from graphkin.scene.symbol import Symbol
 from tests import EVERYTHING
 
 SIXBAR = "sixbar-guide-40deg"
-SEEDS = 40 if EVERYTHING else 14
+SEEDS = 40 if EVERYTHING else 20
 
 def _series(what, tools):
     """Errors of every reading over a series of seeds (SI)."""

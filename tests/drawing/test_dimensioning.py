@@ -6,6 +6,7 @@ from graphkin import draw
 from graphkin.drawing import Text
 from graphkin.drawing.primitives import Group, walk
 from graphkin.scene import library
+from tests.drawn import drafted, drawn
 
 SCENE = {
     "units": {"length": "mm"},
@@ -31,11 +32,10 @@ def test_fixed_points_are_dimensioned_from_the_pivot_of_the_driver():
 # eight-bars are too crowded for some of theirs
 @pytest.mark.parametrize("name", sorted({*library()} - {"double-butterfly", "single-flier"}))
 def test_every_bar_has_its_length(name):
-    drawn = draw(name, figures=["mechanism"])
-    sheet = drawn.checked.sheet
+    sheet, _ = drafted(name)
     scene = sheet.scene.instead_of or sheet.scene  # bars in place of a cam have no length of their own
     lengths = {f"{link.length / scene.units.metres:.5g}" for link in scene.links if link.length and not link.redundant}
-    assert lengths - set(words(drawn.figures["mechanism"])) == set()
+    assert lengths - set(words(drawn(name)["mechanism"])) == set()
 
 
 def test_the_angle_of_the_crank_is_dimensioned():

@@ -8,31 +8,20 @@ import math
 import re
 import xml.etree.ElementTree as ET
 from dataclasses import replace
-from functools import cache, lru_cache
+from functools import lru_cache
 
 import pytest
 
-from graphkin.construction import Sheet, draft
+from graphkin.construction import draft
 from graphkin.drawing import Box, Drawing, Text, figures, sheet_room, svg_bytes
 from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.primitives import walk
 from graphkin.scene import library, mechanism_of
 from graphkin.scene.sheet_tables import PAPERS
+from tests.drawn import drafted, drawn
 
 SVG = "{http://www.w3.org/2000/svg}"
 GUIDE = "sixbar-guide-40deg"
-
-
-@cache
-def drafted(name: str) -> tuple[Sheet, Sheet]:
-    scene = mechanism_of(name)
-    return draft(scene), draft(scene, room=sheet_room(scene))
-
-
-@cache
-def drawn(name: str, language: str, convention: str) -> dict[str, Drawing]:
-    own, on_sheet = drafted(name)
-    return figures(own, on_sheet, None, language, convention)
 
 
 @lru_cache(maxsize=64)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
+from functools import cache
 
 import pytest
 import shapely
@@ -10,6 +11,7 @@ import shapely
 from graphkin import draw
 
 SVG = "{http://www.w3.org/2000/svg}"
+drawn = cache(draw)
 
 
 def line(element: ET.Element) -> shapely.LineString:
@@ -19,7 +21,7 @@ def line(element: ET.Element) -> shapely.LineString:
 
 def read(scene: str, figure: str) -> tuple[list[shapely.LineString], list[shapely.LineString], list[shapely.Polygon]]:
     """Leaders, lines of vectors, and joints of a finished figure."""
-    root = ET.fromstring(draw(scene).figures[figure].content("svg"))
+    root = ET.fromstring(drawn(scene).figures[figure].content("svg"))
     groups = list(root.iter(f"{SVG}g"))
     labels = next(group for group in groups if group.get("id") == "labels")
     vectors = [line(group[0]) for group in groups if "vector" in (group.get("class") or "").split()]

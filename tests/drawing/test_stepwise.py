@@ -1,24 +1,17 @@
 from __future__ import annotations
 
-from functools import cache
-
 import pytest
 
-from graphkin.construction import draft
 from graphkin.drawing.conventions import letters_of
 from graphkin.drawing.primitives import Group, Text, walk
 from graphkin.drawing.stepwise import births, so_far, step_of, stepped
 from graphkin.papers.pictures import parts
-from graphkin.scene import library, mechanism_of
-
-
-@cache
-def _drafted(name):
-    return draft(mechanism_of(name))
+from graphkin.scene import library
+from tests.drawn import drafted
 
 
 def _layers(name, diagram):
-    sheet = _drafted(name)
+    sheet, _ = drafted(name)
     return sheet, parts(sheet, diagram, letters_of(sheet, "chinese"), "en")
 
 

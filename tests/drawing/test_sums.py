@@ -6,16 +6,16 @@ import re
 
 import pytest
 
-from graphkin.construction import draft
 from graphkin.construction.polygon_acts import LaidOff, MeasuredRate
 from graphkin.drawing.conventions import letters_of
 from graphkin.drawing.sums import lengths_measured, rate_sum, rule_sum
 from graphkin.drawing.written_lines import written_lines
-from graphkin.scene import library, mechanism_of
+from graphkin.scene import library
+from tests.drawn import drafted
 
 
 def drawn(name):
-    sheet = draft(mechanism_of(name))
+    sheet, _ = drafted(name)
     return sheet, letters_of(sheet, "chinese")
 
 

@@ -5,38 +5,11 @@ Without it these tests skip, unless ``GRAPHKIN_BROWSER=required``.
 
 from __future__ import annotations
 
-import os
 import shutil
 import subprocess
 from itertools import pairwise
 
 import pytest
-
-FLAGS = [
-    "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
-    "--disable-component-update", "--disable-sync",
-]  # fmt: skip
-
-
-def _missing(why: str) -> None:
-    if os.environ.get("GRAPHKIN_BROWSER") == "required":
-        pytest.fail(why)
-    pytest.skip(why)
-
-
-@pytest.fixture(scope="module")
-def browser():
-    chromium = os.environ.get("CHROMIUM") or shutil.which("chromium")
-    if not chromium:
-        _missing("Chromium is not installed (Debian: chromium); set CHROMIUM to name another place")
-    try:
-        from playwright.sync_api import sync_playwright
-    except ImportError:
-        _missing("playwright is not installed (pip install playwright)")
-    with sync_playwright() as play:
-        started = play.chromium.launch(executable_path=chromium, args=FLAGS)
-        yield started
-        started.close()
 
 
 @pytest.fixture(scope="module")

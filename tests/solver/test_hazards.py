@@ -25,4 +25,4 @@ def test_dead_points_are_among_them(found: Found) -> None:
 
 def test_a_jump_would_be_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(Passage, "sign", lambda self, t: np.ones_like(t))
-    assert any("jumps" in x for x in look(240, 11, each=6).wrong)
+    assert any("jumps" in x for x in look(500, 11, each=6).wrong)

@@ -53,8 +53,10 @@ def test_pins_of_cranks_and_sliders_are_no_coupler_points() -> None:
     assert coupler_points(mechanism_of("slider-crank-s50-e16-K1.2")) == ()
 
 
-@pytest.mark.parametrize("name", ["sixbar-AE70", "four-bar-coupler-point", "elliptic-trammel", "swinging-block"])
-@pytest.mark.parametrize("language", ["en", "zh"])
+@pytest.mark.parametrize(
+    ("name", "language"),
+    [("sixbar-AE70", "en"), ("four-bar-coupler-point", "zh"), ("elliptic-trammel", "en"), ("swinging-block", "zh")],
+)
 def test_nothing_runs_off_the_page_of_a_coupler_curve(name: str, language: str) -> None:
     curves = [page for page in pages(name, language, positions=2).values() if isinstance(page, Drawing)]
     assert curves
@@ -69,8 +71,10 @@ def test_nothing_runs_off_the_page_of_a_coupler_curve(name: str, language: str) 
                 assert paper.holds(Box.around(thing.points))
 
 
-@pytest.mark.parametrize("name", ["sixbar-guide-40deg", "sixbar-AE70", "hydraulic-cylinder", "shaper-scheme-2"])
-@pytest.mark.parametrize("language", ["en", "zh"])
+@pytest.mark.parametrize(
+    ("name", "language"),
+    [("sixbar-guide-40deg", "en"), ("sixbar-AE70", "zh"), ("hydraulic-cylinder", "en"), ("shaper-scheme-2", "zh")],
+)
 def test_no_two_words_of_a_motion_diagram_overlap_and_none_runs_off_the_page(name: str, language: str) -> None:
     charts = [page for page in pages(name, language, positions=2).values() if isinstance(page, ChartPage)]
     assert charts

@@ -174,7 +174,7 @@ def test_extremes_of_acceleration_are_found_off_the_grid() -> None:
 def test_no_value_of_a_fine_grid_exceeds_the_extremes(name: str) -> None:
     turn = study_turn(driver_range(mechanism_of(name)), everything=False)
     low, high = turn.reach.ends
-    motion = turn.reach.motion(np.linspace(low, high, 401)[1:-1])
+    motion = turn.reach.motion(np.linspace(low, high, 181)[1:-1])
     for output in turn.outputs:
         if output.low is None or output.high is None:
             continue

@@ -5,6 +5,7 @@ from __future__ import annotations
 import cmath
 import json
 import math
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -14,11 +15,12 @@ from graphkin.scene import mechanism_of
 from graphkin.scene.symbol import Symbol
 
 CASES = json.loads((Path(__file__).parent / "truth_centres.json").read_text())["cases"]
+mechanism = cache(mechanism_of)
 PLACES = [(name, at) for name, rows in CASES.items() for at in rows]
 
 
 def centres_at(name: str, degrees: float) -> Centres:
-    scene = mechanism_of(name)
+    scene = mechanism(name)
     return find_centres(scene, {scene.drivers[0].key: math.radians(degrees)})
 
 

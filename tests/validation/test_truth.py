@@ -5,18 +5,21 @@ from __future__ import annotations
 import cmath
 import json
 import math
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 import graphkin
-from graphkin.scene import mechanism_of
 
 CASES = json.loads((Path(__file__).parent / "truth.json").read_text())["cases"]
 PLACES = [(name, k) for name, case in CASES.items() for k in range(len(case["positions"]))]
 CLOSE = 1e-10  # of the largest value of its kind
 TINY = 1e-10  # in the scene's units, where all values are zero
+
+
+scene = cache(graphkin.read)
 
 
 def named(name: str, k: int) -> str:
@@ -35,7 +38,7 @@ def kinds(row: dict[str, Any], kind: str) -> dict[str, complex]:
 
 def found(name: str, position: dict[str, Any], kind: str, key: str, what: str) -> complex:
     """The same in graphkin's data, a point as the links that it joins carry it (not the guide under its block)."""
-    row = position[kind][key if kind != "points" else f"{key}@{mechanism_of(name).holders[key][0]}"]
+    row = position[kind][key if kind != "points" else f"{key}@{scene(name).mechanism.holders[key][0]}"]
     value = row[what]
     return cmath.exp(1j * value) if what == "angle" else complex(*value) if isinstance(value, list) else value
 
@@ -43,7 +46,7 @@ def found(name: str, position: dict[str, Any], kind: str, key: str, what: str) -
 @pytest.mark.parametrize(("name", "k"), PLACES, ids=[named(*place) for place in PLACES])
 def test_everything_moves_as_in_the_reference(name: str, k: int) -> None:
     true = CASES[name]["positions"][k]
-    position = graphkin.solve(name, at=float(true["driver_deg"])).data["positions"][0]
+    position = graphkin.solve(scene(name), at=float(true["driver_deg"])).data["positions"][0]
     for kind in ("links", "points", "slides"):
         pairs: dict[str, list[tuple[complex, complex]]] = {}
         for key, row in true[kind].items():
