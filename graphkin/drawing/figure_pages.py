@@ -29,7 +29,7 @@ from graphkin.drawing.polygon_on_page import extent
 from graphkin.drawing.primitives import Primitive, Run, Text
 from graphkin.drawing.sheet import sheet_page
 from graphkin.drawing.text import fitted, rich, wrapped
-from graphkin.words import languages, word
+from graphkin.words import languages
 
 __all__ = ["acceleration_figure", "figures", "mechanism_figure", "velocity_figure"]
 
@@ -98,8 +98,8 @@ def _figure(sheet: Sheet, diagram: DiagramName, language: str | None, convention
     words.append(Text(complex(MARGIN, height - 6.0), fitted(told, 3.5, width - 2 * MARGIN - BAR)))
     words += check_bar(complex(width - MARGIN - 50.0, height - 6.0), rich(term("check bar", spoken), 2.5))
     if diagram != "mechanism":
-        steps = " / ".join(word("step number", each) for each in languages(spoken))
-        words.append(Text(complex(MARGIN, height - 2.2), fitted(steps, 2.4, width - 2 * MARGIN)))
+        steps = fitted(term("step number", spoken), 2.4, width - 2 * MARGIN)
+        words.append(Text(complex(MARGIN, height - 2.2), steps))
     page = joined((piece, Piece({"labels": tuple(words)})))
     return Drawing(
         width,

@@ -7,8 +7,9 @@ from __future__ import annotations
 import cmath
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from functools import reduce
 
 from graphkin.construction.remarks import ZeroVector
 from graphkin.construction.sheet import DiagramName, Sheet
@@ -23,8 +24,8 @@ from graphkin.words import Phrase, languages, say, word
 from graphkin.words.written import amount, on_paper, product
 
 __all__ = [
-    "FIGURE_WORDS", "describe", "dimensions_in", "drivers", "facts", "figure_title", "number", "punctuation", "remarks",
-    "spoken_ref", "spoken_vector", "term", "titles", "written",
+    "FIGURE_WORDS", "describe", "dimensions_in", "drivers", "facts", "figure_title", "number", "once", "punctuation",
+    "remarks", "spoken_ref", "spoken_vector", "term", "titles", "written",
 ]  # fmt: skip
 
 FIGURE_WORDS: Mapping[DiagramName, str] = {
@@ -36,7 +37,41 @@ FIGURE_WORDS: Mapping[DiagramName, str] = {
 
 def term(key: str, language: str, otherwise: str | None = None) -> str:
     """A word in a language; both beside each other for "both".  ``otherwise`` stands for one that no table has."""
-    return " ".join(dict.fromkeys(word(key, each, otherwise) for each in languages(language)))
+    return once(word(key, each, otherwise) for each in languages(language))
+
+
+# A symbol, a number, or a sign.
+_SIGN = re.compile(r"\$[^$]*\$|\{\d+\}|\d[\d.]*(?: mm)?|.", re.DOTALL)
+_BETWEEN = " ,;:，；：、"
+
+
+def once(said: Iterable[str]) -> str:
+    """The same in several languages as one line: symbols and numbers with which all begin or end stand there once.
+
+    >>> once(("Detail 5 : 1", "局部放大图 5 : 1")), once(("(9): the step", "(9)：序号")), once(("mechanism", "机构"))
+    ('Detail 局部放大图 5 : 1', '(9): the step 序号', 'mechanism 机构')
+    """
+    return reduce(_once, dict.fromkeys(said))
+
+
+def _once(one: str, other: str) -> str:
+    ours, theirs = _SIGN.findall(one), _SIGN.findall(other)
+    first = _alike(ours, theirs)
+    head, ours, theirs = "".join(ours[:first]), ours[first:], theirs[first:]
+    last = _alike(ours[::-1], theirs[::-1])
+    tail = "".join(ours[len(ours) - last :])
+    own = "".join(ours[: len(ours) - last]).rstrip(_BETWEEN if tail else "")
+    added = "".join(theirs[: len(theirs) - last]).strip(_BETWEEN)
+    return " ".join(filter(None, (head + own, added, tail)))
+
+
+def _alike(ours: Sequence[str], theirs: Sequence[str]) -> int:
+    """How many signs are the same from the start, up to the last symbol, number or bracket among them."""
+    pairs = enumerate(zip(ours, theirs, strict=False))
+    count = next((i for i, (a, b) in pairs if a != b), min(len(ours), len(theirs)))
+    while count and not (ours[count - 1][0] in "${})" or ours[count - 1][0].isdigit()):
+        count -= 1
+    return count
 
 
 def punctuation(key: str, language: str) -> str:

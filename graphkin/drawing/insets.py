@@ -11,6 +11,7 @@ from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.coriolis import CoriolisTerm, coriolis_inset, coriolis_terms
+from graphkin.drawing.free_room import free_boxes
 from graphkin.drawing.headings import term
 from graphkin.drawing.labels import Label
 from graphkin.drawing.obstacles import Obstacles, obstacles_of
@@ -25,13 +26,11 @@ from graphkin.drawing.strokes import colour_of_vector
 from graphkin.drawing.symbols import COMPONENT, RESULTANT, arrow
 from graphkin.drawing.text import fitted, symbol
 
-__all__ = ["INSET", "coriolis_row", "free_boxes", "per_row", "polygon_with_insets", "strip_height"]
+__all__ = ["INSET", "coriolis_row", "per_row", "polygon_with_insets", "strip_height"]
 
 INSET = (32.0, 26.0)  # mm
 GUTTER = 2.0
 MOST_DETAILS = 3
-STEP = 6.0  # mm from one place tried to the next along the edge of the panel
-CLEAR = 2.0  # mm between an inset and what is drawn
 
 
 def polygon_with_insets(
@@ -67,7 +66,8 @@ def polygon_with_insets(
         pieces.append(with_labels(*_detail_inset(here, one, box, number, _points_in(own, here, one))))
     figure = with_labels(own, panel, boxes)
     around = obstacles_of(figure.drawn) + Obstacles(areas=tuple(boxes))
-    arrows = [(step, here.drawn(vector)) for step, vector in here.in_order()]
+    keyed = {one.step for one in figure.layers["labels"] if isinstance(one, Text) and one.step is not None}
+    arrows = [(step, here.drawn(vector)) for step, vector in here.in_order() if step not in keyed]
     numbers = Piece({"labels": step_numbers(arrows, panel, around)})
     return joined((figure, numbers, *pieces)), senses[len(shown) :]
 
@@ -112,35 +112,6 @@ def strip_height(sheet: Sheet, diagram: DiagramName, width: float) -> float:
 
 def _coriolis(sheet: Sheet, diagram: DiagramName) -> list[CoriolisTerm]:
     return coriolis_terms(sheet) if diagram == "acceleration" else []
-
-
-def free_boxes(
-    count: int, size: tuple[float, float], panel: Box, obstacles: Obstacles, taken: Sequence[Box] = ()
-) -> list[Box]:
-    """Up to ``count`` boxes of a size (mm) along the edges of a panel that hold nothing, those in corners first."""
-    found: list[Box] = []
-    for box in _places(size, panel):
-        if len(found) == count:
-            break
-        wide = box.grown(CLEAR)
-        if any(wide.overlaps(other) for other in (*taken, *found, *obstacles.areas)):
-            continue
-        if any(wide.clip(*segment) for segment in (*obstacles.solid, *obstacles.dashed)):
-            continue
-        found.append(box)
-    return found
-
-
-def _places(size: tuple[float, float], panel: Box) -> list[Box]:
-    width, height = size
-    right, low = panel.right - width, panel.bottom - height
-    if right < panel.left or low < panel.top:
-        return []
-    xs = [panel.left + i * STEP for i in range(int((right - panel.left) / STEP) + 1)] + [right]
-    ys = [panel.top + i * STEP for i in range(int((low - panel.top) / STEP) + 1)] + [low]
-    corners = [(x, y) for y in (low, panel.top) for x in (right, panel.left)]
-    edges = [(x, y) for y in (low, panel.top) for x in xs] + [(x, y) for x in (right, panel.left) for y in ys]
-    return [Box(x, y, x + width, y + height) for x, y in (*corners, *edges)]
 
 
 def _detail_inset(

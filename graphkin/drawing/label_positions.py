@@ -363,7 +363,8 @@ class LabelPanel:
         other = a.real + 1j * b.imag, b.real + 1j * a.imag
         foot = feet[which[areas]]
         own = (a.real <= foot.real) & (foot.real <= b.real) & (a.imag <= foot.imag) & (foot.imag <= b.imag)
-        over[areas] = ~own * (over[areas] + crosses(start[areas], to[areas], *other))
+        written = weights[what[areas]] >= FORBIDDEN  # a foot under writing is no place for it
+        over[areas] = np.where(own, written, over[areas] + crosses(start[areas], to[areas], *other))
         return np.bincount(which, over * weights[what], minlength=count)
 
 

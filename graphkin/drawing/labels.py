@@ -40,7 +40,7 @@ _STAGES = (0, 2, 5, len(RINGS))
 _WORTH = (12, 5, 4, 3, 2, 1)
 _DRIVES = 4  # how often labels may drive out others, for each label
 _SPACE = 0.9  # between two labels, mm
-_TRIED = 8  # places tried to get round a vector
+_TRIED = 40  # places tried to get round a vector
 _NOTHING = Obstacles()
 
 
@@ -55,25 +55,29 @@ class Label:
     toward : directions (rad, counter-clockwise) from a point in the order of liking; for a segment the side whose
         normal is nearest to the first of them is liked
     rank : one of rank 0 must stand, others are given up where there is no room, the highest rank first
+    key : what may stand in its place in a crowd, the text being listed elsewhere
     """
 
     text: Text
     mark: Mark
     toward: tuple[float, ...] = ()
     rank: int = 0
+    key: Text | None = None
 
 
 @dataclass(frozen=True)
 class Placed:
     """A label at its place: the text, its box, and the leader that ties it to its mark where it needs one.
 
-    ``clear`` is False where no place without a fault was found.
+    ``clear`` is False where no place without a fault was found, ``tangled`` says that the leader crosses a vector, a
+    link, a joint or an arrowhead.
     """
 
     text: Text
     box: Box
     leader: Line | None = None
     clear: bool = True
+    tangled: bool = False
 
 
 def place(
@@ -99,16 +103,16 @@ def place(
     placement = _Placement([label.rank for label in labels], LabelPanel(panel, obstacles, marks, requests))
     placement.settle()
     return tuple(
-        _placed(text, box, placement.standing[i], placement.clear[i])
+        _placed(text, box, placement.standing[i], placement.clear[i], placement.tangled(i))
         for i, (text, box) in enumerate(zip(texts, boxes, strict=True))
         if i in placement.standing
     )
 
 
-def _placed(text: Text, box: Box, position: LabelPosition, clear: bool) -> Placed:
+def _placed(text: Text, box: Box, position: LabelPosition, clear: bool, tangled: bool) -> Placed:
     leader = None if position.leader is None else Line(*position.leader, strokes.LEADER)
     at = complex(position.left - box.left, position.top - box.top)
-    return Placed(_moved(text, at), position.box, leader, clear)
+    return Placed(_moved(text, at), position.box, leader, clear, tangled)
 
 
 def _moved(text: Text, at: complex) -> Text:
@@ -223,8 +227,7 @@ class _Placement:
 
     def _untangle(self) -> None:
         """Find places for labels whose leaders cross vectors or joints, if need be by moving those in their way."""
-        tangled = [i for i, place in self.standing.items() if place.cost > TANGLED and self.clear[i]]
-        tangled = [i for i in tangled if self.panel.tangled(self.standing[i])]
+        tangled = [i for i in self.standing if self.clear[i] and self.tangled(i)]
         if not tangled:
             return
         tangled.sort(key=lambda i: (-self.standing[i].cost, i))
@@ -232,6 +235,11 @@ class _Placement:
             self.found[i] = self.found[i].joined(positions)
         for i in tangled:
             self._make_room(i)
+
+    def tangled(self, i: int) -> bool:
+        """Whether the leader of a label crosses what leaders are to go round."""
+        position = self.standing[i]
+        return position.cost > TANGLED and self.panel.tangled(position)
 
     def _make_room(self, i: int) -> None:
         """Move a label, and one in its way, to where they cost less together."""

@@ -6,8 +6,8 @@ from graphkin.construction.sheet import EXACT_NAME, Scales, Sheet
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
+from graphkin.drawing.free_room import free_boxes
 from graphkin.drawing.headings import term
-from graphkin.drawing.insets import free_boxes
 from graphkin.drawing.mechanism import bare_mechanism
 from graphkin.drawing.mechanism_on_paper import page
 from graphkin.drawing.obstacles import obstacles_of

@@ -8,7 +8,8 @@ from dataclasses import dataclass, field, replace
 
 from graphkin.drawing.box import Box
 from graphkin.drawing.font_widths import text_box
-from graphkin.drawing.labels import Label, Mark, place
+from graphkin.drawing.labels import Label, Mark
+from graphkin.drawing.listed_names import named
 from graphkin.drawing.obstacles import Obstacles, obstacles_of
 from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Scan, Text, walk
 
@@ -65,9 +66,7 @@ def with_labels(piece: Piece, panel: Box, fences: Sequence[Box] = ()) -> Piece:
     """
     labels = [label for label in piece.labels if label.rank < _most(len(piece.labels))]
     obstacles = obstacles_of(piece.drawn) + Obstacles(areas=tuple(fences), writing=tuple(fences))
-    written: list[Primitive] = []
-    for one in place(labels, panel, obstacles, piece.marks):
-        written += (one.text,) if one.leader is None else (one.leader, one.text)
+    written = named(labels, panel, obstacles, piece.marks)
     return Piece({**piece.layers, "labels": (*piece.layers.get("labels", ()), *written)}, (), piece.marks)
 
 
@@ -125,7 +124,7 @@ def _reach(thing: Primitive) -> Box | None:
 
 def moved_piece(piece: Piece, by: complex) -> Piece:
     """The same piece elsewhere on the page."""
-    labels = tuple(Label(one.text, _moved_mark(one.mark, by), one.toward, one.rank) for one in piece.labels)
+    labels = tuple(Label(one.text, _moved_mark(one.mark, by), one.toward, one.rank, one.key) for one in piece.labels)
     layers = {layer: moved(things, by) for layer, things in piece.layers.items()}
     return Piece(layers, labels, tuple(_moved_mark(mark, by) for mark in piece.marks))
 

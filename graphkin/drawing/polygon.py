@@ -18,6 +18,7 @@ from graphkin.drawing.piece import Piece, joined
 from graphkin.drawing.polygon_on_page import SAME, PolygonOnPage, same_place
 from graphkin.drawing.polygon_points import points
 from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Primitive, Segment, Text
+from graphkin.drawing.step_numbers import step_number
 from graphkin.drawing.strokes import colour_of_link, colour_of_vector
 from graphkin.drawing.symbols import COMPONENT, POINTER, RESULTANT, arrowhead, vector_group
 from graphkin.drawing.text import symbol
@@ -111,7 +112,7 @@ def _rays(here: PolygonOnPage) -> Iterator[Piece]:
                     named.add(key)
                     id = f"label-direction-{step.number:02d}"
                     text = Text(0j, symbol(markup, 3.0), "start", strokes.GREY, id, ("label", "direction"))
-                    names.append(Label(text, free, rank=4))
+                    names.append(Label(text, free, rank=4, key=step_number(step.number)))
             lines = (Line(*whole, strokes.DIRECTION),) if whole is not None else ()
             yield Piece({"construction": (Group(lines, classes=("direction",), step=step.number),)}, tuple(names))
 
@@ -188,4 +189,5 @@ def _name(here: PolygonOnPage, length: float, vectors: Sequence[Vector]) -> Labe
         return Label(text, here.at(first.tip), rank=3)
     resultants = all(v.role == "resultant" for v in vectors)
     text = Text(0j, symbol(markup), "start", colour_of_vector(here.sheet, first.symbol), id, ("label",))
-    return Label(text, here.drawn(first), rank=2 if resultants and not us else 1)
+    key = step_number(here.vectors[first.symbol][0], text.colour)
+    return Label(text, here.drawn(first), rank=2 if resultants and not us else 1, key=key)

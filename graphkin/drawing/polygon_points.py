@@ -5,7 +5,7 @@ from __future__ import annotations
 from cmath import phase
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from graphkin.construction.sheet import Mark, Vector
 from graphkin.drawing import strokes
@@ -154,7 +154,10 @@ def _pole(here: PolygonOnPage, place: _Place) -> Piece:
     shape = Circle(here.at(0j), POLE_RADIUS, fill=strokes.WHITE, stroke=strokes.OUTLINE)
     dot = Circle(here.at(0j), 0.3, fill=strokes.BLACK)
     group = Group((shape, dot), id=f"pole-{here.diagram}", classes=("pole",))
-    return Piece({here.diagram: (group,)}, _named(here, markup, 0j, f"label-pole-{here.diagram}", 0, away))
+    names = _named(here, markup, 0j, f"label-pole-{here.diagram}", 0, away)
+    if markup != letter:
+        names = tuple(replace(name, key=Text(0j, symbol(letter))) for name in names)
+    return Piece({here.diagram: (group,)}, names)
 
 
 def _named(here: PolygonOnPage, markup: str, at: complex, id: str, rank: int, away: complex) -> tuple[Label, ...]:

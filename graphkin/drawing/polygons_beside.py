@@ -14,7 +14,17 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, letters_of, scale_statement
 from graphkin.drawing.dimensions import check_bar
 from graphkin.drawing.drawing import Drawing
-from graphkin.drawing.headings import FIGURE_WORDS, drivers, facts, figure_title, punctuation, term, titles, written
+from graphkin.drawing.headings import (
+    FIGURE_WORDS,
+    drivers,
+    facts,
+    figure_title,
+    once,
+    punctuation,
+    term,
+    titles,
+    written,
+)
 from graphkin.drawing.insets import polygon_with_insets
 from graphkin.drawing.piece import Piece, joined, layer_groups, renamed
 from graphkin.drawing.polygon_on_page import extent
@@ -84,7 +94,7 @@ def _page(
     bottom = top
     for k, (name, sheet) in enumerate(row):
         left = MARGIN + k * (wide + GUTTER)
-        said = " / ".join(say(Phrase("position named", (name,)), each) for each in languages(spoken)) + colon
+        said = once(say(Phrase("position named", (name,)), each) for each in languages(spoken)) + colon
         named = sheet.scene.positions is not None and name in sheet.scene.positions.names
         heads = said * named + drivers(sheet, letters)
         words.append(Text(complex(left, top - 1.6), fitted(heads, 3.2, wide)))

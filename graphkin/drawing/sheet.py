@@ -139,7 +139,7 @@ def _goes_on(language: str, page: Box) -> Piece:
 
 def _step_number(spoken: str, page: Box) -> Piece:
     """What the numbers in brackets at the vectors are."""
-    words = fitted(" / ".join(word("step number", each) for each in languages(spoken)), 2.4, 0.7 * page.width)
+    words = fitted(term("step number", spoken), 2.4, 0.7 * page.width)
     return Piece({"labels": (Text(complex(page.left, page.bottom + 4.0), words),)})
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -13,7 +14,7 @@ from graphkin.drawing.obstacles import Flags, Obstacles, Points, meets
 from graphkin.drawing.primitives import Segment, Text
 from graphkin.drawing.text import SMALLEST, plain
 
-__all__ = ["step_numbers"]
+__all__ = ["step_number", "step_numbers"]
 
 LEAST = 5.0  # mm: a shorter vector has no room for a number
 OFF = 0.9  # mm from the vector to its number
@@ -32,7 +33,7 @@ def step_numbers(arrows: Sequence[tuple[int, Segment]], panel: Box, around: Obst
     shown = [(step, ends) for step, ends in arrows if abs(ends[1] - ends[0]) >= LEAST]
     if not shown:
         return ()
-    texts = [Text(0j, plain(f"({step})", SMALLEST)) for step, _ in shown]
+    texts = [step_number(step) for step, _ in shown]
     boxes = [text_box(text) for text in texts]
     half = np.array([complex(box.width, box.height) / 2 for box in boxes])
     tails, tips = (np.array([ends[k] for _, ends in shown]) for k in (0, 1))
@@ -52,9 +53,14 @@ def step_numbers(arrows: Sequence[tuple[int, Segment]], panel: Box, around: Obst
             if not any(box.overlaps(other) for other in taken):
                 taken.append(box.grown(CLEAR))
                 at = place - boxes[i].centre
-                found.append(Text(at, text.runs, "start", strokes.GREY, "", ("step-number",), shown[i][0]))
+                found.append(replace(text, at=at))
                 break
     return tuple(found)
+
+
+def step_number(step: int, colour: str = strokes.GREY) -> Text:
+    """The number of a step in brackets."""
+    return Text(0j, plain(f"({step})", SMALLEST), "start", colour, "", ("step-number",), step)
 
 
 def _inside(places: Points, reach: Points, panel: Box) -> Flags:

@@ -126,7 +126,7 @@ def stepped(children: Iterable[Primitive], born: dict[str, int]) -> tuple[Primit
             step = born.get(after.id.removeprefix("label-"), after.step)
             thing = Group((thing,), classes=("leader",), step=step)
         elif isinstance(thing, Group | Text):
-            step = born.get(thing.id.removeprefix("label-"))
+            step = born.get(thing.id.removeprefix("listed-").removeprefix("label-"))
             if step is not None and step_of(thing) is None:
                 thing = replace(thing, step=step)
             if isinstance(thing, Group):

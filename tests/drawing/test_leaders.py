@@ -44,3 +44,30 @@ def test_hardly_a_leader_runs_across_a_velocity(scene):
     crossed = [one for one in leaders for vector in vectors
                if one.intersects(vector) and vector.distance(shapely.Point(one.coords[0])) > 0.45]  # fmt: skip
     assert len(crossed) <= 1
+
+
+def test_what_a_crowd_has_no_room_for_is_listed_behind_the_number_of_its_step():
+    root = ET.fromstring(draw("double-butterfly").figures["sheet"].content("svg"))
+    texts = {text.get("id"): text for text in root.iter(f"{SVG}text") if text.get("id")}
+    listed = {id.removeprefix("listed-"): text for id, text in texts.items() if id.startswith("listed-label-a")}
+    assert listed
+    for id, entry in listed.items():
+        (step,) = {c for c in texts[id].get("class").split() if c.startswith("step-") and c != "step-number"}
+        vector = next(g for g in root.iter(f"{SVG}g") if g.get("id") == id.removeprefix("label-"))
+        number = f"({int(step.removeprefix('step-'))})"
+        assert step in vector.get("class").split()
+        assert number == "".join(texts[id].itertext())
+        assert "".join(entry.itertext()).startswith(number)
+        assert len("".join(entry.itertext())) > len(number)
+
+
+def crossed(scene: str, figure: str) -> int:
+    leaders, vectors, _ = read(scene, figure)
+    foot = shapely.Point
+    return sum(one.intersects(vector) and vector.distance(foot(one.coords[0])) > 0.45
+               for one in leaders for vector in vectors)  # fmt: skip
+
+
+@pytest.mark.parametrize("scene", ["shaper-forces", "hit-two-RPR"])
+def test_no_leader_of_these_sheets_runs_across_a_vector(scene):
+    assert crossed(scene, "sheet") == 0

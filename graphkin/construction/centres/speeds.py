@@ -224,12 +224,55 @@ def velocity_sentences(centres: Centres, moving: Mapping[str, Turning]) -> tuple
     Among the arguments of the phrases, pairs of links stand for centres, `Symbol` for a velocity, `PointRef` for a
     point; distances are those of the figure (mm).
     """
-    links = [_of_link(centres, moving, t) for t in moving.values() if len(t.chain) > 1]
+    rates = _rates(centres, moving)
+    links = [_of_link(centres, rates, t) for t in moving.values() if len(t.chain) > 1]
     speeds = {s: abs(by_centres(centres, moving, s) or 0.0) for s in points_asked(centres)}
     least = STILL * max(speeds.values(), default=0.0)
-    points = [_of_point(centres, moving, s, speed) for s, speed in speeds.items() if speed > least]
-    slidings = (_of_sliding(centres, moving, *one) for one in _pins_on_guides(centres))
+    points = [_of_point(centres, moving, rates, s) for s, speed in speeds.items() if speed > least]
+    slidings = (_of_sliding(centres, rates, *one) for one in _pins_on_guides(centres))
     return (*links, *(p for p in (*points, *slidings) if p is not None))
+
+
+@dataclass(frozen=True)
+class _Rate:
+    """An angular velocity (rad/s) as it is written, and how many figures it carries."""
+
+    written: str
+    carried: int = MOST
+
+    @property
+    def size(self) -> str:
+        return self.written.removeprefix("-")
+
+
+def _rates(centres: Centres, moving: Mapping[str, Turning]) -> Mapping[str, _Rate]:
+    """The rate of every link, worked out from the rate before it and the distances as they are written."""
+    frame = centres.links.scene.frame.name
+    found: dict[str, _Rate] = {}
+    for name, turning in sorted(moving.items(), key=lambda one: len(one[1].chain)):
+        if len(turning.chain) < 2 or turning.chain[-2] not in found or turning.omega == 0.0:
+            found[name] = _Rate(amount(turning.omega))
+            continue
+        known = turning.chain[-2]
+        own, its, common = centres.of(name, frame), centres.of(known, frame), centres.of(name, known)
+        if own.point is None or common.point is None:  # it only translates, or turns as the other does
+            found[name] = found[known] if own.point is not None else _Rate(amount(turning.omega))
+            continue
+        near = on_paper(abs(common.point - own.point))
+        if its.point is None:
+            speed = amount(abs(turning.omega) * abs(common.point - own.point))
+            over, carried = speed, written.figures(near)
+        else:
+            far = on_paper(abs(common.point - its.point))
+            over = written.product(found[known].size, far)
+            carried = min(found[known].carried, written.figures(far, near))
+        if near == "0":
+            found[name] = _Rate(amount(turning.omega, MOST))
+            continue
+        carried = min(carried, MOST)
+        value = written.quotient(over, near, carried)
+        found[name] = _Rate("-" * (turning.omega < 0.0 and value != "0") + value, carried)
+    return found
 
 
 def _pins_on_guides(centres: Centres) -> Iterator[tuple[str, str, str, str]]:
@@ -248,7 +291,7 @@ def _pins_on_guides(centres: Centres) -> Iterator[tuple[str, str, str, str]]:
 
 
 def _of_sliding(
-    centres: Centres, moving: Mapping[str, Turning], point: str, pinned: str, sliding: str, guiding: str
+    centres: Centres, moving: Mapping[str, _Rate], point: str, pinned: str, sliding: str, guiding: str
 ) -> Phrase | None:
     """v_B3B2 = |ω_1 − ω_3| P_13 B: relative to the guiding link the pin turns about the centre of both links."""
     links = centres.links
@@ -257,7 +300,8 @@ def _of_sliding(
     centre = centres.of(pinned, guiding)
     if centre.point is None:
         return None
-    rates = [amount(moving[name].omega, MOST) for name in (pinned, guiding)]
+    rates = [moving[name].written for name in (pinned, guiding)]
+    carried = min(moving[name].carried for name in (pinned, guiding))
     apart = written.difference(*rates)
     units = links.scene.units.rates
     per_mm = amount(centres.sheet.scales.length / units.metres)
@@ -269,7 +313,7 @@ def _of_sliding(
         (
             symbol, pinned, guiding, centre.pair, PointRef(point), *(r.replace("-", "−") for r in (rates[0], *shown)),
             length, f"{per_mm} {units.length}/mm",
-            f"{written.product(apart, length, per_mm, carried=MOST)} {units.length}/s",
+            f"{written.product(apart, length, per_mm, carried=min(carried, written.figures(length)))} {units.length}/s",
         ),
     )  # fmt: skip
 
@@ -284,7 +328,7 @@ def points_asked(centres: Centres) -> tuple[Symbol, ...]:
     return tuple(Symbol("v", PointRef(p)) for p in pins)
 
 
-def _of_link(centres: Centres, moving: Mapping[str, Turning], turning: Turning) -> Phrase:
+def _of_link(centres: Centres, rates: Mapping[str, _Rate], turning: Turning) -> Phrase:
     name, known = turning.link, turning.chain[-2]
     frame = centres.links.scene.frame.name
     own, its, common = centres.of(name, frame), centres.of(known, frame), centres.of(name, known)
@@ -295,15 +339,17 @@ def _of_link(centres: Centres, moving: Mapping[str, Turning], turning: Turning) 
         return Phrase("centre turns alike", (name, known, *pairs))
     if its.point is None:
         arm = on_paper(abs(own.point - common.point))
-        return Phrase("centre from slider", (name, known, *pairs, arm, amount(abs(turning.omega), MOST)))
+        return Phrase("centre from slider", (name, known, *pairs, arm, rates[name].size))
     far, near = abs(common.point - its.point), abs(common.point - own.point)
     same = dot(its.point - common.point, own.point - common.point) >= 0.0
     key = "centre same sense" if same else "centre opposite sense"
-    omega = amount(turning.omega, MOST).replace("-", "−")
+    omega = rates[name].written.replace("-", "−")
     return Phrase(key, (name, known, *pairs, on_paper(far), on_paper(near), omega))
 
 
-def _of_point(centres: Centres, moving: Mapping[str, Turning], symbol: Symbol, speed: float) -> Phrase | None:
+def _of_point(
+    centres: Centres, moving: Mapping[str, Turning], rates: Mapping[str, _Rate], symbol: Symbol
+) -> Phrase | None:
     """The speed of a point: its distance from the link's centre times the rate; of a link that only translates, the
     speed that the link before it has where both have one velocity."""
     ref, links = symbol.of, centres.links
@@ -329,11 +375,12 @@ def _of_point(centres: Centres, moving: Mapping[str, Turning], symbol: Symbol, s
             return None
         arm = abs(common.point - its.point)
         centre, end = its.pair, common.pair
-    turning_at, length = amount(abs(rate.omega), MOST), on_paper(arm)
+    its_rate, length = rates[rate.link], on_paper(arm)
+    turning_at, carried = its_rate.size, min(its_rate.carried, written.figures(length))
     return Phrase(
         "centre speed",
         (
             symbol, rate.link, centre, end, turning_at, length, f"{per_mm} {units.length}/mm",
-            f"{written.product(turning_at, length, per_mm, carried=MOST)} {units.length}/s",
+            f"{written.product(turning_at, length, per_mm, carried=carried)} {units.length}/s",
         ),
     )
