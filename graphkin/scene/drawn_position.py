@@ -19,13 +19,13 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from graphkin.errors import Problem
-from graphkin.plane import dot
+from graphkin.plane import degrees, direction, dot
 from graphkin.scene.contacts import PlacedContact
 from graphkin.scene.model import PinInSlot, SlidingPair
 from graphkin.scene.placing import Placement, guide_of, place_of
 from graphkin.scene.tables import Polar, SceneTables
 
-__all__ = ["DrawnPosition", "find_position", "running_points", "starts_of", "travel_of"]
+__all__ = ["DrawnPosition", "find_position", "running_points", "starts_apart", "starts_of", "travel_of"]
 
 GIVEN_TWICE = 1e-6
 
@@ -252,6 +252,23 @@ def _along(rail: Placement, guide_name: str, place: complex | None) -> float | N
     local = None if place is None else rail.in_own_axes(place)
     guide = rail.guides.get(guide_name)
     return None if local is None or guide is None else dot(guide.direction, local - guide.through)
+
+
+def starts_apart(file: SceneTables, position: DrawnPosition) -> Iterable[Problem]:
+    """Where rolling starts, said of links that stand elsewhere by their driver or by given places."""
+    for name, link in file.links.items():
+        if link.start is None:
+            continue
+        keys = [s.key for s in position.slidings if s.link == name]
+        turn, travel = position.bodies[name].turn, travel_of(position, keys[0]) if keys else None
+        if keys and travel is not None and abs(link.start * position.metres - travel) > position.tolerance:
+            told = f"{travel / position.metres:.10g}"
+        elif not keys and turn is not None and abs(cmath.phase(turn / direction(link.start))) > GIVEN_TWICE:
+            told = f"{degrees(turn):.10g} deg"
+        else:
+            continue
+        said = f"found {link.start:.10g}, but the driver or the given places make it {told}"
+        yield Problem(f"links.{name}.start", said, "one of the two is wrong; leave start out")
 
 
 def starts_of(file: SceneTables, position: DrawnPosition, contacts: tuple[PlacedContact, ...]) -> dict[str, float]:

@@ -17,7 +17,7 @@ from graphkin.scene.cams import LawCam
 from graphkin.scene.carriages import with_carriages
 from graphkin.scene.circular_slots import with_bars
 from graphkin.scene.contacts import PlacedDisc
-from graphkin.scene.drawn_position import DrawnPosition, find_position, starts_of, travel_of
+from graphkin.scene.drawn_position import DrawnPosition, find_position, starts_apart, starts_of, travel_of
 from graphkin.scene.driving import DriverEntry, drives
 from graphkin.scene.force_names import no_force
 from graphkin.scene.loads import Loading, loading_of
@@ -38,7 +38,7 @@ from graphkin.scene.rules import (
 )
 from graphkin.scene.stating import asked, loops_named, positions_named, stated_values
 from graphkin.scene.tables import Link, SceneTables
-from graphkin.scene.touching import contacts_of, discs_of, gears_of, wrong_distances
+from graphkin.scene.touching import contacts_of, discs_of, drawn_apart, gears_of, wrong_distances
 
 __all__ = ["resolve", "unknown_places"]
 
@@ -116,8 +116,11 @@ def resolve(file: SceneTables, name: str, problems: list[Problem], flaws: Flaws)
     )
     find_position(position)
     problems += placed_twice(position)
+    if not problems:
+        problems += starts_apart(file, position)
     if not problems and drawn:
         problems += disagreements(position)
+        problems += drawn_apart(contacts, bodies, position.places, position.tolerance, metres)
     if not problems:
         problems += _not_found(position)
         problems += too_far_apart(position)

@@ -6,14 +6,15 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
 from graphkin.errors import Problem, did_you_mean
-from graphkin.plane import cross
+from graphkin.plane import cross, dot
 from graphkin.scene.contact_tables import Contact, Gear
 from graphkin.scene.contacts import PlacedContact, PlacedDisc, PlacedGear
 from graphkin.scene.model import PlacedGuide, SlidingPair
 from graphkin.scene.names import Flaws, Names
+from graphkin.scene.placing import Placement
 from graphkin.scene.tables import SceneTables
 
-__all__ = ["contacts_of", "discs_of", "gears_of", "rack_place", "touching_links", "wrong_distances"]
+__all__ = ["contacts_of", "discs_of", "drawn_apart", "gears_of", "rack_place", "touching_links", "wrong_distances"]
 
 AGREE = 1e-6
 
@@ -262,6 +263,32 @@ def wrong_distances(
         elif abs(height) <= AGREE * max(far, 1e-300):
             yield Problem(f"gears.{g.name}", "the wheel's axis lies on the pitch line of the rack",
                           "the distance of the two is the radius of the wheel")
+
+
+def drawn_apart(
+    contacts: tuple[PlacedContact, ...], bodies: Mapping[str, Placement], places: Mapping[str, complex],
+    tolerance: float, metres: float,
+) -> Iterator[Problem]:
+    """Outlines that do not touch where given places put them: centres too far apart, or not a radius off the face, on
+    its side; ``places`` are those in the world (m)."""
+    for c in contacts:
+        spots = [places.get(d.centre) for d in c.round]
+        known = [z for z in spots if z is not None]
+        if len(known) < len(spots):
+            continue
+        if not c.flat:
+            found, wanted = abs(known[1] - known[0]), abs(c.round[0].radius + c.round[1].radius)
+            what = "puts the centres {} apart, the radii make it {}"
+        else:
+            body, guide = bodies[c.face], bodies[c.face].guides.get(c.guide)
+            local = body.in_own_axes(known[0])
+            if guide is None or local is None:
+                continue
+            found, wanted = dot(local - guide.through, guide.direction * c.normal_to_face), c.round[0].radius
+            what = f"puts the centre {{}} to the {'left' if c.left else 'right'} of the face, the radius is {{}}"
+        if abs(found - wanted) > tolerance:
+            told = what.format(f"{found / metres:.10g}", f"{wanted / metres:.10g}")
+            yield Problem(f"contacts.{c.name}", f"what is drawn {told}", "correct a place, a radius, or the side")
 
 
 def rack_place(

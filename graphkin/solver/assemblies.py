@@ -81,10 +81,14 @@ def choose_forms(structure: Structure) -> dict[int, Array]:
     for i, element in enumerate(structure.elements):
         if isinstance(element, Dyad):
             forms[i] = _choose_sign(structure, i, element, drive, forms)
-        elif isinstance(element, Driven) and isinstance(element.driver, Rolled):
-            state = positions(structure, drive, {k: f[None] for k, f in forms.items()}, i, rates=False)
-            own = [reading(structure, state.poses, coordinate)[0] for coordinate, _ in element.driver.factors]
-            forms[i] = np.repeat(own, 2)
+        elif isinstance(element, Driven):
+            if isinstance(element.driver, Rolled):
+                state = positions(structure, drive, {k: f[None] for k, f in forms.items()}, i, rates=False)
+                own = [reading(structure, state.poses, coordinate)[0] for coordinate, _ in element.driver.factors]
+                forms[i] = np.repeat(own, 2)
+            if structure.scene.drawn:  # one place alone, which must be the drawn one
+                state = positions(structure, drive, {k: f[None] for k, f in forms.items()}, i + 1, rates=False)
+                pick(structure.scene, (element.link,), [new_places(structure, i, (element.link,), state)], 0)
         elif isinstance(element, Cluster) and element.rolling:
             from graphkin.solver.larger_groups import form_of
 

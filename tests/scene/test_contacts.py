@@ -1,6 +1,8 @@
 """What is wrong with contacts and gears is told by name, all at once."""
 
 import copy
+import tomllib
+from pathlib import Path
 
 import pytest
 
@@ -9,6 +11,7 @@ from graphkin.errors import SceneError
 from graphkin.scene.mapping import as_mapping
 from graphkin.scene.source import mechanism_of, read
 
+LIBRARY = Path(graphkin.__file__).parent / "scene" / "library"
 DISC = {
     "frame": {"points": {"A": [0, 0], "C": [80, 0]}},
     "links": {
@@ -105,3 +108,25 @@ def test_discs_that_a_carrier_does_not_hold_apart_by_their_radii_are_named():
     with pytest.raises(SceneError) as told:
         mechanism_of(wheels)
     assert "holds the centres 40 apart, the radii make it 45" in str(told.value)
+
+
+@pytest.mark.parametrize(
+    ("name", "changes", "where"),
+    [
+        ("wheel-on-rail", {"drawn": {"C": [0, 29]}}, "contacts.K"),
+        ("wheel-on-rail", {"drawn": {"C": [0, -30]}}, "contacts.K"),
+        ("wheel-on-rail", {"links.1.start": 20}, "links.1.start"),
+        ("disc-on-disc", {"drawn": {"B": [54, 53]}, "links.2.length": 70.178344238}, "contacts.K"),
+        ("cam-offset-roller", {"drawn": {"B": [8, 100]}}, "drawn.B"),
+        ("gears-epicyclic", {"drawn": {"P": [60, 20]}}, "drawn.P"),
+        ("geared-five-bar", {"drawn": {"D": [60, 20]}}, "links.4.start"),
+    ],
+)
+def test_what_is_drawn_and_cannot_touch_or_start_so_is_named(name, changes, where):
+    text = (LIBRARY / f"{name}.toml").read_text(encoding="utf-8")
+    made = tomllib.loads(text)
+    for path, value in changes.items():
+        made = changed(made, path, value)
+    with pytest.raises(SceneError) as told:
+        graphkin.solve(made)
+    assert where in {problem.where for problem in told.value.problems}
