@@ -37,11 +37,11 @@ __all__ = [
     "driver_values",
     "for_paper",
     "known_words",
-    "may_be_called",
     "own_folder",
     "own_unit",
     "passed_words",
     "placed",
+    "require_callable",
     "value_at",
     "whole_number",
     "write_files",
@@ -116,7 +116,7 @@ MOST_DRAWN = 20
 MOST_SEED = 10**18
 
 
-def may_be_called(where: str, function: object) -> None:
+def require_callable(where: str, function: object) -> None:
     """Refuse what cannot be called, where a function is wanted or None.  Raises CallError."""
     if function is not None and not callable(function):
         raise CallError(Problem(where, f"found {function!r:.60}", "give a function, or leave it out"))

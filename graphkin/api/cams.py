@@ -269,9 +269,9 @@ class Cams(Result, OfScene):
     def sentences(self, language: str) -> list[str]:
         """What is to be said of all of them."""
         told = [sentence for one in self.made for sentence in one.sentences(language)]
-        return told + [say(phrase, language) for disc in self.discs for phrase in self._told(disc)]
+        return told + [say(phrase, language) for disc in self.discs for phrase in self._disc_notes(disc)]
 
-    def _told(self, disc: DiscCam) -> Iterator[Phrase]:
+    def _disc_notes(self, disc: DiscCam) -> Iterator[Phrase]:
         unit, metres = self.mechanism.units.length, self.mechanism.units.metres
         base = disc.profile if disc.pitch is None else disc.pitch
         kind = Phrase("cam base profile" if disc.pitch is None else "cam base pitch")

@@ -21,9 +21,9 @@ from graphkin.api.arguments import (
     driver_values,
     for_paper,
     known_words,
-    may_be_called,
     own_folder,
     own_unit,
+    require_callable,
     whole_number,
     write_files,
 )
@@ -184,7 +184,7 @@ def course_design(
     Unsolvable : wrong mobility, a position that cannot be assembled or reached, a dead point
     """
     known_words(formats, language, convention, known_formats=FORMATS, known_languages=ON_SHEETS)
-    may_be_called("progress", progress)
+    require_callable("progress", progress)
     given = for_paper(scene)
     asked_symbols(given, find)
     if students is not None and at is not None:

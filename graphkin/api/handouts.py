@@ -17,9 +17,9 @@ from graphkin.api.arguments import (
     asked_symbols,
     for_paper,
     known_words,
-    may_be_called,
     own_folder,
     placed,
+    require_callable,
     whole_number,
     write_files,
 )
@@ -190,7 +190,7 @@ def handout(
     motion = solved_here(given, values)
     what = paper_plan(motion.structure, values, asked)
     lesson = lesson_of(what, motion, language or given.sheet.language, convention or given.sheet.convention)
-    may_be_called("progress", progress)
+    require_callable("progress", progress)
     question = question_of(lesson, evidence_of(what, motion, lesson), given.name) if platforms else None
     made = Handout(lesson, values, tuple(dict.fromkeys(formats)), count, progress, question, platforms)
     if out is not None:

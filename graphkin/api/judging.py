@@ -15,7 +15,7 @@ from graphkin.api.arguments import At, driver_values, own_unit, placed
 from graphkin.api.checked import solved_here
 from graphkin.checking.audit import Judged, drafting_bound, explained
 from graphkin.checking.slips import Evidence, ValuesElsewhere
-from graphkin.checking.table_audit import exact_rows, judged_by_digits, told_by_digits
+from graphkin.checking.table_audit import exact_rows, explained_by_digits, judged_by_digits
 from graphkin.checking.uncertainty import predict
 from graphkin.construction import plan
 from graphkin.errors import Problem, Unsolvable
@@ -66,7 +66,7 @@ def judged_table(
             if one.verdict != "right" and who.by == "drawing":
                 one = judged_by_digits(printed, right, who.by, bounds.bound(row, printed.symbol))
             if one.verdict == "wrong":
-                one = told_by_digits(one, exact, row, symbols, names)
+                one = explained_by_digits(one, exact, row, symbols, names)
             judged.append(one)
         if any(one.verdict == "wrong" and not one.looks_like for one in judged) and looked_into < MOST_EXPLAINED:
             looked_into += 1

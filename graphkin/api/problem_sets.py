@@ -22,7 +22,7 @@ from graphkin.api.arguments import (
     as_scene,
     asked_symbols,
     known_words,
-    may_be_called,
+    require_callable,
     whole_number,
     write_files,
 )
@@ -158,8 +158,8 @@ def problem_set(
     if (variants is None) == (rows is None):
         raise CallError(Problem("variants", "neither or both of variants and rows", "give one of them"))
     known_words(language=language, known_languages=ON_SHEETS)
-    may_be_called("render", render)
-    may_be_called("progress", progress)
+    require_callable("render", render)
+    require_callable("progress", progress)
     workers = None if workers is None else whole_number("workers", workers, 1, 1024)
     if spread is not None and not isinstance(spread, Spread):
         raise CallError(Problem("spread", f"found {spread!r:.60}", "give a Spread"))
@@ -318,7 +318,7 @@ def drawn_schemes(
                 raise Unsolvable("not drawn", Problem(f"variant {job.name}", attempt.why))
             made[job.name] = attempt.variant.scene
             lines.append((job.name, *(f"{_number(attempt.variant.source, path):.6g}" for path in keys)))
-    return made, (("", *(_told(source, path) for path in keys)), *lines)
+    return made, (("", *(_head_of(source, path) for path in keys)), *lines)
 
 
 def _number(source: Any, path: Sequence[str | int]) -> float:
@@ -327,7 +327,7 @@ def _number(source: Any, path: Sequence[str | int]) -> float:
     return float(source)
 
 
-def _told(source: Mapping[str, Any], path: Sequence[str | int]) -> str:
+def _head_of(source: Mapping[str, Any], path: Sequence[str | int]) -> str:
     """A datum as a table heads it: the letters of a bar, the place of a point, or its key."""
     if path[0] == "links":
         points = source["links"][path[1]].get("points", ())

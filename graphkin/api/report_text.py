@@ -89,7 +89,7 @@ def _forces(checked: Checked, language: str) -> list[str]:
     if checked.forces is None:
         return []
     from graphkin.drawing.conventions import letters_of
-    from graphkin.drawing.force_words import couples_told, group_caption, inertia_line, moments_told
+    from graphkin.drawing.force_words import couple_sentences, group_caption, inertia_line, moment_sentences
 
     sheet, forces = checked.sheet, checked.forces
     letters = letters_of(sheet, sheet.scene.sheet.convention)
@@ -101,10 +101,10 @@ def _forces(checked: Checked, language: str) -> list[str]:
             lines.append(word("force with load" if number else "force without load", language))
         for count, group in enumerate(state.groups, 1):
             lines.append(group_caption(sheet, group, count, language))
-            lines += [f"    {x}" for told in moments_told(sheet, group, letters, language) for x in told.lines]
+            lines += [f"    {x}" for told in moment_sentences(sheet, group, letters, language) for x in told.lines]
             if group.way == "drawn system":
                 lines.append(f"    {say(Phrase('force reason system', (', '.join(group.links),)), language)}")
-            lines += [f"    {x}" for told in couples_told(sheet, group, letters, language) for x in told.lines]
+            lines += [f"    {x}" for told in couple_sentences(sheet, group, letters, language) for x in told.lines]
     return [*(re.sub(r"[${}]", "", line) for line in lines), ""]
 
 

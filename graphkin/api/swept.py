@@ -23,7 +23,7 @@ from graphkin.api.arguments import (
     asked_symbols,
     driver_values,
     known_words,
-    may_be_called,
+    require_callable,
     whole_number,
     write_files,
 )
@@ -343,7 +343,7 @@ def sweep(
     from graphkin.study.sweeps import Found, Sweep, collect, write_tables
 
     known_words(formats, language, text=text, known_formats=CHART_FORMATS)
-    may_be_called("progress", progress)
+    require_callable("progress", progress)
     positions = None if positions is None else whole_number("positions", positions, 1, MOST_POSITIONS)
     workers = None if workers is None else whole_number("workers", workers, 1, 1024)
     if executor is not None and scheduler is not None:

@@ -66,13 +66,13 @@ def answer(desk: Desk, message: object) -> dict[str, Any]:
             raise CallError(Problem("question", f'"{name!s:.40}"', did_you_mean(f"{name!s:.40}", QUESTIONS)))
         return {**head, "ok": True, **QUESTIONS[name](desk, message)}
     except GraphkinError as error:
-        return {**head, "ok": False, **_told(desk, error, message)}
+        return {**head, "ok": False, **_problems(desk, error, message)}
     except (RecursionError, MemoryError, OverflowError):
         huge = CallError(Problem("the scene", "is too large to be shown"))
-        return {**head, "ok": False, **_told(desk, huge, message)}
+        return {**head, "ok": False, **_problems(desk, huge, message)}
 
 
-def _told(desk: Desk, error: GraphkinError, message: object) -> dict[str, Any]:
+def _problems(desk: Desk, error: GraphkinError, message: object) -> dict[str, Any]:
     text = message.get("text") if isinstance(message, Mapping) else ""
     text = text if isinstance(text, str) else ""
     found = [

@@ -14,7 +14,7 @@ from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion, value_of
 from graphkin.words import Phrase
 
-__all__ = ["Exact", "exact_rows", "judged_by_digits", "told_by_digits"]
+__all__ = ["Exact", "exact_rows", "explained_by_digits", "judged_by_digits"]
 
 Exact = Callable[[int, Printed], Value]
 
@@ -74,7 +74,7 @@ def judged_by_digits(printed: Printed, exact: Value, by: str, bound: float) -> J
 TELLING = 4  # digits from which a number can be told to be another
 
 
-def told_by_digits(
+def explained_by_digits(
     judged: Judged, exact: Exact, row: int, symbols: Sequence[Symbol], names: Sequence[str]
 ) -> Judged:
     """A wrong value of a table with what its digits are: the right one with a slip of the pen or a sign, that of

@@ -13,7 +13,7 @@ from graphkin.cli.options import (
     QuietOption,
     SceneArgument,
     SheetLangOption,
-    listed,
+    split_words,
 )
 from graphkin.cli.output import print_json, print_paths, tell, unsolvable_as_json
 from graphkin.errors import Unsolvable
@@ -34,7 +34,7 @@ def cam(
     """Cams drawn by inversion: pressure angles, curvature, undercutting, profile as CSV and DXF; discs measured."""
     from graphkin.api.cams import cam as looking
 
-    wanted = listed(formats)
+    wanted = split_words(formats)
     with unsolvable_as_json(as_json, _none_made):
         found = looking(scene, None, wanted, lang, step)
         paths = found.write(out, wanted)

@@ -18,7 +18,7 @@ from graphkin.cli.options import (
     SheetLangOption,
     TextOption,
     driver_values,
-    listed,
+    split_words,
 )
 from graphkin.cli.output import print_json, print_paths, print_table, tell, unsolvable_as_json
 from graphkin.errors import CallError, Problem, Unsolvable
@@ -53,7 +53,7 @@ def centres(
     from graphkin.api.centred import centres as finding
     from graphkin.api.centred import centres_text
 
-    wanted, values = listed(formats), driver_values(at, position)
+    wanted, values = split_words(formats), driver_values(at, position)
     known_words(wanted, text=text)
     if point and centrode is None:
         raise CallError(Problem("--point", "without --centrode", "write --centrode LINK --point P"))

@@ -28,7 +28,7 @@ from graphkin.cli.options import (
     SheetLangOption,
     TextOption,
     driver_values,
-    listed,
+    split_words,
 )
 from graphkin.cli.output import print_json, print_paths, print_table, tell, tell_unused, unsolvable_as_json
 from graphkin.errors import CallError, Problem, Unsolvable
@@ -145,7 +145,7 @@ def draw(
     from graphkin.api.arguments import known_words
     from graphkin.api.drawn import draw as drawing
 
-    wanted = listed(formats)
+    wanted = split_words(formats)
     known_words(wanted, text=text)
     with unsolvable_as_json(as_json, unchecked):
         drawn = drawing(

@@ -14,7 +14,7 @@ from graphkin.cli.options import (
     QuietOption,
     SeedOption,
     SheetLangOption,
-    listed,
+    split_words,
 )
 from graphkin.cli.output import print_json, print_paths, print_table, unsolvable_as_json
 from graphkin.errors import Unsolvable
@@ -37,7 +37,7 @@ def design(
     from graphkin.api.designed import design as designing
     from graphkin.words import word
 
-    wanted = listed(formats)
+    wanted = split_words(formats)
     with unsolvable_as_json(as_json, _refused):
         designed = designing(file, None, wanted, lang, instrument, seed)
         paths = designed.write(out, wanted)

@@ -19,8 +19,8 @@ from graphkin.cli.options import (
     SceneArgument,
     SheetLangOption,
     driver_values,
-    listed,
     processes,
+    split_words,
 )
 from graphkin.cli.output import print_json, print_paths, progress_bar, short_bar, tell, tell_unused
 from graphkin.errors import CallError, Problem, did_you_mean
@@ -81,7 +81,7 @@ def handout(
     from graphkin.api.handouts import handout as handing
     from graphkin.scene.design_file import is_design
 
-    wanted = listed(formats)
+    wanted = split_words(formats)
     if template not in TEMPLATES:
         raise CallError(Problem("template", f'"{template}"', did_you_mean(template, TEMPLATES)))
     if template == "course-design":
@@ -110,13 +110,14 @@ def handout(
                 Problem("variants", "with --at or --positions", "a set draws positions of its own, one each")
             )
         _problem_set(
-            scene, out, wanted, find, lang, convention, variants, seed, rows, workers, listed(export), as_json, quiet
+            scene, out, wanted, find, lang, convention, variants, seed, rows, workers, split_words(export), as_json,
+            quiet,
         )
         return
     with short_bar(not as_json and not quiet) as progress:
         values = driver_values(at, position)
         made = handing(
-            scene, None, values, find or None, wanted, lang, convention, positions, progress, listed(export)
+            scene, None, values, find or None, wanted, lang, convention, positions, progress, split_words(export)
         )
         paths = made.write(out)
     _tell_written(made, paths, made.lesson.language, as_json, quiet)

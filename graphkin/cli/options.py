@@ -26,8 +26,8 @@ __all__ = [
     "SheetLangOption",
     "TextOption",
     "driver_values",
-    "listed",
     "processes",
+    "split_words",
 ]
 
 SceneArgument = Annotated[
@@ -77,10 +77,10 @@ JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object.
 QuietOption = Annotated[bool, typer.Option("-q", "--quiet", help="Print nothing but errors.")]
 
 
-def listed(words: str) -> list[str]:
+def split_words(words: str) -> list[str]:
     """Words between commas: formats.
 
-    >>> listed("svg, PDF,")
+    >>> split_words("svg, PDF,")
     ['svg', 'pdf']
     """
     return [word.strip().lower() for word in words.split(",") if word.strip()]

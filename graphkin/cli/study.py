@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from graphkin.cli.options import JsonOption, LangOption, QuietOption, SceneArgument, listed
+from graphkin.cli.options import JsonOption, LangOption, QuietOption, SceneArgument, split_words
 from graphkin.cli.output import print_json, print_paths
 
 if TYPE_CHECKING:
@@ -53,7 +53,7 @@ def stability(
 
 
 def _write(found: SpeedAccuracy | Stability, out: Path, formats: str, as_json: bool, quiet: bool) -> None:
-    paths = found.write(out, listed(formats))
+    paths = found.write(out, split_words(formats))
     if as_json:
         print_json(found.data)
     elif not quiet:

@@ -18,8 +18,8 @@ from graphkin.cli.options import (
     SceneArgument,
     TextOption,
     driver_values,
-    listed,
     processes,
+    split_words,
 )
 from graphkin.cli.output import print_json, print_paths, progress_bar, tell, unsolvable_as_json
 from graphkin.errors import CallError, Problem
@@ -88,7 +88,7 @@ def sweep(
     ):
         swept = sweeping(
             scene, target, positions, find or None, driver_values(at), _replaced(replace), designs, None,
-            None if scheduler else processes(workers), scheduler, listed(formats), lang, progress, text, measured,
+            None if scheduler else processes(workers), scheduler, split_words(formats), lang, progress, text, measured,
             differentiate or (), integrate or (),
         )  # fmt: skip
     if as_json:

@@ -49,7 +49,7 @@ def positioned(
         found.append(carried)
     board.causes += [cause for carried in found for cause in carried.causes]
     before = list(board.causes)
-    told = [part for carried in found for part in carried.told()]
+    told = [part for carried in found for part in carried.carried_over()]
     position = place(task.opened, task.elements, 1.0 / scales.length, values, task.branches, instrument, task.trials)
     assembly: Mapping[str, Phrase] = {}
     if with_steps:

@@ -42,7 +42,7 @@ class Inversion:
     @property
     def key(self) -> str:
         """Of the stand-in at the common pair."""
-        return self.triangle.stand_in.key
+        return self.triangle.equivalent.key
 
     def branch(self, own: Mapping[str, float], values: Mapping[str, float], branch: int) -> int:
         """The assembly of the triangle at some driver values, followed from the scene's own."""
@@ -57,13 +57,13 @@ class Inversion:
 
     def near(self, before: float, value: float) -> float:
         """A value of the stand-in nearest to another: angles but for whole turns."""
-        turns = isinstance(self.triangle.stand_in, AngleDriver)
+        turns = isinstance(self.triangle.equivalent, AngleDriver)
         return before + math.remainder(value - before, math.tau) if turns else value
 
     def _read(self, frame: PlacedLinks) -> float:
-        pair, stand_in = self.triangle.pair, self.triangle.stand_in
-        if isinstance(stand_in, AngleDriver):
-            return cmath.phase(frame.poses[stand_in.link].axis / frame.poses[stand_in.relative_to].axis)
+        pair, equivalent = self.triangle.pair, self.triangle.equivalent
+        if isinstance(equivalent, AngleDriver):
+            return cmath.phase(frame.poses[equivalent.link].axis / frame.poses[equivalent.relative_to].axis)
         assert isinstance(pair, Slide)
         rail = frame.poses[pair.b]
         start = rail.origin + rail.axis * pair.guide.through * frame.mm
@@ -108,7 +108,7 @@ class TriangleDrawn:
     causes: tuple[tuple[int, Cause], ...]
     steps: Sequence[Step]
 
-    def told(self) -> tuple[tuple[DiagramName, HeldStill], ...]:
+    def carried_over(self) -> tuple[tuple[DiagramName, HeldStill], ...]:
         """What is carried over to each diagram."""
         t = self.triangle
         names = (t.held, t.links[0], t.driver.key)
@@ -128,7 +128,7 @@ def opened_at_triangles(structure: Structure) -> Structure:
     for e in structure.elements:
         if isinstance(e, Cluster) and e.parts:
             elements += e.parts
-            instead |= {t.driver: t.stand_in for t in e.triangles}
+            instead |= {t.driver: t.equivalent for t in e.triangles}
         else:
             elements.append(e)
     if not instead:

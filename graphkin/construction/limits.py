@@ -119,29 +119,29 @@ class TurnOfCrank:
         """The lowest and the highest position of a slide (by its travel) or of a link (by its angle), and how far it
         goes from one to the other (mm of paper, or rad).  Raises Unsolvable for a link that turns on and on.
         """
-        course = _course(output, self.positions)
-        if isinstance(output, str) and abs(course[-1] - course[0]) > 1.0:
+        travels = _travels(output, self.positions)
+        if isinstance(output, str) and abs(travels[-1] - travels[0]) > 1.0:
             found = f"link {output} turns on and on, it has no limit positions"
             raise Unsolvable("no whole turn", Problem(why, found, "ask for a link that swings, or a slide"))
-        if max(course) - min(course) < STILL:
+        if max(travels) - min(travels) < STILL:
             name = output if isinstance(output, str) else output.key
             found = f"{name} does not move, it has no limit positions"
             raise Unsolvable("no whole turn", Problem(why, found, "ask for an output that moves"))
-        low, high = (self._extreme(output, course, sign) for sign in (-1.0, 1.0))
+        low, high = (self._extreme(output, travels, sign) for sign in (-1.0, 1.0))
         return low[0], high[0], high[1] - low[1]
 
-    def _extreme(self, output: Slide | str, course: Sequence[float], sign: float) -> tuple[Turned, float]:
-        n = len(course) - 1
-        height = [sign * value for value in course]
+    def _extreme(self, output: Slide | str, travels: Sequence[float], sign: float) -> tuple[Turned, float]:
+        n = len(travels) - 1
+        height = [sign * value for value in travels]
         tops = [k for k in range(n) if height[k] >= max(height[k - 1 if k else n - 1], height[k + 1])]
         best = max(height[k] for k in tops)
-        near = [k for k in tops if height[k] > best - 0.02 * (max(course) - min(course))]
-        found = [self._refined(output, k, course) for k in near]
+        near = [k for k in tops if height[k] > best - 0.02 * (max(travels) - min(travels))]
+        found = [self._refined(output, k, travels) for k in near]
         most = max(sign * value for _, value in found)
-        equal = [one for one in found if sign * one[1] > most - EQUAL * (max(course) - min(course))]
+        equal = [one for one in found if sign * one[1] > most - EQUAL * (max(travels) - min(travels))]
         return min(equal, key=lambda one: (one[0].value + EQUAL) % math.tau)
 
-    def _refined(self, output: Slide | str, k: int, course: Sequence[float]) -> tuple[Turned, float]:
+    def _refined(self, output: Slide | str, k: int, travels: Sequence[float]) -> tuple[Turned, float]:
         """The place where a curve through the positions about the k-th is at rest."""
         base = self.positions[k]
         middle, half = base.value, 2 * STEP
@@ -152,7 +152,7 @@ class TurnOfCrank:
             here = self.near(at, guess.poses)
             if here is None:
                 raise Unsolvable("no whole turn", _short(str(output), self.structure.scene.drivers[0].key, at))
-            return _along(output, here, course[k])
+            return _along(output, here, travels[k])
 
         for _ in range(24):
             c = _FIT @ np.array([value(float(middle + half * x)) for x in _NODES])
@@ -168,7 +168,7 @@ class TurnOfCrank:
                 break
             half = half / 2 if not good else half
         at = self.near(middle, guess.poses) or base
-        return at, _along(output, at, course[k])
+        return at, _along(output, at, travels[k])
 
 
 def limits_asked(
@@ -253,11 +253,11 @@ def _along(output: Slide | str, here: Turned, near: float) -> float:
     return dot(here.poses[output.a].origin - guide.origin, guide.axis * output.guide.direction)
 
 
-def _course(output: Slide | str, positions: Sequence[Turned]) -> list[float]:
-    course: list[float] = []
+def _travels(output: Slide | str, positions: Sequence[Turned]) -> list[float]:
+    travels: list[float] = []
     for here in positions:
-        course.append(_along(output, here, course[-1] if course else 0.0))
-    return course
+        travels.append(_along(output, here, travels[-1] if travels else 0.0))
+    return travels
 
 
 def _ahead(before: Poses, at: Poses, times: float) -> dict[str, Pose]:

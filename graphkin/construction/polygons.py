@@ -101,7 +101,7 @@ class Polygons(Plot):
         self.wheels, value, mm = before.found(
             order, coordinate, known, lambda key: self._travel_rate(order, key), turns, self.board.instrument
         )
-        for act in self.wheels.told(before, order):
+        for act in self.wheels.acts(before, order):
             self.board.do(order, act)
         had = self.given.get(driver.key, (0.0, 0.0))
         self.given[driver.key] = (value, had[1]) if which == 0 else (had[0], value)

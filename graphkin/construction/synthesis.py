@@ -141,10 +141,10 @@ def _crank_from_limits(paper: DesignPaper, A: complex, far: complex, near: compl
             DesignPoint(labels[1], back), DesignLine(A, back, "limit"),
             DesignLine(A, out, "mechanism"), DesignLine(out, far, "mechanism"))  # fmt: skip
     AB, BC = paper.measure("AB", A, out), paper.measure("BC", out, far)
-    paper.do("design measured", (_told("AB", AB) + ",  " + _told("BC", BC),))
+    paper.do("design measured", (_length_line("AB", AB) + ",  " + _length_line("BC", BC),))
 
 
-def _told(name: str, mm: float) -> str:
+def _length_line(name: str, mm: float) -> str:
     return f"{name} = {mm:.2f} mm"
 
 
@@ -186,7 +186,7 @@ def _(task: GuideBarTask, paper: DesignPaper) -> None:
     E = paper.cut("E", line, 1 + 0j, first, rod)[0]
     paper.do("design ram", (paper.shown(paper.mm(task.rod_length)),), DesignCircle(first, rod, (E,)),
             DesignPoint("E1", E), DesignLine(first, E, "mechanism"))  # fmt: skip
-    told = [_told(name, paper.measure(name, a, b))
+    told = [_length_line(name, paper.measure(name, a, b))
             for name, a, b in (("AB", A, foot), ("AC", A, C), ("CD", C, first), ("ram", C, line))]  # fmt: skip
     paper.do("design measured", (",  ".join(told),))
 
@@ -265,7 +265,7 @@ def _chain(paper: DesignPaper, chain: tuple[tuple[str, complex], ...], close: st
     """The four bars of a linkage measured, drawn as it stands."""
     (a, A), (b, B), (c, C), (d, D) = chain
     bars = [DesignLine(A, B, "mechanism"), DesignLine(B, C, "mechanism"), DesignLine(C, D, "mechanism")]
-    told = [_told(name, paper.measure(name, p, q))
+    told = [_length_line(name, paper.measure(name, p, q))
             for name, p, q in ((a + b, A, B), (b + c, B, C), (close, C, D), (a + d, A, D))]  # fmt: skip
     paper.do("design measured", (",  ".join(told),), *bars)
 

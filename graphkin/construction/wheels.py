@@ -85,7 +85,7 @@ class Wheels:
             alike, grown = alike | more, bool(more)
         return alike
 
-    def told(self, before: Wheels, order: Order) -> Iterator[Act]:
+    def acts(self, before: Wheels, order: Order) -> Iterator[Act]:
         """What was drawn since, as acts."""
         for key, plan in self.drawn.items():
             if key[0] != order or before.drawn.get(key) is plan:

@@ -39,7 +39,7 @@ def code_for(sample: bytes) -> PrefixCode:
     counts = Counter(sample)
     lengths = _lengths({byte: 1 + 4 * counts[byte] for byte in range(256)}, _LONGEST)
     codes = _codes(lengths)
-    return PrefixCode(tuple(codes[byte] for byte in range(256)), _told(lengths))
+    return PrefixCode(tuple(codes[byte] for byte in range(256)), _lengths_told(lengths))
 
 
 def as_brotli(parts: Iterable[tuple[bytes, PrefixCode]]) -> bytes:
@@ -70,7 +70,7 @@ def _block(data: bytes, code: PrefixCode) -> list[str]:
     ]  # fmt: skip
 
 
-def _told(lengths: Mapping[int, int]) -> str:
+def _lengths_told(lengths: Mapping[int, int]) -> str:
     """Which byte has a code of which length."""
     of_lengths = _lengths(Counter(lengths.values()), _LONGEST_OF_LENGTHS)
     bits, room = ["00"], 32

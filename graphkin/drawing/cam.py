@@ -15,10 +15,10 @@ from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.font_widths import runs_width
 from graphkin.drawing.headings import number, term
 from graphkin.drawing.labels import Label
+from graphkin.drawing.page_text import FOOT, LETTER, LINE, MARGIN, WIDTH, foot, heading, note_lines, step_lines
 from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
 from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Stroke, Text
 from graphkin.drawing.text import plain, rich, symbol
-from graphkin.drawing.told_page import FOOT, LETTER, LINE, MARGIN, WIDTH, foot, heading, notes_told, steps_told
 from graphkin.scene.cams import LawCam, SlidingFollower, SwingingFollower
 from graphkin.scene.follower_law import TURN
 from graphkin.scene.model import Mechanism
@@ -68,11 +68,11 @@ def cam_figure(scene: Mechanism, sheet: CamSheet, told: Mapping[str, Sequence[st
     drawn, y = _cam(scene, sheet, y + 6.0)
     y += 6.0
     for each in languages(language):
-        steps, y = steps_told(((i, say(phrase, each)) for i, phrase in enumerate(sheet.steps, 1)), y)
+        steps, y = step_lines(((i, say(phrase, each)) for i, phrase in enumerate(sheet.steps, 1)), y)
         words += steps
         y += 2.0
     table, y = _table(scene, sheet, language, y + 1.0)
-    notes, y = notes_told(told, language, y)
+    notes, y = note_lines(told, language, y)
     words += notes
     height = y + FOOT
     unit, per = scene.units.length, sheet.scale / scene.units.metres

@@ -28,7 +28,7 @@ from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_p
 from graphkin.drawing.primitives import Arc, Circle, Group, Line, Primitive, Run, Stroke, Text
 from graphkin.drawing.strokes import colour_of_link
 from graphkin.drawing.text import plain, rich, wrapped
-from graphkin.drawing.touching import stand_ins
+from graphkin.drawing.touching import replacing_links
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, languages, say, word
 
@@ -139,7 +139,7 @@ def centres_figure(
     letters = letters_of(sheet, convention or sheet.scene.sheet.convention)  # type: ignore[arg-type]
     back = background(bare_mechanism(sheet, letters), "touch")
     if sheet.scene.instead_of is not None:  # the bars to centres of curvature, which have centres too
-        back = joined((stand_ins(MechanismOnPaper(sheet, letters)), back))
+        back = joined((replacing_links(MechanismOnPaper(sheet, letters)), back))
     mechanism = ink_box(back.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
     content = near_box(centres, mechanism, MOST)
     width = max(content.width, SMALLEST[0]) + 2 * ROOM + SIDE + 2 * MARGIN

@@ -12,12 +12,12 @@ from graphkin.construction.sheet import Sheet
 from graphkin.drawing.conventions import Letters, pole
 from graphkin.drawing.force_letters import force_letters
 from graphkin.drawing.force_words import (
-    Told,
-    couples_told,
+    ForceSentence,
+    couple_sentences,
     group_caption,
     inertia_line,
     lever_sum,
-    moments_told,
+    moment_sentences,
     read_off,
 )
 from graphkin.drawing.lever import lever_on_page
@@ -77,7 +77,7 @@ class ForceStage:
 
 
 @dataclass
-class _Told:
+class _StageWriter:
     """Steps in the making."""
 
     sheet: Sheet
@@ -96,7 +96,7 @@ class _Told:
     def name(self, symbol: Symbol) -> str:
         return f"${force_letters(self.letters.convention, symbol)}$"
 
-    def told(self, of: Sequence[Sequence[Told]]) -> Iterator[tuple[ForceStep, Told]]:
+    def sentences(self, of: Sequence[Sequence[ForceSentence]]) -> Iterator[tuple[ForceStep, ForceSentence]]:
         """The same steps as they are told in each language."""
         for each in zip(*of, strict=True):
             words = tuple((language, one.reason) for language, one in zip(self.spoken, each, strict=True))
@@ -106,8 +106,8 @@ class _Told:
 
 def force_stages(sheet: Sheet, forces: ForceSheet, letters: Letters, language: str) -> tuple[ForceStage, ...]:
     """All steps from the drawn accelerations to what balances; ``sheet`` with the scale of the forces."""
-    told = _Told(sheet, forces, letters, languages(language), sheet.steps[-1].number if sheet.steps else 0)
-    made = [*_known(told)]
+    writer = _StageWriter(sheet, forces, letters, languages(language), sheet.steps[-1].number if sheet.steps else 0)
+    made = [*_known(writer)]
     count = 0
     for number, state in enumerate(forces.states):
         shown = state.groups
@@ -115,82 +115,82 @@ def force_stages(sheet: Sheet, forces: ForceSheet, letters: Letters, language: s
             shown = tuple(g for g, old in zip(shown, forces.states[0].groups, strict=True) if g != old)
         for group in shown:
             count += 1
-            made.append(_group(told, state, group, count, bool(number)))
-    made += _levers(told)
+            made.append(_group(writer, state, group, count, bool(number)))
+    made += _levers(writer)
     return tuple(made)
 
 
-def _known(told: _Told) -> Iterator[ForceStage]:
-    state = told.forces.states[0]
+def _known(writer: _StageWriter) -> Iterator[ForceStage]:
+    state = writer.forces.states[0]
     inertia = [
-        told.step(
-            told.said("force step inertia", link),
-            [inertia_line(told.sheet, one, told.letters, told.spoken[0])],
+        writer.step(
+            writer.said("force step inertia", link),
+            [inertia_line(writer.sheet, one, writer.letters, writer.spoken[0])],
             [Symbol("Fi", link=link)],
         )
-        for link, one in told.forces.inertias.items()
+        for link, one in writer.forces.inertias.items()
     ]
     if inertia:
-        yield ForceStage("acceleration", told.said("force inertia"), tuple(inertia), state)
-    lines = [spring_lines(told.sheet, told.forces, told.letters, each) for each in told.spoken]
-    pulls = [told.step(tuple(zip(told.spoken, each, strict=True))) for each in zip(*lines, strict=True)]
+        yield ForceStage("acceleration", writer.said("force inertia"), tuple(inertia), state)
+    lines = [spring_lines(writer.sheet, writer.forces, writer.letters, each) for each in writer.spoken]
+    pulls = [writer.step(tuple(zip(writer.spoken, each, strict=True))) for each in zip(*lines, strict=True)]
     if pulls:
-        yield ForceStage("mechanism", told.said("force step springs"), tuple(pulls), state)
+        yield ForceStage("mechanism", writer.said("force step springs"), tuple(pulls), state)
 
 
-def _group(told: _Told, state: ForceState, group: ForceGroup, count: int, again: bool) -> ForceStage:
-    sheet, letters, links = told.sheet, told.letters, ", ".join(group.links)
+def _group(writer: _StageWriter, state: ForceState, group: ForceGroup, count: int, again: bool) -> ForceStage:
+    sheet, letters, links = writer.sheet, writer.letters, ", ".join(group.links)
     drawn = [*group.polygon, *(v for polygon in group.inner.values() for v in polygon)]
     forces = list(dict.fromkeys(v.symbol for v in drawn if v.known and v.span))
     turning = [t.symbol for t in state.turning if t.moment and t.link in group.links]
-    names = ", ".join(told.name(s) for s in dict.fromkeys((*forces, *turning)))
-    cut = told.said("force step cut", links, names) if names else told.said("force step cut bare", links)
-    steps = [told.step(cut)]
+    names = ", ".join(writer.name(s) for s in dict.fromkeys((*forces, *turning)))
+    cut = writer.said("force step cut", links, names) if names else writer.said("force step cut bare", links)
+    steps = [writer.step(cut)]
     made = ForceStage("forces", (), (), state, group, again, known=steps[0].number)
     moments: dict[tuple[Symbol, str], int] = {}
-    for step, one in told.told([moments_told(sheet, group, letters, each) for each in told.spoken]):
+    for step, one in writer.sentences([moment_sentences(sheet, group, letters, each) for each in writer.spoken]):
         steps.append(step)
         if one.symbol is not None:
             moments[one.symbol, one.part] = step.number
-    read, inside = read_off(sheet, told.forces, state, group, letters), dict[str, int]()
+    read, inside = read_off(sheet, writer.forces, state, group, letters), dict[str, int]()
     laid = made.known
     if group.way == "drawn system":
-        steps.append(told.step(told.said("force reason system", links)))
+        steps.append(writer.step(writer.said("force reason system", links)))
     elif len(group.equation) > 1:
         if forces and group.polygon:
-            steps.append(told.step(told.said("force step lay", ", ".join(map(told.name, forces)))))
+            steps.append(writer.step(writer.said("force step lay", ", ".join(map(writer.name, forces)))))
             laid = steps[-1].number
         own = [s for s in dict.fromkeys(v.symbol for v in group.polygon if not v.known) if s in read]
-        steps.append(told.step(told.said("force reason polygon", links), [read.pop(s) for s in own], own))
+        steps.append(writer.step(writer.said("force reason polygon", links), [read.pop(s) for s in own], own))
     closing = steps[-1].number
     for link, vectors in group.inner.items():
         own = [s for s in dict.fromkeys(v.symbol for v in vectors if not v.known) if s in read]
         if own:
-            found = ", ".join(map(told.name, own))
-            steps.append(told.step(told.said("force step inside", link, found), [read.pop(s) for s in own], own))
+            found = ", ".join(map(writer.name, own))
+            steps.append(writer.step(writer.said("force step inside", link, found), [read.pop(s) for s in own], own))
             inside[link] = steps[-1].number
     couples: dict[Symbol, int] = {}
-    for step, one in told.told([couples_told(sheet, group, letters, each) for each in told.spoken]):
+    for step, one in writer.sentences([couple_sentences(sheet, group, letters, each) for each in writer.spoken]):
         steps.append(step)
         if one.symbol is not None:
             couples[one.symbol] = step.number
-    title = tuple((each, group_caption(sheet, group, count, each)) for each in told.spoken)
+    title = tuple((each, group_caption(sheet, group, count, each)) for each in writer.spoken)
     return replace(
         made, title=title, steps=tuple(steps), laid=laid, closing=closing, moments=moments, inside=inside,
         couples=couples,
     )  # fmt: skip
 
 
-def _levers(told: _Told) -> Iterator[ForceStage]:
-    forces, c = told.forces, told.letters.convention
+def _levers(writer: _StageWriter) -> Iterator[ForceStage]:
+    forces, c = writer.forces, writer.letters.convention
     for k, state in enumerate(forces.states):
         for lever in forces.levers[k]:
-            first = told.said("lever reason", f"${pole(c, 'velocity')}$")
+            first = writer.said("lever reason", f"${pole(c, 'velocity')}$")
             if lever.virtual:
                 first = tuple((each, f"{a} {say(Phrase('lever virtual'), each)}") for each, a in first)
-            steps = [told.step(first), told.step(told.said("lever step forces"))]
-            shown, _ = lever_on_page(told.sheet, lever)
-            sums = [lever_sum(told.sheet, state, shown, told.letters, each) for each in told.spoken]
-            words = tuple((each, balance) for each, (_, balance) in zip(told.spoken, sums, strict=True))
-            steps.append(told.step(words, [sums[0][0]], [lever.balance]))
-            yield ForceStage("lever", told.said("lever"), tuple(steps), state, again=bool(k))
+            steps = [writer.step(first), writer.step(writer.said("lever step forces"))]
+            shown, _ = lever_on_page(writer.sheet, lever)
+            sums = [lever_sum(writer.sheet, state, shown, writer.letters, each) for each in writer.spoken]
+            words = tuple((each, balance) for each, (_, balance) in zip(writer.spoken, sums, strict=True))
+            steps.append(writer.step(words, [sums[0][0]], [lever.balance]))
+            yield ForceStage("lever", writer.said("lever"), tuple(steps), state, again=bool(k))

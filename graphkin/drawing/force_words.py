@@ -28,7 +28,8 @@ from graphkin.words import Phrase, say
 from graphkin.words.written import amount, on_paper, product
 
 __all__ = [
-    "Told", "couples_told", "group_caption", "inertia_line", "lever_sum", "moments_told", "read_off", "sum_terms",
+    "ForceSentence", "couple_sentences", "group_caption", "inertia_line", "lever_sum", "moment_sentences", "read_off",
+    "sum_terms",
 ]  # fmt: skip
 
 DIGITS = 5
@@ -61,7 +62,7 @@ def inertia_line(sheet: Sheet, one: Inertia, letters: Letters, language: str) ->
     return said
 
 
-class Told(NamedTuple):
+class ForceSentence(NamedTuple):
     """A step in words with symbols: why it is taken, what is computed, and what it finds (``part`` of it)."""
 
     reason: str
@@ -74,20 +75,20 @@ class Told(NamedTuple):
         return self.reason, *self.work
 
 
-def moments_told(sheet: Sheet, group: ForceGroup, letters: Letters, language: str) -> list[Told]:
+def moment_sentences(sheet: Sheet, group: ForceGroup, letters: Letters, language: str) -> list[ForceSentence]:
     """The moment equations that give parts of forces, each with its reason."""
-    lines = list[Told]()
+    lines = list[ForceSentence]()
     held = next((v for v in group.polygon if v.part == "n"), None) if group.kind in ("RPP", "RPR") else None
     if held is not None:
         name = f"${force_letters(letters.convention, held.symbol, 'n')}$"
         said = say(Phrase("force reason along", (held.link.split("/")[0], name)), language)
-        lines.append(Told(said, (), held.symbol, "n"))
+        lines.append(ForceSentence(said, (), held.symbol, "n"))
     for one in group.moments:
         links = _links(one.links)
         if not one.terms and group.way == "polygon" and group.kind != "RPR":
             name = f"${force_letters(letters.convention, one.symbol)}$"
             args = links, name, f"${letters.point(one.about)}$"
-            lines.append(Told(say(Phrase("force two-force member", args), language), (), one.symbol, one.part))
+            lines.append(ForceSentence(say(Phrase("force two-force member", args), language), (), one.symbol, one.part))
             continue
         name = f"${force_letters(letters.convention, one.symbol, one.part if _parted(group, one) else '')}$"
         key = "force reason driver" if group.way == "driver" else "force reason guide" if group.kind == "RPR" else (
@@ -95,7 +96,7 @@ def moments_told(sheet: Sheet, group: ForceGroup, letters: Letters, language: st
         )  # fmt: skip
         about = f"${letters.point(one.about)}$"
         said = say(Phrase(key, (about, links, name)), language)
-        lines.append(Told(said, (_equation(sheet, one, letters, name),), one.symbol, one.part))
+        lines.append(ForceSentence(said, (_equation(sheet, one, letters, name),), one.symbol, one.part))
     return lines
 
 
@@ -109,16 +110,16 @@ def _parted(group: ForceGroup, one: MomentEquation) -> bool:
     return sum(v.symbol == one.symbol and v.part != "" for v in group.polygon) > 1
 
 
-def couples_told(sheet: Sheet, group: ForceGroup, letters: Letters, language: str) -> list[Told]:
+def couple_sentences(sheet: Sheet, group: ForceGroup, letters: Letters, language: str) -> list[ForceSentence]:
     """Couples of sliding pairs with the lines of their forces, and moments that balance."""
-    lines = list[Told]()
+    lines = list[ForceSentence]()
     units = sheet.scene.units
     for one in group.couples:
         if not any(link in sheet.scene.by_name for link in one.links):  # a pin in a slot has no couple
             continue
         name = f"${force_letters(letters.convention, one.symbol)}$"
         if one.symbol.other and not one.value:
-            lines.append(Told(say(Phrase("force no couple", (name,)), language), (), one.symbol))
+            lines.append(ForceSentence(say(Phrase("force no couple", (name,)), language), (), one.symbol))
             continue
         key = "force reason couple" if one.symbol.other else "force reason balance"
         work = [_equation(sheet, one, letters, name)]
@@ -127,7 +128,7 @@ def couples_told(sheet: Sheet, group: ForceGroup, letters: Letters, language: st
                 force = f"${force_letters(letters.convention, line.symbol)}$"
                 shift = number(abs(line.shifted) / units.metres, DIGITS)
                 work.append(say(Phrase("force line shifted", (force, shift, units.length)), language))
-        lines.append(Told(say(Phrase(key, (_links(one.links), name)), language), tuple(work), one.symbol))
+        lines.append(ForceSentence(say(Phrase(key, (_links(one.links), name)), language), tuple(work), one.symbol))
     return lines
 
 

@@ -18,7 +18,7 @@ from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.equations import write_sum
 from graphkin.drawing.force_polygon import drawn_polygon, extent_of, polygons_of
 from graphkin.drawing.force_stages import ForceStage, force_stages
-from graphkin.drawing.force_words import couples_told, inertia_line, moments_told, read_off, sum_terms
+from graphkin.drawing.force_words import couple_sentences, inertia_line, moment_sentences, read_off, sum_terms
 from graphkin.drawing.free_body import free_body, sketch_height
 from graphkin.drawing.given_loads import given_loads
 from graphkin.drawing.headings import facts, figure_title, term
@@ -280,7 +280,7 @@ def _below(
     """Moments with their reasons, the vector equation with its rows, and what was read off."""
     blocks = []
     for each in languages(spoken):
-        lines = [(text, False) for told in moments_told(sheet, group, letters, each) for text in told.lines]
+        lines = [(text, False) for told in moment_sentences(sheet, group, letters, each) for text in told.lines]
         if group.way == "drawn system":
             lines.append((say(Phrase("force reason system", (", ".join(group.links),)), each), False))
         elif len(group.equation) > 1 and group.way == "polygon":
@@ -291,7 +291,7 @@ def _below(
         written = write_sum(sum_terms(sheet, group, letters), letters, languages(spoken)[0], width)
         blocks.append(_Block(Piece({"labels": (Group(written.children, id=""),)}), written.height))
     for each in languages(spoken):
-        lines = [(text, False) for told in couples_told(sheet, group, letters, each) for text in told.lines]
+        lines = [(text, False) for told in couple_sentences(sheet, group, letters, each) for text in told.lines]
         read = read_off(sheet, forces, stage.state, group, letters) if each == languages(spoken)[0] else {}
         lines += [(";  ".join(read.values()), False)] if read else []
         if lines:

@@ -18,11 +18,11 @@ from graphkin.drawing.force_letters import force_letters
 from graphkin.drawing.force_words import lever_sum
 from graphkin.drawing.headings import drivers, facts, figure_title, term, written
 from graphkin.drawing.labels import Label
+from graphkin.drawing.page_text import titled
 from graphkin.drawing.piece import Piece, cut_to, joined, layer_groups, middle_of, moved_piece, with_labels
 from graphkin.drawing.primitives import Circle, Group, Line, Primitive, Run, Text
 from graphkin.drawing.symbols import COMPONENT, RESULTANT, arrow
 from graphkin.drawing.text import fitted, rich, symbol, wrapped
-from graphkin.drawing.told_page import titled
 from graphkin.plane import unit
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, languages, say

@@ -17,12 +17,12 @@ from graphkin.drawing.font_widths import runs_width
 from graphkin.drawing.headings import drivers, facts, figure_title, number, term
 from graphkin.drawing.labels import Label
 from graphkin.drawing.loop_words import MatrixEquation, equation, matrices, projections, root, size_name
+from graphkin.drawing.page_text import titled
 from graphkin.drawing.piece import Piece, joined, layer_groups, moved_piece, with_labels
 from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polyline, Primitive, Run, Stroke, Text
 from graphkin.drawing.strokes import colour_of_link
 from graphkin.drawing.symbols import POINTER, arrowhead
 from graphkin.drawing.text import rich, symbol, wrapped
-from graphkin.drawing.told_page import titled
 from graphkin.structure.loop_values import LoopBlock, LoopValue, loops_in_numbers
 from graphkin.words import Phrase, languages, say
 

@@ -94,17 +94,17 @@ def obstacles_of(children: tuple[Primitive, ...]) -> Obstacles:
                 areas.append(Box.around(thing.points))
             else:  # its outline, and lines across that leave no label room inside
                 count = len(thing.points)
-                solid.extend(pairwise(_course(thing)))
+                solid.extend(pairwise(_corners(thing)))
                 solid.extend((thing.points[i], thing.points[(i + count // 2) % count]) for i in range(count // 2))
         elif isinstance(thing, Line | Polyline | Polygon | Arc) and thing.stroke is not None:
-            course = tuple(pairwise(_course(thing)))
+            course = tuple(pairwise(_corners(thing)))
             (solid if thing.stroke.solid else dashed).extend(course)
             if thing.stroke.solid and thing.stroke.width >= THICK:
                 thick.extend(course)
     return Obstacles(tuple(solid), tuple(dashed), (*writing, *areas), tuple(writing), tuple(thick))
 
 
-def _course(thing: Line | Polyline | Polygon | Arc) -> tuple[complex, ...]:
+def _corners(thing: Line | Polyline | Polygon | Arc) -> tuple[complex, ...]:
     if isinstance(thing, Line):
         return thing.start, thing.end
     if isinstance(thing, Polyline):

@@ -85,7 +85,7 @@ def positions_figure(shown: Shown, *, language: str | None = None, convention: s
     box = ink_box(whole.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
     width = max(LEAST_WIDTH, box.width + 2 * (ROOM + MARGIN))
     head = [line for title in titles(sheet, spoken) for line in wrapped(title, 4.0, width - 2 * MARGIN, bold=True)]
-    told = [runs for text in _told(shown, spoken) for runs in wrapped(text, 3.0, width - 2 * MARGIN)]
+    told = [runs for text in _measured_lines(shown, spoken) for runs in wrapped(text, 3.0, width - 2 * MARGIN)]
     top = MARGIN + LINE * (len(head) + len(told)) + 3.0
     panel = Box(MARGIN, top, width - MARGIN, top + box.height + 2 * ROOM)
     placed = with_labels(moved_piece(whole, panel.centre - box.centre), panel)
@@ -100,7 +100,7 @@ def positions_figure(shown: Shown, *, language: str | None = None, convention: s
     words += check_bar(complex(width - MARGIN - 50.0, height - 6.0), rich(term("check bar", spoken), 2.5))
     return Drawing(
         width, height, layer_groups(joined((placed, Piece({"labels": tuple(words)})))),
-        figure_title(sheet, "positions", spoken), ". ".join(t.replace("$", "") for t in _told(shown, spoken)),
+        figure_title(sheet, "positions", spoken), ". ".join(t.replace("$", "") for t in _measured_lines(shown, spoken)),
         languages(spoken)[0], facts(sheet, "positions"),
     )  # fmt: skip
 
@@ -224,7 +224,7 @@ def _gamma(shown: Shown) -> Piece:
     return Piece({"answers": (Group((*lines, *arc), id="least-gamma"),)}, (label,))
 
 
-def _told(shown: Shown, spoken: str) -> list[str]:
+def _measured_lines(shown: Shown, spoken: str) -> list[str]:
     """What was measured of the whole turn, in words."""
     metres, unit = shown.own.scene.units.metres, shown.own.scene.units.length
     said = [term("positions", spoken)]

@@ -16,12 +16,12 @@ from graphkin.drawing.headings import facts, figure_title, term
 from graphkin.drawing.labels import Label
 from graphkin.drawing.mechanism import bare_mechanism, links_alone
 from graphkin.drawing.mechanism_on_paper import MechanismOnPaper, page
+from graphkin.drawing.page_text import titled
 from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
 from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Primitive, Text
 from graphkin.drawing.symbols import JOINT_RADIUS
 from graphkin.drawing.text import plain, rich, symbol, wrapped
-from graphkin.drawing.told_page import titled
-from graphkin.drawing.touching import stand_ins
+from graphkin.drawing.touching import replacing_links
 from graphkin.structure import Cluster, Driven, Dyad, Element, Pair, Slide, Structure, Turn, links_of, replaced_pairs
 from graphkin.words import Phrase, class_of, languages, say
 
@@ -104,7 +104,7 @@ def _diagram(sheet: Sheet, letters: Letters, spoken: str, panel: Box) -> Piece:
             text = Text(0j, plain(term("own turning", spoken), 2.4), "start", strokes.GREY,
                         f"badge-roller-{cam.cam.follower}", ("label",))  # fmt: skip
             labels.append(Label(text, page(cam.point), rank=1))
-    whole = joined((stand_ins(here), piece, Piece(labels=tuple(labels))))
+    whole = joined((replacing_links(here), piece, Piece(labels=tuple(labels))))
     ink = ink_box(whole.drawn) or panel
     return with_labels(moved_piece(whole, panel.centre - ink.centre), panel)
 

@@ -28,10 +28,10 @@ from graphkin.drawing.dimensions import check_bar
 from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.headings import number, term
 from graphkin.drawing.labels import Label
+from graphkin.drawing.page_text import FOOT, LETTER, LINE, MARGIN, WIDTH, foot, heading, note_lines, step_lines
 from graphkin.drawing.piece import Piece, cut_to, joined, layer_groups, moved_piece, with_labels
 from graphkin.drawing.primitives import Arc, Circle, Group, Line, Primitive, Run, Stroke, Text
 from graphkin.drawing.text import rich
-from graphkin.drawing.told_page import FOOT, LETTER, LINE, MARGIN, WIDTH, foot, heading, notes_told, steps_told
 from graphkin.scene.synthesis import Design
 from graphkin.version import __version__
 from graphkin.words import Phrase, languages, say, word
@@ -119,11 +119,11 @@ def design_figure(
     drawn = moved_piece(piece, origin)
     y = panel.bottom + 5.0
     for each in languages(language):
-        steps, y = steps_told(((step.number, step_words(step.phrase, each)) for step in sheet.steps), y)
+        steps, y = step_lines(((step.number, step_words(step.phrase, each)) for step in sheet.steps), y)
         words += steps
         y += 2.0
     table, y = _tables(design, rows, confirmed, language, y + 1.0)
-    told, y = notes_told(notes, language, y)
+    told, y = note_lines(notes, language, y)
     words += told
     height = y + FOOT
     unit = design.units.length

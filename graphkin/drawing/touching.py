@@ -17,7 +17,7 @@ from graphkin.drawing.piece import Piece
 from graphkin.drawing.primitives import Arc, Circle, Group, Line, Primitive, Stroke, Text
 from graphkin.drawing.text import symbol
 
-__all__ = ["contact_marks", "faces_of_frame", "marks_cut_free", "outlines_of", "stand_ins", "wheels_of"]
+__all__ = ["contact_marks", "faces_of_frame", "marks_cut_free", "outlines_of", "replacing_links", "wheels_of"]
 
 NORMAL, TANGENT = 15.0, 12.0
 """mm of normal and tangent to either side of a contact."""
@@ -134,7 +134,7 @@ def _marks(places: Iterable[tuple[str, complex, complex]], tag: str = "") -> Pie
     return Piece({"construction": tuple(drawn)}, tuple(names))
 
 
-def stand_ins(here: MechanismOnPaper) -> Piece:
+def replacing_links(here: MechanismOnPaper) -> Piece:
     """What replaces the higher pairs, dashed: the bar between two centres of curvature, that of a cam's pitch curve
     among them, the block at the one of a disc whose guide runs along the face."""
     links, drawn = _on_paper(here), list[Primitive]()

@@ -15,11 +15,11 @@ from graphkin.drawing.dimensions import check_bar
 from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.headings import drivers, facts, figure_title, number, term
 from graphkin.drawing.labels import Label
+from graphkin.drawing.page_text import titled
 from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
 from graphkin.drawing.primitives import Circle, Group, Line, Primitive, Text
 from graphkin.drawing.symbols import COMPONENT, arrow
 from graphkin.drawing.text import fitted, rich, symbol, wrapped
-from graphkin.drawing.told_page import titled
 from graphkin.drawing.train_scheme import scheme
 from graphkin.words import Phrase, languages, say
 from graphkin.words.written import on_paper
@@ -141,7 +141,7 @@ def _rate_scale(sheet: Sheet, plan: TrainPlan, letters: Letters) -> Piece:
     """Parallels to the lines through the pole, which stands at 0, down to the scale."""
     sign = "ω" if plan.order == "velocity" else "α"
     deep = plan.scales.pole
-    shown = _told(sheet, plan)
+    shown = _plan_lines(sheet, plan)
     feet = [0.0, *(one.foot for one in shown)]
     thin: list[Primitive] = [Line(complex(min(feet) - 4.0, deep), complex(max(feet) + 4.0, deep), strokes.OUTLINE),
                              Line(0j, complex(0.0, deep), strokes.DIRECTION),
@@ -163,7 +163,7 @@ def _rate_scale(sheet: Sheet, plan: TrainPlan, letters: Letters) -> Piece:
     return Piece({"construction": tuple(thin), plan.order: tuple(rays)}, tuple(labels))
 
 
-def _told(sheet: Sheet, plan: TrainPlan) -> list[PlanLine]:
+def _plan_lines(sheet: Sheet, plan: TrainPlan) -> list[PlanLine]:
     """One line for each link of the scene: that from which its rate is read."""
     links = dict.fromkeys(one.link for one in plan.lines if one.link in sheet.scene.by_name)
     found = [plan.line(link) for link in links if link != sheet.scene.frame.name]
@@ -180,7 +180,7 @@ def _table(
     words += [Text(complex(x, y), rich(head, 2.5)) for x, head in zip(columns, heads, strict=True)]
     words.append(Line(complex(MARGIN, y + 1.4), complex(MARGIN + 62.0, y + 1.4), strokes.OUTLINE))
     y += 0.8
-    for one in _told(sheet, plan):
+    for one in _plan_lines(sheet, plan):
         y += ROW
         known = term("plan given", spoken) if one.rate_known and not one.trial else ""
         cells = (one.link, on_paper(abs(one.foot)), f"{number(one.rate, 5)} {known}")

@@ -187,7 +187,7 @@ class _Frames:
             if len(forces.states) > 1 and stage.group is not None:
                 load = said("force with load" if stage.again else "force without load", lesson.language)
                 title += f" <small>{said_html(load)}</small>"
-            numbers.append(self._told({"title": title, "svg": svg}))
+            numbers.append(self._place_in_table({"title": title, "svg": svg}))
             steps += [
                 {"d": name, "e": before + turn, "n": step.number, "html": said_html(step.words, "p")
                  + "".join(f'<p class="work">{words_html(line, first)}</p>' for line in step.work),
@@ -207,9 +207,9 @@ class _Frames:
         if stage.equation is not None:
             words = equation_words(lesson, stage.equation)
             svg = figure_svg(equation_picture(lesson.sheet, stage.equation, lesson.letters, lesson.language, words))
-        return self._told({"title": said_html(stage_title(lesson, stage)), "svg": svg})
+        return self._place_in_table({"title": said_html(stage_title(lesson, stage)), "svg": svg})
 
-    def _told(self, whole: dict[str, str]) -> int:
+    def _place_in_table(self, whole: dict[str, str]) -> int:
         if whole not in self.stages:
             self.stages.append(whole)
         return self.stages.index(whole)

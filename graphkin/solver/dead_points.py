@@ -13,8 +13,8 @@ import numpy as np
 from graphkin.errors import GraphkinError, Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.solver.assemblies import choose_forms
-from graphkin.solver.closing import Discriminant, newton, touch
 from graphkin.solver.decimals import PI, meant_value, working
+from graphkin.solver.discriminant import Discriminant, newton, touch
 from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import positions
 from graphkin.solver.joints import Drive, driver_text

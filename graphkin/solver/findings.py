@@ -96,7 +96,7 @@ def _beyond_limits(
 
     ``status`` and ``reasons`` are changed.
     """
-    from graphkin.solver.closing import closes
+    from graphkin.solver.discriminant import closes
 
     n = len(status)
     for i, solved in state.groups.items():

@@ -162,7 +162,7 @@ class _Statics:
                 (moments if one.at is None else forces)[one.key] = one.value
         found, ok = self.system.answer(self.right((one, one.value) for one in self.acting))
         ok = ok & ~np.any([np.zeros(len(ok), dtype=bool), *without_line(self.motion).values()], axis=0)
-        self._told(found, forces, moments)
+        self._by_symbol(found, forces, moments)
         if not ok.all():
             for table in (forces, moments):
                 for key, value in table.items():
@@ -178,7 +178,7 @@ class _Statics:
         changed = ok & np.any([one.beside != one.value for one in jumping], axis=0)
         made = {one.key: one.beside for one in jumping if one.key and one.beside is not None}
         if changed.any():
-            self._told(np.where(changed, self.system.answer(self.right(values))[0], np.nan), made, made)
+            self._by_symbol(np.where(changed, self.system.answer(self.right(values))[0], np.nan), made, made)
         least = 1e-6 * EDGE * np.max(np.abs(np.nan_to_num(list(here.values()))), axis=0)
         for key, value in list(made.items()):
             made[key] = np.where(ok & (np.abs(value - here[key]) > least), value, np.nan)
@@ -186,7 +186,7 @@ class _Statics:
                 del made[key]
         return made
 
-    def _told(self, found: Array, forces: dict[str, Array], moments: dict[str, Array]) -> None:
+    def _by_symbol(self, found: Array, forces: dict[str, Array], moments: dict[str, Array]) -> None:
         """The columns of the answer by their symbols."""
         told: set[str] = set()
         for one, value in zip(self.unknowns, found, strict=True):

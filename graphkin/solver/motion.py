@@ -132,8 +132,8 @@ def _turning(motion: Motion, symbol: Symbol, of: PointRef) -> Array:
     if of.link:
         motion.link(of.link)
     frame = motion.scene.frame
-    stand_ins = [name for name in motion.structure.links if name not in motion.scene.by_name]
-    for name in (*(link.name for link in motion.scene.links), *stand_ins):
+    replacing_links = [name for name in motion.structure.links if name not in motion.scene.by_name]
+    for name in (*(link.name for link in motion.scene.links), *replacing_links):
         if not _is_on(motion, of, name):
             continue
         pose = motion.poses[name]

@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 
 from graphkin.scene.model import SlideDriver
-from graphkin.solver.closing import least_closes
+from graphkin.solver.discriminant import least_closes
 from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import positions
 from graphkin.solver.joints import Drive

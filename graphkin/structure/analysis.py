@@ -164,7 +164,7 @@ def _in_parts(structure: Structure) -> Structure:
             found[e] = tuple(triangles)
     if not found:
         return structure
-    instead: dict[AnyDriver, AnyDriver] = {t.driver: t.stand_in for triangles in found.values() for t in triangles}
+    instead: dict[AnyDriver, AnyDriver] = {t.driver: t.equivalent for triangles in found.values() for t in triangles}
     try:
         opened = analyse(replace(structure.scene, drivers=tuple(instead.get(d, d) for d in structure.scene.drivers)))
     except Unsolvable:

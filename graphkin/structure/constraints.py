@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from graphkin.scene.cams import LawCam, SlidingFollower
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedGuide, PlacedLink
 from graphkin.structure.model import Mobility, Slide
-from graphkin.structure.replacement import stand_in
+from graphkin.structure.replacement import replacing_link
 from graphkin.structure.rolling import followers_of, meshes_of, relations_of
 
 __all__ = ["Constraints", "Node", "Unknown"]
@@ -36,7 +36,7 @@ class Constraints:
         self.contacts = tuple(c for c in scene.contacts if {*c.links} <= links.keys())
         self.gears = tuple(g for g in scene.gears if {*g.wheels, g.carrier} <= links.keys())
         for contact in self.contacts:
-            link, slide = stand_in(contact, links)
+            link, slide = replacing_link(contact, links)
             links[link.name] = link
             slides += [slide] if slide else []
         hinges: dict[str, list[str]] = {}

@@ -197,14 +197,14 @@ class DrivenTriangle:
     """Two links of a group that a pair joins, and a driven slide hung on both.
 
     With ``held`` at rest the other three ``links`` (the other of the two, then the slide's) are a dyad, whatever the
-    group does; what it gives at ``pair`` is what the driver ``stand_in`` there would give.
+    group does; what it gives at ``pair`` is what the driver ``equivalent`` there would give.
     """
 
     held: str
     links: tuple[str, str, str]
     pair: Pair
     driver: SlideDriver
-    stand_in: AnyDriver
+    equivalent: AnyDriver
 
 
 @dataclass(frozen=True)

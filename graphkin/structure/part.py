@@ -68,10 +68,10 @@ def part_of(structure: Structure, asked: Sequence[Symbol]) -> Mechanism:
     kept = {scene.frame.name, *(n for e in needed(structure, asked) for n in links_of(e))}
     if all(link.name in kept for link in scene.links):
         return scene
-    return _kept(scene, kept, tuple(asked))
+    return _part_scene(scene, kept, tuple(asked))
 
 
-def _kept(scene: Mechanism, kept: set[str], asked: tuple[Symbol, ...]) -> Mechanism:
+def _part_scene(scene: Mechanism, kept: set[str], asked: tuple[Symbol, ...]) -> Mechanism:
     """The scene with these links only."""
     return replace(
         scene,
@@ -84,7 +84,7 @@ def _kept(scene: Mechanism, kept: set[str], asked: tuple[Symbol, ...]) -> Mechan
         drivers=tuple(d for d in scene.drivers if _ends(scene, d) <= kept),
         find=asked,
         stated=(),
-        instead_of=None if scene.instead_of is None else _kept(scene.instead_of, kept, asked),
+        instead_of=None if scene.instead_of is None else _part_scene(scene.instead_of, kept, asked),
     )
 
 

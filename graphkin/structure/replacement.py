@@ -16,10 +16,10 @@ from graphkin.scene.model import Mechanism, PinInSlot, PlacedGuide, PlacedLink
 from graphkin.structure.model import Dyad, Slide, Structure
 from graphkin.words import Phrase
 
-__all__ = ["named_with_contact", "pins_on_circles", "replaced_pairs", "stand_in"]
+__all__ = ["named_with_contact", "pins_on_circles", "replaced_pairs", "replacing_link"]
 
 
-def stand_in(contact: PlacedContact, links: Mapping[str, PlacedLink]) -> tuple[PlacedLink, Slide | None]:
+def replacing_link(contact: PlacedContact, links: Mapping[str, PlacedLink]) -> tuple[PlacedLink, Slide | None]:
     """The link that stands for a contact, and for a flat face the sliding pair.  The point of contact is a point of it.
     Where another link holds both centres of a rolling pair, it is that link with the point of contact."""
     own = {"": PlacedGuide("", 0j, 1 + 0j)}

@@ -137,9 +137,9 @@ def _at_contact(structure: Structure, contact: PlacedContact, name: str) -> Tran
     block, frame = contact.block, structure.scene.frame
     if block not in structure.links or name not in structure.links:
         return None
-    stand_in = structure.links[block]
-    centre = stand_in.points[contact.round[0].centre]
-    far = stand_in.points[contact.name] if contact.flat else stand_in.points[contact.round[1].centre]
+    replacing_link = structure.links[block]
+    centre = replacing_link.points[contact.round[0].centre]
+    far = replacing_link.points[contact.name] if contact.flat else replacing_link.points[contact.round[1].centre]
     normal = (block, centre), (block, far)
     slide = next((s for s in structure.slides if s.a == name and s.b == frame.name and not s.slot), None)
     if slide is not None:
@@ -148,7 +148,7 @@ def _at_contact(structure: Structure, contact: PlacedContact, name: str) -> Tran
     pivot = next((p for p in link.points if p in frame.points), None)
     if pivot is None:
         return None
-    return TransmissionAngle(normal, ((name, link.points[pivot]), (block, stand_in.points[contact.name])))
+    return TransmissionAngle(normal, ((name, link.points[pivot]), (block, replacing_link.points[contact.name])))
 
 
 def sliding_pair(structure: Structure, symbol: Symbol) -> Slide:

@@ -55,7 +55,7 @@ def triangles_of(
         if isinstance(driver, SlideDriver) and slide is not None and {slide.a, slide.b} <= set(cluster.members):
             triangle = _triangle(joints, slide, driver, taken)
             if triangle is not None:
-                taken.add(triangle.stand_in.key)
+                taken.add(triangle.equivalent.key)
                 found.append(triangle)
     return found
 
@@ -71,13 +71,13 @@ def _triangle(joints: _Joints, slide: Slide, driver: SlideDriver, taken: set[str
                 continue
             first = min(a, b, key=joints.cluster.members.index)
             for held, other in ((first, b if first == a else a), (b if first == a else a, first)):
-                stand_in = _stand_in(pairs[0], held, other)
-                if stand_in.key not in taken:
-                    return DrivenTriangle(held, (other, slide.a, slide.b), pairs[0], driver, stand_in)
+                equivalent = _equivalent_driver(pairs[0], held, other)
+                if equivalent.key not in taken:
+                    return DrivenTriangle(held, (other, slide.a, slide.b), pairs[0], driver, equivalent)
     return None
 
 
-def _stand_in(pair: Pair, held: str, other: str) -> AnyDriver:
+def _equivalent_driver(pair: Pair, held: str, other: str) -> AnyDriver:
     if isinstance(pair, Turn):
         return AngleDriver(other, held, 0.0, 0.0, 0.0)
     return SlideDriver(pair.key, 0.0, 0.0, 0.0)

@@ -158,7 +158,7 @@ def flip(mp: MPContext, samples: int = 4) -> Singularity:
     laws[-1] = replace(laws[-1], lost=math.inf)  # in parts of the crank's own rate squared: it goes on growing
     xs, es = binned(x, refined, samples)
     stated = binned(x, bounds, samples)[1]
-    told = next((e for e in x[::samples] if _told(_at(scene, -math.pi / 2 + e))), stops.get("drawn"))
+    told = next((e for e in x[::samples] if _warns(_at(scene, -math.pi / 2 + e))), stops.get("drawn"))
     laws += [
         ErrorLaw("acceleration bar solved", xs, tuple(max(e, FLOOR) for e in es), refuses_from=stops.get("solved"),
                  bound=stated),
@@ -176,7 +176,7 @@ def _drawn(scene: Mechanism) -> float:
         return math.nan
 
 
-def _told(scene: Mechanism) -> bool:
+def _warns(scene: Mechanism) -> bool:
     """Whether the drawing warns of the short arm."""
     try:
         return any(isinstance(r, ShortArm) for r in execute(plan(scene), EXACT).remarks)

@@ -11,7 +11,7 @@ from graphkin.drawing.primitives import Primitive, Run, Text
 from graphkin.drawing.text import plain, rich, wrapped
 from graphkin.words import languages
 
-__all__ = ["FOOT", "LETTER", "LINE", "MARGIN", "WIDTH", "foot", "heading", "notes_told", "steps_told", "titled"]
+__all__ = ["FOOT", "LETTER", "LINE", "MARGIN", "WIDTH", "foot", "heading", "note_lines", "step_lines", "titled"]
 
 WIDTH, MARGIN, FOOT = 210.0, 12.0, 14.0
 LETTER, LINE = 3.0, 4.6
@@ -37,7 +37,7 @@ def titled(sheet: Sheet, language: str, below: str, margin: float = MARGIN) -> t
     return words, y
 
 
-def steps_told(steps: Iterable[tuple[int, str]], y: float) -> tuple[list[Primitive], float]:
+def step_lines(steps: Iterable[tuple[int, str]], y: float) -> tuple[list[Primitive], float]:
     """Steps with their numbers (markup), and where they end."""
     words: list[Primitive] = []
     for number, said in steps:
@@ -49,7 +49,7 @@ def steps_told(steps: Iterable[tuple[int, str]], y: float) -> tuple[list[Primiti
     return words, y
 
 
-def notes_told(notes: Mapping[str, Sequence[str]], language: str, y: float) -> tuple[list[Primitive], float]:
+def note_lines(notes: Mapping[str, Sequence[str]], language: str, y: float) -> tuple[list[Primitive], float]:
     """Sentences by language (markup), and where they end."""
     words: list[Primitive] = []
     for each in languages(language):
