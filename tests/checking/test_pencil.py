@@ -14,10 +14,9 @@ from graphkin.construction import execute, pencil, plan
 from graphkin.scene import library, library_text, mechanism_of, mechanism_of_text
 from graphkin.scene.sheet_tables import Tools
 from graphkin.scene.symbol import Symbol
-from tests import EVERYTHING
 
 SIXBAR = "sixbar-guide-40deg"
-SEEDS = 40 if EVERYTHING else 20
+SEEDS = 40
 
 def _series(what, tools):
     """Errors of every reading over a series of seeds (SI)."""

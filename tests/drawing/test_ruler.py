@@ -71,6 +71,6 @@ def test_a_sheet_is_printed_on_a4_or_on_the_a3_that_its_wished_scales_need(
     sheet = printed(name)[0].figures["sheet"]
     box = re.search(rb"/MediaBox \[ 0 0 ([\d.]+) ([\d.]+) \]", pdf_bytes(sheet))
     assert paper == pytest.approx([float(side) * MM for side in box.groups()], abs=0.01)
-    image = Image.open(io.BytesIO(png_bytes(sheet, dpi=100.0)))
+    image = Image.open(io.BytesIO(png_bytes(sheet, dpi=300.0)))
     sides = [pixels / dpi * 25.4 for pixels, dpi in zip(image.size, image.info["dpi"], strict=True)]
     assert paper == pytest.approx(sides, abs=0.1)
