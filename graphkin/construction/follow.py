@@ -5,8 +5,10 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from graphkin.construction.dyads import drive, meet
 from graphkin.construction.reduced_mechanism import ReducedMechanism, clusters, reduced_mechanisms
@@ -19,6 +21,8 @@ from graphkin.structure import Cluster, Driven, Dyad, Element, Rolled, Structure
 from graphkin.structure.assembly import ways
 
 __all__ = ["Choices", "best_reduced", "drawn_near", "fitted", "found_near", "moved_to"]
+
+Array = NDArray[np.float64]
 
 STEP = math.radians(2.0)
 FIT = 1e-12  # what is left out fits, in the size of the mechanism
@@ -119,10 +123,12 @@ def found_near(
         if isinstance(element, Dyad):
             near = _nearest(frame, element, guess)
         else:
-            reduced = best_reduced(choices, element, frame, guess)
-            if reduced is not None and element.rolling:
-                reduced = reduced.rolled_from(guess if start is None else start, frame.mm)
-            near = fitted(reduced, frame, guess) if reduced is not None else None
+            trial = _best(choices, element, frame, guess)
+            if trial is not None and element.rolling:
+                rolled = choices.last[element].rolled_from(guess if start is None else start, frame.mm)
+                near = fitted(rolled, frame, guess)
+            else:
+                near = None if trial is None else _closed(trial, frame, guess)
         if near is None:
             return None
         frame.poses.update(near)
@@ -141,19 +147,56 @@ def _nearest(frame: PlacedLinks, dyad: Dyad, guess: Poses) -> Poses | None:
     )  # fmt: skip
 
 
+@dataclass(frozen=True)
+class _Tried:
+    """A trial drawing of a larger group: the trial values, what is drawn, the gaps that it leaves, how these change
+    with the values, and how well it finds the group (0: not at all)."""
+
+    reduced: ReducedMechanism
+    at: Array
+    drawn: PlacedLinks
+    gap: Array
+    slope: Array
+    quality: float
+
+
+def _tried(
+    reduced: ReducedMechanism, known: PlacedLinks, guess: Poses, values: Sequence[float] | None = None
+) -> _Tried | None:
+    """A trial drawing near a guess; a small gap shall mean a small error of every link, and no link outrun the trial
+    driver by much."""
+    at = np.array(reduced.values(guess, known.mm) if values is None else values)
+    one = drawn_near(reduced, known, guess, at)
+    if one is None:
+        return None
+    group = {n: pose for n, pose in one.poses.items() if n in reduced.cluster.members}
+    gap = np.array(reduced.gaps(one))
+    quality, slopes, each = 1.0, [], []
+    size = known.mm * reduced.structure.scene.size
+    for step in NUDGE * np.eye(len(at)):
+        two = drawn_near(reduced, known, guess, at + step)
+        if two is None:
+            return None
+        slopes.append((np.array(reduced.gaps(two)) - gap) / NUDGE)
+        grown = max(_moved(group, two.poses, size), 1e-12) / NUDGE
+        each.append(slopes[-1] / grown)
+        quality = min(quality, 2.0 / grown)
+    least = float(np.linalg.svd(np.array(each), compute_uv=False)[-1]) if len(at) > 1 else abs(float(each[0][0]))
+    return _Tried(reduced, at, one, gap, np.array(slopes).T, quality * least)
+
+
 def fitted(
     reduced: ReducedMechanism, known: PlacedLinks, guess: Poses, values: Sequence[float] | None = None
 ) -> dict[str, Pose] | None:
     """A larger group near a guess: the trial values by proportional division of the gaps that trial drawings leave,
     again and again (secant; with several trial drivers that of Broyden, Math. Comp. 19, 1965)."""
-    at = np.array(reduced.values(guess, known.mm) if values is None else values)
-    one = drawn_near(reduced, known, guess, at)
-    if one is None:
-        return None
-    gap = np.array(reduced.gaps(one))
-    slope = _slopes(reduced, known, guess, at, gap)
-    if slope is None:
-        return None
+    start = _tried(reduced, known, guess, values)
+    return None if start is None else _closed(start, known, guess)
+
+
+def _closed(start: _Tried, known: PlacedLinks, guess: Poses) -> dict[str, Pose] | None:
+    """``fitted`` from a trial drawing on."""
+    reduced, at, one, gap, slope = start.reduced, start.at, start.drawn, start.gap, start.slope
     for _ in range(ROUNDS):
         try:
             step = np.linalg.solve(slope, -gap)
@@ -176,19 +219,6 @@ def fitted(
     return reduced.put_back(one) if np.abs(gap).max() < FIT else None
 
 
-def _slopes(
-    reduced: ReducedMechanism, known: PlacedLinks, guess: Poses, at: np.ndarray, gap: np.ndarray
-) -> np.ndarray | None:
-    """How the gaps change with the trial values."""
-    columns = []
-    for i in range(len(at)):
-        moved = drawn_near(reduced, known, guess, at + NUDGE * np.eye(len(at))[i])
-        if moved is None:
-            return None
-        columns.append((np.array(reduced.gaps(moved)) - gap) / NUDGE)
-    return np.array(columns).T
-
-
 def drawn_near(
     reduced: ReducedMechanism, known: PlacedLinks, guess: Poses, values: Sequence[float] | np.ndarray
 ) -> PlacedLinks | None:
@@ -208,41 +238,21 @@ def drawn_near(
 
 
 def best_reduced(choices: Choices, cluster: Cluster, known: PlacedLinks, guess: Poses) -> ReducedMechanism | None:
-    """The reduced mechanism that finds the group well: a small gap means a small error of every link, and no link
-    outruns the trial driver by much.  None where all are at dead points."""
+    """The reduced mechanism that finds the group well; None where all are at dead points."""
+    return None if _best(choices, cluster, known, guess) is None else choices.last[cluster]
+
+
+def _best(choices: Choices, cluster: Cluster, known: PlacedLinks, guess: Poses) -> _Tried | None:
+    """The trial drawing by it, which is the last of the choices then."""
     last = choices.last.get(cluster)
-    if last is not None and _quality(last, known, guess) > GOOD / 2:
-        return last
-    best: tuple[float, ReducedMechanism] | None = None
+    best = _tried(last.rolled_from(guess, known.mm), known, guess) if last is not None else None
+    if best is not None and best.quality > GOOD / 2:
+        return best
+    best = None
     for reduced in choices.of[cluster]:
-        quality = _quality(reduced, known, guess)
-        if quality > 0.0 and (best is None or quality > best[0]):
-            best = quality, reduced
-            if quality > GOOD:
+        now = _tried(reduced.rolled_from(guess, known.mm), known, guess)
+        if now is not None and now.quality > (0.0 if best is None else best.quality):
+            best, choices.last[cluster] = now, reduced
+            if now.quality > GOOD:
                 break
-    if best is None:
-        return None
-    choices.last[cluster] = best[1]
-    return best[1]
-
-
-def _quality(reduced: ReducedMechanism, known: PlacedLinks, guess: Poses) -> float:
-    reduced = reduced.rolled_from(guess, known.mm)
-    at = np.array(reduced.values(guess, known.mm))
-    one = drawn_near(reduced, known, guess, at)
-    if one is None:
-        return 0.0
-    group = {n: pose for n, pose in one.poses.items() if n in reduced.cluster.members}
-    gap = np.array(reduced.gaps(one))
-    quality, slopes = 1.0, []
-    size = known.mm * reduced.structure.scene.size
-    for i in range(len(at)):
-        two = drawn_near(reduced, known, guess, at + NUDGE * np.eye(len(at))[i])
-        if two is None:
-            return 0.0
-        slopes.append((np.array(reduced.gaps(two)) - gap) / NUDGE)
-        grown = max(_moved(group, two.poses, size), 1e-12) / NUDGE
-        slopes[-1] /= grown
-        quality = min(quality, 2.0 / grown)
-    least = float(np.linalg.svd(np.array(slopes), compute_uv=False)[-1]) if len(at) > 1 else abs(float(slopes[0][0]))
-    return quality * least
+    return best

@@ -60,15 +60,16 @@ def _bounds(
     members = {name: poses[name].spread(n) for name in names}
     every, all_ = {**system.known, **members}, system.of(members)
     with np.errstate(all="ignore"):
-        inverse = _inverse(system.matrix(all_))
-        sizes = _sizes(system, all_, inverse)
+        matrix = system.matrix(all_)
+        inverse = _inverse(matrix)
+        sizes = _sizes(system, all_, matrix, inverse)
         open_ = np.abs(system.constraints(all_))
 
-        def off(order: int, errors: Mapping[str, Errors]) -> Array:
-            rows = _Rows(system, every, errors, given, rolled, led, before).off(order)
-            return np.asarray(open_[order] + np.stack(_all(rows, n), axis=1))
+        def off(order: int, rows: _Rows) -> Array:
+            return np.asarray(open_[order] + np.stack(_all(rows.off(order), n), axis=1))
 
-        alone = [off(order, {}) for order in range(3)]
+        first = _Rows(system, every, {}, given, rolled, led, before)
+        alone = [off(order, first) for order in range(3)]
         change = np.zeros(n)
         found = dict.fromkeys(names, _NONE)
         chained = dict.fromkeys(names, _NONE)
@@ -76,7 +77,7 @@ def _bounds(
             # what has happened to the constraints so far, by the rates at which the inverse passes it on
             tight = sum(w * _times(sizes[k], alone[order - k]) for k, w in enumerate(_BINOMIAL[order]))
             # and step by step through the constraints of the rates: more, but with what the first leaves out
-            loose = _times(sizes[0], off(order, chained))
+            loose = _times(sizes[0], off(order, replace(first, errors=chained)) if order else alone[0])
             if order == 0:
                 change = _change(system, every, inverse, np.asarray(tight))
             grown = 1 / np.maximum(1 - 3 * change, 0.0)[:, None]
@@ -105,8 +106,8 @@ def _with(found: Mapping[str, Errors], order: int, error: Array, system: System)
     return made
 
 
-def _sizes(system: System, all_: Pose, inverse: Array) -> tuple[Array, Array, Array]:
-    """Sizes of the entries of the inverse, and of its first and second rate along the motion.
+def _sizes(system: System, all_: Pose, here: Array, inverse: Array) -> tuple[Array, Array, Array]:
+    """Sizes of the entries of the inverse of a matrix, and of its first and second rate along the motion.
 
     With G and A the rates of the matrix these are -S G S and 2 S G S G S - S A S; G and A by differences, which is
     enough for a bound.
@@ -121,7 +122,7 @@ def _sizes(system: System, all_: Pose, inverse: Array) -> tuple[Array, Array, Ar
         turn = np.exp(1j * (t * p.omega + half * p.alpha))
         return system.matrix(replace(p, z=p.z + t * p.v + half * p.a, u=p.u * turn))
 
-    here, wide = system.matrix(p), step[:, None, None]
+    wide = step[:, None, None]
     ahead, behind = at(step[:, None]), at(-step[:, None])
     first, second = (ahead - behind) / (2 * wide), (ahead - 2 * here + behind) / wide**2
     bent = inverse @ first @ inverse
@@ -197,6 +198,7 @@ class _Rows:
     """How far each constraint may be off with its unknowns as they are found.
 
     poses, errors : of every link, errors as far as they are known already
+    known : joints of links of which nothing is off, as they are found
     """
 
     system: System
@@ -206,6 +208,7 @@ class _Rows:
     rolled: Array
     led: Sequence[LedLink] = ()
     before: Mapping[str, Errors] = field(default_factory=dict)
+    known: dict[tuple[int, str], _Joint] = field(default_factory=dict)
 
     def off(self, order: int) -> list[Array]:
         """In the order of the constraints, of their values (0), first (1) or second rates (2)."""
@@ -258,8 +261,31 @@ class _Rows:
         return replace(found, angle=found.angle + np.abs(np.abs(self.poses[name].u) - 1))
 
     def _joint(self, pair: Pair, name: str) -> _Joint:
+        own = self.known.get((id(pair), name))
+        if own is None:
+            own = self.known[id(pair), name] = self._alone(pair, name)
+        e = self.errors.get(name)
+        if e is None:
+            return own
+        p, far, (pose, off) = self.poses[name], abs(joint_place(self.system.structure, pair, name)[0]), own
+        spin, bend = np.abs(p.omega), np.abs(p.alpha) + p.omega**2
+        turn = far * e.angle
+        return _Joint(
+            pose,
+            Errors(
+                e.position + turn + off.position,
+                e.velocity + far * e.omega + spin * turn + off.velocity,
+                e.acceleration + far * (e.alpha + (2 * spin + e.omega) * e.omega) + bend * turn + off.acceleration,
+                e.angle + off.angle,
+                e.omega,
+                e.alpha,
+            ),
+        )
+
+    def _alone(self, pair: Pair, name: str) -> _Joint:
+        """A joint of a link of which nothing is off but what is written and rounded."""
         place, direction = joint_place(self.system.structure, pair, name)
-        p, e, far = self.poses[name], self._errors(name), abs(place)
+        p, far = self.poses[name], abs(place)
         written, turned = 0.0, 0.0
         if isinstance(pair, Turn):
             written = self.given(("error", "point", name, pair.point))
@@ -269,16 +295,17 @@ class _Rows:
         else:
             turned = self.given(("error", "turn", pair.key))
         spin, bend = np.abs(p.omega), np.abs(p.alpha) + p.omega**2
-        off = far * (e.angle + FEW) + 1.5 * written
+        angle = np.abs(np.abs(p.u) - 1)  # a computed direction may be a little longer or shorter than one
+        off = far * (angle + FEW) + 1.5 * written
         return _Joint(
             p.fixed(place, direction),
             Errors(
-                e.position + off + UNIT * np.abs(p.z),
-                e.velocity + far * e.omega + spin * off + UNIT * np.abs(p.v),
-                e.acceleration + far * (e.alpha + (2 * spin + e.omega) * e.omega) + bend * off + UNIT * np.abs(p.a),
-                e.angle + (1.5 * turned + FEW if direction != 1 else 0.0),
-                e.omega,
-                e.alpha,
+                off + UNIT * np.abs(p.z),
+                spin * off + UNIT * np.abs(p.v),
+                bend * off + UNIT * np.abs(p.a),
+                angle + (1.5 * turned + FEW if direction != 1 else 0.0),
+                np.zeros(1),
+                np.zeros(1),
             ),
         )
 

@@ -26,6 +26,8 @@ ROUNDS = 40
 ROUNDINGS = 32 * UNIT
 TOLD = 8 * UNIT
 """Relative error of what was given of rolling: radii, and where it starts."""
+ROUGH = 1e-13
+"""While more than this of a constraint is open, a step may make it more for once."""
 
 
 @dataclass(frozen=True)
@@ -72,6 +74,15 @@ class System:
         members = tuple(name for name in structure.links if name != frame)
         every = Cluster(members, tuple(pairs), structure.drivers, members, 0, rolling=tuple(rolling))
         return cls(structure, every, {frame: rest()}, drive)
+
+    def part(self, which: Array) -> System:
+        """The constraints at some of the positions."""
+        def some(column: Array) -> Array:
+            return column[which] if len(column) > 1 else column
+
+        known = {name: Pose(*(some(getattr(pose, f)) for f in FIELDS)) for name, pose in self.known.items()}
+        near, kept = (None if rows is None else rows[which] for rows in (self.near, self.kept))
+        return System(self.structure, self.group, known, self.drive[which], near, kept)
 
     def at(self, place: Array, rate: Array | None = None, second: Array | None = None) -> Pose:
         """All links from the members' places, rates and second rates, each of shape (n, members, 3)."""
@@ -292,19 +303,23 @@ def solve_cluster(
     system = system.rolling_from(start)
     place = np.array(start[:, : len(group.members)], dtype=float)
     missed = np.full(n, np.inf)
-    best = place
+    left, part, now_at = np.arange(n), system, place.copy()
     for _ in range(ROUNDS):
-        all_ = system.at(place)
-        open_ = system.open_(all_)
-        now = np.abs(open_).max(axis=1)
-        better = now < missed
-        best = np.where(better[:, None, None], place, best)
-        if not np.any(better & (now > 1e-13)) and not np.any(better & (now < 0.5 * missed)):
-            missed = np.minimum(missed, now)
+        all_ = part.at(now_at)
+        open_ = part.open_(all_)
+        now, last = np.abs(open_).max(axis=1), missed[left]
+        better = now < last
+        place[left[better]] = now_at[better]
+        missed[left] = np.fmin(last, now)
+        gains = better & ((now > ROUGH) | (now < 0.5 * last))
+        if not gains.any():
             break
-        missed = np.fmin(missed, now)
-        place = place - system.scaled(solve_all(system.matrix(all_), open_))
-    place = best
+        step = part.scaled(solve_all(part.matrix(all_), open_))
+        # a position that gains nothing any more is left as it is, whatever others still do
+        on = gains | (missed[left] > ROUGH)
+        now_at = now_at - step if on.all() else now_at[on] - step[on]
+        if not on.all():
+            left, part = left[on], system.part(left[on])
     matrix = system.matrix(system.at(place))
     rate: Array | None = None
     second: Array | None = None

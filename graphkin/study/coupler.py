@@ -18,10 +18,9 @@ from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.study.driver_axis import (
     HEIGHT,
     LEFT,
-    POINTS,
     RIGHT,
     WIDTH,
-    driver_axis,
+    DriverAxis,
     driver_number,
     heading,
     next_step,
@@ -53,14 +52,12 @@ def coupler_points(scene: Mechanism) -> tuple[tuple[str, str], ...]:
     return tuple(found)
 
 
-def curve_page(turn: TurnStudy, point: str, link: str, language: str) -> Drawing:
+def curve_page(turn: TurnStudy, axis: DriverAxis, point: str, link: str, language: str) -> Drawing:
     """The path of a coupler point in scale, with marks at equal steps of the driver, and the mechanism at its own
     position."""
     reach, scene = turn.reach, turn.scene
     low, high = reach.ends
-    offsets = np.linspace(low, high, POINTS)
-    path = reach.motion(offsets, fine=False).position(point, link)
-    axis = driver_axis(reach, language)
+    path = axis.motion.position(point, link)
     steps = TICKS * max(reach.turns, 1)
     if reach.full:
         ticks = (axis.first + np.arange(steps) * (high - low) / steps) % high
@@ -69,7 +66,7 @@ def curve_page(turn: TurnStudy, point: str, link: str, language: str) -> Drawing
         values = np.radians(axis.ticks) if angle else axis.ticks * scene.units.metres
         ticks = (values - reach.start[0]) * reach.sense
     at = reach.motion(ticks).position(point, link)
-    here = reach.motion(np.zeros(1))
+    here = turn.start
     places = {p: complex(here.position(p)[0]) for p in scene.holders}
     world = Box.around([*path[np.isfinite(path)].tolist(), *places.values()])
     width, height, need = min(((w, h, _need(world, w, h)) for w, h in ((WIDTH, HEIGHT), (HEIGHT, WIDTH))),
@@ -136,7 +133,7 @@ def _need(world: Box, width: float, height: float) -> float:
 def _skeleton(turn: TurnStudy, places: dict[str, complex], page: Callable[[complex], complex]) -> list[Primitive]:
     """The mechanism at its own position, thin: links, blocks, guides, pivots."""
     scene = turn.scene
-    motion = turn.reach.motion(np.zeros(1))
+    motion = turn.start
     made: list[Primitive] = []
     blocks: list[Primitive] = []
     for pair in motion.slides:

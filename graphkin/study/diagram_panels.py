@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from graphkin.drawing.chart import BEHIND, SOLID_AND_DASHED, add_labels, count_steps, degree_step, look, marker
 from graphkin.drawing.primitives import Stroke
 from graphkin.scene.model import Mechanism
-from graphkin.solver import DriverRange
 from graphkin.study.driver_axis import DriverAxis, number
 from graphkin.study.quantities import Quantity
 from graphkin.study.trace import Extreme, Traced
@@ -27,8 +26,6 @@ __all__ = ["LIMIT", "MARGIN", "DiagramPanel", "draw_panel", "panel_of", "quantit
 
 Array = NDArray[np.float64]
 
-BESIDE = 1e-3
-"""Of the driver's range: so far beside a place that may be a dead point."""
 MARGIN = 0.14
 """Of the range of values, above and below the curve: room for the labels of its extremes."""
 ZERO = Stroke(0.18)
@@ -138,11 +135,11 @@ def panel_of(
     reach, scene = turn.reach, turn.scene
     offsets = axis.offsets
     x = axis.at(offsets)
-    values = _shown(axis, quantity, offsets, quantity.values(reach, reach.motion(offsets, fine=False)))
+    values = _shown(axis, quantity, offsets, quantity.values(reach, axis.motion))
     if reach.full:
         # the axis ends where it begins, a turn later
         x[0], x[-1] = axis.left, axis.right
-        gain = _gain(reach, quantity) if quantity.kind == "theta" else 0.0
+        gain = _gain(axis, quantity) if quantity.kind == "theta" else 0.0
         values[-1] = values[0] + quantity.in_units(scene, gain, degrees=True)
     title = quantity_title(scene, quantity)
     points, others = (_points(axis, quantity, some) for some in (dots, laid_over))
@@ -222,16 +219,15 @@ def _shown(axis: DriverAxis, quantity: Quantity, offset: Array, values: Array) -
     reach = axis.reach
     values = np.asarray(values, dtype=float)
     if quantity.kind == "theta" and reach.full:
-        values = np.where(offset < axis.first - 1e-12, values + _gain(reach, quantity), values)
-        left = quantity.values(reach, reach.motion(np.array([axis.first + BESIDE * reach.ends[1]])))[0]
+        values = np.where(offset < axis.first - 1e-12, values + _gain(axis, quantity), values)
+        left = quantity.values(reach, axis.beside_ends)[2]
         values = values - 2 * np.pi * np.rint(left / (2 * np.pi))
     return np.array([quantity.in_units(reach.scene, v, degrees=True) for v in values])
 
 
-def _gain(reach: DriverRange, quantity: Quantity) -> float:
+def _gain(axis: DriverAxis, quantity: Quantity) -> float:
     """How far an angle gets over the whole range, in whole turns: beside the ends, which may be dead points."""
-    high = reach.ends[1]
-    first, last = quantity.values(reach, reach.motion(np.array([BESIDE * high, high - BESIDE * high])))
+    first, last = quantity.values(axis.reach, axis.beside_ends)[:2]
     return float(2 * np.pi * np.rint((last - first) / (2 * np.pi)))
 
 

@@ -15,7 +15,18 @@ from graphkin.scene.model import AngleDriver
 from graphkin.solver.flywheel import FlywheelStudy
 from graphkin.study.coupler import coupler_points, curve_page
 from graphkin.study.diagram_panels import LIMIT, DiagramPanel, draw_panel, panel_of, signs_of, unit_words
-from graphkin.study.driver_axis import HEIGHT, LEFT, RIGHT, WIDTH, driver_axis, driver_number, heading, number, title_of
+from graphkin.study.driver_axis import (
+    HEIGHT,
+    LEFT,
+    RIGHT,
+    WIDTH,
+    DriverAxis,
+    driver_axis,
+    driver_number,
+    heading,
+    number,
+    title_of,
+)
 from graphkin.study.flywheel_page import flywheel_page
 from graphkin.study.force_diagrams import force_page, polar_page
 from graphkin.study.measured import measured
@@ -47,13 +58,14 @@ def diagrams(
     positions : where the values measured off the drawn polygons are laid over the curves; 0 for none
     over : what somebody else has measured, laid over the curves
     """
+    axis = driver_axis(turn.reach, language)
     if asked:
         made: dict[str, ChartPage | Drawing] = {}
         for quantity in asked:
             if quantity.is_load:
                 made |= _force_pages(turn, quantity, language)
             else:
-                made[f"diagram-{_file(quantity)}"] = _asked_page(turn, quantity, over, language)
+                made[f"diagram-{_file(quantity)}"] = _asked_page(turn, axis, quantity, over, language)
         return made
     quantities = [o.quantity for o in turn.outputs]
     dots = measured(turn.reach, quantities, positions) if positions else {q: [] for q in quantities}
@@ -62,9 +74,9 @@ def diagrams(
         quantity = output.quantity
         kind = "link" if quantity.kind == "theta" else "slide"
         name = f"motion-{kind}-{quantity.of.replace('/', '-')}"
-        pages[name] = _motion_page(turn, output, dots[quantity], over, language)
+        pages[name] = _motion_page(turn, axis, output, dots[quantity], over, language)
     for point, link in coupler_points(turn.scene):
-        pages[f"curve-{point}"] = curve_page(turn, point, link, language)
+        pages[f"curve-{point}"] = curve_page(turn, axis, point, link, language)
     return pages | _balance_pages(turn, language)
 
 
@@ -92,13 +104,12 @@ def _balance_pages(turn: TurnStudy, language: str) -> dict[str, ChartPage | Draw
 
 
 def _motion_page(
-    turn: TurnStudy, output: Output, dots: Sequence[tuple[float, ...]], over: LaidOver, language: str
+    turn: TurnStudy, axis: DriverAxis, output: Output, dots: Sequence[tuple[float, ...]], over: LaidOver, language: str,
 ) -> ChartPage:
     scene, quantity = turn.scene, output.quantity
     turns = quantity.kind == "theta"
     curves = link_quantities(quantity.of) if turns else slide_quantities(quantity.of)
     traced = {t.quantity: t for t in turn.curves}
-    axis = driver_axis(turn.reach, language)
     panels = [
         panel_of(turn, axis, q, traced.get(q), [(d[0], d[k + 1]) for d in dots], over.get(q, ()))
         for k, q in enumerate(curves)
@@ -131,10 +142,11 @@ def _motion_page(
     )  # fmt: skip
 
 
-def _asked_page(turn: TurnStudy, quantity: Quantity, over: LaidOver, language: str) -> ChartPage:
+def _asked_page(
+    turn: TurnStudy, axis: DriverAxis, quantity: Quantity, over: LaidOver, language: str
+) -> ChartPage:
     """The diagram of one quantity over the driver."""
     scene = turn.scene
-    axis = driver_axis(turn.reach, language)
     traced = next((t for t in turn.curves if t.quantity == quantity), None)
     panel = panel_of(turn, axis, quantity, traced, [], over.get(quantity, ()))
     title = say(Phrase("diagram of", (panel.title,)), language)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,13 +15,12 @@ from graphkin.drawing import Primitive, Text
 from graphkin.drawing.chart import degree_step
 from graphkin.drawing.text import rich
 from graphkin.scene.model import AngleDriver, Mechanism
-from graphkin.solver import DriverRange
+from graphkin.solver import DriverRange, Motion
 from graphkin.words import Phrase, say
 
 __all__ = [
     "HEIGHT",
     "LEFT",
-    "POINTS",
     "RIGHT",
     "WIDTH",
     "DriverAxis",
@@ -37,6 +37,8 @@ Array = NDArray[np.float64]
 WIDTH, HEIGHT = 210.0, 297.0
 LEFT, RIGHT = 26.0, 14.0
 POINTS = 721
+BESIDE = 1e-3
+"""Of the driver's range: so far beside a place that may be a dead point."""
 
 
 def title_of(scene: Mechanism, language: str) -> str:
@@ -89,7 +91,7 @@ class DriverAxis:
     first: float
     title: str
 
-    @property
+    @cached_property
     def offsets(self) -> Array:
         """Offsets of the range in the order in which they are drawn; dense near the ends of a limited motion."""
         low, high = self.reach.ends
@@ -97,6 +99,17 @@ class DriverAxis:
             half = np.linspace(0, np.pi, POINTS)
             return np.asarray(low + (high - low) * np.sin(half / 2) ** 2)
         return np.asarray((np.linspace(0.0, high, POINTS) + self.first) % high)
+
+    @cached_property
+    def motion(self) -> Motion:
+        """The motion at its offsets, for all curves that are drawn over it."""
+        return self.reach.motion(self.offsets, fine=False)
+
+    @cached_property
+    def beside_ends(self) -> Motion:
+        """The motion beside the start and the end of a whole range, and beside the left end of the axis."""
+        high = self.reach.ends[1]
+        return self.reach.motion(np.array([BESIDE * high, high - BESIDE * high, self.first + BESIDE * high]))
 
     @property
     def ticks(self) -> Array:

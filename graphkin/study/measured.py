@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from graphkin.construction import Sheet, draft
+from graphkin.construction import Plan, Sheet, execute, plan
 from graphkin.errors import GraphkinError
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
@@ -34,13 +34,16 @@ def measured(
         return found
     low, high = reach.ends
     count *= max(reach.turns, 1)
+    last: Plan | None = None
     sheet: Sheet | None = None
     for k in range(count):
         offset = low + (high - low) * (k / count if reach.full else (k + 0.5) / count)
         values = {d.key: float(v) for d, v in zip(scene.drivers, reach.start, strict=True)}
         values[scene.drivers[0].key] = float(reach.value(np.array(offset)))
         try:
-            sheet = draft(reach.structure, values, asked, near=sheet)  # a larger group is followed from the last
+            # the assembly is followed from the last position
+            last = plan(reach.structure, values, asked, near=sheet, follows=last)
+            sheet = execute(last)
         except GraphkinError:
             continue
         for quantity in outputs:

@@ -94,8 +94,16 @@ def trace(reach: DriverRange, quantities: Sequence[Quantity]) -> tuple[tuple[Tra
     rates = [q for q in quantities if not q.is_position]
     size = reach.scene.size
 
+    here: dict[bytes, Motion] = {}
+
+    def at(parameter: Array) -> Motion:
+        key = parameter.tobytes()  # positions and rates are looked at on the same pieces at first
+        if key not in here:
+            here[key] = reach.motion(way.offset(parameter), fine=False)
+        return here[key]
+
     def positions(parameter: Array) -> tuple[Array, Array]:
-        motion = reach.motion(way.offset(parameter), fine=False)
+        motion = at(parameter)
         columns = [q.smooth(reach, motion) for q in places]
         bound = motion.bound.angle + motion.bound.position / size
         off = np.where(np.isfinite(bound), bound, 0.0)
@@ -103,8 +111,7 @@ def trace(reach: DriverRange, quantities: Sequence[Quantity]) -> tuple[tuple[Tra
         return _columns(columns)
 
     def speeds(parameter: Array) -> tuple[Array, Array]:
-        motion = reach.motion(way.offset(parameter), fine=False)
-        return _columns([q.smooth(reach, motion) for q in rates])
+        return _columns([q.smooth(reach, at(parameter)) for q in rates])
 
     # apart, because positions stay smooth where rates grow without bound
     curves: list[_Curve] = []
@@ -174,7 +181,7 @@ def _rates_of(quantity: Quantity) -> tuple[Quantity, Quantity]:
 def _floor(reach: DriverRange, rates: Sequence[Quantity]) -> Array:
     """For each rate the size that such rates have in this mechanism: what is nothing beside it is zero."""
     size = reach.scene.size
-    motion = reach.motion(np.linspace(*reach.ends, 62)[1:-1])
+    motion = reach.motion(np.linspace(*reach.ends, 62)[1:-1], fine=False)
     poses = [motion.poses[link.name] for link in reach.scene.links]
     omega = max(float(np.nanmedian(np.abs(p.omega))) for p in poses)
     speed = max(omega * size, max(float(np.nanmedian(np.abs(p.v))) for p in poses))

@@ -85,6 +85,11 @@ class TurnStudy:
         return not_searched(self.reach)
 
     @cached_property
+    def start(self) -> Motion:
+        """The position from which the range is followed."""
+        return self.reach.motion(np.zeros(1))
+
+    @cached_property
     def _way(self) -> Motion:
         """Positions over a range that ends, close together near its ends."""
         low, high = self.reach.ends

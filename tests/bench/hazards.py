@@ -1,6 +1,6 @@
 """Random mechanisms in and near singular positions: no jump of assembly, nothing not a number, nothing silently wrong.
 
-Run by hand, ``python -m tests.bench.hazards 100000``; the test-suite runs a few thousand positions of it.  Four-bars
+Run by hand, ``python -m tests.bench.hazards 100000 [SEED]``; the test-suite runs a few thousand positions of it.  Four-bars
 whose lengths just fold, or miss it by 1e-2 to 1e-14; guide bars whose crank just reaches the pivot; slider-cranks whose
 rod is as long as the crank.  Each is swept over its range, and looked at close to its dead points.  What is given out
 must close (every pair, in position, velocity and acceleration, to its own bound), be finite, and move from one position
@@ -168,9 +168,9 @@ def _open(motion: Motion) -> list[str]:
 
 
 def main() -> None:
-    count = int(sys.argv[1]) if len(sys.argv) > 1 else 100_000
+    count, seed = (int(n) for n in (*sys.argv[1:3], *("100000", "1")[len(sys.argv) - 1 :]))
     begin = time.perf_counter()
-    found = look(count, 1)
+    found = look(count, seed)
     print(f"{found.positions} positions, {found.dead} dead points, {found.unreached} out of reach "
           f"({time.perf_counter() - begin:.0f} s); wrong: {len(found.wrong)}")
     for line in found.wrong[:10]:
