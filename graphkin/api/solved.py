@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import chain, islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -34,7 +35,7 @@ if TYPE_CHECKING:
     from graphkin.solver import Forces, Motion
     from graphkin.table import Column, Table
 
-__all__ = ["Solved", "refused", "solve"]
+__all__ = ["Solved", "SolvedBlocks", "refused", "solve", "solve_in_blocks"]
 
 
 BALANCE_IDLE = "the balance does no work in this position, so that nothing it could be keeps the forces in equilibrium"
@@ -167,9 +168,42 @@ class Solved(Result, OfScene):
 
     def json(self) -> Iterator[bytes]:
         """``data`` as the text of JSON, piece by piece."""
-        from graphkin.solver import json_text
+        return _json([self])
 
-        return (piece.encode() for piece in json_text(self.head, self.entries()))
+
+@dataclass(frozen=True)
+class SolvedBlocks:
+    """A sweep of any length as solutions of some of its positions, one after the other: no more is in memory."""
+
+    first: Solved
+    anew: Callable[[], Iterator[Solved]]
+
+    def __iter__(self) -> Iterator[Solved]:
+        yield self.first
+        yield from islice(self.anew(), 1, None)
+
+    @cached_property
+    def ok(self) -> bool:
+        """Whether one position at least is solved."""
+        return any(some.ok for some in self)
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """``Solved.data`` of the whole."""
+        return {**self.first.head, "positions": [entry for some in self for entry in some.entries()]}
+
+    def json(self) -> Iterator[bytes]:
+        """``data`` as the text of JSON, piece by piece."""
+        return _json(self)
+
+
+def _json(blocks: Iterable[Solved]) -> Iterator[bytes]:
+    from graphkin.solver import json_text
+
+    some = iter(blocks)
+    first = next(some)
+    entries = chain(first.entries(), chain.from_iterable(block.entries() for block in some))
+    return (piece.encode() for piece in json_text(first.head, entries))
 
 
 def _finite(value: NDArray[np.float64] | NDArray[np.complex128]) -> float | list[float] | None:
@@ -224,20 +258,51 @@ def solve(
     """
     from graphkin import solver
 
+    given, values, count = _task(scene, at, sweep)
+    if count is not None and moves_by_law(given):
+        times = moments(given, count)
+        return _solved(solver.over_time(given, np.array(times)), find, times)
+    times = (asked_time(given),) if moves_by_law(given) else ()
+    return _solved(solver.solve(given, at=values, sweep=count), find, times)
+
+
+def solve_in_blocks(
+    scene: SceneLike, at: At = None, sweep: int | None = None, find: str | Symbol | Iterable[str | Symbol] | None = None
+) -> SolvedBlocks:
+    """``solve``, of which a long sweep is found a block of positions at a time; parameters and errors as there."""
+    from graphkin import solver
+
+    given, values, count = _task(scene, at, sweep)
+    if count is None or moves_by_law(given):
+        whole = solve(scene, at, sweep, find)
+        return SolvedBlocks(whole, lambda: iter([whole]))
+
+    def anew() -> Iterator[Solved]:
+        return (_solved(motion, find) for motion in solver.sweep_in_blocks(given, values, count))
+
+    return SolvedBlocks(next(anew()), anew)
+
+
+def _task(scene: SceneLike, at: At, sweep: int | None) -> tuple[Mechanism, Mapping[str, float] | None, int | None]:
+    """The mechanism, driver values and number of positions that are asked for.  Raises SceneError, CallError."""
     given = as_scene(scene)
     most = 100_000 if moves_by_law(given) else 10_000_000
     count = None if sweep is None else whole_number("sweep", sweep, 1, most, " positions")
-    times: tuple[float, ...] = ()
     if count is not None and moves_by_law(given):
         if at is not None:
             raise CallError(Problem("sweep", "stands beside at", "a sweep goes over the whole time of the law"))
-        times = moments(given, count)
-        motion = solver.over_time(given, np.array(times))
-    else:
-        given, values = placed(given, at)
-        motion = solver.solve(given, at=values, sweep=count)
-        times = (asked_time(given),) if moves_by_law(given) else ()
-    if not given.loading:
+        return given, None, count
+    given, values = placed(given, at)
+    return given, values, count
+
+
+def _solved(
+    motion: Motion, find: str | Symbol | Iterable[str | Symbol] | None, times: tuple[float, ...] = ()
+) -> Solved:
+    """A motion with its forces, limited to what is asked."""
+    from graphkin import solver
+
+    if not motion.scene.loading:
         return _asked(Solved(motion, times=times), find)
     forces = solver.forces_of(motion)
     stuck = motion.ok & ~forces.ok

@@ -30,7 +30,7 @@ from graphkin.cli.output import print_json, print_paths, print_table, tell, unso
 from graphkin.errors import CallError, Problem
 
 if TYPE_CHECKING:
-    from graphkin.api.solved import Solved
+    from graphkin.api.solved import Solved, SolvedBlocks
 
 __all__ = ["scenes", "solve"]
 
@@ -139,18 +139,17 @@ def solve(
 ) -> None:
     """The analytic solution alone, at one position or over a turn."""
     from graphkin.api.arguments import known_words
-    from graphkin.api.solved import refused
-    from graphkin.api.solved import solve as solving
+    from graphkin.api.solved import refused, solve_in_blocks
 
     known_words(language=lang, convention=convention, instrument=instrument)
     values = driver_values(at, position)
     with unsolvable_as_json(as_json, lambda error: refused(scene, values, error)):
-        solved = solving(scene, values, sweep, find or None)
+        solved = solve_in_blocks(scene, values, sweep, find or None)
     if out is not None:
         from graphkin.api.arguments import write_files
 
         write_files(out, {"solution.json": solved.json()})
-    drawn = solved.loops(lang) if loops and solved.motion.ok.any() else None
+    drawn = next(some for some in solved if some.ok).loops(lang) if loops and solved.ok else None
     if as_json and drawn:
         print_json({**solved.data, "loops": drawn.data})
     elif as_json:
@@ -161,23 +160,32 @@ def solve(
     elif not quiet:
         _print_solution(solved, lang)
     if not solved.ok:
-        tell(f"graphkin: {solved.motion.status[0]}: {solved.motion.why[0]}", err=True)
+        first = solved.first.motion
+        tell(f"graphkin: {first.status[0]}: {first.why[0]}", err=True)
         raise typer.Exit(3)
 
 
-def _print_solution(solved: Solved, lang: str | None) -> None:
+def _print_solution(solved: SolvedBlocks, lang: str | None) -> None:
     from graphkin.api.arguments import passed_words
-    from graphkin.words import Phrase, class_of, say, word
+    from graphkin.words import Phrase, class_of, say
 
-    said_first, scene = solved.head, solved.motion.scene
+    said_first, scene = solved.first.head, solved.first.motion.scene
     language = lang or scene.sheet.language
     tell(f"{scene.title_in(language)}   F = {said_first['mobility']}")
     for group in said_first["groups"]:
         links = ", ".join(group["links"])
         args = links, group["kind"], class_of(group["class"]), group["assembly"]
         tell(say(Phrase("solved group", args), language))
-    for said in passed_words(scene, solved.motion.passed):
+    for said in passed_words(scene, solved.first.motion.passed):
         tell(say(said, language))
+    for some in solved:
+        _print_positions(some, language)
+
+
+def _print_positions(solved: Solved, language: str) -> None:
+    from graphkin.words import Phrase, say, word
+
+    scene = solved.motion.scene
     columns = [column for name in solved.find for column in solved.columns(name)]
     for number, position in enumerate(solved.entries()):
         tell("")

@@ -11,7 +11,7 @@ from graphkin.solver.findings import structure_of
 from graphkin.solver.in_place_of_cams import as_drawn
 from graphkin.solver.motion import Motion, Sliding
 from graphkin.solver.over_time import over_time
-from graphkin.solver.solve import solve
+from graphkin.solver.solve import solve, sweep_in_blocks
 
 if TYPE_CHECKING:
     from graphkin.solver.acting import without_line
@@ -38,6 +38,7 @@ __all__ = [
     "prepare",
     "solve",
     "structure_of",
+    "sweep_in_blocks",
     "to_json",
     "value_of",
     "without_line",

@@ -7,7 +7,7 @@ study of a turn, the positions of a handout.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 __all__ = ["DriverRange", "driver_range", "goal_values", "motion_of", "range_from", "stopped_why", "way_to"]
 
-BLOCK = 65536
+BLOCK = 16384
 """Positions that are computed together."""
 CLOSED = 1e-7
 """Two positions are the same where links lie closer than this, in the size of the mechanism, and turn closer (rad)."""
@@ -208,9 +208,20 @@ class DriverRange:
     def sweep(self, n: int) -> Motion:
         """The motion at n positions: over a full turn from the start on, or, by increasing travel, spread evenly inside
         the range of a driver that slides."""
+        return replace(self.motion(self._sweep_offsets(n)), passed=self.change_points)
+
+    def sweep_in_blocks(self, n: int) -> Iterator[Motion]:
+        """``sweep`` a block of positions at a time: no more of it is in memory."""
+        offset = self._sweep_offsets(n)
+        before: Motion | None = None
+        for first in range(0, n, BLOCK):
+            found = replace(self.motion(offset[first : first + BLOCK]), passed=self.change_points)
+            before = found if before is None else found.after(before)
+            yield before
+
+    def _sweep_offsets(self, n: int) -> Array:
         offset = self.table_offsets(n)
-        found = self.motion(offset if isinstance(self.driver, AngleDriver) or self.sense > 0 else offset[::-1])
-        return replace(found, passed=self.change_points)
+        return offset if isinstance(self.driver, AngleDriver) or self.sense > 0 else offset[::-1]
 
     def _motion(self, part: Array, values: Array, drive: Drive, good: Array, fine: bool = True) -> Motion:
         why = "" if good.all() or not fine else self.limit_why

@@ -211,6 +211,7 @@ class Motion:
     rough : what the bounds of velocity and acceleration would be if all were computed in 16 digits, as a drawing is
     passed : the change points on the way here from the scene's own position
     turned : over a sweep how far each link has turned since its start, to a few degrees (rad): tells whole turns
+    onward : in a later block of a sweep, for each link the angle from which it goes on (rad), less what is ``turned``
     """
 
     structure: Structure
@@ -224,6 +225,7 @@ class Motion:
     rough: tuple[Array, Array]
     turned: Mapping[str, Array] = field(default_factory=dict)
     passed: tuple[ChangePoint, ...] = ()
+    onward: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def scene(self) -> Mechanism:
@@ -248,7 +250,18 @@ class Motion:
             bound=ErrorBound(*(b[rows] for b in self.bound)),
             rough=(self.rough[0][rows], self.rough[1][rows]),
             turned={},
+            onward={},
         )
+
+    def after(self, before: Motion) -> Motion:
+        """The same as the next block of a sweep: angles of links go on from those of the block before."""
+        good = np.flatnonzero(before.ok)
+        if not len(good):
+            return replace(self, onward=before.onward)
+        last = good[-1]
+        turned = {name: before.turned[name][last] for name in self.turned}
+        ends = {link.name: float(before.angle(link.name)[last]) for link in self.scene.links}
+        return replace(self, onward={name: end - turned.get(name, 0.0) for name, end in ends.items()})
 
     def require(self) -> Motion:
         """Itself, if at least one position is ok.  Raises Unsolvable with the first reason otherwise."""
@@ -306,13 +319,15 @@ class Motion:
         good = self.ok
         out = np.full(len(self), np.nan)
         out[good] = angle[good]
-        if not good.any() or len(self) == 1:
-            return out
-        if link not in self.turned:
-            out[good] = np.unwrap(angle[good])
+        if not good.any() or (len(self) == 1 and link not in self.onward):
             return out
         first = int(np.argmax(good))
-        since = angle[first] + self.turned[link] - self.turned[link][first]
+        turned = self.turned.get(link)
+        if turned is None:
+            out[good] = np.unwrap(angle[good])
+            since = np.full(1, self.onward.get(link, out[first]))
+            return np.asarray(out + 2 * np.pi * np.rint((since - out[first]) / (2 * np.pi)))
+        since = self.onward.get(link, angle[first] - turned[first]) + turned
         return np.asarray(out + 2 * np.pi * np.rint((since - out) / (2 * np.pi)))
 
     def omega(self, link: str) -> Array:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -20,7 +21,7 @@ from graphkin.solver.redundant import all_slides
 from graphkin.structure import Structure
 from graphkin.structure.assembly import ChangePoint
 
-__all__ = ["solve"]
+__all__ = ["solve", "sweep_in_blocks"]
 
 
 def solve(
@@ -53,21 +54,48 @@ def solve(
     goal = goal_values(structure.scene, at)
     if sweep is not None and sweep < 1:
         raise CallError(Problem("sweep", f"{sweep} positions", "give 1 or more"))
-    try:
-        forms = choose_forms(structure)
-    except Unsolvable as stop:
-        return _nowhere(structure, goal, sweep, stop.status, stop.why)
-    own, passed = own_values(structure.scene), tuple[ChangePoint, ...]()
-    if not np.array_equal(own, goal):
-        path = way_to(structure, forms, goal)
-        if path.limit is not None:
-            return _nowhere(structure, goal, sweep, "not assembled", stopped_why(structure, forms, own, path))
-        forms, passed = path.last_forms, path.change_points
+    start = _start(structure, goal)
+    if isinstance(start, _Refused):
+        return _nowhere(structure, goal, sweep, *start)
+    forms, passed = start
     if sweep is not None:
         return range_from(structure, forms, goal).sweep(sweep)
     drive, here = Drive.at(structure, goal[None]), {i: f[None] for i, f in forms.items()}
     found = motion_of(structure, drive, here, assembly_words(structure, forms), np.ones(1, dtype=bool))
     return replace(found, passed=passed)
+
+
+def sweep_in_blocks(scene: Mechanism | Structure, at: Mapping[str, float] | None, sweep: int) -> Iterator[Motion]:
+    """``solve`` of a sweep a block of positions at a time: no more of it is in memory."""
+    structure = structure_of(scene)
+    goal = goal_values(structure.scene, at)
+    start = _start(structure, goal)
+    if isinstance(start, _Refused):
+        yield _nowhere(structure, goal, sweep, *start)
+    else:
+        yield from range_from(structure, start[0], goal).sweep_in_blocks(sweep)
+
+
+class _Refused(NamedTuple):
+    """Why driver values are not reached."""
+
+    status: str
+    why: str
+
+
+def _start(structure: Structure, goal: Array) -> tuple[Mapping[int, Array], tuple[ChangePoint, ...]] | _Refused:
+    """The form of each group at driver values, and the change points on the way there; or why they are not reached."""
+    try:
+        forms = choose_forms(structure)
+    except Unsolvable as stop:
+        return _Refused(stop.status, stop.why)
+    own = own_values(structure.scene)
+    if np.array_equal(own, goal):
+        return forms, ()
+    path = way_to(structure, forms, goal)
+    if path.limit is not None:
+        return _Refused("not assembled", stopped_why(structure, forms, own, path))
+    return path.last_forms, path.change_points
 
 
 def _nowhere(structure: Structure, goal: Array, sweep: int | None, status: str, why: str) -> Motion:

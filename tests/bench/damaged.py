@@ -114,9 +114,9 @@ def _change(chance: random.Random, scene: dict[str, Any]) -> None:
             other = other[part]
         table[path[-1]] = copy.deepcopy(other)
     elif isinstance(old, int | float) and not isinstance(old, bool) and kind < 6:
-        table[path[-1]] = old * chance.choice([0, -1, 1e-12, 1e-6, 0.5, 0.99, 1.01, 2, 10, 1e6, 1e12]) + chance.choice(
-            [0, 0, 0, 90, 180, 1e-9]
-        )
+        factor, more = chance.choice([0, -1, 1e-12, 1e-6, 0.5, 0.99, 1.01, 2, 10, 1e6, 1e12]), [0, 0, 0, 90, 180, 1e-9]
+        old = old if abs(old) < 1e300 else 1e300  # an integer may be too large for a product
+        table[path[-1]] = old * factor + chance.choice(more)
     elif isinstance(old, str) and kind < 6:
         table[path[-1]] = chance.choice(WORDS)
     else:
@@ -144,7 +144,8 @@ def what_gives_way(seed: int, drawn: bool) -> list[str]:
                 except graphkin.Unsolvable:
                     continue
     except graphkin.GraphkinError as error:
-        if not error.problems or "\n" in "".join(map(str, error.problems)):
+        # what would be right may be lines to be pasted
+        if not error.problems or "\n" in "".join(p.where + p.found for p in error.problems):
             found.append(f"seed {seed}: no sentence: {error!r:.200}")
     except Exception as error:
         at = error.__traceback__

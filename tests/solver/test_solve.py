@@ -10,7 +10,7 @@ import pytest
 
 from graphkin.scene import library, mechanism_of, mechanism_of_text
 from graphkin.scene.model import AngleDriver, Mechanism, SlideDriver
-from graphkin.solver import Motion, solve
+from graphkin.solver import Motion, solve, sweep_in_blocks
 from tests import scenes
 
 from .checks import closure, differences, slowed
@@ -143,3 +143,21 @@ def test_positions_in_blocks_are_those_of_one(monkeypatch: pytest.MonkeyPatch) -
     assert whole.why == parts.why
     for name, pose in whole.poses.items():
         assert np.array_equal(pose.a, parts.poses[name].a, equal_nan=True)
+
+
+@pytest.mark.parametrize("name", ["OLDHAM", "DOUBLE_PARALLELOGRAM", "CYLINDER", "TWO_SLOTS"])
+def test_links_turn_on_from_block_to_block(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    whole = solve(scene(name), sweep=37)
+    monkeypatch.setattr(import_module("graphkin.solver.driver_range"), "BLOCK", 5)
+    blocks = list(sweep_in_blocks(scene(name), None, 37))
+    for link in whole.scene.links:
+        parts = np.concatenate([block.angle(link.name) for block in blocks])
+        assert np.array_equal(whole.angle(link.name), parts, equal_nan=True)
+
+
+def test_a_sweep_that_is_refused_has_its_reason_in_blocks_too() -> None:
+    cylinder = scene("CYLINDER")
+    far = {cylinder.drivers[0].key: 1e3}
+    (refused,) = sweep_in_blocks(cylinder, far, 3)
+    assert solve(cylinder, far, 3).why == refused.why
+    assert refused.why[0].endswith("the motion reaches from 100 mm to 500 mm")
