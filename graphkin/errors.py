@@ -15,6 +15,10 @@ __all__ = [
     "printable",
 ]  # fmt: skip
 
+PAGE = 4000
+"""Characters of a clause that are shown."""
+_LONG_WORD = re.compile("[!-~\x00]{300,}")
+
 
 @dataclass(frozen=True)
 class Problem:
@@ -32,9 +36,16 @@ class Problem:
     wanted: str = ""
 
     def __str__(self) -> str:
-        text = printable(f"{self.where}: {self.found}")
+        text = printable(f"{_shortened(self.where)}: {_shortened(self.found)}")
         # what would be right may be several lines, to be pasted
-        return "; ".join([text, "\n".join(map(printable, self.wanted.split("\n")))] if self.wanted else [text])
+        wanted = "\n".join(map(printable, _shortened(self.wanted).split("\n")))
+        return f"{text}; {wanted}" if wanted else text
+
+
+def _shortened(text: str) -> str:
+    """A text of what somebody wrote, with words that no one reads cut, and no longer than a page."""
+    text = _LONG_WORD.sub(lambda word: f"{word[0][:80]}…{word[0][-20:]}", text)
+    return text if len(text) <= PAGE else f"{text[:PAGE]}…"
 
 
 class GraphkinError(Exception):

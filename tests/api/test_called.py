@@ -61,6 +61,18 @@ def test_a_wrong_argument_is_told_in_a_sentence(call, said):
     assert str(refusal.value).startswith(said)
 
 
+@pytest.mark.parametrize("call", [
+    lambda long: graphkin.check(SIXBAR, at=long),
+    lambda long: graphkin.solve(SIXBAR, find=[long]),
+    lambda long: graphkin.draw(SIXBAR, formats=[long]),
+    lambda long: graphkin.centres(SIXBAR, out=long),
+])  # fmt: skip
+def test_a_sentence_does_not_repeat_a_page_of_what_was_given(call):
+    with pytest.raises(graphkin.CallError) as refusal:
+        call("x" * 100_000)
+    assert 1000 > len(str(refusal.value))
+
+
 def test_whole_numbers_may_be_those_of_numpy():
     one, two = (graphkin.check(SIXBAR, instrument="pencil", seed=seed) for seed in (np.int64(3), 3))
     assert one.data == two.data

@@ -1,9 +1,9 @@
 """Stated error bounds against 50 digits, on random mechanisms, half of the positions near singular ones.
 
-Run by hand, ``python -m tests.bench.accuracy 100000 [SEED]``; the test-suite runs a few hundred positions of it.  For each
-position the largest true error of any point of any link in place, velocity and acceleration, and of any link in angle
-and its rates, is held against its bound: it must never exceed it, and the bound should be within 1000 times of it for
-nine in ten.  A tenth as many positions are of mechanisms with larger groups.
+Run by hand, ``python -m tests.bench.accuracy 100000 [SEED]``; the test-suite runs a few hundred positions of it.  For
+each position the largest true error of any point of any link in place, velocity and acceleration, and of any link in
+angle and its rates, is held against its bound: it must never exceed it, and the bound should be within 1000 times of
+it for nine in ten.  A tenth as many positions are of mechanisms with larger groups.
 """
 
 from __future__ import annotations

@@ -1,10 +1,10 @@
 """Random mechanisms in and near singular positions: no jump of assembly, nothing not a number, nothing silently wrong.
 
-Run by hand, ``python -m tests.bench.hazards 100000 [SEED]``; the test-suite runs a few thousand positions of it.  Four-bars
-whose lengths just fold, or miss it by 1e-2 to 1e-14; guide bars whose crank just reaches the pivot; slider-cranks whose
-rod is as long as the crank.  Each is swept over its range, and looked at close to its dead points.  What is given out
-must close (every pair, in position, velocity and acceleration, to its own bound), be finite, and move from one position
-to the next no further than its rates allow.
+Run by hand, ``python -m tests.bench.hazards 100000 [SEED]``; the test-suite runs a few thousand positions of it.
+Four-bars whose lengths just fold, or miss it by 1e-2 to 1e-14; guide bars whose crank just reaches the pivot; slider-
+cranks whose rod is as long as the crank.  Each is swept over its range, and looked at close to its dead points.  What
+is given out must close (every pair, in position, velocity and acceleration, to its own bound), be finite, and move
+from one position to the next no further than its rates allow.
 """
 
 from __future__ import annotations
