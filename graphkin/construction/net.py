@@ -225,4 +225,7 @@ def _near(
         shared = [(a, b, on[a] | on[b]) for a, b in touching]
         for a, b, both in shared:
             on[a], on[b] = on[a] | both, on[b] | both
+    for a, b in touching * len(touching):
+        if not on[a] & on[b]:  # far from any point: what slides there is looked at somewhere
+            on[a], on[b] = on[a] | on[b], on[a] | on[b]
     return on

@@ -10,7 +10,7 @@ import cmath
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache
-from itertools import islice, pairwise, product
+from itertools import pairwise, product
 
 from graphkin.construction.dyads import drive, meet
 from graphkin.construction.follow import Choices, fitted, moved_to
@@ -29,6 +29,7 @@ TRIALS = 3  # trial drivers used, one after the other, to find all assemblies
 # to either side of a sketch, looked at one after the other
 WINDOWS = (*map(math.radians, (3.0, 10.0, 30.0, 90.0)), math.pi)
 TWINS = 1e-6  # of the size: as near as this places are the same
+ROUGHLY = 0.1  # of the size: so far off a sketch may be
 COARSE = 12  # values of each of several trial drivers
 
 Branches = tuple[int, ...]  # which assembly each dyad of a reduced mechanism takes, in the order of drawing
@@ -118,18 +119,38 @@ def _cluster_by_sketch(choices: Choices, frame: PlacedLinks, cluster: Cluster) -
     near = (fit for reduced in choices.of[cluster] if (fit := _from_sketch(reduced, frame)) is not None)
     if len(ways[0].trial) > 1:
         # a grid of several trial values is coarse: the sketch comes first, by whichever trial drivers it leads to a fit
-        found += islice(near, 1)
+        found += _as_told(structure, frame, near)
     for reduced in () if found else ways[:TRIALS]:
         for fit in _nearest_fits(reduced, frame, found):  # a fit at a value of the grid is met from both sides
             if not any(_near(fit, other) for other in found):
                 found.append(fit)
-    found = found or list(islice(near, 1))
+    if not any(_is_told(structure, frame, fit) for fit in found):
+        # between two values of the grid a fit and a place where nothing can be drawn may lie side by side
+        found += [fit for fit in _as_told(structure, frame, near) if not any(_near(fit, other) for other in found)]
     if not found:
         names = ", ".join(cluster.links)
         raise Unsolvable("not assembled", Problem(f"links {names}", "no trial position closes this group here"))
     found = _without_twins(structure, frame, cluster, found)
     candidates = [_fresh(structure, frame, poses) for poses in found]
     frame.poses.update(found[pick(structure.scene, cluster.links, candidates, None).index])
+
+
+def _as_told(structure: Structure, frame: PlacedLinks, fits: Iterator[dict[str, Pose]]) -> list[dict[str, Pose]]:
+    """The first fit that has its points about where they are sketched; where none has, all that there are."""
+    found: list[dict[str, Pose]] = []
+    for poses in fits:
+        if _is_told(structure, frame, poses):
+            return [poses]
+        if not any(_near(poses, other) for other in found):
+            found.append(poses)
+    return found
+
+
+def _is_told(structure: Structure, frame: PlacedLinks, poses: Poses) -> bool:
+    """Whether all points lie about where they are sketched."""
+    told = {**structure.scene.sketch, **structure.scene.drawn}
+    off = (abs(z - told[p]) for p, z in _fresh(structure, frame, poses).items() if p in told)
+    return max(off, default=0.0) <= ROUGHLY * structure.scene.size
 
 
 def _without_twins(
