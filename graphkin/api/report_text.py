@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 __all__ = ["contact_lines", "lever_lines", "reading_words", "report_text", "show", "turn_text"]
 
-_SIGNS = {"square": "⊥", "along": "∥"}
+_SIGNS = {"square": "⊥", "turned": "⊥", "along": "∥", "found": ""}
 
 
 def show(argument: object) -> str:
@@ -35,8 +35,6 @@ def show(argument: object) -> str:
     if isinstance(argument, Direction):
         if argument.relation == "towards":
             return "→".join(argument.names)
-        if argument.relation == "turned":
-            return "⊥" + "".join(argument.names)
         return _SIGNS[argument.relation] + "".join(argument.names)
     return str(argument).replace("{", "").replace("}", "")
 
@@ -205,7 +203,7 @@ def _size(term: Term) -> str:
 def _direction(term: Term) -> str:
     if not term.direction_known:
         return "?"
-    return show(term.direction) if term.direction else "√"
+    return (show(term.direction) if term.direction else "") or "√"
 
 
 MOST_CURVES = 40

@@ -163,19 +163,63 @@ class GroupMoves(Polygons):
         link, name = move.link, move.letter
         if name not in self.places:
             self._mark_special(move)
+        if move.base:
+            self._relative(order, group, move)
+            return
         ref = PointRef(name)
         ways = []
         for leg in move.legs:
-            joint = leg[-1].end
-            if abs(self.places[joint.point] - self.places[name]) > self.tiny:
-                unknown = f"omega {self._same_turn(group).get(link, link)}"
-                # written as the leg's own direction, for the two lie along one line
-                free = next(e for e in leg if e.unknown)
-                square = Edge(joint, ref, (joint, ref), free.direction, link=link, unknown=unknown)
-                leg = (*leg, square if link not in self.rates[order] else replace(square, unknown=""))
-            ways.append(leg)
+            ways.append((*leg, *self._to_special(group, leg, leg[-1].end, ref, link, link in self.rates[order])))
         right, left = ways
         self._equation(order, group, TwoWays(ref, left, right))
+
+    def _to_special(
+        self, group: Cluster, leg: Path, joint: PointRef, ref: PointRef, link: str, turns: bool = False
+    ) -> tuple[Edge, ...]:
+        """From the joint of a leg to the special point; nothing where it is the joint itself."""
+        if abs(self.places[joint.point] - self.places[ref.point]) <= self.tiny:
+            return ()
+        unknown = "" if turns else f"omega {self._same_turn(group).get(link, link)}"
+        # written as the leg's own direction, for the two lie along one line
+        free = next(e for e in leg if e.unknown)
+        return (Edge(joint, ref, (joint, ref), free.direction, link=link, unknown=unknown),)
+
+    def _relative(self, order: Order, group: Cluster, move: Special) -> None:
+        """How the special point of one link moves relative to that of another: by both legs, drawn from the pole.
+
+        The velocities of both are the same where nothing drives a leg; their accelerations are not."""
+        base, ref = PointRef(move.letter, move.base), PointRef(move.letter, move.link)
+        sides = []
+        for leg in move.legs:
+            # what both links turn by lies along the line that the leg leaves free: its size is not asked
+            before = self._to_special(group, leg, leg[0].start, base, move.base)
+            after = self._to_special(group, leg, leg[-1].end, ref, move.link)
+            sides.append(self._side(order, (*(e.reversed() for e in before), *leg, *after)))
+        parts = [[part for _, found in side for part in found] for side in sides]
+        self.ties[order, move.letter] = 0j
+        if not any(part.span for side in parts for part in side):
+            return
+        symbol = Symbol(letter(order), self.label(ref), self.label(base))
+        number = len(self.board.equations) + 1
+        terms = [tuple(Term(p.symbol, p.span is not None, True, p.size, p.written) for p in side) for side in parts]
+        self.board.equations.append(Equation(number, order, ((Term(symbol, False, False),), *terms), group))
+        starts, lines = [], []
+        for side in parts:
+            at = 0j
+            for part in side:
+                if part.span:
+                    self.board.do(order, Carried(part.symbol), Bar(at, at + part.span, ""), equation=number)
+                    at += part.span
+            starts.append(at)
+            lines.append(next(part for part in side if part.span is None))
+        left, right = (self.slip.line(part.symbol, part.along) for part in lines)
+        meeting = self.board.cross(order, starts[0], left, starts[1], right, str(symbol))
+        for start, part in zip(starts, lines, strict=True):
+            ray = Ray(start, part.along, meeting, part.written, part.symbol)
+            self.board.do(order, DirectionLine(part.symbol, part.written), ray, equation=number)
+        self.ties[order, move.letter] = meeting
+        found = Aid(symbol, 0j, meeting, self.trial)
+        self.board.do(order, FoundVector(symbol, abs(meeting)), found, equation=number)
 
     def _mark_special(self, move: Special) -> None:
         """The special point on the mechanism: where the lines of two legs cross."""
@@ -184,11 +228,12 @@ class GroupMoves(Polygons):
         at = self.board.cross("mechanism", p, d, q, e, move.letter)
         self.special.add(move.letter)
         self.places[move.letter] = at
-        pose = self.frame.poses[move.link]
-        points = {**self.links[move.link].points, move.letter: (at - pose.origin) / pose.axis / self.frame.mm}
-        self.links[move.link] = replace(self.links[move.link], points=points)
+        if not move.base:
+            pose = self.frame.poses[move.link]
+            points = {**self.links[move.link].points, move.letter: (at - pose.origin) / pose.axis / self.frame.mm}
+            self.links[move.link] = replace(self.links[move.link], points=points)
         joints = tuple(leg[-1].end.point for leg in move.legs)
-        act = SpecialPoint(move.letter, move.link, (joints[0], joints[1]))
+        act = SpecialPoint(move.letter, move.link, (joints[0], joints[1]), move.base)
         self.board.do("mechanism", act, Bar(p, at, ""), Bar(q, at, ""), Mark(PointRef(move.letter), at))
 
     def _leg_line(self, leg: Path) -> tuple[complex, complex]:

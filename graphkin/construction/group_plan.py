@@ -3,18 +3,20 @@
 A vector equation with two unknown sizes is drawn where there is one.  Where there is none, a link held by two legs has
 a special point: each leg leaves its joint on the link free along one direction, and where the lines square to these
 through the joints cross, the point of the link moves along both at once (Assur; Artobolevsky, Theory of mechanisms).
+Where none has one, two links that two legs join may have one relative to each other (`relative_points`).
 Where no special point serves either, a rate is assumed, and trial polygons with two rates are superposed: once for
 every degree of freedom that is left; the fewest that do are looked for.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import combinations
 from typing import Literal
 
 from graphkin.construction.net import Edge, Net, TwoWays
+from graphkin.construction.relative_points import best_relative_point
 from graphkin.plane import cross, cross_lines, unit
 from graphkin.scene.symbol import PointRef
 
@@ -43,11 +45,12 @@ class Closed:
 @dataclass(frozen=True)
 class Special:
     """The special point ``letter`` of a link and the legs that give it: ways from known points to points of the link,
-    each with one unknown.  ``others`` are further legs by whose unknowns lines through the joints are parallel."""
+    each with one unknown; or from points of another moving link, ``base``, as which the link moves there."""
 
     link: str
     letter: str
     legs: tuple[Path, Path]
+    base: str = ""
 
 
 @dataclass(frozen=True)
@@ -95,10 +98,10 @@ class _Search:
     known: set[str]
     moves: list[Move] = field(default_factory=list)
     parallel: list[tuple[str, str, str]] = field(default_factory=list)
+    ties: list[tuple[str, str]] = field(default_factory=list)  # links with a special point of both
 
     def copy(self, tried: Sequence[str]) -> _Search:
-        net = replace_net(self.net)
-        return _Search(net, self.turn, self.along, self.letters, set(self.nodes), {*self.known, *tried})
+        return _Search(self.net.copy(), self.turn, self.along, self.letters, set(self.nodes), {*self.known, *tried})
 
     # -- what is known -------------------------------------------------------------------------------------------------
 
@@ -243,14 +246,14 @@ class _Search:
                     best[names[0]] = path
         return list(best.values())
 
-    def special(self) -> bool:
-        """The special point that gives the best crossings, of any link that has one."""
+    def special(self, left_out: Collection[tuple[str, str]]) -> bool:
+        """The special point that gives the best crossings, of any link that has one, but of these."""
         best: tuple[float, str, tuple[Path, Path], complex] | None = None
         flat: tuple[str, tuple[Path, Path]] | None = None
         found: list[tuple[str, str, str]] = []
         size = max((abs(z) for z in self.net.places.values()), default=1.0) or 1.0
         for link in self.net.inside:
-            if self.turns(link) or self.nodes.intersection(self.of(link)):
+            if ("", link) in left_out or self.turns(link) or self.nodes.intersection(self.of(link)):
                 continue
             legs = self.legs(link)
             for one, two in combinations(legs, 2):
@@ -258,7 +261,8 @@ class _Search:
                 at = cross_lines(p, d, q, e)
                 if at is None or abs(cross(d, e)) < FLAT:
                     flat = flat or (link, (one, two))
-                    found.append((link, _named(one), _named(two)))
+                    if _named(one) != _named(two):
+                        found.append((link, _named(one), _named(two)))
                     continue
                 quality = abs(cross(d, e)) / (1.0 + abs(at - (p + q) / 2) / size)
                 third = [self._third(leg, at) for leg in legs if leg not in (one, two)]
@@ -293,13 +297,35 @@ class _Search:
         p, d = self.line(leg)
         return abs(cross(unit(p - at), d)) if abs(p - at) > self.net.tiny else 0.0
 
+    def tie(self, left_out: Collection[tuple[str, str]]) -> bool:
+        """The special point of two links that both move, which are drawn as if hinged there from now on."""
+        without = {*left_out, *self.ties}
+        point = best_relative_point(self.net, self.known, self.nodes, without, self.along, self.turn)
+        if point is None:
+            return False
+        letter = next(self.letters)
+        self.net.tie(point.links, letter, point.at, self.turn)
+        base, link = point.links
+        self.moves.append(Special(link, letter, point.legs, base))
+        self.ties.append(point.links)
+        self.settle()
+        return True
+
     # -- the whole -----------------------------------------------------------------------------------------------------
 
-    def run(self) -> bool:
-        """Go on as long as something can be drawn; whether all is drawn then."""
+    def run(self, relative: bool, left_out: Collection[tuple[str, str]]) -> bool:
+        """Go on as long as something can be drawn; whether all is drawn then.
+
+        Parameters
+        ----------
+        relative : whether special points of two moving links serve too
+        left_out : special points that do not, by base ("": none) and link
+        """
         self.settle()
         while not self.done():
-            if not (self.close() or self.cross() or self.reach() or self.special()):
+            if not (self.close() or self.cross() or self.reach() or self.special(left_out)) and not (
+                relative and self.tie(left_out)
+            ):
                 return False
         return True
 
@@ -313,17 +339,6 @@ class _Search:
         turning = [e.unknown for e in edges if e.link]
         sliding = [e.unknown for e in edges if e.slide is not None]
         return list(dict.fromkeys((*near, *turning, *sliding)))
-
-
-def replace_net(net: Net) -> Net:
-    """The same net, to which special points may be added."""
-    made = object.__new__(Net)
-    made.__dict__.update(net.__dict__)
-    made.owners = dict(net.owners)
-    made.nodes = list(net.nodes)
-    made.order = dict(net.order)
-    made.edges = {n: list(edges) for n, edges in net.edges.items()}
-    return made
 
 
 def _named(leg: Path) -> str:
@@ -344,12 +359,32 @@ def plan_group(
     known = {n for n in net.nodes if net.known(n)}
     start = _Search(net, turn, along, iter(letters), known, set())
     for trials in range(MOST_TRIALS + 1):
-        served = False
-        for tried in combinations(start.unknowns(), trials):
-            search = start.copy(tried)
-            search.letters = iter(letters)
-            if search.run():
-                served = True
-                yield GroupPlan(tuple(search.moves), tried, search.net, tuple(search.parallel))
-        if served:
-            return
+        for relative in (False, True):  # a special point of two moving links is looked for where no other serves
+            served = False
+            for tried in combinations(start.unknowns(), trials):
+                search = _searched(start, tried, letters, relative)
+                if search is not None:
+                    served = True
+                    yield GroupPlan(tuple(search.moves), tried, search.net, tuple(search.parallel))
+            if served:
+                return
+
+
+def _searched(
+    start: _Search,
+    tried: Sequence[str],
+    letters: Sequence[str],
+    relative: bool,
+    left_out: Collection[tuple[str, str]] = (),
+) -> _Search | None:
+    """A search that found all; with points of two moving links one that has no special point that is not needed."""
+    search = start.copy(tried)
+    search.letters = iter(letters)
+    if not search.run(relative, left_out):
+        return None
+    points = [(m.base, m.link) for m in search.moves if isinstance(m, Special)] if relative else []
+    for point in points if len(points) > 1 else ():
+        fewer = _searched(start, tried, letters, relative, (*left_out, point))
+        if fewer is not None:
+            return fewer
+    return search

@@ -120,6 +120,7 @@ class GroupPolygons(GroupMoves):
         made.tried, made.believed = dict(self.tried), set(self.believed)
         made.special, made.places, made.links = set(self.special), dict(self.places), dict(self.links)
         made.pitch_points = dict(self.pitch_points)
+        made.ties = dict(self.ties)
         return made
 
     def _fork(self, number: int) -> GroupPolygons:

@@ -165,11 +165,13 @@ class RollingStarts:
 
 @dataclass(frozen=True)
 class SpecialPoint:
-    """The special point of a link, where the lines of two legs with these joints cross (Assur)."""
+    """The special point of a link, where the lines of two legs with these joints cross (Assur); or of a link relative
+    to another that moves, ``base``."""
 
     point: str
     link: str
     joints: tuple[str, str]
+    base: str = ""
 
 
 @dataclass(frozen=True)
@@ -217,7 +219,9 @@ def mechanism_phrase(act: OnMechanism) -> Phrase:
             return Phrase(f"held still {gives}", (held, link, slide, f"{shown:.6g}"))
         case PitchPoint(point, links):
             return Phrase("pitch point", (point, *links))
-        case SpecialPoint(point, link, joints):
+        case SpecialPoint(point, link, joints, base):
+            if base:
+                return Phrase("relative special point", (point, base, link, *joints))
             return Phrase("special point", (point, link, *joints))
         case RollingStarts(name, "angle", value):
             return Phrase("rolling starts at angle", (name, f"{math.degrees(value):.6g}"))

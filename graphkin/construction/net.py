@@ -8,6 +8,7 @@ points of one link, along the guide where they coincide on both sides of a slidi
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass, replace
 
 from graphkin.construction.sizes import Direction
@@ -24,9 +25,9 @@ class Edge:
     """The motion of ``end`` relative to ``start``.
 
     ``link`` is the rigid link between them, or ``slide`` the sliding pair they belong to, or ``weld`` the driven
-    turning pair, or ``contact`` the sliding contact, or ``rolling`` what rolls without slip.  ``unknown`` names what is
-    not known of it ("omega 3", "slide 2/3"); "" if nothing.  ``labels`` are the nodes as written, coincident points
-    with their links.
+    turning pair, or ``contact`` the sliding contact, or ``rolling`` what rolls without slip; or they lie at the special
+    point of two links (``tied``), which legs join.  ``unknown`` names what is not known of it ("omega 3", "slide 2/3");
+    "" if nothing.  ``labels`` are the nodes as written, coincident points with their links.
     """
 
     start: PointRef
@@ -38,6 +39,7 @@ class Edge:
     weld: Weld | None = None
     contact: str = ""
     rolling: str = ""
+    tied: bool = False
     forward: bool = True
     unknown: str = ""
 
@@ -139,6 +141,13 @@ class Net:
             a, b = (PointRef(one.letter, link) for link in one.links)
             self._add(Edge(a, b, (a, b), Direction("along", ("n-n",)), rolling=one.name))
 
+    def copy(self) -> Net:
+        """The same net, to which special points may be added."""
+        made = copy(self)
+        made.owners, made.nodes, made.order = dict(self.owners), list(self.nodes), dict(self.order)
+        made.edges = {n: list(edges) for n, edges in self.edges.items()}
+        return made
+
     def fixed(self, n: PointRef) -> bool:
         return self.frame in self.owners[n]
 
@@ -180,16 +189,24 @@ class Net:
 
     def add(self, name: str, letter: str, at: complex, shares: str) -> PointRef:
         """One more point of a link, such as a special point."""
-        ref = PointRef(letter)
+        return self._added(PointRef(letter), name, at, shares)
+
+    def tie(self, names: tuple[str, str], letter: str, at: complex, turn: Mapping[str, str]) -> None:
+        """The special point of two links: a point of each, of which the relative motion is found first."""
+        one, two = (self._added(PointRef(letter, name), name, at, turn.get(name, name)) for name in names)
+        self._add(Edge(one, two, (one, two), Direction("found", ()), tied=True))
+
+    def _added(self, ref: PointRef, name: str, at: complex, shares: str) -> PointRef:
         unknown = f"omega {shares}" if shares in self.inside else ""
         others = [n for n in self.nodes if name in self.owners[n]]
         self.owners[ref], self.edges[ref] = [name], []
         self.nodes.append(ref)
         self.order[ref] = len(self.order)
-        self.places = {**self.places, letter: at}
+        self.places = {**self.places, ref.point: at}
         for n in others:
             if abs(self.places[n.point] - at) > self.tiny:
-                self._add(Edge(ref, n, (ref, n), Direction("square", (letter, n.point)), link=name, unknown=unknown))
+                way = Direction("square", (ref.point, n.point))
+                self._add(Edge(ref, n, (ref, n), way, link=name, unknown=unknown))
         return ref
 
     def paths(self, start: PointRef) -> Iterator[tuple[Edge, ...]]:

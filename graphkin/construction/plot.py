@@ -39,6 +39,7 @@ class Plot:
         self.links = dict(structure.links)  # with the special points that larger groups get
         self.special: set[str] = set()
         self.pitch_points: dict[str, str] = {}  # letters where wheels of larger groups roll on each other
+        self.ties: dict[tuple[Order, str], complex] = {}  # by a special point of two links: that of the second from it
         self.trial = 0  # number of the trial polygon that this is; 0: it is none
         self.tried: dict[tuple[Order, str], float] = {}  # rates of sliding pairs moved at a trial speed
         self.ground = structure.scene.frame.name

@@ -15,11 +15,11 @@ class Direction:
     """A direction as it is written in an equation row: square to or along what is named.
 
     ``names`` are the letters of a bar (``("B", "C")``) or the name of a guide (``("h",)``); ``relation`` is "square",
-    "along", "towards" (from the first to the second) or "turned" (the relative velocity turned by 90 degrees in the
-    sense of the guide's rotation).
+    "along", "towards" (from the first to the second), "turned" (the relative velocity turned by 90 degrees in the
+    sense of the guide's rotation) or "found" (as a polygon of its own gave it).
     """
 
-    relation: Literal["square", "along", "towards", "turned"]
+    relation: Literal["square", "along", "towards", "turned", "found"]
     names: tuple[str, ...]
 
 

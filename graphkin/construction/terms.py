@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Literal
 
 from graphkin.construction.net import Edge
-from graphkin.construction.plot import Order, Plot
+from graphkin.construction.plot import Order, Plot, letter
 from graphkin.construction.remarks import AtContact
 from graphkin.construction.sizes import Direction, Given, OffCurves, RateTimes, RollingCurves, SquareOverRadius
 from graphkin.construction.slip import Component
@@ -26,6 +26,8 @@ def parts_of(plot: Plot, order: Order, edge: Edge) -> list[Component]:
         return _contact_parts(plot, order, edge)
     if edge.rolling:
         return _rolling_parts(plot, order, edge)
+    if edge.tied:
+        return _tied_parts(plot, order, edge)
     if edge.slide is not None:
         return _slide_parts(plot, order, edge, edge.slide)
     return _rigid_parts(plot, order, edge)
@@ -67,6 +69,15 @@ def _rigid_parts(plot: Plot, order: Order, edge: Edge) -> list[Component]:
     span = None if rate is None else square * (rate.value * arm_m / plot.scales.acceleration)
     size = RateTimes("alpha", (edge.link,), name) if span is not None else None
     return [normal, Component(symbol_of(plot, "at", edge), "tangential", square, span, edge.direction, size)]
+
+
+def _tied_parts(plot: Plot, order: Order, edge: Edge) -> list[Component]:
+    """The special point of one link relative to that of another, as its own polygon gave it: nothing where they move
+    alike."""
+    span = plot.ties[order, edge.end.point] * (1 if edge.forward else -1)
+    if span == 0.0:
+        return []
+    return [Component(symbol_of(plot, letter(order), edge), "relative", unit(span), span, edge.direction)]
 
 
 def _slide_parts(plot: Plot, order: Order, edge: Edge, slide: Slide) -> list[Component]:

@@ -139,7 +139,7 @@ class Letters:
 
     def direction(self, direction: Direction | None, frame: str) -> str:
         """A direction in an equation row or at its line: ``⊥BC``, ``∥CB``, ``B→A``; "" if none is written."""
-        if direction is None:
+        if direction is None or not direction.names:
             return ""
         names = "".join(self.point(n) if len(direction.names) > 1 else self.guide(n, frame) for n in direction.names)
         if direction.relation == "towards":

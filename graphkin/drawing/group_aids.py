@@ -75,6 +75,10 @@ def aids_in_polygon(here: PolygonOnPage) -> Iterator[Piece]:
             whole = abs(clipped[1] - here.at(aid.tip)) < SAME
             if whole and abs(aid.tip - aid.tail) > 2.5:
                 parts.append(arrowhead(here.at(aid.tip), clipped[1] - clipped[0], 1.6, 0.6, strokes.GREY))
+            if not trial and _apart(aid) and abs(clipped[1] - clipped[0]) > 4.0:
+                text = Text(0j, symbol(here.letters.arrow(aid.symbol), 3.0), "start", strokes.GREY,
+                            f"label-special-{aid.symbol.id}", ("label",))  # fmt: skip
+                labels.append(Label(text, clipped, rank=4))
             if trial and whole and aid.symbol.to is None and aid.symbol.of is not None and (
                 same_place(aid.tip) not in named
             ):  # fmt: skip
@@ -89,3 +93,9 @@ def aids_in_polygon(here: PolygonOnPage) -> Iterator[Piece]:
         classes = (f"trial-{trial}",) if trial else ("special",)
         drawn = Group(tuple(parts), classes=classes, step=step.number)
         yield Piece({"construction": (drawn,)}, tuple(labels))
+
+
+def _apart(aid: Aid) -> bool:
+    """Whether a vector is what the special points of two links move apart by."""
+    of, to = aid.symbol.of, aid.symbol.to
+    return of is not None and to is not None and of.point == to.point

@@ -41,7 +41,9 @@ def written_lines(sheet: Sheet, letters: Letters, language: str) -> list[Written
             lines.append(_off_plan(step.act, language))
         elif isinstance(step.act, SpecialPoint):
             act = step.act
-            lines.append(say(Phrase("written special", _in_dollars(act.point, *act.joints)), spoken))
+            names = _in_dollars(act.point, *act.joints)
+            key = "written relative special" if act.base else "written special"
+            lines.append(say(Phrase(key, (*names, act.base, act.link)), spoken))
         elif isinstance(step.act, TrialPositions):
             out, moved, rolled = (", ".join(n) for n in (step.act.left_out, step.act.driven, step.act.rolling))
             if rolled:

@@ -221,7 +221,10 @@ def _drawn(step: Step) -> Vector | Aid | None:
 
 def _way(direction: Direction, span: complex) -> Direction | Phrase:
     """A direction with its sense, where that does not lie in its name."""
-    return direction if direction.relation == "towards" else Phrase("pointing", (direction, _degrees(span)))
+    if direction.relation == "towards":
+        return direction
+    angle = _degrees(span)
+    return Phrase("pointing", (direction, angle)) if direction.names else Phrase("pointing only", (angle,))
 
 
 def _joined(*letters: Markup | None) -> Markup:

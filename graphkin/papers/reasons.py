@@ -76,12 +76,18 @@ def _rolling_at(lesson: Lesson) -> Mapping[str, tuple[str, str]]:
 
 def _found_before(lesson: Lesson, equation: Equation, term: Term) -> int:
     """The step that found a term with which an equation begins; 0 for a term that is drawn in it."""
-    if term.size is not None or term.symbol.to is not None or not (term.size_known and term.direction_known):
+    of, to = term.symbol.of, term.symbol.to
+    apart = of is not None and to is not None and of.point == to.point and _is_special(lesson, of)
+    if term.size is not None or not (to is None or apart) or not (term.size_known and term.direction_known):
         return 0
     earlier = (s for s in lesson.sheet.steps if s.diagram == equation.diagram and s.equation != equation.number)
     return next(
         (s.number for s in earlier for v in s.strokes if isinstance(v, Vector | Aid) and v.symbol == term.symbol), 0
     )
+
+
+def _is_special(lesson: Lesson, ref: PointRef) -> bool:
+    return any(isinstance(s.act, SpecialPoint) and s.act.point == ref.point for s in lesson.sheet.steps)
 
 
 def _of_a_point(lesson: Lesson, symbol: Symbol) -> Iterator[Phrase]:
@@ -114,7 +120,7 @@ def _shared(lesson: Lesson, of: PointRef, to: PointRef) -> str:
     special = {s.act.point: s.act.link for s in lesson.sheet.steps if isinstance(s.act, SpecialPoint)}
     for ref in (of, to):
         if ref.point in special:
-            return special[ref.point]
+            return ref.link or special[ref.point]
     for link in lesson.sheet.scene.links:
         if all(ref.link == link.name or (not ref.link and ref.point in link.points) for ref in (of, to)):
             return link.name

@@ -107,7 +107,7 @@ def test_a_group_with_a_driver_inside_agrees_too(leg: str) -> None:
     assert [] == [str(row.symbol) for row in result.report.rows if not row.ok]
 
 
-def wrong(name: str, slip: Slip) -> set[str]:
+def wrong(name: Any, slip: Slip) -> set[str]:
     """Readings that a drawing with a slip gets wrong by more than 1e-9."""
     scene = mechanism_of(name)
     motion = solver.solve(scene)
@@ -129,6 +129,74 @@ def test_a_special_points_line_turned_by_a_tenth_of_a_degree_shows() -> None:
 
     assert set() == wrong("triad-slider", Slip())
     assert {"v_C", "v_D", "omega_4", "a_C", "alpha_4"} <= wrong("triad-slider", Slip(line=line))
+
+
+CONTOUR: dict[str, Any] = {  # two plates joined by two bars whose lines cross on the sheet
+    "frame": {"points": {"A": [0, 0], "G": [190, -10]}},
+    "links": {
+        "2": {"points": ["A", "B"], "length": 40},
+        "3": {"points": ["B", "C"], "length": 60, "at": {"D": [35, 85]}},
+        "4": {"points": ["C", "E"], "length": 75},
+        "5": {"points": ["D", "F"], "length": 70},
+        "6": {"points": ["G", "E"], "length": 80, "at": {"F": [90, -75]}},
+    },
+    "driver": {"link": "2", "angle": 70, "omega": 10, "alpha": -20},
+    "sketch": {"C": [60, 75], "D": [0, 120], "E": [130, 60], "F": [60, 90]},
+}
+SLIDING: dict[str, Any] = {  # nothing of the group turns but with the crank
+    "frame": {"points": {"A": [0, 0], "B": [-11, 179], "C": [166, 285], "F": [315, 83]}},
+    "links": {
+        "1": {"points": ["A"]},
+        "2": {"points": ["B"], "on": "3.g"},
+        "3": {"guides": {"g": {"through": [-118, 119], "angle": 168}, "h": {"through": [18, 239], "angle": 137}},
+              "on": "4.k"},
+        "4": {"guides": {"k": {"through": [-80, 29], "angle": -9}}, "on": "1"},
+        "5": {"points": ["C", "D"], "length": 123, "on": "3.h", "angle_on": -150},
+        "6": {"points": ["D", "E"], "length": 75},
+        "7": {"points": ["E", "F"], "length": 148},
+    },
+    "driver": {"link": "1", "angle": 6, "omega": 5.5, "alpha": -14},
+    "sketch": {"D": [284, 251], "E": [354, 226]},
+}
+STEEP: dict[str, Any] = {  # between two trial angles 1 degree apart G runs to infinity and back through the fit
+    "frame": {"points": {"A": [0, 0], "H": [-11, 232.3]}},
+    "links": {
+        "1": {"points": ["A", "J"], "length": 72.978},
+        "4": {"points": ["E", "H"], "length": 187.338, "on": "9.k", "angle_on": 220.3},
+        "5": {"points": ["G"], "guides": {"g": {"through": [148.356, -21.644], "angle": -188.67}}},
+        "6": {"points": ["E"], "on": "5"},
+        "7": {"points": ["G"]},
+        "8": {"points": ["F", "J"], "length": 123.007, "on": "5.g", "angle_on": -5.02},
+        "9": {"points": ["F"], "guides": {"k": {"through": [-26.312, -7.69], "angle": -127.72}}, "on": "7"},
+    },
+    "driver": {"link": "1", "angle": 25, "omega": 8, "alpha": -30},
+    "sketch": {"E": [137.5, 118], "F": [154.2, 116.7], "G": [86.5, 36.6]},
+}
+
+
+@pytest.mark.parametrize("at", [70, 55, 95])
+def test_plates_joined_by_two_bars_are_drawn_by_the_special_point_of_both(at: float) -> None:
+    result = graphkin.check(CONTOUR, at)
+    assert "special points" == result.data["construction"]
+    assert set() == everything(CONTOUR) - {str(row.symbol) for row in result.report.rows}
+    assert [] == [str(row.symbol) for row in result.report.rows if row.error > 1e-9 * max(abs(row.exact), 1e-3)]
+
+
+def test_a_line_to_the_special_point_of_two_moving_links_turned_by_a_tenth_of_a_degree_shows() -> None:
+    turned = cmath.rect(1.0, math.radians(0.1))
+
+    def line(symbol: Symbol, along: complex) -> complex:
+        return along * turned if symbol.of is not None and symbol.of.point == "S" else along
+
+    assert set() == wrong(CONTOUR, Slip())
+    assert {"v_C", "v_E", "omega_3", "omega_6", "a_D", "alpha_4"} <= wrong(CONTOUR, Slip(line=line))
+
+
+@pytest.mark.parametrize("scene", [SLIDING, STEEP])
+def test_groups_far_from_points_and_fits_are_drawn_where_they_are_sketched(scene: dict[str, Any]) -> None:
+    result = graphkin.check(scene)
+    assert set() == everything(scene) - {str(row.symbol) for row in result.report.rows}
+    assert [] == [str(row.symbol) for row in result.report.rows if not row.ok]
 
 
 def test_a_trial_rate_divided_wrongly_shows() -> None:

@@ -1,0 +1,130 @@
+"""Special points of two moving links that legs join, as in groups of class IV.
+
+Each leg leaves the one link free along one direction as seen from the other; where the lines square to these cross, the
+points of both links that lie there move alike: the centre of their relative motion.  What their accelerations differ by
+a polygon of its own gives, and then both links are drawn as if hinged there (Assur's points, taken relative to a moving
+link; Artobolevsky, Theory of mechanisms).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import combinations
+
+from graphkin.construction.net import Edge, Net
+from graphkin.plane import cross, cross_lines, unit
+from graphkin.scene.symbol import PointRef
+
+__all__ = ["RelativePoint", "best_relative_point"]
+
+LONGEST = 3  # edges of a leg
+OFF = 1e-9  # sine between a leg's line and the way from joint to joint, below which it is that way
+WORST = 0.05  # crossing and distance of a point that is still taken
+
+Path = tuple[Edge, ...]
+
+
+@dataclass(frozen=True)
+class RelativePoint:
+    """Where the special point of the second link relative to the first lies, and the legs from the one to the other."""
+
+    links: tuple[str, str]
+    at: complex
+    legs: tuple[Path, Path]
+
+
+def best_relative_point(
+    net: Net,
+    known: Collection[str],
+    settled: Collection[PointRef],
+    left_out: Collection[tuple[str, str]],
+    along: Callable[[Edge, Mapping[str, complex]], complex],
+    turn: Mapping[str, str],
+) -> RelativePoint | None:
+    """The relative special point that gives the best crossing; None where there is none.
+
+    Parameters
+    ----------
+    known : what is no longer unknown
+    settled : nodes whose motion is known
+    left_out : pairs of links that are not looked at
+    along : direction of the relative motion of an edge
+    turn : for each link of the group the one link whose angular velocity it shares
+    """
+    size = max((abs(z) for z in net.places.values()), default=1.0) or 1.0
+    best: tuple[float, RelativePoint] | None = None
+    for links, legs in _legs(net, known, settled, left_out, along, turn).items():
+        for one, two in combinations(legs, 2):
+            (p, d), (q, e) = (_line(net, leg, along) for leg in (one, two))
+            at = cross_lines(p, d, q, e)
+            if at is None:
+                continue
+            quality = abs(cross(d, e)) / (1.0 + abs(at - (p + q) / 2) / size)
+            if quality > WORST and (best is None or quality > best[0]):
+                best = quality, RelativePoint(links, at, (one, two))
+    return best[1] if best else None
+
+
+def _legs(
+    net: Net,
+    known: Collection[str],
+    settled: Collection[PointRef],
+    left_out: Collection[tuple[str, str]],
+    along: Callable[[Edge, Mapping[str, complex]], complex],
+    turn: Mapping[str, str],
+) -> Mapping[tuple[str, str], Sequence[Path]]:
+    """For each two links that are not hinged together the shortest way by each unknown that joins them."""
+    names = [name for name in net.inside if "/" not in name]
+    of = {name: [n for n in net.nodes if name in net.owners[n] and n not in settled] for name in names}
+    hinged = {frozenset(p) for n in net.nodes for p in combinations(net.owners[n], 2)}
+    found: dict[tuple[str, str], dict[str, Path]] = {}
+    for i, one in enumerate(names):
+        others = {n: [two for two in names[i + 1 :] if two in net.owners[n]] for n in net.nodes}
+        own = f"omega {turn.get(one, one)}"
+        for path in _ways(net, of[one], one, known, settled):
+            names_of = [e.unknown for e in path if e.unknown]
+            for two in others[path[-1].end]:
+                if (one, two) in left_out or frozenset((one, two)) in hinged or len(names_of) != 1:
+                    continue
+                (unknown,) = names_of
+                if unknown == own or unknown == f"omega {turn.get(two, two)}" or any(e.link == two for e in path):
+                    continue
+                old = found.setdefault((one, two), {}).get(unknown)
+                if (old is None or len(path) < len(old)) and _straight(net, path, along):
+                    found[one, two][unknown] = path
+    return {links: list(legs.values()) for links, legs in found.items() if len(legs) > 1}
+
+
+def _ways(
+    net: Net, starts: Sequence[PointRef], link: str, known: Collection[str], settled: Collection[PointRef]
+) -> Iterator[Path]:
+    """Ways that leave a link, with one unknown at most."""
+    stack: list[Path] = [()]
+    while stack:
+        path = stack.pop()
+        for start in (path[-1].end,) if path else starts:
+            for edge in net.edges[start]:
+                if edge.link == link or edge.end in settled or edge.end in {e.start for e in path}:
+                    continue
+                seen = replace(edge, unknown="") if edge.unknown in known else edge
+                if seen.unknown and any(e.unknown for e in path):
+                    continue
+                longer = (*path, seen)
+                yield longer
+                if len(longer) < LONGEST and link not in net.owners[edge.end]:
+                    stack.append(longer)
+
+
+def _line(
+    net: Net, leg: Path, along: Callable[[Edge, Mapping[str, complex]], complex]
+) -> tuple[complex, complex]:
+    free = next(e for e in leg if e.unknown)
+    return net.places[leg[-1].end.point], 1j * along(free, net.places)
+
+
+def _straight(net: Net, leg: Path, along: Callable[[Edge, Mapping[str, complex]], complex]) -> bool:
+    """Whether a leg's joints on both links lie on its line, so that neither's turning moves it along that."""
+    end, way = _line(net, leg, along)
+    arm = end - net.places[leg[0].start.point]
+    return abs(arm) <= net.tiny or abs(cross(unit(arm), way)) < OFF
