@@ -201,12 +201,12 @@ def _closed(start: _Tried, known: PlacedLinks, guess: Poses) -> dict[str, Pose] 
         try:
             step = np.linalg.solve(slope, -gap)
         except np.linalg.LinAlgError:
-            return None
+            break
         if not np.abs(step).max() <= 1.0:
-            return None
+            break  # nowhere near, or nothing but rounding is left
         two = drawn_near(reduced, known, guess, at + step)
         if two is None:
-            return None
+            break
         new = np.array(reduced.gaps(two))
         if np.abs(new).max() >= np.abs(gap).max() and np.abs(gap).max() < FIT:
             return reduced.put_back(one)

@@ -18,7 +18,7 @@ from typing import Any
 
 from graphkin.errors import GraphkinError
 from graphkin.jobs import Checkpoints, Progress, Started, Workers, key_of
-from graphkin.papers.variants import Answer, Spread, Unfit, Variant, candidate, examined, varied_keys
+from graphkin.papers.variants import Answer, Spread, Unfit, Variant, candidate, examined, magnified, varied_keys
 from graphkin.papers.vary_rules import level_of
 from graphkin.scene import mechanism_of
 from graphkin.structure import Cluster, analyse
@@ -27,7 +27,8 @@ __all__ = ["Failure", "Job", "MadeSet", "Render", "accepted", "distinct", "jobs_
 
 MANY, FEW = 30, 4  # of them for everything that may be asked, of mechanisms of dyads and with larger groups
 ATTEMPTS = 120  # tries at one variant before it is given up
-PATIENCE = 12.0  # s of the processor, after which no further one is begun
+POOL, BEST = 40, 10  # candidates with larger groups that are compared, and of them those that are looked at closely
+PATIENCE, LONGER = 12.0, 24.0  # s of the processor, after which no further one is begun; with larger groups
 
 # of a title: the data that it names ("…, scheme 2, position 7", "… 150, 500, 300")
 _DATA = re.compile(r"(?:\s+[\d.]+(?=[,、]\s*\d))?\s*[,:，：;；(（、][^,:，：;；(（、]*\d.*$")
@@ -109,13 +110,18 @@ def work(job: Job, attempt: int) -> Attempt:
     begun = time.process_time()
     large = any(isinstance(group, Cluster) for group in analyse(mechanism_of(job.source)).elements)
     patient = FEW if large else MANY
+    best: Mapping[int, Sequence[Source]] = {}
     for k in range(attempt, ATTEMPTS):
-        if time.process_time() - begun > PATIENCE:
+        if time.process_time() - begun > (LONGER if large else PATIENCE):
             break
         try:
             fewer = k - attempt >= patient
-            spread = job.spread.narrower() if fewer and large else job.spread
-            source = _named(candidate(job.source, spread, job.seed, job.number, k), job.name)
+            if large:
+                if k // BEST not in best:
+                    best = {k // BEST: _best_of(job, job.spread, k // BEST)}
+                source = best[k // BEST][k % BEST]
+            else:
+                source = _named(candidate(job.source, job.spread, job.seed, job.number, k), job.name)
             was = _where_it_was(source, job.source)
             bounds = level_of(job.source)
             return Attempt(examined(source, was, job.name, bounds=bounds, fewer=fewer), k)
@@ -127,6 +133,17 @@ def work(job: Job, attempt: int) -> Attempt:
     tried = why.total()
     easier = 'ask for less in "find", narrow [vary] ranges, or allow more by [vary] level = "hard"'
     return Attempt(None, ATTEMPTS, f"none of {tried} attempts is a good problem, for example: {reason}; {easier}")
+
+
+def _best_of(job: Job, spread: Spread, pool: int) -> list[dict[str, Any]]:
+    """Candidates of a mechanism with larger groups, that first which magnifies errors least; every other of them with
+    data near its own."""
+    made = []
+    for k in range(pool * POOL, (pool + 1) * POOL):
+        wide = spread if k % 2 == 0 else spread.narrower()
+        source = _named(candidate(job.source, wide, job.seed, job.number, k), job.name)
+        made.append((magnified(source, _where_it_was(source, job.source)), k, source))
+    return [source for _, _, source in sorted(made, key=lambda one: one[:2])]
 
 
 def _row(job: Job) -> Attempt:

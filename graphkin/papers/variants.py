@@ -12,6 +12,7 @@ import random
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from statistics import median
 from typing import Any
 
 from graphkin.checking.readings import read_off
@@ -26,9 +27,12 @@ from graphkin.scene import mechanism_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion, exact_values, solve
-from graphkin.structure import Cluster, Driven, Dyad, Pair, analyse
+from graphkin.structure import Cluster, Driven, Dyad, Pair, analyse, links_of
 
-__all__ = ["Answer", "Spread", "Unfit", "Variant", "asked_of", "candidate", "examined", "round_step", "varied_keys"]
+__all__ = [
+    "Answer", "Spread", "Unfit", "Variant", "asked_of", "candidate", "examined", "magnified", "round_step",
+    "varied_keys",
+]  # fmt: skip
 
 Source = Mapping[str, Any]
 Path = tuple[str | int, ...]
@@ -36,6 +40,7 @@ Path = tuple[str | int, ...]
 LEAST_READING = 10.0  # mm on paper
 STEPS = (1.0, 2.0, 5.0)
 AMPLE = 0.8  # of a tolerance, to which errors that act together may still add
+MOST_ASKED = 6  # of what a pencil does not miss
 SHY = 0.12  # part of its reach that a driver keeps off both ends
 
 
@@ -183,6 +188,43 @@ def asked_of(scene: Mechanism) -> tuple[Symbol, ...]:
     return tuple(found)
 
 
+def _of_larger_groups(scene: Mechanism, asked: Sequence[Symbol]) -> Iterator[Symbol]:
+    """What else may be asked of a mechanism's larger groups: the motion of the points that they find, the rates of
+    their links."""
+    found = set(scene.frame.points)
+    for group in analyse(scene).elements:
+        links = [scene.by_name[name] for name in links_of(group) if name in scene.by_name]
+        if isinstance(group, Cluster):
+            points = dict.fromkeys(p for link in links for p in link.points if p not in found)
+            names = [f"{k}_{p}" for k in "va" for p in points]
+            names += [f"{kind}_{link.name}" for kind in ("omega", "alpha") for link in links]
+            yield from (s for s in map(Symbol.parse, names) if s not in asked)
+        found |= {p for link in links for p in link.points}
+
+
+def magnified(source: Source, base: Source) -> float:
+    """By how much larger groups magnify what is wrong in their drawing: how far rounding moves what may be asked of
+    them, as a part of that (the solver's own error bound), in the middle; inf where nothing assembles.
+
+    Parameters
+    ----------
+    source, base : as for `examined`
+    """
+    try:
+        scene = mechanism_of(_moved(source, base))
+        motion = solve(scene)
+        if motion.status[0] != "ok":
+            return math.inf
+        asked = asked_of(scene)
+        asked = tuple(s for s in (*asked, *_of_larger_groups(scene, asked)) if s.scope == "motion")
+        exact = exact_values(motion, asked)
+        sizes = [abs(complex(exact(s))) * (1.0 if s.is_vector else scene.size) for s in asked]
+    except (GraphkinError, Unfit, ArithmeticError):
+        return math.inf
+    offs = [float(motion.rough[0 if s.kind in ("v", "omega") else 1][0]) for s in asked]
+    return median(off / size if size else math.inf for off, size in zip(offs, sizes, strict=True)) if asked else 0.0
+
+
 def _joints(group: Dyad | Cluster) -> tuple[Pair, ...]:
     """The pairs of a group, those whose motion is best asked for first: its end, or what lies inside it."""
     if isinstance(group, Dyad):
@@ -219,9 +261,12 @@ def examined(
         if motion.status[0] != "ok":
             raise Unfit(f"{motion.status[0]}: {motion.why[0]}")
         asked = asked_of(scene)
+        chosen = strict and fewer and not source.get("find")
+        if chosen:
+            asked = (*asked, *_of_larger_groups(scene, asked))
         what = paper_plan(scene, None, asked)
         sheet = execute(what)
-        remarks = list(_remarks(sheet, asked, bounds.crossing))
+        remarks = list(_remarks(sheet, () if chosen else asked, bounds.crossing))
         if remarks and strict:
             raise Unfit(remarks[0])
         answers = tuple(_answers(scene, motion, sheet, asked))
@@ -233,8 +278,10 @@ def examined(
         raise Unfit(f"the numbers run out of range: {error}") from None
     if strict:  # what errors do together only adds to it
         first = {s: u.bound for s, u in predict(what, "pencil", scene.sheet.tools, together=False).items()}
-        if fewer and not source.get("find"):
-            asked = _within_reach(answers, first, bounds.tolerance)
+        if chosen:
+            unread = {s for s, _ in answers if any(_unread(sheet, (s,)))}
+            read = tuple(one for one in answers if one[0] not in unread)
+            asked = _within_reach(read, first, bounds.tolerance)[:MOST_ASKED]
             answers = tuple(one for one in answers if one[0] in asked)
             made["find"] = [str(s) for s in asked]
         _held(answers, first, bounds.tolerance)
@@ -301,6 +348,11 @@ def _remarks(sheet: Sheet, asked: tuple[Symbol, ...], crossing: float) -> Iterat
             angle = math.asin(min(1.0, abs(cross(one.along, two.along))))
             if angle < crossing:
                 yield f"lines cross at {math.degrees(angle):.0f} degrees only"
+    yield from _unread(sheet, asked)
+
+
+def _unread(sheet: Sheet, asked: tuple[Symbol, ...]) -> Iterator[str]:
+    """What of the asked cannot be read well off a sheet."""
     readings = {r.symbol: r for r in read_off(sheet, asked)}
     for symbol in asked:
         if symbol not in readings:
