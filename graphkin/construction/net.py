@@ -183,7 +183,9 @@ class Net:
                 self._add(Edge(a, b, labels, Direction("square", (hinge, letter)), weld=w))
 
     def _touching(self, contact: PlacedContact) -> None:
-        a, b = (PointRef(contact.name, link) for link in contact.links)
+        # against the frame where it can be: its point stands in the pole
+        sides = sorted(contact.links, key=lambda link: link != self.frame)
+        a, b = (PointRef(contact.name, link) for link in sides)
         way = Direction("along", ("t-t",))
         self._add(Edge(a, b, (a, b), way, contact=contact.name, unknown=f"slip {contact.name}"))
 

@@ -48,7 +48,8 @@ def _planes(line: CentreLine) -> _Planes:
     count = len(set(of.values()))
     behind: dict[str, int] = {}
     for mesh in line.meshes:
-        rings = [w for w, part in zip(mesh.wheels, mesh.parts, strict=True) if part is not None and part < 0]
+        parts = mesh.parts if all(mesh.axes) else ()
+        rings = [w for w, part in zip(mesh.wheels, parts, strict=False) if part is not None and part < 0]
         for name in (*rings, mesh.carrier):
             if name not in behind:
                 behind[name] = count
@@ -94,7 +95,7 @@ def scheme(scene: Mechanism, line: CentreLine, mm: float, width: float) -> Piece
                 continue
             axes[axis] = None
             away = 1.0 if pitch > heights[axis] else -1.0
-            ring = part is not None and part < 0
+            ring = part is not None and part < 0 and all(mesh.axes)  # what runs on a rack has its teeth outside
             tooth = at(plane, pitch - away * (GAP if not ring else -GAP))
             shapes.setdefault(wheel, []).append(Line(tooth - TOOTH / 2, tooth + TOOTH / 2, colour))
             if not ring:
