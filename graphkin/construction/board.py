@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, replace
 from typing import Protocol
 
 from graphkin.construction.remarks import OffTheSheet, Remark, SharpCrossing
-from graphkin.construction.sheet import EXACT_NAME, DiagramName, Equation, Step, Stroke
+from graphkin.construction.sheet import EXACT_NAME, Aid, DiagramName, Equation, Mark, Step, Stroke, Vector
 from graphkin.construction.steps import Act, Cause
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, cross_lines
@@ -212,6 +212,18 @@ class Board:
         """Record one step."""
         self.steps.append(Step(len(self.steps) + 1, diagram, act, tuple(strokes), equation))
         self.causes.append((self.instrument.acts, act))
+
+    def pricked(self, diagram: DiagramName, mark: Mark) -> bool:
+        """Whether an end point stands there already: two lines have met in it, or the last vector ends in it and now
+        bears its letter."""
+        if any(mark in step.strokes for step in self.steps if step.diagram == diagram):
+            return True
+        last = self.steps[-1]
+        ends = (s.tip for s in last.strokes if last.diagram == diagram and isinstance(s, Vector | Aid))
+        if mark.at not in ends:
+            return False
+        self.steps[-1] = replace(last, strokes=(*last.strokes, mark))
+        return True
 
     def notice(self, diagram: DiagramName, remark: Remark) -> None:
         """Take note of what may have to be said, at this scale or at another."""

@@ -67,14 +67,15 @@ def drive(frame: PlacedLinks, element: Driven) -> tuple[Pose, Story]:
     if isinstance(driver, AngleDriver) or (isinstance(driver, Rolled) and driver.turns):
         if isinstance(driver, AngleDriver):
             own = driver.link == name
-            base = frame.poses[driver.relative_to if own else driver.link].axis
+            to = driver.relative_to if own else driver.link
+            base = frame.poses[to].axis
         else:
-            own, base = True, 1 + 0j
+            own, to, base = True, "", 1 + 0j
         axis = unit(base * frame.instrument.angle(direction(math.degrees(value if own else -value))))
         assert isinstance(pair, Turn)
         hinge = frame.point(pair.b, pair.point)
         pose = Pose(hinge - axis * (frame.links[name].points[pair.point] * frame.mm), axis)
-        return pose, ((LaidOffAngle(name, value, pair.point), ()),)
+        return pose, ((LaidOffAngle(name, value if own else -value, pair.point, to), ()),)
     assert isinstance(pair, Slide)
     known = pair.b if name == pair.a else pair.a
     pose = across(pair, name, frame.poses[known], frame.instrument.length(value * frame.mm), frame.mm)

@@ -114,10 +114,7 @@ class GroupMoves(Polygons):
     def _equation(self, order: Order, group: Cluster, chain: TwoWays) -> None:
         number = len(self.board.equations) + 1
         sides = [self._side(order, chain.left), self._side(order, chain.right)]
-        terms = [self._terms(order, side) for side in sides]
-        if len(terms[0]) != 1 or terms[0][0].symbol != Symbol(letter(order), self.label(chain.middle)):
-            terms.insert(0, (Term(Symbol(letter(order), self.label(chain.middle)), False, False),))
-        self.board.equations.append(Equation(number, order, tuple(terms), group))
+        self.board.equations.append(Equation(number, order, self._two_ways(order, chain, sides), group))
         self._cross(order, chain, sides, number)
         for edges in (chain.left, chain.right):
             if sum(bool(edge.unknown) for edge in edges) == 1:  # of several along one line only the sum is known

@@ -7,7 +7,7 @@ open is divided proportionally, until what was left out fits.
 
 from __future__ import annotations
 
-from cmath import phase
+import cmath
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
@@ -16,7 +16,7 @@ import numpy as np
 from graphkin.construction.board import EXACT
 from graphkin.construction.dyads import Story, drive, meet
 from graphkin.construction.follow import drawn_near, fitted
-from graphkin.construction.mechanism_acts import RollingStarts, TrialPositions
+from graphkin.construction.mechanism_acts import LaidOffAngle, RollingStarts, TrialPositions
 from graphkin.construction.reduced_mechanism import ReducedMechanism
 from graphkin.construction.removed_constraint import RemovedConstraint
 from graphkin.construction.rigid import PlacedLinks, Poses
@@ -127,7 +127,11 @@ def trial_story(frame: PlacedLinks, so_far: PlacedLinks, trial: GroupTrial) -> S
     board = replace(board, instrument=EXACT)
     for element in reduced.elements:
         if isinstance(element, Driven):
-            _, told_here = drive(board, element)
+            pose, told_here = drive(board, element)
+            axis = cmath.phase(pose.axis)  # found by trial, whatever it was tried against
+            told_here = tuple(
+                (replace(act, angle=axis, to="") if isinstance(act, LaidOffAngle) else act, s) for act, s in told_here
+            )
         else:
             meeting = meet(board, element)
             best = min(range(len(meeting.poses)), key=lambda k: _off(meeting.poses[k], poses), default=None)
@@ -141,7 +145,7 @@ def trial_story(frame: PlacedLinks, so_far: PlacedLinks, trial: GroupTrial) -> S
 def _started(frame: PlacedLinks, driver: AnyDriver) -> RollingStarts:
     """What is given of a link, or of a pair, at the position from which rolling starts."""
     if isinstance(driver, AngleDriver):
-        return RollingStarts(driver.link, "angle", phase(frame.poses[driver.link].axis))
+        return RollingStarts(driver.link, "angle", cmath.phase(frame.poses[driver.link].axis))
     return RollingStarts(driver.key, "travel", driver.values[0] * frame.mm)
 
 

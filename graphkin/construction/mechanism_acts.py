@@ -41,11 +41,12 @@ class FixedPoints:
 
 @dataclass(frozen=True)
 class LaidOffAngle:
-    """The angle (rad) of a driven link, about a hinge."""
+    """The angle (rad) of a driven link, about a hinge, to the x axis or to another link (``to``)."""
 
     link: str
     angle: float
     hinge: str
+    to: str = ""
 
 
 @dataclass(frozen=True)
@@ -194,8 +195,9 @@ def mechanism_phrase(act: OnMechanism) -> Phrase:
     match act:
         case FixedPoints(frame, points):
             return Phrase("frame", (frame, ", ".join(points)))
-        case LaidOffAngle(link, angle, hinge):
-            return Phrase("lay off angle", (link, f"{math.degrees(angle):.6g}", hinge))
+        case LaidOffAngle(link, angle, hinge, to):
+            key = "lay off angle to" if to else "lay off angle"
+            return Phrase(key, (link, f"{math.degrees(angle):.6g}", hinge, to))
         case LaidOffTravel(pair, mm):
             return Phrase("lay off travel", (pair, on_paper(mm)))
         case CompassArcs(about, point, radii):

@@ -164,7 +164,8 @@ class Plot:
         mark = Mark(self.label(ref), at)
         symbol = Symbol(letter(order), self.label(ref))
         if symbol in self.drawn[order]:
-            self.board.do(order, Named(mark.ref), mark, equation=equation)
+            if not self.board.pricked(order, mark):
+                self.board.do(order, Named(mark.ref), mark, equation=equation)
             return
         self.record(order, Vector(symbol, 0j, at, "resultant"), Resultant(symbol), equation, mark)
 

@@ -7,7 +7,7 @@ sliding velocity (Sun Huan, Mechanical Principles, ch. 3; Norton, Design of Mach
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from typing import Literal
 
 from graphkin.construction.at_contacts import contacts_of, joined_at_contacts
@@ -149,11 +149,7 @@ class Polygons(Plot):
         self._known_turns(order, dyad)
         number = len(self.board.equations) + 1
         sides = [self._side(order, chain.left), self._side(order, chain.right)]
-        terms = [self._terms(order, side) for side in sides]
-        if len(terms[0]) != 1 or terms[0][0].symbol != Symbol(letter(order), self.label(chain.middle)):
-            head = Term(Symbol(letter(order), self.label(chain.middle)), False, False)
-            terms.insert(0, (head,))
-        self.board.equations.append(Equation(number, order, tuple(terms), dyad))
+        self.board.equations.append(Equation(number, order, self._two_ways(order, chain, sides), dyad))
         self._cross(order, chain, sides, number)
         for edges in (chain.left, chain.right):
             for edge in edges:
@@ -223,6 +219,14 @@ class Polygons(Plot):
             terms.append(Term(Symbol(letter(order), self.label(start)), True, True))
         terms += [Term(p.symbol, p.span is not None, True, p.size, p.written) for _, parts in side for p in parts]
         return tuple(terms)
+
+    def _two_ways(self, order: Order, chain: TwoWays, sides: Iterable[_Side]) -> tuple[tuple[Term, ...], ...]:
+        """Both sides of an equation behind what they are equal to; a side that is this itself stands first."""
+        whole = Symbol(letter(order), self.label(chain.middle))
+        terms = [self._terms(order, side) for side in sides]
+        alone = [side for side in terms if [t.symbol for t in side] == [whole]]
+        others = [side for side in terms if side not in alone]
+        return (*(alone or [(Term(whole, False, False),)]), *others)
 
     def _lay_off(self, order: Order, edges: tuple[Edge, ...], element: Driven) -> None:
         """An equation without unknowns: the vectors are laid off one after the other."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,7 +12,14 @@ from numpy.typing import NDArray
 
 from graphkin.construction.board import EXACT, Board, Instrument
 from graphkin.construction.dyads import Meeting, drive, meet
-from graphkin.construction.mechanism_acts import FixedPoints, LinkPoints
+from graphkin.construction.mechanism_acts import (
+    ArcOnPath,
+    CompassArcs,
+    FixedPoints,
+    LaidOffAngle,
+    LinkPoints,
+    PathsCross,
+)
 from graphkin.construction.remarks import SharpCrossing, ShortArm
 from graphkin.construction.rigid import PlacedLinks
 from graphkin.construction.sheet import Mark, Pose
@@ -294,17 +301,40 @@ def draw_position(
             key = ", ".join(element.links)
             which = "one assembly" if element.is_two_lines else f"{element.kind} {index}"
             assembly[key] = Phrase(which, _assembly_names(element))
+        found: set[str] = set()
+        left = list(links_of(element))
+
+        def known(name: str, found: set[str] = found) -> int:
+            return len(structure.links[name].points.keys() & (named | found))
+
         for act, strokes in story:
+            if isinstance(act, LaidOffAngle) and act.to == ground.name:
+                act = replace(act, to="")
             board.do("mechanism", act, *strokes)
+            if isinstance(act, CompassArcs | ArcOnPath | PathsCross):
+                found.add(act.point)
+            if isinstance(element, Cluster):  # what the next lines start from
+                laid = act.link if isinstance(act, LaidOffAngle) else ""
+                for name in [n for n in left if n == laid or known(n) > 1]:
+                    left.remove(name)
+                    _mark_points(board, structure, frame, name, named)
+        while left:  # first the links that stand already: two of their points are known
+            name = max(left, key=known)
+            left.remove(name)
+            _mark_points(board, structure, frame, name, named)
         for name in links_of(element):
             so_far.poses[name] = frame.poses[name]
-            fresh = [p for p in structure.links[name].points if p not in named]
-            marks = tuple(Mark(PointRef(p), frame.point(name, p)) for p in fresh)
-            named.update(fresh)
-            if marks:
-                whole = len(structure.links[name].points) > 2
-                board.do("mechanism", LinkPoints(name, tuple(fresh), whole), *marks)
     return assembly
+
+
+def _mark_points(board: Board, structure: Structure, frame: PlacedLinks, name: str, named: set[str]) -> None:
+    """The points of a placed link that do not stand on the paper yet."""
+    points = structure.links[name].points
+    fresh = tuple(p for p in points if p not in named)
+    named.update(fresh)
+    if fresh:
+        marks = tuple(Mark(PointRef(p), frame.point(name, p)) for p in fresh)
+        board.do("mechanism", LinkPoints(name, fresh, len(points) > 2), *marks)
 
 
 def _remark_arm(board: Board, dyad: Dyad, frame: PlacedLinks) -> None:

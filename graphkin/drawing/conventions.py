@@ -123,10 +123,11 @@ class Letters:
         prime = "'" if diagram == "acceleration" else ""
         return letter.lower() + (f"_{{{index}}}" if index else "") + prime
 
-    def foot(self, role: str, end: PointRef, number: int, link: str) -> str:
+    def foot(self, role: str, end: PointRef, number: int, link: str, alone: bool) -> str:
         """The point between two components of one acceleration; "" where the convention names the vectors instead.
 
-        ``number`` counts the feet on the way to one end point, ``link`` is the link of the component.
+        ``number`` counts the feet on the way to one end point, ``link`` is the link of the component, ``alone`` is
+        said of the only one of its kind: it needs no index, but Chinese books give n' one always.
         """
         if self.convention == "us" or role not in _ROLES:
             return ""
@@ -135,7 +136,8 @@ class Letters:
             index = ",".join(filter(None, (rest, end.link or self.blocks.get(end.point, ""), str(number))))
             return f"{letter.lower()}_{{{index}}}'"
         mark = _PARTS[self.convention][_ROLES[role]]
-        return mark + (f"_{{{link}}}" if link else "") + "'"
+        indexed = link and (not alone or (self.convention == "chinese" and role == "normal"))
+        return mark + (f"_{{{link}}}" if indexed else "") + "'"
 
     def direction(self, direction: Direction | None, frame: str) -> str:
         """A direction in an equation row or at its line: ``⊥BC``, ``∥CB``, ``B→A``; "" if none is written."""

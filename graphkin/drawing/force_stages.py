@@ -10,6 +10,7 @@ from typing import Literal
 from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceState, ForceVector
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.conventions import Letters, pole
+from graphkin.drawing.force_chain import closed_by, laid_lines, laid_off
 from graphkin.drawing.force_letters import force_letters
 from graphkin.drawing.force_words import (
     ForceSentence,
@@ -73,7 +74,8 @@ class ForceStage:
         """The step that draws a force in the polygon of the group, or of one link."""
         if link:
             return self.inside.get(link, self.closing)
-        return self.laid if vector.known else self.closing
+        laid = vector.known or (self.group is not None and vector in laid_off(self.group))
+        return self.laid if laid else self.closing
 
 
 @dataclass
@@ -157,11 +159,17 @@ def _group(writer: _StageWriter, state: ForceState, group: ForceGroup, count: in
     if group.way == "drawn system":
         steps.append(writer.step(writer.said("force reason system", links)))
     elif len(group.equation) > 1:
-        if forces and group.polygon:
-            steps.append(writer.step(writer.said("force step lay", ", ".join(map(writer.name, forces)))))
+        if laid_off(group):
+            lines = laid_lines(sheet, writer.forces, group, letters)
+            steps.append(writer.step(writer.said("force step lay"), lines))
             laid = steps[-1].number
         own = [s for s in dict.fromkeys(v.symbol for v in group.polygon if not v.known) if s in read]
-        steps.append(writer.step(writer.said("force reason polygon", links), [read.pop(s) for s in own], own))
+        frame = sheet.scene.frame.name
+        closed = tuple(
+            (each, f"{why} {closed_by(group, letters, frame, each)}".strip())
+            for each, why in writer.said("force polygon closes", links)
+        )
+        steps.append(writer.step(closed, [read.pop(s) for s in own], own))
     closing = steps[-1].number
     for link, vectors in group.inner.items():
         own = [s for s in dict.fromkeys(v.symbol for v in vectors if not v.known) if s in read]

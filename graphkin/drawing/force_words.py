@@ -21,6 +21,7 @@ from graphkin.construction.forces.force_sheet import (
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.equations import SumTerm
+from graphkin.drawing.force_chain import arm_lines
 from graphkin.drawing.force_letters import force_letters
 from graphkin.drawing.headings import number, written
 from graphkin.scene.symbol import Symbol
@@ -96,7 +97,8 @@ def moment_sentences(sheet: Sheet, group: ForceGroup, letters: Letters, language
         )  # fmt: skip
         about = f"${letters.point(one.about)}$"
         said = say(Phrase(key, (about, links, name)), language)
-        lines.append(ForceSentence(said, (_equation(sheet, one, letters, name),), one.symbol, one.part))
+        work = (*arm_lines(sheet, one, letters, name, language), _equation(sheet, one, letters, name))
+        lines.append(ForceSentence(said, work, one.symbol, one.part))
     return lines
 
 
@@ -122,7 +124,7 @@ def couple_sentences(sheet: Sheet, group: ForceGroup, letters: Letters, language
             lines.append(ForceSentence(say(Phrase("force no couple", (name,)), language), (), one.symbol))
             continue
         key = "force reason couple" if one.symbol.other else "force reason balance"
-        work = [_equation(sheet, one, letters, name)]
+        work = [*arm_lines(sheet, one, letters, name, language), _equation(sheet, one, letters, name)]
         for line in group.lines:
             if line.symbol.link == one.symbol.link and line.symbol.other == one.symbol.other:
                 force = f"${force_letters(letters.convention, line.symbol)}$"

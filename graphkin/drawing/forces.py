@@ -31,7 +31,7 @@ from graphkin.drawing.tables import TableRow, readings_table
 from graphkin.drawing.text import fitted, plain, rich, wrapped
 from graphkin.words import Phrase, languages, say, word
 
-__all__ = ["force_steps", "forces_figure", "group_equation", "group_picture"]
+__all__ = ["forces_figure", "group_equation", "group_picture"]
 
 MARGIN, HEAD, FOOT = 10.0, 13.0, 12.0  # mm of the page
 SKETCH = 64.0  # mm, width of a sketch
@@ -70,24 +70,6 @@ def forces_figure(
         rows = [TableRow(row.reading, row) for row in report.rows if row.symbol.scope == "force"]
         blocks += _tables(replace(sheet, scales=report.scales), rows, letters, spoken, page)
     return _pages(sheet, blocks, letters, spoken, page)
-
-
-def force_steps(sheet: Sheet, forces: ForceSheet, language: str, convention: str, width: float) -> tuple[Drawing, ...]:
-    """The same part by part, for a paper that parts pages itself: inertia forces, then group by group free bodies,
-    polygon, equation and what was read off.
-
-    Parameters
-    ----------
-    width : of each part (mm); a polygon that needs more has more
-    """
-    sheet = replace(sheet, scales=replace(sheet.scales, force=forces.per_mm))
-    letters = letters_of(sheet, convention)  # type: ignore[arg-type]
-    first = languages(language)[0]
-    made = []
-    for block in (*_given(sheet, forces, letters, language, width), *_groups(sheet, forces, letters, language, width)):
-        title, told = figure_title(sheet, "forces", language), say(Phrase("force described"), first)
-        made.append(Drawing(width, block.height, layer_groups(block.piece), title, told, first, _facts(sheet)))
-    return tuple(made)
 
 
 def _groups(sheet: Sheet, forces: ForceSheet, letters: Letters, spoken: str, width: float) -> Iterator[_Block]:

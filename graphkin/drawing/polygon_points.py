@@ -7,7 +7,9 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from graphkin.construction.sheet import Mark, Vector
+from graphkin.construction.mechanism_acts import SpecialPoint
+from graphkin.construction.polygon_acts import Carried
+from graphkin.construction.sheet import Aid, Bar, Mark
 from graphkin.drawing import strokes
 from graphkin.drawing.conventions import pole
 from graphkin.drawing.font_widths import runs_width
@@ -18,11 +20,12 @@ from graphkin.drawing.polygon_on_page import SAME, ZERO, PolygonOnPage
 from graphkin.drawing.primitives import Circle, Group, Stroke, Text
 from graphkin.drawing.strokes import link_of_vector
 from graphkin.drawing.text import symbol
-from graphkin.scene.symbol import PointRef
+from graphkin.scene.symbol import PointRef, Symbol
 
 __all__ = ["END_RADIUS", "NamedPoint", "named_points", "points"]
 
 POLE_RADIUS, END_RADIUS, FOOT_RADIUS, RING = 0.9, 0.5, 0.4, 0.45
+KNOWN = {"an": "normal", "ak": "coriolis"}  # components whose size and direction are known
 MOST_AT_POLE = 24.0  # mm of names of points at rest beside the letter of the pole
 
 
@@ -48,7 +51,7 @@ def named_points(here: PolygonOnPage) -> tuple[NamedPoint, ...]:
     """The points of a polygon that have letters, the pole first; where the convention names vectors, only that."""
     places = _spots(here)
     ends = [NamedPoint(place.at, here.letters.end(here.diagram, ref), ref) for place in places for ref in place.refs]
-    feet = [NamedPoint(vector.tip, letter) for vector, letter in _letters_of_feet(here, places)]
+    feet = [NamedPoint(foot.at, letter) for foot, letter in _letters_of_feet(here, places)]
     return (NamedPoint(0j, pole(here.letters.convention, here.diagram)), *(p for p in (*ends, *feet) if p.letter))
 
 
@@ -107,43 +110,78 @@ def _dot(at: complex, ring: int) -> Circle:
 
 def _feet(here: PolygonOnPage, places: Sequence[_Place]) -> Iterator[Piece]:
     """Points between components: where one ends and no end point lies."""
-    for vector, markup in _letters_of_feet(here, places):
-        at, id = here.at(vector.tip), f"foot-{vector.symbol.id}"
+    for foot, markup in _letters_of_feet(here, places):
+        at, id = here.at(foot.at), f"foot-{foot.symbol.id}"
+        if foot.aid and here.panel.distance(at) > 0.0:
+            continue
         dot = Group((Circle(at, FOOT_RADIUS, fill=strokes.BLACK),), id=id, classes=("foot",))
-        yield Piece({here.diagram: (dot,)}, _named(here, markup, vector.tip, f"label-{id}", 1, vector.tip), (at,))
+        yield Piece({here.diagram: (dot,)}, _named(here, markup, foot.at, f"label-{id}", 1, foot.at), (at,))
 
 
-def _letters_of_feet(here: PolygonOnPage, places: Sequence[_Place]) -> Iterator[tuple[Vector, str]]:
+def _letters_of_feet(here: PolygonOnPage, places: Sequence[_Place]) -> Iterator[tuple[_Foot, str]]:
     found = _between(here, places)
-    per_role = Counter(vector.role for vector in found)
+    special = {s.act.point: s.act.link for s in here.sheet.steps if isinstance(s.act, SpecialPoint)}
+    per_role = Counter(foot.role for foot in found)
     per_end: Counter[str] = Counter()
     used: set[str] = set()
-    for vector in found:
-        of, to = vector.symbol.of, vector.symbol.to
+    for foot in found:
+        of, to = foot.symbol.of, foot.symbol.to
         assert of is not None
         # counted by the letter that is written: B and B@2 are one end point
         end = here.letters.end(here.diagram, of)
         per_end[end] += 1
-        link = link_of_vector(here.sheet, vector.symbol) if per_role[vector.role] > 1 else ""
-        markup = here.letters.foot(vector.role, of, per_end[end], link)
+        link = next((special[r.point] for r in (of, to) if r and r.point in special), "")
+        link = link or link_of_vector(here.sheet, foot.symbol)
+        alone = per_role[foot.role] == 1
+        markup = here.letters.foot(foot.role, of, per_end[end], link, alone)
         if markup in used:
             index = here.letters.ref(of) + (here.letters.ref(to) if to else "")
-            markup = here.letters.foot(vector.role, of, per_end[end], index)
+            markup = here.letters.foot(foot.role, of, per_end[end], index, alone=False)
         used.add(markup)
-        yield vector, markup
+        yield foot, markup
 
 
-def _between(here: PolygonOnPage, places: Sequence[_Place]) -> list[Vector]:
+@dataclass(frozen=True)
+class _Foot:
+    """The end of a component; ``aid`` of one that leads to a special point or is laid off before its turn."""
+
+    symbol: Symbol
+    role: str
+    at: complex
+    aid: bool = False
+
+
+def _between(here: PolygonOnPage, places: Sequence[_Place]) -> list[_Foot]:
     """Components that end where no end point lies and no other component has ended."""
     taken = [place.at for place in places]
     found = []
-    for _, vector in here.vectors.values():
-        if vector.role in ("resultant", "relative") or abs(vector.span) < ZERO:
-            continue
-        if all(abs(vector.tip - z) > SAME for z in taken):
-            taken.append(vector.tip)
-            found.append(vector)
+    for foot in (*_components(here), *_aids(here)):
+        if all(abs(foot.at - z) > SAME for z in taken):
+            taken.append(foot.at)
+            found.append(foot)
     return found
+
+
+def _components(here: PolygonOnPage) -> Iterator[_Foot]:
+    for _, vector in here.vectors.values():
+        if vector.role not in ("resultant", "relative") and abs(vector.span) >= ZERO:
+            yield _Foot(vector.symbol, vector.role, vector.tip)
+
+
+def _aids(here: PolygonOnPage) -> Iterator[_Foot]:
+    """Known components that lead to a special point, or are laid off before their turn."""
+    seen = set(here.vectors)
+    for step in here.steps:
+        for stroke in step.strokes:
+            if isinstance(stroke, Aid) and not stroke.trial:
+                symbol, tail, tip = stroke.symbol, stroke.tail, stroke.tip
+            elif isinstance(stroke, Bar) and isinstance(step.act, Carried):
+                symbol, tail, tip = step.act.symbol, stroke.a, stroke.b
+            else:
+                continue
+            if symbol.kind in KNOWN and symbol not in seen and abs(tip - tail) >= ZERO:
+                seen.add(symbol)
+                yield _Foot(symbol, KNOWN[symbol.kind], tip, aid=True)
 
 
 def _pole(here: PolygonOnPage, place: _Place) -> Piece:

@@ -87,11 +87,14 @@ def _polygon(diagram: DiagramName, steps: list[Step]) -> dict[str, int]:
         born[f"direction-{step.number:02d}"] = step.number
         if isinstance(step.act, Carried):
             born[f"carried-{step.act.symbol.id}"] = step.number
+            born.setdefault(f"foot-{step.act.symbol.id}", step.number)
         for stroke in step.strokes:
             if isinstance(stroke, Mark):
                 born.setdefault(f"{diagram}-{stroke.ref}".replace("@", ""), step.number)
             elif isinstance(stroke, Aid):
                 born[f"trial-{diagram}-{stroke.trial}-{stroke.symbol.id}"] = step.number
+                if not stroke.trial:
+                    born.setdefault(f"foot-{stroke.symbol.id}", step.number)
             elif isinstance(stroke, Vector):
                 born[stroke.symbol.id] = step.number
                 born[f"foot-{stroke.symbol.id}"] = step.number

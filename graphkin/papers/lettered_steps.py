@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, reduce
 
-from graphkin.construction.mechanism_acts import ArcOnPath, CompassArcs, LaidOffAngle, LinkPoints
 from graphkin.construction.polygon_acts import (
     Asked,
     ByImage,
@@ -22,12 +21,12 @@ from graphkin.construction.polygon_acts import (
 )
 from graphkin.construction.sheet import Aid, Bar, DiagramName, Ray, Sheet, Step, Vector
 from graphkin.construction.sizes import Direction
-from graphkin.construction.steps import Act, phrase_of
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, pole
 from graphkin.drawing.headings import number
 from graphkin.drawing.polygon_on_page import SAME, PolygonOnPage
 from graphkin.drawing.polygon_points import NamedPoint, named_points
+from graphkin.papers.position_steps import PositionSteps
 from graphkin.plane import dot
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase
@@ -77,24 +76,7 @@ class LetteredSteps:
             return Phrase(key, (*ends, name, act.symbol)) if name else None
         if isinstance(act, Carried):
             return self._carried(step, act)
-        return self._by_image(step, act) if isinstance(act, ByImage) else self._in_position(act)
-
-    def _in_position(self, act: Act) -> Phrase | None:
-        """A step of the mechanism: senses, lengths on paper, and which of two crossings is meant."""
-        if isinstance(act, LaidOffAngle):
-            return Phrase("lay off angle from x", (act.link, f"{math.degrees(act.angle):.6g}", act.hinge))
-        if isinstance(act, LinkPoints) and len(act.points) == 1 and not act.transferred:
-            (name,) = act.points
-            link = self.sheet.scene.by_name.get(act.link)
-            other = next((p for p in link.points if p != name), "") if link and name in link.points else ""
-            ends = self.sheet.points.get(PointRef(other)), self.sheet.points.get(PointRef(name))
-            if ends[0] is None or ends[1] is None:
-                return None
-            return Phrase("points at", (act.link, name, other + name, on_paper(abs(ends[1] - ends[0]))))
-        if isinstance(act, CompassArcs | ArcOnPath):
-            which = next((p for p in self.sheet.assembly.values() if act.point in p.args), None)
-            return Phrase("which crossing", (phrase_of(act), which)) if which else None
-        return None
+        return self._by_image(step, act) if isinstance(act, ByImage) else PositionSteps(self.sheet).phrase(step)
 
     def _carried(self, step: Step, act: Carried) -> Phrase | None:
         """A known term behind the unknown one, laid off before it."""
@@ -107,7 +89,11 @@ class LetteredSteps:
         if abs(bar.b - bar.a) < SAME:
             return Phrase("zero vector", (act.symbol,))
         rule = Phrase("rule of size", (act.symbol, term.size)) if term.size else act.symbol
-        return Phrase("carry from", (start, rule, on_paper(abs(bar.b - bar.a)), _way(term.direction, bar.b - bar.a)))
+        what = (rule, on_paper(abs(bar.b - bar.a)), _way(term.direction, bar.b - bar.a))
+        ends = self._at(step, bar.a), self._at(step, bar.b)
+        if None in ends:
+            return Phrase("carry from", (start, *what))
+        return Phrase("carry lettered", (start, _joined(*ends), *what, ends[1]))
 
     def _laid_off(self, step: Step, act: LaidOff, vector: Vector | Aid) -> Phrase | None:
         start = self._start(step, vector.tail)
@@ -123,14 +109,22 @@ class LetteredSteps:
 
     def _line(self, step: Step, act: DirectionLine, ray: Ray) -> Phrase | None:
         letter = self._at(step, ray.through)
+        what = self._unknown(step, act.symbol)
         if abs(ray.through) < SAME:
-            return Phrase("direction from pole", (act.symbol, act.direction, letter))
+            return Phrase("direction from pole", (what, act.direction, letter))
         before = self._before(step, act.symbol, ray.through)
         if letter is None:
-            return Phrase("direction from end", (act.symbol, act.direction, before)) if before else None
+            return Phrase("direction from end", (what, act.direction, before)) if before else None
         if before is None:
-            return Phrase("direction from point", (act.symbol, act.direction, letter))
-        return Phrase("direction from lettered end", (act.symbol, act.direction, before, letter))
+            return Phrase("direction from point", (what, act.direction, letter))
+        return Phrase("direction from lettered end", (what, act.direction, before, letter))
+
+    def _unknown(self, step: Step, of: Symbol) -> Symbol | Phrase:
+        """What lies on a line: a vector, or the sum of those of its side whose sizes are unknown along it."""
+        sides = self.sheet.equations[step.equation - 1].sides if step.equation is not None else ()
+        side = next((side for side in sides if any(term.symbol == of for term in side)), ())
+        along = next((term.direction for term in side if term.symbol == of), None)
+        return reduce(_sum, (t.symbol for t in side if not t.size_known and t.direction == along), None) or of
 
     def _by_image(self, step: Step, act: ByImage) -> Phrase | None:
         """The division of a line, with its ratio, or the similar triangle."""
@@ -141,8 +135,7 @@ class LetteredSteps:
         if not act.on_line:
             if None in ends:
                 return None
-            return Phrase("image lettered", (ends[0], _joined(*ends[1:], ends[0]),
-                                             Markup("".join((*bars[1:], bars[0]))), act.link))  # fmt: skip
+            return self._triangle(act, places, ends, bars)
         at, a, b = places
         if at is None or a is None or b is None or abs(b - a) < SAME:
             return None
@@ -157,6 +150,18 @@ class LetteredSteps:
             return Phrase(f"division {where}", (act.point, *act.between, act.link, *whole))
         names = (ends[0], _joined(*ends[1:]), _joined(ends[1], ends[0]), ends[1], ends[2])
         return Phrase(f"division lettered {where}", (*names, act.link, *whole))
+
+    def _triangle(
+        self, act: ByImage, places: Sequence[complex | None], ends: Sequence[Markup | None], bars: Sequence[str]
+    ) -> Phrase:
+        """The similar triangle, with the ratios by which a compass finds its third corner."""
+        names = (ends[0], _joined(*ends[1:], ends[0]), Markup("".join((*bars[1:], bars[0]))), act.link)
+        at, a, b = places
+        if at is None or a is None or b is None or abs(b - a) < SAME:
+            return Phrase("image lettered", names)
+        ratios = [number(abs(at - z) / abs(b - a), 4) for z in (a, b)]
+        sides = _joined(ends[1], ends[0]), _joined(ends[2], ends[0]), _joined(*ends[1:])
+        return Phrase("image with sides", (*names, *sides, *ratios))
 
     # -- letters -----------------------------------------------------------------------------------------------------
 
@@ -217,6 +222,10 @@ def _drawn(step: Step) -> Vector | Aid | None:
     """The vector of a step; those of trial polygons bear no letters."""
     vectors = (s for s in step.strokes if isinstance(s, Vector) or (isinstance(s, Aid) and not s.trial))
     return next(vectors, None)
+
+
+def _sum(before: Symbol | Phrase | None, symbol: Symbol) -> Symbol | Phrase:
+    return symbol if before is None else Phrase("sum", (before, symbol))
 
 
 def _way(direction: Direction, span: complex) -> Direction | Phrase:

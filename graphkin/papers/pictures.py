@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from graphkin.construction.sheet import DiagramName, Equation, Sheet
@@ -25,11 +25,13 @@ from graphkin.papers.paper import paper_of
 from graphkin.words import languages
 
 __all__ = [
+    "LEAST_FRAME",
     "blank_equations",
-    "blank_frame",
+    "blank_sums",
     "cropped",
     "draw_frame",
     "equation_picture",
+    "force_space",
     "mechanism_picture",
     "parts",
     "stage_picture",
@@ -39,7 +41,6 @@ __all__ = [
 ROOM = 11.0  # mm around a figure, for names
 AROUND = 14.0  # mm around a polygon that is still to be drawn
 FOOT = 9.0  # mm for the scale and the check bar beside it
-HEADED = 40.0  # mm of a page for headings and words above a frame
 LEAST_FRAME = 110.0
 GAP = 4.0  # mm between the mechanism and the frame beside it
 BAR = 50.0  # mm, of the check bar
@@ -199,10 +200,23 @@ def draw_frame(
     return Drawing(wide, tall + 0.2, tuple(children), title, "", languages(language)[0])
 
 
-def blank_frame(page: Box, title: str) -> Drawing:
-    """A frame as wide as a page, with nothing in it."""
-    box = Box(0.2, 0.2, page.width - 0.2, page.height - HEADED)
-    return Drawing(page.width, box.bottom + 0.2, (Polygon(box.corners, "", strokes.DIMENSION),), title, "")
+def force_space(sheet: Sheet, layers: Layers, letters: Letters, language: str, page: Box) -> Drawing:
+    """The bare mechanism, on which directions and arms are taken, and a frame for force polygons with their scale: side
+    by side, one above the other, or the frame alone where the mechanism leaves no room on a page."""
+    bare = mechanism_picture(sheet, layers, letters, language)
+    beside = page.width - bare.width - GAP >= LEAST_FRAME and bare.height <= page.height
+    above = not beside and page.height - bare.height - GAP >= LEAST_FRAME / 2 and bare.width <= page.width
+    left, top = (bare.width + GAP if beside else 0.0), (bare.height + GAP if above else 0.0)
+    box = Box(left + 0.2, top + 0.2, page.width - 0.2, page.height)
+    words, bar = scale_foot(sheet, "force", letters, language)
+    children: list[Primitive] = [
+        *(bare.children if beside or above else ()),
+        Polygon(box.corners, "", strokes.DIMENSION),
+        *moved((words,), complex(left + 3.0, box.bottom - 3.0)),
+        *moved(bar, complex(box.right - 3.0 - BAR, box.bottom - 3.0)),
+    ]
+    title = term("forces", language)
+    return Drawing(page.width, page.height + 0.2, tuple(children), title, bare.desc, languages(language)[0])
 
 
 def _snapped(z: complex) -> complex:
@@ -211,6 +225,26 @@ def _snapped(z: complex) -> complex:
 
 def blank_equations(equations: Iterable[Equation], letters: Letters, language: str, width: float) -> Drawing:
     """A blank for each equation: a box for each term, above boxes for its size and direction where they are rows."""
+    rows = []
+    for equation in equations:
+        cells = [len(side) for side in equation.sides]
+        count = max(2, sum(cells))
+        signs = (
+            ["="] if sum(cells) == 1 else [s for i, n in enumerate(cells) for s in ["="] * (i > 0) + ["+"] * (n - 1)]
+        )
+        rows.append((count, signs, ""))
+    return _blanks(rows, letters, language, width)
+
+
+def blank_sums(counts: Iterable[int], letters: Letters, language: str, width: float) -> Drawing:
+    """A blank for each sum of so many forces that is nought."""
+    return _blanks([(count, ["+"] * (count - 1), "= 0") for count in counts], letters, language, width)
+
+
+def _blanks(
+    rows: Iterable[tuple[int, Sequence[str], str]], letters: Letters, language: str, width: float
+) -> Drawing:
+    """Rows of so many boxes with these signs between them and these words behind them."""
     heads = (
         (term("size", language), term("direction of", language))
         if rows_of(letters.convention) in ("rows", "table")
@@ -219,13 +253,9 @@ def blank_equations(equations: Iterable[Equation], letters: Letters, language: s
     lead = max((runs_width(rich(h, 2.8)) for h in heads), default=0.0) + 2.0
     children: list[Primitive] = []
     y = 1.0
-    for equation in equations:
-        cells = [len(side) for side in equation.sides]
-        count = max(2, sum(cells))
-        signs = (
-            ["="] if sum(cells) == 1 else [s for i, n in enumerate(cells) for s in ["="] * (i > 0) + ["+"] * (n - 1)]
-        )
-        cell = min(38.0, (width - lead - 5.0 * (count - 1) - 0.4) / count)
+    for count, signs, tail in rows:
+        behind = 8.0 if tail else 0.0
+        cell = min(38.0, (width - lead - behind - 5.0 * (count - 1) - 0.4) / count)
         x = lead
         for i in range(count):
             if i:
@@ -233,6 +263,8 @@ def blank_equations(equations: Iterable[Equation], letters: Letters, language: s
             children.append(_box(x, y, cell, 9.0))
             children += [_box(x, y + 9.0 + 6.5 * row, cell, 6.5) for row in range(len(heads))]
             x += cell + 5.0
+        if tail:
+            children.append(Text(complex(x - 3.0, y + 6.2), rich(tail, 3.5)))
         for row, head in enumerate(heads):
             children.append(Text(complex(0.0, y + 13.6 + 6.5 * row), rich(head, 2.8)))
         y += 13.0 + 6.5 * len(heads)

@@ -30,9 +30,9 @@ from graphkin.papers.moving import motion_data
 from graphkin.papers.page import document_page, handout_page
 from graphkin.papers.paper import paper_plan
 from graphkin.papers.pdf import can_typeset, pdf
-from graphkin.papers.problem import given, problem
+from graphkin.papers.problem import problem
 from graphkin.papers.screen_positions import POSITIONS, Progress, View, common_scales
-from graphkin.papers.solution import answer_key, answers_template, key_table, solution, solution_blocks
+from graphkin.papers.solution import answer_key, answers_template, beginning, key_table, solution, solution_blocks
 from graphkin.papers.variants import Variant, asked_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.over_time import moves_by_law
@@ -216,7 +216,7 @@ class _Documents:
 
     @classmethod
     def of(cls, lesson: Lesson) -> _Documents:
-        worked = tuple(solution_blocks(lesson, tuple(given(lesson))))
+        worked = tuple(solution_blocks(lesson, beginning(lesson)))
         return cls(problem(lesson), answer_key(lesson), worked, solution(lesson, worked))
 
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from graphkin.construction.sheet import DiagramName, Equation
 from graphkin.drawing.box import Box
-from graphkin.drawing.conventions import pole, scale_statement
+from graphkin.drawing.conventions import pole
 from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.given_loads import given_loads
 from graphkin.drawing.headings import FIGURE_WORDS, drivers, number, rolling_starts, titles
@@ -31,11 +31,13 @@ from graphkin.papers.blocks import (
 from graphkin.papers.lesson import Lesson, plain_words
 from graphkin.papers.paper import A4, Paper, paper_of
 from graphkin.papers.pictures import (
+    LEAST_FRAME,
     Layers,
     blank_equations,
-    blank_frame,
+    blank_sums,
     draw_frame,
     equation_picture,
+    force_space,
     mechanism_picture,
     parts,
     workspace,
@@ -86,7 +88,7 @@ def problem(lesson: Lesson) -> Document:
         if not together and asked:
             before.append(Together((Heading(heading, 2), *asked)))
         after += [Heading(heading, 2, fresh=True), *(asked if together else ()), Together((start, Picture(drawn)))]
-    blocks += [*before, *after, *_forces(lesson)]
+    blocks += [*before, *after, *_forces(lesson, layers, paper)]
     return Document(paper_title(lesson, "problem sheet"), languages(language), tuple(blocks), paper)
 
 
@@ -123,19 +125,29 @@ def _workspace(lesson: Lesson, diagram: DiagramName, layers: Layers, paper: Pape
     return workspace(lesson.sheet, diagram, layers, lesson.letters, lesson.language, page)
 
 
-def _forces(lesson: Lesson) -> list[Block]:
-    """Room for the force polygons, with their scale."""
+def _forces(lesson: Lesson, layers: Layers, paper: Paper) -> Iterator[Block]:
+    """The equations of the groups cut free, and room for their polygons beside the mechanism, from which directions and
+    arms are taken; the equations go before where a page does not hold both."""
     sheet, forces, language = lesson.sheet, lesson.forces, lesson.language
     if forces is None:
-        return []
+        return
     scaled = replace(sheet, scales=replace(sheet.scales, force=forces.per_mm))
-    told = spoken(scale_statement(scaled, lesson.letters.convention, "force"), language)
-    return [
-        Heading(said("forces", language), 2, fresh=True),
-        Paragraph(said("your equations", language), small=True),
-        Paragraph(told, small=True),
-        Picture(blank_frame(paper_of(sheet.scene).body, word("forces", languages(language)[0]))),
-    ]
+    heading = said("forces", language)
+    counts = [len(g.equation) for g in forces.states[0].groups if g.way != "drawn system" and len(g.equation) > 1]
+    asked: tuple[Paragraph | Picture, ...] = ()
+    if counts and (sheet.scene.vary is None or sheet.scene.vary.level != "hard"):
+        blank = blank_sums(counts, lesson.letters, language, min(paper.body.width, A4.body.width))
+        asked = (Paragraph(said("your force equations", language), small=True), Picture(blank))
+    high = sum(block.drawing.height + 3.0 for block in asked if isinstance(block, Picture))
+    page = Box(0.0, 0.0, paper.body.width, paper.body.height - HEAD - ROOM_BETWEEN)
+    beside = page.height - high >= LEAST_FRAME
+    if not beside:
+        yield Together((Heading(heading, 2), *asked))
+    room = Box(0.0, 0.0, page.width, page.height - (high if beside else 0.0))
+    yield Heading(heading, 2, fresh=True)
+    yield from asked if beside else ()
+    drawn = force_space(scaled, layers, lesson.letters, language, room)
+    yield Together((Paragraph(said("your forces", language), small=True), Picture(drawn)))
 
 
 def paper_title(lesson: Lesson, key: str) -> str:
@@ -155,15 +167,14 @@ def given(lesson: Lesson) -> Iterator[Paragraph]:
     """What is given, in sentences: lengths, fixed points, guides, drivers; then what is asked, and the source."""
     scene, letters = lesson.sheet.scene, lesson.letters
     unit, metres = scene.units.length, scene.units.metres
-    given = [f"${name}$ = {number(value)}{BOUND}{unit}" for name, value in given_lengths(scene, letters)]
-    lengths = ", ".join((*given, *given_teeth(scene)))
-    fixed = ", ".join(
+    lengths = [f"${name}$ = {number(value)}{BOUND}{unit}" for name, value in given_lengths(scene, letters)]
+    fixed = [
         f"${letters.point(p)}$ ({number(z.real / metres)}, {number(z.imag / metres)}){BOUND}{unit}"
         for p, z in scene.frame.points.items()
-    )
-    for key, text in (("lengths given", lengths), ("fixed points", fixed)):
-        if text:
-            yield Paragraph(_labelled(lesson, key, text))
+    ]
+    for key, items in (("lengths given", [*lengths, *given_teeth(scene)]), ("fixed points", fixed)):
+        if items:
+            yield Paragraph(_labelled(lesson, key, items, "list comma"))
     guides = [g for g in scene.frame.guides.values() if g.name]
     if guides:
         yield Paragraph(
@@ -172,16 +183,19 @@ def given(lesson: Lesson) -> Iterator[Paragraph]:
                 for each in languages(lesson.language)
             )
         )
-    yield Paragraph(_labelled(lesson, "driver", ", ".join((drivers(lesson.sheet, letters), *_speeds(scene)))))
+    moving = [*drivers(lesson.sheet, letters).split(",  "), *_speeds(scene)]
+    yield Paragraph(_labelled(lesson, "driver", moving, "list comma"))
+    for sense in _senses(scene):
+        yield Paragraph(tuple((each, lesson.speaker.sentence(sense, each)) for each in languages(lesson.language)))
     if starts := rolling_starts(lesson.sheet):
-        yield Paragraph(_labelled(lesson, "rolling starts", ", ".join(starts)))
+        yield Paragraph(_labelled(lesson, "rolling starts", starts, "list comma"))
     if scene.loading:
         lines = {each: given_loads(lesson.sheet, letters, each) for each in languages(lesson.language)}
         for texts in zip(*lines.values(), strict=True):
             yield Paragraph(tuple(zip(lines, texts, strict=True)))
-    asked = ", ".join(f"${letters.vector(s)}$" for s in lesson.questions)
+    asked = [f"${letters.vector(s)}$" for s in lesson.questions]
     if asked:
-        yield Paragraph(_labelled(lesson, "find", asked))
+        yield Paragraph(_labelled(lesson, "find", asked, "symbol comma"))
     yield from reach(lesson)
     names = languages(lesson.language)
     own = {each: scene.source_in(each).replace("$", "$$") for each in names}
@@ -217,9 +231,21 @@ def _speeds(scene: Mechanism) -> Iterator[str]:
                 yield f"$n_{{{driver.link}}}$ = {number(rpm)}{BOUND}r/min"
 
 
-def _labelled(lesson: Lesson, key: str, text: str) -> Said:
+def _senses(scene: Mechanism) -> Iterator[Phrase]:
+    """Which way drivers turn, and whether that is ever faster."""
+    for driver in scene.drivers:
+        if isinstance(driver, AngleDriver) and driver.omega:
+            sense = "clockwise" if driver.omega < 0 else "counter-clockwise"
+            on = "" if driver.relative_to == scene.frame.name else Phrase("seen from link", (driver.relative_to,))
+            even = "" if driver.law is not None else Phrase("at constant speed")
+            faster = Phrase("ever faster" if driver.alpha * driver.omega > 0 else "ever slower")
+            yield Phrase(f"driver turns {sense}", (driver.link, on, faster if driver.alpha else even))
+
+
+def _labelled(lesson: Lesson, key: str, items: Sequence[str], between: str) -> Said:
     """Formulas with their label; on papers of two languages once, with both labels."""
     names = languages(lesson.language)
+    text = word(between, names[0]).join(items)
     if len(names) == 1:
         return ((names[0], _line(key, text, names[0])),)
     label = " ".join(word(key, each) for each in names) + word("colon", names[0])

@@ -62,7 +62,9 @@ def _why(lesson: Lesson, equation: Equation, term: Term) -> Iterator[Phrase]:
     elif symbol.kind in ("v", "an"):
         link = _shared(lesson, of, to)
         fixed = symbol.kind == "an" and to.point in lesson.sheet.scene.frame.points
-        key = "why turning parts" if fixed else "why rigid" if symbol.kind == "v" else "why rigid parts"
+        alone = not any(t.symbol == Symbol("at", of, to) for side in equation.sides for t in side)
+        turning = "why turning evenly" if alone else "why turning parts"
+        key = turning if fixed else "why rigid" if symbol.kind == "v" else "why rigid parts"
         yield Phrase(key, (of, to, link)) if link else Phrase("why centres", (of, to))
 
 

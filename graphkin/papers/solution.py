@@ -14,9 +14,11 @@ from graphkin import table
 from graphkin.checking.reading_words import exact, measured, paper
 from graphkin.checking.report import Compared
 from graphkin.checking.uncertainty import COVERAGE
+from graphkin.construction.sheet import Sheet
 from graphkin.drawing.conventions import scale_statement
 from graphkin.drawing.drawing import Drawing
-from graphkin.drawing.forces import force_steps
+from graphkin.drawing.force_stages import ForceStage, force_stages
+from graphkin.drawing.forces import group_equation, group_picture
 from graphkin.drawing.headings import FIGURE_WORDS, drivers, number, written
 from graphkin.drawing.lever import lever_figure
 from graphkin.drawing.piece import moved
@@ -50,6 +52,7 @@ __all__ = [
     "KeyRow",
     "answer_key",
     "answers_template",
+    "beginning",
     "key_rows",
     "key_table",
     "results_blocks",
@@ -168,10 +171,15 @@ def answers_template(
 
 def solution(lesson: Lesson, worked: Iterable[Block] | None = None) -> Document:
     """The worked solution of a lesson; ``worked`` are its stages, where they are there already."""
-    stages = solution_blocks(lesson, tuple(given(lesson))) if worked is None else worked
+    stages = solution_blocks(lesson, beginning(lesson)) if worked is None else worked
     blocks = (Heading(scene_title(lesson), 1), *stages, *results_blocks(lesson))
     title = paper_title(lesson, "worked solution")
     return Document(title, languages(lesson.language), blocks, paper_of(lesson.sheet.scene))
+
+
+def beginning(lesson: Lesson) -> tuple[Paragraph, ...]:
+    """What is given, and how the numbers of the steps are to be read."""
+    return (*given(lesson), Paragraph(said("bracket words", lesson.language), small=True))
 
 
 def solution_blocks(lesson: Lesson, lead: tuple[Paragraph, ...] = ()) -> Iterator[Block]:
@@ -205,15 +213,35 @@ def _force_blocks(lesson: Lesson) -> Iterator[Block]:
     sheet, forces, language = lesson.sheet, lesson.forces, lesson.language
     if forces is None:
         return
-    yield Heading(said("forces", language), 2, fresh=True)
     scaled = replace(sheet, scales=replace(sheet.scales, force=forces.per_mm))
-    yield Paragraph(spoken(scale_statement(scaled, lesson.letters.convention, "force"), language))
-    for drawing in force_steps(sheet, forces, language, lesson.convention, paper_of(sheet.scene).body.width):
-        yield Picture(drawing)
-    lever = lever_figure(sheet, forces, language=language, convention=lesson.convention)
+    statement = Paragraph(spoken(scale_statement(scaled, lesson.letters.convention, "force"), language))
+    lead: tuple[Heading | Paragraph, ...] = (Heading(said("forces", language), 2), statement)
     body = paper_of(sheet.scene).body
-    if lever is not None and lever.height <= body.height - 20.0:
-        yield Together((Heading(said("lever", language), 2), Picture(_narrow(lever, body.width))))
+    lever = lever_figure(sheet, forces, language=language, convention=lesson.convention)
+    for turn, stage in enumerate(force_stages(scaled, forces, lesson.letters, language)):
+        steps = Steps(tuple(StepItem(step.number, step.words, step.work) for step in stage.steps))
+        title = stage.title
+        if len(forces.states) > 1 and stage.group is not None:
+            load = said("force with load" if stage.again else "force without load", language)
+            title = tuple((each, f"{one}  ({text})") for (each, one), (_, text) in zip(title, load, strict=True))
+        yield Together((*lead, Heading(title, 3), *_force_pictures(lesson, scaled, stage, f"-{turn}"), steps))
+        lead = ()
+        last = stage.figure == "lever" and (lever is None or lever.height <= body.height - 20.0)
+        if last and lever is not None:
+            yield Picture(_narrow(lever, body.width))
+            lever = None
+
+
+def _force_pictures(lesson: Lesson, scaled: Sheet, stage: ForceStage, tag: str) -> Iterator[Picture]:
+    """The equation of a group over its rows, and the group cut free beside its polygon."""
+    forces, group, language = lesson.forces, stage.group, lesson.language
+    if forces is None or group is None:
+        return
+    width = paper_of(scaled.scene).body.width
+    equation = group_equation(scaled, group, lesson.letters, language, width)
+    if equation is not None:
+        yield Picture(equation, joined=True)
+    yield Picture(group_picture(scaled, forces, stage, group, lesson.letters, language, width, tag))
 
 
 def results_blocks(lesson: Lesson) -> Iterator[Block]:

@@ -10,9 +10,9 @@ import re
 from dataclasses import dataclass
 from functools import cached_property
 
-from graphkin.construction.polygon_acts import LaidOff, MeasuredRate, PlanDrawn
-from graphkin.construction.sheet import Aid, DiagramName, Sheet, Step, Vector
-from graphkin.construction.sizes import Direction, Given, OffCurves, RateTimes, SquareOverRadius
+from graphkin.construction.polygon_acts import Carried, LaidOff, MeasuredRate, PlanDrawn
+from graphkin.construction.sheet import Aid, Bar, DiagramName, Sheet, Step, Vector
+from graphkin.construction.sizes import Direction, Given, OffCurves, RateTimes, Size, SquareOverRadius
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.headings import number, written
 from graphkin.drawing.sums import factors_of, plan_sum, rate_sum, scale_of, substituted, times_scale, unit_of
@@ -101,7 +101,13 @@ class Speaker:
             letter = "ω" if step.act.rate == "omega" else "α"
             return () if step.act.known else (f"${letter}_{{{step.act.link}}}$ = {plan_sum(step.act)}",)
         if isinstance(step.act, LaidOff) and not step.act.is_zero:
-            return self._laid_off(step, step.act)
+            drawn = next(s for s in step.strokes if isinstance(s, Vector | Aid))
+            return self._laid_off(step.diagram, step.act.symbol, step.act.size, abs(drawn.span))
+        if isinstance(step.act, Carried) and step.equation is not None:
+            sides = self.sheet.equations[step.equation - 1].sides
+            size = next((t.size for side in sides for t in side if t.symbol == step.act.symbol), None)
+            bar = next((s for s in step.strokes if isinstance(s, Bar) and s.b != s.a), None)
+            return self._laid_off(step.diagram, step.act.symbol, size, abs(bar.b - bar.a)) if bar and size else ()
         return tuple(self._measured(step.diagram, s) for s in step.strokes if isinstance(s, Vector))
 
     def _rate(self, act: MeasuredRate) -> tuple[str, ...]:
@@ -110,15 +116,13 @@ class Speaker:
         value = rate_sum(self.sheet, act) or f"{number(abs(rate.value), MOST)} {'rad/s' if omega else 'rad/s²'}"
         return (f"${'ω' if omega else 'α'}_{{{act.link}}}$ = {value}",)
 
-    def _laid_off(self, step: Step, act: LaidOff) -> tuple[str, ...]:
-        drawn = next(s for s in step.strokes if isinstance(s, Vector | Aid))
-        length = abs(drawn.span)
-        per, unit = scale_of(self.sheet, step.diagram), unit_of(self.sheet, step.diagram)
-        factors = factors_of(self.sheet, act.size)
+    def _laid_off(self, diagram: DiagramName, symbol: Symbol, size: Size | None, length: float) -> tuple[str, ...]:
+        per, unit = scale_of(self.sheet, diagram), unit_of(self.sheet, diagram)
+        factors = factors_of(self.sheet, size)
         value = written(product(*factors, carried=MOST) if factors else amount(length * per, MOST))
-        middle = f" = {substituted(act.size, factors)}" if factors else ""
+        middle = f" = {substituted(size, factors)}" if factors else ""
         return (
-            f"${self.letters.vector(act.symbol)}${middle} = {value} {unit}",
+            f"${self.letters.vector(symbol)}${middle} = {value} {unit}",
             f"{value} {unit} ÷ {number(per)} ({unit})/mm = {written(on_paper(length))} mm",
         )
 

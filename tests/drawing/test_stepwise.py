@@ -27,7 +27,7 @@ def test_every_part_bears_the_step_that_draws_it(name, diagram):
 def test_a_name_appears_with_what_it_names():
     _, layers = _layers("sixbar-guide-40deg", "acceleration")
     steps = {t.id: step_of(t) for t in walk(layers) if isinstance(t, Group | Text) and t.id}
-    assert steps["ak_B3-B2"] == steps["label-ak_B3-B2"] == steps["sense-ak_B3-B2"] == 26
+    assert steps["ak_B3-B2"] == steps["label-ak_B3-B2"] == steps["sense-ak_B3-B2"] == 23
 
 
 def test_what_comes_later_is_not_there():
@@ -35,7 +35,7 @@ def test_what_comes_later_is_not_there():
     ids = {t.id for t in walk(so_far(layers, 9, 16)) if isinstance(t, Group)}
     assert "v_D3" in ids
     assert "v_D" not in ids
-    assert 20 == births(sheet)["v_D"]
+    assert 18 == births(sheet)["v_D"]
 
 
 def test_what_was_there_before_is_faded_and_what_is_new_is_not():

@@ -75,22 +75,22 @@ def _steps(name, language, convention="chinese"):
 
 
 def test_a_vector_is_laid_off_from_a_lettered_point_in_a_sense_to_a_lettered_point():
-    said = _steps("sixbar-guide-40deg", "en")[24:26]
-    normal = "From the pole p′ lay off p′n′ = a^n_B3C = ω^2_3 l_CB (normal component), 30.33 mm, B→C: point n′."
+    said = _steps("sixbar-guide-40deg", "en")[21:23]
+    normal = "From the pole p′ lay off p′n_3′ = a^n_B3C = ω^2_3 l_CB (normal component), 30.33 mm, B→C: point n_3′."
     assert normal == said[0]
     assert "⊥CB, pointing to −11.9°: point k_2′" in said[1]
 
 
 def test_a_chinese_step_makes_a_point_so_that():
-    said = _steps("sixbar-guide-40deg", "zh")[24]
-    assert said.startswith("由极点 p′ 作 n′ 点，使 p′n′ = a^n_B3C")
+    said = _steps("sixbar-guide-40deg", "zh")[21]
+    assert said.startswith("由极点 p′ 作 n_3′ 点，使 p′n_3′ = a^n_B3C")
 
 
 @pytest.mark.parametrize(
     ("name", "step", "said"),
     [
-        ("sixbar-guide-40deg", 16, "pb_3 lengthened beyond p mark d_3 so that pd_3 : pb_3 = CD : CB = 167.6 : 381.6"),
-        ("shaper-scheme-2", 19, "on pb mark s_4 so that ps_4 : pb = O_4S_4 : O_4B = 290 : 580 = 0.5"),
+        ("sixbar-guide-40deg", 14, "pb_3 lengthened beyond p mark d_3 so that pd_3 : pb_3 = CD : CB = 167.6 : 381.6"),
+        ("shaper-scheme-2", 17, "on pb mark s_4 so that ps_4 : pb = O_4S_4 : O_4B = 290 : 580 = 0.5"),
     ],
 )  # fmt: skip
 def test_a_division_by_the_image_tells_its_ratio_also_beyond_the_bar(name, step, said):
@@ -98,16 +98,44 @@ def test_a_division_by_the_image_tells_its_ratio_also_beyond_the_bar(name, step,
 
 
 def test_a_line_begins_at_the_end_of_the_term_before_it_in_the_equation():
-    assert "Through b, the end of v_B, draw a line ⊥CB: v_CB lies on it" in _steps("shaper-scheme-2", "en")[20]
+    assert "Through b, the end of v_B, draw a line ⊥CB: v_CB lies on it" in _steps("shaper-scheme-2", "en")[18]
 
 
 def test_where_vectors_are_named_a_step_begins_at_the_end_of_one():
-    assert "From the end of A_B lay off A^n_C/B" in _steps("four-bar-coupler-point", "en", "us")[20]
+    assert "From the end of A_B lay off A^n_C/B" in _steps("four-bar-coupler-point", "en", "us")[18]
 
 
 def test_of_two_crossings_of_arcs_it_is_said_which_is_meant():
-    assert "of the two crossings: B to the left of the line from A to C" in _steps("hydraulic-cylinder", "en")[1]
+    assert "meet in B, to the left of the line from A to C" in _steps("hydraulic-cylinder", "en")[1]
+    assert "of the two crossings the left one" in _steps("shaper-scheme-2", "en")[6]
+    assert "the one to the left of the line from C to O" in _steps("cam-eccentric-flat-rocker", "en")[3]
 
+
+def test_every_point_of_a_link_is_found_with_ruler_and_compass():
+    coupler = _steps("four-bar-coupler-point", "en")[4]
+    arcs = "an arc about B of 70.00 mm and one about C of 50.00 mm meet in P, to the left of the line from B to C"
+    assert f"Join B and C: link 2; {arcs}." == coupler
+    bar = "On O_4A lengthened beyond A mark B: O_4B = 116.00 mm on paper; on O_4B mark S_4: O_4S_4 = 58.00 mm on paper."
+    assert bar == _steps("shaper-scheme-2", "en")[4]
+
+
+def test_a_larger_group_is_placed_link_by_link_each_from_what_stands():
+    said = _steps("sixbar-1A-last-link", "en")[4:8]
+    assert "Through F draw link 5 at 154.233° to the x axis, counter-clockwise positive." == said[0]
+    assert "Mark E on link 5: FE = 17.20 mm on paper." == said[1]
+    assert said[2].endswith("meet in C, to the right of the line from E to D.")
+    assert said[3].startswith("Join E and C: link 2; an arc about E of 74.57 mm and one about C of 52.80 mm meet in B")
+
+
+def test_no_end_point_is_named_twice():
+    said = _steps("shaper-scheme-2", "en")
+    assert [] == [step for step in said if step.startswith("Name the end point")]
+
+
+def test_a_term_laid_off_before_its_turn_ends_in_a_letter():
+    said = " ".join(_steps("sixbar-1A-last-link", "en"))
+    assert "before its turn, since it is known: point n_2′" in said
+    assert "Through n_2′, the end of a^n_SE, draw a line ⊥EF: a^t_EF + a^t_SE lies on it" in said
 
 @pytest.mark.parametrize("name", ["disc-on-disc", "scotch-yoke", "swinging-block", "triad-slider", "whitworth"])
 def test_every_term_that_an_equation_draws_has_a_reason(name):
@@ -125,7 +153,7 @@ def test_every_equation_says_why_and_the_rule_of_coriolis_stands_once():
     assert "$A_{4}$ and $A_{3}$ coincide at this moment; link 3 slides on link 4" in told[2]
     assert "$C$ moves with link 6 along the fixed guide" in told[3]
     assert "$C$ and $B$ are points of the rigid link 5" in told[3]
-    assert "$v_{B}$ is known from step 18" in told[3]
+    assert "$v_{B}$ is known from step 16" in told[3]
     rule = "turned by 90° in the sense in which"
     assert 1 == sum(rule in said for said in _reasons("sixbar-guide-40deg", "en").values())
 

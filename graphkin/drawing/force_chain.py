@@ -1,0 +1,93 @@
+"""How a force polygon is laid off with a ruler: the known forces one behind the other, each with its length and
+direction, and the lines that close it."""
+
+from __future__ import annotations
+
+import cmath
+import math
+
+from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceTerm, ForceVector, MomentEquation
+from graphkin.construction.sheet import Sheet
+from graphkin.drawing.conventions import Letters
+from graphkin.drawing.force_letters import force_letters
+from graphkin.drawing.headings import written
+from graphkin.words import Phrase, say
+from graphkin.words.written import amount, on_paper
+
+__all__ = ["arm_lines", "closed_by", "laid_lines", "laid_off"]
+
+ZERO = 1e-8  # mm
+SAME = 1e-6  # mm
+
+
+def laid_off(group: ForceGroup) -> tuple[ForceVector, ...]:
+    """The forces of a polygon that are known before it is closed, given or by moments, one behind the other."""
+    turned = list(group.polygon)
+    for _ in turned:  # from the first known one behind an unknown one
+        if _known(group, turned[0]) and not _known(group, turned[-1]):
+            break
+        turned.append(turned.pop(0))
+    return tuple(v for v in turned if _known(group, v) and abs(v.span) > ZERO)
+
+
+def laid_lines(sheet: Sheet, forces: ForceSheet, group: ForceGroup, letters: Letters) -> list[str]:
+    """``P = 9000 N ÷ 100 N/mm = 90.00 mm, 180.0°`` for each of them."""
+    units = sheet.scene.units
+    per = amount(forces.per_mm / units.newtons, 12)
+    return [
+        f"{_name(v, letters)} = {amount(abs(v.span) * forces.per_mm / units.newtons, 5)} {units.force} ÷ "
+        f"{written(per)} {units.force}/mm = {written(on_paper(abs(v.span)))} mm,  {_degrees(v.span)}°"
+        for v in laid_off(group)
+    ]
+
+
+def closed_by(group: ForceGroup, letters: Letters, frame: str, language: str) -> str:
+    """Through which ends of the chain the lines of the unknown forces go; "" where that is not so."""
+    chain, unknown = laid_off(group), [v for v in group.polygon if not _known(group, v)]
+    if not chain or not unknown or len(unknown) > 2:
+        return ""
+    first, last = chain[0], chain[-1]
+    if len(unknown) == 1:
+        (one,) = unknown
+        return say(Phrase("force closes", tuple(_name(v, letters) for v in (last, first, one))), language)
+    behind = next((v for v in unknown if abs(v.tail - last.tip) < SAME), None)
+    before = next((v for v in unknown if abs(v.tip - first.tail) < SAME and v is not behind), None)
+    if behind is None or before is None:
+        return ""
+    ways = [_way(group, v, letters, frame) for v in (behind, before)]
+    if not all(ways):
+        return ""
+    ends = (_name(last, letters), ways[0], _name(behind, letters))
+    return say(Phrase("force lines meet", (*ends, _name(first, letters), ways[1], _name(before, letters))), language)
+
+
+def arm_lines(sheet: Sheet, one: MomentEquation, letters: Letters, name: str, language: str) -> list[str]:
+    """The arms of a moment equation as the ruler gives them on the mechanism; ``name`` is that of its unknown."""
+    of = [(f"${force_letters(letters.convention, t.symbol, t.part)}$", t.arm) for t in one.terms]
+    arms = [f"{force} {written(on_paper(abs(arm.mm)))} mm" for force, arm in (*of, (name, one.arm)) if arm is not None]
+    per = amount(sheet.scales.length, 12)
+    return [say(Phrase("force arms", (",  ".join(arms), per)), language)] if arms else []
+
+
+def _known(group: ForceGroup, vector: ForceVector) -> bool:
+    term = _term(group, vector)
+    return vector.known or (term is not None and term.size_known and term.direction_known)
+
+
+def _term(group: ForceGroup, vector: ForceVector) -> ForceTerm | None:
+    return next((t for t in group.equation if (t.symbol, t.part) == (vector.symbol, vector.part)), None)
+
+
+def _way(group: ForceGroup, vector: ForceVector, letters: Letters, frame: str) -> str:
+    term = _term(group, vector)
+    way = letters.direction(term.direction, frame) if term is not None else ""
+    return f"${way}$" if way else ""
+
+
+def _name(vector: ForceVector, letters: Letters) -> str:
+    return f"${force_letters(letters.convention, vector.symbol, vector.part)}$"
+
+
+def _degrees(span: complex) -> str:
+    return f"{math.degrees(cmath.phase(span)) + 0.0:.1f}".replace("-", "−")
+
