@@ -25,6 +25,7 @@ __all__ = [
     "Paragraph",
     "Picture",
     "Plate",
+    "Room",
     "Said",
     "StepItem",
     "Steps",
@@ -83,9 +84,10 @@ class StepItem:
 
 @dataclass(frozen=True)
 class Steps:
-    """Steps in their order."""
+    """Steps in their order; ``parted`` sets them on paper in two columns, down the left and then down the right."""
 
     items: tuple[StepItem, ...]
+    parted: bool = False
 
 
 @dataclass(frozen=True)
@@ -134,6 +136,13 @@ class Fields:
 
 
 @dataclass(frozen=True)
+class Room:
+    """The rest of a page to write in, with these words above it; nothing where little of it is left."""
+
+    words: Said
+
+
+@dataclass(frozen=True)
 class Beside:
     """Blocks with a narrow figure at their right."""
 
@@ -148,7 +157,7 @@ class Together:
     blocks: tuple[Heading | Paragraph | Steps | Picture | Plate | TableBlock | Fields | Beside, ...]
 
 
-Block: TypeAlias = Heading | Paragraph | Steps | Picture | Plate | TableBlock | Fields | Beside | Together
+Block: TypeAlias = Heading | Paragraph | Steps | Picture | Plate | TableBlock | Fields | Room | Beside | Together
 
 
 @dataclass(frozen=True)
@@ -161,7 +170,9 @@ class Document:
     paper: Paper = A4
 
 
-def laid_out(blocks: Iterable[Block]) -> Iterator[Heading | Paragraph | Steps | Picture | Plate | TableBlock | Fields]:
+def laid_out(
+    blocks: Iterable[Block],
+) -> Iterator[Heading | Paragraph | Steps | Picture | Plate | TableBlock | Fields | Room]:
     """Every block by itself, in the order in which they are read."""
     for block in blocks:
         if isinstance(block, Together):

@@ -21,6 +21,7 @@ from graphkin.papers.blocks import (
     Paragraph,
     Picture,
     Plate,
+    Room,
     Said,
     Steps,
     TableBlock,
@@ -171,6 +172,8 @@ def _block(block: Block, language: str) -> str:
     if isinstance(block, Beside):
         inner = blocks_html(block.blocks, language)
         return f'<div class="beside"><div>{inner}</div>{_block(block.picture, language)}</div>'
+    if isinstance(block, Room):
+        return f'<div class="room small">{said_html(block.words, "p")}</div>'
     if isinstance(block, Together):
         return f'<div class="together">{blocks_html(block.blocks, language)}</div>'
     return _table(block, language)

@@ -32,11 +32,13 @@ from graphkin.papers.blocks import (
     Paragraph,
     Picture,
     Plate,
+    Room,
     Said,
     Steps,
     Together,
     clean,
 )
+from graphkin.papers.lesson import plain_words
 from graphkin.words import word
 
 if TYPE_CHECKING:
@@ -47,6 +49,7 @@ __all__ = ["can_join", "can_typeset", "one_after_another", "pdf"]
 Data: TypeAlias = dict[str, object]
 """What the template reads, as JSON holds it."""
 
+A_LINE = 44  # letters of a step on a line of half a page
 SAG = 0.002  # mm: how far a chord may lie off its arc
 CHINESE = (
     "Noto Serif CJK SC", "Noto Serif SC", "Source Han Serif SC", "Source Han Serif CN", "Songti SC", "SimSun", "STSong",
@@ -137,7 +140,9 @@ def _block(block: Block) -> Data:
             {"number": item.number, "words": _said(item.words), "work": [_words(line) for line in item.work]}
             for item in block.items
         ]
-        return {"kind": "steps", "items": items}
+        return {"kind": "steps", "items": items, "left": _left(block) if block.parted else len(items)}
+    if isinstance(block, Room):
+        return {"kind": "room", "words": _said(block.words)}
     if isinstance(block, Picture):
         return {
             "kind": "picture",
@@ -160,6 +165,15 @@ def _block(block: Block) -> Data:
         "bold": sorted(block.bold),
         "roomy": block.roomy,
     }
+
+
+def _left(steps: Steps) -> int:
+    """How many steps stand in the left one of two columns, so that both are about as high."""
+    lines = [
+        sum(1 + len(plain_words(text)) // A_LINE for _, text in item.words) + 0.9 * len(item.work)
+        for item in steps.items
+    ]
+    return min(range(1, len(lines) + 1), key=lambda k: max(sum(lines[:k]), sum(lines[k:])))
 
 
 def _said(said: Said) -> list[tuple[str, list[str | list[Data]]]]:

@@ -21,6 +21,7 @@ from graphkin.papers.blocks import (
     Heading,
     Paragraph,
     Picture,
+    Room,
     Said,
     TableBlock,
     Together,
@@ -67,8 +68,12 @@ def problem(lesson: Lesson) -> Document:
     if wide:
         paper = paper.facing  # two facing pages of the smaller paper; the mechanism stands on each with a pole
         spaces = [(d, _workspace(lesson, d, layers, paper)) for d, _ in spaces]
+    shown = all(space is not None for _, space in spaces) and bool(spaces)
+    high = HEAD + LINE * (len(words) + 1) + figure.drawing.height + ROW * (len(lesson.questions) + 2)
     if wide and spaces:
         blocks += words
+    elif shown and figure.drawing.width > paper.narrow and high > paper.body.height:
+        blocks += words  # the mechanism stands on the pages of the polygons
     elif figure.drawing.width <= paper.narrow:
         blocks.append(Beside(words, figure))
     else:
@@ -88,7 +93,7 @@ def problem(lesson: Lesson) -> Document:
         if not together and asked:
             before.append(Together((Heading(heading, 2), *asked)))
         after += [Heading(heading, 2, fresh=True), *(asked if together else ()), Together((start, Picture(drawn)))]
-    blocks += [*before, *after, *_forces(lesson, layers, paper)]
+    blocks += [*before, Room(said("your sums", language)), *after, *_forces(lesson, layers, paper)]
     return Document(paper_title(lesson, "problem sheet"), languages(language), tuple(blocks), paper)
 
 
@@ -115,6 +120,7 @@ def equation_words(lesson: Lesson, equation: Equation) -> str:
 
 DIAGRAMS: tuple[DiagramName, ...] = ("velocity", "acceleration")
 HEAD = 22.0  # mm for a heading and the lines under it
+LINE, ROW = 6.0, 7.0  # mm of a line of words, and of a row to fill in
 ROOM_BETWEEN = 8.0  # mm around what stands on a page
 
 

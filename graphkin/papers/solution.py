@@ -14,6 +14,7 @@ from graphkin import table
 from graphkin.checking.reading_words import exact, measured, paper
 from graphkin.checking.report import Compared
 from graphkin.checking.uncertainty import COVERAGE
+from graphkin.construction.polygon_acts import DirectionLine
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.conventions import scale_statement
 from graphkin.drawing.drawing import Drawing
@@ -61,6 +62,8 @@ __all__ = [
     "stage_title",
     "step_items",
 ]
+
+MANY = 6  # steps that stand in two columns above their figure
 
 
 @dataclass(frozen=True)
@@ -185,10 +188,18 @@ def beginning(lesson: Lesson) -> tuple[Paragraph, ...]:
 def solution_blocks(lesson: Lesson, lead: tuple[Paragraph, ...] = ()) -> Iterator[Block]:
     """Stage by stage; ``lead`` stands before the first."""
     layers: dict[str, Layers] = {}
-    for stage in lesson.stages:
+    first: int | None = None  # of steps that the next figure of their diagram shows too
+    for stage, after in zip(lesson.stages, (*lesson.stages[1:], None), strict=True):
         if stage.diagram not in layers:
             layers[stage.diagram] = parts(lesson.sheet, stage.diagram, lesson.letters, lesson.language)
-        yield Together(tuple(_stage(lesson, stage, layers[stage.diagram], lead if stage is lesson.stages[0] else ())))
+        opening = lead if stage is lesson.stages[0] else ()
+        if _leads_on(stage, after):
+            steps = Steps(step_items(lesson, stage), parted=len(stage.steps) > 1)
+            yield Together((*_told(lesson, stage), steps))
+            first = stage.first
+        else:
+            yield Together(tuple(_stage(lesson, stage, layers[stage.diagram], opening, first or stage.first)))
+            first = None
     yield from _plan_blocks(lesson)
     yield from _force_blocks(lesson)
 
@@ -288,31 +299,46 @@ def step_items(lesson: Lesson, stage: Stage) -> tuple[StepItem, ...]:
     )
 
 
+def _leads_on(stage: Stage, after: Stage | None) -> bool:
+    """Whether the next figure shows the steps of a stage as well: a driver's few vectors, all known."""
+    if stage.equation is None or after is None or after.equation is None or after.diagram != stage.diagram:
+        return False
+    return not any(isinstance(step.act, DirectionLine) for step in stage.steps)
+
+
+def _told(lesson: Lesson, stage: Stage) -> Iterator[Heading | Paragraph | Picture]:
+    """What stands above the steps of an equation: the equation over its rows, and why it is so."""
+    assert stage.equation is not None
+    yield Heading(stage_title(lesson, stage))
+    words = equation_words(lesson, stage.equation)
+    drawn = equation_picture(lesson.sheet, stage.equation, lesson.letters, lesson.language, words)
+    yield Picture(drawn, joined=True)
+    yield from reasons(lesson, stage.equation)
+
+
 def _stage(
-    lesson: Lesson, stage: Stage, layers: Layers, lead: tuple[Paragraph, ...]
+    lesson: Lesson, stage: Stage, layers: Layers, lead: tuple[Paragraph, ...], begun: int
 ) -> Iterator[Heading | Paragraph | Steps | Picture | Beside]:
+    """A stage with its figure, on which what is new since step ``begun`` stands out."""
     sheet, letters, language = lesson.sheet, lesson.letters, lesson.language
-    heading = Heading(stage_title(lesson, stage))
-    steps = Steps(step_items(lesson, stage))
-    drawn = stage_picture(sheet, layers, stage.diagram, letters, language, stage.first, stage.last)
+    drawn = stage_picture(sheet, layers, stage.diagram, letters, language, begun, stage.last)
     start = next(step.number for step in sheet.steps if step.diagram == stage.diagram)
     args: tuple[int, ...] = (stage.last,)
-    key = "figure whole" if stage.first == start else "figure with step"
-    if start != stage.first != stage.last:
-        key, args = "figure so far", (stage.last, stage.first)
+    key = "figure whole" if begun == start else "figure with step"
+    if start != begun != stage.last:
+        key, args = "figure so far", (stage.last, begun)
     caption = tuple(
         (each, say(Phrase(key, (word(FIGURE_WORDS[stage.diagram], each), *args)), each)) for each in languages(language)
     )
     figure = Picture(drawn, caption)
+    narrow = drawn.width <= paper_of(sheet.scene).narrow
+    steps = Steps(step_items(lesson, stage), parted=not narrow and len(stage.steps) >= MANY)
     beside: tuple[Heading | Paragraph | Steps, ...] = (steps,)
     if stage.equation is not None:
-        yield heading
-        words = equation_words(lesson, stage.equation)
-        yield Picture(equation_picture(sheet, stage.equation, letters, language, words), joined=True)
-        yield from reasons(lesson, stage.equation)
+        yield from _told(lesson, stage)
     else:
-        beside = (*lead, heading, steps)
-    if drawn.width <= paper_of(sheet.scene).narrow:
+        beside = (*lead, Heading(stage_title(lesson, stage)), steps)
+    if narrow:
         yield Beside(beside, figure)
     else:
         yield from beside

@@ -48,7 +48,7 @@ def test_lines_of_keys_are_known_in_tables_and_braces() -> None:
 
 
 @pytest.mark.parametrize(("where", "line"), [
-    ("links.2.length", 19), ("link 3", 21), ("line 7", 7), ("links.2.nothing", 17), ("point A", 10), ("nowhere", 0),
+    ("links.2.length", 20), ("link 3", 22), ("line 7", 7), ("links.2.nothing", 18), ("point A", 11), ("nowhere", 0),
 ])  # fmt: skip
 def test_a_problem_stands_at_the_line_it_is_about(where: str, line: int) -> None:
     assert line == line_of(Problem(where, "is wrong"), SIXBAR)
@@ -57,7 +57,7 @@ def test_a_problem_stands_at_the_line_it_is_about(where: str, line: int) -> None
 def test_a_wrong_length_is_told_at_its_line() -> None:
     wrong = asked("show", text=SIXBAR.replace("length = 0.34", "length = -0.34"))
     assert not wrong["ok"]
-    assert [19] == [one["line"] for one in wrong["problems"]]
+    assert [20] == [one["line"] for one in wrong["problems"]]
     assert "a length must be positive" in wrong["problems"][0]["text"]
 
 

@@ -121,7 +121,7 @@ def test_a_wrong_length_is_told_at_its_line_and_the_figures_stay(page) -> None:
         page.keyboard.press("Backspace")
     page.keyboard.type("-3")
     told = page.wait_for_selector(".problems li")
-    assert "line 19: links.2.length: found -3" in told.inner_text()
+    assert "line 20: links.2.length: found -3" in told.inner_text()
     page.wait_for_selector(".cm-lint-marker-error")
     assert page.query_selector("[data-figure=velocity] svg") is not None
     page.keyboard.press("Backspace")
