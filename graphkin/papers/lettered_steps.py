@@ -20,7 +20,7 @@ from graphkin.construction.polygon_acts import (
     Resultant,
 )
 from graphkin.construction.sheet import Aid, Bar, DiagramName, Ray, Sheet, Step, Vector
-from graphkin.construction.sizes import Direction
+from graphkin.construction.sizes import Direction, Given, Size
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, pole
 from graphkin.drawing.headings import number
@@ -88,7 +88,7 @@ class LetteredSteps:
             return None
         if abs(bar.b - bar.a) < SAME:
             return Phrase("zero vector", (act.symbol,))
-        rule = Phrase("rule of size", (act.symbol, term.size)) if term.size else act.symbol
+        rule = _rule(act.symbol, term.size)
         what = (rule, on_paper(abs(bar.b - bar.a)), _way(term.direction, bar.b - bar.a))
         ends = self._at(step, bar.a), self._at(step, bar.b)
         if None in ends:
@@ -100,7 +100,7 @@ class LetteredSteps:
         if start is None:
             return None
         key = {"normal": "as normal", "coriolis": "as Coriolis"}.get(act.role, "as vector")
-        rule = Phrase("rule of size", (act.symbol, act.size)) if act.size else act.symbol
+        rule = _rule(act.symbol, act.size)
         name, end = self._between(step, vector), self._at(step, vector.tip)
         what = (Phrase(key, (rule,)), on_paper(act.mm), _way(act.direction, vector.span))
         if name is None:
@@ -182,7 +182,7 @@ class LetteredSteps:
 
     def _of(self, diagram: DiagramName, ref: PointRef) -> Markup | None:
         """The letter of an end point; what is at rest is the pole."""
-        if ref.point in self.sheet.scene.frame.points:
+        if ref.point in self.sheet.scene.frame.points and ref.link in ("", self.sheet.scene.frame.name):
             return Markup(pole(self.letters.convention, diagram))
         letter = next((p.letter for p in self._points.get(diagram, ()) if p.ref == ref), "")
         return Markup(letter) if letter else None
@@ -222,6 +222,11 @@ def _drawn(step: Step) -> Vector | Aid | None:
     """The vector of a step; those of trial polygons bear no letters."""
     vectors = (s for s in step.strokes if isinstance(s, Vector) or (isinstance(s, Aid) and not s.trial))
     return next(vectors, None)
+
+
+def _rule(symbol: Symbol, size: Size | None) -> Symbol | Phrase:
+    """A vector with the rule of its size, where that is not just given."""
+    return symbol if size is None or isinstance(size, Given) else Phrase("rule of size", (symbol, size))
 
 
 def _sum(before: Symbol | Phrase | None, symbol: Symbol) -> Symbol | Phrase:

@@ -127,6 +127,12 @@ def test_a_larger_group_is_placed_link_by_link_each_from_what_stands():
     assert said[3].startswith("Join E and C: link 2; an arc about E of 74.57 mm and one about C of 52.80 mm meet in B")
 
 
+def test_a_point_of_a_moving_link_over_a_fixed_pivot_is_not_the_pole():
+    said = _steps("hit-two-RPR", "en")
+    assert "The two lines meet in c_2, the end point of C_2." == said[9]
+    assert "on bc_2 lengthened beyond c_2 mark d_4" in said[13]
+
+
 def test_no_end_point_is_named_twice():
     said = _steps("shaper-scheme-2", "en")
     assert [] == [step for step in said if step.startswith("Name the end point")]
