@@ -7,7 +7,6 @@ import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from pathlib import Path
 from typing import Any
 
 from graphkin import solver
@@ -21,16 +20,14 @@ from graphkin.api.arguments import (
     driver_values,
     for_paper,
     known_words,
-    own_folder,
     own_unit,
     require_callable,
     whole_number,
-    write_files,
 )
 from graphkin.api.checked import solved_here
 from graphkin.api.drawn import draw
 from graphkin.api.problem_sets import drawn_schemes, schemes_of
-from graphkin.api.results import OfScene, Result
+from graphkin.api.results import FilesOfScene
 from graphkin.api.swept import sweep
 from graphkin.checking.readings import read_off
 from graphkin.checking.report import compare
@@ -88,7 +85,7 @@ class _Scheme:
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class CourseDesigns(Result, OfScene):
+class CourseDesigns(FilesOfScene):
     """The reports of a course project: a file for each student, and the table of the class.
 
     ``rows`` are the lines of that table: who, which scheme and position, what was read off there.
@@ -132,15 +129,6 @@ class CourseDesigns(Result, OfScene):
     def notes(self) -> tuple[Phrase, ...]:
         """What was not done as asked: typeset PDF without the extra ``pdf``."""
         return () if self.typeset else (Phrase("no pdf extra"),)
-
-    def write(self, folder: str | os.PathLike[str] | None = None) -> list[Path]:
-        """Write the files into a folder (one named after the scene if none is given); returns their paths.
-
-        Raises
-        ------
-        CallError : the folder cannot be written
-        """
-        return write_files(own_folder(folder, self.mechanism.name), self.files)
 
     def __repr__(self) -> str:
         return f"<CourseDesigns {self.mechanism.name}: {len(self.rows)} reports>"

@@ -6,7 +6,6 @@ import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, fields
 from functools import cached_property
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from graphkin.api.arguments import (
@@ -17,14 +16,12 @@ from graphkin.api.arguments import (
     asked_symbols,
     for_paper,
     known_words,
-    own_folder,
     placed,
     require_callable,
     whole_number,
-    write_files,
 )
 from graphkin.api.checked import solved_here
-from graphkin.api.results import OfScene, Result
+from graphkin.api.results import FilesOfScene
 from graphkin.errors import CallError, Problem, as_text, did_you_mean
 from graphkin.papers.exports import PLATFORMS, Question, files_for, question_of
 from graphkin.papers.lesson import Lesson
@@ -45,7 +42,7 @@ __all__ = ["Handout", "handout", "papers_of"]
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Handout(Result, OfScene):
+class Handout(FilesOfScene):
     """A handout: its lesson, and its files by name (`files`).  In a notebook it shows the answer key."""
 
     lesson: Lesson
@@ -129,15 +126,6 @@ class Handout(Result, OfScene):
         """Progress of one half of the work: placing every position, and then drawing it."""
         tell = self.progress
         return None if tell is None else lambda i, count: tell(i + done * count, 2 * count)
-
-    def write(self, folder: str | os.PathLike[str] | None = None) -> list[Path]:
-        """Write the files into a folder (one named after the scene if none is given); returns their paths.
-
-        Raises
-        ------
-        CallError : the folder cannot be written
-        """
-        return write_files(own_folder(folder, self.mechanism.name), self.files)
 
     def __repr__(self) -> str:
         return f"<Handout {self.mechanism.name}: {', '.join(self.formats)}>"

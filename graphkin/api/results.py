@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import fields
 from functools import cached_property
 from pathlib import Path
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from graphkin.scene.written import Scene
     from graphkin.table import Table
 
-__all__ = ["OfScene", "Result", "Tabled"]
+__all__ = ["FilesOfScene", "OfScene", "Result", "Tabled"]
 
 
 class Tabled(ABC):
@@ -123,3 +123,23 @@ class Result(Tabled):
 
     def __getstate__(self) -> dict[str, Any]:
         return {field.name: getattr(self, field.name) for field in fields(self)}  # type: ignore[arg-type]
+
+
+class _FilesOfMechanism(_OfMechanism, Protocol):
+    @property
+    def files(self) -> Mapping[str, bytes]: ...
+
+
+class FilesOfScene(Result, OfScene):
+    """A result that is files, made of one scene."""
+
+    def write(self: _FilesOfMechanism, folder: str | os.PathLike[str] | None = None) -> list[Path]:
+        """Write the files into a folder (one named after the scene if none is given); returns their paths.
+
+        Raises
+        ------
+        CallError : the folder cannot be written
+        """
+        from graphkin.api.arguments import own_folder, write_files
+
+        return write_files(own_folder(folder, self.mechanism.name), self.files)

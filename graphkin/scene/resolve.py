@@ -274,24 +274,10 @@ def _not_found(position: DrawnPosition) -> list[Problem]:
     found = []
     for body in position.bodies.values():
         hint = f"draw two points of link {body.name}, or give it in the link's own axes"
-        for point in body.at:
-            if point not in body.local:
-                found.append(
-                    Problem(
-                        f"{body.where}.at.{point}",
-                        f"where link {body.name} lies does not follow from what is drawn",
-                        hint,
-                    )
-                )
-        for guide in body.rails:
-            if guide not in body.guides:
-                found.append(
-                    Problem(
-                        f"{body.where}.guides.{guide}",
-                        f"where link {body.name} lies does not follow from what is drawn",
-                        hint,
-                    )
-                )
+        why = f"where link {body.name} lies does not follow from what is drawn"
+        open_ = [f"at.{point}" for point in body.at if point not in body.local]
+        open_ += [f"guides.{guide}" for guide in body.rails if guide not in body.guides]
+        found += [Problem(f"{body.where}.{key}", why, hint) for key in open_]
     return found
 
 

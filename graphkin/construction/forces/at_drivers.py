@@ -121,13 +121,7 @@ def at_driver(cut: CutFree, element: Driven, balance: BalanceForm) -> ForceGroup
 
 def _balancing(cut: CutFree, balance: BalanceForm, link: str) -> Acting:
     """A balancing force of unit size on a link."""
-    images = cut.images
-    if balance.slide:
-        slide = cut.names.structure.slide(balance.slide)
-        along, at = images.along(slide), images.foot(slide)
-    else:
-        axis = images.sheet.poses[balance.link].axis
-        along, at = (1j * axis if balance.square else balance.along), images.place(balance.link, balance.at)
+    along, at = cut.images.of_balance(balance)
     mine = balance.link == link
     return Acting(balance.symbol, link, along if mine else -along, at, not mine)
 

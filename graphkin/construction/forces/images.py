@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
+from graphkin.construction.forces.order import BalanceForm
 from graphkin.construction.sheet import Sheet
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot
@@ -42,6 +43,14 @@ class Images:
     def along(self, slide: Slide) -> complex:
         """The direction of a guide."""
         return self.sheet.poses[slide.b].axis * slide.guide.direction
+
+    def of_balance(self, balance: BalanceForm) -> tuple[complex, complex]:
+        """The direction of a balancing force, and where it acts (mm)."""
+        if balance.slide:
+            slide = self.sheet.structure.slide(balance.slide)
+            return self.along(slide), self.foot(slide)
+        along = 1j * self.sheet.poses[balance.link].axis if balance.square else balance.along
+        return along, self.place(balance.link, balance.at)
 
     def velocity(self, link: str, at: complex) -> complex:
         """The end point of the velocity of the point of a link that lies at a place of the mechanism (mm)."""

@@ -100,12 +100,7 @@ def _unknown(images: Images, balance: BalanceForm, hand: Instrument) -> LeverRow
             return own
         other = _pair(images, balance.symbol, balance.other, 1.0, hand)
         return LeverRow(balance.symbol, own.force, own.at, own.arm, own.moment - other.moment, own.pair)
-    if balance.slide:
-        slide = images.sheet.structure.slide(balance.slide)
-        along, at = images.along(slide), images.foot(slide)
-    else:
-        axis = images.sheet.poses[balance.link].axis
-        along, at = (1j * axis if balance.square else balance.along), images.place(balance.link, balance.at)
+    along, at = images.of_balance(balance)
     own = _force(images, Acting(balance.symbol, balance.link, along, at), hand)
     if balance.other == frame:
         return own

@@ -73,15 +73,8 @@ def _slides(cut: CutFree, members: Sequence[str]) -> list[_Unknown]:
 
 
 def _balance(cut: CutFree, balance: BalanceForm) -> _Unknown:
-    images = cut.images
-    if balance.is_moment:
-        return _Unknown(balance.symbol, balance.link, balance.other, 0j, 0j)
-    if balance.slide:
-        slide = cut.names.structure.slide(balance.slide)
-        return _Unknown(balance.symbol, balance.link, balance.other, images.foot(slide), images.along(slide))
-    axis = images.sheet.poses[balance.link].axis
-    along = 1j * axis if balance.square else balance.along
-    return _Unknown(balance.symbol, balance.link, balance.other, images.place(balance.link, balance.at), along)
+    along, at = (0j, 0j) if balance.is_moment else cut.images.of_balance(balance)
+    return _Unknown(balance.symbol, balance.link, balance.other, at, along)
 
 
 def _solved(cut: CutFree, members: Sequence[str], unknowns: Sequence[_Unknown]) -> list[float]:
