@@ -35,7 +35,7 @@ HERE = Path(__file__).parent
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
     folder = tmp_path_factory.mktemp("set")
-    return problem_set(SHAPER, 5, 7, out=folder)
+    return problem_set(SHAPER, 3, 7, out=folder)
 
 
 def scenes(made):
@@ -43,7 +43,7 @@ def scenes(made):
 
 
 def test_as_many_are_made_as_are_asked_for(made):
-    assert (5, 5, []) == (len(made.made.names), len(scenes(made)), made.made.failures)
+    assert (3, 3, []) == (len(made.made.names), len(scenes(made)), made.made.failures)
 
 
 def test_the_scene_files_give_the_answers(made):
@@ -91,7 +91,7 @@ def test_the_numbers_are_round(made):
 
 def test_threads_and_seeds_give_the_same_set_as_one_after_another(made, tmp_path):
     with ThreadPoolExecutor(3) as pool:
-        again = problem_set(SHAPER, 5, 7, out=tmp_path, executor=pool, workers=3)
+        again = problem_set(SHAPER, 3, 7, out=tmp_path, executor=pool, workers=3)
     assert made.table.csv() == again.table.csv()
 
 
@@ -100,7 +100,7 @@ def test_a_broken_executor_loses_nothing(made):
         def submit(self, *_, **__):
             raise BrokenExecutor
 
-    assert made.table.csv() == problem_set(SHAPER, 5, 7, executor=Broken(1), workers=2).table.csv()
+    assert made.table.csv() == problem_set(SHAPER, 3, 7, executor=Broken(1), workers=2).table.csv()
 
 
 def test_a_variant_whose_papers_fail_is_listed(tmp_path):
@@ -112,7 +112,7 @@ def test_a_variant_whose_papers_fail_is_listed(tmp_path):
 
 
 def test_another_seed_gives_another_set(made):
-    assert made.table.csv() != problem_set(SHAPER, 5, 8).table.csv()
+    assert made.table.csv() != problem_set(SHAPER, 3, 8).table.csv()
 
 
 def test_an_interrupted_set_goes_on_where_it_was(tmp_path, monkeypatch):
@@ -292,7 +292,7 @@ def test_what_a_killed_process_left_half_written_is_removed(tmp_path):
 
 
 def test_a_killed_set_goes_on(tmp_path):
-    call = [sys.executable, "-c", "from graphkin.cli import main; main()", "handout", FOUR_BAR, "--variants", "6",
+    call = [sys.executable, "-c", "from graphkin.cli import main; main()", "handout", FOUR_BAR, "--variants", "4",
             "--format", "html", "--workers", "2", "-q", "-o", str(tmp_path)]  # fmt: skip
     first = subprocess.Popen(call, start_new_session=True)
     deadline = time.monotonic() + 60
@@ -302,7 +302,7 @@ def test_a_killed_set_goes_on(tmp_path):
     first.wait()
     done = subprocess.run(call, capture_output=True, text=True, timeout=120)
     assert 0 == done.returncode, done.stderr
-    assert 6 == len(list(tmp_path.glob("*.toml")))
+    assert 4 == len(list(tmp_path.glob("*.toml")))
     assert [] == list(tmp_path.glob(".*"))
 
 

@@ -153,7 +153,7 @@ def _elsewhere(found: Race, seed: int) -> Race:
     )
 
 
-@pytest.mark.parametrize(("seed", "language"), [(seed, ("en", "zh")[seed % 2]) for seed in range(12)])
+@pytest.mark.parametrize(("seed", "language"), [(seed, ("en", "zh")[seed % 2]) for seed in range(6)])
 def test_no_two_labels_of_the_chart_overlap_on_any_machine(seed: int, language: str) -> None:
     drawn = race_page(_elsewhere(_spread(raced()), seed), language)
     assert [] == overlapping(drawn)
