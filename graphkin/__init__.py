@@ -67,10 +67,9 @@ if TYPE_CHECKING:
     from graphkin.api.swept import Swept, sweep
     from graphkin.board.notebook import open_board
     from graphkin.errors import CallError, GraphkinError, SceneError, Unsolvable
-    from graphkin.scene.asked_tables import Positions, PrintedTable, StrokeStart
-    from graphkin.scene.cam_tables import AllowedPressure, BaseCircle, Cam, LawPiece
-    from graphkin.scene.class_tables import Vary
+    from graphkin.scene.asked_tables import Positions, PrintedTable, StrokeStart, Vary
     from graphkin.scene.contact_tables import Contact, Disc, Gear
+    from graphkin.scene.law_tables import AllowedPressure, BaseCircle, Cam, LawPiece
     from graphkin.scene.load_tables import Balance, Flywheel, Gravity, Load, LoadPhase, Mass, Spring
     from graphkin.scene.sheet_tables import Background, SheetWishes, Tools
     from graphkin.scene.source import read
@@ -177,10 +176,9 @@ _PLACES = {
     "api.solved": "Solved solve",
     "api.studied": "SpeedAccuracy Stability speed_accuracy stability",
     "api.swept": "Swept sweep",
-    "scene.asked_tables": "Positions PrintedTable StrokeStart",
-    "scene.cam_tables": "AllowedPressure BaseCircle Cam LawPiece",
-    "scene.class_tables": "Vary",
+    "scene.asked_tables": "Positions PrintedTable StrokeStart Vary",
     "scene.contact_tables": "Contact Disc Gear",
+    "scene.law_tables": "AllowedPressure BaseCircle Cam LawPiece",
     "scene.load_tables": "Balance Flywheel Gravity Load LoadPhase Mass Spring",
     "scene.sheet_tables": "Background SheetWishes Tools",
     "scene.source": "read",

@@ -1,5 +1,5 @@
-"""The tables of a scene file that ask for more than one position, or say what others found: named positions, a table of
-published values."""
+"""The tables of a scene file that ask for more than one answer, or say what others found: named positions, a table of
+published values, how the problem varies for a class."""
 
 from __future__ import annotations
 
@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 from graphkin.scene.file_table import FileTable, about, closed
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     Text = str
     SlideRef = str
     Count = int
@@ -16,8 +18,13 @@ if TYPE_CHECKING:
     PositionName = str
     ShownName = str | int
     Start: TypeAlias = "float | StrokeStart"
+    Asked = int
+    Symbols = Sequence[str]
+    Range = Sequence[float]
+    Keys = Sequence[str]
+    KeyLists = Sequence[Sequence[str]]
 
-__all__ = ["Positions", "PrintedTable", "StrokeStart"]
+__all__ = ["Level", "Positions", "PrintedTable", "StrokeStart", "Vary"]
 
 
 @dataclass(frozen=True)
@@ -59,4 +66,28 @@ class PrintedTable(FileTable):
     file: Text = field(metadata=about("A CSV file: heads are symbols, one column is called at."))
     by: Literal["drawing", "computation"] = field(
         default="drawing", metadata=about("How the values were found; computed ones are judged by their digits.")
+    )
+
+
+Level = Literal["easy", "usual", "hard"]
+
+
+@dataclass(frozen=True)
+class Vary(FileTable):
+    """How a set of problems is drawn from a scene."""
+
+    ranges: dict[str, Range] = field(
+        default_factory=dict,
+        metadata=closed("Least and greatest value by key of the scene: \"links.2.length\" = [80, 120]."),
+    )
+    only: bool = field(default=False, metadata=about("Nothing varies but what has a range or is tied to it."))
+    keep: Keys = field(default=(), metadata=about("Keys that stay as they are: driver.omega."))
+    ratios: KeyLists = field(
+        default=(), metadata=about("Lists of keys that keep their ratios: the others follow the first.")
+    )
+    find: Symbols = field(default=(), metadata=about("Quantities of which each variant asks some."))
+    ask: Asked | None = field(default=None, metadata=about("How many of them; all if left out."))
+    level: Level = field(
+        default="usual",
+        metadata=about("easy: lines cross well, transmission is good; hard: the lines may cross flatter."),
     )

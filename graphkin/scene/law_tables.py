@@ -1,12 +1,13 @@
-"""The tables of a scene file that say how a driver moves over the time."""
+"""The tables of a scene file that say laws: of the follower of a cam (with base circle and allowed pressure angles), of
+a driver over the time."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
-from graphkin.scene.cam_tables import LawName
 from graphkin.scene.file_table import FileTable, about
+from graphkin.scene.follower_law import SPELLINGS
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -14,10 +15,69 @@ if TYPE_CHECKING:
 
     Number = float
     Magnitude = float
+    Switch = bool
+    LinkName = str
+    LawPieces: TypeAlias = "Sequence[LawPiece]"
     TimePieces: TypeAlias = "Sequence[TimePiece]"
     Knots: TypeAlias = "Sequence[Sequence[float]]"
 
-__all__ = ["DriverLaw", "TimePiece"]
+__all__ = ["AllowedPressure", "BaseCircle", "Cam", "DriverLaw", "LawName", "LawPiece", "TimePiece"]
+
+if TYPE_CHECKING:
+    LawName = Literal["uniform", "parabolic", "harmonic", "cycloidal", "345", "4567"] | str
+else:
+    LawName = Literal[SPELLINGS]  # as many as there are laws
+
+
+@dataclass(frozen=True)
+class LawPiece(FileTable):
+    """A piece of the law of a follower, from where the piece before it ends: a rise, a fall, or a dwell."""
+
+    to: Number = field(metadata=about("Degrees of the cam at which it ends; the last piece ends at 360."))
+    rise: Number | None = field(
+        default=None, metadata=about("By how much the follower rises: length, or degrees of one that swings.")
+    )
+    fall: Number | None = field(default=None, metadata=about("Instead of rise: by how much it falls."))
+    by: LawName | None = field(default=None, metadata=about("The law of a rise or fall."))
+
+
+@dataclass(frozen=True)
+class BaseCircle(FileTable):
+    """The base circle of a cam."""
+
+    r: Magnitude = field(metadata=about("Its radius."))
+    of: Literal["profile", "pitch"] = field(
+        default="profile", metadata=about("Of the profile, or of the pitch curve, on which the roller's centre runs.")
+    )
+
+
+@dataclass(frozen=True)
+class AllowedPressure(FileTable):
+    """Greatest pressure angles that are allowed."""
+
+    rise: Number | None = field(default=None, metadata=about("Degrees, while the follower rises."))
+    fall: Number | None = field(default=None, metadata=about("Degrees, while it falls."))
+
+
+@dataclass(frozen=True)
+class Cam(FileTable):
+    """A cam that turns about its first point, given by the law of its follower."""
+
+    follower: LinkName = field(
+        metadata=about("The link that it moves: on a guide of the frame, or swinging about a point of the frame.")
+    )
+    law: LawPieces = field(metadata=about('Pieces of the law: [{ to = 60, rise = 28, by = "harmonic" }, ...].'))
+    base: BaseCircle = field(metadata=about('The base circle: { r = 30, of = "profile" }.'))
+    sense: Literal[1, -1] = field(
+        default=1, metadata=about("The cam degree is sense times the cam's own angle; -1: a cam that turns clockwise.")
+    )
+    offset: Number | None = field(
+        default=None,
+        metadata=about("Distance of a sliding follower's line from the axis, positive where the axis is to its left."),
+    )
+    roller: Magnitude | None = field(default=None, metadata=about("Radius of the roller; a knife edge if left out."))
+    flat: Switch = field(default=False, metadata=about("A flat face square to the line of a sliding follower."))
+    allow: AllowedPressure | None = field(default=None, metadata=about("Greatest pressure angles, judged."))
 
 
 @dataclass(frozen=True)

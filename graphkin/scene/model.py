@@ -12,9 +12,9 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Literal
 
+from graphkin.scene.asked_tables import Vary
 from graphkin.scene.background import PlacedBackground, PlacedScan
 from graphkin.scene.cams import LawCam
-from graphkin.scene.class_tables import Vary
 from graphkin.scene.contacts import PlacedContact, PlacedDisc, PlacedGear
 from graphkin.scene.loads import Loading
 from graphkin.scene.motion_law import MotionLaw

@@ -19,7 +19,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from graphkin.errors import Problem, SceneError, did_you_mean
-from graphkin.scene import asked_tables, cam_tables, contact_tables, law_tables, load_tables, sheet_tables, tables
+from graphkin.scene import asked_tables, contact_tables, law_tables, load_tables, sheet_tables, tables
 from graphkin.scene.file_table import FileTable, entries, key_of, keys_of
 from graphkin.scene.form import SCENE
 from graphkin.scene.names import Flaws, Path
@@ -194,10 +194,10 @@ _TABLES: tuple[tuple[tuple[str, ...], type[FileTable]], ...] = (
     (("driver", "<list>", "*", "<slide>", "law"), law_tables.DriverLaw),
     (("driver", "<one>", "<angle>", "law", "pieces", "*"), law_tables.TimePiece),
     (("driver", "<one>", "<slide>", "law", "pieces", "*"), law_tables.TimePiece),
-    (("cams", "*"), cam_tables.Cam),
-    (("cams", "*", "base"), cam_tables.BaseCircle),
-    (("cams", "*", "allow"), cam_tables.AllowedPressure),
-    (("cams", "*", "law", "*"), cam_tables.LawPiece),
+    (("cams", "*"), law_tables.Cam),
+    (("cams", "*", "base"), law_tables.BaseCircle),
+    (("cams", "*", "allow"), law_tables.AllowedPressure),
+    (("cams", "*", "law", "*"), law_tables.LawPiece),
     (("gravity",), load_tables.Gravity),
     (("masses", "*"), load_tables.Mass),
     (("loads", "*"), load_tables.Load),

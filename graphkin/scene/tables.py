@@ -11,12 +11,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
-from graphkin.scene.asked_tables import Positions, PrintedTable
-from graphkin.scene.cam_tables import Cam
-from graphkin.scene.class_tables import Vary
+from graphkin.scene.asked_tables import Positions, PrintedTable, Vary
 from graphkin.scene.contact_tables import Contact, Disc, Gear
 from graphkin.scene.file_table import FileTable, about, closed
-from graphkin.scene.law_tables import DriverLaw
+from graphkin.scene.law_tables import Cam, DriverLaw
 from graphkin.scene.load_tables import Balance, Flywheel, Gravity, Load, Mass, Spring
 from graphkin.scene.sheet_tables import ReadScan, SheetWishes
 
