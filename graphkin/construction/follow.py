@@ -5,22 +5,24 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.construction.dyads import drive, meet
 from graphkin.construction.reduced_mechanism import ReducedMechanism, clusters, reduced_mechanisms
+from graphkin.construction.removed_constraint import RemovedConstraint
 from graphkin.construction.rigid import PlacedLinks, Poses
 from graphkin.construction.rolled_places import rolled_near
 from graphkin.construction.sheet import Pose
 from graphkin.errors import Problem, Unsolvable
-from graphkin.scene.model import AngleDriver
-from graphkin.structure import Cluster, Driven, Dyad, Element, Rolled, Structure
+from graphkin.scene.model import AngleDriver, AnyDriver
+from graphkin.structure import Cluster, Driven, Dyad, Element, Rolled, Structure, links_of, started
 from graphkin.structure.assembly import ways
 
-__all__ = ["Choices", "best_reduced", "drawn_near", "fitted", "found_near", "moved_to"]
+__all__ = ["Choices", "best_reduced", "drawn_near", "fitted", "found_near", "moved_to", "standing"]
 
 Array = NDArray[np.float64]
 
@@ -30,6 +32,7 @@ SURPRISE = 1e-3  # so far from where it was expected a link may be found, in the
 
 NUDGE = 1e-4  # of the trial driver, to see how the gap changes
 ROUNDS = 30
+POOR = 0.01  # below this more constraints are removed than it takes
 GOOD = 0.3  # a reduced mechanism as good as this is taken without a look at the others
 
 
@@ -37,10 +40,31 @@ class Choices:
     """The reduced mechanisms of each larger group of a mechanism, and which of them serve now."""
 
     def __init__(self, structure: Structure, elements: Sequence[Element]) -> None:
-        self.structure = structure
+        self.structure, self.elements = structure, elements
         wanted = [c for c in clusters(structure) if c in elements]
         self.of: Mapping[Cluster, list[ReducedMechanism]] = {c: reduced_mechanisms(structure, c) for c in wanted}
         self.last: dict[Cluster, ReducedMechanism] = {}
+        self._further: dict[Cluster, list[ReducedMechanism]] = {}
+
+    @cached_property
+    def at_start(self) -> Choices:
+        """Of the mechanism at the scene's own position, where what rolls and moves each other stands as it is given;
+        these themselves where there is nothing of it."""
+        there = started(self.structure)
+        if there is self.structure:
+            return self
+        wanted = {n for element in self.elements for n in links_of(element)}
+        return Choices(there, [e for e in there.elements if wanted.intersection(links_of(e))])
+
+    def further(self, cluster: Cluster) -> list[ReducedMechanism]:
+        """Those with more constraints removed than it takes, for where the others are at dead points."""
+        if cluster not in self._further:
+            try:
+                fewest = len(self.of[cluster][0].removed)
+                self._further[cluster] = reduced_mechanisms(self.structure, cluster, fewest)
+            except Unsolvable:
+                self._further[cluster] = []
+        return self._further[cluster]
 
 
 def moved_to(
@@ -190,6 +214,9 @@ def fitted(
 ) -> dict[str, Pose] | None:
     """A larger group near a guess: the trial values by proportional division of the gaps that trial drawings leave,
     again and again (secant; with several trial drivers that of Broyden, Math. Comp. 19, 1965)."""
+    if not reduced.trial:  # everything stands as it is given
+        drawn = drawn_near(reduced, known, guess, ())
+        return None if drawn is None else reduced.put_back(drawn)
     start = _tried(reduced, known, guess, values)
     return None if start is None else _closed(start, known, guess)
 
@@ -248,11 +275,45 @@ def _best(choices: Choices, cluster: Cluster, known: PlacedLinks, guess: Poses) 
     best = _tried(last.rolled_from(guess, known.mm), known, guess) if last is not None else None
     if best is not None and best.quality > GOOD / 2:
         return best
-    best = None
-    for reduced in choices.of[cluster]:
+    best = _best_of(choices.of[cluster], known, guess)
+    if best is None or best.quality < POOR:
+        further = _best_of(choices.further(cluster), known, guess)
+        if further is not None and (best is None or further.quality > best.quality):
+            best = further
+    if best is not None:
+        choices.last[cluster] = best.reduced
+    return best
+
+
+def _best_of(candidates: Sequence[ReducedMechanism], known: PlacedLinks, guess: Poses) -> _Tried | None:
+    best: _Tried | None = None
+    for reduced in candidates:
         now = _tried(reduced.rolled_from(guess, known.mm), known, guess)
         if now is not None and now.quality > (0.0 if best is None else best.quality):
-            best, choices.last[cluster] = now, reduced
+            best = now
             if now.quality > GOOD:
                 break
     return best
+
+
+def standing(choices: Choices, cluster: Cluster, known: PlacedLinks, guess: Poses) -> ReducedMechanism | None:
+    """A group in which links roll and move each other at the scene's own position, ``choices`` being of the mechanism
+    that drivers hold there: without its rolling.  None where all are at dead points."""
+    removed: list[RemovedConstraint] = []
+    trial: list[AnyDriver] = []
+    drawn: list[Driven | Dyad] = []
+    before = replace(known, poses=dict(known.poses))
+    for element in choices.structure.elements:
+        if not set(links_of(element)) <= set(cluster.members):
+            continue
+        if isinstance(element, Cluster):
+            reduced = best_reduced(choices, element, before, guess)
+            if reduced is None:
+                return None
+            removed += reduced.removed
+            trial += reduced.trial
+            drawn += reduced.elements
+        else:
+            drawn.append(element)
+        before.poses.update({name: guess[name] for name in links_of(element)})
+    return ReducedMechanism(choices.structure, tuple(removed), tuple(trial), cluster, tuple(drawn))

@@ -38,8 +38,7 @@ BEFORE = 0.45  # part of the trial positions that lie before the place sought; s
 class GroupTrial:
     """By which reduced mechanism a group is placed, and where every link lies then with the mechanism of size 1.
 
-    ``given`` where its trial drivers stand as the problem says, at the position from which rolling starts: then it is
-    no trial.
+    ``given`` at the position from which rolling starts, where links stand as the problem says.
     """
 
     reduced: ReducedMechanism
@@ -70,7 +69,7 @@ def placed_by_trial(frame: PlacedLinks, trial: GroupTrial) -> None:
     poses = {**frame.poses, **poses}
     # the last trial by hands that err, what it leaves open, and the drawing that this asks for
     values = np.array(reduced.values(poses, frame.mm))
-    if not trial.given:
+    if reduced.trial:
         at, slopes = _by_hand(frame, reduced, poses, values)
         values = values - np.linalg.solve(slopes, at)
     last = drawn_near(reduced, frame, poses, values)
@@ -113,7 +112,7 @@ def trial_story(frame: PlacedLinks, so_far: PlacedLinks, trial: GroupTrial) -> S
     story: list[tuple[Act, tuple[Stroke, ...]]] = []
     if trial.given:
         story += [(_started(frame, driver), ()) for driver in reduced.cluster.starts]
-    else:
+    if reduced.trial:
         driven = tuple(d.key for d in reduced.trial)
         strokes: tuple[Stroke, ...] = ()
         point = ""

@@ -264,9 +264,8 @@ def _by_trial(
 ) -> tuple[dict[int, int], dict[Cluster, GroupTrial], dict[str, float]]:
     """The assembly of each dyad, by what trial positions each larger group is placed, and how far what rolls on them
     has gone (rad, m)."""
-    from graphkin.construction.follow import Choices, best_reduced
+    from graphkin.construction.follow import Choices, best_reduced, standing
     from graphkin.construction.group_position import GroupTrial
-    from graphkin.construction.reduced_mechanism import standing
     from graphkin.construction.rolled_places import coordinate_on_paper
     from graphkin.construction.trial import found_by_trial
 
@@ -275,25 +274,27 @@ def _by_trial(
     scene = structure.scene
     branches: dict[int, int] = {}
     trials: dict[Cluster, GroupTrial] = {}
-    placed = structure.followed(values)
+    at_start = all(values[d.key] == d.values[0] for d in scene.drivers)
+    there = choices.at_start if at_start else choices
+    starts = {d.key: d.values[0] for d in there.structure.scene.drivers if d.key not in values}
+    placed = structure.followed(values) | starts
     frame = PlacedLinks(structure.links, 1.0 / scene.size, placed, {scene.frame.name: Pose(0j, 1 + 0j)})
     for i, element in enumerate(elements):
         if isinstance(element, Dyad):
             found = meet(frame, element).poses
             branches[i] = min(range(len(found)), key=lambda k, found=found: _off(found[k], poses))  # type: ignore[misc]
         elif isinstance(element, Cluster):
-            at_start = all(values[d.key] == d.values[0] for d in scene.drivers)
-            reduced = standing(structure, element) if element.rolling and at_start else None
-            given = reduced is not None
-            reduced = reduced or best_reduced(choices, element, frame, poses)
-            if reduced is None:
+            given = at_start and bool(element.rolling)
+            at_hand = standing(there, element, frame, poses) if given else best_reduced(choices, element, frame, poses)
+            if at_hand is None:
                 names = ", ".join(element.links)
                 raise Unsolvable("dead point", Problem(f"links {names}", "every trial drawing is at a dead point here"))
-            trials[element] = GroupTrial(reduced.rolled_from(poses, frame.mm), poses, given)
+            trials[element] = GroupTrial(at_hand.rolled_from(poses, frame.mm), poses, given)
         for name in links_of(element):
             frame.poses[name] = poses[name]
     rolling = [e.driver for e in elements if isinstance(e, Driven) and isinstance(e.driver, Rolled)]
-    return branches, trials, {r.key: coordinate_on_paper(structure, frame, r.coordinate) for r in rolling}
+    rolled = {r.key: coordinate_on_paper(structure, frame, r.coordinate) for r in rolling}
+    return branches, trials, starts | rolled
 
 
 def _off(one: Poses, other: Poses) -> float:

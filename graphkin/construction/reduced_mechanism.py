@@ -20,7 +20,7 @@ from graphkin.plane import dot
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, SlideDriver
 from graphkin.structure import Cluster, Driven, Dyad, Structure, Turn, links_of, regrouped, unrolled
 
-__all__ = ["ReducedMechanism", "clusters", "reduced_mechanisms", "standing"]
+__all__ = ["ReducedMechanism", "clusters", "reduced_mechanisms"]
 
 MOST_REMOVED = 4
 MOST_KEPT = 24  # reduced mechanisms with several trial drivers that are looked at
@@ -98,8 +98,9 @@ def clusters(structure: Structure) -> list[Cluster]:
     return [e for e in structure.elements if isinstance(e, Cluster)]
 
 
-def reduced_mechanisms(structure: Structure, cluster: Cluster) -> list[ReducedMechanism]:
-    """All ways to replace a larger group of a mechanism by dyads with the fewest constraints removed.
+def reduced_mechanisms(structure: Structure, cluster: Cluster, more_than: int = 0) -> list[ReducedMechanism]:
+    """All ways to replace a larger group of a mechanism by dyads with the fewest constraints removed, or the fewest
+    that are ``more_than`` so many.
 
     Raises
     ------
@@ -107,7 +108,7 @@ def reduced_mechanisms(structure: Structure, cluster: Cluster) -> list[ReducedMe
     """
     before = structure.elements[: structure.elements.index(cluster)]
     known = {structure.scene.frame.name, *(n for e in before for n in links_of(e))}
-    for count in range(max(1, len(cluster.rolling)), len(cluster.rolling) + MOST_REMOVED + 1):
+    for count in range(max(more_than + 1, len(cluster.rolling)), len(cluster.rolling) + MOST_REMOVED + 1):
         found: list[ReducedMechanism] = []
         for reduced in _reduced(structure, cluster, known, count):
             found.append(reduced)
@@ -117,20 +118,6 @@ def reduced_mechanisms(structure: Structure, cluster: Cluster) -> list[ReducedMe
             return found
     names = ", ".join(cluster.links)
     raise Unsolvable("not drawn", Problem(f"links {names}", "nothing can be left out so that only dyads remain"))
-
-
-def standing(structure: Structure, cluster: Cluster) -> ReducedMechanism | None:
-    """A group in which links roll and move each other, at the scene's own position: trial drivers are those that tell
-    how it stands.  None where it is not of dyads then."""
-    before = structure.elements[: structure.elements.index(cluster)]
-    known = {structure.scene.frame.name, *(n for e in before for n in links_of(e))}
-    removed = tuple(_rolling(structure, cluster))
-    opened = _opened(structure.scene, removed)
-    elements = regrouped(replace(opened, drivers=(*opened.drivers, *cluster.starts)), known, cluster.members) or ()
-    drawn = tuple(e for e in elements if isinstance(e, Driven | Dyad))
-    if not drawn or len(drawn) != len(elements):
-        return None
-    return ReducedMechanism(structure, removed, cluster.starts, cluster, drawn)
 
 
 def _reduced(structure: Structure, cluster: Cluster, known: set[str], count: int) -> Iterator[ReducedMechanism]:

@@ -20,7 +20,7 @@ from graphkin.construction.sheet import Pose
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot
 from graphkin.scene.model import AngleDriver, Mechanism
-from graphkin.structure import Cluster, Driven, Dyad, Element, Rolled, Slide, Structure, links_of, pick, started
+from graphkin.structure import Cluster, Driven, Dyad, Element, Rolled, Slide, Structure, links_of, pick
 
 __all__ = ["Known", "found_by_trial"]
 
@@ -53,7 +53,7 @@ def found_by_trial(
     """
     if near is None:
         own: Mapping[str, float] = {d.key: d.values[0] for d in choices.structure.scene.drivers}
-        poses: Poses = _own_position(*_standing(choices, elements))
+        poses: Poses = _own_position(choices.at_start, elements)
     else:
         own, poses = near
     if any(v != own[k] for k, v in values.items()):
@@ -64,20 +64,12 @@ def found_by_trial(
 # -- the scene's own position: all the places at which the groups close -----------------------------------------------
 
 
-def _standing(choices: Choices, elements: Sequence[Element]) -> tuple[Choices, Sequence[Element]]:
-    """The mechanism at the scene's own position, where what rolls and moves each other stands as it is given."""
-    there = started(choices.structure)
-    if there is choices.structure:
-        return choices, elements
-    wanted = {n for element in elements for n in links_of(element)}
-    elements = [element for element in there.elements if wanted.intersection(links_of(element))]
-    return Choices(there, elements), elements
-
-
 def _own_position(choices: Choices, elements: Sequence[Element]) -> dict[str, Pose]:
     structure = choices.structure
     scene = structure.scene
     own = {d.key: d.values[0] for d in scene.drivers}
+    wanted = {n for element in elements for n in links_of(element)}
+    elements = [element for element in structure.elements if wanted.intersection(links_of(element))]
     placed = structure.followed(own)
     frame = PlacedLinks(structure.links, 1.0 / scene.size, placed, {scene.frame.name: Pose(0j, 1 + 0j)})
     for element in elements:
