@@ -8,6 +8,7 @@ from graphkin.construction.net import node
 from graphkin.construction.plot import Order, Plot
 from graphkin.construction.polygon_acts import Asked
 from graphkin.construction.sheet import Vector
+from graphkin.construction.touching import Touching
 from graphkin.errors import CallError, Problem
 from graphkin.plane import dot, unit
 from graphkin.scene.symbol import PointRef, Symbol
@@ -30,11 +31,7 @@ def _show(plot: Plot, symbol: Symbol) -> None:
     to = _node(plot, symbol.to) if symbol.to else None
     if not _reachable(plot, of) or (to and not _reachable(plot, to)):
         return
-    plot.place(order, of)
-    if to:
-        plot.place(order, to)
-    ends = plot.ends[order]
-    tail, tip = (ends[to] if to else 0j), ends[of]
+    tail, tip = (plot.end(order, to) if to else 0j), plot.end(order, of)
     if symbol.kind in ("v", "a"):
         _draw(plot, order, Vector(symbol, tail, tip, "relative" if to else "resultant"))
     elif symbol.kind in ("an", "at"):
@@ -61,11 +58,11 @@ def _split(plot: Plot, symbol: Symbol, of: PointRef, to: PointRef | None) -> Non
     """Normal and tangential part of a relative acceleration: along the bar and square to it."""
     if to is None:
         to = _pivot(plot, of)
-        plot.place("acceleration", to)
-    ends = plot.ends["acceleration"]
-    tail, tip = ends[to], ends[of]
+    tail, tip = plot.end("acceleration", to), plot.end("acceleration", of)
     arm = plot.places[of.point] - plot.places[to.point]
-    if abs(arm) <= plot.tiny:
+    if any(c.rolling and c.name == of.point == to.point for c in plot.structure.scene.contacts):
+        arm = Touching(plot.structure.scene, plot.frame.mm, plot.frame.poses).rolling_centres(of.point)[1]
+    elif abs(arm) <= plot.tiny:
         raise CallError(
             Problem(
                 str(symbol), "the two points coincide, no line joins them", "ask for ak and ar of coincident points"
@@ -99,16 +96,14 @@ def _coincident(plot: Plot, symbol: Symbol, of: PointRef, to: PointRef | None) -
     """Coriolis and sliding part for two coincident points that stand in no equation."""
     assert to is not None
     pair = _pair(plot, of, to, symbol)
-    ends = plot.ends["acceleration"]
-    plot.place("velocity", of)
-    plot.place("velocity", to)
-    slip = plot.ends["velocity"][of] - plot.ends["velocity"][to]
+    tail, tip = plot.end("acceleration", to), plot.end("acceleration", of)
+    slip = plot.end("velocity", of) - plot.end("velocity", to)
     omega = plot.rates["velocity"][pair].value
-    corner = ends[to] + 2j * omega * slip * (plot.scales.velocity / plot.scales.acceleration)
+    corner = tail + 2j * omega * slip * (plot.scales.velocity / plot.scales.acceleration)
     if symbol.kind == "ak":
-        _draw(plot, "acceleration", Vector(symbol, ends[to], corner, "coriolis"))
+        _draw(plot, "acceleration", Vector(symbol, tail, corner, "coriolis"))
     else:
-        _draw(plot, "acceleration", Vector(symbol, corner, ends[of], "sliding"))
+        _draw(plot, "acceleration", Vector(symbol, corner, tip, "sliding"))
 
 
 def _pair(plot: Plot, of: PointRef, to: PointRef, symbol: Symbol) -> str:

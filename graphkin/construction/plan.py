@@ -232,7 +232,7 @@ def plan(
         opened = structure  # groups that remain are found by trial, driven triangles with them
     elements = tuple(needed(opened, asked))
     own = {d.key: d.values[0] for d in scene.drivers}
-    values = own | dict(at or {})
+    values = own | {key: value for key, value in (at or {}).items() if key in own}
     if any(isinstance(e, Cluster) for e in elements):
         branches, trials, rolled = _by_trial(structure, elements, values, near)
         values |= rolled

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import math
+
 import pytest
 
-from graphkin import check
+from graphkin import check, solve
 from graphkin.construction import draft
 from graphkin.construction.mechanism_acts import RollingStarts, TrialPositions
+from graphkin.construction.plan import plan
 from graphkin.scene import mechanism_of
-from tests.rolling_linkages import ROLLING_LINKAGES, wheel_at_its_rim
+from tests.rolling_linkages import ROLLING_LINKAGES, five_bar_by_its_middle, wheel_at_its_rim
 
 
 @pytest.mark.parametrize("made", ROLLING_LINKAGES)
@@ -34,6 +37,29 @@ def test_a_wheel_on_a_rail_is_drawn_as_turning_about_where_it_touches():
     first = sheet.equations[1]
     assert [["v_P"], ["v_P/K@3"], ["v_B", "v_P/B"]] == [[str(t.symbol) for t in side] for side in first.sides]
     assert ["special points"] == [group.way for group in sheet.groups]
+
+
+def test_the_motion_of_the_contact_s_points_may_be_asked_for_alone():
+    result = check(wheel_at_its_rim(), find=["an_K@3/K@0", "v_K@3/K@0"])
+    assert result.ok
+    assert 40 * result["omega_3"].exact ** 2 == pytest.approx(abs(result["an_K@3/K@0"].reading.value), rel=1e-9)
+
+
+def test_where_trial_dyads_fold_more_is_left_out():
+    scene = five_bar_by_its_middle()
+    for name, length in {"1": 44.595, "2": 109.034, "3": 93.495, "4": 43.93}.items():
+        scene["links"][name]["length"] = length
+    scene["links"]["4"]["start"], scene["driver"]["angle"] = 70.492, 47.672
+    scene["gears"]["g"]["teeth"] = [30, 30]
+    # bars 3 and 4 come into line between the two, where the cranks go on
+    one, two = (solve(scene, at=at).data["positions"][0]["links"] for at in (60, 64))
+    assert math.sin(one["3"]["angle"] - one["4"]["angle"]) * math.sin(two["3"]["angle"] - two["4"]["angle"]) < 0
+    assert check(scene, at=64).ok
+
+
+def test_a_plan_is_made_again_at_the_values_that_it_tells():
+    first = plan(mechanism_of(wheel_at_its_rim()))
+    assert first.exact.omega == plan(first.structure, first.values).exact.omega
 
 
 def test_a_pencil_stays_within_its_predicted_uncertainty():
