@@ -48,9 +48,11 @@ def _residues(sheet: Sheet) -> frozenset[Symbol]:
     zero = {symbol for symbol, vector in velocity.items() if 0.0 < abs(vector.span) <= lost * fastest}
     lost = _lost(sheet, ("mechanism", "velocity", "acceleration"))
     still = zero | {symbol for symbol, vector in velocity.items() if vector.span == 0.0}
-    fixed = sheet.scene.frame.points
+    fixed, touching = sheet.scene.frame.points, {c.name for c in sheet.scene.contacts}
     for symbol, vector in acceleration.items():
-        speed = next((s for s in _speeds(symbol, fixed) if s in velocity), None)
+        # at a contact the curvatures give a normal part where nothing slides too
+        squares = () if symbol.of is not None and symbol.of.point in touching else _speeds(symbol, fixed)
+        speed = next((s for s in squares if s in velocity), None)
         residue = abs(vector.span) <= lost * push if speed is None else speed in still
         if residue and vector.span != 0.0:
             zero.add(symbol)
