@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from graphkin.construction.centres import Centre, Centres
@@ -16,7 +18,7 @@ from graphkin.drawing.obstacles import obstacles_of
 from graphkin.drawing.piece import Piece
 from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Primitive, Scan, Stroke, Text
 from graphkin.drawing.symbols import POINTER, arrow
-from graphkin.drawing.text import SMALLEST, rich
+from graphkin.drawing.text import SMALLEST, rich, stacked
 from graphkin.plane import cross, dot, unit
 
 __all__ = ["centre_marks", "line_name", "mark_of", "near_box", "pale"]
@@ -24,6 +26,7 @@ __all__ = ["centre_marks", "line_name", "mark_of", "near_box", "pale"]
 TOGETHER = 1.3  # mm: centres so near to each other share one mark
 BEYOND = 5.0  # mm of a construction line beyond what it finds
 ARROW = 11.0  # mm, to what lies off the figure
+IN_LINE = 4  # names of centres at one place
 
 
 def mark_of(centre: Centre, frame: str, at: complex) -> tuple[Primitive, ...]:
@@ -133,9 +136,19 @@ class _Marks:
         ]
 
     def _name(self, group: list[Centre], spot: complex) -> Label:
-        words = ", ".join(f"${self.letters.centre(c.pair)}$" for c in group)
-        text = Text(0j, rich(words, 3.5), "start", strokes.BLACK, f"label-{self._id(group[0])}", ("label", "centre"))
-        return Label(text, spot)
+        runs = stacked(self._names(group), 3.5)
+        text = Text(0j, runs, "start", strokes.BLACK, f"label-{self._id(group[0])}", ("label", "centre"))
+        return Label(text, spot, key=self._key(group) if len(group) > 1 else None)
+
+    def _names(self, group: Sequence[Centre], tail: str = "") -> list[str]:
+        """The names of centres at one place, in lines."""
+        names = [f"${self.letters.centre(c.pair)}$" for c in group]
+        lines = [", ".join(names[i : i + IN_LINE]) for i in range(0, len(names), IN_LINE)]
+        return [*(line + "," for line in lines[:-1]), lines[-1] + tail]
+
+    def _key(self, group: Sequence[Centre]) -> Text:
+        """The first of several centres, for all of them."""
+        return Text(0j, rich(f"${self.letters.centre(group[0].pair)}$" + ", …" * (len(group) > 1), 3.2))
 
     def _crossings(self, group: list[Centre]) -> list[Label]:
         """Which lines meet in the centres of one place."""
@@ -246,15 +259,14 @@ class _Marks:
 
     def _far_name(self, group: list[Centre], tail: complex, tip: complex) -> Label:
         first = group[0]
-        names = ", ".join(f"${self.letters.centre(c.pair)}$" for c in group)
-        words = f"{names} → ∞"
+        words = self._names(group, " → ∞")
         if first.point is not None:
             point, start = self._reference()
             scene = self.centres.links.scene
             far = abs(first.point - start) / self.centres.links.mm / scene.units.metres
-            words = f"${point}{self.letters.centre(first.pair)}$ = {number(far, 4)} {scene.units.length}"
-        text = Text(0j, rich(words, 3.2), "start", strokes.BLACK, f"label-{self._id(first)}", ("label", "centre"))
-        return Label(text, (tail, tip))
+            words = [f"${point}{self.letters.centre(first.pair)}$ = {number(far, 4)} {scene.units.length}"]
+        text = Text(0j, stacked(words, 3.2), "start", strokes.BLACK, f"label-{self._id(first)}", ("label", "centre"))
+        return Label(text, (tail, tip), key=self._key(group))
 
     def _reference(self) -> tuple[str, complex]:
         """The fixed pivot from which far centres are measured."""

@@ -12,11 +12,12 @@ from graphkin.construction.sizes import Given
 from graphkin.drawing import strokes
 from graphkin.drawing.conventions import Letters, rows_of
 from graphkin.drawing.font_widths import run_box, runs_width
-from graphkin.drawing.headings import number, term
+from graphkin.drawing.headings import number, term, written
 from graphkin.drawing.piece import moved
 from graphkin.drawing.primitives import Line, Primitive, Run, Text
 from graphkin.drawing.sums import bound, factors_of, substituted
 from graphkin.drawing.text import rich, symbol, wrapped
+from graphkin.words.written import MOST, product
 
 __all__ = ["SumTerm", "Written", "equations_in_room", "rule_alone", "write_equation", "write_sum"]
 
@@ -168,16 +169,18 @@ def _short(sheet: Sheet, equation: Equation, letters: Letters) -> str | None:
     only = equation.sides[-1][0]
     vector = sheet.vectors(equation.diagram)[only.symbol]
     parts = [f"${letters.vector(side[0].symbol)}$" for side in equation.sides]
+    said = ""  # the product of what is written
     if only.size and not isinstance(only.size, Given):
         parts.append(f"${letters.size(only.size)}$")
         factors = factors_of(sheet, only.size)
         if factors:
             parts.append(bound(substituted(only.size, factors)))
+            said = written(product(*factors, carried=MOST))
     unit = sheet.scene.units.rates.length + ("/s" if equation.diagram == "velocity" else "/s²")
     laid_off = (s.act.mm for s in sheet.steps if isinstance(s.act, LaidOff) and s.act.symbol == only.symbol)
     # what is given is not what a hand has made of it
     value = next(laid_off, abs(vector.span)) * sheet.scales.of(equation.diagram) / sheet.scene.units.rates.metres
-    parts.append(f"{number(value, 5)}\u00a0{unit}")
+    parts.append(f"{said or number(value, MOST)}\u00a0{unit}")
     way = letters.direction(only.direction, sheet.scene.frame.name)
     return " = ".join(parts) + (f",  ${way}$" if way else "")
 

@@ -17,7 +17,8 @@ from graphkin.drawing.primitives import Primitive, Text
 __all__ = ["named"]
 
 BEHIND = 1.0  # mm between a key and the name behind it
-ROUNDS = 3
+ROUNDS = 2
+DISPENSABLE = 4  # the rank from which labels may be missing
 APART = 3.0, 1.0  # mm between columns and between lines of the list
 
 
@@ -28,20 +29,25 @@ def named(labels: Sequence[Label], panel: Box, obstacles: Obstacles, marks: Sequ
     listed: tuple[Text, ...] = ()
     placed, keyed = best, frozenset[str]()
     for _ in range(ROUNDS):
-        if not _tangled(best):
+        if not _crowded(labels, best):
             break
         if keyed:
             placed = place([_short(label, keyed) for label in labels], panel, obstacles, marks)
-        keyed |= _tangled(placed) & {label.text.id for label in labels if label.key is not None}
+        keyed |= _crowded(labels, placed) & {label.text.id for label in labels if label.key is not None}
         tried = _eased(labels, placed, keyed, panel, obstacles, marks)
-        if tried is not None and len(_tangled(tried[0])) < len(_tangled(best)):
+        if tried is not None and len(_crowded(labels, tried[0])) < len(_crowded(labels, best)):
             best, listed = tried
     written = (thing for one in best for thing in (one.leader, one.text) if thing is not None)
     return *written, *listed
 
 
-def _tangled(placed: Iterable[Placed]) -> frozenset[str]:
-    return frozenset(one.text.id for one in placed if one.tangled and one.text.id)
+def _crowded(labels: Sequence[Label], placed: Iterable[Placed]) -> frozenset[str]:
+    """Which labels stand badly, or nowhere though they have keys, by their ids."""
+    badly, well = set[str](), set[str]()
+    for one in placed:
+        (badly if one.tangled or not one.clear else well).add(one.text.id)
+    missing = {one.text.id for one in labels if one.key is not None and one.rank < DISPENSABLE} - well
+    return frozenset(badly | missing) - {""}
 
 
 def _short(label: Label, keyed: Container[str]) -> Label:
@@ -55,9 +61,9 @@ def _eased(
     labels: Sequence[Label], placed: Sequence[Placed], keyed: Container[str], panel: Box, obstacles: Obstacles,
     marks: Sequence[Mark],
 ) -> tuple[tuple[Placed, ...], tuple[Text, ...]] | None:  # fmt: skip
-    """Those labels whose leaders cross vectors placed anew between the others, as their keys where they have some, and
+    """The labels of a crowd placed anew between the others, as their keys where they have some, and
     the list of what the keys stand for; None where that has no room."""
-    crowded = _tangled(placed)
+    crowded = _crowded(labels, placed)
     better: dict[str, Placed] = {}
     while True:
         anew = [_short(label, keyed) for label in labels if label.text.id in crowded]
@@ -67,10 +73,10 @@ def _eased(
         if len(better) == len(crowded):
             break
         crowded = frozenset(better)  # the others stay where they are, in the way of these
-    again = tuple(better.get(one.text.id, one) for one in placed)
+    again = (*(one for one in placed if one.text.id not in better), *better.values())
     standing = {one.text.id: one.text.runs for one in again}
     entries = [
-        _entry(label, label.key) for label in labels
+        _entry(label.text, label.key) for label in labels
         if label.key is not None and standing.get(label.text.id) == label.key.runs
     ]  # fmt: skip
     listed = _list(entries, panel, obstacles + _standing(again))
@@ -84,11 +90,13 @@ def _standing(placed: Iterable[Placed]) -> Obstacles:
     return Obstacles(solid=leaders, areas=boxes, writing=boxes)
 
 
-def _entry(label: Label, key: Text) -> Text:
-    """A key with what it stands for."""
-    by = runs_width(key.runs) + BEHIND
-    runs = *key.runs, *(run._replace(x=run.x + by) for run in label.text.runs)
-    return Text(0j, runs, "start", label.text.colour, f"listed-{label.text.id}", ("label", "listed"))
+def _entry(name: Text, key: Text) -> Text:
+    """A key with what it stands for; only the name where this begins with the key."""
+    runs = name.runs
+    if not name.string.startswith(key.string.rstrip("… ")):
+        by = runs_width(key.runs) + BEHIND
+        runs = *key.runs, *(run._replace(x=run.x + by) for run in name.runs)
+    return Text(0j, runs, "start", name.colour, f"listed-{name.id}", (*name.classes, "listed"))
 
 
 def _list(entries: Sequence[Text], panel: Box, around: Obstacles) -> tuple[Text, ...]:

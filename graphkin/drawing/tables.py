@@ -27,6 +27,7 @@ __all__ = [
 ]  # fmt: skip
 
 ROW, LEAST_ROW = 4.2, 3.75  # mm
+NO_LENGTH = 1e-12  # of the mechanism's size: what is shorter are two points that fall together
 _LETTERS = {"v": 0, "omega": 1, "a": 2, "alpha": 4}
 _SHARES = (0.26, 0.18, 0.19, 0.19, 0.18)  # of the width: symbol, mm on paper, measured, exact, difference
 
@@ -220,7 +221,7 @@ def given_lengths(scene: Mechanism, letters: Letters) -> list[tuple[str, float]]
     """The given lengths of all links: symbol (without dollar signs) and value in the scene's unit."""
     found: list[tuple[str, float]] = []
     for link in scene.links:
-        if link.length is not None:
+        if link.length is not None and link.length > NO_LENGTH * scene.size:
             found.append((letters.length(link.bar), link.length / scene.units.metres))
         found += _further(link, scene, letters)
     metres = scene.units.metres

@@ -10,17 +10,19 @@ dollar sign.
 from __future__ import annotations
 
 from bisect import bisect_right
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from graphkin.drawing.font_widths import is_cjk, runs_width, width
 from graphkin.drawing.primitives import Run
 
-__all__ = ["SMALLEST", "Atom", "fitted", "is_italic", "parsed", "plain", "rich", "symbol", "wrapped"]
+__all__ = ["SMALLEST", "Atom", "fitted", "is_italic", "parsed", "plain", "rich", "stacked", "symbol", "wrapped"]
 
 LETTER, INDEX, SMALLEST = 3.5, 2.5, 2.0  # mm
 _DROP, _DROP_STACKED, _RISE = 0.24, 0.30, 0.40  # of the size of the letter, after the usual practice of typesetting
 _GAP_SUB, _GAP_SUPER = 0.02, 0.06
+_LEADING = 1.4  # from line to line
 _BOLD = r"\mathbf"
 
 
@@ -111,6 +113,13 @@ def wrapped(markup: str, size: float, width: float, bold: bool = False) -> list[
         lines += [runs for runs in (line(end),) if runs]
         start = end
     return lines
+
+
+def stacked(lines: Sequence[str], size: float = LETTER) -> tuple[Run, ...]:
+    """Lines of words with symbols, one below the other, as one text."""
+    return tuple(
+        run._replace(y=run.y + _LEADING * size * i) for i, line in enumerate(lines) for run in rich(line, size)
+    )
 
 
 def _pieces(markup: str) -> list[str]:

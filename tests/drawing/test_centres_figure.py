@@ -131,4 +131,4 @@ def test_a_formula_of_a_bilingual_figure_is_written_once():
     from graphkin import centres
 
     svg = centres("shaper-scheme-2", language="both").figure.content("svg").decode()
-    assert 1 == svg.split("</desc>")[1].count("603.19 mm/s")
+    assert 1 == svg.split("</desc>")[1].count("603 mm/s")

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import math
 import re
+import xml.etree.ElementTree as ET
 
 import pytest
 
+from graphkin import draw
 from graphkin.construction.polygon_acts import LaidOff, MeasuredRate
 from graphkin.drawing.conventions import letters_of
 from graphkin.drawing.sums import lengths_measured, rate_sum, rule_sum
@@ -49,3 +52,16 @@ def test_every_sum_is_true_as_it_is_written(name):
         result = told.split(" ")[0]
         step_of = 10.0 ** -len(result.partition(".")[2])
         assert abs(value - float(result)) <= 0.5000001 * step_of, text
+
+
+@pytest.mark.parametrize("at", [170.0, 215.0, 331.0])
+def test_an_equation_that_is_only_a_rule_is_the_product_of_what_it_shows(at):
+    root = ET.fromstring(draw("rotating-guide-bar", at=at).figures["sheet"].content("svg"))
+    texts = ("".join(text.itertext()) for text in root.iter("{http://www.w3.org/2000/svg}text"))
+    whole = " ".join(texts).replace("\u00a0", " ")
+    sums = re.findall(r"((?:[\d.]+²? × )+[\d.]+) = ([\d.]+)", whole)
+    assert sums
+    for factors, value in sums:
+        exact = math.prod(float(one.rstrip("²")) ** (1 + one.endswith("²")) for one in factors.split(" × "))
+        last = 10.0 ** -len(value.partition(".")[2])
+        assert float(value) == pytest.approx(exact, rel=0.0, abs=0.5001 * last)

@@ -214,6 +214,7 @@ def _velocity(centres: Centres, moving: Mapping[str, Turning], ref: PointRef) ->
     return None
 
 
+TOGETHER = 1e-9  # mm: places nearer than this are one
 STILL = 1e-12  # part of the largest speed that is none
 
 
@@ -231,6 +232,11 @@ def velocity_sentences(centres: Centres, moving: Mapping[str, Turning]) -> tuple
     points = [_of_point(centres, moving, rates, s) for s, speed in speeds.items() if speed > least]
     slidings = (_of_sliding(centres, rates, *one) for one in _pins_on_guides(centres))
     return (*links, *(p for p in (*points, *slidings) if p is not None))
+
+
+def _apart(mm: float) -> str:
+    """A distance on the figure (mm); of places that fall together but for rounding, none."""
+    return on_paper(mm if mm > TOGETHER else 0.0)
 
 
 @dataclass(frozen=True)
@@ -258,12 +264,12 @@ def _rates(centres: Centres, moving: Mapping[str, Turning]) -> Mapping[str, _Rat
         if own.point is None or common.point is None:  # it only translates, or turns as the other does
             found[name] = found[known] if own.point is not None else _Rate(amount(turning.omega))
             continue
-        near = on_paper(abs(common.point - own.point))
+        near = _apart(abs(common.point - own.point))
         if its.point is None:
             speed = amount(abs(turning.omega) * abs(common.point - own.point))
             over, carried = speed, written.figures(near)
         else:
-            far = on_paper(abs(common.point - its.point))
+            far = _apart(abs(common.point - its.point))
             over = written.product(found[known].size, far)
             carried = min(found[known].carried, written.figures(far, near))
         if near == "0":
@@ -305,7 +311,7 @@ def _of_sliding(
     apart = written.difference(*rates)
     units = links.scene.units.rates
     per_mm = amount(centres.sheet.scales.length / units.metres)
-    length = on_paper(abs(links.point(point) - centre.point))
+    length = _apart(abs(links.point(point) - centre.point))
     symbol = Symbol("v", PointRef(point, guiding), PointRef(point, sliding))
     shown = tuple(f"({rate})" if rate.startswith("-") else rate for rate in rates[1:])
     return Phrase(
@@ -338,13 +344,13 @@ def _of_link(centres: Centres, rates: Mapping[str, _Rate], turning: Turning) -> 
     if common.point is None:
         return Phrase("centre turns alike", (name, known, *pairs))
     if its.point is None:
-        arm = on_paper(abs(own.point - common.point))
+        arm = _apart(abs(own.point - common.point))
         return Phrase("centre from slider", (name, known, *pairs, arm, rates[name].size))
     far, near = abs(common.point - its.point), abs(common.point - own.point)
     same = dot(its.point - common.point, own.point - common.point) >= 0.0
     key = "centre same sense" if same else "centre opposite sense"
     omega = rates[name].written.replace("-", "−")
-    return Phrase(key, (name, known, *pairs, on_paper(far), on_paper(near), omega))
+    return Phrase(key, (name, known, *pairs, _apart(far), _apart(near), omega))
 
 
 def _of_point(
@@ -375,7 +381,9 @@ def _of_point(
             return None
         arm = abs(common.point - its.point)
         centre, end = its.pair, common.pair
-    its_rate, length = rates[rate.link], on_paper(arm)
+    its_rate, length = rates[rate.link], _apart(arm)
+    if length == "0":
+        return None
     turning_at, carried = its_rate.size, min(its_rate.carried, written.figures(length))
     return Phrase(
         "centre speed",
