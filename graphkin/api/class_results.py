@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from numbers import Real
 from typing import Any
 
 from graphkin.api.answers import Answers
@@ -44,6 +45,9 @@ def scheme_of(scene: Mechanism, given: Mapping[str, float] | None) -> Scheme | N
     Raises CallError for a name that is neither a part nor a quantity of the scene, and for points below 0.
     """
     weights = given if given is not None else scene.grading
+    if not isinstance(weights, Mapping):
+        wanted = 'give points by parts and symbols: {"drawing": 30, "v_D": 5}'
+        raise CallError(Problem("grading", f"found {weights!r:.60}", wanted))
     if not weights:
         return None
     spelling = Spelling.of(scene)
@@ -52,7 +56,7 @@ def scheme_of(scene: Mechanism, given: Mapping[str, float] | None) -> Scheme | N
     problems = []
     for name, weight in weights.items():
         symbol = spelling.symbol(str(name))
-        if isinstance(weight, bool) or not isinstance(weight, int | float) or not 0 <= weight < 1e6:
+        if isinstance(weight, bool) or not isinstance(weight, Real) or not 0 <= weight < 1e6:
             problems.append(Problem(f"grading {name}", f"found {weight!r:.40}", "give points, 0 or more"))
         elif name in PARTS:
             parts[name] = float(weight)

@@ -365,9 +365,15 @@ def known_figures(scene: Mechanism, names: Sequence[str] | None) -> tuple[str, .
     """
     if names is None:
         return tuple(name for name, figure in FIGURES.items() if figure.by_itself(scene))
-    if isinstance(names, str) or not isinstance(names, Iterable):
-        raise CallError(Problem("figures", f"found {names!r:.60}", 'give a list: ["velocity"]'))
-    wrong = [Problem("figure", f'"{name}"', did_you_mean(str(name), FIGURES)) for name in names if name not in FIGURES]
+    wanted = 'give a list: ["velocity"]'
+    if isinstance(names, str):
+        raise CallError(Problem("figures", f"found {names!r:.60}", wanted))
+    names = as_list("figures", names, wanted)
+    known = [isinstance(name, str) and name in FIGURES for name in names]
+    wrong = [
+        Problem("figure", f'"{name!s:.60}"', did_you_mean(str(name)[:60], FIGURES))
+        for name, right in zip(names, known, strict=True) if not right
+    ]  # fmt: skip
     if wrong:
         raise CallError(*wrong)
     return tuple(dict.fromkeys(names))

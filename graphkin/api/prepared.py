@@ -36,9 +36,12 @@ MANY = 500_000
 MOST = 1_000_000_000
 
 
+MOST_VALUE = 1e9
+
+
 def driver_value(value: object) -> float:
     """A value of a driver as a caller gives it.  Raises CallError for what is no number."""
-    if isinstance(value, Real) and not isinstance(value, bool) and abs(number := float(value)) <= 1e9:
+    if isinstance(value, Real) and not isinstance(value, bool) and abs(number := float(value)) <= MOST_VALUE:
         return number
     raise CallError(Problem("at", f"{value!r:.60} is no driver value", "give a finite number below 1e9"))
 
@@ -125,7 +128,7 @@ class Prepared(Tabled, OfScene):
         -------
         In the order of ``names``; None where the motion does not come, and at a dead point
         """
-        if type(value) is not float:
+        if type(value) is not float or not -MOST_VALUE <= value <= MOST_VALUE:
             value = driver_value(value)
         found = self.ready.at(math.radians(value) if self.ready.turns else value * self.own_unit)
         return found if found is None or not self.ready.bounded else found[: len(self.names)]
@@ -136,6 +139,9 @@ class Prepared(Tabled, OfScene):
             own = np.atleast_1d(np.asarray(values, dtype=float)).reshape(-1)
         except (TypeError, ValueError):
             raise CallError(Problem("values", f"found {values!r:.60}", "give numbers, one for each position")) from None
+        wrong = own[~(np.abs(own) <= MOST_VALUE)]
+        if len(wrong):
+            raise CallError(Problem("values", f"found {wrong[0]:g}", "give finite numbers below 1e9"))
         given = np.radians(own) if self.ready.turns else own * self.own_unit
         return self.samples(*self.ready.columns(given, fast=self.compiled(len(own))), own)
 

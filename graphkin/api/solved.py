@@ -18,6 +18,7 @@ from graphkin.api.arguments import (
     SceneLike,
     as_scene,
     asked_symbols,
+    known_words,
     placed,
     whole_number,
     write_files,
@@ -155,6 +156,7 @@ class Solved(Result, OfScene):
         """
         from graphkin.api.loops_text import loops_text
 
+        known_words(language=language)
         return loops_text(self.motion, language or self.mechanism.sheet.language)
 
     @property

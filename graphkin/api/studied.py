@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from graphkin.api.arguments import CHART_FORMATS, SceneLike, as_scene, known_words, whole_number, write_files
 from graphkin.api.results import Result
-from graphkin.errors import CallError, Problem, as_text, did_you_mean
+from graphkin.errors import CallError, Problem, as_list, as_text, did_you_mean
 from graphkin.files import path_of
 
 if TYPE_CHECKING:
@@ -199,8 +199,11 @@ def stability(
     """
     from graphkin.study.stability import KINDS, run_singularities
 
-    wanted = tuple(kinds)
-    wrong = [Problem("kind", f'"{kind}"', did_you_mean(kind, KINDS)) for kind in wanted if kind not in KINDS]
+    wanted = tuple(as_list("kinds", kinds, 'give a list: ["dead point RRR"]'))
+    wrong = [
+        Problem("kind", f'"{kind!s:.60}"', did_you_mean(str(kind)[:60], KINDS))
+        for kind in wanted if not isinstance(kind, str) or kind not in KINDS
+    ]  # fmt: skip
     if wrong:
         raise CallError(*wrong)
     samples = whole_number("samples", samples, 1, 100)

@@ -350,6 +350,10 @@ def sweep(
         raise CallError(Problem("executor", "is given beside a scheduler", "give one of them"))
     if executor is not None and not hasattr(executor, "submit"):
         raise CallError(Problem("executor", f"found {executor!r:.60}", "give one that has submit, as those of Python"))
+    wishes = {
+        name: [as_text(name, one) for one in as_list(name, names, 'give names: ["s_6/1"]')]
+        for name, names in (("differentiate", differentiate), ("integrate", integrate))
+    }
     made = designs_of(designs, designs_file)
     source, name = written(scene) if made.keys else (as_scene(scene), "")
     given = as_scene(source)
@@ -359,12 +363,12 @@ def sweep(
         applied(source, made.keys, made[0])  # keys that the scene does not have
     if moves_by_law(given):
         positions = positions if positions is None else whole_number("positions", positions, 1, MOST_MOMENTS)
-        _over_time_alone(at=at, measured=measured, differentiate=tuple(differentiate), integrate=tuple(integrate))
+        _over_time_alone(at=at, measured=measured, **{name: tuple(names) for name, names in wishes.items()})
     start = driver_values(given, at) or {}
     if positions is None:
         positions = given.positions.count if given.positions is not None else ROWS
-    wishes: dict[Way, Iterable[str]] = {"derivative": differentiate, "integral": integrate}
-    on_paper = tuple((w, name) for w, names in wishes.items() for name in as_list(w, names, 'give names: ["s_6/1"]'))
+    ways: dict[Way, list[str]] = {"derivative": wishes["differentiate"], "integral": wishes["integrate"]}
+    on_paper = tuple((way, name) for way, names in ways.items() for name in names)
     for way, name in on_paper:
         known_ordinate(given, name, way)
     if on_paper and made.keys:

@@ -10,7 +10,7 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
-from graphkin.errors import Problem, SceneError, did_you_mean
+from graphkin.errors import CallError, Problem, SceneError, did_you_mean
 from graphkin.plane import degrees, direction
 from graphkin.scene import source as scenes
 from graphkin.scene.synthesis import KINDS, BarPlace, BarPositionsTask, Design, DesignTask
@@ -72,6 +72,9 @@ def design_of(source: DesignLike) -> Design:
             raise SceneError(Problem(text[:200], missing, did_you_mean(text[:60], designs())))
         raw, name = scenes.parsed(scenes.file_text(text)), Path(text).stem
     else:
+        if not isinstance(source, Mapping):
+            wanted = "give a file, the name of a design that comes along, or a mapping of the same shape"
+            raise CallError(Problem("design", f"found {source!r:.60}", wanted))
         raw, name = plain(source), "design"
     return _read(raw, safe_name(name))
 

@@ -13,7 +13,7 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
-from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.errors import CallError, Problem, as_text, did_you_mean
 from graphkin.scene.mapping import as_mapping, toml_text
 from graphkin.scene.model import Mechanism
 from graphkin.scene.tables import SceneTables
@@ -75,7 +75,7 @@ class Scene(SceneTables):
     name: str = field(default="scene", compare=False, metadata={"beside": True})
 
     def __post_init__(self) -> None:
-        tables, mechanism = resolved(self, self.name)
+        tables, mechanism = resolved(self, as_text("name", self.name))
         vars(self).update(vars(tables), _mechanism=mechanism)
 
     @classmethod
