@@ -11,11 +11,12 @@ import numpy as np
 from graphkin.errors import CallError, Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.solver.assemblies import choose_forms, own_values
-from graphkin.solver.driver_range import goal_values, motion_of, range_from, stopped_why, way_to
+from graphkin.solver.driver_range import range_from, stopped_why, way_to
 from graphkin.solver.error_bound import ErrorBound
 from graphkin.solver.findings import assembly_words, structure_of
 from graphkin.solver.joints import Drive
 from graphkin.solver.motion import Motion
+from graphkin.solver.motion_at import goal_values, motion_of
 from graphkin.solver.pose import Array, rest
 from graphkin.solver.redundant import all_slides
 from graphkin.structure import Structure
