@@ -15,7 +15,6 @@ from graphkin.api.reading_rows import in_scene_units
 from graphkin.checking.reading_words import deviation, exact, measured, paper
 from graphkin.construction.remarks import AtContact
 from graphkin.construction.sheet import Equation, Sheet, Term
-from graphkin.construction.sizes import Direction
 from graphkin.errors import Unsolvable
 from graphkin.scene.model import Mechanism
 from graphkin.words import Phrase, say, word
@@ -27,15 +26,9 @@ if TYPE_CHECKING:
 
 __all__ = ["contact_lines", "lever_lines", "reading_words", "report_text", "show", "turn_text"]
 
-_SIGNS = {"square": "⊥", "turned": "⊥", "along": "∥", "found": ""}
-
 
 def show(argument: object) -> str:
     """An argument of a phrase in plain text."""
-    if isinstance(argument, Direction):
-        if argument.relation == "towards":
-            return "→".join(argument.names)
-        return _SIGNS[argument.relation] + "".join(argument.names)
     return str(argument).replace("{", "").replace("}", "")
 
 

@@ -22,6 +22,7 @@ from graphkin.construction.polygon_acts import Superposed, TrialDrawn
 from graphkin.construction.remarks import Magnified, ParallelLegs
 from graphkin.construction.rigid import PlacedLinks
 from graphkin.construction.sheet import Aid, DrawnGroup, Rate, Scales, Vector
+from graphkin.construction.sizes import Direction
 from graphkin.construction.slip import NO_SLIP, Slip
 from graphkin.construction.terms import parts_of
 from graphkin.errors import Problem, Unsolvable
@@ -239,7 +240,8 @@ class GroupPolygons(GroupMoves):
         self.board.notice(order, Magnified(group.links, _magnified(ends, apart)))
         found = _divided(rates, apart)
         closing = tuple(e.link or (e.slide.key if e.slide else "") for e, _ in plan.open_ends)
-        self.board.do(order, Superposed(self._named(order, plan, found), closing, tuple(tuple(row) for row in apart)))
+        ways = tuple(_left_open(e, across) for e, across in plan.open_ends)
+        self.board.do(order, Superposed(self._named(order, plan, found), closing, tuple(map(tuple, apart)), ways))
         return found
 
     def _named(self, order: Order, plan: GroupPlan, values: Sequence[float]) -> tuple[tuple[Symbol, float], ...]:
@@ -256,6 +258,12 @@ class GroupPolygons(GroupMoves):
             of, to = self.label(PointRef(point, slide.a)), self.label(PointRef(point, slide.b))
             named.append((Symbol("v" if order == "velocity" else "ar", of, to), value / metres))
         return tuple(named)
+
+
+def _left_open(edge: Edge, across: bool) -> Direction:
+    """Along which direction a trial leaves an edge open."""
+    names = (edge.start.point, edge.end.point) if edge.link else edge.direction.names
+    return Direction("square" if across else "along", names)
 
 
 def _divided(rates: Sequence[Sequence[float]], apart: Sequence[Sequence[float]]) -> list[float]:

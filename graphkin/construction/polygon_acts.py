@@ -196,11 +196,13 @@ class TrialDrawn:
 
 @dataclass(frozen=True)
 class Superposed:
-    """The true rates by proportional division; ``apart`` (mm) is what is left open in each trial at ``closing``."""
+    """The true rates by proportional division; ``apart`` (mm) is what is left open in each trial at ``closing``, along
+    ``ways``."""
 
     found: tuple[tuple[Symbol, float], ...]
     closing: tuple[str, ...]
     apart: tuple[tuple[float, ...], ...]
+    ways: tuple[Direction, ...]
 
 
 InPolygon = (
@@ -239,9 +241,10 @@ def polygon_phrase(act: InPolygon) -> Phrase:
             if not any(value for _, value in assumed):
                 return Phrase("trial polygon at rest", (number, assumed[0][0]))
             return Phrase("trial polygon", (number, *_assumed([one for one in assumed if one[1]])))
-        case Superposed(found, closing, apart):
+        case Superposed(found, closing, apart, ways):
             rows = "; ".join(", ".join(f"{mm:.2f}" for mm in row) for row in apart).replace("-", "−")
-            return Phrase("superposed", (", ".join(closing), rows, *_assumed(found)))
+            open_at = ", ".join(f"{name} ({way})" for name, way in zip(closing, ways, strict=True))
+            return Phrase("superposed", (open_at, rows, *_assumed(found)))
         case PlanDrawn() | PlanTravel() | PlanTried():
             return _on_plan(act)
         case MeasuredRate(rate, link, vector, bar, value):

@@ -22,6 +22,12 @@ class Direction:
     relation: Literal["square", "along", "towards", "turned", "found"]
     names: tuple[str, ...]
 
+    def __str__(self) -> str:
+        if self.relation == "towards":
+            return "→".join(self.names)
+        sign = {"along": "∥", "found": ""}.get(self.relation, "⊥")
+        return sign + "".join(self.names)
+
 
 @dataclass(frozen=True)
 class Given:

@@ -73,10 +73,14 @@ def _trials(sheet: Sheet, last: Step, letters: Letters, language: str) -> Iterat
 
     drawn = [s.act for s in sheet.steps if s.diagram == last.diagram and s.number < last.number]
     trials = [a for a in drawn if isinstance(a, TrialDrawn)][-len(act.apart):]
+    frame = sheet.scene.frame.name
+    open_at = ", ".join(
+        f"{name} (${letters.direction(way, frame)}$)" for name, way in zip(act.closing, act.ways, strict=True)
+    )
     for trial, row in zip(trials, act.apart, strict=True):
         apart = ", ".join(number(mm, 4) for mm in row)
         numeral = "I" * trial.number if trial.number < 4 else str(trial.number)
-        args = numeral, rates(trial.assumed), ", ".join(act.closing), apart
+        args = numeral, rates(trial.assumed), open_at, apart
         yield say(Phrase("written trial polygon", args), language)
     yield say(Phrase("written superposed", (rates(act.found),)), language)
 

@@ -227,6 +227,18 @@ def test_trial_polygons_are_drawn_and_divided() -> None:
     assert one * two < 0
 
 
+def test_the_sheet_says_along_which_direction_a_trial_is_left_open() -> None:
+    result = graphkin.check("double-butterfly")
+    at = {str(ref): z for ref, z in result.sheet.points.items()}
+    divided = next(step.act for step in result.sheet.steps if isinstance(step.act, Superposed))
+    assert ("8",) == divided.closing
+    assert ["∥KD"] == [str(way) for way in divided.ways]
+    drawn = [s for step in result.sheet.steps if step.diagram == "velocity" for s in step.strokes if isinstance(s, Aid)]
+    first = next(aid.tip for aid in drawn if aid.trial == 1 and str(aid.symbol) == "v_K")
+    bar = at["K"] - at["D"]
+    assert abs((first / bar).real) * abs(bar) == pytest.approx(abs(divided.apart[0][0]), abs=1e-9)
+
+
 def test_the_trial_curve_passes_the_place_found_between_its_trials() -> None:
     sheet = draft(mechanism_of("triad-slider"))
     (curve,) = (s for step in sheet.steps for s in step.strokes if isinstance(s, TrialCurve))
