@@ -197,9 +197,10 @@ def papers_of(
     SceneError, CallError : the file or the call is wrong
     """
     known_words(formats, language, convention, known_formats=FORMATS, known_languages=ON_SHEETS)
-    wishes = as_scene(scene).sheet
+    given = as_scene(scene)
+    wishes = given.sheet
     kinds = tuple(dict.fromkeys(formats)), known_platforms(exports)
-    return Papers(language or wishes.language, convention or wishes.convention, *kinds)
+    return Papers(language or wishes.language, convention or wishes.convention, *kinds, given.name)
 
 
 def known_platforms(exports: Sequence[str]) -> tuple[str, ...]:

@@ -173,13 +173,17 @@ def moodle_entries(question: Question) -> str:
 
 
 def _question_text(question: Question, more: str) -> str:
-    picture = f'<p><img src="@@PLUGINFILE@@/{PICTURE}" alt="{escape(question.title, {chr(34): "&quot;"})}"></p>'
+    picture = f'<p><img src="@@PLUGINFILE@@/{PICTURE}" alt="{_quoted(question.title)}"></p>'
     data = base64.b64encode(question.picture).decode()
     body = f"{question.html}{picture}<p>{escape(question.sign_rule)}</p>{more}"
     return (
         f'<questiontext format="html"><text>{_cdata(body)}</text>'
         f'<file name="{PICTURE}" path="/" encoding="base64">{data}</file></questiontext>'
     )
+
+
+def _quoted(text: str) -> str:
+    return escape(text, {'"': "&quot;"})
 
 
 def _cdata(text: str) -> str:
@@ -253,8 +257,9 @@ def _gift_words(words: str) -> str:
 
 def prairielearn(question: Question) -> dict[str, bytes]:
     """The files of a question's folder by name."""
+    right = {_variable(one.symbol): float(f"{one.value:.10g}") for one in question.asked}
     info = {
-        "uuid": str(uuid.uuid5(uuid.NAMESPACE_URL, f"graphkin/{question.name}/{question.title}")),
+        "uuid": str(uuid.uuid5(uuid.NAMESPACE_URL, f"graphkin/{question.name}/{question.title}/{right}")),
         "title": question.title,
         "topic": "Mechanisms",
         "tags": ["graphical"],
@@ -266,10 +271,10 @@ def prairielearn(question: Question) -> dict[str, bytes]:
         for one in question.asked
     ]
     page = (
-        f"<pl-question-panel>\n{question.html}\n<pl-figure file-name=\"{PICTURE}\"></pl-figure>\n"
+        f"<pl-question-panel>\n{question.html}\n<pl-figure file-name=\"{PICTURE}\" alt=\"{_quoted(question.title)}\">"
+        "</pl-figure>\n"
         f"<p>{escape(question.sign_rule)}</p>\n</pl-question-panel>\n" + "\n".join(rows) + "\n"
     )
-    right = {_variable(one.symbol): float(f"{one.value:.10g}") for one in question.asked}
     slips = {
         _variable(one.symbol): [
             [float(f"{slip.value:.10g}"), float(f"{one.tolerance / 2:.3g}"), slip.words] for slip in one.slips
@@ -299,7 +304,7 @@ def generate(data):
 def grade(data):
     for name, known in SLIPS.items():
         given = data["submitted_answers"].get(name)
-        if given is None or data["partial_scores"].get(name, {{}}).get("score"):
+        if not isinstance(given, (int, float)) or data["partial_scores"].get(name, {{}}).get("score"):
             continue
         for value, tolerance, words in known:
             if abs(given - value) <= tolerance:

@@ -242,7 +242,8 @@ def _typeset(lesson: Lesson, papers: _Documents) -> dict[str, bytes]:
 
 @dataclass(frozen=True)
 class Papers:
-    """Writes the papers of a variant: problem sheet and key in each format, and the worked solution as PDF.
+    """Writes the papers of a variant: problem sheet and key in each format, and the worked solution as PDF; questions
+    for learning platforms are called by the ``name`` of the set.
 
     A value that can be sent to another process.
     """
@@ -251,6 +252,7 @@ class Papers:
     convention: str
     formats: tuple[str, ...]
     exports: tuple[str, ...] = ()
+    name: str = "scene"
 
     def __call__(self, variant: Variant) -> Mapping[str, bytes]:
         scene = variant.scene
@@ -265,6 +267,6 @@ class Papers:
         if "pdf" in self.formats:
             made |= _typeset(lesson, papers)
         if self.exports:
-            question = question_of(lesson, evidence_of(what, motion, lesson), f"{scene.name}-{variant.name}")
+            question = question_of(lesson, evidence_of(what, motion, lesson), f"{self.name}-{variant.name}")
             made |= files_for(question, self.exports)
         return made

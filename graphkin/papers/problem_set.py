@@ -131,7 +131,7 @@ def work(job: Job, attempt: int) -> Attempt:
             why[_reason(error)] += 1
     reason = why.most_common(1)[0][0] if why else "every attempt has the answers of another variant"
     tried = why.total()
-    easier = 'ask for less in "find", narrow [vary] ranges, or allow more by [vary] level = "hard"'
+    easier = 'ask for less in "find", narrow [vary] ranges, or allow more by [vary] tolerance = 0.1 or level = "hard"'
     return Attempt(None, ATTEMPTS, f"none of {tried} attempts is a good problem, for example: {reason}; {easier}")
 
 

@@ -27,6 +27,7 @@ from graphkin.scene import mechanism_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion, exact_values, solve
+from graphkin.solver.places import transmission
 from graphkin.structure import Cluster, Driven, Dyad, Pair, analyse, links_of
 
 __all__ = [
@@ -266,7 +267,7 @@ def examined(
             asked = (*asked, *_of_larger_groups(scene, asked))
         what = paper_plan(scene, None, asked)
         sheet = execute(what)
-        remarks = list(_remarks(sheet, () if chosen else asked, bounds.crossing))
+        remarks = [*_flat(motion, bounds), *_remarks(sheet, () if chosen else asked, bounds.crossing)]
         if remarks and strict:
             raise Unfit(remarks[0])
         answers = tuple(_answers(scene, motion, sheet, asked))
@@ -337,6 +338,20 @@ def _sketch(scene: Mechanism, motion: Motion) -> dict[str, list[float]]:
             step = round_step(scene.size / scene.units.metres)
             places[point] = [float(f"{round(c / step) * step:.12g}") for c in (z.real, z.imag)]
     return places
+
+
+def _flat(motion: Motion, bounds: Bounds) -> Iterator[str]:
+    """The groups of two links that pass on forces worse than is allowed."""
+    structure = motion.structure
+    for dyad in structure.elements:
+        if not isinstance(dyad, Dyad) or (not bounds.transmission and bounds.pressure >= math.pi / 2):
+            continue
+        angle = float(transmission(structure, dyad, motion.poses).angle[0])
+        links = " and ".join(dyad.links)
+        if dyad.kind == "RRR" and angle < bounds.transmission:
+            yield f"the transmission angle of {links} is {math.degrees(angle):.0f} degrees only"
+        if dyad.kind != "RRR" and math.pi / 2 - angle > bounds.pressure:
+            yield f"the pressure angle of {links} is {90 - math.degrees(angle):.0f} degrees"
 
 
 def _remarks(sheet: Sheet, asked: tuple[Symbol, ...], crossing: float) -> Iterator[str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import random
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from graphkin.errors import CallError, Problem
@@ -18,24 +18,31 @@ Path = tuple[str | int, ...]
 
 @dataclass(frozen=True)
 class Bounds:
-    """How badly lines may cross (rad), and how far an answer may be missed with a pencil (part of it)."""
+    """How badly lines may cross (rad), how far an answer may be missed with a pencil (part of it), the least
+    transmission and the greatest pressure angle (rad)."""
 
     crossing: float
-    tolerance: float
+    tolerance: float = 0.05
+    transmission: float = 0.0
+    pressure: float = math.pi / 2
 
 
 LEVELS = {
-    "easy": Bounds(math.radians(35.0), 0.05),
-    "usual": Bounds(math.radians(20.0), 0.05),
-    "hard": Bounds(math.radians(12.0), 0.15),
+    "easy": Bounds(math.radians(35.0)),
+    "usual": Bounds(math.radians(20.0)),
+    "hard": Bounds(math.radians(12.0)),
 }
 """At which angle lines must cross is the transmission angle of a group of bars, and the rest to 90 degrees of the
-pressure angle of a slider: one bound serves all three."""
+pressure angle of a slider."""
 
 
 def level_of(source: Source) -> Bounds:
-    """The bounds of the level that a scene asks for."""
-    return LEVELS[_table(source).get("level", "usual")]
+    """The bounds that a scene asks for: those of its level, and what it says itself."""
+    table = _table(source)
+    keys = ("crossing", "transmission", "pressure", "tolerance")
+    own = {key: table[key] for key in keys if table.get(key) is not None}
+    bounds = {key: value if key == "tolerance" else math.radians(value) for key, value in own.items()}
+    return replace(LEVELS[table.get("level", "usual")], **bounds)
 
 
 def _table(source: Source) -> Mapping[str, Any]:

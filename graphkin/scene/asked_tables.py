@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     ShownName = str | int
     Start: TypeAlias = "float | StrokeStart"
     Asked = int
+    Least = float
+    Part = float
     Symbols = Sequence[str]
     Range = Sequence[float]
     Keys = Sequence[str]
@@ -90,4 +92,16 @@ class Vary(FileTable):
     level: Level = field(
         default="usual",
         metadata=about("easy: lines cross well, transmission is good; hard: the lines may cross flatter."),
+    )
+    crossing: Least | None = field(
+        default=None, metadata=about("Degrees at which lines cross at least; that of the level if left out.")
+    )
+    transmission: Least | None = field(
+        default=None, metadata=about("Least transmission angle of two bars at the position, degrees.")
+    )
+    pressure: Least | None = field(
+        default=None, metadata=about("Greatest pressure angle of a slide at the position, degrees.")
+    )
+    tolerance: Part | None = field(
+        default=None, metadata=about("Part of an answer that a drawing may miss it by at most; 0.05 if left out.")
     )

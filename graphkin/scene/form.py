@@ -107,6 +107,8 @@ Range = Annotated[list[Number], Field(min_length=2, max_length=2)]
 Keys = list[Annotated[str, StringConstraints(strict=True, max_length=80)]]
 KeyLists = list[Keys]
 Asked = Annotated[int, Field(strict=True, ge=1, le=100)]
+Least = Annotated[Number, Field(ge=0, le=90)]
+Part = Annotated[Number, Field(gt=0, le=0.5)]
 StatedRow = dict[str, Stated]
 Start = Annotated[
     Annotated[Number, Tag("<number>")] | Annotated[StrokeStart, Tag("<polar>")],

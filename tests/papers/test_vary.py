@@ -9,8 +9,8 @@ import pytest
 import graphkin
 from graphkin.errors import CallError
 from graphkin.papers.problem import problem
-from graphkin.papers.variants import Spread, candidate
-from graphkin.papers.vary_rules import LEVELS
+from graphkin.papers.variants import Spread, Unfit, candidate, examined
+from graphkin.papers.vary_rules import LEVELS, level_of
 from graphkin.scene.source import written
 
 RULES = {
@@ -89,3 +89,22 @@ def test_a_driver_that_cannot_turn_fully_is_placed_within_its_reach():
     source = graphkin.read("triad-slider").to_dict()
     angles = {candidate(source, spread, 1, number, 0)["driver"]["angle"] for number in range(40)}
     assert {25.0, 30.0, 35.0, 40.0, 45.0} == angles
+
+
+@pytest.mark.parametrize("level", LEVELS)
+def test_a_key_is_right_to_five_percent_at_every_level_unless_the_scene_allows_more(level):
+    assert 0.05 == level_of({"vary": {"level": level}}).tolerance
+    assert 0.1 == level_of({"vary": {"level": level, "tolerance": 0.1}}).tolerance
+
+
+@pytest.mark.parametrize(
+    ("scene", "bound", "why"),
+    [
+        ("four-bar-coupler-point", {"transmission": 90}, "the transmission angle of 2 and 3 is"),
+        ("slider-crank-offset", {"pressure": 1}, "the pressure angle of 2 and 3 is"),
+    ],
+)
+def test_transmission_and_pressure_angles_are_held(scene, bound, why):
+    source = {**written(scene)[0], "vary": bound}
+    with pytest.raises(Unfit, match=why):
+        examined(source, None, "01", bounds=level_of(source))
