@@ -15,34 +15,26 @@ from typing import Literal
 
 from graphkin.checking.consequential_errors import consequential_values, drawn_before
 from graphkin.checking.loop_gaps import loop_gaps
-from graphkin.checking.slips import Evidence, Suspect, dimension, line_of
-from graphkin.checking.transcription import transcription_errors
+from graphkin.checking.slips import Evidence, dimension, line_of
+from graphkin.checking.weighing import CHANCE, COMPUTED, NEVER, Suspect, Suspects, Weighing, comparable, likelihood
 from graphkin.scene.printed import Printed
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase
 
 __all__ = [
-    "COMPUTED_SHARE", "Judged", "Value", "comparable", "deviation", "difference", "drafting_bound", "explained",
-    "judge", "with_gaps",
+    "COMPUTED_SHARE", "Judged", "Value", "deviation", "difference", "drafting_bound", "explained", "judge", "with_gaps",
 ]  # fmt: skip
 
 Verdict = Literal["right", "within drafting accuracy", "right from own values", "wrong", "not judged"]
 Value = complex | float
 
 RIGHT_SHARE = 0.7  # drawn values that are right but for drafting errors
-CHANCE = 0.15  # a wrong value lies anywhere, within its own size
 SURER = 10.0  # so much likelier must a slip be than drafting errors, to call a value in their reach wrong
-BAD = 3.0  # bounds of drafting: so far off a drawn value may lie that still shows what it was meant for
-CLUMSY = 0.08  # part of it, for a drawing that is worse than it should be
-NEAT = 0.01  # part of it within which most drawings lie
-SURE = 3.0  # so much commoner must a slip be than chance, where only its neighbourhood fits
 DIGITS = 5  # fewer digits than this tell no slip from an error of drafting
 FAR, FEW_DIGITS = 0.1, 3  # but so far off, to this many digits, they do
 COMPUTED_SHARE = 1e-4  # a computed value may be off by so much of itself, for inputs that were rounded
-NEVER = 1e-4  # so near a value was meant right, whatever else lies there
 NOTHING = 1e-9  # of the greatest value of its sort: what is smaller is zero
 LEAST_TURN = math.radians(1.5)  # directions are read off with a protractor
-COMPUTED = 1e-5  # relative error of values worked out with rounded ones
 
 
 @dataclass(frozen=True)
@@ -111,7 +103,7 @@ def _judged(case: Evidence, printed: Printed) -> Judged:
     far = printed.digits >= FEW_DIGITS and off > FAR * abs(exact)
     if far or (printed.digits >= DIGITS and off > NEVER * abs(exact)):
         best = max(_weighed(case, judged), key=lambda w: w[1], default=None)
-        drawn = RIGHT_SHARE * _likelihood(printed, off, bound / 3, exact)
+        drawn = RIGHT_SHARE * likelihood(printed, off, bound / 3, exact)
         if best and best[1] > SURER * drawn and _fits_to_the_digit(judged, best[0], case):
             return replace(judged, verdict="wrong", looks_like=best[0].phrase)
     return judged
@@ -172,19 +164,6 @@ def deviation(printed: Printed, exact: Value) -> float | None:
     return difference(printed, exact).real / exact
 
 
-def comparable(printed: Printed, value: Value, line: complex | None) -> Value:
-    """A value as it would be stated in the form of the printed one."""
-    if not printed.symbol.is_vector:
-        return float(value.real)
-    if isinstance(printed.value, complex):
-        return complex(value)
-    if printed.value >= 0:
-        return abs(value)
-    # a negative number for a vector has a sense: along its line, if it has one
-    signed = (complex(value) * complex(line).conjugate()).real if line is not None else -abs(value)
-    return signed if isinstance(value, complex) else float(value)
-
-
 def explained(
     case: Evidence, judged: Judged, own: Mapping[Symbol, Value], wrong: Iterable[Symbol], drawn: bool = True
 ) -> Judged:
@@ -200,7 +179,8 @@ def explained(
         found += _following(case, judged, own, others, chance)
     best = max(found, key=lambda w: w[1], default=None)
     if (best is None or best[1] <= chance) and drawn:
-        best = _drawn_badly(judged, [s for s, _ in found], line_of(case.sheet, symbol))
+        every = Suspects((*case.suspects(symbol).all, *(s for s, _ in found if s.follows_from)))
+        best = _weighing(case, judged).drawn_badly(every)
     if best is None or (not drawn and best[1] <= chance):
         return judged
     verdict: Verdict = "right from own values" if best[0].follows_from else "wrong"
@@ -216,30 +196,12 @@ def _following(
     for value in consequential_values(case.plan, case.sheet, own, symbol):
         if abs(comparable(judged.printed, value, line) - judged.exact) <= judged.bound / 3:
             continue
-        one = _weight(judged, Suspect(Phrase("slip follows"), value, 0.5), line)
-        names = tuple(s for s in others if _moves(case, own, s, symbol, judged)) if one[1] > chance else ()
-        if names:
-            phrase = Phrase("slip follows", (", ".join(str(s) for s in names),))
-            yield replace(one[0], phrase=phrase, follows_from=names), one[1]
-
-
-def _drawn_badly(judged: Judged, found: Sequence[Suspect], line: complex | None) -> tuple[Suspect, float] | None:
-    """A slip in a drawing worse than it should be: the likeliest of those that are much commoner than a value there by
-    chance."""
-    near: list[tuple[Suspect, float]] = []
-    for suspect in found if judged.printed.value else ():
-        value = comparable(judged.printed, suspect.value, line)
-        if _changes_nothing(judged, value):
-            continue
-        bound = judged.bound / abs(judged.exact) if judged.exact else 0.0
-        reach = max(CLUMSY, min(BAD * bound, 2 * CLUMSY)) * abs(value)
-        off = abs(judged.printed.value - value)
-        within = min(reach, max(off, NEAT * abs(value)))
-        by_chance = CHANCE * 2 * within / max(abs(judged.printed.value), abs(judged.exact))
-        told = suspect.drawn and not suspect.copied and 0.5 * judged.printed.step <= reach
-        if told and off <= reach and suspect.share > SURE * by_chance:
-            near.append((suspect, suspect.share / max(off, reach / 3, judged.printed.step / 2)))
-    return max(near, key=lambda w: w[1], default=None)
+        follows = Suspects((Suspect(Phrase("slip follows"), value, 0.5),))
+        for one, weight in _weighing(case, judged).weighed(follows):
+            names = tuple(s for s in others if _moves(case, own, s, symbol, judged)) if weight > chance else ()
+            if names:
+                phrase = Phrase("slip follows", (", ".join(str(s) for s in names),))
+                yield replace(one, phrase=phrase, follows_from=names), weight
 
 
 def _moves(case: Evidence, own: Mapping[Symbol, Value], one: Symbol, symbol: Symbol, judged: Judged) -> bool:
@@ -249,42 +211,15 @@ def _moves(case: Evidence, own: Mapping[Symbol, Value], one: Symbol, symbol: Sym
     return any(abs(comparable(judged.printed, v, line) - judged.exact) > judged.bound / 3 for v in moved)
 
 
+def _weighing(case: Evidence, judged: Judged) -> Weighing:
+    return Weighing(judged.printed, judged.exact, judged.bound, line_of(case.sheet, judged.printed.symbol))
+
+
 def _weighed(case: Evidence, judged: Judged) -> Iterator[tuple[Suspect, float]]:
-    """Every explanation with its weight: share times likelihood (per unit of the value)."""
-    line = line_of(case.sheet, judged.printed.symbol)
-    for suspect in case.suspects(judged.printed.symbol):
-        yield _weight(judged, suspect, line)
-    for text, share, other in transcription_errors(judged.printed):
-        off = abs(other - judged.exact)
-        spread = judged.bound / 3 if math.isfinite(judged.bound) else 0.0
-        weight = share * _likelihood(judged.printed, off, spread, judged.exact)
-        yield Suspect(Phrase("slip pen", (text,)), judged.exact, share, copied=True), weight
-
-
-def _weight(judged: Judged, suspect: Suspect, line: complex | None) -> tuple[Suspect, float]:
-    printed = judged.printed
-    value = comparable(printed, suspect.value, line)
-    small = not printed.value and abs(value) > NEVER * abs(judged.exact)  # nobody writes 0 for it
-    if small or _changes_nothing(judged, value):
-        return suspect, 0.0
-    relative = judged.bound / 3 / abs(judged.exact) if judged.exact and math.isfinite(judged.bound) else 0.0
-    spread = relative * abs(value) if suspect.drawn else 0.0
-    return suspect, suspect.share * _likelihood(printed, abs(printed.value - value), spread, value)
-
-
-def _changes_nothing(judged: Judged, value: Value) -> bool:
-    """Whether a slip gives the right value in the form of what is written."""
-    return abs(value - judged.exact) <= NEVER * abs(judged.exact)
-
-
-def _likelihood(printed: Printed, off: float, spread: float, value: Value) -> float:
-    """Density of a stated value at a distance from what it should be: half of them computed, half of them drawn."""
-    half = 0.5 * printed.step + COMPUTED * abs(value)
-    computed = 0.5 / (2 * half) if off <= half else 0.0
-    if spread <= 0.0:
-        return computed
-    wide = math.hypot(spread, printed.step / math.sqrt(12))
-    return computed + 0.5 * math.exp(-0.5 * (off / wide) ** 2) / (wide * math.sqrt(math.tau))
+    """Every explanation that fits, with its weight."""
+    weighing = _weighing(case, judged)
+    yield from weighing.weighed(case.suspects(judged.printed.symbol))
+    yield from weighing.copied()
 
 
 def _fits_to_the_digit(judged: Judged, suspect: Suspect, case: Evidence) -> bool:

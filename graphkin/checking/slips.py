@@ -16,6 +16,7 @@ from graphkin.checking.force_slips import SlippedForces, slipped_forces
 from graphkin.checking.gear_slips import SlippedGears, slipped_gears
 from graphkin.checking.readings import read_off
 from graphkin.checking.uncertainty import Uncertainty
+from graphkin.checking.weighing import Suspect, Suspects
 from graphkin.construction import Plan, Sheet, Slip, execute
 from graphkin.construction.slip import Component
 from graphkin.errors import GraphkinError
@@ -26,7 +27,7 @@ from graphkin.solver import Motion
 from graphkin.structure import Slide
 from graphkin.words import Phrase
 
-__all__ = ["Evidence", "Suspect", "ValuesElsewhere", "dimension", "line_of"]
+__all__ = ["Evidence", "ValuesElsewhere", "dimension", "line_of"]
 
 
 def line_of(sheet: Sheet, symbol: Symbol) -> complex | None:
@@ -80,22 +81,6 @@ DEGREE = 180.0 / math.pi
 
 
 @dataclass(frozen=True)
-class Suspect:
-    """One explanation: the value that it would give (SI), and its share among wrong values (rough, from experience).
-
-    ``drawn`` is whether it may carry the errors of a drawing, ``copied`` whether the value itself was right and copied
-    wrong; ``follows_from`` are earlier wrong values of the same person from which it follows.
-    """
-
-    phrase: Phrase
-    value: Value
-    share: float
-    drawn: bool = True
-    copied: bool = False
-    follows_from: tuple[Symbol, ...] = ()
-
-
-@dataclass(frozen=True)
 class Evidence:
     """Everything known of a scene at one position, against which values are judged.
 
@@ -143,13 +128,13 @@ class Evidence:
         return tuple(found)
 
     @cached_property
-    def _explanations(self) -> dict[Symbol, tuple[Suspect, ...]]:
+    def _explanations(self) -> dict[Symbol, Suspects]:
         return {}
 
-    def suspects(self, symbol: Symbol) -> tuple[Suspect, ...]:
+    def suspects(self, symbol: Symbol) -> Suspects:
         """Every explanation for a wrong value of a symbol; looked for once."""
         if symbol not in self._explanations:
-            self._explanations[symbol] = tuple(_suspects(self, symbol))
+            self._explanations[symbol] = Suspects(tuple(_suspects(self, symbol)))
         return self._explanations[symbol]
 
 

@@ -6,8 +6,9 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
-from graphkin.checking.audit import COMPUTED_SHARE, Judged, Value, comparable, deviation, difference
+from graphkin.checking.audit import COMPUTED_SHARE, Judged, Value, deviation, difference
 from graphkin.checking.transcription import transcription_errors
+from graphkin.checking.weighing import comparable
 from graphkin.plane import unit
 from graphkin.scene.printed import Printed
 from graphkin.scene.symbol import Symbol

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator
 from itertools import combinations, pairwise
@@ -15,8 +16,11 @@ _DOUBLE_ZERO = re.compile(r"[+-]?0\d")  # nobody writes so
 SWAPPED, MISREAD, TWICE_MISREAD, MISSED = 0.05, 0.05, 0.02, 0.02
 
 
-def transcription_errors(printed: Printed) -> Iterator[tuple[str, float, float]]:
-    """What may have stood where a number was copied from: text, share among wrong values, value (SI).
+def transcription_errors(
+    printed: Printed, near: float = 0.0, within: float = math.inf
+) -> Iterator[tuple[str, float, float]]:
+    """What may have stood where a number was copied from, if it lies ``within`` so much of what it is ``near`` (SI):
+    text, share among wrong values, value (SI).
 
     The share of each kind of error is divided among all the numbers it could come from, so that a short number, which
     is a digit away from anything, explains nothing.
@@ -36,11 +40,13 @@ def transcription_errors(printed: Printed) -> Iterator[tuple[str, float, float]]
         digits = "0123456789"
         twice = [_put(text, {i: a, j: b}) for i, j in combinations(places, 2) for a in digits for b in digits]
         kinds.append((TWICE_MISREAD, twice))
+    own = _digits(text)
     unit = printed.step / stated(printed.symbol, [text], Units("m")).step
     for share, texts in kinds:
         for other in dict.fromkeys(texts):
-            if _digits(other) != _digits(text) and not _DOUBLE_ZERO.match(other):
-                yield other, share / len(texts), float(other) * unit
+            value = float(other) * unit
+            if abs(value - near) <= within and _digits(other) != own and not _DOUBLE_ZERO.match(other):
+                yield other, share / len(texts), value
 
 
 def _digits(text: str) -> str:

@@ -111,7 +111,7 @@ def _slips(
     """The commonest slips whose values can be told from the right one and from each other."""
     taken = [right]
     try:
-        found = sorted(evidence.suspects(symbol), key=lambda s: -s.share)
+        found = sorted(evidence.suspects(symbol).all, key=lambda s: -s.share)
     except GraphkinError:
         return
     for suspect in found:

@@ -1,0 +1,181 @@
+"""How likely each known slip is to have given a stated value: how often it is made, times how well its value fits the
+digits stated, as a number computed (to its last digit) or drawn (with the predicted deviation).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphkin.checking.transcription import transcription_errors
+from graphkin.scene.printed import Printed
+from graphkin.scene.symbol import Symbol
+from graphkin.words import Phrase
+
+__all__ = ["CHANCE", "COMPUTED", "NEVER", "Suspect", "Suspects", "Weighing", "comparable", "likelihood"]
+
+Value = complex | float
+Reals = NDArray[np.float64]
+
+CHANCE = 0.15  # a wrong value lies anywhere, within its own size
+BAD = 3.0  # bounds of drafting: so far off a drawn value may lie that still shows what it was meant for
+CLUMSY = 0.08  # part of it, for a drawing that is worse than it should be
+NEAT = 0.01  # part of it within which most drawings lie
+SURE = 3.0  # so much commoner must a slip be than chance, where only its neighbourhood fits
+NEVER = 1e-4  # so near a value was meant right, whatever else lies there
+COMPUTED = 1e-5  # relative error of values worked out with rounded ones
+TAILS = 8.0  # deviations beyond which nothing is drawn
+
+
+def comparable(printed: Printed, value: Value, line: complex | None) -> Value:
+    """A value as it would be stated in the form of the printed one."""
+    if not printed.symbol.is_vector:
+        return float(value.real)
+    if isinstance(printed.value, complex):
+        return complex(value)
+    if printed.value >= 0:
+        return abs(value)
+    # a negative number for a vector has a sense: along its line, if it has one
+    signed = (complex(value) * complex(line).conjugate()).real if line is not None else -abs(value)
+    return signed if isinstance(value, complex) else float(value)
+
+
+@dataclass(frozen=True)
+class Suspect:
+    """One explanation: the value that it would give (SI), and its share among wrong values (rough, from experience).
+
+    ``drawn`` is whether it may carry the errors of a drawing, ``copied`` whether the value itself was right and copied
+    wrong; ``follows_from`` are earlier wrong values of the same person from which it follows.
+    """
+
+    phrase: Phrase
+    value: Value
+    share: float
+    drawn: bool = True
+    copied: bool = False
+    follows_from: tuple[Symbol, ...] = ()
+
+
+@dataclass(frozen=True)
+class Suspects:
+    """Explanations side by side, so that a value is held against all of them at once; arrays have one entry each."""
+
+    all: tuple[Suspect, ...]
+
+    @cached_property
+    def values(self) -> NDArray[np.complex128]:
+        return np.array([complex(s.value) for s in self.all], dtype=complex)
+
+    @cached_property
+    def directed(self) -> NDArray[np.bool_]:
+        """Whether a value is a vector, not a size."""
+        return np.array([isinstance(s.value, complex) for s in self.all], dtype=bool)
+
+    @cached_property
+    def shares(self) -> Reals:
+        return np.array([s.share for s in self.all])
+
+    @cached_property
+    def drawn(self) -> NDArray[np.bool_]:
+        return np.array([s.drawn for s in self.all], dtype=bool)
+
+    def comparable(self, printed: Printed, line: complex | None) -> NDArray[Any]:
+        """The values as they would be stated in the form of the printed one (see `comparable`)."""
+        values = self.values
+        if not printed.symbol.is_vector:
+            return values.real
+        if isinstance(printed.value, complex):
+            return values
+        if printed.value >= 0:
+            return np.abs(values)
+        signed = (values * line.conjugate()).real if line is not None else -np.abs(values)
+        return np.where(self.directed, signed, values.real)
+
+
+@dataclass(frozen=True)
+class Weighing:
+    """A stated value against the exact one (SI), in the form of which it is stated.
+
+    ``bound`` is what a pencil keeps within (infinite where it keeps within nothing), ``line`` the positive sense of a
+    vector that has one.
+    """
+
+    printed: Printed
+    exact: Value
+    bound: float
+    line: complex | None
+
+    def weighed(self, suspects: Suspects) -> Iterator[tuple[Suspect, float]]:
+        """The explanations that fit, each with its weight: share times likelihood (per unit of the value)."""
+        values = suspects.comparable(self.printed, self.line)
+        size = np.abs(values)
+        off = np.abs(self.printed.value - values)
+        spread = np.where(suspects.drawn, self._relative * size, 0.0)
+        half = 0.5 * self.printed.step + COMPUTED * size
+        density = np.where(off <= half, 0.25 / half, 0.0)
+        wide = np.hypot(spread, self.printed.step / math.sqrt(12))
+        with np.errstate(under="ignore", divide="ignore", invalid="ignore"):
+            bell = 0.5 * np.exp(-0.5 * (off / wide) ** 2) / (wide * math.sqrt(math.tau))
+        weights = suspects.shares * (density + np.where(spread > 0.0, bell, 0.0))
+        weights[self._changes_nothing(values)] = 0.0
+        if not self.printed.value:  # nobody writes 0 for what is small
+            weights[size > NEVER * abs(self.exact)] = 0.0
+        for k in np.flatnonzero(weights > 0.0).tolist():
+            yield suspects.all[k], float(weights[k])
+
+    def copied(self) -> Iterator[tuple[Suspect, float]]:
+        """The slips of the pen that the right value may have suffered, as `weighed`."""
+        spread = self.bound / 3 if math.isfinite(self.bound) else 0.0
+        reach = TAILS * spread + self.printed.step + COMPUTED * abs(self.exact)
+        if isinstance(self.exact, complex):
+            return
+        for text, share, other in transcription_errors(self.printed, self.exact, reach):
+            weight = share * likelihood(self.printed, abs(other - self.exact), spread, self.exact)
+            yield Suspect(Phrase("slip pen", (text,)), self.exact, share, copied=True), weight
+
+    def drawn_badly(self, suspects: Suspects) -> tuple[Suspect, float] | None:
+        """A slip in a drawing worse than it should be: the likeliest of those that are much commoner than a value there
+        by chance."""
+        if not self.printed.value or not suspects.all:
+            return None
+        values = suspects.comparable(self.printed, self.line)
+        size = np.abs(values)
+        bound = self.bound / abs(self.exact) if self.exact else 0.0
+        reach = max(CLUMSY, min(BAD * bound, 2 * CLUMSY)) * size
+        off = np.abs(self.printed.value - values)
+        within = np.minimum(reach, np.maximum(off, NEAT * size))
+        by_chance = CHANCE * 2 * within / max(abs(self.printed.value), abs(self.exact))
+        near = suspects.drawn & (off <= reach) & (0.5 * self.printed.step <= reach)
+        near &= (suspects.shares > SURE * by_chance) & ~self._changes_nothing(values)
+        if not near.any():
+            return None
+        weights = np.where(near, suspects.shares / np.maximum(np.maximum(off, reach / 3), self.printed.step / 2), 0.0)
+        best = int(np.argmax(weights))
+        return suspects.all[best], float(weights[best])
+
+    @property
+    def _relative(self) -> float:
+        """The deviation of a drawing, as a part of the value."""
+        return self.bound / 3 / abs(self.exact) if self.exact and math.isfinite(self.bound) else 0.0
+
+    def _changes_nothing(self, values: NDArray[Any]) -> NDArray[np.bool_]:
+        """Which slips give the right value in the form of what is written."""
+        return np.asarray(np.abs(values - self.exact) <= NEVER * abs(self.exact))
+
+
+def likelihood(printed: Printed, off: float, spread: float, value: Value) -> float:
+    """Density of a stated value at a distance from what it should be: half of them computed, half of them drawn."""
+    half = 0.5 * printed.step + COMPUTED * abs(value)
+    computed = 0.5 / (2 * half) if off <= half else 0.0
+    if spread <= 0.0:
+        return computed
+    wide = math.hypot(spread, printed.step / math.sqrt(12))
+    return computed + 0.5 * math.exp(-0.5 * (off / wide) ** 2) / (wide * math.sqrt(math.tau))
+
+
