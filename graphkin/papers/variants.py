@@ -116,6 +116,9 @@ def varied_keys(source: Source) -> tuple[tuple[Path, str], ...]:
     for guide, table in frame.get("guides", {}).items():
         if isinstance(table.get("through"), list):
             found += [(("frame", "guides", guide, "through", i), "place") for i in (0, 1) if table["through"][i]]
+    for name, cam in source.get("cams", {}).items():
+        if cam.get("base", {}).get("r"):
+            found.append((("cams", name, "base", "r"), "length"))
     drivers = source.get("driver", [])
     several = isinstance(drivers, list)
     for i, driver in enumerate(drivers if several else [drivers]):
@@ -136,8 +139,19 @@ def candidate(source: Source, spread: Spread, seed: int, number: int, attempt: i
         value = float(_at(source, path))
         _put(made, path, _drawn(dice, value, kind, spread) if limited is None else _within(dice, limited, spread))
     ruled(source, made, dice, {"angle": spread.angle_step})
+    _said_once(made)
     asked = asked_now(source, dice)
     return {**made, "find": asked} if asked else made
+
+
+def _said_once(made: dict[str, Any]) -> None:
+    """What other numbers say is not said twice: a driven link begins to roll where its driver has it, and a cam's
+    offset is that of the guide."""
+    for cam in made.get("cams", {}).values():
+        cam.pop("offset", None)
+    drivers = made.get("driver", [])
+    for driver in drivers if isinstance(drivers, list) else [drivers]:
+        made["links"].get(driver.get("link"), {}).pop("start", None)
 
 
 def _drawn(dice: random.Random, value: float, kind: str, spread: Spread) -> float:
@@ -173,7 +187,7 @@ def _put(made: Any, path: Path, value: float) -> None:
 
 def asked_of(scene: Mechanism) -> tuple[Symbol, ...]:
     """What a problem asks: the scene's own ``find``, else the motion of the last group's joint, and the rates of
-    the links about fixed pivots."""
+    the links about fixed pivots; of what has no groups what the drivers lead: wheels, racks, followers of cams."""
     if scene.find:
         return scene.find
     structure = analyse(scene)
@@ -186,7 +200,26 @@ def asked_of(scene: Mechanism) -> tuple[Symbol, ...]:
         moving = next((n for n in names if n and n not in scene.frame.points), None)
         found += [Symbol.parse(f"{k}_{moving}") for k in ("v", "a")] if moving else []
     found += [Symbol(kind, link=name) for name in turning for kind in ("omega", "alpha")]
-    return tuple(found)
+    return tuple(found) or tuple(_led(scene))
+
+
+def _led(scene: Mechanism) -> Iterator[Symbol]:
+    """The rates of what the drivers lead, as far as they are not given, and the motion of its last point."""
+    drivers = {d.key.partition("/")[0] for d in scene.drivers}
+    led = [link for link in scene.links if link.name not in drivers]
+    sliding = {pair.link for pair in scene.slidings}
+    unsteady = any(d.values[2] for d in scene.drivers)
+    followers = {cam.follower for cam in scene.cams}
+    for link in led:
+        if link.name not in sliding:
+            yield Symbol("omega", link=link.name)
+            if unsteady or link.name in followers:
+                yield Symbol("alpha", link=link.name)
+    for link in reversed(led or scene.links):
+        moving = [p for p in (link.bar or link.points) if p not in scene.frame.points]
+        if moving:
+            yield from (Symbol.parse(f"{kind}_{moving[-1]}") for kind in ("v", "a"))
+            return
 
 
 def _of_larger_groups(scene: Mechanism, asked: Sequence[Symbol]) -> Iterator[Symbol]:

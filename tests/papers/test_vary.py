@@ -108,3 +108,22 @@ def test_transmission_and_pressure_angles_are_held(scene, bound, why):
     source = {**written(scene)[0], "vary": bound}
     with pytest.raises(Unfit, match=why):
         examined(source, None, "01", bounds=level_of(source))
+
+
+@pytest.mark.parametrize(
+    ("scene", "asked"),
+    [
+        ("cam-offset-roller", {"v_B", "a_B"}),
+        ("cam-swinging-roller", {"omega_2", "alpha_2", "v_B", "a_B"}),
+        ("wheel-on-rail", {"v_P", "a_P"}),
+        ("gears-epicyclic", {"omega_2", "omega_3", "v_P", "a_P"}),
+    ],
+)
+def test_cams_and_rolling_wheels_vary_and_are_asked_for_something(scene, asked):
+    made = graphkin.problem_set(scene, 2, seed=4)
+    assert made.ok
+    for answers in made.made.answers.values():
+        assert {a.symbol for a in answers} <= asked
+        assert all(a.tolerance <= 0.05 * abs(a.value) for a in answers)
+    one, two = made.made.answers.values()
+    assert one != two
