@@ -18,7 +18,8 @@ from typing import Any
 
 from graphkin.errors import GraphkinError
 from graphkin.jobs import Checkpoints, Progress, Started, Workers, key_of
-from graphkin.papers.variants import Answer, Spread, Unfit, Variant, candidate, examined, magnified, varied_keys
+from graphkin.papers.fresh_numbers import Spread, candidate, varied_keys
+from graphkin.papers.variants import Answer, Unfit, Variant, examined, magnified
 from graphkin.papers.vary_rules import level_of
 from graphkin.scene import mechanism_of
 from graphkin.structure import Cluster, analyse

@@ -22,7 +22,8 @@ from graphkin.construction.sheet import Ray
 from graphkin.errors import CallError, Problem
 from graphkin.papers import problem_set as room
 from graphkin.papers.data_rows import columns_of, replaced, value_of
-from graphkin.papers.variants import Answer, asked_of, round_step
+from graphkin.papers.fresh_numbers import round_step
+from graphkin.papers.variants import Answer, asked_of
 from graphkin.plane import cross
 from graphkin.scene import library_text, mechanism_of
 
