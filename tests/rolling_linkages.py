@@ -78,6 +78,25 @@ def wheel_on_a_rocker() -> Scene:
     }
 
 
+def rack_on_a_rocker() -> Scene:
+    """A rack slides on a rocker that carries its pinion; a bar holds a point of the pinion, a crank and a rod move the
+    rack."""
+    return {
+        "frame": {"points": {"O": [0, 0], "F": [173, 29], "A": [100, 170]}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 14},
+            "2": {"points": ["B", "Q"], "length": 88},
+            "3": {"points": ["C", "P"], "length": 18, "start": 44},
+            "4": {"points": ["O", "C"], "length": 88, "guides": {"s": {"through": [0, 25], "angle": 0}}},
+            "5": {"points": ["Q"], "on": "4.s"},
+            "6": {"points": ["F", "P"], "length": 103},
+        },
+        "gears": {"g": {"between": ["3", "5"], "teeth": [20, "rack"], "carrier": "4"}},
+        "driver": {"link": "1", "angle": 208, "omega": 3.4},
+        "sketch": {"C": [60, 60], "P": [80, 70], "Q": [120, 80]},
+    }
+
+
 ROLLING_LINKAGES = (
-    wheel_at_its_rim, cylinder_and_wheel, five_bar_by_its_middle, planet_by_a_rod, wheel_on_a_rocker,
+    wheel_at_its_rim, cylinder_and_wheel, five_bar_by_its_middle, planet_by_a_rod, wheel_on_a_rocker, rack_on_a_rocker,
 )  # fmt: skip

@@ -19,7 +19,7 @@ from graphkin.construction.rolled_places import rolled_near
 from graphkin.construction.sheet import Pose
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, AnyDriver
-from graphkin.structure import Cluster, Driven, Dyad, Element, Rolled, Structure, links_of, started
+from graphkin.structure import Cluster, Driven, Dyad, Element, Rolled, Structure, links_of, outside_of, started
 from graphkin.structure.assembly import ways
 
 __all__ = ["Choices", "best_reduced", "drawn_near", "fitted", "found_near", "moved_to", "standing"]
@@ -296,6 +296,11 @@ def _best_of(candidates: Sequence[ReducedMechanism], known: PlacedLinks, guess: 
     return best
 
 
+def _with_links(candidates: Sequence[ReducedMechanism], names: set[str]) -> list[ReducedMechanism]:
+    """Those that leave none of these links out."""
+    return [reduced for reduced in candidates if not names.intersection(r.left_out for r in reduced.removed)]
+
+
 def standing(choices: Choices, cluster: Cluster, known: PlacedLinks, guess: Poses) -> ReducedMechanism | None:
     """A group in which links roll and move each other at the scene's own position, ``choices`` being of the mechanism
     that drivers hold there: without its rolling.  None where all are at dead points."""
@@ -303,16 +308,19 @@ def standing(choices: Choices, cluster: Cluster, known: PlacedLinks, guess: Pose
     trial: list[AnyDriver] = []
     drawn: list[Driven | Dyad] = []
     before = replace(known, poses=dict(known.poses))
-    for element in choices.structure.elements:
-        if not set(links_of(element)) <= set(cluster.members):
-            continue
+    mine = [e for e in choices.structure.elements if set(links_of(e)) <= set(cluster.members)]
+    for k, element in enumerate(mine):
         if isinstance(element, Cluster):
-            reduced = best_reduced(choices, element, before, guess)
-            if reduced is None:
+            # what later ones hang on is not left out
+            wanted = {name for later in mine[k + 1 :] for name in outside_of(later)}
+            few_or_more = (choices.of[element], choices.further(element))
+            found = (_best_of(_with_links(some, wanted), before, guess) for some in few_or_more)
+            best = next((one for one in found if one is not None), None)
+            if best is None:
                 return None
-            removed += reduced.removed
-            trial += reduced.trial
-            drawn += reduced.elements
+            removed += best.reduced.removed
+            trial += best.reduced.trial
+            drawn += best.reduced.elements
         else:
             drawn.append(element)
         before.poses.update({name: guess[name] for name in links_of(element)})

@@ -20,7 +20,7 @@ from graphkin.structure.model import (
     Weld,
     driver_pair,
 )
-from graphkin.structure.part import in_stages, links_of, needed, part_of
+from graphkin.structure.part import in_stages, links_of, needed, outside_of, part_of
 from graphkin.structure.replacement import named_with_contact, pins_on_circles, replaced_pairs
 from graphkin.structure.rolling import Mesh, meshes_of
 from graphkin.structure.starts import unrolled
@@ -51,6 +51,7 @@ __all__ = [
     "mobility_of",
     "named_with_contact",
     "needed",
+    "outside_of",
     "part_of",
     "pick",
     "pins_on_circles",

@@ -33,7 +33,7 @@ class Constraints:
                 continue
             links[pin.key] = PlacedLink(pin.key, {pin.point: 0j}, (pin.point,), {"": PlacedGuide("", 0j, 1 + 0j)})
             slides.append(Slide(pin.key, pin.key, pin.on, links[pin.on].guides[pin.guide], 1 + 0j, pin.point, True))
-        self.contacts = tuple(c for c in scene.contacts if {*c.links} <= links.keys())
+        self.contacts = tuple(c for c in scene.contacts if {*c.links, c.carrier} - {""} <= links.keys())
         self.gears = tuple(g for g in scene.gears if {*g.wheels, g.carrier} <= links.keys())
         for contact in self.contacts:
             link, slide = replacing_link(contact, links)

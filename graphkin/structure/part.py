@@ -11,7 +11,7 @@ from graphkin.scene.model import AngleDriver, AnyDriver, Follower, Mechanism
 from graphkin.scene.symbol import Symbol, centre_links
 from graphkin.structure.model import Cluster, Driven, Element, Rolled, Structure
 
-__all__ = ["in_stages", "links_of", "needed", "part_of"]
+__all__ = ["in_stages", "links_of", "needed", "outside_of", "part_of"]
 
 
 def needed(structure: Structure, asked: Sequence[Symbol]) -> list[Element]:
@@ -31,7 +31,7 @@ def needed(structure: Structure, asked: Sequence[Symbol]) -> list[Element]:
         before = len(wanted)
         kept = [e for e in structure.elements if wanted.intersection(links_of(e))]
         for element in kept:
-            wanted |= _outside(element)
+            wanted |= outside_of(element)
         # what stands for a contact is there only with both links
         blocks = {n for element in kept for n in links_of(element)}
         wanted |= {n for c in structure.scene.contacts if c.block in blocks for n in c.links}
@@ -121,7 +121,8 @@ def _links_for(structure: Structure, symbol: Symbol) -> set[str]:
     return found
 
 
-def _outside(element: Element) -> set[str]:
+def outside_of(element: Element) -> set[str]:
+    """The links that an element hangs on."""
     if isinstance(element, Driven):
         if isinstance(element.driver, LawCam):
             return {element.pair.a, element.pair.b, element.driver.link} - {element.link}
