@@ -116,6 +116,8 @@ class Lesson:
         )
 
     def _is_result(self, symbol: Symbol) -> bool:
+        if symbol.kind == "arm":  # of the lever, beside which it stands
+            return False
         if symbol.is_vector or symbol.scope != "motion":
             return True
         rate = (self.sheet.omega if symbol.kind == "omega" else self.sheet.alpha)[symbol.link]

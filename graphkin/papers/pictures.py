@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import replace
 
+from graphkin.construction.mechanism_acts import SpecialPoint
 from graphkin.construction.sheet import DiagramName, Equation, Sheet
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
@@ -115,7 +116,9 @@ def scale_foot(
 def mechanism_picture(sheet: Sheet, layers: Layers, letters: Letters, language: str) -> Drawing:
     """The mechanism as a problem shows it: nothing that was found, no arcs."""
     found = {"answers", "construction"}
-    kept = [_without_results(layer) for layer in layers if layer.id not in found]
+    special = {s.act.point for s in sheet.steps if isinstance(s.act, SpecialPoint)}
+    aids = {f"{part}-{point}" for point in special for part in ("special", "point", "label-point")}
+    kept = [_without_results(layer, aids) for layer in layers if layer.id not in found]
     return cropped(kept, term("mechanism", language), describe_bare(sheet, language), language,
                    scale_foot(sheet, "mechanism", letters, language))  # fmt: skip
 
@@ -125,19 +128,23 @@ def describe_bare(sheet: Sheet, language: str) -> str:
     return describe(sheet, ("mechanism",), language)
 
 
-def _without_results(layer: Group) -> Group:
-    """Names of angular velocities and accelerations that are to be found go with their arcs; those of drivers stay."""
+def _without_results(layer: Group, aids: Collection[str]) -> Group:
+    """Names of angular velocities and accelerations that are to be found go with their arcs, so do special points and
+    trial positions; those of drivers stay."""
     kept = tuple(
         thing
         for thing, after in zip(layer.children, (*layer.children[1:], None), strict=False)
-        if not _names_result(thing)
-        and not (isinstance(thing, Group) and "leader" in thing.classes and _names_result(after))
+        if not _names_result(thing, aids)
+        and not (isinstance(thing, Group) and "leader" in thing.classes and _names_result(after, aids))
     )
     return replace(layer, children=kept)
 
 
-def _names_result(thing: Primitive | None) -> bool:
-    return isinstance(thing, Text) and thing.id.startswith(("label-omega-", "label-alpha-"))
+def _names_result(thing: Primitive | None, aids: Collection[str]) -> bool:
+    if not isinstance(thing, Group | Text):
+        return False
+    found = ("label-omega-", "label-alpha-", "label-trial-")
+    return thing.id in aids or (isinstance(thing, Text) and thing.id.startswith(found))
 
 
 def _without(thing: Primitive, name: str) -> Primitive:

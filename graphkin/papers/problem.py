@@ -198,7 +198,7 @@ def given(lesson: Lesson) -> Iterator[Paragraph]:
     if scene.loading:
         lines = {each: given_loads(lesson.sheet, letters, each) for each in languages(lesson.language)}
         for texts in zip(*lines.values(), strict=True):
-            yield Paragraph(tuple(zip(lines, texts, strict=True)))
+            yield Paragraph(tuple((each, _whole(text, each)) for each, text in zip(lines, texts, strict=True)))
     asked = [f"${letters.vector(s)}$" for s in lesson.questions]
     if asked:
         yield Paragraph(_labelled(lesson, "find", asked, "symbol comma"))
@@ -211,6 +211,12 @@ def given(lesson: Lesson) -> Iterator[Paragraph]:
     elif own[names[0]]:
         label = " ".join(word("source", each) for each in names) + word("colon", names[-1])
         yield Paragraph(spoken(label + own[names[0]], lesson.language), small=True)
+
+
+def _whole(text: str, language: str) -> str:
+    """A line as a sentence."""
+    stop = word("full stop", language)
+    return text[:1].upper() + text[1:].rstrip(stop) + stop
 
 
 def _guide(lesson: Lesson, guide: PlacedGuide, language: str) -> str:

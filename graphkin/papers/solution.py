@@ -119,7 +119,7 @@ def answer_key(lesson: Lesson) -> Document:
             bold.add(i)
         size = abs(line.exact)
         within = ("–", "–")
-        if line.tolerance is not None:
+        if line.tolerance:  # what is nought whatever the hand does has none
             low, high = max(0.0, size - line.tolerance), size + line.tolerance
             places = _places(line.tolerance)
             if row.symbol.scope == "position":

@@ -10,7 +10,7 @@
   const [viewer, list, figures, live, tabs] = ["viewer", "list", "figures", "live", "tabs"].map(byId);
   const [stepInput, stepOut, placeInput, placeOut] = ["step", "step-out", "place", "place-out"].map(byId);
   const [results, given, paper] = ["results", "given", "paper"].map(byId);
-  const LETTER = 6; // px a millimetre: the smallest letters, of 2 mm, have 12 px
+  const LETTER = 12; // px of the smallest letters of a figure
   const printed = { paper: paper.innerHTML, results: results.innerHTML, given: given.innerHTML };
   let place = data.start;
   let step = 0; // index into the steps of the place
@@ -28,8 +28,8 @@
 
   function readable(root) {
     for (const svg of root.querySelectorAll("svg[viewBox]")) {
-      const letter = svg.closest("#figure-lever") ? 0.7 * LETTER : LETTER; // its smallest letters are larger
-      svg.style.minWidth = `${svg.viewBox.baseVal.width * letter}px`;
+      const sizes = [...svg.querySelectorAll("[font-size]")].map((e) => Number(e.getAttribute("font-size")));
+      if (sizes.length) svg.style.minWidth = `${(svg.viewBox.baseVal.width * LETTER) / Math.min(...sizes)}px`;
     }
   }
 
@@ -49,7 +49,7 @@
       const stage = data.stages[number];
       const items = now.steps.filter((s) => s.e === i).map((s) =>
         `<li><button type="button" tabindex="-1" data-step="${s.n}"><b>${s.n}</b><span>${s.html}</span></button></li>`);
-      return `<h3>${stage.title}</h3><div class="pane">${stage.svg}</div><ol>${items.join("")}</ol>`;
+      return `<h3>${stage.title}</h3><div class="pane"${stage.svg && ' tabindex="0"'}>${stage.svg}</div><ol>${items.join("")}</ol>`;
     }).join("");
     readable(figures);
     readable(list);

@@ -60,10 +60,10 @@ def test_a_script_that_is_not_the_pages_own_does_not_run(page):
     [
         (["ArrowRight"], 2),
         (["ArrowRight", "ArrowRight", "ArrowLeft"], 2),
-        (["End"], 47),
+        (["End"], 43),
         (["End", "Home"], 1),
         (["PageDown"], 9),
-        (["]", "]"], 11),
+        (["]", "]"], 10),
         (["]", "]", "["], 9),
         (["PageDown", "PageDown", "PageUp"], 9),
     ],
@@ -75,14 +75,14 @@ def test_keys_go_through_steps_and_equations(page, keys, expected):
 
 
 def test_the_slider_goes_to_a_step_and_says_it(page):
-    page.locator("#step").fill("14")
-    assert 14 == _step(page)
-    assert "Step 14 of 47" in page.locator("#step").get_attribute("aria-valuetext")
+    page.locator("#step").fill("13")
+    assert 13 == _step(page)
+    assert "Step 13 of 43" in page.locator("#step").get_attribute("aria-valuetext")
     assert "56.67 mm" in page.locator("#live").inner_text()
 
 
 def test_only_what_is_drawn_by_then_is_seen(page):
-    page.locator("#step").fill("14")
+    page.locator("#step").fill("13")
     assert page.locator("#figures #v_A4").is_visible()
     assert not page.locator("#figures #v_C").is_visible()
 
@@ -104,14 +104,14 @@ def test_the_second_slider_moves_mechanism_polygons_centres_and_steps(page):
 
 
 def test_the_step_stays_when_the_position_moves(page):
-    page.locator("#step").fill("14")
+    page.locator("#step").fill("13")
     page.locator("#place").fill("1")
-    assert 14 == _step(page)
+    assert 13 == _step(page)
 
 
 def test_hovering_a_step_lights_its_vector(page):
     page.keyboard.press("End")
-    page.locator("#list button[data-step='14']").hover()
+    page.locator("#list button[data-step='13']").hover()
     assert "lit" in page.locator("#v_A4").get_attribute("class")
     assert "lit" not in page.locator("#v_C").get_attribute("class")
 
@@ -219,19 +219,19 @@ def test_moving_the_driver_moves_results_and_the_printed_page(page):
 
 
 def test_try_first_hides_the_step_checks_what_is_entered_and_shows_it_when_right(page):
-    page.locator("#step").fill("13")
+    page.locator("#step").fill("12")
     page.locator("#try").check()
-    page.locator("#step").fill("13")
+    page.locator("#step").fill("12")
     page.keyboard.press("ArrowRight")
     page.locator("#trial-size").fill("300")
     page.locator("#trial-way").fill("-13")
     page.get_by_role("button", name="Try", exact=True).click()
-    assert ("The size is off.", 13) == (page.locator("#trial-said").inner_text(), _step(page))
+    assert ("The size is off.", 12) == (page.locator("#trial-said").inner_text(), _step(page))
     page.locator("#trial-hint").click()
     assert "Equation 2" in page.locator("#trial-said").inner_text()
     page.locator("#trial-size").fill("285,1")
     page.get_by_role("button", name="Try", exact=True).click()
-    assert 14 == _step(page)
+    assert 13 == _step(page)
 
 
 @pytest.mark.parametrize("width", [360, 1024, 1920])
@@ -250,7 +250,7 @@ def test_letters_of_figures_have_12_pixels(page, width):
 
 
 def test_what_was_drawn_before_keeps_a_contrast_of_four_and_a_half(page):
-    page.locator("#step").fill("40")
+    page.locator("#step").fill("37")
     worst = page.evaluate("""() => {
       const linear = (c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4);
       const contrast = (colour) => {
@@ -272,7 +272,7 @@ def test_what_was_drawn_before_keeps_a_contrast_of_four_and_a_half(page):
 
 
 def test_symbols_are_read_aloud_in_words(page):
-    page.locator("#step").fill("14")
+    page.locator("#step").fill("13")
     said = page.locator("#live .sym[role=math]").evaluate_all("all => all.map((e) => e.ariaLabel)")
     assert "velocity of A4" in said
     assert "velocity of A4 relative to A3" in page.locator("#results .sym").evaluate_all(

@@ -36,6 +36,18 @@ def test_the_problem_gives_masses_and_loads_and_room_for_the_polygons(papers):
     assert "3031" not in text
 
 
+def test_a_problem_with_forces_has_blanks_for_its_equations_and_the_mechanism_beside_the_room_to_draw(papers):
+    room = papers["problem.html"].split("Force equations of the links cut free")[1]
+    assert "= 0" in words(room)
+    assert 2 == room.split("draw a polygon for each")[1].count("50 mm, to check the print")  # both are to scale
+
+
+def test_a_force_polygon_is_laid_off_with_lengths_directions_and_the_ends_that_close_it(papers):
+    text = words(papers["handout.html"])
+    for said in ("in this order", "÷ 100 N/mm =", "arms on paper:", "Through the end of", "through the beginning of"):
+        assert said in text
+
+
 def test_the_solution_cuts_each_group_free_and_has_the_lever(papers):
     text = words(papers["handout.html"])
     for said in ("Links 3, 4 (RRP) cut free", "Links 2 (driven) cut free", "−116.31", "Zhukovsky"):

@@ -211,3 +211,11 @@ def test_the_source_is_said_in_the_language_of_the_paper():
     }
     assert [True, False, True] == ["a book" in pages[each] for each in pages]
     assert [False, True, True] == ["课程设计指导书" in pages[each] for each in pages]
+
+
+def test_a_problem_does_not_show_how_a_larger_group_is_placed():
+    lesson = handout("sixbar-1A-last-link", language="en", formats=("pdf",)).lesson
+    drawn = [b.drawing for b in laid_out(problem(lesson).blocks) if isinstance(b, Picture)]
+    ids = {thing.id for d in drawn for thing in walk(d.children) if hasattr(thing, "id")}
+    assert "point-B" in ids
+    assert set() == {"point-S", "special-S", "label-point-S", "label-trial-B-1"} & ids
