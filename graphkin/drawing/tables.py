@@ -221,12 +221,12 @@ def given_lengths(scene: Mechanism, letters: Letters) -> list[tuple[str, float]]
     """The given lengths of all links: symbol (without dollar signs) and value in the scene's unit."""
     found: list[tuple[str, float]] = []
     for link in scene.links:
-        if link.length is not None and link.length > NO_LENGTH * scene.size:
+        if link.length is not None:
             found.append((letters.length(link.bar), link.length / scene.units.metres))
         found += _further(link, scene, letters)
     metres = scene.units.metres
     found += [(f"r_{{{d.name}}}", abs(d.radius) / metres) for link in (*scene.links, scene.frame) for d in link.discs]
-    return found
+    return [(name, length) for name, length in found if length > NO_LENGTH * scene.size / metres]
 
 
 def given_teeth(scene: Mechanism) -> list[str]:

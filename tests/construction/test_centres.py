@@ -16,6 +16,7 @@ from graphkin.construction.centres import Centres, by_centres, find_centres, spe
 from graphkin.scene import library, mechanism_of
 from graphkin.scene.symbol import Symbol
 from graphkin.words import written
+from tests.bench.attack import mechanism
 
 
 def xy(z: complex) -> list[float]:
@@ -284,3 +285,13 @@ def test_the_sliding_velocity_is_the_difference_of_rates_times_the_arm_from_the_
     assert [("1", "3"), ("5", "3")] == [args[1:3] for args in told]
     sizes = [float(args[-1].split()[0]) for args in told]
     assert [575.4062995771787, 99.20039152997784] == pytest.approx(sizes, rel=1e-3)
+
+
+def test_no_sliding_velocity_is_told_of_links_that_turn_alike_but_for_rounding() -> None:
+    centres = find_centres(mechanism_of(mechanism(9028)))
+    moving = speeds(centres)
+    told = [p.args[1:3] for p in velocity_sentences(centres, moving) if p.key == "centre sliding"]
+    assert told
+    for pinned, guiding in told:
+        one, other = moving[str(pinned)].omega, moving[str(guiding)].omega
+        assert abs(one - other) > 1e-3 * max(abs(one), abs(other))

@@ -65,3 +65,9 @@ def test_an_equation_that_is_only_a_rule_is_the_product_of_what_it_shows(at):
         exact = math.prod(float(one.rstrip("²")) ** (1 + one.endswith("²")) for one in factors.split(" × "))
         last = 10.0 ** -len(value.partition(".")[2])
         assert float(value) == pytest.approx(exact, rel=0.0, abs=0.5001 * last)
+
+
+def test_no_length_of_nothing_is_among_the_given_ones():
+    # the pitch circle of this cam stands about its pivot at this position
+    text = draw("cam-swinging-roller", at=25).figures["sheet"].content("svg").decode()
+    assert "·10" not in "".join(ET.fromstring(text).itertext())

@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from decimal import Decimal
 
 from graphkin.construction.centres.find import Centres
 from graphkin.construction.centres.kennedy import ROUNDING
@@ -251,6 +252,13 @@ class _Rate:
         return self.written.removeprefix("-")
 
 
+def _carried_apart(one: _Rate, other: _Rate) -> int:
+    """How many figures the difference of two rates carries; none where they differ by no more than rounding."""
+    apart = Decimal(written.difference(one.written, other.written))
+    last = [value.adjusted() - rate.carried for rate in (one, other) if (value := Decimal(rate.written))]
+    return apart.adjusted() - max(last) if apart and last else 0
+
+
 def _rates(centres: Centres, moving: Mapping[str, Turning]) -> Mapping[str, _Rate]:
     """The rate of every link, worked out from the rate before it and the distances as they are written."""
     frame = centres.links.scene.frame.name
@@ -307,7 +315,9 @@ def _of_sliding(
     if centre.point is None:
         return None
     rates = [moving[name].written for name in (pinned, guiding)]
-    carried = min(moving[name].carried for name in (pinned, guiding))
+    carried = _carried_apart(moving[pinned], moving[guiding])
+    if carried < 1:
+        return None  # they turn alike as far as the figure tells
     apart = written.difference(*rates)
     units = links.scene.units.rates
     per_mm = amount(centres.sheet.scales.length / units.metres)
