@@ -156,6 +156,8 @@ def _bodies(scene: Mechanism) -> Bodies:
                   cmath.phase(turn * line.direction), turns)
         )  # fmt: skip
     made.left += [f"cam {cam.link} with its follower {cam.follower}" for cam in scene.cams]
+    made.left += [f"contact {c.name} of {' and '.join(c.links)}" for c in scene.contacts]
+    made.left += [f"gears {g.name} of {' and '.join(g.wheels)}" for g in scene.gears]
     for driver in scene.drivers:
         if isinstance(driver, AngleDriver) and driver.relative_to == scene.frame.name:
             made.drives.append(BodyDrive(driver.link, driver.omega))

@@ -20,7 +20,7 @@ from graphkin.papers.paper import paper_plan
 from graphkin.papers.vary_rules import LEVELS, Bounds
 from graphkin.plane import cross
 from graphkin.scene import mechanism_of
-from graphkin.scene.model import Mechanism
+from graphkin.scene.model import Follower, Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion, exact_values, solve
 from graphkin.solver.places import transmission
@@ -76,7 +76,10 @@ def asked_of(scene: Mechanism) -> tuple[Symbol, ...]:
     last = next((e for e in reversed(structure.elements) if not isinstance(e, Driven)), None)
     if last is not None:
         names = [getattr(p, "point", None) or getattr(p, "pin", None) for p in _joints(last)]
-        moving = next((n for n in names if n and n not in scene.frame.points), None)
+        known = {*scene.frame.points, *(d.centre for k in scene.links if k.name in driven for d in k.discs)}
+        rolled = {e.link for e in structure.elements if isinstance(e, Driven) and isinstance(e.driver, Follower)}
+        known |= {p for k in scene.links if k.name in rolled for p in k.points}
+        moving = next((n for n in names if n and n not in known), None)
         found += [Symbol.parse(f"{k}_{moving}") for k in ("v", "a")] if moving else []
     found += [Symbol(kind, link=name) for name in turning for kind in ("omega", "alpha")]
     return tuple(found) or tuple(_led(scene))

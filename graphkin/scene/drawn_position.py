@@ -255,19 +255,23 @@ def _along(rail: Placement, guide_name: str, place: complex | None) -> float | N
 
 
 def starts_apart(file: SceneTables, position: DrawnPosition) -> Iterable[Problem]:
-    """Where rolling starts, said of links that stand elsewhere by their driver or by given places."""
+    """Where rolling starts, said of links that stand elsewhere by given places.  Of a driven link it starts where the
+    driver stands."""
+    driven = {link for link, _, _ in position.angles}
     for name, link in file.links.items():
-        if link.start is None:
+        if link.start is None or name in driven:
             continue
         keys = [s.key for s in position.slidings if s.link == name]
-        turn, travel = position.bodies[name].turn, travel_of(position, keys[0]) if keys else None
-        if keys and travel is not None and abs(link.start * position.metres - travel) > position.tolerance:
+        turn, travel = position.bodies[name].turn, None
+        if keys and keys[0] not in position.travels:
+            travel = travel_of(position, keys[0])
+        if travel is not None and abs(link.start * position.metres - travel) > position.tolerance:
             told = f"{travel / position.metres:.10g}"
         elif not keys and turn is not None and abs(cmath.phase(turn / direction(link.start))) > GIVEN_TWICE:
             told = f"{degrees(turn):.10g} deg"
         else:
             continue
-        said = f"found {link.start:.10g}, but the driver or the given places make it {told}"
+        said = f"found {link.start:.10g}, but the given places make it {told}"
         yield Problem(f"links.{name}.start", said, "one of the two is wrong; leave start out")
 
 

@@ -323,3 +323,9 @@ def test_where_a_variant_comes_from_is_not_said_of_other_numbers(made):
 
 def test_the_title_of_a_variant_names_no_scheme_and_position_of_other_numbers(made):
     assert "Shaper with a swinging guide bar (no. 01)" == scenes(made)[0].title
+
+
+def test_of_discs_and_geared_bars_what_they_move_is_asked_not_what_is_given():
+    names = "disc-on-disc", "geared-five-bar"
+    asked = {name: [str(s) for s in asked_of(graphkin.solve(name).mechanism)] for name in names}
+    assert {"disc-on-disc": ["v_B", "a_B", "omega_2", "alpha_2"], "geared-five-bar": ["v_C", "a_C"]} == asked

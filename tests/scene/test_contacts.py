@@ -1,6 +1,7 @@
 """What is wrong with contacts and gears is told by name, all at once."""
 
 import copy
+import math
 import tomllib
 from pathlib import Path
 
@@ -115,7 +116,6 @@ def test_discs_that_a_carrier_does_not_hold_apart_by_their_radii_are_named():
     [
         ("wheel-on-rail", {"drawn": {"C": [0, 29]}}, "contacts.K"),
         ("wheel-on-rail", {"drawn": {"C": [0, -30]}}, "contacts.K"),
-        ("wheel-on-rail", {"links.1.start": 20}, "links.1.start"),
         ("disc-on-disc", {"drawn": {"B": [54, 53]}, "links.2.length": 70.178344238}, "contacts.K"),
         ("cam-offset-roller", {"drawn": {"B": [8, 100]}}, "drawn.B"),
         ("gears-epicyclic", {"drawn": {"P": [60, 20]}}, "drawn.P"),
@@ -130,3 +130,10 @@ def test_what_is_drawn_and_cannot_touch_or_start_so_is_named(name, changes, wher
     with pytest.raises(SceneError) as told:
         graphkin.solve(made)
     assert where in {problem.where for problem in told.value.problems}
+
+
+def test_a_wheel_written_out_with_where_it_starts_may_be_driven_elsewhere():
+    made = as_mapping(graphkin.solve("wheel-on-rail").mechanism)
+    assert "start" in made["links"]["1"]
+    made["driver"] = {"link": "1", "angle": 30, "omega": -2}
+    assert 30 == pytest.approx(math.degrees(mechanism_of(made).drivers[0].values[0]))
