@@ -193,7 +193,7 @@ class GroupMoves(Polygons):
             after = self._to_special(group, leg, leg[-1].end, ref, move.link)
             sides.append(self._side(order, (*(e.reversed() for e in before), *leg, *after)))
         parts = [[part for _, found in side for part in found] for side in sides]
-        self.ties[order, move.letter] = 0j
+        self.ties[order, move.letter] = 0j  # exactly, where nothing drives a leg
         if not any(part.span for side in parts for part in side):
             return
         symbol = Symbol(letter(order), self.label(ref), self.label(base))
@@ -230,7 +230,8 @@ class GroupMoves(Polygons):
             points = {**self.links[move.link].points, move.letter: (at - pose.origin) / pose.axis / self.frame.mm}
             self.links[move.link] = replace(self.links[move.link], points=points)
         joints = tuple(leg[-1].end.point for leg in move.legs)
-        act = SpecialPoint(move.letter, move.link, (joints[0], joints[1]), move.base)
+        driven = any(not e.unknown and (e.slide or e.weld) for leg in move.legs for e in leg)
+        act = SpecialPoint(move.letter, move.link, (joints[0], joints[1]), move.base, driven)
         self.board.do("mechanism", act, Bar(p, at, ""), Bar(q, at, ""), Mark(PointRef(move.letter), at))
 
     def _leg_line(self, leg: Path) -> tuple[complex, complex]:

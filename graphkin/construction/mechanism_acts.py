@@ -167,12 +167,13 @@ class RollingStarts:
 @dataclass(frozen=True)
 class SpecialPoint:
     """The special point of a link, where the lines of two legs with these joints cross (Assur); or of a link relative
-    to another that moves, ``base``."""
+    to another that moves, ``base``; ``driven`` where a driver in a leg gives them different velocities there."""
 
     point: str
     link: str
     joints: tuple[str, str]
     base: str = ""
+    driven: bool = False
 
 
 @dataclass(frozen=True)
@@ -221,9 +222,10 @@ def mechanism_phrase(act: OnMechanism) -> Phrase:
             return Phrase(f"held still {gives}", (held, link, slide, f"{shown:.6g}"))
         case PitchPoint(point, links):
             return Phrase("pitch point", (point, *links))
-        case SpecialPoint(point, link, joints, base):
+        case SpecialPoint(point, link, joints, base, driven):
             if base:
-                return Phrase("relative special point", (point, base, link, *joints))
+                key = "relative special point driven" if driven else "relative special point"
+                return Phrase(key, (point, base, link, *joints))
             return Phrase("special point", (point, link, *joints))
         case RollingStarts(name, "angle", value):
             return Phrase("rolling starts at angle", (name, f"{math.degrees(value):.6g}"))

@@ -42,7 +42,7 @@ def written_lines(sheet: Sheet, letters: Letters, language: str) -> list[Written
         elif isinstance(step.act, SpecialPoint):
             act = step.act
             names = _in_dollars(act.point, *act.joints)
-            key = "written relative special" if act.base else "written special"
+            key = "written relative special" if act.base and not act.driven else "written special"
             lines.append(say(Phrase(key, (*names, act.base, act.link)), spoken))
         elif isinstance(step.act, TrialPositions):
             out, moved, rolled = (", ".join(n) for n in (step.act.left_out, step.act.driven, step.act.rolling))

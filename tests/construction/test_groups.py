@@ -182,6 +182,17 @@ def test_plates_joined_by_two_bars_are_drawn_by_the_special_point_of_both(at: fl
     assert [] == [str(row.symbol) for row in result.report.rows if row.error > 1e-9 * max(abs(row.exact), 1e-3)]
 
 
+def test_a_cylinder_that_joins_two_plates_moves_their_special_points_apart() -> None:
+    links = {**CONTOUR["links"], "5": {"points": ["D"]}, "7": {"points": ["F"], "on": "5"}}
+    pushed = {"slide": "7", "travel": 70, "velocity": 30, "acceleration": -50}
+    scene = {**CONTOUR, "links": links, "driver": [CONTOUR["driver"], pushed]}
+    result = graphkin.check(scene)
+    assert "special points" == result.data["construction"]
+    assert [True] == [step.act.driven for step in result.sheet.steps if isinstance(step.act, SpecialPoint)]
+    assert set() == everything(scene) - {str(row.symbol) for row in result.report.rows}
+    assert [] == [str(row.symbol) for row in result.report.rows if row.error > 1e-9 * max(abs(row.exact), 1e-3)]
+
+
 def test_a_line_to_the_special_point_of_two_moving_links_turned_by_a_tenth_of_a_degree_shows() -> None:
     turned = cmath.rect(1.0, math.radians(0.1))
 
