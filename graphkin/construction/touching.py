@@ -97,8 +97,10 @@ class Touching:
         taken = {*self.scene.holders, *(contact.name for contact in self.scene.contacts)}
         for gear in self.gears():
             yield Touch(_free(gear.name, taken), gear.wheels, self.pitch_point(gear), self.normal(gear), "meshes")
+        touched = [{*contact.links} for contact in self.contacts()]
         for cam in self.scene.cams:
-            if {cam.link, cam.follower} <= self.poses.keys():
+            both = {cam.link, cam.follower}
+            if both <= self.poses.keys() and both not in touched:  # drawn at the contact, it is one of the contacts
                 pose = self.poses[cam.link]
                 here = station(cam, cam.sense * phase(pose.axis))
                 at, normal = pose.origin + pose.axis * here.contact * self.mm, pose.axis * here.normal
