@@ -100,21 +100,24 @@ class OffCurves:
 
 @dataclass(frozen=True)
 class RollingCurves:
-    """What the curvatures of two round outlines that roll on each other give along their normal, by the relative rate
-    of the two ``links``; ``inside`` where one is hollow, the second the larger.
+    """What the curvatures of two round outlines that roll on each other give along their normal: the square of the
+    rate of ``turning`` (one link, or two for a relative one) times what follows from the radii of the two ``links``,
+    ``radius`` (m); ``inside`` where one is hollow, the second the larger.
 
-    >>> str(RollingCurves(("2", "3"), False))
-    'ω_{23}²·ρ_{2}ρ_{3}/(ρ_{2} + ρ_{3})'
+    >>> str(RollingCurves(("3",), ("2", "3"), False, 0.01))
+    'ω_{3}²·ρ_{2}ρ_{3}/(ρ_{2} + ρ_{3})'
     """
 
+    turning: tuple[str, ...]
     links: tuple[str, str]
     inside: bool
+    radius: float
 
     def __str__(self) -> str:
         one, two = self.links
         sign = "−" if self.inside else "+"
         first, second = (two, one) if self.inside else (one, two)
-        return f"ω_{{{one}{two}}}²·ρ_{{{one}}}ρ_{{{two}}}/(ρ_{{{first}}} {sign} ρ_{{{second}}})"
+        return f"ω_{{{''.join(self.turning)}}}²·ρ_{{{one}}}ρ_{{{two}}}/(ρ_{{{first}}} {sign} ρ_{{{second}}})"
 
 
 Size = Given | RateTimes | SquareOverRadius | OffCurves | RollingCurves

@@ -169,7 +169,7 @@ def _rolling_parts(plot: Plot, order: Order, edge: Edge) -> list[Component]:
     else:
         inside = bends[0] * bends[1] > 0.0
         pair = (one, two) if not inside or abs(bends[0]) > abs(bends[1]) else (two, one)
-        size, way = RollingCurves(pair, inside), edge.direction
+        size, way = RollingCurves(links, pair, inside, abs(1.0 / (bends[1] - bends[0]))), edge.direction
     if plot.fixed(edge.start):
         return [Component(symbol_of(plot, "a", edge), "resultant", unit(span or normal), span, way, size)]
     return [Component(symbol_of(plot, "an", edge), "normal", unit(span or normal), span, way, size)]

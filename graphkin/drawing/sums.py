@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from graphkin.construction.board import EXACT
 from graphkin.construction.polygon_acts import LaidOff, MeasuredRate, PlanDrawn
 from graphkin.construction.sheet import DiagramName, Sheet
-from graphkin.construction.sizes import RateTimes, Size
+from graphkin.construction.sizes import RateTimes, RollingCurves, Size
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.headings import number, written
 from graphkin.scene.symbol import PointRef, Symbol
@@ -87,20 +87,24 @@ def _carried(sheet: Sheet, diagram: DiagramName, mm: float, carried: int) -> str
 
 def factors_of(sheet: Sheet, rule: Size | None) -> tuple[str, ...]:
     """The numbers whose product a size is, as they are written; none where no such rule is known."""
+    if isinstance(rule, RollingCurves):
+        rates = [sheet.omega[name].value for name in rule.turning]
+        turning = amount(abs(rates[0] - sum(rates[1:])), MOST)
+        return turning, turning, amount(rule.radius / sheet.scene.units.metres, MOST)
     if not isinstance(rule, RateTimes) or len(rule.links) > 1:
         return ()
     factor = _speed(sheet, rule.factor) if isinstance(rule.factor, Symbol) else _length(sheet, *rule.factor)
     if factor is None:
         return ()
-    rates = sheet.omega if rule.rate == "omega" else sheet.alpha
-    rate = amount(abs(rates[rule.links[0]].value), MOST)
+    turned = sheet.omega if rule.rate == "omega" else sheet.alpha
+    rate = amount(abs(turned[rule.links[0]].value), MOST)
     return (*("2",) * rule.twice, *(rate,) * (1 + rule.square), factor)
 
 
 def substituted(rule: Size | None, factors: tuple[str, ...]) -> str:
     """A rule of a size with numbers in place of its symbols: ``2 × 2.819 × 575.4`` for 2ω v."""
     shown = [written(factor) for factor in factors]
-    if isinstance(rule, RateTimes) and rule.square:
+    if isinstance(rule, RollingCurves) or (isinstance(rule, RateTimes) and rule.square):
         del shown[-2]
         shown[-2] = f"({shown[-2]})²" if "$" in shown[-2] else f"{shown[-2]}²"
     return " × ".join(shown)

@@ -12,7 +12,7 @@ from functools import cached_property
 
 from graphkin.construction.polygon_acts import Carried, LaidOff, MeasuredRate, PlanDrawn
 from graphkin.construction.sheet import Aid, Bar, DiagramName, Sheet, Step, Vector
-from graphkin.construction.sizes import Direction, Given, OffCurves, RateTimes, Size, SquareOverRadius
+from graphkin.construction.sizes import Direction, Given, OffCurves, RateTimes, RollingCurves, Size, SquareOverRadius
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.headings import number, written
 from graphkin.drawing.sums import factors_of, plan_sum, rate_sum, scale_of, substituted, times_scale, unit_of
@@ -68,7 +68,7 @@ class Speaker:
             return self._marked(self.letters.direction(thing, self.sheet.scene.frame.name))
         if isinstance(thing, Given):
             return word("given", language).lower()
-        if isinstance(thing, RateTimes | SquareOverRadius | OffCurves):
+        if isinstance(thing, RateTimes | SquareOverRadius | OffCurves | RollingCurves):
             return self._marked(self.letters.size(thing))
         text = str(thing)
         names = text.split(", ")

@@ -11,7 +11,8 @@ from graphkin.construction import draft
 from graphkin.construction.mechanism_acts import RollingStarts, TrialPositions
 from graphkin.construction.plan import plan
 from graphkin.scene import mechanism_of
-from tests.rolling_linkages import ROLLING_LINKAGES, five_bar_by_its_middle, wheel_at_its_rim
+from graphkin.scene.symbol import Symbol
+from tests.rolling_linkages import ROLLING_LINKAGES, five_bar_by_its_middle, planet_by_a_rod, wheel_at_its_rim
 
 
 @pytest.mark.parametrize("made", ROLLING_LINKAGES)
@@ -65,3 +66,11 @@ def test_a_plan_is_made_again_at_the_values_that_it_tells():
 
 def test_a_pencil_stays_within_its_predicted_uncertainty():
     assert check(wheel_at_its_rim(), at=70, instrument="pencil", seed=3).ok
+
+
+def test_a_wheel_in_a_ring_has_at_the_contact_what_both_radii_give():
+    sheet = draft(mechanism_of(planet_by_a_rod()))
+    omega, vector = sheet.omega["3"].value, sheet.vectors("acceleration")[Symbol.parse("a_K@3")]
+    assert 0.080 * 0.025 / (0.080 - 0.025) * omega**2 == pytest.approx(abs(vector.span) * sheet.scales.acceleration)
+    (size,) = {t.size for e in sheet.equations for side in e.sides for t in side if str(t.symbol) == "a_K@3" and t.size}
+    assert "ω_{3}²·ρ_{3}ρ_{0}/(ρ_{0} − ρ_{3})" == str(size)
