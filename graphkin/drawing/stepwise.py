@@ -56,7 +56,8 @@ def _mechanism(sheet: Sheet, steps: list[Step]) -> dict[str, int]:
     for link in (sheet.scene.frame, *sheet.scene.links):
         points = [born.get(f"point-{p}", last) for p in link.points]
         born[f"link-{link.name}"] = max([*points, mentioned.get(link.name, 0)], default=last) or last
-    born |= {f"cam-{cam.link}": last for cam in sheet.scene.cams}
+    for cam in sheet.scene.cams:
+        born |= dict.fromkeys((f"cam-{cam.link}", f"follower-{cam.follower}", f"touch-{cam.link}"), last)
     for contact in sheet.scene.contacts:
         born |= {f"contact-{contact.name}": last}
         born |= {f"{letter}-{contact.name}-{end}": last for letter in "nt" for end in (1, 2)}
