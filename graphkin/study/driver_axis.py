@@ -109,7 +109,8 @@ class DriverAxis:
     def beside_ends(self) -> Motion:
         """The motion beside the start and the end of a whole range, and beside the left end of the axis."""
         high = self.reach.ends[1]
-        return self.reach.motion(np.array([BESIDE * high, high - BESIDE * high, self.first + BESIDE * high]))
+        beside = np.array([BESIDE * high, high - BESIDE * high, self.first + BESIDE * high])
+        return self.reach.motion(beside, fine=False)
 
     @property
     def ticks(self) -> Array:

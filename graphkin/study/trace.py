@@ -378,13 +378,15 @@ def _leasts(way: _Way, pieces: Pieces, first: int, dyads: Sequence[Dyad]) -> tup
     reach = way.reach
     low, high = way.range
     inner = [way.inside(np.append(pieces.extremes(first + n), np.linspace(low, high, 33))) for n in range(len(dyads))]
-    motion = reach.motion(np.concatenate([*map(way.offset, inner), np.zeros(1)]))
+    motion = reach.motion(np.concatenate([*map(way.offset, inner), np.zeros(1)]), fine=False)
     ends = np.cumsum([0, *map(len, inner)]).tolist()
-    found = []
+    found: list[Least] = []
+    least: list[float] = []
     for n, dyad in enumerate(dyads):
         k, angles = first + n, transmission(reach.structure, dyad, motion.poses).angle
         if pieces.is_constant(k):
             found.append(Least(dyad, float(angles[-1]), None))
+            least.append(0.0)
             continue
         angles = angles[ends[n] : ends[n + 1]]
         # where the group stands in line, at a change point or at an end of the motion, the solver refuses
@@ -395,6 +397,13 @@ def _leasts(way: _Way, pieces: Pieces, first: int, dyads: Sequence[Dyad]) -> tup
             places += [(at, _from_cosine(pieces.at(end, k))) for at, end in zip(reach.ends, way.range, strict=True)]
         offset, best = min((p for p in places if p[1] == p[1]), key=lambda p: p[1])
         found.append(Least(dyad, best, driver_value(reach, offset)))
+        least.append(offset)
+    # only what is printed takes all its digits
+    motion = reach.motion(np.array([*least, 0.0]))
+    for k, one in enumerate(found):
+        fine = float(transmission(reach.structure, one.group, motion.poses).angle[k])
+        if np.isfinite(fine) and least[k] not in (() if reach.full else reach.ends):
+            found[k] = replace(one, angle=fine)
     return tuple(found)
 
 
