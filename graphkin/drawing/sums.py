@@ -75,7 +75,8 @@ def rate_sum(sheet: Sheet, act: MeasuredRate, units: bool = True) -> str:
 def plan_sum(act: PlanDrawn) -> str:
     """``30.00 mm × 0.25 (rad/s)/mm = 7.5 rad/s``: a rate as it is read off the plan of a train."""
     unit = "rad/s" if act.rate == "omega" else "rad/s²"
-    return f"{on_paper(act.mm)} mm × {number(act.per_mm)} ({unit})/mm = {number(abs(act.value), 5)} {unit}"
+    length, scale = on_paper(act.mm), amount(act.per_mm, 12)
+    return f"{length} mm × {scale} ({unit})/mm = {product(length, scale)} {unit}"
 
 
 def _carried(sheet: Sheet, diagram: DiagramName, mm: float, carried: int) -> str:

@@ -5,15 +5,19 @@ from __future__ import annotations
 import math
 import re
 import xml.etree.ElementTree as ET
+from decimal import Decimal
 
 import pytest
 
 from graphkin import draw
-from graphkin.construction.polygon_acts import LaidOff, MeasuredRate
+from graphkin.construction import draft, pencil
+from graphkin.construction.board import EXACT
+from graphkin.construction.polygon_acts import LaidOff, MeasuredRate, PlanDrawn
 from graphkin.drawing.conventions import letters_of
-from graphkin.drawing.sums import lengths_measured, rate_sum, rule_sum
+from graphkin.drawing.sums import lengths_measured, plan_sum, rate_sum, rule_sum
 from graphkin.drawing.written_lines import written_lines
-from graphkin.scene import library
+from graphkin.scene import library, mechanism_of
+from graphkin.scene.sheet_tables import Tools
 from tests.drawn import drafted
 
 
@@ -71,3 +75,13 @@ def test_no_length_of_nothing_is_among_the_given_ones():
     # the pitch circle of this cam stands about its pivot at this position
     text = draw("cam-swinging-roller", at=25).figures["sheet"].content("svg").decode()
     assert "·10" not in "".join(ET.fromstring(text).itertext())
+
+
+@pytest.mark.parametrize("instrument", [EXACT, pencil(Tools(), 1)])
+def test_a_rate_read_off_the_plan_of_a_train_is_the_product_of_what_it_shows(instrument):
+    sheet = draft(mechanism_of("gears-epicyclic"), instrument=instrument)
+    sums = [plan_sum(step.act).split(" ") for step in sheet.steps if isinstance(step.act, PlanDrawn)
+            and not step.act.known]
+    assert sums
+    for length, _, _, scale, _, _, value, *_ in sums:
+        assert Decimal(value) == Decimal(length) * Decimal(scale)
