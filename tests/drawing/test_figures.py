@@ -208,7 +208,7 @@ def test_the_same_scene_gives_the_same_bytes() -> None:
         ("chinese", "velocity", "∥CB"),
         ("chinese", "velocity", "μv= 10 (mm/s)/mm"),
         ("chinese", "acceleration", "b3′"),
-        ("chinese", "acceleration", "n′"),
+        ("chinese", "acceleration", "n3′"),
         ("us", "velocity", "Ov"),
         ("us", "velocity", "VB3/B2"),
         ("us", "velocity", "1 mm = 10 mm/s"),
