@@ -15,6 +15,10 @@ import pytest
 
 TESTS = Path(__file__).parent
 
+# commands that tests start, and the workers, find their byte code, as installed ones do
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+os.environ.setdefault("PYTHONPYCACHEPREFIX", str(TESTS.parent / ".pytest_cache" / "bytecode"))
+
 # started in the background by a shell, a run inherits that Ctrl-C is ignored, and so would all that it starts and
 # interrupts
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
@@ -23,9 +27,9 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
 
 
 def pytest_xdist_auto_num_workers(config: pytest.Config) -> int | None:
-    """None is as many as there are cores."""
+    """One more than there are cores: some tests wait for what they started."""
     whole = all(config.invocation_params.dir.joinpath(arg).resolve() in (TESTS, TESTS.parent) for arg in config.args)
-    return None if whole else 0
+    return (os.cpu_count() or 1) + 1 if whole else 0
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
