@@ -70,10 +70,12 @@ def handout(
     students: Annotated[
         Path | None,
         typer.Option(
-            "--students", metavar="NAMES.csv",
+            "--students",
+            metavar="NAMES.csv",
             help="Of a course design: a report for each (heads: name, id, scheme, position; 姓名, 学号, 方案, 位置).",
         ),
     ] = None,
+    text: Annotated[str, typer.Option("--text", hidden=True)] = "glyphs",
     as_json: JsonOption = False,
     quiet: QuietOption = False,
 ) -> None:
@@ -82,6 +84,13 @@ def handout(
     from graphkin.scene.design_file import is_design
 
     wanted = split_words(formats)
+    if text != "glyphs":
+        raise CallError(
+            Problem(
+                "text", f'"{text}" with papers', "their PDF has its letters with it and needs none of the reader's; for"
+                f" figures with letters as paths: graphkin draw {scene} --text outlines",
+            )
+        )  # fmt: skip
     if template not in TEMPLATES:
         raise CallError(Problem("template", f'"{template}"', did_you_mean(template, TEMPLATES)))
     if template == "course-design":
@@ -110,7 +119,18 @@ def handout(
                 Problem("variants", "with --at or --positions", "a set draws positions of its own, one each")
             )
         _problem_set(
-            scene, out, wanted, find, lang, convention, variants, seed, rows, workers, split_words(export), as_json,
+            scene,
+            out,
+            wanted,
+            find,
+            lang,
+            convention,
+            variants,
+            seed,
+            rows,
+            workers,
+            split_words(export),
+            as_json,
             quiet,
         )
         return

@@ -28,7 +28,8 @@ __all__ = ["LENGTHS", "drawn_lengths"]
 LENGTHS = "dimensions"  # id of their group
 OFFSETS = (6.0, -6.0, 9.0, -9.0, 12.5, -12.5, 17.0, -17.0, 22.0, -22.0)  # mm from the bar
 LEAST, SHORTEST = 9.0, 1.0  # mm: a shorter bar has its number beside it, a shorter distance in the frame no dimension
-BESIDE, NEXT = 6.5, 6.0  # mm from the mechanism to the dimensions of the frame, and from one of them to the next
+# mm from the mechanism to the dimensions of the frame, and from one of them to the next: usual, and where room is short
+BESIDE = ((6.5, 6.0), (4.5, 4.5))
 LINES = 4  # of dimensions beside each other that are tried
 NEAR = 0.5  # mm: so near to its given place a hand has drawn what is fixed
 SIZE = 2.8
@@ -153,9 +154,7 @@ def _frame(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts]:
         for guide in guides[upright]:
             if spots:
                 _note(pairs, min(spots.values(), key=lambda z: (abs(key(z) - key(guide)), key(z))), guide, key)
-        wide = [
-            ((low, a), (high, b)) for (low, high), (a, b) in sorted(pairs.items()) if high - low >= SHORTEST
-        ]
+        wide = [((low, a), (high, b)) for (low, high), (a, b) in sorted(pairs.items()) if high - low >= SHORTEST]
         whole = None
         if wide and all(one[1][0] == two[0][0] for one, two in pairwise(wide)):
             whole = _beside(sheet, room, (*(low for low, _ in wide), wide[-1][1]), upright)
@@ -194,22 +193,26 @@ def _beside(
     fixed = [*frame.points.values(), *(guide.through for guide in frame.guides.values())]
     given = [(-z.imag if upright else z.real) / sheet.scales.length for z in fixed]
     box = room.content
-    choices: list[Parts] = []
-    for k in range(LINES):
-        far = BESIDE + k * NEXT
-        sides: Sequence[tuple[float, float]] = (
-            ((box.left - far, -OVERRUN), (box.right + far, OVERRUN)) if upright
-            else ((box.bottom + far, OVERRUN), (box.top - far, -OVERRUN))
-        )  # fmt: skip
-        for line, past in sides:
-            feet = [complex(line, level) if upright else complex(level, line) for level, _ in levels]
-            beyond = past if upright else past * 1j
-            parts: list[Part] = [_extension(z, foot + beyond) for (_, z), foot in zip(levels, feet, strict=True)]
-            for (low, p), (high, q) in pairwise(zip((level for level, _ in levels), feet, strict=True)):
-                value = (_given(high, given) - _given(low, given)) * per_mm
-                parts += dimension(p, q, 0.0, rich(number(value, 5), SIZE))
-            choices.append(tuple(parts))
-    return room.take(choices, len(levels))
+    for nearest, pitch in BESIDE:
+        choices: list[Parts] = []
+        for k in range(LINES):
+            far = nearest + k * pitch
+            sides: Sequence[tuple[float, float]] = (
+                ((box.left - far, -OVERRUN), (box.right + far, OVERRUN)) if upright
+                else ((box.bottom + far, OVERRUN), (box.top - far, -OVERRUN))
+            )  # fmt: skip
+            for line, past in sides:
+                feet = [complex(line, level) if upright else complex(level, line) for level, _ in levels]
+                beyond = past if upright else past * 1j
+                parts: list[Part] = [_extension(z, foot + beyond) for (_, z), foot in zip(levels, feet, strict=True)]
+                for (low, p), (high, q) in pairwise(zip((level for level, _ in levels), feet, strict=True)):
+                    value = (_given(high, given) - _given(low, given)) * per_mm
+                    parts += dimension(p, q, 0.0, rich(number(value, 5), SIZE))
+                choices.append(tuple(parts))
+        found = room.take(choices, len(levels))
+        if found is not None:
+            return found
+    return None
 
 
 def _given(level: float, given: Sequence[float]) -> float:
@@ -224,9 +227,7 @@ def _angles(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts | Label]:
         if not isinstance(driver, AngleDriver) or driver.link not in sheet.poses:
             continue
         points = sheet.scene.by_name[driver.relative_to].points
-        pivot = next(
-            (sheet.points[PointRef(p)] for p in sheet.scene.by_name[driver.link].points if p in points), None
-        )
+        pivot = next((sheet.points[PointRef(p)] for p in sheet.scene.by_name[driver.link].points if p in points), None)
         value = sheet.drivers[driver.key]
         turn = math.remainder(value, 2 * math.pi)
         base = sheet.poses.get(driver.relative_to)

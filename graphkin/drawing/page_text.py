@@ -3,15 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.dimensions import check_bar
 from graphkin.drawing.headings import term, titles
-from graphkin.drawing.primitives import Primitive, Run, Text
+from graphkin.drawing.primitives import Group, Primitive, Run, Text, walk
 from graphkin.drawing.text import plain, rich, wrapped
 from graphkin.words import languages
 
-__all__ = ["FOOT", "LETTER", "LINE", "MARGIN", "WIDTH", "foot", "heading", "note_lines", "step_lines", "titled"]
+__all__ = [
+    "FOOT",
+    "LETTER",
+    "LINE",
+    "MARGIN",
+    "WIDTH",
+    "foot",
+    "heading",
+    "note_lines",
+    "step_lines",
+    "titled",
+    "without_titles",
+]
 
 WIDTH, MARGIN, FOOT = 210.0, 12.0, 14.0
 LETTER, LINE = 3.0, 4.6
@@ -35,6 +48,20 @@ def titled(sheet: Sheet, language: str, below: str, margin: float = MARGIN) -> t
     y += 5.0
     words.append(Text(complex(margin, y), rich(below, 3.2)))
     return words, y
+
+
+def without_titles(children: tuple[Primitive, ...]) -> tuple[tuple[Primitive, ...], float]:
+    """What a figure shows without its titles, for a page that has them, and the mm that are free then at its head."""
+
+    def without(things: tuple[Primitive, ...]) -> tuple[Primitive, ...]:
+        return tuple(
+            replace(one, children=without(one.children)) if isinstance(one, Group) else one
+            for one in things
+            if not (isinstance(one, Text) and "heading" in one.classes)
+        )
+
+    lines = [one.at.imag for one in walk(children) if isinstance(one, Text) and "heading" in one.classes]
+    return without(children), max(lines, default=0.0)
 
 
 def step_lines(steps: Iterable[tuple[int, str]], y: float) -> tuple[list[Primitive], float]:

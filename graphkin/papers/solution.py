@@ -22,6 +22,7 @@ from graphkin.drawing.force_stages import ForceStage, force_stages
 from graphkin.drawing.forces import group_equation, group_picture
 from graphkin.drawing.headings import FIGURE_WORDS, drivers, number, written
 from graphkin.drawing.lever import lever_figure
+from graphkin.drawing.page_text import without_titles
 from graphkin.drawing.piece import moved
 from graphkin.drawing.train import train_figure
 from graphkin.papers.blocks import (
@@ -158,9 +159,7 @@ def key_table(lesson: Lesson) -> table.Table:
     return table.Table.of(heads, rows, ("", "", "", ".3f", ".9g", ".3g", ".3f"))
 
 
-def answers_template(
-    asked: Sequence[Symbol], units: Units, language: str, variants: Iterable[str] = ()
-) -> table.Table:
+def answers_template(asked: Sequence[Symbol], units: Units, language: str, variants: Iterable[str] = ()) -> table.Table:
     """A table for a class to fill in, as ``audit`` reads it: a column for each quantity asked for, and for a vector its
     direction; with ``variants`` a row for each of them."""
     names = tuple(variants)
@@ -214,9 +213,10 @@ def _plan_blocks(lesson: Lesson) -> Iterator[Block]:
 
 
 def _narrow(figure: Drawing, width: float) -> Drawing:
-    """A figure without its own margins, where those are the page's."""
-    aside = complex(-max(0.0, figure.width - width) / 2, 0.0)
-    return replace(figure, width=min(figure.width, width), children=moved(figure.children, aside))
+    """A figure without its own margins and the scene's titles, where the page has them already."""
+    untitled, up = without_titles(figure.children)
+    by = complex(-max(0.0, figure.width - width) / 2, -up)
+    return replace(figure, width=min(figure.width, width), height=figure.height - up, children=moved(untitled, by))
 
 
 def _force_blocks(lesson: Lesson) -> Iterator[Block]:
@@ -228,7 +228,8 @@ def _force_blocks(lesson: Lesson) -> Iterator[Block]:
     statement = Paragraph(spoken(scale_statement(scaled, lesson.letters.convention, "force"), language))
     lead: tuple[Heading | Paragraph, ...] = (Heading(said("forces", language), 2), statement)
     body = paper_of(sheet.scene).body
-    lever = lever_figure(sheet, forces, language=language, convention=lesson.convention)
+    figure = lever_figure(sheet, forces, language=language, convention=lesson.convention)
+    lever = figure and _narrow(figure, body.width)
     for turn, stage in enumerate(force_stages(scaled, forces, lesson.letters, language)):
         steps = Steps(tuple(StepItem(step.number, step.words, step.work) for step in stage.steps))
         title = stage.title
@@ -239,7 +240,7 @@ def _force_blocks(lesson: Lesson) -> Iterator[Block]:
         lead = ()
         last = stage.figure == "lever" and (lever is None or lever.height <= body.height - 20.0)
         if last and lever is not None:
-            yield Picture(_narrow(lever, body.width))
+            yield Picture(lever)
             lever = None
 
 

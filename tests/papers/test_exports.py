@@ -131,6 +131,12 @@ def test_a_set_of_variants_becomes_one_bank(tmp_path):
     assert (tmp_path / "set" / "questions.gift").read_text().startswith("$CATEGORY")
 
 
+def test_papers_with_letters_as_paths_are_refused_with_the_command_that_gives_them():
+    done = run("handout", SCENE, "--text", "outlines")
+    assert 2 == done.returncode
+    assert f"graphkin draw {SCENE} --text outlines" in done.stderr
+
+
 def test_an_unknown_platform_is_told_by_name():
     done = run("handout", SCENE, "--export", "moodel")
     assert 2 == done.returncode

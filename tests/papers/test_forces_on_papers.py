@@ -54,6 +54,10 @@ def test_the_solution_cuts_each_group_free_and_has_the_lever(papers):
         assert said in text
 
 
+def test_the_lever_of_a_solution_does_not_repeat_the_title_of_the_page(papers):
+    assert 0 == papers["handout.html"].count('class="heading"')
+
+
 def test_the_forces_are_found_step_by_step_on_the_page(papers):
     packed = re.search(r'id="positions">(.*?)</script>', papers["handout.html"], re.DOTALL)[1]
     (position,) = json.loads(zlib.decompress(base64.b64decode(packed)))["positions"]
