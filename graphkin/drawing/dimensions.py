@@ -130,6 +130,7 @@ class DimensionClearance:
     def __init__(self, obstacles: Obstacles, panel: Box | None) -> None:
         self.panel = panel
         self.segments = np.array(obstacles.solid, dtype=complex).reshape(-1, 2)
+        self.dashed = np.array(obstacles.dashed, dtype=complex).reshape(-1, 2)
         self.areas = _arrays(obstacles.areas)
         self.numbers = _arrays(())  # of dimensions, over which nothing runs
         self.heads = _arrays(())  # arrowheads of dimensions, over which extension lines of others may run
@@ -143,7 +144,8 @@ class DimensionClearance:
         """The first of some dimensions that is clear of everything, added to what is drawn; None where none is.
 
         Its first lines are extension lines: they begin beyond what stands around the point they come from, and run
-        over other lines only where they must, or where that is allowed at once (``over``).  The arrowhead of an angle
+        over other lines only where they must, as its number does over dashed ones, or where that is allowed at once
+        (``over``).  The arrowhead of an angle
         ends on a line that is drawn, and its arc may run over what is drawn where it is given leave to
         (``crossing``), its number not.
         """
@@ -193,7 +195,8 @@ class DimensionClearance:
         if crossing and _over(lines_of_it, self.numbers, 0.3):
             return None
         kept_parts = *shown, *(part for part in parts if not any(part is line for line in lines[:extensions]))
-        return _Fit(kept_parts, lines_of_it, words, tips, len(_crossings(beyond, self.segments)[0]) > 0)
+        over = len(_crossings(beyond, self.segments)[0]) > 0 or _over(self.dashed, words, 0.3)
+        return _Fit(kept_parts, lines_of_it, words, tips, over)
 
     def _covered(self, middles: Points, halves: Points) -> bool:
         """Whether boxes meet anything."""

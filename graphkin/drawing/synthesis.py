@@ -30,8 +30,8 @@ from graphkin.drawing.headings import number, term
 from graphkin.drawing.labels import Label
 from graphkin.drawing.page_text import FOOT, LETTER, LINE, MARGIN, WIDTH, foot, heading, note_lines, step_lines
 from graphkin.drawing.piece import Piece, cut_to, joined, layer_groups, moved_piece, with_labels
-from graphkin.drawing.primitives import Arc, Circle, Group, Line, Primitive, Run, Stroke, Text
-from graphkin.drawing.text import rich
+from graphkin.drawing.primitives import Arc, Circle, Group, Line, Primitive, Stroke, Text
+from graphkin.drawing.text import rich, wrapped
 from graphkin.scene.synthesis import Design
 from graphkin.version import __version__
 from graphkin.words import Phrase, languages, say, word
@@ -293,10 +293,14 @@ def _grid(
     """A small table with a line under its heads; the first column to the left, numbers to the right."""
     drawn: list[Primitive] = []
     total = sum(widths)
+    lines = wrapped(heads[0], 2.6, widths[0] - 1.0, bold=True)
+    for runs in lines[:-1]:  # the longest of the heads may need lines of its own
+        drawn.append(Text(complex(x, y), runs, "start", classes=("cell",)))
+        y += 3.4
     for i, row in enumerate((heads, *cells)):
         at = x
         for k, (text, width) in enumerate(zip(row, widths, strict=True)):
-            runs: tuple[Run, ...] = rich(text, 2.6 if i == 0 else LETTER, bold=i == 0)
+            runs = lines[-1] if i == k == 0 else rich(text, 2.6 if i == 0 else LETTER, bold=i == 0)
             place = complex(at if k == 0 else at + width - 1.0, y)
             if runs:
                 drawn.append(Text(place, runs, "start" if k == 0 else "end", classes=("cell",)))

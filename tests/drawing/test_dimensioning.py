@@ -4,7 +4,8 @@ import pytest
 
 from graphkin import draw
 from graphkin.drawing import Text
-from graphkin.drawing.primitives import Group, walk
+from graphkin.drawing.font_widths import text_box
+from graphkin.drawing.primitives import Group, Line, walk
 from graphkin.scene import library
 from tests.drawn import drafted, drawn
 
@@ -27,6 +28,19 @@ def words(figure) -> list[str]:
 
 def test_fixed_points_are_dimensioned_from_the_pivot_of_the_driver():
     assert {"113", "11", "94"} <= set(words(draw(SCENE).figures["mechanism"]))
+
+
+def test_a_sheet_short_of_room_has_the_frames_dimensions_closer_and_their_numbers_clear_of_dashed_lines():
+    panel = draw("single-flier", figures=("sheet",)).figures["sheet"]
+    assert {"113", "11", "94"} <= set(words(panel))
+    numbers = [thing for thing in walk(panel.children) if isinstance(thing, Text) and thing.string == "83.869"]
+    legs = [one for one in walk(panel.children) if isinstance(one, Group) and "special" in one.classes]
+    crossed = [
+        line for leg in legs for line in walk(leg.children)
+        if isinstance(line, Line) and text_box(numbers[0]).clip(line.start, line.end)
+    ]  # fmt: skip
+    assert legs
+    assert [] == crossed
 
 
 # eight-bars are too crowded for some of theirs
