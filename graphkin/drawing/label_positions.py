@@ -6,9 +6,9 @@ segment what touches.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -40,7 +40,9 @@ from graphkin.drawing.obstacles import (
 from graphkin.drawing.primitives import Segment
 from graphkin.plane import cross
 
-__all__ = ["SOME", "TANGLED", "HeldPositions", "LabelPanel", "LabelPosition", "LabelPositions", "least_cost"]
+__all__ = [
+    "SOME", "TANGLED", "FoundPositions", "HeldPositions", "LabelPanel", "LabelPosition", "LabelPositions", "least_cost",
+]  # fmt: skip
 
 FEW = 6
 """Places that a label tries one by one, before more of them are judged together."""
@@ -172,6 +174,10 @@ class LabelPositions:
         return over
 
 
+FoundPositions: TypeAlias = dict[tuple[LabelRequest, int, int], LabelPositions]
+"""Positions without a fault by what was asked for and the rings looked at, first and last; (0, 0) for `further` ones."""
+
+
 class HeldPositions:
     """The positions that labels hold, as arrays by label: middles and half sizes of boxes (nan of a label that holds
     none), feet and tips of leaders, whether there is one."""
@@ -218,12 +224,14 @@ def _crosses(one: Segment, other: Segment) -> bool:
 
 
 class LabelPanel:
-    """A panel with what is drawn on it and all marks, which is asked for positions of labels."""
+    """A panel with what is drawn on it and all marks, which is asked for positions of labels; ``found`` remembers
+    those found for the same drawing and marks."""
 
     def __init__(
-        self, panel: Box, obstacles: Obstacles, marks: Sequence[Mark], requests: Sequence[LabelRequest]
-    ) -> None:
-        self.panel = panel
+        self, panel: Box, obstacles: Obstacles, marks: Sequence[Mark], requests: Sequence[LabelRequest],
+        found: FoundPositions,
+    ) -> None:  # fmt: skip
+        self.panel, self.asked, self.found = panel, requests, found
         writing = set(obstacles.writing)
         areas = [area.grown(LEADER_SPACE) if area in writing else area for area in obstacles.areas]
         diagonals = tuple((area.corners[0], area.corners[2]) for area in areas)
@@ -249,13 +257,21 @@ class LabelPanel:
 
     def free(self, labels: Sequence[int], first: int, last: int) -> list[LabelPositions]:
         """Places without a fault in the rings from ``first`` up to ``last`` for each of some labels."""
-        who = np.array(labels)
-        return self._without_fault(who, candidates(self.requests, who, RINGS[first:last]))
+        return self._remembered(labels, first, last, lambda who: candidates(self.requests, who, RINGS[first:last]))
 
     def further(self, labels: Sequence[int]) -> list[LabelPositions]:
         """Further places without a fault for each of some labels, with leaders."""
-        who = np.array(labels)
-        return self._without_fault(who, led_candidates(self.requests, who))
+        return self._remembered(labels, 0, 0, lambda who: led_candidates(self.requests, who))
+
+    def _remembered(
+        self, labels: Sequence[int], first: int, last: int, places: Callable[[Indices], Candidates]
+    ) -> list[LabelPositions]:
+        keys = [(self.asked[label], first, last) for label in labels]
+        new = {key: label for key, label in zip(keys, labels, strict=True) if key not in self.found}
+        if new:
+            who = np.array(list(new.values()))
+            self.found.update(zip(new, self._without_fault(who, places(who)), strict=True))
+        return [self.found[key] for key in keys]
 
     def tangled(self, place: LabelPosition) -> bool:
         """Whether the leader of a place crosses a vector, a link, a joint or an arrowhead."""

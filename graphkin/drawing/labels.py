@@ -23,6 +23,7 @@ from graphkin.drawing.label_positions import (
     FEW,
     SOME,
     TANGLED,
+    FoundPositions,
     HeldPositions,
     LabelPanel,
     LabelPosition,
@@ -81,8 +82,9 @@ class Placed:
 
 
 def place(
-    labels: Sequence[Label], panel: Box, obstacles: Obstacles = _NOTHING, marks: Sequence[Mark] = ()
-) -> tuple[Placed, ...]:
+    labels: Sequence[Label], panel: Box, obstacles: Obstacles = _NOTHING, marks: Sequence[Mark] = (),
+    found: FoundPositions | None = None,
+) -> tuple[Placed, ...]:  # fmt: skip
     """Give labels their places, in their order, those left out that are given up; the same input gives the same places.
 
     Parameters
@@ -91,6 +93,7 @@ def place(
     panel : no label leaves it
     obstacles : what is drawn already
     marks : further points and segments that a reader could take a label for, besides those of the labels
+    found : what calls for the same panel, obstacles and marks, those of the labels too, share of their search
     """
     if not labels:
         return ()
@@ -100,7 +103,8 @@ def place(
         LabelRequest(*ends(label.mark), complex(box.width, box.height) / 2, label.toward)
         for label, box in zip(labels, boxes, strict=True)
     ]
-    placement = _Placement([label.rank for label in labels], LabelPanel(panel, obstacles, marks, requests))
+    asked = LabelPanel(panel, obstacles, marks, requests, {} if found is None else found)
+    placement = _Placement([label.rank for label in labels], asked)
     placement.settle()
     return tuple(
         _placed(text, box, placement.standing[i], placement.clear[i], placement.tangled(i))

@@ -10,6 +10,7 @@ from itertools import accumulate
 from graphkin.drawing.box import Box
 from graphkin.drawing.font_widths import runs_width, text_box
 from graphkin.drawing.free_room import free_boxes
+from graphkin.drawing.label_positions import FoundPositions
 from graphkin.drawing.labels import Label, Mark, Placed, place
 from graphkin.drawing.obstacles import Obstacles
 from graphkin.drawing.primitives import Primitive, Text
@@ -25,18 +26,21 @@ APART = 3.0, 1.0  # mm between columns and between lines of the list
 def named(labels: Sequence[Label], panel: Box, obstacles: Obstacles, marks: Sequence[Mark]) -> tuple[Primitive, ...]:
     """Labels in their places with their leaders, parameters as for `labels.place`; those of a crowd listed by their
     keys."""
-    best = place(labels, panel, obstacles, marks)
+    found: FoundPositions = {}
+    best = place(labels, panel, obstacles, marks, found)
     listed: tuple[Text, ...] = ()
     placed, keyed = best, frozenset[str]()
     for _ in range(ROUNDS):
         if not _crowded(labels, best):
             break
         if keyed:
-            placed = place([_short(label, keyed) for label in labels], panel, obstacles, marks)
+            placed = place([_short(label, keyed) for label in labels], panel, obstacles, marks, found)
         keyed |= _crowded(labels, placed) & {label.text.id for label in labels if label.key is not None}
         tried = _eased(labels, placed, keyed, panel, obstacles, marks)
         if tried is not None and len(_crowded(labels, tried[0])) < len(_crowded(labels, best)):
             best, listed = tried
+        if not keyed:
+            break  # the next round would be this one
     written = (thing for one in best for thing in (one.leader, one.text) if thing is not None)
     return *written, *listed
 
