@@ -41,7 +41,7 @@ Indices: TypeAlias = NDArray[np.intp]
 Sides: TypeAlias = tuple[Floats, Floats, Floats, Floats]
 """Left, top, right, bottom of upright boxes."""
 
-MOST_PAIRS = 1 << 20  # of boxes compared at a time
+MOST_PAIRS = 1 << 17  # of boxes compared at a time: what a processor holds near
 
 # A filled polygon up to this size (mm) is a block or a corner, which no label may cover; a larger one is the tint of a
 # link, on which labels may stand, clear of its edges.  For one no larger than an arrowhead the upright box will do.
@@ -144,8 +144,10 @@ def sides_around(start: Points, end: Points) -> Sides:
 def near(boxes: Sides, others: Sides) -> tuple[Indices, Indices]:
     """Pairs of upright boxes that meet, by their indices; a box of nan meets none."""
     left, top, right, bottom = others
-    rows = max(1, MOST_PAIRS // max(1, len(left)))
-    found = [np.empty(0, dtype=np.intp)]
+    if not (len(boxes[0]) and len(left)):
+        return np.empty(0, dtype=np.intp), np.empty(0, dtype=np.intp)
+    rows = max(1, MOST_PAIRS // len(left))
+    found = []
     for first in range(0, len(boxes[0]), rows):
         own_left, own_top, own_right, own_bottom = (side[first : first + rows, None] for side in boxes)
         meeting = left <= own_right
@@ -153,7 +155,7 @@ def near(boxes: Sides, others: Sides) -> tuple[Indices, Indices]:
         meeting &= top <= own_bottom
         meeting &= bottom >= own_top
         found.append(np.flatnonzero(meeting) + first * len(left))
-    which, what = np.divmod(np.concatenate(found), max(1, len(left)))
+    which, what = np.divmod(found[0] if len(found) == 1 else np.concatenate(found), len(left))
     return which, what
 
 
