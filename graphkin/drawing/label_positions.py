@@ -41,12 +41,13 @@ from graphkin.drawing.primitives import Segment
 from graphkin.plane import cross
 
 __all__ = [
-    "SOME", "TANGLED", "FoundPositions", "HeldPositions", "LabelPanel", "LabelPosition", "LabelPositions", "least_cost",
+    "MANY", "SOME", "TANGLED", "FoundPositions", "HeldPositions", "LabelPanel", "LabelPosition", "LabelPositions",
+    "least_cost",
 ]  # fmt: skip
 
 FEW = 6
 """Places that a label tries one by one, before more of them are judged together."""
-SOME = 48
+SOME, MANY = 48, 240
 """Places judged together, before all the others are."""
 LEADER_GAP = 0.4  # mm between the end of a leader and the box of its label
 LEADER_SPACE = 0.25  # mm between a leader and the box of any other label
@@ -175,7 +176,8 @@ class LabelPositions:
 
 
 FoundPositions: TypeAlias = dict[tuple[LabelRequest, int, int], LabelPositions]
-"""Positions without a fault by what was asked for and the rings looked at, first and last; (0, 0) for `further` ones."""
+"""Positions without a fault by what was asked for and the rings looked at, first and last; rings 0, 0 stand for
+`LabelPanel.further`."""
 
 
 class HeldPositions:
@@ -232,6 +234,7 @@ class LabelPanel:
         found: FoundPositions,
     ) -> None:  # fmt: skip
         self.panel, self.asked, self.found = panel, requests, found
+        self.over: dict[Segment, bool] = {}  # which leaders cross what they are to go round
         writing = set(obstacles.writing)
         areas = [area.grown(LEADER_SPACE) if area in writing else area for area in obstacles.areas]
         diagonals = tuple((area.corners[0], area.corners[2]) for area in areas)
@@ -277,9 +280,11 @@ class LabelPanel:
         """Whether the leader of a place crosses a vector, a link, a joint or an arrowhead."""
         if place.leader is None:
             return False
-        foot, tip = (np.array([z]) for z in place.leader)
-        start = foot + (tip - foot) / np.abs(tip - foot) * LINE_REACH
-        return bool(self._crossed(foot, start, tip, self.weights * (self.weights > 1.0))[0] > 0)
+        if place.leader not in self.over:
+            foot, tip = (np.array([z]) for z in place.leader)
+            start = foot + (tip - foot) / np.abs(tip - foot) * LINE_REACH
+            self.over[place.leader] = bool(self._crossed(foot, start, tip, self.weights * (self.weights > 1.0))[0] > 0)
+        return self.over[place.leader]
 
     def _without_fault(self, who: Indices, places: Candidates) -> list[LabelPositions]:
         half = self.requests.half[who]

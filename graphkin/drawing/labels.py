@@ -21,6 +21,7 @@ from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.label_candidates import RINGS, LabelRequest, Mark, ends
 from graphkin.drawing.label_positions import (
     FEW,
+    MANY,
     SOME,
     TANGLED,
     FoundPositions,
@@ -176,7 +177,7 @@ class _Placement:
             else:
                 self._take(i, position)
                 return True
-        for first, last in ((FEW, SOME), (SOME, len(positions))):
+        for first, last in ((FEW, SOME), (SOME, MANY), (MANY, len(positions))):
             if first < len(positions):
                 free = np.flatnonzero(~positions.part(first, last).met(self.held, _SPACE).any(axis=1))
                 if free.size:
@@ -276,7 +277,7 @@ class _Placement:
 
     def _nearly_free(self, positions: LabelPositions) -> Iterator[tuple[LabelPosition, Flags]]:
         """Places that meet at most one other label, cheapest first, with what they meet."""
-        for first, last in ((0, SOME), (SOME, len(positions))):
+        for first, last in ((0, SOME), (SOME, MANY), (MANY, len(positions))):
             met = positions.part(first, last).met(self.held, _SPACE)
             for k in np.flatnonzero(met.sum(axis=1) <= 1):
                 yield positions.position(first + int(k)), met[k]
