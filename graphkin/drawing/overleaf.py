@@ -24,6 +24,7 @@ __all__ = ["Remainder", "captioned", "heading", "overleaf"]
 GAP = 6.0  # mm between two parts
 CAPTION = 5.5
 HEAD = 15.0  # mm for the heading
+NARROWEST = 209.0  # mm: the narrower side of A4, about
 LEAST_TABLE = 20.0  # mm: a table of fewer rows is none
 
 
@@ -45,7 +46,13 @@ class Remainder:
 
 
 def overleaf(sheet: Sheet, rest: Remainder, letters: Letters, language: str, page: Box) -> tuple[Drawing, ...]:
-    """As many pages as the rest takes, each of the size of a first page whose inside is ``page``."""
+    """As many pages as the rest takes, each of the size of a first page whose inside is ``page``, which is halved down to
+    A4 or Letter: what is left are words."""
+    short, long = sorted((page.left + page.right, page.top + page.bottom))
+    if long / 2 >= NARROWEST:
+        while long / 2 >= NARROWEST:
+            short, long = long / 2, short
+        page = Box(page.left, page.top, short - page.left, long - page.top)
     made: list[Drawing] = []
     while rest:
         number = len(made) + 2

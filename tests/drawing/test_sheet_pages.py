@@ -109,3 +109,9 @@ def test_scales_are_round_in_inches():
 def test_the_title_elsewhere_is_without_the_words_of_the_scenes_own_position(at, expected):
     told = words(draw("shaper-scheme-2", at=at).figures["velocity"])
     assert [expected] == [text[-len(expected) :] for text in told if text.startswith("Shaper")]
+
+
+def test_what_a_large_sheet_leaves_goes_overleaf_on_a4():
+    figures = draw("sixbar-guide-40deg", figures=("sheet",)).figures
+    assert (297.0, 420.0) == (figures["sheet"].width, figures["sheet"].height)
+    assert (210.0, 297.0) == (figures["sheet-2"].width, figures["sheet-2"].height)
