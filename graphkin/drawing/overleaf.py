@@ -46,7 +46,7 @@ class Remainder:
 
 
 def overleaf(sheet: Sheet, rest: Remainder, letters: Letters, language: str, page: Box) -> tuple[Drawing, ...]:
-    """As many pages as the rest takes, each of the size of a first page whose inside is ``page``, which is halved down to
+    """As many pages as the rest takes, each of the size of a first page whose inside is ``page``, halved down to
     A4 or Letter: what is left are words."""
     short, long = sorted((page.left + page.right, page.top + page.bottom))
     if long / 2 >= NARROWEST:
