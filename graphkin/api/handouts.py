@@ -22,7 +22,7 @@ from graphkin.api.arguments import (
 )
 from graphkin.api.checked import solved_here
 from graphkin.api.results import FilesOfScene
-from graphkin.errors import CallError, Problem, as_text, did_you_mean
+from graphkin.errors import CallError, Problem, as_list, as_text, did_you_mean
 from graphkin.papers.exports import PLATFORMS, Question, files_for, question_of
 from graphkin.papers.lesson import Lesson
 from graphkin.papers.paper import paper_plan
@@ -207,7 +207,9 @@ def known_platforms(exports: Sequence[str]) -> tuple[str, ...]:
     """Names of learning platforms, each once.  Raises CallError for an unknown one."""
     if isinstance(exports, str):
         raise CallError(Problem("export", f'"{exports}" is a text', f'give a list: ["{exports}"]'))
-    wrong = [Problem("export", f'"{e}"', did_you_mean(str(e), PLATFORMS)) for e in exports if e not in PLATFORMS]
+    named = as_list("export", exports, f"give a list: {', '.join(PLATFORMS)}")
+    wrong = [Problem("export", f'"{e!s:.60}"', did_you_mean(str(e)[:60], PLATFORMS))
+             for e in named if e not in PLATFORMS]  # fmt: skip
     if wrong:
         raise CallError(*wrong)
-    return tuple(dict.fromkeys(exports))
+    return tuple(dict.fromkeys(named))

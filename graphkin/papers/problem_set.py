@@ -26,7 +26,8 @@ from graphkin.structure import Cluster, analyse
 
 __all__ = ["Failure", "Job", "MadeSet", "Render", "accepted", "distinct", "jobs_of_rows", "jobs_of_seed", "make"]
 
-MANY, FEW = 30, 4  # of them for everything that may be asked, of mechanisms of dyads and with larger groups
+# of them for everything that may be asked, then as many for two of it at least, then for one: dyads, larger groups
+MANY, FEW = 30, 4
 ATTEMPTS = 120  # tries at one variant before it is given up
 POOL, BEST = 40, 10  # candidates with larger groups that are compared, and of them those that are looked at closely
 PATIENCE, LONGER = 12.0, 24.0  # s of the processor, after which no further one is begun; with larger groups
@@ -116,7 +117,7 @@ def work(job: Job, attempt: int) -> Attempt:
         if time.process_time() - begun > (LONGER if large else PATIENCE):
             break
         try:
-            fewer = k - attempt >= patient
+            fewest = (0, 2, 1)[min((k - attempt) // patient, 2)]
             if large:
                 if k // BEST not in best:
                     best = {k // BEST: _best_of(job, job.spread, k // BEST)}
@@ -125,7 +126,7 @@ def work(job: Job, attempt: int) -> Attempt:
                 source = _named(candidate(job.source, job.spread, job.seed, job.number, k), job.name)
             was = _where_it_was(source, job.source)
             bounds = level_of(job.source)
-            return Attempt(examined(source, was, job.name, bounds=bounds, fewer=fewer), k)
+            return Attempt(examined(source, was, job.name, bounds=bounds, fewest=fewest), k)
         except Unfit as unfit:
             why[str(unfit)] += 1
         except Exception as error:  # whatever goes wrong with one must not take the others along

@@ -151,7 +151,7 @@ def _joints(group: Dyad | Cluster) -> tuple[Pair, ...]:
 
 def examined(
     source: Source, base: Source | None, name: str, strict: bool = True, bounds: Bounds = LEVELS["usual"],
-    fewer: bool = False,
+    fewest: int = 0,
 ) -> Variant:  # fmt: skip
     """A variant from the mapping of a scene file, if it makes a good problem.
 
@@ -162,7 +162,8 @@ def examined(
         followed
     strict : refuse what cannot be drawn well; else say it in the remarks
     bounds : how well lines must cross, and how far a pencil drawing may miss an answer
-    fewer : ask only for what a pencil drawing does not miss, where the scene does not say what is asked
+    fewest : ask only for what a pencil drawing does not miss, so many quantities at least, where the scene does not
+        say what is asked; 0: for everything
 
     Raises
     ------
@@ -177,7 +178,7 @@ def examined(
         if motion.status[0] != "ok":
             raise Unfit(f"{motion.status[0]}: {motion.why[0]}")
         asked = asked_of(scene)
-        chosen = strict and fewer and not source.get("find")
+        chosen = strict and fewest > 0 and not source.get("find")
         if chosen:
             asked = (*asked, *_of_larger_groups(scene, asked))
         what = paper_plan(scene, None, asked)
@@ -197,7 +198,7 @@ def examined(
         if chosen:
             unread = {s for s, _ in answers if any(_unread(sheet, (s,)))}
             read = tuple(one for one in answers if one[0] not in unread)
-            asked = _within_reach(read, first, bounds.tolerance)[:MOST_ASKED]
+            asked = _within_reach(read, first, bounds.tolerance, fewest)[:MOST_ASKED]
             answers = tuple(one for one in answers if one[0] in asked)
             made["find"] = [str(s) for s in asked]
         _held(answers, first, bounds.tolerance)
@@ -227,11 +228,11 @@ def _held(answers: Sequence[tuple[Symbol, float]], bounds: Mapping[Symbol, float
 
 
 def _within_reach(
-    answers: Sequence[tuple[Symbol, float]], bounds: Mapping[Symbol, float], tolerance: float
+    answers: Sequence[tuple[Symbol, float]], bounds: Mapping[Symbol, float], tolerance: float, fewest: int
 ) -> tuple[Symbol, ...]:
-    """What a pencil does not miss of what may be asked, where that is two quantities at least, or else everything."""
+    """What a pencil does not miss of what may be asked, where that are so many quantities, or else everything."""
     kept = tuple(s for s, value in answers if bounds.get(s, 0.0) <= AMPLE * tolerance * abs(value))
-    return kept if len(kept) > 1 else tuple(s for s, _ in answers)
+    return kept if len(kept) >= fewest else tuple(s for s, _ in answers)
 
 
 def _moved(source: Source, base: Source) -> dict[str, Any]:

@@ -141,3 +141,9 @@ def test_an_unknown_platform_is_told_by_name():
     done = run("handout", SCENE, "--export", "moodel")
     assert 2 == done.returncode
     assert 'did you mean "moodle"' in done.stderr
+
+
+@pytest.mark.parametrize("exports", [None, 3, 2.5, object()])
+def test_what_is_no_list_of_platforms_is_refused_by_name(exports):
+    with pytest.raises(graphkin.CallError, match="export.*give a list: moodle"):
+        graphkin.handout(SCENE, exports=exports)

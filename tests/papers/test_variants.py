@@ -23,9 +23,10 @@ from graphkin.errors import CallError, Problem
 from graphkin.papers import problem_set as room
 from graphkin.papers.data_rows import columns_of, replaced, value_of
 from graphkin.papers.fresh_numbers import round_step
-from graphkin.papers.variants import Answer, asked_of
+from graphkin.papers.variants import Answer, _within_reach, asked_of
 from graphkin.plane import cross
 from graphkin.scene import library_text, mechanism_of
+from graphkin.scene.symbol import Symbol
 
 SIXBAR = "sixbar-guide-40deg"
 SHAPER = "shaper-scheme-2"
@@ -329,3 +330,10 @@ def test_of_discs_and_geared_bars_what_they_move_is_asked_not_what_is_given():
     names = "disc-on-disc", "geared-five-bar"
     asked = {name: [str(s) for s in asked_of(graphkin.solve(name).mechanism)] for name in names}
     assert {"disc-on-disc": ["v_B", "a_B", "omega_2", "alpha_2"], "geared-five-bar": ["v_C", "a_C"]} == asked
+
+
+@pytest.mark.parametrize(("fewest", "asked"), [(2, ["v_E", "omega_5"]), (1, ["omega_5"])])
+def test_one_quantity_that_a_pencil_finds_is_asked_where_two_are_not_to_be_had(fewest, asked):
+    values = [(Symbol.parse("v_E"), 0.1), (Symbol.parse("omega_5"), -0.7)]
+    missed = {Symbol.parse("v_E"): 0.009, Symbol.parse("omega_5"): 0.02}
+    assert asked == [str(s) for s in _within_reach(values, missed, 0.05, fewest)]
