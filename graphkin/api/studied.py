@@ -125,9 +125,8 @@ def speed_accuracy(
 
     given = as_scene(scene)
     repeats = whole_number("repeats", repeats, 1, 1000)
-    spoken = language or given.sheet.language
-    known_words(language=spoken)
-    found = SpeedAccuracy(race(given, repeats), spoken)
+    known_words(language=language)
+    found = SpeedAccuracy(race(given, repeats), language or given.sheet.language)
     if out is not None:
         found.write(out)
     return found
