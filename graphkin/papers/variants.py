@@ -197,7 +197,7 @@ def examined(
         first = {s: u.bound for s, u in predict(what, "pencil", scene.sheet.tools, together=False).items()}
         if chosen:
             unread = {s for s, _ in answers if any(_unread(sheet, (s,)))}
-            read = tuple(one for one in answers if one[0] not in unread)
+            read = tuple((s, value) for s, value in answers if value and s not in unread)  # what rests is no question
             asked = _within_reach(read, first, bounds.tolerance, fewest)[:MOST_ASKED]
             answers = tuple(one for one in answers if one[0] in asked)
             made["find"] = [str(s) for s in asked]

@@ -128,3 +128,8 @@ def test_cams_and_rolling_wheels_vary_and_are_asked_for_something(scene, asked):
         assert all(a.tolerance <= 0.05 * abs(a.value) for a in answers)
     one, two = made.made.answers.values()
     assert one != two
+
+
+def test_a_slider_that_never_turns_is_not_asked_for_its_rate():
+    source = {key: value for key, value in graphkin.read("triad-slider").to_dict().items() if key != "find"}
+    assert all(answer.value for answer in examined(source, None, "01", fewest=1).answers)
