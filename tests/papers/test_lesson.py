@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import pytest
 
+from graphkin import read
 from graphkin.api.handouts import handout
 from graphkin.construction import draft
 from graphkin.drawing.conventions import letters_of
@@ -117,6 +118,14 @@ def test_every_point_of_a_link_is_found_with_ruler_and_compass():
     assert f"Join B and C: link 2; {arcs}." == coupler
     bar = "On O_4A lengthened beyond A mark B: O_4B = 116.00 mm on paper; on O_4B mark S_4: O_4S_4 = 58.00 mm on paper."
     assert bar == _steps("shaper-scheme-2", "en")[4]
+
+
+@pytest.mark.parametrize(("across", "sense"), [(80, "counter-clockwise"), (-80, "clockwise")])
+def test_a_point_beside_a_guide_that_a_pin_directs_is_turned_from_it(across, sense):
+    source = read("shaper-scheme-2").to_dict()
+    source["links"]["4"] = {"points": ["O4"], "at": {"B": [575, across]}}
+    turned = f"At O_4 turn 7.921° {sense} from O_4A and lay off O_4B = 116.11 mm on paper: B."
+    assert turned in _steps(source, "en")
 
 
 def test_a_larger_group_is_placed_link_by_link_each_from_what_stands():
