@@ -17,14 +17,14 @@ from graphkin.api.class_results import Scheme, people_of, quantities_of, scheme_
 from graphkin.api.judging import MOST_DRAWN, evidence_at, judged_table
 from graphkin.api.reading_rows import in_scene_units
 from graphkin.api.results import OfScene, Result
-from graphkin.checking.audit import Judged, Value, judge, with_gaps
+from graphkin.checking.audit import Judged, judge, with_gaps
 from graphkin.checking.scans import JudgedScan, judge_scans
 from graphkin.checking.slips import Evidence, ValuesElsewhere
 from graphkin.construction import execute, plan
 from graphkin.errors import CallError, Problem, as_text, did_you_mean
 from graphkin.files import path_of
 from graphkin.scene.model import Mechanism
-from graphkin.scene.symbol import Symbol
+from graphkin.scene.symbol import Symbol, Value
 from graphkin.words import Phrase, say, word
 
 if TYPE_CHECKING:

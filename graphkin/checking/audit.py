@@ -18,7 +18,7 @@ from graphkin.checking.loop_gaps import loop_gaps
 from graphkin.checking.slips import Evidence, dimension, line_of
 from graphkin.checking.weighing import CHANCE, COMPUTED, NEVER, Suspect, Suspects, Weighing, comparable, likelihood
 from graphkin.scene.printed import Printed
-from graphkin.scene.symbol import Symbol
+from graphkin.scene.symbol import Symbol, Value
 from graphkin.words import Phrase
 
 __all__ = [
@@ -26,7 +26,6 @@ __all__ = [
 ]  # fmt: skip
 
 Verdict = Literal["right", "within drafting accuracy", "right from own values", "wrong", "not judged"]
-Value = complex | float
 
 RIGHT_SHARE = 0.7  # drawn values that are right but for drafting errors
 SURER = 10.0  # so much likelier must a slip be than drafting errors, to call a value in their reach wrong

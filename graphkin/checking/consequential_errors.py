@@ -10,11 +10,9 @@ from graphkin.checking.readings import read_off
 from graphkin.construction import Plan, Sheet, Slip, execute
 from graphkin.construction.slip import Component
 from graphkin.errors import GraphkinError
-from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.scene.symbol import PointRef, Symbol, Value
 
 __all__ = ["consequential_values", "drawn_before"]
-
-Value = complex | float
 
 
 def consequential_values(plan: Plan, base: Sheet, own: Mapping[Symbol, Value], of: Symbol) -> tuple[Value, ...]:

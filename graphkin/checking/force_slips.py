@@ -12,13 +12,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from graphkin.scene.loads import LinkMass, Loading, LoadOn, SpringOn
-from graphkin.scene.symbol import Symbol
+from graphkin.scene.symbol import Symbol, Value
 from graphkin.solver import Forces, Motion, forces_of
 from graphkin.words import Phrase
 
 __all__ = ["SlippedForces", "slipped_forces"]
-
-Value = complex | float
 
 
 @dataclass(frozen=True)

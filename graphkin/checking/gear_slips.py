@@ -15,13 +15,11 @@ import numpy as np
 from graphkin.errors import GraphkinError
 from graphkin.scene.contacts import PlacedGear
 from graphkin.scene.model import AngleDriver, Mechanism
-from graphkin.scene.symbol import Symbol
+from graphkin.scene.symbol import Symbol, Value
 from graphkin.solver import Motion, solve, value_of
 from graphkin.words import Phrase
 
 __all__ = ["SlippedGears", "slipped_gears"]
-
-Value = complex | float
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,7 @@ from graphkin.construction.slip import Component
 from graphkin.errors import GraphkinError
 from graphkin.plane import unit
 from graphkin.scene.model import AngleDriver, Mechanism
-from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.scene.symbol import PointRef, Symbol, Value
 from graphkin.solver import Motion
 from graphkin.structure import Slide
 from graphkin.words import Phrase
@@ -72,7 +72,6 @@ def _pivot(sheet: Sheet, of: PointRef) -> complex | None:
     return None
 
 
-Value = complex | float
 ValuesElsewhere = Callable[[Symbol], Sequence[tuple[str, Value]]]
 RPM = 60.0 / math.tau
 LENGTHS = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254, "ft": 0.3048}

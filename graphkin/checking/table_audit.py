@@ -6,12 +6,12 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
-from graphkin.checking.audit import COMPUTED_SHARE, Judged, Value, deviation, difference
+from graphkin.checking.audit import COMPUTED_SHARE, Judged, deviation, difference
 from graphkin.checking.transcription import transcription_errors
 from graphkin.checking.weighing import comparable
 from graphkin.plane import unit
 from graphkin.scene.printed import Printed
-from graphkin.scene.symbol import Symbol
+from graphkin.scene.symbol import Symbol, Value
 from graphkin.solver import Motion, value_of
 from graphkin.words import Phrase
 

@@ -15,12 +15,11 @@ from numpy.typing import NDArray
 
 from graphkin.checking.transcription import transcription_errors
 from graphkin.scene.printed import Printed
-from graphkin.scene.symbol import Symbol
+from graphkin.scene.symbol import Symbol, Value
 from graphkin.words import Phrase
 
 __all__ = ["CHANCE", "COMPUTED", "NEVER", "Suspect", "Suspects", "Weighing", "comparable", "likelihood"]
 
-Value = complex | float
 Reals = NDArray[np.float64]
 
 CHANCE = 0.15  # a wrong value lies anywhere, within its own size

@@ -204,8 +204,7 @@ def _on_line(p: tuple[str, complex], q: tuple[str, complex], name: str, at: comp
     along = dot(at - a, b - a) / abs(b - a) ** 2
     if 0.0 <= along <= 1.0:
         return Phrase("place within", (one + two, name, one + name, on_paper(abs(at - a))))
-    beyond, near, z = (one, one, a) if along < 0.0 else (two, one, a)
-    return Phrase("place beyond", (one + two, name, near + name, on_paper(abs(at - z)), beyond))
+    return Phrase("place beyond", (one + two, name, one + name, on_paper(abs(at - a)), one if along < 0.0 else two))
 
 
 def _listed(one: Phrase, other: Phrase) -> Phrase:

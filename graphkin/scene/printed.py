@@ -7,13 +7,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal, InvalidOperation
 
-from graphkin.scene.symbol import Symbol
+from graphkin.scene.symbol import Symbol, Value
 from graphkin.scene.tables import Units
 from graphkin.words import Phrase, say
 
 __all__ = ["Printed", "Unreadable", "stated"]
 
-Value = complex | float
 MOST_PARDONED = 0.01  # part of a value that rounding to one digit may take away
 SMALLEST = -300  # power of ten of a last digit that a double still holds
 

@@ -14,12 +14,14 @@ from typing import Literal
 from graphkin.errors import Problem
 from graphkin.scene.tables import Units
 
-__all__ = ["KINDS", "VECTORS", "Kind", "Measure", "PointRef", "Symbol", "centre_links", "missing_names"]
+__all__ = ["KINDS", "VECTORS", "Kind", "Measure", "PointRef", "Symbol", "Value", "centre_links", "missing_names"]
 
 Measure = Literal[
     "velocity", "acceleration", "angular velocity", "angular acceleration", "length", "angle", "number", "force",
     "moment", "work", "inertia",
 ]
+Value = complex | float
+"""What a quantity is: a vector of the plane, or a number."""
 Scope = Literal["motion", "position", "turn", "force", "cycle"]
 
 _POINT = r"[A-Z][A-Za-z0-9]*"

@@ -12,7 +12,7 @@ import numpy as np
 from graphkin.errors import CallError, Problem
 from graphkin.scene.force_names import no_force
 from graphkin.scene.model import AngleDriver
-from graphkin.scene.symbol import Symbol
+from graphkin.scene.symbol import Symbol, Value
 from graphkin.solver.driver_range import DriverRange, driver_range
 from graphkin.solver.motion import Motion
 from graphkin.solver.pose import Array
@@ -45,9 +45,6 @@ def value_of(motion: Motion, symbol: Symbol) -> Array:
     if found is None:
         raise CallError(Problem(str(symbol), "is read off the drawing alone", "ask `check` for it"))
     return found
-
-
-Value = complex | float
 
 
 def exact_values(motion: Motion, asked: Sequence[Symbol] = ()) -> Callable[[Symbol], Value]:

@@ -9,7 +9,7 @@ import numpy as np
 
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot
-from graphkin.scene.symbol import Symbol
+from graphkin.scene.symbol import Symbol, Value
 from graphkin.solver.acting import without_line
 from graphkin.solver.findings import structure_of
 from graphkin.solver.forces import Forces, forces_of
@@ -19,8 +19,6 @@ from graphkin.solver.redundant import all_slides
 from graphkin.solver.solve import solve
 
 __all__ = ["force_values"]
-
-Value = complex | float
 
 
 def force_values(motion: Motion) -> tuple[Callable[[Symbol], Value], float]:
