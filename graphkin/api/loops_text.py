@@ -85,9 +85,10 @@ class LoopText:
     def plain(self) -> str:
         """The loops as lines of text."""
         lines: list[str] = []
+        letters = self.scene.sheet.convention
         for block in self.blocks:
             for one in block.loops:
-                head = Phrase("loop heading", (one.loop.name, ", ".join(one.loop.links), equation(one)))
+                head = Phrase("loop heading", (one.loop.name, ", ".join(one.loop.links), equation(one, letters)))
                 x, y = projections(one, block, self.scene)
                 lines += [as_plain(say(head, self.language)), f"  x: {as_plain(x)}", f"  y: {as_plain(y)}"]
                 if one.root is not None:
@@ -104,9 +105,10 @@ class LoopText:
     def latex(self) -> str:
         """The same as LaTeX, a formula a line."""
         lines: list[str] = []
+        letters = self.scene.sheet.convention
         for block in self.blocks:
             for one in block.loops:
-                lines += [as_latex(equation(one)), *map(as_latex, projections(one, block, self.scene))]
+                lines += [as_latex(equation(one, letters)), *map(as_latex, projections(one, block, self.scene))]
             lines += [matrix_latex(matrix) for matrix in matrices(block, self.scene)]
         return "\n".join(rf"\[ {line} \]" for line in lines)
 

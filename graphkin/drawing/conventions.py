@@ -19,7 +19,7 @@ from graphkin.drawing.force_letters import force_letters
 from graphkin.scene.sheet_tables import Convention
 from graphkin.scene.symbol import PointRef, Symbol
 
-__all__ = ["Letters", "in_counting_order", "letters_of", "pole", "rows_of", "scale_statement"]
+__all__ = ["Letters", "as_vector", "in_counting_order", "letters_of", "pole", "rows_of", "scale_statement"]
 
 Rows = Literal["rows", "over", "table", "underlines"]
 
@@ -57,6 +57,16 @@ def rows_of(convention: Convention) -> Rows:
     return _ROWS[convention]
 
 
+def as_vector(convention: Convention, magnitude: str) -> str:
+    r"""A symbol as a vector, told from its magnitude: ``\mathbf{v}_{B3B2}``, russian ``\vec{v}_{B3B2}``.
+
+    Sun Huan, Norton, Hannah and Stephens print vectors bold or have no mark of their own; Russian books and the boards
+    of their schools have a mark over the letter.
+    """
+    mark = "vec" if convention == "russian" else "mathbf"
+    return rf"\{mark}{{{magnitude[0]}}}{magnitude[1:]}"
+
+
 @dataclass(frozen=True)
 class Letters:
     """Names of quantities as one convention writes them on one sheet.
@@ -82,12 +92,8 @@ class Letters:
         return f"{ref.point}_{{{link}}}" if ref.point[-1].isdigit() else f"{ref.point}{link}"
 
     def arrow(self, symbol: Symbol) -> str:
-        r"""A vector as such, in an equation or at its arrow, told from its magnitude: ``\mathbf{v}_{B3B2}``.
-
-        All four books print vectors bold (Sun Huan, Norton, Artobolevsky) or have no mark of their own.
-        """
-        magnitude = self.vector(symbol)
-        return rf"\mathbf{{{magnitude[0]}}}{magnitude[1:]}"
+        r"""A vector as such, in an equation or at its arrow: ``\mathbf{v}_{B3B2}``."""
+        return as_vector(self.convention, self.vector(symbol))
 
     def vector(self, symbol: Symbol) -> str:
         """The magnitude of a vector, or a rate: ``v_{B3B2}``, ``a^{n}_{CB}``, ``ω_{3}``."""

@@ -19,7 +19,7 @@ from graphkin.construction.forces.force_sheet import (
     MomentTerm,
 )
 from graphkin.construction.sheet import Sheet
-from graphkin.drawing.conventions import Letters
+from graphkin.drawing.conventions import Letters, as_vector
 from graphkin.drawing.equations import SumTerm
 from graphkin.drawing.force_chain import arm_lines
 from graphkin.drawing.force_letters import force_letters
@@ -173,9 +173,9 @@ def sum_terms(sheet: Sheet, group: ForceGroup, letters: Letters) -> list[SumTerm
 
 def _sum_term(sheet: Sheet, one: ForceTerm, letters: Letters) -> SumTerm:
     markup = force_letters(letters.convention, one.symbol, one.part)
-    bold = ("−" if one.turned else "") + rf"\mathbf{{{markup[0]}}}{markup[1:]}"
+    vector = ("−" if one.turned else "") + as_vector(letters.convention, markup)
     way = letters.direction(one.direction, sheet.scene.frame.name)
-    return SumTerm(bold, one.size_known, one.direction_known, way)
+    return SumTerm(vector, one.size_known, one.direction_known, way)
 
 
 def lever_sum(

@@ -13,7 +13,7 @@ from graphkin.construction.sheet import Sheet
 from graphkin.construction.touching import Touching
 from graphkin.drawing import strokes, symbols
 from graphkin.drawing.box import Box
-from graphkin.drawing.conventions import Letters
+from graphkin.drawing.conventions import Letters, as_vector
 from graphkin.drawing.force_letters import force_letters
 from graphkin.drawing.force_stages import ForceStage
 from graphkin.drawing.labels import Label
@@ -209,9 +209,9 @@ def _within(vector: ForceVector, links: set[str]) -> bool:
 
 
 def letters_of_force(letters: Letters, vector: ForceVector) -> str:
-    r"""A force as a vector: bold, with its part; ``−`` before the opposite of what its symbol says."""
+    r"""A force as a vector, with its part; ``−`` before the opposite of what its symbol says."""
     markup = force_letters(letters.convention, vector.symbol, vector.part)
-    return ("−" if vector.turned else "") + rf"\mathbf{{{markup[0]}}}{markup[1:]}"
+    return ("−" if vector.turned else "") + as_vector(letters.convention, markup)
 
 
 def _middle(sheet: Sheet, link: str) -> complex:

@@ -11,7 +11,7 @@ from graphkin.construction.forces.force_sheet import ForceSheet, ForceState, Lev
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
-from graphkin.drawing.conventions import Letters, letters_of, pole, scale_statement
+from graphkin.drawing.conventions import Letters, as_vector, letters_of, pole, scale_statement
 from graphkin.drawing.dimensions import check_bar
 from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.force_letters import force_letters
@@ -152,9 +152,9 @@ def _drawn(sheet: Sheet, lever: Lever, letters: Letters, panel: Box, origin: com
             shapes = arrow(at.conjugate(), tip.conjugate(), RESULTANT if found else COMPONENT, colour)
             arrows.append(Group(shapes, id=name, classes=("acting",)))
             markup = force_letters(letters.convention, row.symbol)
-            bold = rf"\mathbf{{{markup[0]}}}{markup[1:]}" if row.pair is None else f"{markup}/l"
-            bold = f"−{bold}" if row.turned else bold
-            text = Text(0j, symbol(bold, 3.0), "start", colour, f"label-{name}", ("label",))
+            named = as_vector(letters.convention, markup) if row.pair is None else f"{markup}/l"
+            named = f"−{named}" if row.turned else named
+            text = Text(0j, symbol(named, 3.0), "start", colour, f"label-{name}", ("label",))
             labels.append(Label(text, (at.conjugate(), tip.conjugate()), rank=0))
         if row.pair is None and abs(row.arm) > SHORT and ends_of:
             along = ends_of[0][1]

@@ -12,8 +12,10 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from graphkin.drawing.conventions import as_vector
 from graphkin.drawing.headings import number
 from graphkin.scene.model import Mechanism
+from graphkin.scene.sheet_tables import Convention
 from graphkin.structure.loop_values import ArrowValue, LoopBlock, LoopValue, Root
 from graphkin.structure.loops import Unknown
 from graphkin.words import Phrase, say
@@ -33,9 +35,9 @@ def size_name(arrow: ArrowValue) -> str:
     return f"l_{{{''.join(arrow.arrow.names)}}}" if all(arrow.arrow.names) else f"l_{{{arrow.arrow.link}}}"
 
 
-def equation(loop: LoopValue) -> str:
+def equation(loop: LoopValue, convention: Convention) -> str:
     """The vector equation: ``AB + BC + CD + DA = 0``."""
-    terms = " + ".join(rf"$\mathbf{{{size_name(a)[0]}}}{size_name(a)[1:]}$" for a in loop.arrows)
+    terms = " + ".join(f"${as_vector(convention, size_name(a))}$" for a in loop.arrows)
     return f"{terms} = 0"
 
 
@@ -152,7 +154,7 @@ _GREEK = {"θ": r"\theta", "ω": r"\omega", "α": r"\alpha", "−": "-", "·": r
 
 def as_plain(markup: str) -> str:
     """A line for a terminal."""
-    text = re.sub(r"\\mathbf\{(\w)\}", r"\1", markup.replace("$", ""))
+    text = re.sub(r"\\(?:mathbf|vec)\{(\w)\}", r"\1", markup.replace("$", ""))
     return re.sub(r"[_^]\{([^{}]*)\}", r"_\1", text)
 
 

@@ -23,6 +23,7 @@ from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polyline, Prim
 from graphkin.drawing.strokes import colour_of_link
 from graphkin.drawing.symbols import POINTER, arrowhead
 from graphkin.drawing.text import rich, symbol, wrapped
+from graphkin.scene.sheet_tables import Convention
 from graphkin.structure.loop_values import LoopBlock, LoopValue, loops_in_numbers
 from graphkin.words import Phrase, languages, say
 
@@ -69,7 +70,7 @@ def loops_figure(sheet: Sheet, *, language: str | None = None, convention: str |
             panel = Box(MARGIN, y, MARGIN + PANEL[0], y + height)
             pieces.append(with_labels(moved_piece(piece, panel.centre - box.centre), panel))
             column = Box(panel.right + 6.0, y, WIDTH - MARGIN, y + height)
-            lines = _lines(sheet, loop, block, spoken)
+            lines = _lines(sheet, loop, block, letters.convention, spoken)
             end = _write(words, lines, column)
             if loop is block.loops[-1]:
                 end = _matrices(words, sheet, block, spoken, complex(column.left, end + 1.0), column.right)
@@ -186,12 +187,14 @@ def _angle(tail: complex, vector: complex) -> list[Primitive]:
     return parts
 
 
-def _lines(sheet: Sheet, loop: LoopValue, block: LoopBlock, spoken: str) -> list[tuple[str, bool]]:
+def _lines(
+    sheet: Sheet, loop: LoopValue, block: LoopBlock, convention: Convention, spoken: str
+) -> list[tuple[str, bool]]:
     scene = sheet.scene
     lines: list[tuple[str, bool]] = []
     for each in languages(spoken):
         names = ", ".join(loop.loop.links)
-        lines.append((say(Phrase("loop heading", (loop.loop.name, names, equation(loop))), each), True))
+        lines.append((say(Phrase("loop heading", (loop.loop.name, names, equation(loop, convention))), each), True))
     x, y = projections(loop, block, scene)
     lines += [(f"x:  {x}", False), (f"y:  {y}", False)]
     gap = _gap(sheet, loop)

@@ -3,8 +3,8 @@ r"""Texts as runs: plain words, and symbols with sub- and superscripts at places
 Between dollar signs stands a symbol, in the notation of TeX: ``"velocity $v_{B3}$ of the ram"``.
 Letters of symbols are italic, digits and signs upright, Chinese upright everywhere; ``_`` and ``^`` take one character
 or a group in braces; both after one letter stand above each other; an index may have an index (``$v_{B_3}$``); a prime
-is ``′`` or ``'``, and behind an index stands above it; ``\mathbf{v}`` is a vector, bold and upright.  ``$$`` is a
-dollar sign.
+is ``′`` or ``'``, and behind an index stands above it; ``\mathbf{v}`` is a vector, bold and upright, ``\vec{v}`` one
+with an arrow over its letter.  ``$$`` is a dollar sign.
 """
 
 from __future__ import annotations
@@ -14,7 +14,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
-from graphkin.drawing.font_widths import is_cjk, runs_width, width
+from graphkin.drawing.font import EM, glyph
+from graphkin.drawing.font_widths import is_cjk, runs_width, style_of, width
 from graphkin.drawing.primitives import Run
 
 __all__ = ["SMALLEST", "Atom", "fitted", "is_italic", "parsed", "plain", "rich", "stacked", "symbol", "wrapped"]
@@ -23,7 +24,9 @@ LETTER, INDEX, SMALLEST = 3.5, 2.5, 2.0  # mm
 _DROP, _DROP_STACKED, _RISE = 0.24, 0.30, 0.40  # of the size of the letter, after the usual practice of typesetting
 _GAP_SUB, _GAP_SUPER = 0.02, 0.06
 _LEADING = 1.4  # from line to line
-_BOLD = r"\mathbf"
+_BOLD, _ARROWED = r"\mathbf", r"\vec"
+_ARROW = "→"
+_ARROW_SIZE, _ARROW_GAP, _SLANT = 0.57, 0.05, 0.04  # of the size of the letter under it
 
 
 @dataclass(frozen=True)
@@ -34,6 +37,7 @@ class Atom:
     sub: tuple[Atom, ...] = ()
     sup: tuple[Atom, ...] = ()
     bold: bool = False
+    arrow: bool = False
 
 
 def plain(text: str, size: float = LETTER, italic: bool = False, bold: bool = False) -> tuple[Run, ...]:
@@ -168,6 +172,9 @@ def _read(markup: str, at: int) -> tuple[tuple[Atom, ...], int]:
         elif markup.startswith(_BOLD, at):
             inner, at = _argument(markup, at + len(_BOLD))
             atoms += [replace(atom, bold=True) for atom in inner]
+        elif markup.startswith(_ARROWED, at):
+            inner, at = _argument(markup, at + len(_ARROWED))
+            atoms += [replace(atom, arrow=True) for atom in inner]
         else:
             atoms.append(Atom("′" if character == "'" else character))
             at += 1
@@ -207,23 +214,42 @@ def _set(atoms: tuple[Atom, ...], x: float, y: float, size: float, level: int, b
         above = None
         character = "−" if atom.text == "-" and level == 0 else atom.text
         own = is_italic(character) and not atom.bold, atom.bold
-        if stretch and face != own:
+        if stretch and (face != own or atom.arrow):
             flush()
+        reach = x
+        if atom.arrow:
+            over, x, reach = _arrow_over(character, own, x, y, size)
+            runs.append(over)
         if not stretch:
             begin, face = x, own
         stretch += character
         x = begin + width(stretch, size, *face)
-        if atom.sub or atom.sup:
+        if atom.arrow and not atom.sub:
+            x = max(x, reach)
+        if atom.sub or atom.sup or atom.arrow:
             flush()
             above = None if atom.sup else x
             drop = _DROP_STACKED if atom.sup else _DROP
             x = max(
                 _hang(runs, atom.sub, x + _GAP_SUB * size, y + drop * size, level, base),
-                _hang(runs, atom.sup, x + _GAP_SUPER * size, y - _RISE * size, level, base),
+                _hang(runs, atom.sup, max(x, reach) + _GAP_SUPER * size, y - _RISE * size, level, base),
                 x,
             )
     flush()
     return runs, x
+
+
+def _arrow_over(letter: str, face: tuple[bool, bool], x: float, y: float, size: float) -> tuple[Run, float, float]:
+    """The arrow over a letter that would stand at a place, where the letter stands then, and how far the arrow
+    reaches."""
+    own, sign = glyph(letter, style_of(*face)), glyph(_ARROW)
+    left, low, right, _ = sign.box if sign else (0, 0, EM, 0)
+    start, _, end, top = own.box if own else (0, 0, EM, EM)
+    long = max(SMALLEST, _ARROW_SIZE * size) / EM
+    begin = x + (start + end) / EM * size / 2 + _SLANT * size - (left + right) * long / 2
+    shift = max(0.0, x - begin)
+    height = y - (top / EM + _ARROW_GAP) * size + low * long
+    return Run(_ARROW, begin + shift, height, EM * long), x + shift, begin + shift + right * long
 
 
 def _hang(runs: list[Run], atoms: tuple[Atom, ...], x: float, y: float, level: int, base: float) -> float:

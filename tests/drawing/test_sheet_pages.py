@@ -48,13 +48,15 @@ def test_a_size_is_told_by_its_rule_in_every_convention(convention):
 
 
 @pytest.mark.parametrize("convention", FOUR)
-def test_a_vector_in_an_equation_is_bold_and_its_magnitude_is_not(convention):
+def test_a_vector_in_an_equation_is_bold_or_bears_an_arrow_and_its_magnitude_does_not(convention):
     sheet = draw("shaper-scheme-2", convention=convention).figures["sheet"]
     texts = [thing for thing in walk(sheet.children) if isinstance(thing, Text)]
     letter = "V" if convention == "us" else "v"
-    whole = [text.runs[0].bold for text in texts if re.sub(r"\W", "", text.string) == f"{letter}A4A3"]
-    assert {True} == set(whole)
-    assert not any(run.bold for text in texts if "ω" in text.string for run in text.runs)
+    mark = "→" if convention == "russian" else None
+    whole = [text.runs[0] for text in texts if re.sub(r"\W", "", text.string) == f"{letter}A4A3"]
+    told = [run.text == mark if mark else run.bold for run in whole]
+    assert {True} == set(told)
+    assert not any(run.bold or run.text == mark for text in texts if "ω" in text.string for run in text.runs)
 
 
 @pytest.mark.parametrize("language", ["en", "both"])

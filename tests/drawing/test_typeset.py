@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import pytest
 
+from graphkin.drawing.font import EM, glyph
 from graphkin.drawing.font_widths import run_box, runs_width, text_box, width
 from graphkin.drawing.primitives import Text
 from graphkin.drawing.text import plain, rich, symbol
@@ -32,6 +33,21 @@ def test_sub_and_superscript_stand_above_each_other():
 def test_stacked_sub_and_superscript_do_not_overlap():
     runs = by_text(symbol("a^{n}_{C}"))
     assert run_box(runs["n"]).bottom <= run_box(runs["C"]).top + 0.4  # room for descenders that n has not
+
+
+@pytest.mark.parametrize("letter", ["v", "a", "F", "Φ", "l"])
+def test_the_arrow_of_a_vector_stands_over_its_letter(letter):
+    arrow, under = symbol(rf"\vec{{{letter}}}_{{CB}}")[:2]
+    assert ("→", letter, True) == (arrow.text, under.text, under.italic)
+    low, tall = glyph("→").box[1] * arrow.size / EM, glyph(letter, "italic").box[3] * under.size / EM
+    assert 0.1 < under.y - arrow.y + low - tall < 0.3  # mm between the two
+    inked = [arrow.x + glyph("→").box[k] * arrow.size / EM for k in (0, 2)]
+    assert abs(sum(inked) / 2 - under.x - width(letter, under.size, True) / 2) < 0.4
+
+
+def test_what_is_raised_stands_beyond_the_arrow_of_a_vector():
+    arrow, *_, part = symbol(r"\vec{a}^{n}")
+    assert arrow.x + glyph("→").box[2] * arrow.size / EM < part.x
 
 
 def test_letters_of_symbols_are_italic():
