@@ -13,7 +13,7 @@ import numpy as np
 from graphkin.api.answers import Answers
 from graphkin.api.arguments import At, driver_values, own_unit, placed
 from graphkin.api.checked import solved_here
-from graphkin.checking.audit import Judged, drafting_bound, explained
+from graphkin.checking.audit import Judged, explained
 from graphkin.checking.slips import Evidence, ValuesElsewhere
 from graphkin.checking.table_audit import exact_rows, explained_by_digits, judged_by_digits
 from graphkin.checking.uncertainty import predict
@@ -74,7 +74,7 @@ def judged_table(
             if who.by == "drawing":  # by what a pencil keeps within here, not near by
                 judged = [
                     j if j.verdict == "right" or j.looks_like
-                    else judged_by_digits(j.printed, j.exact, who.by, drafting_bound(evidence, j.printed.symbol))
+                    else judged_by_digits(j.printed, j.exact, who.by, evidence.held(j.printed.symbol).bound)
                     for j in judged
                 ]  # fmt: skip
             wrong = [one.printed.symbol for one in judged if one.verdict == "wrong"]
@@ -97,7 +97,7 @@ class _Bounds:
     def bound(self, row: int, symbol: Symbol) -> float:
         step = max(1, math.ceil(len(self.table) / MOST_PREDICTED))
         near = min(len(self.table) - 1, step * round(row / step))
-        return drafting_bound(self.case(self.table[near].at), symbol)
+        return self.case(self.table[near].at).held(symbol).bound
 
 
 def evidence_at(

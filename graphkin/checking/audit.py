@@ -13,16 +13,15 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from graphkin.checking.consequential_errors import consequential_values, drawn_before
 from graphkin.checking.loop_gaps import loop_gaps
-from graphkin.checking.slips import Evidence, dimension, line_of
+from graphkin.checking.slips import NOTHING, Evidence
 from graphkin.checking.weighing import CHANCE, COMPUTED, NEVER, Suspect, Suspects, Weighing, comparable, likelihood
 from graphkin.scene.printed import Printed
 from graphkin.scene.symbol import Symbol, Value
 from graphkin.words import Phrase
 
 __all__ = [
-    "COMPUTED_SHARE", "Judged", "Value", "deviation", "difference", "drafting_bound", "explained", "judge", "with_gaps",
+    "COMPUTED_SHARE", "Judged", "Value", "deviation", "difference", "explained", "judge", "with_gaps",
 ]  # fmt: skip
 
 Verdict = Literal["right", "within drafting accuracy", "right from own values", "wrong", "not judged"]
@@ -32,7 +31,6 @@ SURER = 10.0  # so much likelier must a slip be than drafting errors, to call a 
 DIGITS = 5  # fewer digits than this tell no slip from an error of drafting
 FAR, FEW_DIGITS = 0.1, 3  # but so far off, to this many digits, they do
 COMPUTED_SHARE = 1e-4  # a computed value may be off by so much of itself, for inputs that were rounded
-NOTHING = 1e-9  # of the greatest value of its sort: what is smaller is zero
 LEAST_TURN = math.radians(1.5)  # directions are read off with a protractor
 
 
@@ -77,15 +75,13 @@ def judge(case: Evidence, stated: Sequence[Printed]) -> tuple[Judged, ...]:
 
 def _judged(case: Evidence, printed: Printed) -> Judged:
     symbol = printed.symbol
-    right = _no_residue(case, symbol, case.exact(symbol))
-    line = line_of(case.sheet, symbol)
-    exact = comparable(printed, right, line)
+    held = case.held(symbol)
+    bound, exact = held.bound, comparable(printed, held.right, held.line)
     off = abs(difference(printed, exact))
-    bound = drafting_bound(case, symbol)
     share = deviation(printed, exact)
     judged = Judged(printed, exact, share, "right", bound)
-    turned = _turned(judged, right)
-    nothing = NOTHING * _largest(case, symbol) if exact == 0 and symbol.scope == "motion" else 0.0
+    turned = _turned(judged, held.right)
+    nothing = NOTHING * held.largest if exact == 0 and symbol.scope == "motion" else 0.0
     if off <= printed.rounding + max(1e-9 * abs(exact), nothing):
         return turned or judged
     if math.isinf(bound):
@@ -108,13 +104,6 @@ def _judged(case: Evidence, printed: Printed) -> Judged:
     return judged
 
 
-def _no_residue(case: Evidence, symbol: Symbol, value: Value) -> Value:
-    """A value without what is left where it cancels."""
-    if symbol.scope != "motion" or not value:
-        return value
-    return value if abs(value) > NOTHING * _largest(case, symbol) else 0.0 * value
-
-
 def _turned(judged: Judged, right: Value) -> Judged | None:
     """A value whose size is right and whose stated direction is not, by what it looks like."""
     printed = judged.printed
@@ -134,19 +123,6 @@ def _turned(judged: Judged, right: Value) -> Judged | None:
     key = next((key for key, angle in ways if near(angle)), "slip direction")
     off = math.degrees(math.remainder(printed.direction - true, math.tau))
     return replace(judged, verdict="wrong", looks_like=Phrase(key, (f"{off:+.0f}",)))
-
-
-def drafting_bound(case: Evidence, symbol: Symbol) -> float:
-    """What a pencil keeps within (SI): 0 where nothing is predicted, infinite where it tells nothing."""
-    uncertainty = case.predicted.get(symbol)
-    bound = uncertainty.bound if uncertainty else 0.0
-    return math.inf if symbol.scope == "motion" and bound > _largest(case, symbol) else bound
-
-
-def _largest(case: Evidence, symbol: Symbol) -> float:
-    """The greatest exact value that is drawn of a sort: a pencil that may be off by more tells nothing."""
-    alike = [abs(v) for s, v in case.others.items() if dimension(s) == dimension(symbol)]
-    return max([abs(case.exact(symbol)), *alike]) or math.inf
 
 
 def difference(printed: Printed, exact: Value) -> Value:
@@ -173,7 +149,7 @@ def explained(
     symbol = judged.printed.symbol
     chance = CHANCE / max(abs(judged.printed.value), abs(judged.exact), judged.printed.step)
     found = list(_weighed(case, judged))
-    others = [s for s in wrong if s != symbol and drawn_before(case.sheet, s, symbol)]
+    others = [s for s in wrong if s != symbol and case.consequences.before(s, symbol)]
     if others:
         found += _following(case, judged, own, others, chance)
     best = max(found, key=lambda w: w[1], default=None)
@@ -191,8 +167,8 @@ def _following(
 ) -> Iterator[tuple[Suspect, float]]:
     """What a value comes to when the drawing is gone on with from earlier wrong ones."""
     symbol = judged.printed.symbol
-    line = line_of(case.sheet, symbol)
-    for value in consequential_values(case.plan, case.sheet, own, symbol):
+    line = case.held(symbol).line
+    for value in case.consequences.values(own, symbol):
         if abs(comparable(judged.printed, value, line) - judged.exact) <= judged.bound / 3:
             continue
         follows = Suspects((Suspect(Phrase("slip follows"), value, 0.5),))
@@ -205,13 +181,13 @@ def _following(
 
 def _moves(case: Evidence, own: Mapping[Symbol, Value], one: Symbol, symbol: Symbol, judged: Judged) -> bool:
     """Whether one wrong value, taken for granted, moves another by more than drafting errors do."""
-    line = line_of(case.sheet, symbol)
-    moved = consequential_values(case.plan, case.sheet, {one: own[one]}, symbol)
+    line = case.held(symbol).line
+    moved = case.consequences.values({one: own[one]}, symbol)
     return any(abs(comparable(judged.printed, v, line) - judged.exact) > judged.bound / 3 for v in moved)
 
 
 def _weighing(case: Evidence, judged: Judged) -> Weighing:
-    return Weighing(judged.printed, judged.exact, judged.bound, line_of(case.sheet, judged.printed.symbol))
+    return Weighing(judged.printed, judged.exact, judged.bound, case.held(judged.printed.symbol).line)
 
 
 def _weighed(case: Evidence, judged: Judged) -> Iterator[tuple[Suspect, float]]:
@@ -224,5 +200,5 @@ def _weighed(case: Evidence, judged: Judged) -> Iterator[tuple[Suspect, float]]:
 def _fits_to_the_digit(judged: Judged, suspect: Suspect, case: Evidence) -> bool:
     if suspect.copied:
         return True
-    value = comparable(judged.printed, suspect.value, line_of(case.sheet, judged.printed.symbol))
+    value = comparable(judged.printed, suspect.value, case.held(judged.printed.symbol).line)
     return abs(judged.printed.value - value) <= judged.printed.rounding + COMPUTED * abs(value)

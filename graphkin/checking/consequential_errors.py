@@ -6,49 +6,65 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from graphkin.checking.readings import read_off
-from graphkin.construction import Plan, Sheet, Slip, execute
+from graphkin.construction import GoneOn, Plan, Sheet, Slip
+from graphkin.construction.plot import Order
 from graphkin.construction.slip import Component
 from graphkin.errors import GraphkinError
 from graphkin.scene.symbol import PointRef, Symbol, Value
 
-__all__ = ["consequential_values", "drawn_before"]
+__all__ = ["Consequences"]
 
 
-def consequential_values(plan: Plan, base: Sheet, own: Mapping[Symbol, Value], of: Symbol) -> tuple[Value, ...]:
-    """What a symbol comes to, drawn on from somebody's own values of other symbols (SI).
+class Consequences:
+    """What follows on a drawing from somebody's own values of what is drawn before; ``base`` is the plan drawn without
+    them."""
 
-    Parameters
-    ----------
-    base : the plan drawn without them
-    own : the values taken for granted, those of them that are drawn before it; of a vector given by its size the
-        direction stays as drawn
-    of : what is asked; its own value is not used
+    def __init__(self, plan: Plan, base: Sheet) -> None:
+        self.base = base
+        self.drawing = GoneOn(plan, plan.scales, lambda own: _Inputs(plan, base, own).slip)
+        self.steps: dict[Symbol, float] = {}
 
-    Returns
-    -------
-    The value of the drawing, then for a sum of terms the sum of these
-    """
-    inputs = _Inputs(plan, base, {s: v for s, v in own.items() if _step(base, s) < _step(base, of)})
-    try:
-        sheet = execute(plan, slip=Slip(inputs.term, inputs.found, inputs.rate))
-    except (GraphkinError, ArithmeticError):
-        return ()  # a drawing that cannot be gone on with
-    values = [r.value for r in read_off(sheet, [of])]
-    for equation in sheet.equations:
-        if not any(len(side) == 1 and side[0].symbol == of for side in equation.sides):
-            continue
-        drawn = sheet.vectors(equation.diagram)
-        for side in equation.sides:
-            spans = [drawn[t.symbol].span for t in side if t.symbol in drawn]
-            if len(side) > 1 and len(spans) == len(side):
-                values.append(sum(spans, 0j) * sheet.scales.of(equation.diagram))
-    return tuple(values)
+    def values(self, own: Mapping[Symbol, Value], of: Symbol) -> tuple[Value, ...]:
+        """What a symbol comes to, drawn on from somebody's own values of other symbols (SI).
 
+        Parameters
+        ----------
+        own : the values taken for granted, those of them that are drawn before it; of a vector given by its size the
+            direction stays as drawn
+        of : what is asked; its own value is not used
 
-def drawn_before(sheet: Sheet, one: Symbol, other: Symbol) -> bool:
-    """Whether a quantity is known on a drawing before another, which can then follow from it."""
-    return _step(sheet, one) < _step(sheet, other)
+        Returns
+        -------
+        The value of the drawing, then for a sum of terms the sum of these
+        """
+        try:
+            polygons = self.drawing.to(of, {s: v for s, v in own.items() if self.before(s, of)})
+        except (GraphkinError, ArithmeticError):
+            return ()  # a drawing that cannot be gone on with
+        if polygons is None:
+            return ()
+        order: Order = "velocity" if of.kind in ("v", "omega") else "acceleration"
+        if not of.is_vector:
+            return (polygons.rates[order][of.link].value,)
+        drawn, scale = polygons.drawn[order], self.base.scales.of(order)
+        values: list[Value] = [drawn[of].span * scale]
+        for equation in polygons.board.equations:
+            if not any(len(side) == 1 and side[0].symbol == of for side in equation.sides):
+                continue
+            for side in equation.sides:
+                spans = [drawn[t.symbol].span for t in side if t.symbol in drawn]
+                if len(side) > 1 and len(spans) == len(side):
+                    values.append(sum(spans, 0j) * scale)
+        return tuple(values)
+
+    def before(self, one: Symbol, other: Symbol) -> bool:
+        """Whether a quantity is known on the drawing before another, which can then follow from it."""
+        return self._step(one) < self._step(other)
+
+    def _step(self, symbol: Symbol) -> float:
+        if symbol not in self.steps:
+            self.steps[symbol] = _step(self.base, symbol)
+        return self.steps[symbol]
 
 
 def _step(sheet: Sheet, symbol: Symbol) -> float:
@@ -68,6 +84,10 @@ class _Inputs:
     plan: Plan
     base: Sheet
     own: Mapping[Symbol, Value]
+
+    @property
+    def slip(self) -> Slip:
+        return Slip(self.term, self.found, self.rate)
 
     def term(self, part: Component) -> Component:
         """A known term with the person's own size, or made from the person's own velocities."""

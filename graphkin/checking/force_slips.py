@@ -7,35 +7,21 @@ N, the shifted inertia force on the wrong side, a load that does not act here, a
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
+from graphkin.checking.weighing import Slipped
 from graphkin.scene.loads import LinkMass, Loading, LoadOn, SpringOn
 from graphkin.scene.symbol import Symbol, Value
 from graphkin.solver import Forces, Motion, forces_of
 from graphkin.words import Phrase
 
-__all__ = ["SlippedForces", "slipped_forces"]
+__all__ = ["slipped_forces"]
 
 
-@dataclass(frozen=True)
-class SlippedForces:
-    """Forces with one slip in them, and its share among wrong values (rough, from experience)."""
-
-    phrase: Phrase
-    share: float
-    forces: Forces
-
-    def value(self, symbol: Symbol) -> Value | None:
-        """A force (N) or moment (N m), None for what there is not."""
-        found = self.forces.value(str(symbol.here))
-        if found is None or not np.isfinite(found[0]):
-            return None
-        return complex(found[0]) if symbol.is_vector else float(found[0].real)
-
-
-def slipped_forces(motion: Motion) -> tuple[SlippedForces, ...]:
+def slipped_forces(motion: Motion) -> tuple[Slipped, ...]:
     """The forces at the one position of a motion with each slip."""
     if not motion.scene.loading or not motion.ok[0]:
         return ()
@@ -43,8 +29,16 @@ def slipped_forces(motion: Motion) -> tuple[SlippedForces, ...]:
     for phrase, share, loading in _slips(motion):
         scene = replace(motion.scene, loading=loading)
         there = replace(motion, structure=replace(motion.structure, scene=scene))
-        made.append(SlippedForces(phrase, share, forces_of(there)))
+        made.append(Slipped(phrase, share, partial(_value, forces_of(there))))
     return tuple(made)
+
+
+def _value(forces: Forces, symbol: Symbol) -> Value | None:
+    """A force (N) or moment (N m), None for what there is not."""
+    found = forces.value(str(symbol.here))
+    if found is None or not np.isfinite(found[0]):
+        return None
+    return complex(found[0]) if symbol.is_vector else float(found[0].real)
 
 
 def _slips(motion: Motion) -> Iterator[tuple[Phrase, float, Loading]]:

@@ -8,10 +8,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
+from graphkin.checking.weighing import Slipped
 from graphkin.errors import GraphkinError
 from graphkin.scene.contacts import PlacedGear
 from graphkin.scene.model import AngleDriver, Mechanism
@@ -19,28 +21,10 @@ from graphkin.scene.symbol import Symbol, Value
 from graphkin.solver import Motion, solve, value_of
 from graphkin.words import Phrase
 
-__all__ = ["SlippedGears", "slipped_gears"]
+__all__ = ["slipped_gears"]
 
 
-@dataclass(frozen=True)
-class SlippedGears:
-    """A motion with one slip in the wheels, and its share among wrong values (rough, from experience)."""
-
-    phrase: Phrase
-    share: float
-    motion: Motion
-
-    def value(self, symbol: Symbol) -> Value | None:
-        """A velocity, an acceleration or a rate (SI), None for anything else."""
-        if symbol.scope != "motion":
-            return None
-        found = value_of(self.motion, symbol)[0]
-        if not np.isfinite(found):
-            return None
-        return complex(found) if symbol.is_vector else float(found.real)
-
-
-def slipped_gears(motion: Motion) -> tuple[SlippedGears, ...]:
+def slipped_gears(motion: Motion) -> tuple[Slipped, ...]:
     """The one position of a motion with each slip."""
     if not motion.scene.gears or not motion.ok[0]:
         return ()
@@ -52,8 +36,18 @@ def slipped_gears(motion: Motion) -> tuple[SlippedGears, ...]:
         except (GraphkinError, ArithmeticError):
             continue  # with this slip nothing moves, so nobody's value comes from it
         if other.ok[0]:
-            made.append(SlippedGears(phrase, share, other))
+            made.append(Slipped(phrase, share, partial(_value, other)))
     return tuple(made)
+
+
+def _value(motion: Motion, symbol: Symbol) -> Value | None:
+    """A velocity, an acceleration or a rate (SI), None for anything else."""
+    if symbol.scope != "motion":
+        return None
+    found = value_of(motion, symbol)[0]
+    if not np.isfinite(found):
+        return None
+    return complex(found) if symbol.is_vector else float(found.real)
 
 
 def _standing_here(motion: Motion) -> Mechanism:

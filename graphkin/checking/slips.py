@@ -12,11 +12,12 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from graphkin.checking.force_slips import SlippedForces, slipped_forces
-from graphkin.checking.gear_slips import SlippedGears, slipped_gears
+from graphkin.checking.consequential_errors import Consequences
+from graphkin.checking.force_slips import slipped_forces
+from graphkin.checking.gear_slips import slipped_gears
 from graphkin.checking.readings import read_off
 from graphkin.checking.uncertainty import Uncertainty
-from graphkin.checking.weighing import Suspect, Suspects
+from graphkin.checking.weighing import Slipped, Suspect, Suspects
 from graphkin.construction import Plan, Sheet, Slip, execute
 from graphkin.construction.slip import Component
 from graphkin.errors import GraphkinError
@@ -27,10 +28,10 @@ from graphkin.solver import Motion
 from graphkin.structure import Slide
 from graphkin.words import Phrase
 
-__all__ = ["Evidence", "ValuesElsewhere", "dimension", "line_of"]
+__all__ = ["NOTHING", "Evidence", "Held", "ValuesElsewhere"]
 
 
-def line_of(sheet: Sheet, symbol: Symbol) -> complex | None:
+def _line_of(sheet: Sheet, symbol: Symbol) -> complex | None:
     """Unit vector of the positive sense of a vector symbol, None where nothing gives it one.
 
     A point that slides in the frame, and one that slides relative to a coincident one: the guide's sense.  A tangential
@@ -72,6 +73,21 @@ def _pivot(sheet: Sheet, of: PointRef) -> complex | None:
     return None
 
 
+NOTHING = 1e-9  # of the greatest value of its sort: what is smaller is zero
+
+
+@dataclass(frozen=True)
+class Held:
+    """What stated values of one symbol are held against (SI): the right value, without what is left where it cancels;
+    the greatest exact value of its sort that is drawn; what a pencil keeps within (0 where nothing is predicted,
+    infinite where it tells nothing); the unit vector of its positive sense, None where nothing gives it one."""
+
+    right: Value
+    largest: float
+    bound: float
+    line: complex | None
+
+
 ValuesElsewhere = Callable[[Symbol], Sequence[tuple[str, Value]]]
 RPM = 60.0 / math.tau
 LENGTHS = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254, "ft": 0.3048}
@@ -95,14 +111,9 @@ class Evidence:
     motion: Motion | None = None
 
     @cached_property
-    def slipped_forces(self) -> tuple[SlippedForces, ...]:
-        """The forces with each of their usual slips."""
-        return slipped_forces(self.motion) if self.motion is not None else ()
-
-    @cached_property
-    def slipped_gears(self) -> tuple[SlippedGears, ...]:
-        """The motion with each of the usual slips in its wheels."""
-        return slipped_gears(self.motion) if self.motion is not None else ()
+    def slipped(self) -> tuple[Slipped, ...]:
+        """The forces with each of their usual slips, and the motion with each of those in its wheels."""
+        return (*slipped_forces(self.motion), *slipped_gears(self.motion)) if self.motion is not None else ()
 
     @cached_property
     def sheet(self) -> Sheet:
@@ -110,21 +121,43 @@ class Evidence:
         return execute(self.plan)
 
     @cached_property
+    def consequences(self) -> Consequences:
+        """What follows from somebody's own values."""
+        return Consequences(self.plan, self.sheet)
+
+    @cached_property
     def others(self) -> Mapping[Symbol, Value]:
         """The exact values of everything drawn."""
         return {r.symbol: self.exact(r.symbol) for r in read_off(self.sheet)}
 
     @cached_property
-    def altered(self) -> tuple[tuple[Phrase, float, Mapping[Symbol, Value]], ...]:
-        """The drawing with each slip in a term, and in each other assembly: phrase, share, values."""
+    def altered(self) -> tuple[Slipped, ...]:
+        """The drawing with each slip in a term, and in each other assembly."""
         found = []
         for phrase, share, drawn in (*_assemblies(self.plan), *_terms(self.plan, self.sheet)):
             try:
                 values = {r.symbol: r.value for r in read_off(drawn())}
             except (GraphkinError, ArithmeticError):
                 continue  # with this slip nothing can be drawn, so nobody's value comes from it
-            found.append((phrase, share, values))
+            found.append(Slipped(phrase, share, values.get))
         return tuple(found)
+
+    @cached_property
+    def _held(self) -> dict[Symbol, Held]:
+        return {}
+
+    def held(self, symbol: Symbol) -> Held:
+        """What stated values of a symbol are held against; worked out once."""
+        if symbol not in self._held:
+            exact = self.exact(symbol)
+            alike = [abs(v) for s, v in self.others.items() if dimension(s) == dimension(symbol)]
+            largest = max([abs(exact), *alike]) or math.inf
+            residue = symbol.scope == "motion" and abs(exact) <= NOTHING * largest
+            uncertainty = self.predicted.get(symbol)
+            bound = uncertainty.bound if uncertainty else 0.0
+            bound = math.inf if symbol.scope == "motion" and bound > largest else bound
+            self._held[symbol] = Held(0.0 * exact if residue else exact, largest, bound, _line_of(self.sheet, symbol))
+        return self._held[symbol]
 
     @cached_property
     def _explanations(self) -> dict[Symbol, Suspects]:
@@ -173,18 +206,16 @@ def _suspects(case: Evidence, symbol: Symbol) -> Iterator[Suspect]:
     """Every explanation for a wrong value of a symbol."""
     exact = case.exact(symbol)
     yield Suspect(Phrase("slip sign"), -exact, 0.15)
-    if symbol.scope == "force":
-        yield from _of_forces(case, symbol, exact)
-    for slipped in case.slipped_gears:
-        value = slipped.value(symbol)
-        if value is not None and abs(value - exact) > 1e-9 * abs(exact):
-            yield Suspect(slipped.phrase, value, slipped.share)
+    yield from _slipped(case.slipped, symbol, exact)
+    gravity = abs(case.plan.structure.scene.loading.gravity)
+    if gravity and symbol.kind in ("G", "Fi", "Mi"):
+        yield Suspect(Phrase("slip kg for N"), exact / gravity, 0.08)
+        yield Suspect(Phrase("slip N for kg"), exact * gravity, 0.08)
     if symbol.kind == "ak":
         yield Suspect(Phrase("slip coriolis factor", (str(symbol),)), exact / 2, 0.1)
-    for phrase, share, values in case.altered:
-        if symbol in values and abs(values[symbol] - exact) > 1e-6 * abs(exact):
-            yield Suspect(phrase, values[symbol], share)
-            yield Suspect(Phrase("slip and sign", (phrase,)), -values[symbol], 0.1 * share)
+    for altered in _slipped(case.altered, symbol, exact):
+        yield altered
+        yield Suspect(Phrase("slip and sign", (altered.phrase,)), -altered.value, 0.1 * altered.share)
     yield from _factors(case, symbol, exact)
     yield from _own_parts(case, symbol)
     yield from _relative(case, symbol, exact)
@@ -197,16 +228,12 @@ def _suspects(case: Evidence, symbol: Symbol) -> Iterator[Suspect]:
         yield Suspect(Phrase("slip position", (name,)), value, 0.05 / len(places), drawn=False)
 
 
-def _of_forces(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
-    """The values of forces with their usual slips; of weights and inertia forces kg and N confused."""
-    for slipped in case.slipped_forces:
-        value = slipped.value(symbol)
-        if value is not None and abs(value - exact) > 1e-9 * abs(exact):
-            yield Suspect(slipped.phrase, value, slipped.share)
-    gravity = abs(case.plan.structure.scene.loading.gravity)
-    if gravity and symbol.kind in ("G", "Fi", "Mi"):
-        yield Suspect(Phrase("slip kg for N"), exact / gravity, 0.08)
-        yield Suspect(Phrase("slip N for kg"), exact * gravity, 0.08)
+def _slipped(slips: Sequence[Slipped], symbol: Symbol, exact: Value) -> Iterator[Suspect]:
+    """The values of a symbol with each slip that changes it."""
+    for slip in slips:
+        value = slip.value(symbol)
+        if value is not None and abs(value - exact) > 1e-6 * abs(exact):
+            yield Suspect(slip.phrase, value, slip.share)
 
 
 def _factors(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]:

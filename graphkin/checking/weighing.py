@@ -5,7 +5,7 @@ digits stated, as a number computed (to its last digit) or drawn (with the predi
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -18,7 +18,7 @@ from graphkin.scene.printed import Printed
 from graphkin.scene.symbol import Symbol, Value
 from graphkin.words import Phrase
 
-__all__ = ["CHANCE", "COMPUTED", "NEVER", "Suspect", "Suspects", "Weighing", "comparable", "likelihood"]
+__all__ = ["CHANCE", "COMPUTED", "NEVER", "Slipped", "Suspect", "Suspects", "Weighing", "comparable", "likelihood"]
 
 Reals = NDArray[np.float64]
 
@@ -43,6 +43,16 @@ def comparable(printed: Printed, value: Value, line: complex | None) -> Value:
     # a negative number for a vector has a sense: along its line, if it has one
     signed = (complex(value) * complex(line).conjugate()).real if line is not None else -abs(value)
     return signed if isinstance(value, complex) else float(value)
+
+
+@dataclass(frozen=True)
+class Slipped:
+    """A mechanism drawn or computed with one slip, its share among wrong values (rough, from experience), and what
+    each quantity comes to with it (SI; None: nothing)."""
+
+    phrase: Phrase
+    share: float
+    value: Callable[[Symbol], Value | None]
 
 
 @dataclass(frozen=True)
@@ -129,13 +139,18 @@ class Weighing:
             yield suspects.all[k], float(weights[k])
 
     def copied(self) -> Iterator[tuple[Suspect, float]]:
-        """The slips of the pen that the right value may have suffered, as `weighed`."""
+        """The likeliest slip of the pen that the right value may have suffered, as `weighed`."""
         spread = self.bound / 3 if math.isfinite(self.bound) else 0.0
         reach = TAILS * spread + self.printed.step + COMPUTED * abs(self.exact)
         if isinstance(self.exact, complex):
             return
+        best = 0.0, "", 0.0
         for text, share, other in transcription_errors(self.printed, self.exact, reach):
             weight = share * likelihood(self.printed, abs(other - self.exact), spread, self.exact)
+            if weight > best[0]:
+                best = weight, text, share
+        weight, text, share = best
+        if weight:
             yield Suspect(Phrase("slip pen", (text,)), self.exact, share, copied=True), weight
 
     def drawn_badly(self, suspects: Suspects) -> tuple[Suspect, float] | None:

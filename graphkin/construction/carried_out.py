@@ -2,23 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
 from graphkin.construction.asked import show
 from graphkin.construction.board import EXACT, Board, Hand, Instrument
 from graphkin.construction.group_polygons import GroupPolygons
 from graphkin.construction.held_still import TriangleDrawn
+from graphkin.construction.polygons import RATE
 from graphkin.construction.position import draw_position, place
 from graphkin.construction.residues import without_residues
 from graphkin.construction.sheet import DrawnGroup, Limits, Scales, Sheet, Step
 from graphkin.construction.slip import NO_SLIP, Slip
 from graphkin.construction.task import Task
-from graphkin.scene.symbol import PointRef
+from graphkin.scene.symbol import PointRef, Symbol, Value
 from graphkin.structure import Cluster, needed
 from graphkin.words import Phrase
 
-__all__ = ["OnBoard", "Redrawn", "carried_out", "finished", "positioned"]
+__all__ = ["GoneOn", "OnBoard", "Redrawn", "carried_out", "finished", "positioned"]
 
 
 @dataclass(frozen=True)
@@ -155,3 +156,66 @@ class Redrawn:
         for order, element in left:
             made.polygons.draw(order, element)
         return finished(self.what, made)
+
+
+Own = Mapping[Symbol, Value]
+
+
+class GoneOn:
+    """A plan gone on with from values of somebody's own, in place of drawn ones: one person's after the other's.
+
+    ``slip`` says what own values change.  What stands before the first of them is taken from the drawing without any,
+    and what some of them gave is kept while they are the same.
+    """
+
+    KEPT = 256
+
+    def __init__(self, what: Task, scales: Scales, slip: Callable[[Own], Slip]) -> None:
+        self.what, self.slip = what, slip
+        self.in_order = tuple(what.in_order)
+        polygons = positioned(what, scales, with_steps=False).polygons
+        self.kept = [polygons]
+        """What stands there after so many elements."""
+        self.found_by: dict[Symbol, int] = {}
+        """How many elements lead to each vector and rate; one more than there are, to what only a question asks for."""
+        for number, (order, element) in enumerate(self.in_order, 1):
+            polygons = polygons.again(EXACT)
+            polygons.draw(order, element)
+            self._note(polygons, number)
+            self.kept.append(polygons)
+        polygons = polygons.again(EXACT)
+        show(polygons, what.asked)
+        self._note(polygons, len(self.kept))
+        self.others: dict[tuple[int, frozenset[tuple[Symbol, Value]]], GroupPolygons] = {}
+
+    def _note(self, polygons: GroupPolygons, number: int) -> None:
+        rates = [Symbol(RATE[order], link=link) for order, found in polygons.rates.items() for link in found]
+        for symbol in (*(s for drawn in polygons.drawn.values() for s in drawn), *rates):
+            self.found_by.setdefault(symbol, number)
+
+    def to(self, symbol: Symbol, own: Own) -> GroupPolygons | None:
+        """The polygons as far as a vector or rate stands in them; None where nothing leads to it.  Raises as
+        `execute`."""
+        number = self.found_by.get(symbol)
+        if number is None:
+            return None
+        if number < len(self.kept):
+            return self._after(number, own)
+        polygons = self._after(number - 1, own).again(EXACT)
+        show(polygons, self.what.asked)
+        return polygons
+
+    def _after(self, number: int, own: Own) -> GroupPolygons:
+        """What stands there after so many elements."""
+        own = {s: value for s, value in own.items() if self.found_by.get(s, number + 1) <= number}
+        if not own:
+            return self.kept[number]
+        key = number, frozenset(own.items())
+        if key not in self.others:
+            polygons = self._after(number - 1, own).again(EXACT)
+            polygons.slip = self.slip(own)
+            polygons.draw(*self.in_order[number - 1])
+            while len(self.others) >= self.KEPT:
+                del self.others[next(iter(self.others))]
+            self.others[key] = polygons
+        return self.others[key]
