@@ -13,7 +13,8 @@ from typing import Literal
 from graphkin.api.arguments import asked_symbols
 from graphkin.errors import CallError, Problem
 from graphkin.files import path_of
-from graphkin.scene.cells import Way, is_blank, read_cell, read_way
+from graphkin.scene.cells import is_blank, read_cell
+from graphkin.scene.directions import Way, read_way
 from graphkin.scene.model import Mechanism
 from graphkin.scene.printed import Printed, Unreadable
 from graphkin.scene.spelling import Spelling, plain_text, unit_factor

@@ -16,8 +16,8 @@ from typing import Literal
 from graphkin.checking.loop_gaps import loop_gaps
 from graphkin.checking.slips import NOTHING, Evidence
 from graphkin.checking.weighing import CHANCE, COMPUTED, NEVER, Suspect, Suspects, Weighing, comparable, likelihood
-from graphkin.scene.printed import Printed
-from graphkin.scene.symbol import Symbol, Value
+from graphkin.scene.printed import Line, Printed
+from graphkin.scene.symbol import PointRef, Symbol, Value
 from graphkin.words import Phrase
 
 __all__ = [
@@ -80,7 +80,7 @@ def _judged(case: Evidence, printed: Printed) -> Judged:
     off = abs(difference(printed, exact))
     share = deviation(printed, exact)
     judged = Judged(printed, exact, share, "right", bound)
-    turned = _turned(judged, held.right)
+    turned = _turned(case, judged, held.right)
     nothing = NOTHING * held.largest if exact == 0 and symbol.scope == "motion" else 0.0
     if off <= printed.rounding + max(1e-9 * abs(exact), nothing):
         return turned or judged
@@ -104,25 +104,37 @@ def _judged(case: Evidence, printed: Printed) -> Judged:
     return judged
 
 
-def _turned(judged: Judged, right: Value) -> Judged | None:
-    """A value whose size is right and whose stated direction is not, by what it looks like."""
+def _turned(case: Evidence, judged: Judged, right: Value) -> Judged | None:
+    """A value whose size is right and whose stated direction, or line, is not, by what it looks like."""
     printed = judged.printed
-    if printed.direction is None or not right or printed.symbol.measure == "angle":
+    if not right or printed.symbol.measure == "angle":
         return None
     true = cmath.phase(complex(right))
     drawn = judged.bound / abs(right) if math.isfinite(judged.bound) else math.pi
-    reach = max(LEAST_TURN, min(drawn, math.pi / 6)) + printed.room * (1 + 1e-9)
+    reach = max(LEAST_TURN, min(drawn, math.pi / 6))
+    told = [(printed.direction, reach + printed.room * (1 + 1e-9), printed.either)]
+    told += [(_angle_of(case, line), reach, not line.directed) for line in printed.lines]
+    for angle, room, either in told:
+        if angle is None or _near(true - angle, room, either):
+            continue
+        ways = (("slip turned back", math.pi), ("slip mirrored", -2 * true), ("slip mirrored", math.pi - 2 * true),
+                ("slip square", math.pi / 2), ("slip square", -math.pi / 2))  # fmt: skip
+        key = next((key for key, turn in ways if _near(true + turn - angle, room, either)), "slip direction")
+        off = math.degrees(math.remainder(angle - true, math.pi if either else math.tau))
+        return replace(judged, verdict="wrong", looks_like=Phrase(key, (f"{off:+.0f}",)))
+    return None
 
-    def near(angle: float) -> bool:
-        return abs(math.remainder(printed.direction - angle, math.tau)) <= reach  # type: ignore[operator]
 
-    if near(true):
+def _near(off: float, room: float, either: bool) -> bool:
+    return abs(math.remainder(off, math.pi if either else math.tau)) <= room
+
+
+def _angle_of(case: Evidence, line: Line) -> float | None:
+    """The angle of a line (rad), None where its points are not drawn."""
+    one, two = (case.sheet.points.get(PointRef(name)) for name in (line.one, line.two))
+    if one is None or two is None or one == two:
         return None
-    ways = (("slip turned back", math.pi + true), ("slip mirrored", -true), ("slip mirrored", math.pi - true),
-            ("slip square", true + math.pi / 2), ("slip square", true - math.pi / 2))  # fmt: skip
-    key = next((key for key, angle in ways if near(angle)), "slip direction")
-    off = math.degrees(math.remainder(printed.direction - true, math.tau))
-    return replace(judged, verdict="wrong", looks_like=Phrase(key, (f"{off:+.0f}",)))
+    return cmath.phase((two - one) * (1j if line.square else 1.0))
 
 
 def difference(printed: Printed, exact: Value) -> Value:

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from decimal import Decimal, InvalidOperation
 
 from graphkin.scene.symbol import Symbol, Value
 from graphkin.scene.tables import Units
 from graphkin.words import Phrase, say
 
-__all__ = ["Printed", "Unreadable", "stated"]
+__all__ = ["Line", "Printed", "Unreadable", "stated"]
 
 MOST_PARDONED = 0.01  # part of a value that rounding to one digit may take away
 SMALLEST = -300  # power of ten of a last digit that a double still holds
@@ -26,13 +26,25 @@ class Unreadable(ValueError):
 
 
 @dataclass(frozen=True)
+class Line:
+    """A line through two points, or ``square`` to it, along which a vector is said to lie; ``directed``: from the first
+    to the second."""
+
+    one: str
+    two: str
+    square: bool = False
+    directed: bool = False
+
+
+@dataclass(frozen=True)
 class Printed:
     """A stated value.
 
     ``value`` (SI) is a float, or a complex number for a vector given by two components; ``step`` (SI) one unit of its
     last digit; ``digits`` the number of its significant digits; ``texts`` its numbers as written, in scene units unless
     ``shown``, the whole cell, says otherwise.  ``direction`` (rad) is that of a vector given by size and direction,
-    which may be meant otherwise by ``room``.
+    which may be meant otherwise by ``room``, and as its opposite where ``either``; ``lines`` are others along which it
+    is said to lie.
     """
 
     symbol: Symbol
@@ -43,10 +55,8 @@ class Printed:
     shown: str = ""
     direction: float | None = None
     room: float = 0.0
-
-    def written(self, shown: str, direction: float | None, room: float) -> Printed:
-        """The same with what else the cell says."""
-        return replace(self, shown=shown, direction=direction, room=room)
+    either: bool = False
+    lines: tuple[Line, ...] = ()
 
     @property
     def text(self) -> str:

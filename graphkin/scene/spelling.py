@@ -15,7 +15,7 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import KINDS, PointRef, Symbol
 from graphkin.scene.tables import Units
 
-__all__ = ["Spelling", "plain_text", "unit_factor"]
+__all__ = ["Spelling", "is_unit", "plain_text", "unit_factor"]
 
 _GREEK = {"ω": "omega", "Ω": "omega", "α": "alpha", "ε": "alpha", "ϵ": "alpha", "θ": "theta", "φ": "theta",
           "ϕ": "theta", "ψ": "theta", "γ": "gamma", "τ": "t"}  # fmt: skip
@@ -188,8 +188,9 @@ _CHINESE_UNITS = (
     ("分", "min"), ("平方秒", "s2"), ("秒", "s"), ("每", "/"),
 )
 _WORDED_UNITS = (
-    (r"millimet(?:re|er)s?", "mm"), (r"centimet(?:re|er)s?", "cm"), (r"met(?:re|er)s?", "m"), (r"radians?|rads", "rad"),
-    (r"per\s+|\bp(?=s\b)", "/"), (r"minutes?", "min"), (r"seconds?|secs", "s"), (r"newtons?", "n"), ("squared", "2"),
+    (r"millimet(?:re|er)s?", "mm"), (r"centimet(?:re|er)s?", "cm"), (r"met(?:re|er)s?", "m"),
+    (r"radians?|rads(?!-)", "rad"), (r"per\s+|\bp(?=s\b)", "/"),
+    (r"minutes?", "min"), (r"seconds?|secs", "s"), (r"newtons?", "n"), ("squared", "2"),
 )  # fmt: skip
 _LENGTHS = {"mm": 1e-3, "cm": 1e-2, "dm": 0.1, "m": 1.0, "km": 1e3, "um": 1e-6, "in": 0.0254, "inch": 0.0254,
             "inches": 0.0254, "\"": 0.0254, "ft": 0.3048, "feet": 0.3048}  # fmt: skip
@@ -242,3 +243,16 @@ def unit_factor(text: str, symbol: Symbol, units: Units) -> float | None:
     if power != order or what not in table or (order == 0 and what in ("", "1")):
         return None
     return table[what] / time**power
+
+
+_MEASURED = [Symbol.parse(name) for name in ("v_A", "a_A", "omega_1", "alpha_1", "x_A", "theta_1", "F_1/2", "M_1/2")]
+_MASSES = {"kg", "g", "t", "lb", "lbs", "kgm2", "w", "j", "pa", "mpa"}
+
+
+def is_unit(text: str, units: Units) -> bool:
+    """Whether a text is a unit, of whatever quantity.
+
+    >>> is_unit("kg", Units()), is_unit("rad/s", Units()), is_unit("im Uhrzeigersinn", Units())
+    (True, True, False)
+    """
+    return text.lower() in _MASSES or any(unit_factor(text, symbol, units) for symbol in _MEASURED)

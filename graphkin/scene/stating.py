@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from decimal import Decimal
 from typing import Literal
 
@@ -140,7 +141,7 @@ def _printed(symbol: Symbol, value: Stated, unit: str, units: Units) -> Printed:
         plain = value.strip()
         read = read_cell(plain, symbol, units, unit)
         bare = plain.replace("\u2212", "-") in read.texts and not unit  # nothing but digits, in scene units
-        return read.written("", None, 0.0) if bare else read
+        return replace(read, shown="") if bare else read
     texts = [_digits_of(value)] if isinstance(value, int | float) else [_digits_of(part) for part in value]
     factor = unit_factor(unit, symbol, units) if unit else None
     return stated(symbol, texts, units, factor)

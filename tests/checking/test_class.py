@@ -113,6 +113,36 @@ def test_digits_and_directions_say_what_was_meant_and_pardon_nothing(values, ver
     assert verdict == judged(**values)[0]["verdict"]
 
 
+@pytest.mark.parametrize(
+    ("symbol", "text", "verdict"),
+    [
+        ("v_D", "482.7 mm/s due west", "right"), ("v_D", "482.7 向西", "right"), ("v_D", "482.7 east", "wrong"),
+        ("v_D", "482.7 horizontal", "right"), ("v_D", "482.7 竖直", "wrong"), ("v_D", "482.7 e^{i180°}", "right"),
+        ("v_B", "1220 south-east", "right"), ("v_B", "1220 NE", "wrong"), ("v_B", "1220 S 50° E", "right"),
+        ("v_B", "1220 40° south of east", "right"), ("v_B", "1220 40° north of east", "wrong"),
+        ("v_B", "1220 bearing 130°", "right"), ("v_B", "1220 东偏南40°", "right"), ("v_B", "1220 ⊥AB", "right"),
+        ("v_B", "1220 mm/s ∥ AB", "wrong"), ("v_B", "1220 垂直于AB，向左上", "wrong"), ("a_B", "12200 B→A", "right"),
+        ("a_B", "12200 toward A", "right"), ("a_B", "12200 从A指向B", "wrong"),
+        ("v_B", "1220 right and down at 40°", "right"),
+        ("v_B", "1.22 m/s, 40° to the horizontal, up and to the right", "wrong"), ("v_B", "934.6 → 784.2 ↓", "right"),
+        ("v_B", "0.9346 m/s right, 0.7842 m/s up", "wrong"), ("omega_3", "2.82 into the page", "right"),
+        ("omega_3", "2.82 (negative)", "right"), ("omega_3", "2.82 垂直纸面向外", "wrong"),
+        ("omega_3", "2.82 im Uhrzeigersinn", "not readable"), ("v_D", "483 mm/s vers la gauche", "not readable"),
+    ],
+)  # fmt: skip
+def test_directions_are_judged_as_people_write_them(symbol, text, verdict):
+    assert verdict == judged(**{symbol: text})[0]["verdict"]
+
+
+def test_a_direction_in_another_language_is_told_as_what_is_not_read():
+    (value,) = judged(v_D="483 mm/s nach links")
+    assert "no direction or sense that is read here; write it in English or Chinese" in value["why"]
+
+
+def test_newtons_are_not_north():
+    assert (500.0, None) == (lambda p: (p.value, p.direction))(read_cell("500 N", Symbol.parse("F_1/2"), Units()))
+
+
 def test_a_zero_component_is_zero_to_the_accuracy_of_the_other():
     mapping = {"A": {"v_D": [-0.7, 0.0]}}
     assert "wrong" == graphkin.audit(SIXBAR, mapping).data["values"][0]["verdict"]
