@@ -8,6 +8,7 @@ from pathlib import Path
 
 import grimp
 import pytest
+from importlinter.cli import lint_imports
 
 import graphkin
 
@@ -44,6 +45,12 @@ def test_no_module_imports_what_imports_it(imports: dict[str, set[str]]) -> None
 
 def test_a_circle_through_three_modules_is_seen() -> None:
     assert [{"a", "b", "c"}] == circles({"a": {"b"}, "b": {"c"}, "c": {"a"}, "d": {"a"}})
+
+
+def test_the_import_contracts_hold(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.chdir(ROOT)
+    code = lint_imports(no_cache=True, no_logo=True)
+    assert 0 == code, capsys.readouterr().out
 
 
 def picture() -> list[set[str]]:

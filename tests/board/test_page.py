@@ -22,20 +22,30 @@ def url(tmp_path_factory):
         yield address
 
 
+@pytest.fixture(scope="module")
+def tab(browser, url):
+    one = browser.new_page()
+    one.said, one.asked = [], []
+    one.on("console", lambda message: one.said.append(message.text))
+    one.on("pageerror", lambda error: one.said.append(str(error)))
+    one.on("request", lambda request: one.asked.append(request.url))
+    one.goto(url)
+    yield one
+    one.close()
+
+
 @pytest.fixture
-def page(browser, url):
-    context = browser.new_context(viewport={"width": 1400, "height": 1000})
-    tab = context.new_page()
-    tab.said, tab.asked = [], []
-    tab.on("console", lambda message: tab.said.append(message.text))
-    tab.on("pageerror", lambda error: tab.said.append(str(error)))
-    tab.on("request", lambda request: tab.asked.append(request.url))
+def page(tab, url):
+    """The page loaded anew, with nothing kept from before."""
+    tab.set_viewport_size({"width": 1400, "height": 1000})
+    tab.evaluate("localStorage.clear()")
+    tab.said.clear()
+    tab.asked.clear()
     tab.goto(url)
     tab.wait_for_selector("dialog[open] [data-new]")
     yield tab
     assert [] == tab.said
     assert all(address.startswith((url, "data:", "blob:")) for address in tab.asked)
-    context.close()
 
 
 def open_scene(page, name: str = "mine.toml") -> None:

@@ -26,7 +26,7 @@ from tests.scenes import four_bar
 
 SIXBAR = "sixbar-guide-40deg"
 # larger groups take their time
-POSITIONS, LARGER = (12, 12) if EVERYTHING else (5, 2)
+POSITIONS, LARGER = (12, 12) if EVERYTHING else (3, 2)
 
 
 def over_its_range(name: str) -> tuple[list[float], float | None]:

@@ -19,17 +19,26 @@ def file(shaper, tmp_path_factory):
     return path
 
 
+@pytest.fixture(scope="module")
+def tab(browser):
+    one = browser.new_page()
+    one.said, one.asked = [], []
+    one.on("console", lambda message: one.said.append(message.text))
+    one.on("pageerror", lambda error: one.said.append(str(error)))
+    one.on("request", lambda request: one.asked.append(request.url))
+    yield one
+    one.close()
+
+
 @pytest.fixture
-def page(browser, file):
-    tab = browser.new_page(viewport={"width": 1400, "height": 900})
-    tab.said, tab.asked = [], []
-    tab.on("console", lambda message: tab.said.append(message.text))
-    tab.on("pageerror", lambda error: tab.said.append(str(error)))
-    tab.on("request", lambda request: tab.asked.append(request.url))
+def page(tab, file):
+    """The page loaded anew; a tab of its own for each test would take the processor twice as long."""
+    tab.set_viewport_size({"width": 1400, "height": 900})
+    tab.said.clear()
+    tab.asked.clear()
     tab.goto(file.as_uri())
     tab.wait_for_selector("html.ready")
-    yield tab
-    tab.close()
+    return tab
 
 
 def _step(page) -> int:

@@ -61,6 +61,16 @@ def prints(folder: Path) -> dict[str, str]:
     return {p.name: hashlib.sha256(p.read_bytes()).hexdigest() for p in sorted(folder.iterdir())}
 
 
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The plan's files, written at one go."""
+    folder = tmp_path_factory.mktemp("plan")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(sweeps, "BLOCK", 40)
+        run(new_plan(), folder)
+    return folder
+
+
 class Synchronous(Executor):
     """An executor that works at once, here; it breaks after some chunks if told to."""
 
@@ -77,45 +87,39 @@ class Synchronous(Executor):
         return future
 
 
-def test_every_design_has_its_rows_whatever_became_of_it(plan: Sweep, tmp_path: Path) -> None:
-    run(plan, tmp_path)
-    lines = (tmp_path / "table.csv").read_text().splitlines()
+def test_every_design_has_its_rows_whatever_became_of_it(whole: Path) -> None:
+    lines = (whole / "table.csv").read_text().splitlines()
     assert len(lines) == 1 + 8 * 20
 
 
-def test_a_design_that_fails_is_a_row_with_status_and_reason(plan: Sweep, tmp_path: Path) -> None:
-    run(plan, tmp_path)
-    last = (tmp_path / "designs.csv").read_text().splitlines()[-1]
+def test_a_design_that_fails_is_a_row_with_status_and_reason(whole: Path) -> None:
+    last = (whole / "designs.csv").read_text().splitlines()[-1]
     assert "not assembled" in last
     assert "do not reach each other" in last
 
 
-def test_another_executor_gives_the_same_bytes(plan: Sweep, tmp_path: Path) -> None:
-    run(plan, tmp_path / "a")
+def test_another_executor_gives_the_same_bytes(plan: Sweep, whole: Path, tmp_path: Path) -> None:
     with ThreadPoolExecutor(3) as pool:
         run(plan, tmp_path / "b", pool)
-    assert prints(tmp_path / "a") == prints(tmp_path / "b")
+    assert prints(whole) == prints(tmp_path / "b")
 
 
-def test_processes_give_the_same_bytes_in_files_and_in_memory(plan: Sweep, tmp_path: Path) -> None:
-    run(plan, tmp_path / "a")
+def test_processes_give_the_same_bytes_in_files_and_in_memory(plan: Sweep, whole: Path, tmp_path: Path) -> None:
     with Workers(processes=2) as workers:
         write_tables(plan, tmp_path / "b", workers)
         table = collect(plan, workers).table
-    assert prints(tmp_path / "a") == prints(tmp_path / "b")
+    assert prints(whole) == prints(tmp_path / "b")
     assert table is not None
-    assert (tmp_path / "a" / "table.csv").read_text() == table.csv()
+    assert (whole / "table.csv").read_text() == table.csv()
 
 
-def test_a_broken_executor_loses_nothing(plan: Sweep, tmp_path: Path) -> None:
-    run(plan, tmp_path / "a")
+def test_a_broken_executor_loses_nothing(plan: Sweep, whole: Path, tmp_path: Path) -> None:
     run(plan, tmp_path / "b", Synchronous(most=2))
-    assert prints(tmp_path / "a") == prints(tmp_path / "b")
+    assert prints(whole) == prints(tmp_path / "b")
 
 
 @pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="no SIGKILL on this system")
-def test_a_killed_process_loses_nothing(plan: Sweep, tmp_path: Path) -> None:
-    run(plan, tmp_path / "a")
+def test_a_killed_process_loses_nothing(plan: Sweep, whole: Path, tmp_path: Path) -> None:
     pool = ProcessPoolExecutor(2, mp_context=get_context("spawn"))
     victims = [pool.submit(os.getpid).result()]
 
@@ -125,11 +129,10 @@ def test_a_killed_process_loses_nothing(plan: Sweep, tmp_path: Path) -> None:
 
     run(plan, tmp_path / "b", pool, progress=kill)
     pool.shutdown()
-    assert prints(tmp_path / "a") == prints(tmp_path / "b")
+    assert prints(whole) == prints(tmp_path / "b")
 
 
-def test_an_interrupted_sweep_goes_on_where_it_stopped(plan: Sweep, tmp_path: Path) -> None:
-    run(plan, tmp_path / "a")
+def test_an_interrupted_sweep_goes_on_where_it_stopped(plan: Sweep, whole: Path, tmp_path: Path) -> None:
 
     def interrupt(done: int, total: int) -> None:
         if done >= total / 2:
@@ -139,7 +142,7 @@ def test_an_interrupted_sweep_goes_on_where_it_stopped(plan: Sweep, tmp_path: Pa
         run(plan, tmp_path / "b", progress=interrupt)
     rest = Synchronous()
     run(plan, tmp_path / "b", rest)
-    assert (2, prints(tmp_path / "a")) == (rest.given, prints(tmp_path / "b"))
+    assert (2, prints(whole)) == (rest.given, prints(tmp_path / "b"))
 
 
 def test_an_interrupted_sweep_shows_no_table(plan: Sweep, tmp_path: Path) -> None:
@@ -156,9 +159,8 @@ def test_chunks_of_another_sweep_are_not_used(plan: Sweep) -> None:
     assert plan.key != replace(plan, positions=21).key
 
 
-def test_a_finished_sweep_leaves_nothing_behind(plan: Sweep, tmp_path: Path) -> None:
-    run(plan, tmp_path)
-    assert ["designs.csv", "table.csv"] == sorted(p.name for p in tmp_path.iterdir())
+def test_a_finished_sweep_leaves_nothing_behind(whole: Path) -> None:
+    assert ["designs.csv", "table.csv"] == sorted(p.name for p in whole.iterdir())
 
 
 def test_positions_of_a_long_turn_are_the_same_in_one_chunk_or_many(
@@ -187,9 +189,8 @@ def test_parquet_holds_the_numbers_of_the_csv(plan: Sweep, tmp_path: Path) -> No
     assert text.column("omega_3 (rad/s)").to_pylist() == table.column("omega_3 (rad/s)").to_pylist()
 
 
-def test_a_dask_cluster_that_loses_a_worker_gives_the_same_bytes(plan: Sweep, tmp_path: Path) -> None:
+def test_a_dask_cluster_that_loses_a_worker_gives_the_same_bytes(plan: Sweep, whole: Path, tmp_path: Path) -> None:
     distributed = pytest.importorskip("distributed", reason="the extra cluster is not installed")
-    run(plan, tmp_path / "a")
     with distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as local:
         victims = [next(iter(local.workers.values())).pid]
 
@@ -199,17 +200,16 @@ def test_a_dask_cluster_that_loses_a_worker_gives_the_same_bytes(plan: Sweep, tm
 
         with cluster(local.scheduler_address) as executor:
             run(plan, tmp_path / "b", executor, progress=kill)
-    assert prints(tmp_path / "a") == prints(tmp_path / "b")
+    assert prints(whole) == prints(tmp_path / "b")
 
 
 
 
-def test_a_sweep_in_memory_is_the_one_in_the_file(plan: Sweep, tmp_path: Path) -> None:
-    run(plan, tmp_path)
+def test_a_sweep_in_memory_is_the_one_in_the_file(plan: Sweep, whole: Path) -> None:
     with Workers() as workers:
         table = collect(plan, workers).table
     assert table is not None
-    assert (tmp_path / "table.csv").read_text() == table.csv()
+    assert (whole / "table.csv").read_text() == table.csv()
 
 
 LONG = 114_688  # seven pieces
