@@ -6,13 +6,23 @@ from __future__ import annotations
 
 import math
 from cmath import phase
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import pairwise, product
+from typing import NamedTuple
 
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
-from graphkin.drawing.dimensions import GAP, OVERRUN, DimensionClearance, Part, Parts, angle_dimension, dimension
+from graphkin.drawing.dimensions import (
+    GAP,
+    LEAST_EXTENSION,
+    OVERRUN,
+    DimensionClearance,
+    Part,
+    Parts,
+    angle_dimension,
+    dimension,
+)
 from graphkin.drawing.headings import number
 from graphkin.drawing.labels import Label
 from graphkin.drawing.mechanism_on_paper import GUIDE_LENGTH, sliders
@@ -31,6 +41,7 @@ LEAST, SHORTEST = 9.0, 1.0  # mm: a shorter bar has its number beside it, a shor
 # mm from the mechanism to the dimensions of the frame, and from one of them to the next: usual, and where room is short
 BESIDE = ((6.5, 6.0), (4.5, 4.5))
 LINES = 4  # of dimensions beside each other that are tried
+INSIDE = (7.0, 10.0, 14.0, 19.0, 25.0, 32.0)  # mm from its points, of one that has no room beside the mechanism
 NEAR = 0.5  # mm: so near to its given place a hand has drawn what is fixed
 SIZE = 2.8
 ANGLE_RADII = (10.0, 13.0, 16.0, 20.0, 25.0, 31.0)
@@ -140,29 +151,29 @@ def _frame(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts]:
     guides: tuple[list[complex], list[complex]] = ([], [])
     for slider in sliders(sheet):
         if slider.slide.b == scene.frame.name and slider.slide.guide.name:
-            # from the end of the guide as it is drawn, left or below
             if abs(slider.along.imag) < 1e-9:
-                guides[1].append(slider.at.conjugate() - GUIDE_LENGTH / 2 + 4.0)
+                guides[1].append(slider.at.conjugate())
             elif abs(slider.along.real) < 1e-9:
-                guides[0].append(slider.at.conjugate() + 1j * (GUIDE_LENGTH / 2 - 4.0))
+                guides[0].append(slider.at.conjugate())
     for upright in (False, True):
-        key: Callable[[complex], float] = (lambda z: z.imag) if upright else (lambda z: z.real)
-        pairs: dict[tuple[float, float], tuple[complex, complex]] = {}
+        places = [_Spot(z) for z in spots.values()]
+        places += [_Spot(z, GUIDE_LENGTH / 2 - 4.0) for z in guides[upright]]
+        pairs: set[tuple[float, float]] = set()
         for spot in spots.values():
             if datum is not None and spot != datum:
-                _note(pairs, datum, spot, key)
-        for guide in guides[upright]:
-            if spots:
-                _note(pairs, min(spots.values(), key=lambda z: (abs(key(z) - key(guide)), key(z))), guide, key)
-        wide = [((low, a), (high, b)) for (low, high), (a, b) in sorted(pairs.items()) if high - low >= SHORTEST]
+                pairs.add(_levels(datum, spot, upright))
+        for guide in guides[upright] if spots else ():
+            apart = {_levels(spot, guide, upright) for spot in spots.values()}
+            pairs.add(min(apart, key=lambda pair: (pair[1] - pair[0], pair)))
+        wide = [pair for pair in sorted(pairs) if pair[1] - pair[0] >= SHORTEST]
         whole = None
-        if wide and all(one[1][0] == two[0][0] for one, two in pairwise(wide)):
-            whole = _beside(sheet, room, (*(low for low, _ in wide), wide[-1][1]), upright)
+        if len(wide) > 1 and all(one[1] == two[0] for one, two in pairwise(wide)):
+            whole = _beside(sheet, room, places, (*(low for low, _ in wide), wide[-1][1]), upright)
         if whole is not None:
             yield whole
             continue
-        for levels in sorted(wide, key=lambda pair: pair[1][0] - pair[0][0]):
-            parts = _beside(sheet, room, levels, upright)
+        for pair in sorted(wide, key=lambda pair: pair[1] - pair[0]):
+            parts = _beside(sheet, room, places, pair, upright)
             if parts is not None:
                 yield parts
 
@@ -176,43 +187,74 @@ def _datums(sheet: Sheet) -> Iterator[str]:
     yield from scene.frame.points
 
 
-def _note(
-    pairs: dict[tuple[float, float], tuple[complex, complex]], one: complex, two: complex,
-    key: Callable[[complex], float],
-) -> None:  # fmt: skip
-    low, high = sorted((one, two), key=key)
-    pairs.setdefault((round(key(low), 6), round(key(high), 6)), (low, high))
+class _Spot(NamedTuple):
+    """Where a dimension of the frame begins: a point, or the middle of a guide as it is drawn, with what there is of it
+    to either side (mm)."""
+
+    at: complex
+    reach: float = 0.0
+
+
+def _levels(one: complex, other: complex, upright: bool) -> tuple[float, float]:
+    """How low and how high two places are, or how far to the left and to the right."""
+    low, high = sorted((_part(one, upright), _part(other, upright)))
+    return round(low, 6), round(high, 6)
+
+
+def _part(z: complex, imaginary: bool) -> float:
+    return z.imag if imaginary else z.real
 
 
 def _beside(
-    sheet: Sheet, room: DimensionClearance, levels: Sequence[tuple[float, complex]], upright: bool
+    sheet: Sheet, room: DimensionClearance, places: Sequence[_Spot], levels: Sequence[float], upright: bool
 ) -> Parts | None:
-    """The distances of levels, one after the other on a line beside the mechanism."""
+    """The distances of levels, one after the other on a line beside the mechanism; for want of room within it, over
+    other lines only where nothing else is left."""
+    box = room.content
+    sides = (-1, 1) if upright else (1, -1)  # left first, and below
+    left, right = (box.left, box.right) if upright else (box.top, box.bottom)
+    across = [_part(spot.at, not upright) for level in levels for spot in _at_level(places, level, upright)]
+    low, high = min(across), max(across)
+    lots = [
+        [right + far if side > 0 else left - far for k in range(LINES) for side in sides for far in (near + k * pitch,)]
+        for near, pitch in BESIDE
+    ]
+    within = [high + far if side > 0 else low - far for far in INSIDE for side in sides]
+    within += [line for far in INSIDE for line in (low + far, high - far) if low < line < high]
+    for lines, over_lines in (*((lot, False) for lot in lots), (within, False), (within, True)):
+        drawn = (_on_line(sheet, places, levels, line, upright) for line in lines)
+        choices = (parts for parts in drawn if parts is not None)
+        found = room.take(choices, len(levels), over_lines=over_lines)
+        if found is not None:
+            return found
+    return None
+
+
+def _at_level(places: Sequence[_Spot], level: float, upright: bool) -> list[_Spot]:
+    return [spot for spot in places if abs(_part(spot.at, upright) - level) < 1e-5]
+
+
+def _on_line(
+    sheet: Sheet, places: Sequence[_Spot], levels: Sequence[float], line: float, upright: bool
+) -> Parts | None:
+    """Levels dimensioned on one line, each from what is nearest to it; None where it runs through a guide."""
     per_mm = sheet.scales.length / sheet.scene.units.metres
     frame = sheet.scene.frame
     fixed = [*frame.points.values(), *(guide.through for guide in frame.guides.values())]
     given = [(-z.imag if upright else z.real) / sheet.scales.length for z in fixed]
-    box = room.content
-    for nearest, pitch in BESIDE:
-        choices: list[Parts] = []
-        for k in range(LINES):
-            far = nearest + k * pitch
-            sides: Sequence[tuple[float, float]] = (
-                ((box.left - far, -OVERRUN), (box.right + far, OVERRUN)) if upright
-                else ((box.bottom + far, OVERRUN), (box.top - far, -OVERRUN))
-            )  # fmt: skip
-            for line, past in sides:
-                feet = [complex(line, level) if upright else complex(level, line) for level, _ in levels]
-                beyond = past if upright else past * 1j
-                parts: list[Part] = [_extension(z, foot + beyond) for (_, z), foot in zip(levels, feet, strict=True)]
-                for (low, p), (high, q) in pairwise(zip((level for level, _ in levels), feet, strict=True)):
-                    value = (_given(high, given) - _given(low, given)) * per_mm
-                    parts += dimension(p, q, 0.0, rich(number(value, 5), SIZE))
-                choices.append(tuple(parts))
-        found = room.take(choices, len(levels))
-        if found is not None:
-            return found
-    return None
+    feet = [complex(line, level) if upright else complex(level, line) for level in levels]
+    parts: list[Part] = []
+    for level, foot in zip(levels, feet, strict=True):
+        away = [(line - _part(spot.at, not upright), spot) for spot in _at_level(places, level, upright)]
+        far, spot = min(away, key=lambda one: abs(one[0]) - one[1].reach)
+        if abs(far) - spot.reach < LEAST_EXTENSION:
+            return None
+        out = math.copysign(1.0, far) * (1 if upright else 1j)
+        parts.append(_extension(spot.at + spot.reach * out, foot + OVERRUN * out))
+    for (low, p), (high, q) in pairwise(zip(levels, feet, strict=True)):
+        value = (_given(high, given) - _given(low, given)) * per_mm
+        parts += dimension(p, q, 0.0, rich(number(value, 5), SIZE))
+    return tuple(parts)
 
 
 def _given(level: float, given: Sequence[float]) -> float:

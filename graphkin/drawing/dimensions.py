@@ -23,7 +23,10 @@ from graphkin.drawing.primitives import Arc, Line, Polygon, Run, Text, page_dire
 from graphkin.drawing.symbols import POINTER, arrowhead
 from graphkin.drawing.text import plain
 
-__all__ = ["GAP", "OVERRUN", "DimensionClearance", "Part", "Parts", "angle_dimension", "check_bar", "dimension"]
+__all__ = [
+    "GAP", "LEAST_EXTENSION", "OVERRUN", "DimensionClearance", "Part", "Parts", "angle_dimension", "check_bar",
+    "dimension",
+]  # fmt: skip
 
 OVERRUN, GAP = 1.5, 0.8  # extension lines reach past the dimension line and start off the object, mm
 SHORT_ARC = 5.0  # mm of an arc that has no room for a number beside its middle
@@ -110,6 +113,7 @@ def _head(tip: complex, along: complex) -> Polygon:
 
 
 AROUND_POINT = 11.0  # mm around a point in which lines belong to its own symbols
+ARROWHEAD = 1.7  # mm: half the diagonal of the box of one, which is smaller than any symbol of a point
 TRIM, LEAST_EXTENSION = 0.8, 2.2  # mm between a symbol and an extension line; a shorter one is none
 
 
@@ -139,7 +143,7 @@ class DimensionClearance:
 
     def take(
         self, choices: Iterable[Parts], extensions: int = 2, *, over: bool = False, ends_on_line: bool = False,
-        crossing: bool = False,
+        crossing: bool = False, over_lines: bool = False,
     ) -> Parts | None:  # fmt: skip
         """The first of some dimensions that is clear of everything, added to what is drawn; None where none is.
 
@@ -147,11 +151,12 @@ class DimensionClearance:
         over other lines only where they must, as its number does over dashed ones, or where that is allowed at once
         (``over``).  The arrowhead of an angle
         ends on a line that is drawn, and its arc may run over what is drawn where it is given leave to
-        (``crossing``), its number not.
+        (``crossing``), its number not.  The lines of a distance may run over lines and arrowheads, but over no symbol
+        of a point (``over_lines``).
         """
         second = None
         for parts in choices:
-            fit = self._fit(parts, extensions, ends_on_line, crossing)
+            fit = self._fit(parts, extensions, ends_on_line, crossing, over_lines)
             if fit is not None and (over or not fit.over):
                 return self._added(fit)
             second = second or fit
@@ -163,7 +168,9 @@ class DimensionClearance:
         self.heads = _joined(self.heads, fit.heads)
         return fit.parts
 
-    def _fit(self, parts: Parts, extensions: int, ends_on_line: bool, crossing: bool) -> _Fit | None:
+    def _fit(
+        self, parts: Parts, extensions: int, ends_on_line: bool, crossing: bool, over_lines: bool
+    ) -> _Fit | None:
         """The dimension with its extension lines trimmed, if it is clear of everything they may not run over."""
         numbers = [text_box(part) for part in parts if isinstance(part, Text)]
         heads = [Box.around(part.points) for part in parts if isinstance(part, Polygon)]
@@ -178,7 +185,12 @@ class DimensionClearance:
             course = [arc.at(arc.start + (arc.end - arc.start) * (0.06 + 0.11 * i)) for i in range(9)]
             ends += pairwise(course)
         own = _segments(ends)
-        if not crossing and (_over(own, self.areas, 0.4) or len(_crossings(own, self.segments)[0])):
+        middles, halves = self.areas
+        large = np.hypot(halves.real, halves.imag) > ARROWHEAD if over_lines else slice(None)
+        symbols = middles[large], halves[large]
+        if not crossing and _over(own, symbols, 0.4):
+            return None
+        if not (crossing or over_lines) and len(_crossings(own, self.segments)[0]):
             return None
         if not crossing and _over(own, self.heads, 0.4):
             return None
@@ -187,7 +199,7 @@ class DimensionClearance:
             trimmed = [kept or line for kept, line in zip(trimmed, lines, strict=False)]
         shown = [line for line in trimmed if line is not None]
         beyond = _segments([(line.start, line.end) for line in shown])
-        if not crossing and (len(shown) < extensions or _over(beyond, self.areas, 0.4)):
+        if not crossing and (len(shown) < extensions or _over(beyond, symbols, 0.4)):
             return None
         lines_of_it = np.concatenate((own, beyond))
         if _over(lines_of_it, words, 0.0):

@@ -43,6 +43,17 @@ def test_a_sheet_short_of_room_has_the_frames_dimensions_closer_and_their_number
     assert [] == crossed
 
 
+@pytest.mark.parametrize(
+    ("name", "wanted"),
+    [
+        ("sixbar-guide-40deg", {"280", "164"}), ("slider-crank-s50-e16-K1.2", {"16"}), ("toggle-press", {"300", "200"}),
+        ("slotter-75-150", {"150", "93"}), ("sixbar-coupler-1A", {"153.5", "87.5"}),
+    ],
+)  # fmt: skip
+def test_a_narrow_panel_has_the_frames_dimensions_within_the_mechanism(name, wanted):
+    assert wanted - set(words(draw(name, figures=("sheet",)).figures["sheet"])) == set()
+
+
 # eight-bars are too crowded for some of theirs
 @pytest.mark.parametrize("name", sorted({*library()} - {"double-butterfly", "single-flier"}))
 def test_every_bar_has_its_length(name):
