@@ -79,9 +79,11 @@ def sweep(
 ) -> None:
     """Tables and motion diagrams over a turn, limit positions, strokes and K; and the same over designs."""
     from graphkin.api.swept import sweep as sweeping
+    from graphkin.drawing.page import leave_undocumented
     from graphkin.scene import mechanism_of
 
     target = out if out is not None else Path(mechanism_of(scene).name)
+    leave_undocumented()
     with (
         unsolvable_as_json(as_json, lambda error: {"status": error.status, "why": error.why}),
         progress_bar(not as_json and not quiet, target) as progress,

@@ -203,6 +203,8 @@ def add_panel(figure: Figure, box: Box, id: str, title: str = "", x_title: str =
     add_words(figure, Text(complex(box.right, box.bottom + 6.0 + NUMBER), rich(x_title, TITLE), "end"))
     axes.yaxis.set_offset_position("right")  # a power of ten, where the titles leave room
     axes.xaxis.get_offset_text().set(x=0.0, horizontalalignment="left")
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_label_coords(0.0, 0.0)  # it has none, and no place is looked for
     return axes
 
 
@@ -348,7 +350,12 @@ def _in_the_way(axes: Axes) -> Obstacles:
     for line in axes.lines:
         points = _on_page(_figure(axes), line.get_transform(), line.get_xydata())
         if line.get_linestyle() != "None":
-            found = (box.clip(a, b) for a, b in pairwise(points) if math.isfinite(abs(a - b)))
+            inside = [box.left <= z.real <= box.right and box.top <= z.imag <= box.bottom for z in points]
+            found = (  # most lie whole within
+                (a, b) if both else box.clip(a, b)
+                for (a, b), both in zip(pairwise(points), map(all, pairwise(inside)), strict=True)
+                if both or math.isfinite(abs(a - b))
+            )
             kept = ground if line.get_zorder() <= BEHIND else solid
             kept.extend(one for one in found if one is not None)
         if line.get_marker() not in ("", "None", None):

@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "MM_PER_INCH", "POINTS_PER_MM", "MissingFont", "empty_page", "faces", "figure_pdf", "figure_png", "ink",
-    "own_settings", "pdf_bytes", "png_bytes", "whole_pixels",
+    "leave_undocumented", "own_settings", "pdf_bytes", "png_bytes", "whole_pixels",
 ]  # fmt: skip
 
 MM_PER_INCH, POINTS_PER_MM = 25.4, 72 / 25.4
@@ -98,6 +98,15 @@ def own_settings(**further: object) -> Iterator[None]:
         finally:
             users.__class__ = kind
             _OF_THREAD.settings = before
+
+
+def leave_undocumented() -> None:
+    """Spare matplotlib the documentation of its classes, which it writes as it is imported: a third of the time that
+    this takes.  For a process of ours alone, where nobody reads it."""
+    from matplotlib import artist
+
+    artist.kwdoc = lambda artist: ""
+    artist.Artist._update_set_signature_and_docstring = classmethod(lambda _: None)  # type: ignore[attr-defined]
 
 
 class _OfThread(local):

@@ -202,6 +202,18 @@ class DriverRange:
             drive = Drive(drive.value, rate, np.zeros_like(rate))
         return self._motion(within / abs(self.wide), self.values(offset), drive, self.reaches(offset), fine)
 
+    @cached_property
+    def known(self) -> Motion:
+        """The position from which the range is followed; where that is singular, the middle of the range."""
+        start = self.motion(np.zeros(1))
+        whole = all(np.isfinite(pose.z).all() for pose in start.poses.values())
+        return start if whole else self.motion(np.array([sum(self.ends) / 2]))
+
+    @cached_property
+    def at_ends(self) -> Motion:
+        """The motion at its ends."""
+        return self.motion(np.array(self.ends))
+
     def sweep(self, n: int) -> Motion:
         """The motion at n positions: over a full turn from the start on, or, by increasing travel, spread evenly inside
         the range of a driver that slides."""

@@ -25,7 +25,7 @@ from graphkin.structure import Cluster, Driven, Dyad, Rolled, Structure, in_stag
 if TYPE_CHECKING:
     from graphkin.solver.larger_groups import ClusterSolved
 
-__all__ = ["SINGULAR", "State", "extended_precision_of", "positions"]
+__all__ = ["SINGULAR", "State", "extended_precision_of", "group_at", "positions"]
 
 SINGULAR = 1e-7
 """A group whose two loci cross at a smaller sine than this is at a dead point."""
@@ -93,6 +93,14 @@ def positions(
         return run.state(len(structure.elements) if upto is None else upto)
 
 
+def group_at(structure: Structure, drive: Drive, forms: Mapping[int, Array], which: int) -> ClusterSolved:
+    """A larger group alone, by its place among the elements, with its rates; see ``positions``."""
+    with np.errstate(all="ignore"):
+        run = _Run(structure, drive, forms, True, False)
+        run.follow(which + 1)
+        return run.clusters[which]
+
+
 def extended_precision_of(
     structure: Structure,
     forms: Mapping[int, Array],
@@ -151,15 +159,19 @@ class _Run:
                 given["sign", i] = np.broadcast_to(form, (self.n,))
         return given
 
-    def state(self, upto: int) -> State:
-        elements = self.structure.elements[:upto]
-        for i, element in enumerate(elements):
+    def follow(self, upto: int) -> None:
+        """Solve what the formulas do not: larger groups, cams by their law, what rolls."""
+        for i, element in enumerate(self.structure.elements[:upto]):
             if isinstance(element, Cluster):
                 self._together(i, element)
             elif isinstance(element, Driven) and isinstance(element.driver, LawCam):
                 self._lift(i, element.driver)
             elif isinstance(element, Driven) and isinstance(element.driver, Rolled):
                 self._roll(i, element.driver)
+
+    def state(self, upto: int) -> State:
+        self.follow(upto)
+        elements = self.structure.elements[:upto]
         program = self.dimensioned.program
         names = [n for e in elements for n in links_of(e)]
         dyads = [i for i, e in enumerate(elements) if isinstance(e, Dyad)]

@@ -15,7 +15,7 @@ import numpy as np
 from graphkin.scene.model import SlideDriver
 from graphkin.solver.discriminant import least_closes
 from graphkin.solver.dyads import DyadSolution
-from graphkin.solver.engine import positions
+from graphkin.solver.engine import group_at, positions
 from graphkin.solver.joints import Drive
 from graphkin.solver.larger_groups import ClusterSolved
 from graphkin.solver.pose import Array
@@ -32,6 +32,8 @@ LEAST = 1e-13
 BEND = 0.2
 AT_END = 1e-9
 BESIDE = 0.003
+TOWARD = 0.75
+"""Part of what is left to a dead point that is taken in one step."""
 NARROW = 1e-6
 """A gap in the motion that is narrower than this (of the path) is a change point, as for groups of two links."""
 At = Callable[[float, Array], tuple[ClusterSolved, Array]]
@@ -61,6 +63,9 @@ class _Walk:
 def _walk_cluster(at: At, place: Array, size: float, end: float, most: float) -> _Walk:
     """_Walk with a tangent predictor; a step is taken only if Newton's method confirms what was predicted.
 
+    Towards a dead point rates grow as one over the root of what is left to it (Seydel, Practical Bifurcation and
+    Stability Analysis, ch. 2): two of them tell how much that is, and what to expect of the next step.
+
     The sign of the determinant tells the assembly.  Where it changes and the motion goes on in the same direction the
     group has passed a change point; where nothing is found any more the motion ends.
 
@@ -74,14 +79,20 @@ def _walk_cluster(at: At, place: Array, size: float, end: float, most: float) ->
     sense = np.sign(here.determinant[0])
     t, step = 0.0, most / 2
     nodes, places, flips = [0.0], [here.place[0]], []
+    left, fresh = np.inf, True
     while t < end:
         step = min(step, end - t)
-        guess = places[-1] + step * slope
+        if 2 * LEAST < TOWARD * left < step:
+            step = TOWARD * left
+        else:
+            left = np.inf
+        root = (1 - step / left) ** 0.5
+        guess = places[-1] + (2 / (1 + root)) * step * slope
         there, new_slope = at(t + step, guess)
         off = float(np.max(np.abs((there.place[0] - guess) / weight)))
         moved = float(np.max(np.abs((there.place[0] - places[-1]) / weight)))
         found = there.missed[0] < CLOSE and bool(np.all(np.isfinite(new_slope)))
-        good = found and off < min(0.03, 0.003 + 0.3 * moved) and _bend(slope, new_slope, weight) < BEND
+        good = found and off < min(0.03, 0.003 + 0.3 * moved) and _bend(slope / root, new_slope, weight) < BEND
         if good and np.sign(there.determinant[0]) != sense:
             passed = _passed(at, t, places[-1], slope, step, there, new_slope, weight)
             if passed is not None:
@@ -91,12 +102,15 @@ def _walk_cluster(at: At, place: Array, size: float, end: float, most: float) ->
                 sense = -sense
             good = passed is not None
         if good:
+            faster = float(np.max(np.abs(new_slope / weight)) / (np.max(np.abs(slope / weight)) or 1.0)) ** 2 - 1
+            left = step / faster if faster > 0 else np.inf
             t, slope = t + step, new_slope
             nodes.append(t)
             places.append(there.place[0])
-            step = min(most, step * (2.0 if off < 0.005 else 1.2))
+            # what has just been too far is not tried again at once
+            step, fresh = min(most, step * (1.0 if not fresh else 2.0 if off < 0.005 else 1.2)), True
             continue
-        step /= 2
+        step, fresh, left = step / 2, False, np.inf
         if step < LEAST:
             break
     if t < end and end - t < NARROW:
@@ -337,10 +351,8 @@ def _refined(path: Path, i: int, grid: Array) -> Array:
 def _follow_cluster(path: Path, i: int, place: Array) -> Path:
     def solved(t: float, start: Array) -> tuple[ClusterSolved, Array]:
         t_ = _off_flips(path.flips, np.array([t]))
-        state = positions(path.structure, path.drive(t_), {**path.form(t_), i: start[None]}, i + 1, sure=False)
-        found = state.groups[i]
-        assert isinstance(found, ClusterSolved)
-        return found, found.system.slope(state.poses)
+        found = group_at(path.structure, path.drive(t_), {**path.form(t_), i: start[None]}, i)
+        return found, found.system.slope({**found.system.known, **found.poses})
 
     steps = _steps(path.structure, np.abs(path.end - path.start))
     most = min(0.125, CLUSTER_STEP / TURN_STEP / steps)

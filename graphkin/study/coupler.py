@@ -54,7 +54,7 @@ def coupler_points(scene: Mechanism) -> tuple[tuple[str, str], ...]:
 
 def curve_page(turn: TurnStudy, axis: DriverAxis, point: str, link: str, language: str) -> Drawing:
     """The path of a coupler point in scale, with marks at equal steps of the driver, and the mechanism at its own
-    position."""
+    position, or in the middle of its range where that is singular."""
     reach, scene = turn.reach, turn.scene
     low, high = reach.ends
     path = axis.motion.position(point, link)
@@ -66,7 +66,7 @@ def curve_page(turn: TurnStudy, axis: DriverAxis, point: str, link: str, languag
         values = np.radians(axis.ticks) if angle else axis.ticks * scene.units.metres
         ticks = (values - reach.start[0]) * reach.sense
     at = reach.motion(ticks).position(point, link)
-    here = turn.start
+    here = reach.known
     places = {p: complex(here.position(p)[0]) for p in scene.holders}
     world = Box.around([*path[np.isfinite(path)].tolist(), *places.values()])
     width, height, need = min(((w, h, _need(world, w, h)) for w, h in ((WIDTH, HEIGHT), (HEIGHT, WIDTH))),
@@ -133,7 +133,7 @@ def _need(world: Box, width: float, height: float) -> float:
 def _skeleton(turn: TurnStudy, places: dict[str, complex], page: Callable[[complex], complex]) -> list[Primitive]:
     """The mechanism at its own position, thin: links, blocks, guides, pivots."""
     scene = turn.scene
-    motion = turn.start
+    motion = turn.reach.known
     made: list[Primitive] = []
     blocks: list[Primitive] = []
     for pair in motion.slides:

@@ -185,7 +185,7 @@ def _points(axis: DriverAxis, quantity: Quantity, pairs: Sequence[tuple[float, f
     at, read = np.array(pairs, dtype=float).T
     if quantity.measure == "angle" and quantity.kind == "theta":
         # an angle that is measured tells no whole turns
-        near = quantity.values(reach, reach.motion(at, fine=False))
+        near = quantity.values(reach, axis.motion_at(at))
         read = read + 2 * np.pi * np.rint((near - read) / (2 * np.pi))
     points = np.stack([axis.at(at), _shown(axis, quantity, at, read)], axis=1)
     return np.asarray(points[np.isfinite(points).all(axis=1)])

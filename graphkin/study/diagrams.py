@@ -76,6 +76,8 @@ def diagrams(
         name = f"motion-{kind}-{quantity.of.replace('/', '-')}"
         pages[name] = _motion_page(turn, axis, output, dots[quantity], over, language)
     for point, link in coupler_points(turn.scene):
+        if not np.isfinite(turn.reach.known.position(point, link)).all():
+            continue  # singular throughout
         pages[f"curve-{point}"] = curve_page(turn, axis, point, link, language)
     return pages | _balance_pages(turn, language)
 

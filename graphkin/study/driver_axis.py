@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -90,6 +90,7 @@ class DriverAxis:
     step: float
     first: float
     title: str
+    _asked: dict[bytes, Motion] = field(default_factory=dict, compare=False, repr=False)
 
     @cached_property
     def offsets(self) -> Array:
@@ -99,6 +100,13 @@ class DriverAxis:
             half = np.linspace(0, np.pi, POINTS)
             return np.asarray(low + (high - low) * np.sin(half / 2) ** 2)
         return np.asarray((np.linspace(0.0, high, POINTS) + self.first) % high)
+
+    def motion_at(self, offsets: Array) -> Motion:
+        """The motion at offsets of dots, which many panels share."""
+        key = offsets.tobytes()
+        if key not in self._asked:
+            self._asked[key] = self.reach.motion(offsets, fine=False)
+        return self._asked[key]
 
     @cached_property
     def motion(self) -> Motion:

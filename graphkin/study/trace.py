@@ -87,7 +87,8 @@ def driver_value(reach: DriverRange, offset: float) -> float:
 
 
 def trace(reach: DriverRange, quantities: Sequence[Quantity]) -> tuple[tuple[Traced, ...], tuple[Least, ...]]:
-    """Find all extremes and zeros of quantities, and the least transmission angle of each group of two links."""
+    """Find all extremes and zeros of quantities, and the least transmission angle of each group of two links; of a
+    mechanism that is singular throughout there are none."""
     way = _Way(reach)
     dyads = [g for g in reach.structure.groups if isinstance(g, Dyad)]
     places = [q for q in quantities if q.is_position]
@@ -127,8 +128,8 @@ def trace(reach: DriverRange, quantities: Sequence[Quantity]) -> tuple[tuple[Tra
         weight = None if reach.full else power
         pieces = resolve(speeds, *way.range, periodic=reach.full, floor=_floor(reach, rates), weight=weight)
         curves += [_Curve(q, pieces, k) for k, q in enumerate(rates)]
-    found = {t.quantity: t for t in _traced(way, curves)}
-    return tuple(found[q] for q in quantities), least
+    found = {t.quantity: t for t in _traced(way, curves) if t.constant is None or np.isfinite(t.constant)}
+    return tuple(found[q] for q in quantities if q in found), least
 
 
 def _columns(pairs: Sequence[tuple[Array, Array]]) -> tuple[Array, Array]:
@@ -183,12 +184,18 @@ def _floor(reach: DriverRange, rates: Sequence[Quantity]) -> Array:
     size = reach.scene.size
     motion = reach.motion(np.linspace(*reach.ends, 62)[1:-1], fine=False)
     poses = [motion.poses[link.name] for link in reach.scene.links]
-    omega = max(float(np.nanmedian(np.abs(p.omega))) for p in poses)
-    speed = max(omega * size, max(float(np.nanmedian(np.abs(p.v))) for p in poses))
-    alpha = max(omega**2, max(float(np.nanmedian(np.abs(p.alpha))) for p in poses))
-    push = max(alpha * size, max(float(np.nanmedian(np.abs(p.a))) for p in poses))
+    omega = max(_usual(p.omega) for p in poses)
+    speed = max(omega * size, *(_usual(p.v) for p in poses))
+    alpha = max(omega**2, *(_usual(p.alpha) for p in poses))
+    push = max(alpha * size, *(_usual(p.a) for p in poses))
     table = {"angular rate": omega, "angular acceleration": alpha, "speed": speed, "acceleration": push}
     return np.array([table[q.measure] ** (2 if q.is_size else 1) for q in rates]) * 1e-3
+
+
+def _usual(values: Array) -> float:
+    """The median size of what is known of some values; 0 where nothing is."""
+    known = np.abs(values[np.isfinite(values)])
+    return float(np.median(known)) if len(known) else 0.0
 
 
 @dataclass(frozen=True)
@@ -269,7 +276,7 @@ def _to_zero(steps: Array, values: Array) -> float:
 
 def _traced(way: _Way, curves: Sequence[_Curve]) -> list[Traced]:
     reach = way.reach
-    start = reach.motion(np.zeros(1))
+    start = reach.known
     constant = _constant(way, curves)
     found = []
     for curve in (c for c in curves if c.quantity in constant):
@@ -375,17 +382,19 @@ def _wrapped(reach: DriverRange, offset: Array) -> Array:
 
 
 def _leasts(way: _Way, pieces: Pieces, first: int, dyads: Sequence[Dyad]) -> tuple[Least, ...]:
+    if not dyads:
+        return ()
     reach = way.reach
     low, high = way.range
     inner = [way.inside(np.append(pieces.extremes(first + n), np.linspace(low, high, 33))) for n in range(len(dyads))]
-    motion = reach.motion(np.concatenate([*map(way.offset, inner), np.zeros(1)]), fine=False)
+    motion = reach.motion(np.concatenate([*map(way.offset, inner)]), fine=False)
     ends = np.cumsum([0, *map(len, inner)]).tolist()
     found: list[Least] = []
     least: list[float] = []
     for n, dyad in enumerate(dyads):
         k, angles = first + n, transmission(reach.structure, dyad, motion.poses).angle
         if pieces.is_constant(k):
-            found.append(Least(dyad, float(angles[-1]), None))
+            found.append(Least(dyad, float(transmission(reach.structure, dyad, reach.known.poses).angle[0]), None))
             least.append(0.0)
             continue
         angles = angles[ends[n] : ends[n + 1]]
@@ -404,7 +413,7 @@ def _leasts(way: _Way, pieces: Pieces, first: int, dyads: Sequence[Dyad]) -> tup
         fine = float(transmission(reach.structure, one.group, motion.poses).angle[k])
         if np.isfinite(fine) and least[k] not in (() if reach.full else reach.ends):
             found[k] = replace(one, angle=fine)
-    return tuple(found)
+    return tuple(one for one in found if np.isfinite(one.angle))
 
 
 def _from_cosine(cosine: float) -> float:

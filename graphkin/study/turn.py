@@ -85,11 +85,6 @@ class TurnStudy:
         return not_searched(self.reach)
 
     @cached_property
-    def start(self) -> Motion:
-        """The position from which the range is followed."""
-        return self.reach.motion(np.zeros(1))
-
-    @cached_property
     def _way(self) -> Motion:
         """Positions over a range that ends, close together near its ends."""
         low, high = self.reach.ends
@@ -157,7 +152,7 @@ def study_turn(reach: DriverRange, asked: Sequence[Symbol] = (), everything: boo
     everything : False leaves out all but the limit positions of the outputs, transmission and classes
     """
     scene = reach.scene
-    start = reach.motion(np.zeros(1))
+    start = reach.known
     mains = [Quantity("theta", name) for name in output_links(scene)]
     mains += [Quantity("s", key) for key in output_slides(start)]
     wanted = list(mains)
@@ -170,7 +165,7 @@ def study_turn(reach: DriverRange, asked: Sequence[Symbol] = (), everything: boo
             others += [q for s in own_slides(scene, start.slides) for q in slide_quantities(s.key)]
         wanted += [q for q in others if q not in wanted]
     traced, least = trace(reach, wanted)
-    outputs = tuple(_output(reach, t) for t in traced[: len(mains)])
+    outputs = tuple(_output(reach, t) for t in traced if t.quantity in mains)
     return TurnStudy(reach, ranges(reach), outputs, traced, least, loops(reach.structure))
 
 
@@ -205,8 +200,7 @@ def _output(reach: DriverRange, position: Traced) -> Output:
     if position.constant is not None:
         return Output(position, False, None, None)
     if position.quantity.kind == "theta" and reach.full:
-        both = reach.motion(np.array(reach.ends))
-        turned = float(np.diff(position.quantity.values(reach, both))[0])
+        turned = float(np.diff(position.quantity.values(reach, reach.at_ends))[0])
         if abs(turned) > 1.0:
             return Output(position, False, None, None, turned)
     return Output(position, True, position.least, position.greatest)

@@ -1,7 +1,8 @@
 """Random mechanisms of every driver and every dyad, also with round data and at rest, through every command.
 
 Run by hand, ``python -m tests.bench.attack 10000 [first seed]``; the test-suite runs some of it.  Each answer must be
-right or a refusal by name: no traceback, no reading out of tolerance, nothing said of what is not drawn.
+right or a refusal by name: no traceback, no reading out of tolerance, nothing said of what is not drawn, nothing that
+takes longer than five seconds.
 """
 
 from __future__ import annotations
@@ -9,7 +10,9 @@ from __future__ import annotations
 import json
 import random
 import sys
+import time
 import traceback
+import warnings
 from collections import Counter
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -69,24 +72,45 @@ def _draw(scene: Scene) -> list[str]:
     return [name for name, figure in drawn.figures.items() if not figure.content("svg")]
 
 
+def _sweep(scene: Scene) -> list[str]:
+    """Limits, extremes and diagrams of the whole motion."""
+    swept = graphkin.sweep(scene, positions=12)
+    json.dumps(swept.data, allow_nan=False)
+    empty = [name for name, figure in swept.figures.items() if not figure.content("svg")]
+    return empty + (["not a number"] if "nan" in swept.text.split() else [])
+
+
 COMMANDS: Mapping[str, Callable[[Scene], list[str]]] = {
     "check": _check,
     "centres": _centres,
     "cad": _cad,
     "audit": _audit,
     "draw": _draw,
+    "sweep": _sweep,
 }
+SLOWEST = 5.0  # seconds of the processor
 
 
 def attack(scene: Scene, command: str) -> str:
     """What came of a command: "ok", "refused: ..." or what is wrong."""
+    begin = time.process_time()
     try:
-        wrong = COMMANDS[command](scene)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", RuntimeWarning)
+            wrong = COMMANDS[command](scene)
     except GraphkinError as refusal:
         return f"refused: {str(refusal).splitlines()[0]}"
     except Exception as fault:  # whatever it is, it is what is looked for here
         return f"{type(fault).__name__}: {fault} at {traceback.extract_tb(fault.__traceback__)[-1]}"
+    taken = time.process_time() - begin
+    wrong += [f"{taken:.1f} s"] if taken > SLOWEST else []
     return "ok" if not wrong else f"wrong: {', '.join(wrong)}"
+
+
+def commands_of(seed: int) -> list[str]:
+    """What a mechanism goes through: ``check`` and ``centres``, and one of the others, which take longer, in turn."""
+    others = [command for command in COMMANDS if command not in ("check", "centres")]
+    return ["check", "centres", others[seed % len(others)]]
 
 
 def main() -> None:
@@ -95,11 +119,13 @@ def main() -> None:
     tally: Counter[tuple[str, str]] = Counter()
     for seed in range(first, first + count):
         scene = mechanism(seed)
-        for command in COMMANDS:
+        for command in commands_of(seed):
             came = attack(scene, command)
             tally[command, came.partition(":")[0]] += 1
             if not came.startswith(("ok", "refused")):
                 print(seed, command, came, flush=True)
+        if (seed - first) % 100 == 99:
+            print(f"{seed - first + 1} mechanisms", dict(sorted(tally.items())), flush=True)
     for (command, came), number in sorted(tally.items()):
         print(f"{command:8} {came:12} {number}")
 

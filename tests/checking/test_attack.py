@@ -24,7 +24,8 @@ def seeds(first: int, count: int) -> range:
     + [("centres", s) for s in seeds(2000, 14)]
     + [("cad", s) for s in seeds(3000, 2)]
     + [("audit", s) for s in seeds(4000, 2)]
-    + [("draw", s) for s in seeds(5000, 2)],
+    + [("draw", s) for s in seeds(5000, 2)]
+    + [("sweep", s) for s in seeds(6000, 2)],
 )
 def test_a_random_mechanism_is_answered_rightly_or_refused_by_name(command: str, seed: int) -> None:
     came = attack(mechanism(seed), command)
@@ -38,6 +39,8 @@ def test_a_random_mechanism_is_answered_rightly_or_refused_by_name(command: str,
         ("audit", 7700105),
         ("audit", 7700083),  # a value of 1e-57
         ("centres", 7800124),  # three centres in one place, where a link turns with another
+        ("sweep", 30260019),  # its own position is a dead point
+        ("sweep", 30260020),  # singular throughout
         ("cad", 7700045),  # a vector that is nothing, drawn as a hair, read to 0.01 mm
     ],
 )

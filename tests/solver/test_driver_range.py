@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 
 from graphkin.errors import CallError, Unsolvable
-from graphkin.scene import mechanism_of_text
+from graphkin.scene import library_text, mechanism_of_text
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.solver import DriverRange, driver_range, prepare, solve, structure_of
+from graphkin.solver.engine import group_at
 from graphkin.structure.assembly import ways
 from tests import scenes
 
@@ -56,6 +57,16 @@ def test_a_structure_serves_as_well_as_its_scene() -> None:
 def test_a_start_that_the_motion_does_not_reach_is_refused() -> None:
     with pytest.raises(Unsolvable, match="the motion reaches from"):
         driver_range(scene_of(ROCKER), {"1": math.pi})
+
+
+def test_a_larger_group_comes_to_both_its_dead_points_in_few_steps(monkeypatch: pytest.MonkeyPatch) -> None:
+    from graphkin.solver import path
+
+    steps: list[float] = []
+    monkeypatch.setattr(path, "group_at", lambda *given: steps.append(0.0) or group_at(*given))
+    reach = driver_range(mechanism_of_text(library_text("triad-slider"), ""))
+    assert (True, True) == reach.limited
+    assert len(steps) < 150
 
 
 def test_a_start_of_no_driver_is_refused() -> None:
