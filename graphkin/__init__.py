@@ -64,7 +64,8 @@ if TYPE_CHECKING:
     from graphkin.api.scene_list import Listed, scenes
     from graphkin.api.solved import Solved, solve
     from graphkin.api.studied import SpeedAccuracy, Stability, speed_accuracy, stability
-    from graphkin.api.swept import Swept, sweep
+    from graphkin.api.sweep import sweep
+    from graphkin.api.swept import Swept
     from graphkin.board.notebook import open_board
     from graphkin.errors import CallError, GraphkinError, SceneError, Unsolvable
     from graphkin.scene.asked_tables import Positions, PrintedTable, StrokeStart, Vary
@@ -175,7 +176,8 @@ _PLACES = {
     "api.scene_list": "Listed scenes",
     "api.solved": "Solved solve",
     "api.studied": "SpeedAccuracy Stability speed_accuracy stability",
-    "api.swept": "Swept sweep",
+    "api.sweep": "sweep",
+    "api.swept": "Swept",
     "scene.asked_tables": "Positions PrintedTable StrokeStart Vary",
     "scene.contact_tables": "Contact Disc Gear",
     "scene.law_tables": "AllowedPressure BaseCircle Cam LawPiece",

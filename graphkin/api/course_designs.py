@@ -28,7 +28,7 @@ from graphkin.api.checked import solved_here
 from graphkin.api.drawn import draw
 from graphkin.api.problem_sets import drawn_schemes, schemes_of
 from graphkin.api.results import FilesOfScene
-from graphkin.api.swept import sweep
+from graphkin.api.sweep import sweep
 from graphkin.checking.readings import read_off
 from graphkin.checking.report import compare
 from graphkin.construction import execute

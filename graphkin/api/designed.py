@@ -81,7 +81,7 @@ class Designed(Result):
     @cached_property
     def turn(self) -> TurnStudy:
         """The motion of the scene over a turn."""
-        from graphkin.api.swept import sweep
+        from graphkin.api.sweep import sweep
 
         turn = sweep(self.scene, positions=1).turn
         assert turn is not None

@@ -13,7 +13,6 @@ from graphkin.api.arguments import (
     ON_SHEETS,
     At,
     SceneLike,
-    driver_values,
     for_paper,
     known_words,
     own_folder,
@@ -26,9 +25,8 @@ from graphkin.api.report_text import report_text
 from graphkin.api.results import OfScene, Result
 from graphkin.construction import EXACT, Plan, execute, plan
 from graphkin.errors import CallError, Problem, as_list, as_text, did_you_mean
-from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, SlideDriver
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
-from graphkin.structure import Structure, analyse
 from graphkin.table import Table
 from graphkin.words import languages
 
@@ -36,6 +34,7 @@ if TYPE_CHECKING:
     from graphkin.checking.report import Compared
     from graphkin.drawing import Drawing
     from graphkin.solver import Motion
+from graphkin.structure.analysis import driven_by
 
 __all__ = ["Drawn", "draw", "known_figures"]
 
@@ -270,26 +269,6 @@ def _structure(drawn: Drawn) -> Drawing:
     return structure_figure(whole, others, language=drawn.language, convention=drawn.convention)
 
 
-def driven_by(scene: Mechanism, link: str) -> Structure:
-    """The structure of a mechanism of one driver that another link drives, about the frame or along it.
-
-    Raises
-    ------
-    CallError : there is no such link, or it neither turns about the frame nor slides on it
-    Unsolvable : so driven it is no mechanism
-    """
-    known = [one.name for one in scene.links]
-    slide = next((s.key for s in scene.slidings if s.link == link and s.on == scene.frame.name), None)
-    if link not in known:
-        raise CallError(Problem(f"driver {link}", f'there is no link "{link}"', did_you_mean(link, known)))
-    driver: AnyDriver = AngleDriver(link, scene.frame.name, 0.0, 0.0, 0.0)
-    if slide is not None:
-        driver = SlideDriver(slide, 0.0, 0.0, 0.0)
-    elif not any(p in scene.frame.points for p in scene.by_name[link].points):
-        raise CallError(Problem(f"driver {link}", "neither turns about the frame nor slides on it"))
-    return analyse(replace(scene, drivers=(driver, *scene.drivers[1:])))
-
-
 def _positions(drawn: Drawn) -> Drawing:
     from graphkin.api.shown_positions import shown_positions
     from graphkin.drawing.positions import positions_figure
@@ -303,30 +282,11 @@ def _positions(drawn: Drawn) -> Drawing:
 
 
 def _polygons(drawn: Drawn) -> Drawing:
+    from graphkin.api.shown_positions import sheets_beside
     from graphkin.drawing.polygons_beside import polygons_beside
 
-    scene, structure = drawn.mechanism, drawn.plan.structure
-    named = scene.positions.show if scene.positions else ()
-    known = scene.positions.names if scene.positions else ()
-    wished = drawn.beside or tuple(n for n in known if n in named or ("all" in named and n.isdigit()))
-    if len(wished) < 2:
-        wanted = 'name two or more: --beside 1 --beside 7, beside=["1", 75], or show in [positions]'
-        raise CallError(Problem("figure polygons", "shows several positions beside each other", wanted))
-    asked = tuple(s for s in scene.find if s.scope == "motion" and not s.at)
-    sheets = []
-    for name in map(str, wished):
-        place = name if name in known else _number(name)
-        values = {**drawn.checked.sheet.drivers, **(driver_values(scene, place) or {})}
-        sheets.append((name, execute(plan(structure, values, asked))))
+    sheets = sheets_beside(drawn.plan.structure, drawn.checked.sheet.drivers, drawn.beside)
     return polygons_beside(sheets, language=drawn.language, convention=drawn.convention)
-
-
-def _number(text: str) -> float | str:
-    """A driver's value, as far as it is one."""
-    try:
-        return float(text)
-    except ValueError:
-        return text
 
 
 def _cams(drawn: Drawn) -> Drawing | None:

@@ -1,22 +1,25 @@
-"""What the figure of several positions shows: limit positions, numbered ones, the least transmission angle, paths."""
+"""What figures of several positions show: limit positions, numbered ones, the least transmission angle, paths; polygons
+beside each other.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 
+from graphkin.api.arguments import driver_values
 from graphkin.checking.readings import read_off
 from graphkin.construction import Plan, execute, plan
 from graphkin.construction.limits import Turned, TurnOfCrank
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.positions import Shown
-from graphkin.errors import GraphkinError, Unsolvable
+from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Dyad, Structure, Turn
 from graphkin.structure.transmitting import TransmissionAngle, joint_of_dyad
 
-__all__ = ["shown_positions"]
+__all__ = ["sheets_beside", "shown_positions"]
 
 MARKS = ("theta", "stroke", "K", "gamma")
 NARROWER = 40  # times that a place is halved in
@@ -148,3 +151,41 @@ def _ways(structure: Structure, joint: TransmissionAngle, one: Turned) -> tuple[
 
     first, second = (of(end) - of(start) for start, end in (joint.first, joint.second))
     return first, second * (1j if joint.square else 1.0)
+
+
+def sheets_beside(
+    structure: Structure, drivers: Mapping[str, float], wished: Sequence[str | float]
+) -> list[tuple[str, Sheet]]:
+    """The constructions at several positions, for polygons that stand beside each other.
+
+    Parameters
+    ----------
+    drivers : values of the drivers (rad, m) in the scene's own position
+    wished : names of positions, or values of the first driver; without any those that ``[positions]`` shows
+
+    Raises
+    ------
+    CallError : fewer than two positions, or a name that is none
+    Unsolvable : a position that cannot be assembled or reached
+    """
+    scene = structure.scene
+    named = scene.positions.show if scene.positions else ()
+    known = scene.positions.names if scene.positions else ()
+    wished = wished or tuple(n for n in known if n in named or ("all" in named and n.isdigit()))
+    if len(wished) < 2:
+        wanted = 'name two or more: --beside 1 --beside 7, beside=["1", 75], or show in [positions]'
+        raise CallError(Problem("figure polygons", "shows several positions beside each other", wanted))
+    asked = tuple(s for s in scene.find if s.scope == "motion" and not s.at)
+    sheets = []
+    for name in map(str, wished):
+        values = {**drivers, **(driver_values(scene, name if name in known else _number(name)) or {})}
+        sheets.append((name, execute(plan(structure, values, asked))))
+    return sheets
+
+
+def _number(text: str) -> float | str:
+    """A driver's value, as far as it is one."""
+    try:
+        return float(text)
+    except ValueError:
+        return text

@@ -239,7 +239,7 @@ def _watch(desk: Desk, message: Message) -> dict[str, Any]:
 
 
 def _diagrams(desk: Desk, message: Message) -> dict[str, Any]:
-    from graphkin.api.swept import sweep
+    from graphkin.api.sweep import sweep
 
     asked = message.get("find")
     find = [str(one) for one in asked] if isinstance(asked, list) and asked else None

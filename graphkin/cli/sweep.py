@@ -78,7 +78,7 @@ def sweep(
     quiet: QuietOption = False,
 ) -> None:
     """Tables and motion diagrams over a turn, limit positions, strokes and K; and the same over designs."""
-    from graphkin.api.swept import sweep as sweeping
+    from graphkin.api.sweep import sweep as sweeping
     from graphkin.drawing.page import leave_undocumented
     from graphkin.scene import mechanism_of
 

@@ -9,8 +9,8 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from difflib import get_close_matches
 
-from graphkin.errors import Problem, Unsolvable
-from graphkin.scene.model import AnyDriver, Mechanism, PlacedLink
+from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
+from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedLink, SlideDriver
 from graphkin.structure.constraints import Constraints, Node, Unknown
 from graphkin.structure.groups import components, element_of, match
 from graphkin.structure.model import Cluster, Driven, DrivenTriangle, Dyad, Element, Mobility, Structure
@@ -18,7 +18,7 @@ from graphkin.structure.part import links_of
 from graphkin.structure.starts import start_drivers, unrolled
 from graphkin.structure.triangles import triangles_of
 
-__all__ = ["analyse", "mobility_of", "regrouped", "started"]
+__all__ = ["analyse", "driven_by", "mobility_of", "regrouped", "started"]
 
 
 def _wrong_count(system: Constraints, mobility: Mobility) -> Problem:
@@ -304,3 +304,23 @@ def _like(point: str, names: Sequence[str]) -> str:
     """The name that resembles a point's most, "" if none does."""
     near = get_close_matches(point, names, n=1, cutoff=0.5)
     return near[0] if near else next((n for n in names if n.lower()[:1] == point.lower()[:1]), "")
+
+
+def driven_by(scene: Mechanism, link: str) -> Structure:
+    """The structure of a mechanism of one driver that another link drives, about the frame or along it.
+
+    Raises
+    ------
+    CallError : there is no such link, or it neither turns about the frame nor slides on it
+    Unsolvable : so driven it is no mechanism
+    """
+    known = [one.name for one in scene.links]
+    slide = next((s.key for s in scene.slidings if s.link == link and s.on == scene.frame.name), None)
+    if link not in known:
+        raise CallError(Problem(f"driver {link}", f'there is no link "{link}"', did_you_mean(link, known)))
+    driver: AnyDriver = AngleDriver(link, scene.frame.name, 0.0, 0.0, 0.0)
+    if slide is not None:
+        driver = SlideDriver(slide, 0.0, 0.0, 0.0)
+    elif not any(p in scene.frame.points for p in scene.by_name[link].points):
+        raise CallError(Problem(f"driver {link}", "neither turns about the frame nor slides on it"))
+    return analyse(replace(scene, drivers=(driver, *scene.drivers[1:])))

@@ -24,7 +24,8 @@ from graphkin.scene import library_text, mechanism_of
 from graphkin.scene.symbol import Symbol
 from graphkin.study import sweeps
 from graphkin.study.designs import designs_of
-from graphkin.study.sweeps import Sweep, collect, write_tables
+from graphkin.study.sweep_results import collect, write_tables
+from graphkin.study.sweeps import Sweep
 from graphkin.study.watched import Watched, watched_symbol
 
 
