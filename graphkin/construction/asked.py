@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from graphkin.construction.net import node
 from graphkin.construction.plot import Order, Plot
 from graphkin.construction.polygon_acts import Asked
-from graphkin.construction.sheet import Vector
+from graphkin.construction.strokes import Vector
 from graphkin.construction.touching import Touching
 from graphkin.errors import CallError, Problem
 from graphkin.plane import dot, unit

@@ -14,8 +14,9 @@ from dataclasses import dataclass, field, replace
 from typing import Protocol
 
 from graphkin.construction.remarks import OffTheSheet, Remark, SharpCrossing
-from graphkin.construction.sheet import EXACT_NAME, Aid, DiagramName, Equation, Mark, Step, Stroke, Vector
+from graphkin.construction.sheet import EXACT_NAME, DiagramName, Equation, Step
 from graphkin.construction.steps import Act, Cause
+from graphkin.construction.strokes import Aid, Mark, Stroke, Vector
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, cross_lines
 from graphkin.scene.sheet_tables import Tools

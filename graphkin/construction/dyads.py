@@ -22,8 +22,9 @@ from graphkin.construction.mechanism_acts import (
     SlidToMeet,
 )
 from graphkin.construction.rigid import PlacedLinks, Poses, RigidBody, across, hinge, inner_hinge, rail
-from graphkin.construction.sheet import Bar, CompassArc, Pose, Stroke
+from graphkin.construction.sheet import Pose
 from graphkin.construction.steps import Act
+from graphkin.construction.strokes import Bar, CompassArc, Stroke
 from graphkin.plane import cross, cross_arcs, cross_line_arc, cross_lines, direction, dot, unit
 from graphkin.scene.model import AngleDriver
 from graphkin.structure import Driven, Dyad, DyadKind, Rolled, Slide, Turn

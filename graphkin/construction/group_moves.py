@@ -11,7 +11,8 @@ from graphkin.construction.net import Edge, Joined, Net, RollingPoint, TwoWays
 from graphkin.construction.plot import Order, letter
 from graphkin.construction.polygon_acts import Carried, DirectionLine, FoundVector, MeasuredRate
 from graphkin.construction.polygons import Polygons
-from graphkin.construction.sheet import Aid, Bar, Equation, Mark, Rate, Ray, Term
+from graphkin.construction.sheet import Equation, Rate, Term
+from graphkin.construction.strokes import Aid, Bar, Mark, Ray
 from graphkin.construction.touching import Touching
 from graphkin.plane import cross, unit
 from graphkin.scene.model import AngleDriver, SlideDriver

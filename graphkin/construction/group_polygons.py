@@ -21,9 +21,10 @@ from graphkin.construction.plot import Order
 from graphkin.construction.polygon_acts import Superposed, TrialDrawn
 from graphkin.construction.remarks import Magnified, ParallelLegs
 from graphkin.construction.rigid import PlacedLinks
-from graphkin.construction.sheet import Aid, DrawnGroup, Rate, Scales, Vector
+from graphkin.construction.sheet import DrawnGroup, Rate, Scales
 from graphkin.construction.sizes import Direction
 from graphkin.construction.slip import NO_SLIP, Slip
+from graphkin.construction.strokes import Aid, Vector
 from graphkin.construction.terms import parts_of
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot

@@ -20,8 +20,9 @@ from graphkin.construction.mechanism_acts import LaidOffAngle, RollingStarts, Tr
 from graphkin.construction.reduced_mechanism import ReducedMechanism
 from graphkin.construction.removed_constraint import RemovedConstraint
 from graphkin.construction.rigid import PlacedLinks, Poses
-from graphkin.construction.sheet import Bar, CompassArc, Pose, Stroke, TrialCurve
+from graphkin.construction.sheet import Pose
 from graphkin.construction.steps import Act
+from graphkin.construction.strokes import Bar, CompassArc, Stroke, TrialCurve
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, AnyDriver
 from graphkin.structure import Driven, links_of

@@ -22,15 +22,9 @@ from graphkin.construction.plot import Order
 from graphkin.construction.polygon_acts import Asked
 from graphkin.construction.position import branches_at
 from graphkin.construction.rigid import PlacedLinks, Poses
-from graphkin.construction.sheet import (
-    DIAGRAMS,
-    DiagramName,
-    Pose,
-    Scales,
-    Sheet,
-    Vector,
-)
+from graphkin.construction.sheet import DIAGRAMS, DiagramName, Pose, Scales, Sheet
 from graphkin.construction.slip import NO_SLIP, Slip
+from graphkin.construction.strokes import Vector
 from graphkin.construction.task import ORDERS, Task
 from graphkin.construction.touching import Touching
 from graphkin.errors import Problem, Unsolvable

@@ -12,9 +12,10 @@ from graphkin.construction.board import Board
 from graphkin.construction.net import node
 from graphkin.construction.polygon_acts import ByImage, ByRate, Named, Resultant, SamePlace, Translated
 from graphkin.construction.rigid import PlacedLinks
-from graphkin.construction.sheet import Aid, Bar, Image, Mark, Rate, Scales, Stroke, Vector
+from graphkin.construction.sheet import Rate, Scales
 from graphkin.construction.slip import NO_SLIP, Slip
 from graphkin.construction.steps import Act
+from graphkin.construction.strokes import Aid, Bar, Image, Mark, Stroke, Vector
 from graphkin.construction.touching import Touching
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, dot

@@ -26,9 +26,10 @@ from graphkin.construction.polygon_acts import (
 )
 from graphkin.construction.remarks import ZeroVector
 from graphkin.construction.rigid import PlacedLinks
-from graphkin.construction.sheet import Bar, Equation, Mark, Rate, Ray, Scales, Term, Vector
+from graphkin.construction.sheet import Equation, Rate, Scales, Term
 from graphkin.construction.sizes import Direction
 from graphkin.construction.slip import NO_SLIP, Component, Slip
+from graphkin.construction.strokes import Bar, Mark, Ray, Vector
 from graphkin.construction.terms import bar, parts_of, symbol_of, turn_sign
 from graphkin.construction.wheels import Wheels
 from graphkin.errors import Problem, Unsolvable

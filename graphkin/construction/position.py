@@ -22,8 +22,9 @@ from graphkin.construction.mechanism_acts import (
 )
 from graphkin.construction.remarks import SharpCrossing, ShortArm
 from graphkin.construction.rigid import PlacedLinks
-from graphkin.construction.sheet import Mark, Pose
+from graphkin.construction.sheet import Pose
 from graphkin.construction.steps import Cause, Placing
+from graphkin.construction.strokes import Mark
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import PointRef

@@ -11,8 +11,9 @@ from dataclasses import replace
 
 from graphkin.construction.polygon_acts import FoundVector, LaidOff, MeasuredRate
 from graphkin.construction.remarks import SharpCrossing, ZeroVector
-from graphkin.construction.sheet import DiagramName, Rate, Sheet, Step, Stroke, Vector
+from graphkin.construction.sheet import DiagramName, Rate, Sheet, Step
 from graphkin.construction.steps import Act
+from graphkin.construction.strokes import Stroke, Vector
 from graphkin.scene.symbol import Symbol
 
 __all__ = ["without_residues"]

@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from graphkin.construction.sheet import Role
 from graphkin.construction.sizes import Direction, Size
+from graphkin.construction.strokes import Role
 from graphkin.scene.symbol import Symbol
 
 __all__ = ["NO_SLIP", "Component", "Slip"]

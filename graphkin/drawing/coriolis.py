@@ -9,8 +9,9 @@ import math
 from cmath import phase
 from typing import TypeAlias
 
-from graphkin.construction.sheet import Sheet, Vector
+from graphkin.construction.sheet import Sheet
 from graphkin.construction.sizes import RateTimes, Size
+from graphkin.construction.strokes import Vector
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters

@@ -8,7 +8,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from graphkin.construction.forces.force_sheet import ForceGroup, ForceVector
-from graphkin.construction.sheet import Sheet, Vector
+from graphkin.construction.sheet import Sheet
+from graphkin.construction.strokes import Vector
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters

@@ -8,7 +8,8 @@ from cmath import phase
 from collections.abc import Iterator
 
 from graphkin.construction.mechanism_acts import SpecialPoint, TrialPositions
-from graphkin.construction.sheet import Aid, Bar, Sheet, TrialCurve
+from graphkin.construction.sheet import Sheet
+from graphkin.construction.strokes import Aid, Bar, TrialCurve
 from graphkin.drawing import strokes
 from graphkin.drawing.labels import Label
 from graphkin.drawing.mechanism_on_paper import page

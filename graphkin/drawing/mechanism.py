@@ -8,7 +8,8 @@ import math
 from cmath import phase, rect
 from collections.abc import Collection, Iterator
 
-from graphkin.construction.sheet import CompassArc, Sheet
+from graphkin.construction.sheet import Sheet
+from graphkin.construction.strokes import CompassArc
 from graphkin.drawing import strokes, symbols
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters

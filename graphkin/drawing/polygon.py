@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from graphkin.construction.polygon_acts import Carried
-from graphkin.construction.sheet import Bar, Image, Ray, Vector
+from graphkin.construction.strokes import Bar, Image, Ray, Vector
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.group_aids import aids_in_polygon

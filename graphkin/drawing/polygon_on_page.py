@@ -8,7 +8,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from graphkin.construction.sheet import Bar, DiagramName, Sheet, Step, Vector
+from graphkin.construction.sheet import DiagramName, Sheet, Step
+from graphkin.construction.strokes import Bar, Vector
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.primitives import Segment

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 from graphkin.construction.mechanism_acts import SpecialPoint
 from graphkin.construction.polygon_acts import Carried
-from graphkin.construction.sheet import Aid, Bar, Mark
+from graphkin.construction.strokes import Aid, Bar, Mark
 from graphkin.drawing import strokes
 from graphkin.drawing.conventions import pole
 from graphkin.drawing.font_widths import runs_width

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from graphkin.construction.sheet import Vector
+from graphkin.construction.strokes import Vector
 from graphkin.plane import cross, dot
 from graphkin.scene.symbol import Symbol
 

@@ -11,8 +11,9 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from graphkin.construction.polygon_acts import Carried, MeasuredRate, PlanDrawn
-from graphkin.construction.sheet import Aid, DiagramName, Mark, Sheet, Step, TrialCurve, Vector
+from graphkin.construction.sheet import DiagramName, Sheet, Step
 from graphkin.construction.steps import links_drawn
+from graphkin.construction.strokes import Aid, Mark, TrialCurve, Vector
 from graphkin.drawing import strokes
 from graphkin.drawing.dimensioning import LENGTHS
 from graphkin.drawing.polygon_on_page import details

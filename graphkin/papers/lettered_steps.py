@@ -19,8 +19,9 @@ from graphkin.construction.polygon_acts import (
     Named,
     Resultant,
 )
-from graphkin.construction.sheet import Aid, Bar, DiagramName, Ray, Sheet, Step, Vector
+from graphkin.construction.sheet import DiagramName, Sheet, Step
 from graphkin.construction.sizes import Direction, Given, Size
+from graphkin.construction.strokes import Aid, Bar, Ray, Vector
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, pole
 from graphkin.drawing.headings import number

@@ -20,8 +20,9 @@ from graphkin.construction.mechanism_acts import (
     PathDrawn,
     PathsCross,
 )
-from graphkin.construction.sheet import Bar, CompassArc, Mark, Sheet, Step
+from graphkin.construction.sheet import Sheet, Step
 from graphkin.construction.steps import phrase_of
+from graphkin.construction.strokes import Bar, CompassArc, Mark
 from graphkin.drawing.headings import number
 from graphkin.plane import cross, dot, unit
 from graphkin.scene.symbol import PointRef

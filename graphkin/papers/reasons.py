@@ -7,7 +7,8 @@ import math
 from collections.abc import Iterator, Mapping
 
 from graphkin.construction.mechanism_acts import PitchPoint, SpecialPoint
-from graphkin.construction.sheet import Aid, Equation, Term, Vector
+from graphkin.construction.sheet import Equation, Term
+from graphkin.construction.strokes import Aid, Vector
 from graphkin.papers.blocks import Paragraph
 from graphkin.papers.lesson import Lesson
 from graphkin.scene.symbol import PointRef, Symbol

@@ -11,8 +11,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from graphkin.construction.polygon_acts import Carried, LaidOff, MeasuredRate, PlanDrawn
-from graphkin.construction.sheet import Aid, Bar, DiagramName, Sheet, Step, Vector
+from graphkin.construction.sheet import DiagramName, Sheet, Step
 from graphkin.construction.sizes import Direction, Given, OffCurves, RateTimes, RollingCurves, Size, SquareOverRadius
+from graphkin.construction.strokes import Aid, Bar, Vector
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.headings import number, written
 from graphkin.drawing.sums import factors_of, plan_sum, rate_sum, scale_of, substituted, times_scale, unit_of

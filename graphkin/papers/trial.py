@@ -10,7 +10,8 @@ from dataclasses import replace
 
 from graphkin.checking.uncertainty import COVERAGE
 from graphkin.construction.polygon_acts import MeasuredRate, PlanDrawn
-from graphkin.construction.sheet import Step, Vector
+from graphkin.construction.sheet import Step
+from graphkin.construction.strokes import Vector
 from graphkin.drawing.force_stages import ForceStage, ForceStep
 from graphkin.files import Json
 from graphkin.papers.html import words_html

@@ -13,7 +13,7 @@ from typing import Any
 from graphkin.checking.readings import read_off
 from graphkin.checking.uncertainty import predict
 from graphkin.construction import Sheet, execute
-from graphkin.construction.sheet import Ray
+from graphkin.construction.strokes import Ray
 from graphkin.errors import GraphkinError, Problem, SceneError, Unsolvable
 from graphkin.papers.fresh_numbers import round_step
 from graphkin.papers.paper import paper_plan

@@ -4,31 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 from itertools import pairwise
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from graphkin.scene.model import AngleDriver
 from graphkin.solver import DriverRange, Motion
 from graphkin.solver.places import transmission
+from graphkin.solver.pose import Array
 from graphkin.structure import Dyad
+from graphkin.study.curve_parameter import Curve, CurveParameter
 from graphkin.study.curves import Pieces, resolve
 from graphkin.study.quantities import Quantity, link_quantities, slide_quantities
 
 __all__ = ["Extreme", "Least", "Traced", "driver_value", "trace"]
 
-Array = NDArray[np.float64]
-
-NEAR_END = 1e-5
-"""Of the range: an extreme this near to an end of the motion is the end itself."""
 POLISH = 3
-STEPS_TO_END = 2e-2
-"""Of the angle that runs over the range: steps to an end that the solver does not come near enough to."""
-HAIR = 1e-6
-"""Of the range of the driver: what is left out before an end at which links go away without bound."""
 NOTHING = 5e-11
 """A driver value this small (rad, m) is 0: no extreme of an acceleration is placed better."""
 
@@ -89,7 +81,7 @@ def driver_value(reach: DriverRange, offset: float) -> float:
 def trace(reach: DriverRange, quantities: Sequence[Quantity]) -> tuple[tuple[Traced, ...], tuple[Least, ...]]:
     """Find all extremes and zeros of quantities, and the least transmission angle of each group of two links; of a
     mechanism that is singular throughout there are none."""
-    way = _Way(reach)
+    way = CurveParameter(reach)
     dyads = [g for g in reach.structure.groups if isinstance(g, Dyad)]
     places = [q for q in quantities if q.is_position]
     rates = [q for q in quantities if not q.is_position]
@@ -115,19 +107,19 @@ def trace(reach: DriverRange, quantities: Sequence[Quantity]) -> tuple[tuple[Tra
         return _columns([q.smooth(reach, at(parameter)) for q in rates])
 
     # apart, because positions stay smooth where rates grow without bound
-    curves: list[_Curve] = []
+    curves: list[Curve] = []
     least: tuple[Least, ...] = ()
     if places or dyads:
         floor = np.array([size if q.measure == "length" else 1.0 for q in places] + [1.0] * len(dyads))
         pieces = resolve(positions, *way.range, periodic=reach.full, floor=floor)
-        curves += [_Curve(q, pieces, k) for k, q in enumerate(places)]
+        curves += [Curve(q, pieces, k) for k, q in enumerate(places)]
         least = _leasts(way, pieces, len(places), dyads)
     if rates:
         # near the end of a motion, a distance x away, velocities grow as x^-1/2 and accelerations as x^-3/2
         power = np.array([(1.0 if q.is_speed else 3.0) * (2 if q.is_size else 1) for q in rates])
         weight = None if reach.full else power
         pieces = resolve(speeds, *way.range, periodic=reach.full, floor=_floor(reach, rates), weight=weight)
-        curves += [_Curve(q, pieces, k) for k, q in enumerate(rates)]
+        curves += [Curve(q, pieces, k) for k, q in enumerate(rates)]
     found = {t.quantity: t for t in _traced(way, curves) if t.constant is None or np.isfinite(t.constant)}
     return tuple(found[q] for q in quantities if q in found), least
 
@@ -135,15 +127,6 @@ def trace(reach: DriverRange, quantities: Sequence[Quantity]) -> tuple[tuple[Tra
 def _columns(pairs: Sequence[tuple[Array, Array]]) -> tuple[Array, Array]:
     values, off = zip(*pairs, strict=True)
     return np.stack(values, axis=1), np.stack(off, axis=1)
-
-
-@dataclass(frozen=True)
-class _Curve:
-    """A quantity, and its place among the curves that represent it."""
-
-    quantity: Quantity
-    pieces: Pieces
-    k: int
 
 
 @dataclass(frozen=True)
@@ -198,83 +181,7 @@ def _usual(values: Array) -> float:
     return float(np.median(known)) if len(known) else 0.0
 
 
-@dataclass(frozen=True)
-class _Way:
-    """The parameter of the curves: the offset itself for a driver that turns fully; else an angle whose cosine runs
-    over the range, in which positions stay smooth up to the ends, where their rates are infinite.  An end at which
-    links go away without bound, as where two guides become parallel, is left out, a hair of the range before it."""
-
-    reach: DriverRange
-
-    @cached_property
-    def range(self) -> tuple[float, float]:
-        if self.reach.full:
-            return self.reach.ends
-        hair = 2 * float(np.arcsin(np.sqrt(HAIR)))
-        one, two = (hair if away else 0.0 for away in self._away)
-        return one, float(np.pi) - two
-
-    @cached_property
-    def _away(self) -> tuple[bool, bool]:
-        """At which ends links go away without bound."""
-        low, high = self.reach.ends
-        parts = np.array([1e-6, 1e-4])
-        motion = self.reach.motion(np.append(low + parts * (high - low), high - parts * (high - low)), fine=False)
-        far = np.max([np.abs(p.z) for p in motion.poses.values()], axis=0)
-        # at an end where links only turn they come nearer to a place of theirs
-        return not far[0] < 10 * far[1], not far[2] < 10 * far[3]
-
-    def end(self, curve: _Curve, which: int) -> float:
-        """The value of a position at the lower or upper end of the motion, where the solver refuses it, or loses half
-        of its digits: from the curve, or, where links go away without bound, from values nearer and nearer to it."""
-        if not self._away[which]:
-            value = curve.pieces.at(self.range[which], curve.k)
-            return self._beyond(curve, which) if np.isnan(value) else curve.quantity.of_smooth(value)
-        reach, quantity = self.reach, curve.quantity
-        low, high = reach.ends
-        steps = np.asarray(HAIR * 2.0 ** np.arange(2, 8), dtype=np.float64)
-        near = steps * (high - low)
-        values = quantity.values(reach, reach.motion(high - near if which else low + near))
-        if abs(values[0]) > 1.5 * abs(values[1]) > 2.25 * abs(values[2]):
-            return float(np.copysign(np.inf, values[0]))
-        return _to_zero(steps, values)
-
-    def _beyond(self, curve: _Curve, which: int) -> float:
-        """The value at an end of which the curve was left out, because the solver refuses places too near to it."""
-        low, high = self.range
-        steps: Array = STEPS_TO_END * np.arange(1, 9, dtype=np.float64)
-        motion = self.reach.motion(self.offset(high - steps if which else low + steps))
-        return _to_zero(steps, curve.quantity.values(self.reach, motion))
-
-    def offset(self, parameter: Array) -> Array:
-        low, high = self.reach.ends
-        if self.reach.full:
-            return np.asarray(parameter)
-        # halves of a product of sines, so that nothing is lost near the ends
-        return np.asarray(np.where(
-            parameter < np.pi / 2,
-            low + (high - low) * np.sin(parameter / 2) ** 2,
-            high - (high - low) * np.cos(parameter / 2) ** 2,
-        ))
-
-    def inside(self, parameter: Array) -> Array:
-        """Those that are not at an end of the motion."""
-        if self.reach.full:
-            return parameter
-        margin = NEAR_END * float(np.pi)
-        low, high = self.range
-        return parameter[(parameter > low + margin) & (parameter < high - margin)]
-
-
-def _to_zero(steps: Array, values: Array) -> float:
-    """Neville's scheme: the value at 0 of the polynomial through values at steps."""
-    found = values.tolist()
-    for k in range(1, len(found)):
-        found = [b - (c - b) * x / (y - x) for b, c, x, y in zip(found, found[1:], steps, steps[k:], strict=False)]
-    return float(found[0])
-
-
-def _traced(way: _Way, curves: Sequence[_Curve]) -> list[Traced]:
+def _traced(way: CurveParameter, curves: Sequence[Curve]) -> list[Traced]:
     reach = way.reach
     start = reach.known
     constant = _constant(way, curves)
@@ -300,7 +207,7 @@ def _traced(way: _Way, curves: Sequence[_Curve]) -> list[Traced]:
     return found
 
 
-def _constant(way: _Way, curves: Sequence[_Curve]) -> set[Quantity]:
+def _constant(way: CurveParameter, curves: Sequence[Curve]) -> set[Quantity]:
     """Quantities that do not change; of rates those that are the same wherever they are finite."""
     found = {c.quantity for c in curves if c.pieces.is_constant(c.k)}
     low, high = way.range
@@ -350,7 +257,7 @@ def _at_zero(reach: DriverRange, quantities: Sequence[Quantity], offsets: Sequen
     return found
 
 
-def _extremes(way: _Way, curves: Sequence[_Curve], offsets: Sequence[Array]) -> list[tuple[Extreme, ...]]:
+def _extremes(way: CurveParameter, curves: Sequence[Curve], offsets: Sequence[Array]) -> list[tuple[Extreme, ...]]:
     reach = way.reach
     low, high = reach.ends
     near = 1e-4 * (high - low)
@@ -381,7 +288,7 @@ def _wrapped(reach: DriverRange, offset: Array) -> Array:
     return np.asarray(offset % (high - low) if reach.full else np.clip(offset, low, high))
 
 
-def _leasts(way: _Way, pieces: Pieces, first: int, dyads: Sequence[Dyad]) -> tuple[Least, ...]:
+def _leasts(way: CurveParameter, pieces: Pieces, first: int, dyads: Sequence[Dyad]) -> tuple[Least, ...]:
     if not dyads:
         return ()
     reach = way.reach

@@ -10,7 +10,7 @@ import pytest
 from graphkin.construction import Cad, Scales, draft, pencil
 from graphkin.construction.polygon_acts import FoundVector
 from graphkin.construction.remarks import OffTheSheet, ZeroVector
-from graphkin.construction.sheet import CompassArc, Ray
+from graphkin.construction.strokes import CompassArc, Ray
 from graphkin.errors import Unsolvable
 from graphkin.plane import cross, dot
 from graphkin.scene import library, mechanism_of

@@ -15,7 +15,7 @@ from graphkin.construction import Slip, draft, execute, plan
 from graphkin.construction.mechanism_acts import SpecialPoint
 from graphkin.construction.polygon_acts import Superposed
 from graphkin.construction.remarks import ParallelLegs
-from graphkin.construction.sheet import Aid, TrialCurve
+from graphkin.construction.strokes import Aid, TrialCurve
 from graphkin.scene import mechanism_of
 from graphkin.scene.symbol import Symbol
 from tests import EVERYTHING

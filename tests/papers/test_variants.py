@@ -18,7 +18,7 @@ import pytest
 import graphkin
 from graphkin.api.problem_sets import problem_set
 from graphkin.construction import draft
-from graphkin.construction.sheet import Ray
+from graphkin.construction.strokes import Ray
 from graphkin.errors import CallError, Problem
 from graphkin.papers import problem_set as room
 from graphkin.papers.data_rows import columns_of, replaced, value_of
