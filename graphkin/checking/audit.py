@@ -87,7 +87,7 @@ def _judged(case: Evidence, printed: Printed) -> Judged:
     if math.isinf(bound):
         judged = replace(judged, verdict="not judged")
         fits = [s for s, _ in _weighed(case, judged) if not s.copied and _fits_to_the_digit(judged, s, case)]
-        if printed.digits < DIGITS or not fits or off <= printed.coarse + COMPUTED * abs(exact):
+        if printed.sure_digits < DIGITS or not fits or off <= printed.coarse + COMPUTED * abs(exact):
             return judged
         return replace(judged, verdict="wrong", looks_like=max(fits, key=lambda s: s.share).phrase)
     if off > bound + printed.coarse:
@@ -96,7 +96,7 @@ def _judged(case: Evidence, printed: Printed) -> Judged:
     if turned:
         return turned
     far = printed.digits >= FEW_DIGITS and off > FAR * abs(exact)
-    if far or (printed.digits >= DIGITS and off > NEVER * abs(exact)):
+    if far or (printed.sure_digits >= DIGITS and off > NEVER * abs(exact)):
         best = max(_weighed(case, judged), key=lambda w: w[1], default=None)
         drawn = RIGHT_SHARE * likelihood(printed, off, bound / 3, exact)
         if best and best[1] > SURER * drawn and _fits_to_the_digit(judged, best[0], case):

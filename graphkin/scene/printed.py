@@ -76,6 +76,12 @@ class Printed:
         return min(0.5 * self.step, most) * (1 + 1e-9)
 
     @property
+    def sure_digits(self) -> int:
+        """Its significant digits without the zeros that a whole number ends in: 2 650 000 mm/s² may be 2.65 km/s²."""
+        zeros = [0 if "." in t or "e" in t.lower() else len(t) - len(t.rstrip("0")) for t in self.texts if t.strip("0")]
+        return max(1, self.digits - min(zeros, default=0))
+
+    @property
     def coarse(self) -> float:
         """The same in the person's favour: a whole number that ends in a zero may be rounded to tens (0.52 m/s, written
         520 mm/s), where that is no more than one in a hundred."""

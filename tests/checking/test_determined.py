@@ -109,3 +109,19 @@ def test_a_wrong_sign_in_a_drawing_that_is_off_too_is_recognised(off: float) -> 
     scene = graphkin.read("slider-crank-offset").replace("printed", {"alpha_2": float(f"{-exact * off:.4g}")})
     (value,) = graphkin.audit(scene).data["values"]
     assert ("wrong", "sign") == (value["verdict"], value.get("looks_like"))
+
+
+def test_a_large_whole_number_rounded_beside_a_dead_point_is_not_called_wrong() -> None:
+    scene = {
+        "frame": {"points": {"A": [0, 0]}, "guides": {"h": {"through": [0, 10.7], "angle": 0}}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 79.8},
+            "2": {"points": ["B", "C"], "length": 42.8},
+            "3": {"points": ["C"], "on": "0.h"},
+        },
+        "driver": {"link": "1", "angle": 42.09455779248084, "omega": -11.67, "alpha": -28.2},
+        "sketch": {"C": [62.215, 10.7]},
+    }
+    assert 2_649_564 == round(abs(graphkin.check(scene)["a_C"].exact))
+    ((_, (judged,)),) = graphkin.audit({**scene, "printed": {"a_C": 2650e6}}).people
+    assert "not judged" == judged.verdict
