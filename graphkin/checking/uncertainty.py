@@ -19,12 +19,13 @@ import math
 from bisect import bisect_left
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.checking.readings import Reading, read_off
-from graphkin.construction import Plan, Redrawn, Scales, erring, nudged
+from graphkin.construction import Plan, Redrawn, Scales, Sheet, erring, nudged
 from graphkin.construction.board import Hand
 from graphkin.construction.plot import Order
 from graphkin.construction.steps import Cause, ReadOff, phrase_of
@@ -38,8 +39,10 @@ __all__ = ["COVERAGE", "Advice", "Uncertainty", "advise", "predict"]
 Values = Mapping[Symbol, complex | float]
 
 
+NO_LIMITS: Mapping[Symbol, float] = MappingProxyType({})
 COVERAGE = 3.0  # a stated bound is this many standard deviations
 SAMPLES = 24  # drawings in which every act errs at random
+FEW_SAMPLES, CLEARLY = 6, 1.3  # in so few a reading that is off by more than that part of its bound does not keep it
 BEYOND = 1.6  # times the deviation of first order: more than that in the samples is no accident (one in 10 000)
 BENT = 1.1  # a reading is farther off than first order tells by more than that where it is not in proportion
 ALIKE = 0.98  # cosine between the errors that bring two readings off most easily, above which one drawing tells of both
@@ -65,22 +68,44 @@ class Uncertainty:
         return COVERAGE * self.deviation
 
 
-def predict(what: Plan, name: str, tools: Tools, together: bool = True) -> Mapping[Symbol, Uncertainty]:
-    """Uncertainty of every reading of a plan drawn with an instrument ("pencil" or "cad"); what acts do only
-    ``together``, and out of proportion, may be left out."""
+def predict(
+    what: Plan, name: str, tools: Tools, together: bool = True, most: Mapping[Symbol, float] = NO_LIMITS, spare: int = 0
+) -> Mapping[Symbol, Uncertainty]:
+    """Uncertainty of every reading of a plan drawn with an instrument ("pencil" or "cad").
+
+    Parameters
+    ----------
+    together : what acts do only together, and out of proportion, may be left out
+    most, spare : bounds (SI) that readings should keep; without ``together`` nothing more is looked at where some
+        drawings in which every act errs, or the acts so far, show that more than so many to ``spare`` do not keep
+        theirs, and the uncertainties are what was seen of them
+    """
     still = nudged(name, tools)
-    drawing = Redrawn(what, what.scales, still)
+    drawing = _Drawing.of(what, still)
     drawn = still.acts
-    base = {r.symbol: r.value for r in read_off(drawing.sheet, (), still)}
-    marks = [acts for acts, _ in drawing.sheet.causes]
-    reading = len(drawing.sheet.causes)
+    base = {r.symbol: r.value for r in drawing.read(drawing.redrawn.sheet, still)}
+    if most and not together:
+        some = _samples(drawing, name, tools, FEW_SAMPLES)
+        offs = {s: _spread(value, [values[s] for values in some if s in values]) for s, value in base.items()}
+        if sum(COVERAGE * offs[s] > CLEARLY * most[s] for s in most if s in offs) > spare:
+            return {s: Uncertainty(off, ReadOff(s), 1.0, off) for s, off in offs.items()}
+    drawn_causes = drawing.redrawn.sheet.causes
+    marks = [acts for acts, _ in drawn_causes]
+    reading = len(drawn_causes)
+    limits = np.array([(most.get(s, math.inf) / COVERAGE) ** 2 for s in base])
+    sums = np.zeros(len(base))
     # how far each act moves each reading, shape (readings, acts)
     moved = np.zeros((len(base), still.acts), dtype=complex)
-    for act in range(1, still.acts + 1):
-        values = _read(drawing, nudged(name, tools, {act: 1.0}), act)
+    for act in range(still.acts, 0, -1):  # the last first: less is drawn again after them
+        values = drawing.values(nudged(name, tools, {act: 1.0}), act)
         # so near a dead point that this act alone makes the arcs miss: nothing can be promised
-        offs = [math.inf if values is None else values.get(s, math.inf) - value for s, value in base.items()]
-        moved[:, act - 1] = offs
+        moved[:, act - 1] = [
+            math.inf if values is None else values.get(s, math.inf) - value for s, value in base.items()
+        ]
+        if most and not together:
+            sums += np.abs(moved[:, act - 1]) ** 2
+            if int((sums > limits).sum()) > spare:
+                break
     causes = np.array([bisect_left(marks, act) if act <= drawn else reading for act in range(1, still.acts + 1)])
     samples = _samples(drawing, name, tools) if together else ()
     bent = _bent(drawing, name, tools, base, moved) if together else np.ones(len(base))
@@ -93,7 +118,7 @@ def predict(what: Plan, name: str, tools: Tools, together: bool = True) -> Mappi
         if shares and symbol.is_vector and value == 0:  # what errs away from nothing is read off the ruler then
             order: Order = "velocity" if symbol.measure == "velocity" else "acceleration"
             shares[reading] = shares.get(reading, 0.0) + (still.reading_error * what.scales.of(order)) ** 2
-        one = _summed(symbol, shares, drawing.sheet.causes)
+        one = _summed(symbol, shares, drawn_causes)
         if times > BENT:
             one = replace(one, deviation=one.first * times)
         seen = _spread(value, [values[symbol] for values in samples if symbol in values])
@@ -101,22 +126,46 @@ def predict(what: Plan, name: str, tools: Tools, together: bool = True) -> Mappi
     return found
 
 
-def _read(drawing: Redrawn, hand: Hand, first: int = 0) -> Values | None:
-    """What is read off the drawing of hands that do not err before an act; None where it cannot be drawn."""
-    try:
-        return {r.symbol: r.value for r in read_off(drawing.by(hand, first), (), hand)}
-    except (Unsolvable, ArithmeticError):
-        return None
+@dataclass(frozen=True)
+class _Drawing:
+    """A plan drawn again and again, its force polygons (if any) at the scale of the first."""
+
+    redrawn: Redrawn
+    newtons_per_mm: float
+
+    @classmethod
+    def of(cls, what: Plan, still: Hand) -> _Drawing:
+        redrawn = Redrawn(what, what.scales, still)
+        if not redrawn.sheet.has_forces:
+            return cls(redrawn, 0.0)
+        from graphkin.construction.forces import force_scale
+
+        return cls(redrawn, force_scale(redrawn.sheet))
+
+    def read(self, sheet: Sheet, hand: Hand) -> Sequence[Reading]:
+        """What is read off a sheet.  Raises as `execute`."""
+        if not self.newtons_per_mm:
+            return read_off(sheet, (), hand)
+        from graphkin.construction.forces import forces_on
+
+        return read_off(sheet, (), hand, forces_on(sheet, hand, self.newtons_per_mm))
+
+    def values(self, hand: Hand, first: int = 0) -> Values | None:
+        """What is read off the drawing of hands that do not err before an act; None where it cannot be drawn."""
+        try:
+            return {r.symbol: r.value for r in self.read(self.redrawn.by(hand, first), hand)}
+        except (Unsolvable, ArithmeticError):
+            return None
 
 
-def _samples(drawing: Redrawn, name: str, tools: Tools) -> Sequence[Values]:
+def _samples(drawing: _Drawing, name: str, tools: Tools, count: int = SAMPLES) -> Sequence[Values]:
     """The readings of some drawings in which every act errs at random; those that cannot be drawn are left out."""
-    found = (_read(drawing, erring(name, tools, seed)) for seed in range(SAMPLES))
+    found = (drawing.values(erring(name, tools, seed)) for seed in range(count))
     return [values for values in found if values is not None]
 
 
 def _bent(
-    drawing: Redrawn, name: str, tools: Tools, base: Values, moved: NDArray[np.complex128]
+    drawing: _Drawing, name: str, tools: Tools, base: Values, moved: NDArray[np.complex128]
 ) -> NDArray[np.float64]:
     """How many times as far as first order tells each reading is off where all acts err together in the way that most
     easily brings it three deviations off; shape (readings,)."""
@@ -131,7 +180,7 @@ def _bent(
             wrong = [
                 {k + 1: sense * COVERAGE * float(way[k]) for k in np.flatnonzero(way).tolist()} for sense in (1.0, -1.0)
             ]
-            read = (_read(drawing, nudged(name, tools, errs)) for errs in wrong)
+            read = (drawing.values(nudged(name, tools, errs)) for errs in wrong)
             drawn = way, tuple(values for values in read if values is not None)
             ways.append(drawn)
         told = COVERAGE * abs(complex(row @ drawn[0]))

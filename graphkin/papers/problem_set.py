@@ -27,10 +27,10 @@ from graphkin.structure import Cluster, analyse
 __all__ = ["Failure", "Job", "MadeSet", "Render", "accepted", "distinct", "jobs_of_rows", "jobs_of_seed", "make"]
 
 # of them for everything that may be asked, then as many for two of it at least, then for one: dyads, larger groups
-MANY, FEW = 30, 4
+MANY, FEW = 12, 4
 ATTEMPTS = 120  # tries at one variant before it is given up
 POOL, BEST = 40, 10  # candidates with larger groups that are compared, and of them those that are looked at closely
-PATIENCE, LONGER = 12.0, 24.0  # s of the processor, after which no further one is begun; with larger groups
+PATIENCE, LONGER = 3.0, 24.0  # s of the processor, after which no further one is begun; with larger groups
 
 # of a title: the data that it names ("…, scheme 2, position 7", "… 150, 500, 300")
 _DATA = re.compile(r"(?:\s+[\d.]+(?=[,、]\s*\d))?\s*[,:，：;；(（、][^,:，：;；(（、]*\d.*$")
@@ -131,10 +131,11 @@ def work(job: Job, attempt: int) -> Attempt:
             why[str(unfit)] += 1
         except Exception as error:  # whatever goes wrong with one must not take the others along
             why[_reason(error)] += 1
-    reason = why.most_common(1)[0][0] if why else "every attempt has the answers of another variant"
-    tried = why.total()
+    reason = "every attempt has the answers of another variant"
+    if why:
+        reason = "for example: {} ({} times)".format(*why.most_common(1)[0])
     easier = 'ask for less in "find", narrow [vary] ranges, or allow more by [vary] tolerance = 0.1 or level = "hard"'
-    return Attempt(None, ATTEMPTS, f"none of {tried} attempts is a good problem, for example: {reason}; {easier}")
+    return Attempt(None, ATTEMPTS, f"none of {why.total()} attempts is a good problem, {reason}; {easier}")
 
 
 def _best_of(job: Job, spread: Spread, pool: int) -> list[dict[str, Any]]:

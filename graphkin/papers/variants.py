@@ -177,16 +177,20 @@ def examined(
         motion = solve(scene)
         if motion.status[0] != "ok":
             raise Unfit(f"{motion.status[0]}: {motion.why[0]}")
+        remarks = [*_flat(motion, bounds)]
+        if remarks and strict:
+            raise Unfit(remarks[0])
         asked = asked_of(scene)
         chosen = strict and fewest > 0 and not source.get("find")
         if chosen:
             asked = (*asked, *_of_larger_groups(scene, asked))
         what = paper_plan(scene, None, asked)
         sheet = execute(what)
-        remarks = [*_flat(motion, bounds), *_remarks(sheet, () if chosen else asked, bounds.crossing)]
+        answers = tuple(_answers(scene, motion, sheet, asked))
+        idle = {s for s, value in answers if not value and s.scope == "force"}  # what a mechanism never loads
+        remarks += _remarks(sheet, () if chosen else tuple(s for s in asked if s not in idle), bounds.crossing)
         if remarks and strict:
             raise Unfit(remarks[0])
-        answers = tuple(_answers(scene, motion, sheet, asked))
     except Unsolvable as error:
         raise Unfit(f"{error.status}: {error.why}") from None
     except GraphkinError as error:
@@ -194,21 +198,24 @@ def examined(
     except ArithmeticError as error:
         raise Unfit(f"the numbers run out of range: {error}") from None
     if strict:  # what errors do together only adds to it
-        first = {s: u.bound for s, u in predict(what, "pencil", scene.sheet.tools, together=False).items()}
+        unread = {s for s, _ in answers if any(_unread(sheet, (s,)))} if chosen else idle
+        read = tuple((s, value) for s, value in answers if (value or not chosen) and s not in unread)  # what moves
+        most = {s: bounds.tolerance * abs(value) for s, value in read}
+        spare = max(0, len(read) - fewest) if chosen else 0
+        found = predict(what, "pencil", scene.sheet.tools, together=False, most=most, spare=spare)
+        first = {s: u.bound for s, u in found.items()}
         if chosen:
-            unread = {s for s, _ in answers if any(_unread(sheet, (s,)))}
-            read = tuple((s, value) for s, value in answers if value and s not in unread)  # what rests is no question
             asked = _within_reach(read, first, bounds.tolerance, fewest)[:MOST_ASKED]
-            answers = tuple(one for one in answers if one[0] in asked)
+            read = answers = tuple(one for one in answers if one[0] in asked)
             made["find"] = [str(s) for s in asked]
-        _held(answers, first, bounds.tolerance)
+        _held(read, first, bounds.tolerance)
     predicted = predict(what, "pencil", scene.sheet.tools)
     bounded = []
     for symbol, value in answers:
         bound = predicted[symbol].bound if symbol in predicted else 0.0
         unit = symbol.per_unit(scene.units)
         try:
-            _held([(symbol, value)], {symbol: bound}, bounds.tolerance)
+            _held([(symbol, value)] if symbol not in idle else [], {symbol: bound}, bounds.tolerance)
         except Unfit as unfit:
             if strict or not math.isfinite(bound):
                 raise
@@ -224,7 +231,7 @@ def _held(answers: Sequence[tuple[Symbol, float]], bounds: Mapping[Symbol, float
         if not math.isfinite(bound):
             raise Unfit(f"{symbol} cannot be drawn: so near a dead point a pencil misses it")
         if bound > tolerance * abs(value):
-            raise Unfit(f"{symbol} cannot be drawn more closely than to {100 * tolerance:.0f} %")
+            raise Unfit(f"{symbol} cannot be drawn more closely than to {100 * tolerance:.2g} %")
 
 
 def _within_reach(
@@ -300,15 +307,18 @@ def _measured(sheet: Sheet, symbol: Symbol) -> bool:
     return rate is not None and rate.vector is not None
 
 
+NOTHING = 1e-9  # of the greatest value of its sort: what is smaller is zero
+
+
 def _answers(
     scene: Mechanism, motion: Motion, sheet: Sheet, asked: tuple[Symbol, ...]
 ) -> Iterator[tuple[Symbol, float]]:
     """The exact answers; the drawing must agree with each of them."""
     drawn = {r.symbol: r.value for r in read_off(sheet, asked)}
     exact = exact_values(motion, asked)
-    for symbol in asked:
-        found = complex(exact(symbol))
-        value = abs(found) if symbol.is_vector else found.real
-        if symbol in drawn and abs(drawn[symbol] - found) > 1e-6 * max(abs(found), 1e-9):
+    values = {symbol: complex(exact(symbol)) for symbol in asked}
+    for symbol, found in values.items():
+        least = NOTHING * max(abs(other) for s, other in values.items() if s.measure == symbol.measure)
+        if symbol in drawn and abs(drawn[symbol] - found) > max(1e-6 * abs(found), least, 1e-15):
             raise SceneError(Problem(str(symbol), "the drawing and the solver disagree"))
-        yield symbol, value
+        yield symbol, 0.0 if abs(found) < least else abs(found) if symbol.is_vector else found.real

@@ -50,6 +50,17 @@ def test_the_same_seed_draws_the_same_sheet():
     assert one.data != other.data
 
 
+def test_bounds_that_are_kept_change_no_prediction_and_what_is_passed_is_seen():
+    scene = mechanism_of("shaper-scheme-2")
+    what, tools = plan(scene, None, ()), scene.sheet.tools
+    whole = predict(what, "pencil", tools, together=False)
+    kept = predict(what, "pencil", tools, together=False, most={s: 3 * u.bound for s, u in whole.items()})
+    assert whole == kept
+    most = {s: 0.5 * u.bound for s, u in whole.items()}
+    short = predict(what, "pencil", tools, together=False, most=most)
+    assert any(short[s].bound > most[s] > 0 for s in most)
+
+
 def test_a_pencil_drawing_is_judged_by_its_predicted_uncertainty():
     row = graphkin.check(SIXBAR, instrument="pencil", seed=1)["a_D"]
     assert row.uncertainty is not None

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -341,3 +342,18 @@ def test_one_quantity_that_a_pencil_finds_is_asked_where_two_are_not_to_be_had(f
     values = [(Symbol.parse("v_E"), 0.1), (Symbol.parse("omega_5"), -0.7)]
     missed = {Symbol.parse("v_E"): 0.009, Symbol.parse("omega_5"): 0.02}
     assert asked == [str(s) for s in _within_reach(values, missed, 0.05, fewest)]
+
+
+def test_a_force_that_a_mechanism_never_carries_does_not_keep_its_variants_from_being_made():
+    (answers,) = problem_set("boom-lifted", 1, 3, workers=1).made.answers.values()
+    assert {"F_2", "F_4/1", "F_1/2", "F_3/2", "F_4/3"} == {a.symbol for a in answers}
+    assert ["F_3/2"] == [a.symbol for a in answers if a.value == 0]
+
+
+def test_what_cannot_vary_is_refused_in_its_time(monkeypatch):
+    monkeypatch.setattr(room, "PATIENCE", 0.5)
+    source = graphkin.read("shaper-forces").to_dict() | {"vary": {"tolerance": 0.001}}
+    begun = time.process_time()
+    (failure,) = problem_set(source, 1, workers=1).made.failures
+    assert 1.5 > time.process_time() - begun
+    assert re.search(r"cannot be drawn more closely than to 0.1 % \(\d+ times\); ask for less", failure.why)

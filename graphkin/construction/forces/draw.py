@@ -33,14 +33,18 @@ ROOM = (98.0, 84.0)
 """Width and height (mm) that the largest force polygon fills at most, where the scene wishes for no scale."""
 
 
-def forces_on(sheet: Sheet, hand: Instrument = EXACT) -> ForceSheet:
+def forces_on(sheet: Sheet, hand: Instrument = EXACT, per_mm: float = 0.0) -> ForceSheet:
     """All forces of a drawn position, each taken off its polygon, and the levers.
+
+    Parameters
+    ----------
+    per_mm : N for one mm of the polygons; 0: as `force_scale` chooses
 
     Raises
     ------
     Unsolvable : "dead point": the balance does no work, or a polygon does not close
     """
-    return _drawn(sheet, hand, force_scale(sheet))
+    return _drawn(sheet, hand, per_mm or force_scale(sheet))
 
 
 def force_scale(sheet: Sheet) -> float:
