@@ -64,6 +64,7 @@ def polygon_with_insets(
     own = polygon_piece(here)
     for number, (one, box) in enumerate(zip(enlarged, boxes[len(shown) :], strict=False), 1):
         pieces.append(with_labels(*_detail_inset(here, one, box, number, _points_in(own, here, one))))
+        own = _without_feet(own, pieces[-1])
     figure = with_labels(own, panel, boxes)
     around = obstacles_of(figure.drawn) + Obstacles(areas=tuple(boxes))
     keyed = {one.step for one in figure.layers["labels"] if isinstance(one, Text) and one.step is not None}
@@ -78,6 +79,13 @@ def _points_in(piece: Piece, here: PolygonOnPage, detail: Detail) -> list[Label]
     return [
         one for one in piece.labels if isinstance(one.mark, complex) and abs(one.mark - middle) <= detail.radius + 0.6
     ]
+
+
+def _without_feet(piece: Piece, inset: Piece) -> Piece:
+    """A polygon without the letters of those feet between components that have theirs in an inset."""
+    shown = {one.id for one in inset.layers["labels"] if isinstance(one, Text)}
+    feet = {id.replace("label-detail-foot-", "label-foot-") for id in shown if id.startswith("label-detail-foot-")}
+    return replace(piece, labels=tuple(label for label in piece.labels if label.text.id not in feet))
 
 
 def coriolis_row(sheet: Sheet, terms: Sequence[CoriolisTerm], letters: Letters, row: Box) -> Piece:

@@ -35,9 +35,10 @@ _HOLDS = np.clip(1.6 * _WAYS.real, -1, 1), np.clip(1.6 * _WAYS.imag, -1, 1)
 _SHARES = np.array((0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9))
 # Far from a mark every second angle, and places about the middle of a vector, will do.
 _SOME = np.arange(24) % 2 == 0, np.arange(9) < 5
-# What a leader that runs over a vector is tried with further.
-_FEET = np.array((0.35, 0.65, 0.2, 0.8))
+# What a leader that runs over a vector is tried with further: places of its foot, ways, distances.
+_FEET = np.array((0.35, 0.65, 0.2, 0.8, 0.08, 0.92))
 _MANY_WAYS = np.exp(-2j * np.pi * np.arange(48) / 48)
+_LED_RINGS = (2.4, 5.0, 9.0, 14.5, 22.0, 32.0)
 _SIDES = np.array((1.0, -1.0))
 # Where nothing is liked, up and to the right reads best (Imhof, Positioning names on maps, 1975).
 _LIKED = math.radians(40)
@@ -89,6 +90,10 @@ class Candidates:
         """Some of the places."""
         return Candidates(self.centres[kept], self.costs[kept], self.feet[kept], self.gaps[kept], self.owners[kept])
 
+    def __add__(self, other: Candidates) -> Candidates:
+        columns = zip(vars(self).values(), vars(other).values(), strict=True)
+        return Candidates(*map(np.concatenate, columns))
+
 
 def ends(mark: Mark) -> Segment:
     """Ends of a mark, a point being both, to a thousandth of a millimetre, so that coincident marks are equal."""
@@ -116,7 +121,7 @@ def candidates(requests: LabelRequests, who: Indices, gaps: tuple[float, ...]) -
 
 def led_candidates(requests: LabelRequests, who: Indices) -> Candidates:
     """Further places of labels that want leaders: at more angles from a point, or from more places of a vector."""
-    gaps = np.array([gap for gap in RINGS if gap >= LEADER_LEAST])[:, None]
+    gaps = np.array(_LED_RINGS)[:, None]
     parts = []
     for i, label in enumerate(who):
         ways, shares = (_MANY_WAYS, _SHARES[:1]) if requests.is_point[label] else (_WAYS, _FEET)

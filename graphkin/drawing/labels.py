@@ -9,8 +9,8 @@ point-feature label placement, ACM Trans. Graphics 14, 1995).
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from itertools import islice
 
 import numpy as np
@@ -19,22 +19,12 @@ from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.label_candidates import RINGS, LabelRequest, Mark, ends
-from graphkin.drawing.label_positions import (
-    FEW,
-    MANY,
-    SOME,
-    TANGLED,
-    FoundPositions,
-    HeldPositions,
-    LabelPanel,
-    LabelPosition,
-    LabelPositions,
-    least_cost,
-)
+from graphkin.drawing.label_panel import TANGLED, LabelPanel, least_cost
+from graphkin.drawing.label_positions import HeldPositions, LabelPosition, LabelPositions
 from graphkin.drawing.obstacles import Flags, Obstacles
 from graphkin.drawing.primitives import Line, Text
 
-__all__ = ["Label", "Mark", "Placed", "place"]
+__all__ = ["Label", "Mark", "Placed", "Placement", "place"]
 
 # Rings looked at, one stage after the other, for the labels that have no place yet.
 _STAGES = (0, 2, 5, len(RINGS))
@@ -43,6 +33,11 @@ _WORTH = (12, 5, 4, 3, 2, 1)
 _DRIVES = 4  # how often labels may drive out others, for each label
 _SPACE = 0.9  # between two labels, mm
 _TRIED = 40  # places tried to get round a vector
+_LOOKED_AT = 120  # places of a label that is to make room
+_MOVED = 2  # labels that make room for another at most
+_DISPENSABLE = 4  # the rank from which labels may be missing
+# What it costs, beside what places cost, that a key stands for a name, and that a label stands nowhere.
+_KEY_COST, _MISSING_COST = 10.0, TANGLED
 _NOTHING = Obstacles()
 
 
@@ -71,21 +66,19 @@ class Label:
 class Placed:
     """A label at its place: the text, its box, and the leader that ties it to its mark where it needs one.
 
-    ``clear`` is False where no place without a fault was found, ``tangled`` says that the leader crosses a vector, a
-    link, a joint or an arrowhead.
+    ``clear`` is False where no place without a fault was found; ``keyed`` says that its key stands for it.
     """
 
     text: Text
     box: Box
     leader: Line | None = None
     clear: bool = True
-    tangled: bool = False
+    keyed: bool = False
 
 
 def place(
-    labels: Sequence[Label], panel: Box, obstacles: Obstacles = _NOTHING, marks: Sequence[Mark] = (),
-    found: FoundPositions | None = None,
-) -> tuple[Placed, ...]:  # fmt: skip
+    labels: Sequence[Label], panel: Box, obstacles: Obstacles = _NOTHING, marks: Sequence[Mark] = ()
+) -> tuple[Placed, ...]:
     """Give labels their places, in their order, those left out that are given up; the same input gives the same places.
 
     Parameters
@@ -94,56 +87,54 @@ def place(
     panel : no label leaves it
     obstacles : what is drawn already
     marks : further points and segments that a reader could take a label for, besides those of the labels
-    found : what calls for the same panel, obstacles and marks, those of the labels too, share of their search
     """
-    if not labels:
-        return ()
-    texts = [_moved(label.text, 0j) for label in labels]
-    boxes = [text_box(text) for text in texts]
-    requests = [
-        LabelRequest(*ends(label.mark), complex(box.width, box.height) / 2, label.toward)
-        for label, box in zip(labels, boxes, strict=True)
-    ]
-    asked = LabelPanel(panel, obstacles, marks, requests, {} if found is None else found)
-    placement = _Placement([label.rank for label in labels], asked)
-    placement.settle()
-    return tuple(
-        _placed(text, box, placement.standing[i], placement.clear[i], placement.tangled(i))
-        for i, (text, box) in enumerate(zip(texts, boxes, strict=True))
-        if i in placement.standing
-    )
+    return Placement(labels, panel, obstacles, marks).placed
 
 
-def _placed(text: Text, box: Box, position: LabelPosition, clear: bool, tangled: bool) -> Placed:
-    leader = None if position.leader is None else Line(*position.leader, strokes.LEADER)
-    at = complex(position.left - box.left, position.top - box.top)
-    return Placed(_moved(text, at), position.box, leader, clear, tangled)
+class Placement:
+    """Which label stands where; parameters as for `place`."""
 
+    def __init__(
+        self, labels: Sequence[Label], panel: Box, obstacles: Obstacles = _NOTHING, marks: Sequence[Mark] = ()
+    ) -> None:
+        self.labels, self.ranks = labels, [label.rank for label in labels]
+        self.texts = [_moved(label.text, 0j) for label in labels]
+        requests = [_request(label, text) for label, text in zip(labels, self.texts, strict=True)]
+        self.panel = LabelPanel(panel, obstacles, marks, requests)
+        self.found: dict[int, LabelPositions] = {}  # by request: those of the labels, then those of their keys
+        self.seen = [0] * len(labels)  # rings looked at
+        self.held = HeldPositions(len(labels))
+        self.clear = [True] * len(labels)
+        self.keys: dict[int, int] = {}  # the request for the key of a label
+        self.keyed: set[int] = set()  # labels for which their keys stand
+        if labels:
+            self._settle()
 
-def _moved(text: Text, at: complex) -> Text:
-    return Text(at, text.runs, "start", text.colour, text.id, text.classes, text.step)
+    @property
+    def placed(self) -> tuple[Placed, ...]:
+        """The labels at their places, in their order; without such as may be missing whose leader crosses a vector."""
+        return tuple(
+            self._placed(i, position) for i, position in sorted(self.held.standing.items())
+            if self.ranks[i] < _DISPENSABLE or not self._tangled(i)
+        )  # fmt: skip
 
+    def _placed(self, i: int, position: LabelPosition) -> Placed:
+        text = self.texts[self.keys[i] if i in self.keyed else i]
+        box = text_box(text)
+        leader = None if position.leader is None else Line(*position.leader, strokes.LEADER)
+        at = complex(position.left - box.left, position.top - box.top)
+        return Placed(_moved(text, at), position.box, leader, self.clear[i], i in self.keyed)
 
-class _Placement:
-    """Who stands where."""
+    @property
+    def crowded(self) -> list[int]:
+        """The labels that stand badly, or nowhere though they have keys."""
+        return [
+            i for i, label in enumerate(self.labels)
+            if (not self.clear[i] or self._tangled(i) if i in self.held.standing
+                else label.key is not None and label.rank < _DISPENSABLE)
+        ]  # fmt: skip
 
-    def __init__(self, ranks: Sequence[int], panel: LabelPanel) -> None:
-        self.ranks, self.panel = ranks, panel
-        self.found: dict[int, LabelPositions] = {}
-        self.seen = [0] * len(ranks)  # rings looked at
-        self.standing: dict[int, LabelPosition] = {}
-        self.held = HeldPositions(len(ranks))  # the same as arrays
-        self.clear = [True] * len(ranks)
-
-    def _take(self, i: int, position: LabelPosition) -> None:
-        self.standing[i] = position
-        self.held.take(i, position)
-
-    def _leave(self, i: int) -> None:
-        del self.standing[i]
-        self.held.leave(i)
-
-    def settle(self) -> None:
+    def _settle(self) -> None:
         """Give every label a place, or give it up."""
         left = list(range(len(self.ranks)))
         for last in _STAGES[1:]:
@@ -152,8 +143,9 @@ class _Placement:
             left = [i for i in left if not self._stand(i)]
             if not left:
                 break
+        crowded = bool(left)
         left = self._drive_out(sorted(left))
-        self._ease()
+        self._ease(crowded)
         for i in left:
             if self.ranks[i] == 0:
                 self._insist(i)
@@ -169,126 +161,193 @@ class _Placement:
 
     def _stand(self, i: int) -> bool:
         """Take the cheapest place that no other label holds."""
-        positions, others = self.found[i], tuple(self.standing.values())
-        for position in positions.first:
-            for other in others:
-                if position.meets(other, _SPACE):
-                    break
-            else:
-                self._take(i, position)
-                return True
-        for first, last in ((FEW, SOME), (SOME, MANY), (MANY, len(positions))):
-            if first < len(positions):
-                free = np.flatnonzero(~positions.part(first, last).met(self.held, _SPACE).any(axis=1))
-                if free.size:
-                    self._take(i, positions.position(first + int(free[0])))
-                    return True
-        return False
+        positions = self.found[i]
+        k = self.held.first_free(positions, len(positions), _SPACE)
+        if k is None:
+            return False
+        self.held.take(i, positions.position(k))
+        return True
 
     def _drive_out(self, left: list[int]) -> list[int]:
         """Place labels in a crowd by driving out whoever is in the way, who then finds a place in the same way; each
         time that a label is driven out it grows harder to drive out.  Returns those that stand nowhere in the end."""
         if not left:
             return []
+        self._look(left, len(RINGS))
         worth = np.array([_WORTH[min(rank, len(_WORTH) - 1)] for rank in self.ranks])
         weight = worth.copy()
         queue, hopeless = list(left), []
-        best, state = worth[left].sum(), (list(left), dict(self.standing))
+        best, state = worth[left].sum(), (list(left), dict(self.held.standing))
         for _ in range(_DRIVES * len(self.ranks)):
             if not queue:
                 break
             i = queue.pop(0)
             self._look([i], len(RINGS))
             positions = self.found[i]
-            met = positions.met(self.held, _SPACE)
+            met = self.held.met(positions, _SPACE)
             lost = met @ weight
             if not len(positions) or (self.ranks[i] and lost.min() > weight[i]):
                 hopeless.append(i)
                 continue
             chosen = int(np.lexsort((positions.costs, lost))[0])
-            for j in [j for j in self.standing if met[chosen, j]]:
-                self._leave(j)
+            for j in [j for j in self.held.standing if met[chosen, j]]:
+                self.held.leave(j)
                 weight[j] += worth[j]
                 queue.append(j)
-            self._take(i, positions.position(chosen))
+            self.held.take(i, positions.position(chosen))
             missing = worth[queue + hopeless].sum()
             if missing < best:
-                best, state = missing, (sorted(queue + hopeless), dict(self.standing))
+                best, state = missing, (sorted(queue + hopeless), dict(self.held.standing))
         lacking, standing = state
-        self.standing, self.held = {}, HeldPositions(len(self.ranks))
+        self.held = HeldPositions(len(self.ranks))
         for i, position in standing.items():
-            self._take(i, position)
+            self.held.take(i, position)
         return lacking
 
-    def _ease(self) -> None:
-        """Move labels to better places: such as have come free, and such as are further off but cost less."""
-        uneasy = [i for i, position in self.standing.items() if position.cost > least_cost(_STAGES[-2])]
+    def _ease(self, freed: bool) -> None:
+        """Move labels to better places: such as have come free (if any has), and such as are further off but cost
+        less."""
+        uneasy = [i for i, position in self.held.standing.items() if position.cost > least_cost(_STAGES[-2])]
         self._look(sorted(uneasy), _STAGES[-1])
-        for i in sorted(self.standing):
-            position = self.standing[i]
-            if position.cost > self.found[i].costs[0]:
-                self._leave(i)
-                self._stand(i)
+        for i in sorted(self.held.standing):
+            if i not in uneasy and not freed:
+                continue
+            position, positions = self.held.standing[i], self.found[i]
+            better = positions.cheaper(position.cost)
+            if better:
+                self.held.leave(i)
+                k = self.held.first_free(positions, better, _SPACE)
+                self.held.take(i, position if k is None else positions.position(k))
+                freed = freed or k is not None
 
     def _untangle(self) -> None:
         """Find places for labels whose leaders cross vectors or joints, if need be by moving those in their way."""
-        tangled = [i for i in self.standing if self.clear[i] and self.tangled(i)]
+        tangled = [i for i in self.held.standing if self.clear[i] and self._tangled(i)]
         if not tangled:
             return
-        tangled.sort(key=lambda i: (-self.standing[i].cost, i))
+        tangled.sort(key=lambda i: (-self.held.standing[i].cost, i))
         for i, positions in zip(tangled, self.panel.further(tangled), strict=True):
             self.found[i] = self.found[i].joined(positions)
         for i in tangled:
             self._make_room(i)
 
-    def tangled(self, i: int) -> bool:
+    def _tangled(self, i: int) -> bool:
         """Whether the leader of a label crosses what leaders are to go round."""
-        position = self.standing[i]
+        position = self.held.standing[i]
         return position.cost > TANGLED and self.panel.tangled(position)
 
+    def shorten(self) -> None:
+        """Put keys in place of names in a crowd: of those that stand badly, and of those in the way of such."""
+        having = [i for i, label in enumerate(self.labels) if label.key is not None]
+        crowded = sorted(self.crowded, key=lambda i: (-self._cost(i), i))
+        self._ask_for_keys([i for i in having if i in crowded], self.panel.everywhere_free)
+        for i in crowded:
+            self._make_room(i)
+        crowded = sorted(self.crowded, key=lambda i: (-self._cost(i), i))
+        if crowded:
+            rest = [i for i in having if i not in self.keys]
+            self._ask_for_keys(rest, lambda asked: self.panel.free(asked, 0, len(RINGS)))
+            for i in crowded:
+                self._make_room(i)
+
+    def _ask_for_keys(self, some: Sequence[int], find: Callable[[Sequence[int]], list[LabelPositions]]) -> None:
+        """Look for places of the keys of some labels."""
+        if not some:
+            return
+        requests = []
+        for i in some:
+            label = self.labels[i]
+            assert label.key is not None
+            classes = ("label", *label.key.classes)
+            self.texts.append(_moved(replace(label.key, id=label.text.id, classes=classes), 0j))
+            requests.append(_request(label, self.texts[-1]))
+        first = self.panel.ask(requests)
+        asked = range(first, first + len(some))
+        self.keys |= dict(zip(some, asked, strict=True))
+        self.found |= dict(zip(asked, find(asked), strict=True))
+
+    def _cost(self, i: int) -> float:
+        """What it costs that a label stands where it stands, or nowhere."""
+        if i not in self.held.standing:
+            return _MISSING_COST
+        return self.held.standing[i].cost + _KEY_COST * (i in self.keyed)
+
+    def _forms(self, i: int) -> list[tuple[int, float]]:
+        """The requests by which a label may stand, and what they cost beside their places."""
+        return [(i, 0.0), *((key, _KEY_COST) for key in (self.keys.get(i),) if key is not None)]
+
     def _make_room(self, i: int) -> None:
-        """Move a label, and one in its way, to where they cost less together."""
-        here, found = self.standing[i], self.found[i]
-        positions = found.part(0, int(np.searchsorted(found.costs, here.cost)))
-        self._leave(i)
-        best, chosen = here.cost, {i: here}
-        others: dict[int, list[int]] = {}  # its places that are free but for the label
-        for position, meeting in islice(self._nearly_free(positions), _TRIED):
-            if position.cost >= best:
-                break
-            if not meeting.any():
-                best, chosen = position.cost, {i: position}
-                continue
-            j = int(np.argmax(meeting))
-            its = self.found[j]
-            if j not in others:
-                met = its.met(self.held, _SPACE)
-                others[j] = np.flatnonzero(met.sum(axis=1) == met[:, j]).tolist()
-            for k in others[j]:
-                cost = position.cost + float(its.costs[k]) - self.standing[j].cost
+        """Move a label, and those in its way, to where they cost less together."""
+        here, best = self.held.standing.get(i), self._cost(i)
+        if here is not None:
+            self.held.leave(i)
+        chosen: dict[int, tuple[int, LabelPosition]] = {}
+        others: dict[int, list[tuple[float, int, int]]] = {}  # their places that are free but for this label and them
+        for form, extra in self._forms(i):
+            positions = self.found[form]
+            nearly = self._nearly_free(positions, positions.cheaper(best - extra))
+            for position, meeting in islice(nearly, _TRIED):
+                cost = position.cost + extra
                 if cost >= best:
                     break
-                moved = its.position(k)
-                if not moved.meets(position, _SPACE):
-                    best, chosen = cost, {i: position, j: moved}
-                    break
-        for label, position in chosen.items():
-            self._take(label, position)
+                moved = {i: (form, position)}
+                for j in np.flatnonzero(meeting).tolist():
+                    if j not in others:
+                        others[j] = self._others(j)
+                    rest = best - cost + self._cost(j)
+                    for dear, own, k in others[j]:
+                        if dear >= rest:
+                            break
+                        its = self.found[own].position(k)
+                        if not any(its.meets(one, _SPACE) for _, one in moved.values()):
+                            moved[j] = own, its
+                            cost += dear - self._cost(j)
+                            break
+                    if j not in moved:
+                        break
+                else:
+                    if cost < best:
+                        best, chosen = cost, moved
+        if not chosen and here is not None:
+            self.held.take(i, here)
+        for label, (form, position) in chosen.items():
+            self.held.take(label, position)
+            self.clear[label] = True
+            (self.keyed.discard if form == label else self.keyed.add)(label)
 
-    def _nearly_free(self, positions: LabelPositions) -> Iterator[tuple[LabelPosition, Flags]]:
-        """Places that meet at most one other label, cheapest first, with what they meet."""
-        for first, last in ((0, SOME), (SOME, MANY), (MANY, len(positions))):
-            met = positions.part(first, last).met(self.held, _SPACE)
-            for k in np.flatnonzero(met.sum(axis=1) <= 1):
+    def _others(self, j: int) -> list[tuple[float, int, int]]:
+        """Places of a label that no other is in the way of: what they cost, their request and index."""
+        found = []
+        for form, extra in self._forms(j):
+            positions = self.found[form].part(0, _LOOKED_AT)
+            met = self.held.met(positions, _SPACE)
+            free = np.flatnonzero(met.sum(axis=1) == met[:, j])
+            found += [(float(cost) + extra, form, int(k)) for cost, k in zip(positions.costs[free], free, strict=True)]
+        return sorted(found)
+
+    def _nearly_free(self, positions: LabelPositions, count: int) -> Iterator[tuple[LabelPosition, Flags]]:
+        """Of the first places those that meet few other labels, cheapest first, with what they meet."""
+        for first, lot in positions.lots(count):
+            met = self.held.met(lot, _SPACE)
+            for k in np.flatnonzero(met.sum(axis=1) <= _MOVED):
                 yield positions.position(first + int(k)), met[k]
 
     def _insist(self, i: int) -> None:
         """Put a label where it does least harm, and give up those in its way that may be given up."""
         positions, important = self.panel.everywhere(i), np.array(self.ranks) == 0
-        met = positions.met(self.held, 0.0)
+        met = self.held.met(positions, 0.0)
         faults = positions.faults + met[:, important].sum(axis=1)
         chosen = int(np.lexsort((positions.costs, met.sum(axis=1), faults))[0])
         for j in np.flatnonzero(met[chosen] & ~important):
-            self._leave(int(j))
+            self.held.leave(int(j))
         self.clear[i] = bool(faults[chosen] == 0)
-        self._take(i, positions.position(chosen))
+        self.held.take(i, positions.position(chosen))
+
+
+def _request(label: Label, text: Text) -> LabelRequest:
+    box = text_box(text)
+    return LabelRequest(*ends(label.mark), complex(box.width, box.height) / 2, label.toward)
+
+
+def _moved(text: Text, at: complex) -> Text:
+    return Text(at, text.runs, "start", text.colour, text.id, text.classes, text.step)

@@ -3,88 +3,39 @@ of the step that drew the vector, and the name behind the key in a free place of
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from itertools import accumulate
 
 from graphkin.drawing.box import Box
 from graphkin.drawing.font_widths import runs_width, text_box
 from graphkin.drawing.free_room import free_boxes
-from graphkin.drawing.label_positions import FoundPositions
-from graphkin.drawing.labels import Label, Mark, Placed, place
+from graphkin.drawing.labels import Label, Mark, Placed, Placement
 from graphkin.drawing.obstacles import Obstacles
 from graphkin.drawing.primitives import Primitive, Text
 
 __all__ = ["named"]
 
 BEHIND = 1.0  # mm between a key and the name behind it
-ROUNDS = 2
-DISPENSABLE = 4  # the rank from which labels may be missing
 APART = 3.0, 1.0  # mm between columns and between lines of the list
 
 
 def named(labels: Sequence[Label], panel: Box, obstacles: Obstacles, marks: Sequence[Mark]) -> tuple[Primitive, ...]:
     """Labels in their places with their leaders, parameters as for `labels.place`; those of a crowd listed by their
     keys."""
-    found: FoundPositions = {}
-    best = place(labels, panel, obstacles, marks, found)
+    placement = Placement(labels, panel, obstacles, marks)
+    placed, crowded = placement.placed, len(placement.crowded)
     listed: tuple[Text, ...] = ()
-    placed, keyed = best, frozenset[str]()
-    for _ in range(ROUNDS):
-        if not _crowded(labels, best):
-            break
-        if keyed:
-            placed = place([_short(label, keyed) for label in labels], panel, obstacles, marks, found)
-        keyed |= _crowded(labels, placed) & {label.text.id for label in labels if label.key is not None}
-        tried = _eased(labels, placed, keyed, panel, obstacles, marks)
-        if tried is not None and len(_crowded(labels, tried[0])) < len(_crowded(labels, best)):
-            best, listed = tried
-        if not keyed:
-            break  # the next round would be this one
-    written = (thing for one in best for thing in (one.leader, one.text) if thing is not None)
+    if crowded:
+        placement.shorten()
+        shorter = placement.placed
+        keyed = {one.text.id for one in shorter if one.keyed}
+        entries = [_entry(label.text, label.key) for label in labels if label.key and label.text.id in keyed]
+        list_of_names = _list(entries, panel, obstacles + _standing(shorter))
+        if len(placement.crowded) < crowded and (list_of_names or not entries):
+            placed, listed = shorter, list_of_names
+    written = (thing for one in placed for thing in (one.leader, one.text) if thing is not None)
     return *written, *listed
-
-
-def _crowded(labels: Sequence[Label], placed: Iterable[Placed]) -> frozenset[str]:
-    """Which labels stand badly, or nowhere though they have keys, by their ids."""
-    badly, well = set[str](), set[str]()
-    for one in placed:
-        (badly if one.tangled or not one.clear else well).add(one.text.id)
-    missing = {one.text.id for one in labels if one.key is not None and one.rank < DISPENSABLE} - well
-    return frozenset(badly | missing) - {""}
-
-
-def _short(label: Label, keyed: Container[str]) -> Label:
-    """The label as its key where it has one in a crowd."""
-    if label.key is None or label.text.id not in keyed:
-        return label
-    return replace(label, text=replace(label.key, id=label.text.id, classes=("label", *label.key.classes)))
-
-
-def _eased(
-    labels: Sequence[Label], placed: Sequence[Placed], keyed: Container[str], panel: Box, obstacles: Obstacles,
-    marks: Sequence[Mark],
-) -> tuple[tuple[Placed, ...], tuple[Text, ...]] | None:  # fmt: skip
-    """The labels of a crowd placed anew between the others, as their keys where they have some, and
-    the list of what the keys stand for; None where that has no room."""
-    crowded = _crowded(labels, placed)
-    better: dict[str, Placed] = {}
-    while True:
-        anew = [_short(label, keyed) for label in labels if label.text.id in crowded]
-        rest = [one for one in placed if one.text.id not in crowded]
-        found = place(anew, panel, obstacles + _standing(rest), marks)
-        better = {one.text.id: one for one in found if one.clear and not one.tangled}
-        if len(better) == len(crowded):
-            break
-        crowded = frozenset(better)  # the others stay where they are, in the way of these
-    again = (*(one for one in placed if one.text.id not in better), *better.values())
-    standing = {one.text.id: one.text.runs for one in again}
-    entries = [
-        _entry(label.text, label.key) for label in labels
-        if label.key is not None and standing.get(label.text.id) == label.key.runs
-    ]  # fmt: skip
-    listed = _list(entries, panel, obstacles + _standing(again))
-    return (again, listed) if listed or not entries else None
 
 
 def _standing(placed: Iterable[Placed]) -> Obstacles:

@@ -186,7 +186,7 @@ def _name(here: PolygonOnPage, length: float, vectors: Sequence[Vector]) -> Labe
     id = f"label-{first.symbol.id}"
     if length == 0.0:
         text = Text(0j, symbol(markup + " = 0"), "start", strokes.BLACK, id, ("label",))
-        return Label(text, here.at(first.tip), rank=3)
+        return Label(text, here.at(first.tip), rank=3, key=step_number(here.vectors[first.symbol][0]))
     resultants = all(v.role == "resultant" for v in vectors)
     text = Text(0j, symbol(markup), "start", colour_of_vector(here.sheet, first.symbol), id, ("label",))
     key = step_number(here.vectors[first.symbol][0], text.colour)
