@@ -15,10 +15,9 @@ from itertools import chain, count
 from typing import Any
 from zlib import crc32
 
-from graphkin.drawing.embedded import face_rules, families
+from graphkin.drawing.embedded import face_rules, families, outline
 from graphkin.drawing.font import Style
 from graphkin.drawing.font_widths import has_cjk, runs_width, start_runs, style_of, width
-from graphkin.drawing.outlines import outline
 from graphkin.drawing.primitives import (
     PALE,
     Arc,

@@ -10,7 +10,6 @@ from typing import Literal
 
 from graphkin.errors import Problem, did_you_mean
 from graphkin.scene.asked_tables import Positions, StrokeStart
-from graphkin.scene.cells import read_cell
 from graphkin.scene.model import NamedPositions, OnStroke, PinInSlot, SlidingPair, StatedValues
 from graphkin.scene.names import Names
 from graphkin.scene.printed import Printed, stated
@@ -138,6 +137,8 @@ def _texts(
 def _printed(symbol: Symbol, value: Stated, unit: str, units: Units) -> Printed:
     """One stated value.  Raises ValueError for a text that is none."""
     if isinstance(value, str):
+        from graphkin.scene.cells import read_cell  # only a text needs all the ways in which people write
+
         plain = value.strip()
         read = read_cell(plain, symbol, units, unit)
         bare = plain.replace("\u2212", "-") in read.texts and not unit  # nothing but digits, in scene units

@@ -13,8 +13,6 @@ import pytest
 import graphkin
 from graphkin.api.results import Result, Tabled
 
-pytestmark = pytest.mark.quick
-
 SIXBAR = "sixbar-guide-40deg"
 COMMANDS = ["check", "solve", "draw", "centres", "audit", "handout", "sweep"]
 MAKE = {

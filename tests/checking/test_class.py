@@ -18,8 +18,6 @@ from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Units
 from tests.command import run
 
-pytestmark = pytest.mark.quick
-
 SIXBAR = "sixbar-guide-40deg"  # v_D 482.72 to the left, omega_3 -2.819, alpha_3 6.577
 
 
