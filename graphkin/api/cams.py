@@ -132,7 +132,7 @@ class CamMade:
                 name = "rad" + per[order - 1]
             else:
                 value, name = value / units.metres, units.length + per[order - 1]
-            found.append(Phrase(f"cam {key}", (f"{value:.6g}", name, _degree(most))))
+            found.append(Phrase(f"cam {key}", (f"{value:.6g}".replace("-", "−"), name, _degree(most))))
         return found
 
     def sentences(self, language: str) -> list[str]:

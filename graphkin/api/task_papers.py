@@ -17,7 +17,7 @@ from graphkin.checking.uncertainty import COVERAGE
 from graphkin.drawing.cam import cam_given, cam_pictures
 from graphkin.drawing.headings import number, written
 from graphkin.drawing.synthesis import asked_words, construction_picture, step_words
-from graphkin.papers.blocks import Said
+from graphkin.papers.blocks import Said, said
 from graphkin.papers.drawn_task import DrawnTask, TaskResult, papers_of_task
 from graphkin.papers.paper import Paper
 from graphkin.scene.cams import SwingingFollower
@@ -63,6 +63,7 @@ def design_papers(designed: Designed, formats: Sequence[str]) -> Mapping[str, by
                _each(language, lambda each: _line("find", find, each))),
         start=(construction_picture(given, sheet, language, 1),),
         whole=(construction_picture(given, sheet, language),),
+        captions=(said("design figure", language),),
         steps=tuple(_each(language, partial(step_words, step.phrase)) for step in sheet.steps),
         results=tuple(results),
         notes=tuple(_notes(designed, language)),
@@ -116,9 +117,10 @@ def cam_papers(made: CamMade, formats: Sequence[str], language: str, prefix: str
     for d, off in zip(sheet.divisions, spread, strict=True):
         value, deviation = (math.degrees(x) if swings else x / metres for x in (d.lift, off.lift))
         letter, unit = ("ψ", "°") if swings else ("s", scene.units.length)
-        shown = number(value, 5)
         within = _accepted(value, deviation, -math.inf)
-        results.append(TaskResult(f"${letter}_{{{d.number}}}$", unit, shown, shown, within))
+        per = 1.0 if swings else sheet.scale / metres
+        read = number(round(value / per, 2) * per)  # to 0.01 mm, as lengths on paper are told
+        results.append(TaskResult(f"${letter}_{{{d.number}}}$", unit, read, number(value, 5), within))
     spoken = {each: made.sentences(each) for each in languages(language)}
     notes = tuple(_by_sentence(spoken))
     task = DrawnTask(
@@ -127,6 +129,7 @@ def cam_papers(made: CamMade, formats: Sequence[str], language: str, prefix: str
                _each(language, lambda each: _line("find", word("cam find", each), each))),
         start=cam_pictures(scene, sheet, language, begun=True),
         whole=cam_pictures(scene, sheet, language),
+        captions=(said("cam diagram", language), said("cam figure", language)),
         steps=tuple(_each(language, partial(say, phrase)) for phrase in sheet.steps),
         results=tuple(results),
         notes=notes,

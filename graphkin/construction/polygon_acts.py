@@ -265,7 +265,8 @@ def _on_plan(act: PlanDrawn | PlanTravel | PlanTried) -> Phrase:
         case PlanDrawn(rate, link, by, known, mm, per_mm, value):
             turning = "cw" if value < 0.0 else "ccw" if value > 0.0 else "zero"
             if known:
-                return Phrase(f"plan line {rate}", (link, by[0], amount(value, 4).replace("-", "−")))
+                told = amount(value, 4).replace("-", "−")
+                return Phrase(f"plan line {rate}", (link, by[0], told, "−" * (value < 0.0) + on_paper(mm)))
             read = on_paper(mm), amount(per_mm, 6), amount(abs(value), 4)
             return Phrase(f"plan line {rate} {turning}", (link, *by, *read))
         case PlanTravel(_, slide, mm):

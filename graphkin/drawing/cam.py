@@ -13,7 +13,7 @@ from graphkin.drawing import strokes, symbols
 from graphkin.drawing.box import Box
 from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.font_widths import runs_width
-from graphkin.drawing.headings import number, term
+from graphkin.drawing.headings import number, once, term
 from graphkin.drawing.labels import Label
 from graphkin.drawing.page_text import FOOT, LETTER, LINE, MARGIN, WIDTH, foot, heading, note_lines, step_lines
 from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
@@ -23,7 +23,7 @@ from graphkin.scene.cams import LawCam, SlidingFollower, SwingingFollower
 from graphkin.scene.follower_law import TURN
 from graphkin.scene.model import Mechanism
 from graphkin.version import __version__
-from graphkin.words import languages, say, word
+from graphkin.words import Phrase, languages, say, word
 
 __all__ = ["cam_figure", "cam_given", "cam_pictures", "cam_scale"]
 
@@ -94,9 +94,9 @@ def cam_pictures(scene: Mechanism, sheet: CamSheet, language: str, begun: bool =
     scale = tuple(foot(f"$μ_{{l}}$ = {number(per)} {unit}/mm", bottom + 5.0, 3.0, language))
     drawn = joined((drawn, Piece({"labels": scale})))
     facts = {"figure": "cam", "scene": scene.name, "cam": sheet.cam.link, "graphkin": __version__}
-    told = word("cam figure", first)
     pages = []
-    for piece, height in ((diagram, low + 2.0), (drawn, bottom + 9.0)):
+    for key, piece, height in (("cam diagram", diagram, low + 2.0), ("cam figure", drawn, bottom + 9.0)):
+        told = word(key, first)
         piece = moved_piece(piece, -complex(MARGIN - 2.0, 0.0))
         pages.append(Drawing(WIDTH - 2 * MARGIN + 4.0, height, layer_groups(piece), told, told, first, facts))
     return pages[0], pages[1]
@@ -112,7 +112,8 @@ def cam_given(scene: Mechanism, cam: LawCam, language: str) -> str:
         way = _lift(scene, cam, piece.high - piece.low)
         law = term(f"law {piece.by}", language, piece.by) if piece.by else term("law dwell", language)
         told.append(f"{said} {law}" + (f" {'+' if way > 0 else '−'}{number(abs(way))}{unit}" if piece.by else ""))
-    return f"{_given(scene, cam, language)}; {', '.join(told)}"
+    comma = word("list comma", language)
+    return f"{_given(scene, cam, language)}{'；' if comma == '，' else '; '}{comma.join(told)}"
 
 
 def _given(scene: Mechanism, cam: LawCam, language: str) -> str:
@@ -128,8 +129,9 @@ def _given(scene: Mechanism, cam: LawCam, language: str) -> str:
         parts += [f"$l$ = {number(cam.motion.arm / metres)} {unit}",
                   f"$a$ = {number(abs(cam.axis - cam.motion.centre) / metres)} {unit}"]  # fmt: skip
     kind = term("cam flat" if cam.flat else "cam roller" if cam.roller else "cam edge", language)
-    sense = term("counter-clockwise" if cam.sense > 0 else "clockwise", language)
-    return f"{kind}; {',  '.join(parts)}; {term('cam turns', language)} {sense}"
+    sense = "counter-clockwise" if cam.sense > 0 else "clockwise"
+    turns = once(say(Phrase("cam turns", (word(sense, each),)), each) for each in languages(language))
+    return f"{kind}; {',  '.join(parts)}; {turns}"
 
 
 def _lift(scene: Mechanism, cam: LawCam, lift: float) -> float:

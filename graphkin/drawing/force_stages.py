@@ -24,7 +24,7 @@ from graphkin.drawing.force_words import (
 from graphkin.drawing.lever import lever_on_page
 from graphkin.drawing.springs import spring_lines
 from graphkin.scene.symbol import Symbol
-from graphkin.words import Phrase, languages, say
+from graphkin.words import Phrase, languages, say, word
 
 __all__ = ["ForceStage", "ForceStep", "force_stages"]
 
@@ -166,7 +166,7 @@ def _group(writer: _StageWriter, state: ForceState, group: ForceGroup, count: in
         own = [s for s in dict.fromkeys(v.symbol for v in group.polygon if not v.known) if s in read]
         frame = sheet.scene.frame.name
         closed = tuple(
-            (each, f"{why} {closed_by(group, letters, frame, each)}".strip())
+            (each, word("between sentences", each).join((why, closed_by(group, letters, frame, each))).strip())
             for each, why in writer.said("force polygon closes", links)
         )
         steps.append(writer.step(closed, [read.pop(s) for s in own], own))

@@ -24,7 +24,7 @@ from graphkin.drawing.train_scheme import scheme
 from graphkin.words import Phrase, languages, say
 from graphkin.words.written import on_paper
 
-__all__ = ["train_figure"]
+__all__ = ["moving_plans", "train_figure"]
 
 WIDTH, MARGIN, ROOM = 190.0, 10.0, 9.0
 SCHEME = 68.0
@@ -46,9 +46,13 @@ def train_figure(sheet: Sheet, *, language: str | None = None, convention: str |
     """
     spoken = language or sheet.scene.sheet.language
     letters = letters_of(sheet, convention or sheet.scene.sheet.convention)  # type: ignore[arg-type]
-    moving = [plan for plan in sheet.trains if any(plan.velocities.values()) or any(one.rate for one in plan.lines)]
-    pages = [_page(sheet, plan, letters, spoken, i) for i, plan in enumerate(moving)]
+    pages = [_page(sheet, plan, letters, spoken, i) for i, plan in enumerate(moving_plans(sheet))]
     return replace(pages[0], further=tuple(pages[1:])) if pages else None
+
+
+def moving_plans(sheet: Sheet) -> list[TrainPlan]:
+    """The plans in which anything moves: these have a page."""
+    return [plan for plan in sheet.trains if any(plan.velocities.values()) or any(one.rate for one in plan.lines)]
 
 
 def _page(sheet: Sheet, plan: TrainPlan, letters: Letters, spoken: str, count: int) -> Drawing:

@@ -31,11 +31,15 @@ __all__ = [
     "Steps",
     "TableBlock",
     "Together",
+    "capital",
     "clean",
+    "finished",
     "laid_out",
+    "numbered",
     "said",
     "sentences",
     "spoken",
+    "whole_sentence",
 ]
 
 # control characters, halves of surrogates, what no file may hold, and marks that turn the direction of writing
@@ -94,12 +98,14 @@ class Steps:
 class Picture:
     """A figure at true scale with its caption; ``drawing.desc`` says in words what it shows.
 
-    ``joined`` keeps it with what follows on one page (an equation with its steps).
+    ``joined`` keeps it with what follows on one page (an equation with its steps); ``floats`` lets it stand at the head
+    of the next page, what follows it before it.
     """
 
     drawing: Drawing
     caption: Said = ()
     joined: bool = False
+    floats: bool = False
 
 
 @dataclass(frozen=True)
@@ -162,12 +168,14 @@ Block: TypeAlias = Heading | Paragraph | Steps | Picture | Plate | TableBlock | 
 
 @dataclass(frozen=True)
 class Document:
-    """A whole document: its title in words, its languages in order, its blocks, and its paper."""
+    """A whole document: its title in words, its languages in order, its blocks, and its paper, of which ``folded`` sets
+    in two halves what stands before the first fresh heading."""
 
     title: str
     languages: tuple[str, ...]
     blocks: tuple[Block, ...]
     paper: Paper = A4
+    folded: bool = False
 
 
 def laid_out(
@@ -192,6 +200,33 @@ def said(key: str, language: str, *args: object) -> Said:
 def spoken(markup: str, language: str) -> Said:
     """Words that are the same in every language, said once."""
     return ((languages(language)[0], markup),)
+
+
+def whole_sentence(text: str, language: str) -> str:
+    """Words as a sentence, with its capital and its full stop."""
+    stop = word("full stop", language)
+    return capital(text).rstrip(stop) + stop
+
+
+def capital(text: str) -> str:
+    """Words with a capital; a symbol stays as it is.
+
+    >>> capital("the rise"), capital("φ = 140°")
+    ('The rise', 'φ = 140°')
+    """
+    return text[:1].upper() + text[1:] if text[:1].isascii() else text
+
+
+def finished(words: Said) -> Said:
+    """Words in each language as sentences."""
+    return tuple((each, whole_sentence(text, each)) for each, text in words)
+
+
+def numbered(count: int, caption: Said) -> Said:
+    """The caption of a figure behind its number."""
+    return tuple(
+        (each, say(Phrase("figure numbered", (count, capital(text))), each)) for each, text in caption
+    )
 
 
 def sentences(*several: Said) -> Said:

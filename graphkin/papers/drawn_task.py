@@ -18,13 +18,18 @@ from graphkin.papers.blocks import (
     Steps,
     TableBlock,
     Together,
+    finished,
+    numbered,
     said,
 )
 from graphkin.papers.lesson import plain_words
 from graphkin.papers.page import document_page
 from graphkin.papers.paper import A4, Paper
 from graphkin.papers.pdf import can_typeset, pdf
+from graphkin.papers.pictures import bare_picture
 from graphkin.words import languages, word
+
+MANY = 6  # steps that stand in two columns
 
 __all__ = ["DrawnTask", "TaskResult", "papers_of_task"]
 
@@ -47,7 +52,7 @@ class DrawnTask:
 
     given : sentences of what is given and asked
     start : figures that the problem begins with, to scale
-    whole : figures of the finished construction
+    whole, captions : figures of the finished construction, and what each shows
     steps : what is done, with its reason
     notes : what is found of the result
     language : "en", "zh" or "both"
@@ -57,6 +62,7 @@ class DrawnTask:
     given: tuple[Said, ...]
     start: tuple[Drawing, ...]
     whole: tuple[Drawing, ...]
+    captions: tuple[Said, ...]
     steps: tuple[Said, ...]
     results: tuple[TaskResult, ...]
     notes: tuple[Said, ...]
@@ -80,7 +86,7 @@ class DrawnTask:
         return self._document("problem sheet", [
             Heading(self.title, 1),
             Fields(self._heads("name of student", "class of student", "date")),
-            *(Paragraph(one) for one in self.given),
+            *(Paragraph(finished(one)) for one in self.given),
             Paragraph(said("print true", lang), small=True),
             *(Picture(one) for one in self.start),
             Together((Heading(said("your results", lang), 2), blank)),
@@ -90,16 +96,20 @@ class DrawnTask:
     def solution(self) -> Document:
         """Every step with its reason, the construction, and what was read off beside what is exact."""
         lang = self.language
-        steps = tuple(StepItem(i, words) for i, words in enumerate(self.steps, 1))
+        steps = tuple(StepItem(i, finished(words)) for i, words in enumerate(self.steps, 1))
         rows = tuple((r.name, r.read, r.exact, r.unit) for r in self.results)
+        figures = [
+            Picture(bare_picture(one), numbered(i, told), floats=i < len(self.whole))
+            for i, (one, told) in enumerate(zip(self.whole, self.captions, strict=True), 1)
+        ]
         return self._document("worked solution", [
             Heading(self.title, 1),
-            *(Paragraph(one) for one in self.given),
-            Steps(steps),
-            *(Picture(one) for one in self.whole),
+            *(Paragraph(finished(one)) for one in self.given),
+            Steps(steps, parted=len(steps) >= MANY),
+            *figures,
             Together((Heading(said("results", lang), 2),
                       TableBlock(self._heads("quantity", "measured", "exact", "unit"), rows, "lrrl"))),
-            *(Paragraph(one) for one in self.notes),
+            *(Paragraph(finished(one)) for one in self.notes),
         ])  # fmt: skip
 
     @property
@@ -109,7 +119,7 @@ class DrawnTask:
         return self._document("answer key", [
             Heading(self.title, 1),
             TableBlock(self._heads("quantity", "value", "accept", "unit"), rows, "lrrl"),
-            *(Paragraph(one, small=True) for one in self.notes),
+            *(Paragraph(finished(one), small=True) for one in self.notes),
         ])  # fmt: skip
 
 

@@ -19,6 +19,12 @@ __all__ = ["A4", "Paper", "paper_of", "paper_plan"]
 
 SIDE, TOP, BOTTOM = 15.0, 13.0, 15.0  # mm, margins
 CAPTION = 7.0  # mm that a line under a figure takes
+HEAD = 22.0  # mm for a heading and the lines under it
+BESIDE = 36.0  # mm around a mechanism, for names, dimensions and its scale
+AROUND = 32.0  # mm around a polygon that is still to be drawn, and between both
+LEAST_WIDE = 90.0  # mm of a frame, for its check bar
+LEAST_DRAWN = 70.0  # mm of a figure that a pencil draws well
+PARTS = (0.85, 0.75, 0.65, 0.55, 0.48)
 COLUMN = 92.0  # mm: a column of words beside a figure, with the gap between them
 
 
@@ -55,6 +61,11 @@ class Paper:
         """What figures may fill, under a heading in two languages: on A4 160 by 180 mm, polygons 157 by 190."""
         return self._room((160.0, 180.0), (157.0, 190.0))
 
+    def part(self, part: float) -> Room:
+        """What figures are to fill that share a page: a part of ``filled``."""
+        mechanism, polygon = ((part * wide, part * high) for wide, high in (self.filled.mechanism, self.filled.polygon))
+        return Room(mechanism=mechanism, polygon=polygon)
+
     def _room(self, mechanism: tuple[float, float], polygon: tuple[float, float]) -> Room:
         wide, high = self.body.width / A4.body.width, self.body.height / A4.body.height
         return Room(
@@ -72,8 +83,11 @@ def paper_of(scene: Mechanism) -> Paper:
     return Paper(*scene.sheet.size)
 
 
-def paper_plan(of: Mechanism | Structure, values: Mapping[str, float] | None, asked: Sequence[Symbol]) -> Plan:
-    """What to draw: at the scales that the scene wishes, on a larger paper if need be, else at those that fit."""
+def paper_plan(
+    of: Mechanism | Structure, values: Mapping[str, float] | None, asked: Sequence[Symbol], share: bool = True
+) -> Plan:
+    """What to draw: at the scales that the scene wishes, on a larger paper if need be, else at those that fit; with
+    ``share`` such that mechanism and polygon stand on one page where they stay large enough."""
     own = plan(of, values, asked)
     scene = own.structure.scene
     paper, given = paper_of(scene), scene.sheet
@@ -87,14 +101,14 @@ def paper_plan(of: Mechanism | Structure, values: Mapping[str, float] | None, as
                 own.scales.acceleration if given.acceleration_scale else filled.acceleration,
             ),
         )
+    wishes = (given.length_scale, given.velocity_scale, given.acceleration_scale)
     fits = _fits(own, paper)
     if all(fits):
-        return own
-    wishes = (given.length_scale, given.velocity_scale, given.acceleration_scale)
+        return _sharing(own, paper, wishes) if share else own
     larger = _larger(own, paper, wishes)
     if larger is not None:
         whole = of if isinstance(of, Mechanism) else of.scene
-        return paper_plan(replace(whole, sheet=replace(whole.sheet, paper=larger)), values, asked)
+        return paper_plan(replace(whole, sheet=replace(whole.sheet, paper=larger)), values, asked, share)
     roomed = own.scales_for(paper.most)
     pairs = zip(
         fits,
@@ -102,7 +116,50 @@ def paper_plan(of: Mechanism | Structure, values: Mapping[str, float] | None, as
         (roomed.length, roomed.velocity, roomed.acceleration),
         strict=True,
     )
-    return replace(own, scales=Scales(*(mine if good else other for good, mine, other in pairs)))
+    own = replace(own, scales=Scales(*(mine if good else other for good, mine, other in pairs)))
+    return _sharing(own, paper, wishes) if share else own
+
+
+def _sharing(own: Plan, paper: Paper, wishes: Sequence[float | None]) -> Plan:
+    """At scales that let the mechanism share a page with each polygon, from which directions are carried over, where
+    the scene leaves them open and figures stay large enough for a pencil; else as it is."""
+    if _share(own, paper):
+        return own
+    names = ("length", "velocity", "acceleration")
+    for part in PARTS:
+        smaller = own.scales_for(paper.part(part))
+        scales = Scales(*(
+            mine if wish else max(mine, other)
+            for wish, mine, other in zip(
+                wishes, *((s.length, s.velocity, s.acceleration) for s in (own.scales, smaller)), strict=True
+            )
+        ))  # fmt: skip
+        tried = replace(own, scales=scales)
+        if _share(tried, paper):
+            drawn = [max(_size(tried, name)) for name in names]
+            wanted = [min(LEAST_DRAWN, max(_size(own, name))) for name in names]
+            return tried if all(a >= b for a, b in zip(drawn, wanted, strict=True)) else own
+    return own
+
+
+def _size(own: Plan, name: str) -> tuple[float, float]:
+    """Width and height (mm) of the mechanism (``length``) or of a polygon."""
+    extent = own.extents["mechanism" if name == "length" else name]  # type: ignore[index]
+    per = getattr(own.scales, name)
+    return extent.width / per, extent.height / per
+
+
+def _share(own: Plan, paper: Paper) -> bool:
+    """Whether the mechanism, with its dimensions, and each polygon stand side by side or one above the other."""
+    wide, high = (size + BESIDE for size in _size(own, "length"))
+    body = paper.body
+    for name in ("velocity", "acceleration"):
+        across, up = (size + AROUND for size in _size(own, name))
+        across = max(across, LEAST_WIDE)
+        beside = wide + across <= body.width and max(high, up) <= body.height - HEAD
+        if not beside and (max(wide, across) > body.width or high + up > body.height - HEAD):
+            return False
+    return True
 
 
 def _fits(own: Plan, paper: Paper) -> list[bool]:

@@ -23,22 +23,8 @@ from graphkin.drawing.font import FAMILY, FOLDER
 from graphkin.drawing.font_widths import start_runs
 from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Primitive, Scan, Stroke, Text, walk
 from graphkin.drawing.text import Atom, is_italic, parsed
-from graphkin.papers.blocks import (
-    Beside,
-    Block,
-    Document,
-    Fields,
-    Heading,
-    Paragraph,
-    Picture,
-    Plate,
-    Room,
-    Said,
-    Steps,
-    Together,
-    clean,
-)
-from graphkin.papers.lesson import plain_words
+from graphkin.papers.blocks import Document, Fields, Heading, Paragraph, Picture, Plate, Room, Said, StepItem, clean
+from graphkin.papers.pieces import COLUMN_GAP, HALVES_GAP, MANY_ROWS, Leaf, OnPage, Pair, Wrapped, pages_of
 from graphkin.words import word
 
 if TYPE_CHECKING:
@@ -49,7 +35,6 @@ __all__ = ["can_join", "can_typeset", "one_after_another", "pdf"]
 Data: TypeAlias = dict[str, object]
 """What the template reads, as JSON holds it."""
 
-A_LINE = 44  # letters of a step on a line of half a page
 SAG = 0.002  # mm: how far a chord may lie off its arc
 CHINESE = (
     "Noto Serif CJK SC", "Noto Serif SC", "Source Han Serif SC", "Source Han Serif CN", "Songti SC", "SimSun", "STSong",
@@ -79,26 +64,40 @@ def pdf(document: Document) -> bytes:
     import typst
 
     names, fonts = _fonts()
-    data = {
+    template = files("graphkin.papers").joinpath("template.typ").read_bytes()
+    frame = {
         "title": clean(document.title),
         "languages": list(document.languages),
         "page": " / ".join(word("page of", each) for each in document.languages),
         "fonts": names,
         "paper": [document.paper.width, document.paper.height],
-        "blocks": [_block(block) for block in document.blocks],
+        "columns": COLUMN_GAP,
+        "halves": HALVES_GAP,
     }
-    template = files("graphkin.papers").joinpath("template.typ").read_bytes()
+
+    def measured(leaves: Sequence[tuple[Leaf, float | None]]) -> list[tuple[float, float]]:
+        asked = [{"block": _block(leaf, bare=True), "width": width or 0} for leaf, width in leaves]
+        told = typst.query(
+            template, "<sizes>", field="value", one=True, format="json", font_paths=fonts,
+            sys_inputs=_inputs({**frame, "measure": asked}),
+        )  # fmt: skip
+        return [(wide, high) for wide, high in json.loads(told)]
+
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
+        pages = [
+            [[_part(part) for part in half] for half in (page.left, page.right) if half]
+            for page in pages_of(document, measured)
+        ]
         made = typst.compile(
-            template,
-            font_paths=fonts,
-            format="pdf",
-            timestamp=0,
-            sys_inputs={"document": json.dumps(data, ensure_ascii=False, allow_nan=False)},
+            template, font_paths=fonts, format="pdf", timestamp=0, sys_inputs=_inputs({**frame, "pages": pages})
         )
     assert isinstance(made, bytes)
     return made
+
+
+def _inputs(data: Data) -> dict[str, str]:
+    return {"document": json.dumps(data, ensure_ascii=False, allow_nan=False)}
 
 
 def one_after_another(papers: Sequence[bytes]) -> bytes:
@@ -128,35 +127,31 @@ def _fonts() -> tuple[list[str], typst.Fonts]:
     return [name for name in (FAMILY, *CHINESE, *SIGNS) if name in known], fonts
 
 
-def _block(block: Block) -> Data:
+def _block(block: Leaf, bare: bool = False) -> Data:
+    """A leaf as the template reads it; ``bare`` without the ink of figures, where only the size counts."""
     if isinstance(block, Heading):
-        return {"kind": "heading", "words": _said(block.words), "level": block.level, "fresh": block.fresh}
+        return {"kind": "heading", "words": _said(block.words), "level": block.level}
     if isinstance(block, Paragraph):
         return {"kind": "paragraph", "words": _said(block.words), "small": block.small}
     if isinstance(block, Fields):
         return {"kind": "fields", "names": [_said(name) for name in block.names]}
-    if isinstance(block, Steps):
-        items = [
-            {"number": item.number, "words": _said(item.words), "work": [_words(line) for line in item.work]}
-            for item in block.items
-        ]
-        return {"kind": "steps", "items": items, "left": _left(block) if block.parted else len(items)}
+    if isinstance(block, StepItem):
+        work = [_words(line) for line in block.work]
+        return {"kind": "item", "number": block.number, "words": _said(block.words), "work": work}
     if isinstance(block, Room):
         return {"kind": "room", "words": _said(block.words)}
     if isinstance(block, Picture):
-        return {
-            "kind": "picture",
-            "drawing": _drawing(block.drawing),
-            "caption": _said(block.caption),
-            "joined": block.joined,
-        }
+        drawing = _drawing(block.drawing, bare)
+        return {"kind": "picture", "drawing": drawing, "caption": _said(block.caption), "joined": block.joined}
     if isinstance(block, Plate):
         size = {"width": _mm(block.width), "height": _mm(block.height)}
-        return {"kind": "plate", "svg": block.svg, **size, "alt": clean(block.words), "caption": _said(block.caption)}
-    if isinstance(block, Beside):
-        return {"kind": "beside", "blocks": [_block(b) for b in block.blocks], "picture": _block(block.picture)}
-    if isinstance(block, Together):
-        return {"kind": "together", "blocks": [_block(b) for b in block.blocks]}
+        svg = "" if bare else block.svg
+        return {"kind": "plate", "svg": svg, **size, "alt": clean(block.words), "caption": _said(block.caption)}
+    if isinstance(block, Wrapped):
+        lines = [{"gap": gap, "block": _block(one)} for gap, one in block.blocks]
+        return {"kind": "beside", "lines": lines, "picture": _block(block.picture)}
+    if isinstance(block, Pair):
+        return {"kind": "pair", "blocks": [_block(block.left), _block(block.right)]}
     return {
         "kind": "table",
         "heads": [_said(head) for head in block.heads],
@@ -164,16 +159,13 @@ def _block(block: Block) -> Data:
         "align": block.align,
         "bold": sorted(block.bold),
         "roomy": block.roomy,
+        "flows": len(block.rows) > MANY_ROWS,
     }
 
 
-def _left(steps: Steps) -> int:
-    """How many steps stand in the left one of two columns, so that both are about as high."""
-    lines = [
-        sum(1 + len(plain_words(text)) // A_LINE for _, text in item.words) + 0.9 * len(item.work)
-        for item in steps.items
-    ]
-    return min(range(1, len(lines) + 1), key=lambda k: max(sum(lines[:k]), sum(lines[k:])))
+def _part(part: OnPage) -> Data:
+    left, right = ([_block(one) for one in side] for side in (part.left, part.right))
+    return {"gap": part.gap, "left": left, "right": right, "height": part.height}
 
 
 def _said(said: Said) -> list[tuple[str, list[str | list[Data]]]]:
@@ -192,8 +184,8 @@ def _atoms(atoms: tuple[Atom, ...]) -> list[Data]:
     ]
 
 
-def _drawing(drawing: Drawing) -> Data:
-    things = [inked for thing in walk(drawing.children) for inked in _ink(thing)]
+def _drawing(drawing: Drawing, bare: bool) -> Data:
+    things = [] if bare else [inked for thing in walk(drawing.children) for inked in _ink(thing)]
     alt = clean(re.sub(r"\s+", " ", f"{drawing.title}. {drawing.desc}").strip())
     return {"width": _mm(drawing.width), "height": _mm(drawing.height), "alt": alt, "things": things}
 

@@ -17,6 +17,7 @@ from graphkin.drawing.font_widths import runs_width
 from graphkin.drawing.headings import FIGURE_WORDS, describe, punctuation, term
 from graphkin.drawing.insets import polygon_with_insets, strip_height
 from graphkin.drawing.mechanism import mechanism_piece
+from graphkin.drawing.page_text import without_titles
 from graphkin.drawing.piece import ink_box, joined, layer_groups, moved, moved_piece, with_labels
 from graphkin.drawing.polygon_on_page import extent
 from graphkin.drawing.primitives import Circle, Group, Polygon, Primitive, Text
@@ -27,6 +28,8 @@ from graphkin.words import languages
 
 __all__ = [
     "LEAST_FRAME",
+    "POLYGONS",
+    "bare_picture",
     "blank_equations",
     "blank_sums",
     "cropped",
@@ -35,6 +38,7 @@ __all__ = [
     "force_space",
     "mechanism_picture",
     "parts",
+    "shared_workspace",
     "stage_picture",
     "workspace",
 ]
@@ -45,6 +49,7 @@ FOOT = 9.0  # mm for the scale and the check bar beside it
 LEAST_FRAME = 110.0
 GAP = 4.0  # mm between the mechanism and the frame beside it
 BAR = 50.0  # mm, of the check bar
+POLYGONS: tuple[DiagramName, ...] = ("velocity", "acceleration")
 Layers = tuple[Group, ...]
 
 
@@ -90,6 +95,13 @@ def cropped(
     whole = moved(children, complex((width - box.width) / 2, 0.0) - box.corners[0])
     height = box.height + (FOOT if wide else 2 * FOOT)
     return Drawing(width, height, (*whole, *low), title, desc, languages(language)[0])
+
+
+def bare_picture(figure: Drawing) -> Drawing:
+    """A figure as large as its ink and without the scene's titles, where the page has them already."""
+    untitled, _ = without_titles(figure.children)
+    box = (ink_box(untitled) or Box(0.0, 0.0, 10.0, 10.0)).grown(1.0)
+    return replace(figure, width=box.width, height=box.height, children=moved(untitled, -box.corners[0]), further=())
 
 
 def stage_picture(
@@ -170,15 +182,43 @@ def workspace(
     least = complex(max(need.width + 2 * AROUND, BAR + 40.0), need.height + 2 * AROUND)
     if bare.width + GAP + least.real <= page.width and max(bare.height, least.imag) <= page.height:
         left = bare.width + GAP
-        frame = draw_frame(sheet, diagram, letters, language, max(bare.height, least.imag), page.width - left)
-        place, size = complex(left, 0.0), complex(page.width, max(bare.height, frame.height))
+        frame = draw_frame(sheet, diagram, letters, language, page.height, page.width - left)
+        place, size = complex(left, 0.0), complex(page.width, frame.height)
     elif least.real <= page.width and bare.height + GAP + least.imag <= page.height:
-        frame = draw_frame(sheet, diagram, letters, language, least.imag, page.width)
+        frame = draw_frame(sheet, diagram, letters, language, page.height - bare.height - GAP, page.width)
         place, size = complex(0.0, bare.height + GAP), complex(page.width, bare.height + GAP + frame.height)
     else:
         return None
     children = (*bare.children, *moved(frame.children, place))
     return Drawing(size.real, size.imag, children, frame.title, bare.desc, languages(language)[0])
+
+
+def shared_workspace(sheet: Sheet, layers: Layers, letters: Letters, language: str, page: Box) -> Drawing | None:
+    """The bare mechanism at the left of the frames for both polygons, these side by side or one above the other; None
+    where a page does not hold them, or there is but one polygon."""
+    bare = mechanism_picture(sheet, layers, letters, language)
+    left = bare.width + GAP
+    needs = [extent(sheet, diagram) for diagram in POLYGONS]
+    leasts = [complex(max(need.width + 2 * AROUND, BAR + 40.0), need.height + 2 * AROUND) for need in needs]
+    if not all(map(sheet.vectors, POLYGONS)) or bare.height > page.height:
+        return None
+    wide, high = page.width - left - GAP, page.height - GAP
+    across, up = sum(z.real for z in leasts), sum(z.imag for z in leasts)
+    if across <= wide and max(z.imag for z in leasts) <= page.height:
+        sizes = [complex(z.real + (wide - across) / 2, page.height) for z in leasts]
+        places = [complex(left, 0.0), complex(left + sizes[0].real + GAP, 0.0)]
+    elif up <= high and max(z.real for z in leasts) <= page.width - left:
+        sizes = [complex(page.width - left, z.imag + (high - up) / 2) for z in leasts]
+        places = [complex(left, 0.0), complex(left, sizes[0].imag + GAP)]
+    else:
+        return None
+    frames = [
+        moved(draw_frame(sheet, diagram, letters, language, size.imag, size.real).children, place)
+        for diagram, size, place in zip(POLYGONS, sizes, places, strict=True)
+    ]
+    title = ", ".join(term(FIGURE_WORDS[diagram], language) for diagram in POLYGONS)
+    children = (*bare.children, *(thing for frame in frames for thing in frame))
+    return Drawing(page.width, page.height + 0.2, children, title, bare.desc, languages(language)[0])
 
 
 def draw_frame(

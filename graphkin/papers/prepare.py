@@ -258,7 +258,7 @@ class Papers:
         scene = variant.scene
         asked = asked_of(scene)
         motion = solver.solve(scene)
-        what = paper_plan(motion.structure, None, asked)
+        what = paper_plan(motion.structure, None, asked, share=False)
         lesson = lesson_of(what, motion, self.language, self.convention)
         made = {"key.csv": key_table(lesson).csv().encode()}
         papers = _Documents.of(lesson)

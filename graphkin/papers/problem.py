@@ -28,11 +28,13 @@ from graphkin.papers.blocks import (
     said,
     sentences,
     spoken,
+    whole_sentence,
 )
 from graphkin.papers.lesson import Lesson, plain_words
 from graphkin.papers.paper import A4, Paper, paper_of
 from graphkin.papers.pictures import (
     LEAST_FRAME,
+    POLYGONS,
     Layers,
     blank_equations,
     blank_sums,
@@ -41,6 +43,7 @@ from graphkin.papers.pictures import (
     force_space,
     mechanism_picture,
     parts,
+    shared_workspace,
     workspace,
 )
 from graphkin.scene.model import AngleDriver, Mechanism, PlacedGuide
@@ -63,42 +66,74 @@ def problem(lesson: Lesson) -> Document:
         Heading(scene_title(lesson), 1),
         Fields((said("name of student", language), said("class of student", language), said("date", language))),
     ]
-    spaces = [(d, _workspace(lesson, d, layers, paper)) for d in DIAGRAMS if lesson.sheet.vectors(d)]
+    spaces = [(d, _workspace(lesson, d, layers, paper)) for d in POLYGONS if lesson.sheet.vectors(d)]
     wide = any(space is None for _, space in spaces)
     if wide:
         paper = paper.facing  # two facing pages of the smaller paper; the mechanism stands on each with a pole
         spaces = [(d, _workspace(lesson, d, layers, paper)) for d, _ in spaces]
     shown = all(space is not None for _, space in spaces) and bool(spaces)
-    high = HEAD + LINE * (len(words) + 1) + figure.drawing.height + ROW * (len(lesson.questions) + 2)
+    tall = HEAD + LINE * (len(words) + 1) + figure.drawing.height + ROW * (len(lesson.questions) + 2)
     if wide and spaces:
         blocks += words
-    elif shown and figure.drawing.width > paper.narrow and high > paper.body.height:
+    elif shown and figure.drawing.width > paper.narrow and tall > paper.body.height:
         blocks += words  # the mechanism stands on the pages of the polygons
     elif figure.drawing.width <= paper.narrow:
         blocks.append(Beside(words, figure))
     else:
         blocks += [*words, figure]
     blocks.append(Together((Heading(said("your results", language), 2), _blank_table(lesson))))
-    before, after = [], []
-    for diagram, space in spaces:
-        equations = [e for e in lesson.sheet.equations if e.diagram == diagram]
-        if not equations:
-            continue
-        drawn = space or draw_frame(lesson.sheet, diagram, lesson.letters, language)
-        asked = _equations(lesson, equations, min(paper.body.width, A4.body.width))
-        start = Paragraph(said("your polygon", language, f"${pole(lesson.letters.convention, diagram)}$"), small=True)
-        heading = said(FIGURE_WORDS[diagram], language)
-        high = sum(block.drawing.height + 3.0 for block in asked if isinstance(block, Picture))
-        together = HEAD + high + drawn.height + ROOM_BETWEEN <= paper.body.height
-        if not together and asked:
-            before.append(Together((Heading(heading, 2), *asked)))
-        after += [Heading(heading, 2, fresh=True), *(asked if together else ()), Together((start, Picture(drawn)))]
+    both = _shared_workspace(lesson, layers, paper) if wide else None
+    before, after = _polygon_pages(lesson, layers, paper, both)
     blocks += [*before, Room(said("your sums", language)), *after, *_forces(lesson, layers, paper)]
-    return Document(paper_title(lesson, "problem sheet"), languages(language), tuple(blocks), paper)
+    return Document(paper_title(lesson, "problem sheet"), languages(language), tuple(blocks), paper, _folded(paper))
 
 
-def _equations(lesson: Lesson, equations: Sequence[Equation], width: float) -> tuple[Paragraph | Picture, ...]:
+def _folded(paper: Paper) -> bool:
+    """Whether a page is as two smaller ones beside each other."""
+    return paper.width > paper.height
+
+
+def _polygon_pages(
+    lesson: Lesson, layers: Layers, paper: Paper, both: Drawing | None
+) -> tuple[list[Block], list[Block]]:
+    """The equations that stand before the sums, and a page for each polygon, or one for both."""
+    language = lesson.language
+    drawn = [d for d in POLYGONS if any(e.diagram == d for e in lesson.sheet.equations)]
+    names = {d: said(FIGURE_WORDS[d], language) for d in drawn}
+    room = paper.body.width / 2 - ROOM_BETWEEN if _folded(paper) else paper.body.width
+    asked = {d: _equations(lesson, d, min(room, A4.body.width)) for d in drawn}
+    frames = {}
+    for d in drawn if both is None else ():
+        high = sum(block.drawing.height + 3.0 for block in asked[d] if isinstance(block, Picture))
+        frames[d] = _workspace(lesson, d, layers, paper, high + ROOM_BETWEEN)
+    beside = both is None and all(frames.values())
+    before: list[Block] = [Together((Heading(names[d]), *asked[d])) for d in drawn if asked[d] and not beside]
+    if both is not None:
+        told = tuple(
+            (each, word("list comma", each).join(dict(name)[each] for name in names.values()))
+            for each in languages(language)
+        )
+        return before, [Heading(told, fresh=True), Together((_poles(lesson, drawn), Picture(both)))]
+    after: list[Block] = []
+    for d in drawn:
+        space = frames[d] if beside else _workspace(lesson, d, layers, paper)
+        frame = space or draw_frame(lesson.sheet, d, lesson.letters, language)
+        equations = asked[d] if beside else ()
+        after += [Heading(names[d], fresh=True), *equations, Together((_poles(lesson, [d]), Picture(frame)))]
+    return before, after
+
+
+def _poles(lesson: Lesson, diagrams: Sequence[DiagramName]) -> Paragraph:
+    """From which poles polygons are to be drawn."""
+    names = word("list comma", languages(lesson.language)[0]).join(
+        f"${pole(lesson.letters.convention, diagram)}$" for diagram in diagrams
+    )
+    return Paragraph(said("your polygon", lesson.language, names), small=True)
+
+
+def _equations(lesson: Lesson, diagram: DiagramName, width: float) -> tuple[Paragraph | Picture, ...]:
     """What a sheet gives of the equations: blanks; at the level "easy" the equations, at "hard" nothing."""
+    equations = [e for e in lesson.sheet.equations if e.diagram == diagram]
     language, vary = lesson.language, lesson.sheet.scene.vary
     level = vary.level if vary is not None else "usual"
     if level == "hard":
@@ -118,17 +153,24 @@ def equation_words(lesson: Lesson, equation: Equation) -> str:
     return " = ".join(sides)
 
 
-DIAGRAMS: tuple[DiagramName, ...] = ("velocity", "acceleration")
 HEAD = 22.0  # mm for a heading and the lines under it
 LINE, ROW = 6.0, 7.0  # mm of a line of words, and of a row to fill in
 ROOM_BETWEEN = 8.0  # mm around what stands on a page
 
 
-def _workspace(lesson: Lesson, diagram: DiagramName, layers: Layers, paper: Paper) -> Drawing | None:
-    """Mechanism and pole together below the heading of a page; the equations stand there too where they fit."""
+def _workspace(
+    lesson: Lesson, diagram: DiagramName, layers: Layers, paper: Paper, above: float = 0.0
+) -> Drawing | None:
+    """Mechanism and pole together below the heading of a page, and so many mm of equations above them."""
     body = paper.body
-    page = Box(0.0, 0.0, body.width, body.height - HEAD)
+    page = Box(0.0, 0.0, body.width, body.height - HEAD - above)
     return workspace(lesson.sheet, diagram, layers, lesson.letters, lesson.language, page)
+
+
+def _shared_workspace(lesson: Lesson, layers: Layers, paper: Paper) -> Drawing | None:
+    """Mechanism and both poles on one page below its heading."""
+    page = Box(0.0, 0.0, paper.body.width, paper.body.height - HEAD)
+    return shared_workspace(lesson.sheet, layers, lesson.letters, lesson.language, page)
 
 
 def _forces(lesson: Lesson, layers: Layers, paper: Paper) -> Iterator[Block]:
@@ -198,7 +240,7 @@ def given(lesson: Lesson) -> Iterator[Paragraph]:
     if scene.loading:
         lines = {each: given_loads(lesson.sheet, letters, each) for each in languages(lesson.language)}
         for texts in zip(*lines.values(), strict=True):
-            yield Paragraph(tuple((each, _whole(text, each)) for each, text in zip(lines, texts, strict=True)))
+            yield Paragraph(tuple((each, whole_sentence(text, each)) for each, text in zip(lines, texts, strict=True)))
     asked = [f"${letters.vector(s)}$" for s in lesson.questions]
     if asked:
         yield Paragraph(_labelled(lesson, "find", asked, "symbol comma"))
@@ -211,12 +253,6 @@ def given(lesson: Lesson) -> Iterator[Paragraph]:
     elif own[names[0]]:
         label = " ".join(word("source", each) for each in names) + word("colon", names[-1])
         yield Paragraph(spoken(label + own[names[0]], lesson.language), small=True)
-
-
-def _whole(text: str, language: str) -> str:
-    """A line as a sentence."""
-    stop = word("full stop", language)
-    return text[:1].upper() + text[1:].rstrip(stop) + stop
 
 
 def _guide(lesson: Lesson, guide: PlacedGuide, language: str) -> str:

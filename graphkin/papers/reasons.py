@@ -7,6 +7,7 @@ import math
 from collections.abc import Iterator, Mapping
 
 from graphkin.construction.mechanism_acts import PitchPoint, SpecialPoint
+from graphkin.construction.polygon_acts import TrialDrawn
 from graphkin.construction.sheet import Equation, Term
 from graphkin.construction.strokes import Aid, Vector
 from graphkin.papers.blocks import Paragraph
@@ -83,7 +84,10 @@ def _found_before(lesson: Lesson, equation: Equation, term: Term) -> int:
     apart = of is not None and to is not None and of.point == to.point and _is_special(lesson, of)
     if term.size is not None or not (to is None or apart) or not (term.size_known and term.direction_known):
         return 0
-    earlier = (s for s in lesson.sheet.steps if s.diagram == equation.diagram and s.equation != equation.number)
+    earlier = (
+        s for s in lesson.sheet.steps
+        if s.diagram == equation.diagram and s.equation != equation.number and not isinstance(s.act, TrialDrawn)
+    )  # fmt: skip
     return next(
         (s.number for s in earlier for v in s.strokes if isinstance(v, Vector | Aid) and v.symbol == term.symbol), 0
     )

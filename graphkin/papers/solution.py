@@ -9,12 +9,13 @@ import cmath
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import TypeAlias
 
 from graphkin import table
 from graphkin.checking.reading_words import exact, measured, paper
 from graphkin.checking.report import Compared
 from graphkin.checking.uncertainty import COVERAGE
-from graphkin.construction.polygon_acts import DirectionLine
+from graphkin.construction.polygon_acts import DirectionLine, PlanDrawn, PlanTravel, PlanTried
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.conventions import scale_statement
 from graphkin.drawing.drawing import Drawing
@@ -22,9 +23,7 @@ from graphkin.drawing.force_stages import ForceStage, force_stages
 from graphkin.drawing.forces import group_equation, group_picture
 from graphkin.drawing.headings import FIGURE_WORDS, drivers, number, written
 from graphkin.drawing.lever import lever_figure
-from graphkin.drawing.page_text import without_titles
-from graphkin.drawing.piece import moved
-from graphkin.drawing.train import train_figure
+from graphkin.drawing.train import moving_plans, train_figure
 from graphkin.papers.blocks import (
     Beside,
     Block,
@@ -37,13 +36,14 @@ from graphkin.papers.blocks import (
     Steps,
     TableBlock,
     Together,
+    numbered,
     said,
     sentences,
     spoken,
 )
 from graphkin.papers.lesson import Lesson, Stage
 from graphkin.papers.paper import paper_of
-from graphkin.papers.pictures import Layers, equation_picture, parts, stage_picture
+from graphkin.papers.pictures import Layers, bare_picture, equation_picture, parts, stage_picture
 from graphkin.papers.problem import equation_words, given, paper_title, reach, scene_title
 from graphkin.papers.reasons import reasons
 from graphkin.scene.symbol import Symbol
@@ -64,6 +64,7 @@ __all__ = [
     "step_items",
 ]
 
+OnPlan: TypeAlias = PlanDrawn | PlanTravel | PlanTried
 MANY = 6  # steps that stand in two columns above their figure
 
 
@@ -188,63 +189,82 @@ def solution_blocks(lesson: Lesson, lead: tuple[Paragraph, ...] = ()) -> Iterato
     """Stage by stage; ``lead`` stands before the first."""
     layers: dict[str, Layers] = {}
     first: int | None = None  # of steps that the next figure of their diagram shows too
+    plans = _plans(lesson)
+    count = 0  # of the figures
     for stage, after in zip(lesson.stages, (*lesson.stages[1:], None), strict=True):
         if stage.diagram not in layers:
             layers[stage.diagram] = parts(lesson.sheet, stage.diagram, lesson.letters, lesson.language)
         opening = lead if stage is lesson.stages[0] else ()
-        if _leads_on(stage, after):
+        if _on_plan(stage):
+            plan = plans.pop(stage.diagram, None)
+            count += plan is not None
+            yield Together(tuple(_plan_blocks(lesson, stage.diagram, plan, count, stage)))
+        elif _leads_on(stage, after):
             steps = Steps(step_items(lesson, stage), parted=len(stage.steps) > 1)
-            yield Together((*_told(lesson, stage), steps))
+            yield Together((*_told(lesson, stage, count + 1), steps))
             first = stage.first
         else:
-            yield Together(tuple(_stage(lesson, stage, layers[stage.diagram], opening, first or stage.first)))
+            count += 1
+            yield Together(tuple(_stage(lesson, stage, layers[stage.diagram], opening, first or stage.first, count)))
             first = None
-    yield from _plan_blocks(lesson)
-    yield from _force_blocks(lesson)
+        if stage.diagram in plans and any(isinstance(step.act, OnPlan) for step in stage.steps):
+            count += 1
+            yield Together(tuple(_plan_blocks(lesson, stage.diagram, plans.pop(stage.diagram), count)))
+    for order, plan in plans.items():
+        count += 1
+        yield Together(tuple(_plan_blocks(lesson, order, plan, count)))
+    yield from _force_blocks(lesson, count)
 
 
-def _plan_blocks(lesson: Lesson) -> Iterator[Block]:
-    """The velocity plans of what rolls."""
+def _on_plan(stage: Stage) -> bool:
+    """Whether nothing of a stage is drawn but on the plan of a train."""
+    return stage.equation is None and all(isinstance(step.act, OnPlan) for step in stage.steps)
+
+
+def _plans(lesson: Lesson) -> dict[str, Drawing]:
+    """The velocity plans of what rolls, and those of the tangential accelerations, each a figure."""
     figure = train_figure(lesson.sheet, language=lesson.language, convention=lesson.convention)
-    body = paper_of(lesson.sheet.scene).body
+    moving = [plan.order for plan in moving_plans(lesson.sheet)]
+    return {} if figure is None else dict(zip(moving, map(bare_picture, (figure, *figure.further)), strict=True))
+
+
+def _plan_blocks(
+    lesson: Lesson, order: str, figure: Drawing | None, count: int, stage: Stage | None = None
+) -> Iterator[Heading | Steps | Picture]:
+    """A velocity plan with its steps; without a figure where nothing of it moves."""
+    told = said("plan" if order == "velocity" else "plan accelerations", lesson.language)
+    yield Heading(told)
+    if stage is not None:
+        yield Steps(step_items(lesson, stage), parted=len(stage.steps) > 1)
     if figure is not None:
-        yield Together((Heading(said("plan", lesson.language), 2), Picture(_narrow(figure, body.width))))
-        yield from (Picture(_narrow(page, body.width)) for page in figure.further)
+        yield Picture(figure, numbered(count, told), floats=True)
 
 
-def _narrow(figure: Drawing, width: float) -> Drawing:
-    """A figure without its own margins and the scene's titles, where the page has them already."""
-    untitled, up = without_titles(figure.children)
-    by = complex(-max(0.0, figure.width - width) / 2, -up)
-    return replace(figure, width=min(figure.width, width), height=figure.height - up, children=moved(untitled, by))
-
-
-def _force_blocks(lesson: Lesson) -> Iterator[Block]:
-    """Force polygons group by group, and Zhukovsky's lever."""
+def _force_blocks(lesson: Lesson, count: int) -> Iterator[Block]:
+    """Force polygons group by group, and Zhukovsky's lever; ``count`` figures stand before them."""
     sheet, forces, language = lesson.sheet, lesson.forces, lesson.language
     if forces is None:
         return
     scaled = replace(sheet, scales=replace(sheet.scales, force=forces.per_mm))
     statement = Paragraph(spoken(scale_statement(scaled, lesson.letters.convention, "force"), language))
     lead: tuple[Heading | Paragraph, ...] = (Heading(said("forces", language), 2), statement)
-    body = paper_of(sheet.scene).body
-    figure = lever_figure(sheet, forces, language=language, convention=lesson.convention)
-    lever = figure and _narrow(figure, body.width)
+    lever = lever_figure(sheet, forces, language=language, convention=lesson.convention)
     for turn, stage in enumerate(force_stages(scaled, forces, lesson.letters, language)):
         steps = Steps(tuple(StepItem(step.number, step.words, step.work) for step in stage.steps))
         title = stage.title
         if len(forces.states) > 1 and stage.group is not None:
             load = said("force with load" if stage.again else "force without load", language)
             title = tuple((each, f"{one}  ({text})") for (each, one), (_, text) in zip(title, load, strict=True))
-        yield Together((*lead, Heading(title, 3), *_force_pictures(lesson, scaled, stage, f"-{turn}"), steps))
+        count += stage.group is not None
+        yield Together((*lead, Heading(title, 3), *_force_pictures(lesson, scaled, stage, f"-{turn}", count), steps))
         lead = ()
-        last = stage.figure == "lever" and (lever is None or lever.height <= body.height - 20.0)
-        if last and lever is not None:
-            yield Picture(lever)
+        if stage.figure == "lever" and lever is not None:
+            count += 1
+            yield Picture(bare_picture(lever), numbered(count, said("lever", language)), floats=True)
             lever = None
 
 
-def _force_pictures(lesson: Lesson, scaled: Sheet, stage: ForceStage, tag: str) -> Iterator[Picture]:
+def _force_pictures(lesson: Lesson, scaled: Sheet, stage: ForceStage, tag: str, count: int) -> Iterator[Picture]:
     """The equation of a group over its rows, and the group cut free beside its polygon."""
     forces, group, language = lesson.forces, stage.group, lesson.language
     if forces is None or group is None:
@@ -253,7 +273,8 @@ def _force_pictures(lesson: Lesson, scaled: Sheet, stage: ForceStage, tag: str) 
     equation = group_equation(scaled, group, lesson.letters, language, width)
     if equation is not None:
         yield Picture(equation, joined=True)
-    yield Picture(group_picture(scaled, forces, stage, group, lesson.letters, language, width, tag))
+    drawn = group_picture(scaled, forces, stage, group, lesson.letters, language, width, tag)
+    yield Picture(drawn, numbered(count, said("figure of forces", language, ", ".join(group.links))))
 
 
 def results_blocks(lesson: Lesson) -> Iterator[Block]:
@@ -307,10 +328,12 @@ def _leads_on(stage: Stage, after: Stage | None) -> bool:
     return not any(isinstance(step.act, DirectionLine) for step in stage.steps)
 
 
-def _told(lesson: Lesson, stage: Stage) -> Iterator[Heading | Paragraph | Picture]:
-    """What stands above the steps of an equation: the equation over its rows, and why it is so."""
+def _told(lesson: Lesson, stage: Stage, count: int) -> Iterator[Heading | Paragraph | Picture]:
+    """What stands above the steps of an equation: the equation over its rows, and why it is so; ``count`` is the number
+    of the figure that shows them."""
     assert stage.equation is not None
-    yield Heading(stage_title(lesson, stage))
+    where = dict(said("see figure", lesson.language, count))
+    yield Heading(tuple((each, f"{title}{where[each]}") for each, title in stage_title(lesson, stage)))
     words = equation_words(lesson, stage.equation)
     drawn = equation_picture(lesson.sheet, stage.equation, lesson.letters, lesson.language, words)
     yield Picture(drawn, joined=True)
@@ -318,7 +341,7 @@ def _told(lesson: Lesson, stage: Stage) -> Iterator[Heading | Paragraph | Pictur
 
 
 def _stage(
-    lesson: Lesson, stage: Stage, layers: Layers, lead: tuple[Paragraph, ...], begun: int
+    lesson: Lesson, stage: Stage, layers: Layers, lead: tuple[Paragraph, ...], begun: int, count: int
 ) -> Iterator[Heading | Paragraph | Steps | Picture | Beside]:
     """A stage with its figure, on which what is new since step ``begun`` stands out."""
     sheet, letters, language = lesson.sheet, lesson.letters, lesson.language
@@ -331,12 +354,12 @@ def _stage(
     caption = tuple(
         (each, say(Phrase(key, (word(FIGURE_WORDS[stage.diagram], each), *args)), each)) for each in languages(language)
     )
-    figure = Picture(drawn, caption)
+    figure = Picture(drawn, numbered(count, caption), floats=True)
     narrow = drawn.width <= paper_of(sheet.scene).narrow
     steps = Steps(step_items(lesson, stage), parted=not narrow and len(stage.steps) >= MANY)
     beside: tuple[Heading | Paragraph | Steps, ...] = (steps,)
     if stage.equation is not None:
-        yield from _told(lesson, stage)
+        yield from _told(lesson, stage, count)
     else:
         beside = (*lead, Heading(stage_title(lesson, stage)), steps)
     if narrow:

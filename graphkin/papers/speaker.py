@@ -17,6 +17,7 @@ from graphkin.construction.strokes import Aid, Bar, Vector
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.headings import number, written
 from graphkin.drawing.sums import factors_of, plan_sum, rate_sum, scale_of, substituted, times_scale, unit_of
+from graphkin.papers.blocks import whole_sentence
 from graphkin.papers.lettered_steps import LetteredSteps, Markup
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, say, word
@@ -47,8 +48,7 @@ class Speaker:
             parts[i] = _RATE.sub(f"{_OPEN}\\g<0>{_CLOSE}", parts[i])
         parts[1::2] = [f"{_OPEN}{symbol}{_CLOSE}" for symbol in parts[1::2]]
         said = "".join(parts).replace(_CLOSE + _OPEN, "").replace(_OPEN, "$").replace(_CLOSE, "$")
-        stop = word("full stop", language)
-        return said[:1].upper() + said[1:].rstrip(stop) + stop
+        return whole_sentence(said, language)
 
     def step(self, step: Step, language: str) -> str:
         """The sentence of a step, with the letters of the points from which it goes and in which it ends."""

@@ -184,7 +184,7 @@ def examined(
         chosen = strict and fewest > 0 and not source.get("find")
         if chosen:
             asked = (*asked, *_of_larger_groups(scene, asked))
-        what = paper_plan(scene, None, asked)
+        what = paper_plan(scene, None, asked, share=False)
         sheet = execute(what)
         answers = tuple(_answers(scene, motion, sheet, asked))
         idle = {s for s, value in answers if not value and s.scope == "force"}  # what a mechanism never loads

@@ -10,7 +10,7 @@
   const [viewer, list, figures, live, tabs] = ["viewer", "list", "figures", "live", "tabs"].map(byId);
   const [stepInput, stepOut, placeInput, placeOut] = ["step", "step-out", "place", "place-out"].map(byId);
   const [results, given, paper] = ["results", "given", "paper"].map(byId);
-  const LETTER = 12; // px of the smallest letters of a figure
+  const LETTER = 12.1; // px of the smallest letters of a figure, a little more for rounding
   const printed = { paper: paper.innerHTML, results: results.innerHTML, given: given.innerHTML };
   let place = data.start;
   let step = 0; // index into the steps of the place
@@ -147,7 +147,7 @@
   const trial = { on: false, hints: 0, form: byId("trial"), said: byId("trial-said") };
   const tried = new Map();
   const wanted = () => (trial.on ? here().steps[step + 1]?.find : undefined);
-  const wayOf = (find) => (find.sense ? (find.sense > 0 ? data.words.ccw : data.words.cw) : `${find.angle}°`);
+  const wayOf = (find) => (find.sense ? (find.sense > 0 ? data.words.ccw : data.words.cw) : `${String(find.angle).replace("-", "\u2212")}°`);
 
   function ask() {
     const find = wanted();

@@ -13,8 +13,9 @@ from graphkin.api.checked import check
 from graphkin.api.handouts import handout
 from graphkin.drawing.primitives import Line, Text, walk
 from graphkin.papers import prepare as papers
-from graphkin.papers.blocks import Picture, Steps, TableBlock, laid_out
+from graphkin.papers.blocks import Heading, Picture, Steps, TableBlock, laid_out
 from graphkin.papers.page import document_page
+from graphkin.papers.pdf import can_typeset
 from graphkin.papers.problem import problem
 from graphkin.papers.solution import answer_key, key_rows, solution
 from graphkin.scene import library, mechanism_of
@@ -53,10 +54,27 @@ def test_the_problem_sheet_asks_for_every_bold_row_of_the_key(shaper):
 def test_the_mechanism_of_the_problem_sheet_is_to_scale(shaper):
     lesson = shaper.lesson
     spaces = [d for d in _pictures(problem(lesson)) if d.height > 100]
-    assert 2 == len(spaces)  # it stands beside the pole of each polygon
+    assert 1 == len(spaces)  # it stands beside the poles of both polygons
     for drawing in spaces:
         lengths = {round(abs(t.end - t.start), 2) for t in walk(drawing.children) if isinstance(t, Line)}
         assert round(0.09 / lesson.sheet.scales.length, 2) in lengths  # the crank of 90 mm
+
+
+@pytest.mark.parametrize("name", ["shaper-forces", "gears-epicyclic", "geared-five-bar"])
+def test_figures_of_a_solution_are_numbered_and_equations_name_theirs(name):
+    blocks = list(laid_out(solution(handout(name, formats=("html",), positions=1).lesson).blocks))
+    captions = [b.caption[0][1] for b in blocks if isinstance(b, Picture) and b.caption]
+    named = [int(n) for b in blocks if isinstance(b, Heading) for n in re.findall(r"\(figure (\d+)\)", b.words[0][1])]
+    assert [f"Figure {i}." for i in range(1, len(captions) + 1)] == [" ".join(c.split()[:2]) for c in captions]
+    assert named
+    assert set(named) <= set(range(1, len(captions) + 1))
+
+
+@pytest.mark.skipif(not can_typeset(), reason="needs the extra pdf")
+def test_pages_of_a_solution_are_filled(shaper):
+    from pypdf import PdfReader
+
+    assert 6 == len(PdfReader(io.BytesIO(shaper.files["solution.pdf"])).pages)
 
 
 def test_what_is_asked_limits_the_problem_sheet():

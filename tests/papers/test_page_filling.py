@@ -1,0 +1,69 @@
+"""Pages are filled, and what belongs together stays together."""
+
+import random
+
+import pytest
+
+from graphkin.papers.page_filling import KEPT, Piece, Placed, balanced, fill_pages
+
+HEIGHT = 260.0
+
+
+def numbers(page: tuple[Placed, ...]) -> list[int]:
+    return [n for one in page for n in (*one.left, *one.right)]
+
+
+def drawn_lots(seed: int) -> list[Piece]:
+    """Stages as solutions have them: an equation, steps in two columns, a figure."""
+    chance = random.Random(seed)
+    pieces = []
+    for _ in range(chance.randint(2, 9)):
+        pieces.append(Piece(chance.uniform(15, 40), 5.2))
+        steps = chance.randint(1, 12)
+        pieces += [Piece(chance.uniform(5, 18), 2.0, KEPT if not i else 0.08, half=True) for i in range(steps)]
+        pieces.append(Piece(chance.uniform(40, 190), 3.3, 0.04, floats=True))
+    return pieces
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_every_piece_stands_on_one_page_and_only_figures_are_overtaken(seed):
+    pieces = drawn_lots(seed)
+    order = [n for page in fill_pages(pieces, HEIGHT).pages for n in numbers(page)]
+    words = [n for n in order if not pieces[n].floats]
+    figures = [n for n in order if pieces[n].floats]
+    assert list(range(len(pieces))) == sorted(order)
+    assert (words, figures) == (sorted(words), sorted(figures))
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_no_page_is_higher_than_the_paper(seed):
+    pieces = drawn_lots(seed)
+    for page in fill_pages(pieces, HEIGHT).pages:
+        heights = [
+            balanced([pieces[n].height for n in (*one.left, *one.right)])[1]
+            if pieces[one.left[0]].half
+            else pieces[one.left[0]].height
+            for one in page
+        ]
+        assert sum(heights) + sum(one.gap for one in page) <= HEIGHT + 1e-9
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_an_equation_is_never_parted_from_its_first_step(seed):
+    pieces = drawn_lots(seed)
+    heads = [page[0].left[0] for page in fill_pages(pieces, HEIGHT).pages]
+    assert not [n for n in heads if pieces[n].tie == KEPT]
+
+
+def test_a_figure_without_room_gives_way_to_the_words_behind_it():
+    pieces = [Piece(100.0), Piece(180.0, 3.0, 0.04, floats=True), Piece(100.0, 5.0), Piece(40.0, 5.0)]
+    assert [[0, 2], [1, 3]] == [numbers(page) for page in fill_pages(pieces, HEIGHT).pages]
+
+
+def test_steps_in_two_columns_are_about_as_high_on_both_sides():
+    assert (2, 32.0) == balanced([20.0, 10.0, 25.0])
+
+
+def test_room_to_write_in_takes_what_the_page_has_left():
+    first, _ = fill_pages([Piece(100.0), Piece(0.0, 3.0, fills=True), Piece(50.0, fresh=True)], HEIGHT).pages
+    assert pytest.approx(157.0) == first[1].height
