@@ -6,14 +6,18 @@ import os
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import IO
+from typing import IO, Any
 
 from graphkin.errors import CallError, Problem
 
-__all__ = ["Json", "folder_alone", "path_of", "whole_file"]
+__all__ = ["Json", "OwnTables", "Tables", "folder_alone", "path_of", "whole_file"]
 
 Json = str | float | bool | None | Sequence["Json"] | Mapping[str, "Json"]
 """What stands in a file of JSON or TOML."""
+Tables = Mapping[str, Any]
+"""Tables of a scene file, in the keys and units of the file, as its parser gives them: nothing of it is checked."""
+OwnTables = dict[str, Any]
+"""The same, to be changed."""
 
 _LOCK = ".graphkin-writes-here"
 

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import math
-from typing import Any, overload
+from typing import Any, TypeAlias, overload
 
-__all__ = ["cross", "cross_arcs", "cross_line_arc", "cross_lines", "degrees", "direction", "dot", "unit"]
+__all__ = ["Values", "cross", "cross_arcs", "cross_line_arc", "cross_lines", "degrees", "direction", "dot", "unit"]
+
+Values: TypeAlias = Any
+"""A number, an array, or whatever else sums and products are made of: decimals, formulas."""
 
 
 @overload
 def dot(a: complex, b: complex) -> float: ...
 @overload
-def dot(a: Any, b: Any) -> Any: ...
-def dot(a: Any, b: Any) -> Any:
+def dot(a: Values, b: Values) -> Values: ...
+def dot(a: Values, b: Values) -> Values:
     """Scalar product of two plane vectors: complex numbers, arrays of them, or formulas."""
     return a.real * b.real + a.imag * b.imag
 
@@ -20,8 +23,8 @@ def dot(a: Any, b: Any) -> Any:
 @overload
 def cross(a: complex, b: complex) -> float: ...
 @overload
-def cross(a: Any, b: Any) -> Any: ...
-def cross(a: Any, b: Any) -> Any:
+def cross(a: Values, b: Values) -> Values: ...
+def cross(a: Values, b: Values) -> Values:
     """Vector product (its z part) of the same: positive where b lies counter-clockwise of a."""
     return a.real * b.imag - a.imag * b.real
 

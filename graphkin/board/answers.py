@@ -38,6 +38,9 @@ LINK = "graphkin:"
 MOST_VARIANTS = 60
 
 Message = Mapping[str, Any]
+"""What a page asks: `do`, one of `QUESTIONS`, and what that needs."""
+Answer = dict[str, Any]
+"""What it is told, as JSON."""
 
 
 @dataclass(frozen=True)
@@ -49,7 +52,7 @@ class Desk:
     text: str = ""
 
 
-def answer(desk: Desk, message: object) -> dict[str, Any]:
+def answer(desk: Desk, message: object) -> Answer:
     """What a message is told.  Whatever it holds, the answer is one: ``ok``, or ``problems`` in sentences with the
     lines of the text that they are about.
 
@@ -72,7 +75,7 @@ def answer(desk: Desk, message: object) -> dict[str, Any]:
         return {**head, "ok": False, **_problems(desk, huge, message)}
 
 
-def _problems(desk: Desk, error: GraphkinError, message: object) -> dict[str, Any]:
+def _problems(desk: Desk, error: GraphkinError, message: object) -> Answer:
     text = message.get("text") if isinstance(message, Mapping) else ""
     text = text if isinstance(text, str) else ""
     found = [
@@ -82,14 +85,14 @@ def _problems(desk: Desk, error: GraphkinError, message: object) -> dict[str, An
     return {"problems": found, "kind": type(error).__name__, **_draft_of(desk, text, message)}
 
 
-def _draft_of(desk: Desk, text: str, message: object) -> dict[str, Any]:
+def _draft_of(desk: Desk, text: str, message: object) -> Answer:
     """What can be shown of a scene that does not move yet: its sketch and its mobility."""
     language = message.get("language") if isinstance(message, Mapping) else None
     try:
         made = parsed(text)
     except SceneError:
         return {}
-    told: dict[str, Any] = {"draft": building.draft(made), "form": made}
+    told: Answer = {"draft": building.draft(made), "form": made}
     trial = building.trial_driver(made)
     try:
         made = pictures.beside(parsed(text), desk.shelf.folder)
@@ -132,7 +135,7 @@ def _finite(value: object) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
 
 
-def _show(desk: Desk, message: Message) -> dict[str, Any]:
+def _show(desk: Desk, message: Message) -> Answer:
     scene = _scene(desk, message)
     wishes = pictures.Wishes.of(message)
     quick = message.get("quick") is True
@@ -140,7 +143,7 @@ def _show(desk: Desk, message: Message) -> dict[str, Any]:
     return told if quick else {**told, "form": parsed(_text(message))}
 
 
-def _pull(desk: Desk, message: Message) -> dict[str, Any]:
+def _pull(desk: Desk, message: Message) -> Answer:
     """A point pulled to a place: the figures that follow, and when the hand lets go the text that says so."""
     x, y, point = message.get("x"), message.get("y"), message.get("point")
     if not _finite(x) or not _finite(y) or not isinstance(point, str):
@@ -161,25 +164,25 @@ def _pull(desk: Desk, message: Message) -> dict[str, Any]:
     return {**pictures.shown(there, now, wishes, quick=True), "changes": found.changes}
 
 
-def _change(desk: Desk, message: Message) -> dict[str, Any]:
+def _change(desk: Desk, message: Message) -> Answer:
     changes = message.get("changes")
     if not isinstance(changes, Mapping) or not all(isinstance(key, str) for key in changes):
         raise CallError(Problem("changes", f"found {changes!r:.60}", "give values by key"))
     return {"text": changed(_text(message), changes)}
 
 
-def _build(desk: Desk, message: Message) -> dict[str, Any]:
+def _build(desk: Desk, message: Message) -> Answer:
     step = message.get("step")
     if not isinstance(step, Mapping):
         raise CallError(Problem("piece", f"found {step!r:.60}", "say what to build"))
     return {"text": building.built(_text(message), step)}
 
 
-def _keep(desk: Desk, message: Message) -> dict[str, Any]:
+def _keep(desk: Desk, message: Message) -> Answer:
     """The position shown, written into the scene as its own, with its sketch."""
     scene, text = _scene(desk, message), _text(message)
     told = pictures.shown(scene, _at(message), pictures.Wishes(("mechanism",)), quick=True)
-    changes: dict[str, Any] = {}
+    changes: Answer = {}
     raw = parsed(text)
     many = isinstance(raw.get("driver"), list)
     for index, driver in enumerate(scene.drivers, 1):
@@ -192,14 +195,14 @@ def _keep(desk: Desk, message: Message) -> dict[str, Any]:
     return {"text": changed(text, changes)}
 
 
-def _complete(desk: Desk, message: Message) -> dict[str, Any]:
+def _complete(desk: Desk, message: Message) -> Answer:
     line, column = message.get("line"), message.get("column")
     if not isinstance(line, int) or not isinstance(column, int):
         raise CallError(Problem("complete", "no place in the text", "give line and column"))
     return {"options": completions(_text(message), line, column)}
 
 
-def _open(desk: Desk, message: Message) -> dict[str, Any]:
+def _open(desk: Desk, message: Message) -> Answer:
     """The first scene of the page, one of its shelf, a link that carries one, or a new one of a kind."""
     name, kind = message.get("name"), message.get("new")
     if isinstance(message.get("link"), str):
@@ -216,29 +219,29 @@ def _open(desk: Desk, message: Message) -> dict[str, Any]:
     return {"name": name, "text": text, "mark": mark_of(text), "own": name in desk.shelf.files()}
 
 
-def _shelf(desk: Desk, message: Message) -> dict[str, Any]:
+def _shelf(desk: Desk, message: Message) -> Answer:
     found = desk.shelf.listing()
     writes = desk.shelf.folder is not None
     return {"scenes": found, "new": sorted(NEW), "writes": writes, "only": desk.shelf.only}
 
 
-def _thumbnail(desk: Desk, message: Message) -> dict[str, Any]:
+def _thumbnail(desk: Desk, message: Message) -> Answer:
     name = _name(message)
     scene = pictures.scene_of(desk.shelf.text(name), safe_name(name.removesuffix(".toml")), desk.shelf.folder)
     language = message.get("language") if message.get("language") in LANGUAGES else None
     return {"name": name, "svg": pictures.thumbnail(scene, language), "title": scene.title_in(language or "en")}
 
 
-def _save(desk: Desk, message: Message) -> dict[str, Any]:
+def _save(desk: Desk, message: Message) -> Answer:
     mark = message.get("mark")
     return {"mark": desk.shelf.save(_name(message), _text(message), mark if isinstance(mark, str) else "")}
 
 
-def _watch(desk: Desk, message: Message) -> dict[str, Any]:
+def _watch(desk: Desk, message: Message) -> Answer:
     return {"changed": desk.shelf.changed(_name(message), str(message.get("mark")))}
 
 
-def _diagrams(desk: Desk, message: Message) -> dict[str, Any]:
+def _diagrams(desk: Desk, message: Message) -> Answer:
     from graphkin.api.sweep import sweep
 
     asked = message.get("find")
@@ -247,7 +250,7 @@ def _diagrams(desk: Desk, message: Message) -> dict[str, Any]:
     return {"figures": {name: figure.content("svg").decode() for name, figure in islice(swept.figures.items(), 12)}}
 
 
-def _race(desk: Desk, message: Message) -> dict[str, Any]:
+def _race(desk: Desk, message: Message) -> Answer:
     from graphkin.api.studied import speed_accuracy
 
     found = speed_accuracy(_scene(desk, message), repeats=1, language=pictures.Wishes.of(message).language)
@@ -258,7 +261,7 @@ _TYPES = {"svg": "image/svg+xml", "pdf": "application/pdf", "png": "image/png", 
           "zip": "application/zip", "toml": "application/toml"}  # fmt: skip
 
 
-def _export(desk: Desk, message: Message) -> dict[str, Any]:
+def _export(desk: Desk, message: Message) -> Answer:
     """A figure, the papers, a set of variants, or the scene, as a file to be kept."""
     kind, scene = message.get("kind"), _scene(desk, message)
     wishes = pictures.Wishes.of(message)
@@ -304,7 +307,7 @@ def _packed(folder: Path) -> bytes:
     return made.getvalue()
 
 
-def _file(name: str, content: bytes) -> dict[str, Any]:
+def _file(name: str, content: bytes) -> Answer:
     ending = name.rpartition(".")[2]
     return {"name": name, "type": _TYPES[ending], "data": base64.b64encode(content).decode()}
 
@@ -332,11 +335,11 @@ def text_of_link(link: str) -> str:
         raise CallError(Problem("link", f'"{link[:40]}" carries no scene', f"a link begins with {LINK}")) from None
 
 
-def _link(desk: Desk, message: Message) -> dict[str, Any]:
+def _link(desk: Desk, message: Message) -> Answer:
     return {"link": scene_link(_text(message))}
 
 
-def _names(desk: Desk, message: Message) -> dict[str, Any]:
+def _names(desk: Desk, message: Message) -> Answer:
     """The words of the page in a language."""
     language = message.get("language")
     spoken = language if language in LANGUAGES else LANGUAGES[0]
@@ -344,7 +347,7 @@ def _names(desk: Desk, message: Message) -> dict[str, Any]:
     return {"words": names, "language": spoken, "languages": LANGUAGES, "figures": list(FIGURES)}
 
 
-QUESTIONS: Mapping[str, Callable[[Desk, Message], dict[str, Any]]] = {
+QUESTIONS: Mapping[str, Callable[[Desk, Message], Answer]] = {
     "show": _show, "pull": _pull, "change": _change, "build": _build, "keep": _keep, "complete": _complete,
     "open": _open, "shelf": _shelf, "thumbnail": _thumbnail, "save": _save, "watch": _watch, "diagrams": _diagrams,
     "race": _race, "export": _export, "link": _link, "names": _names,

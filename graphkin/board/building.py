@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from typing import Any
 
 from graphkin.board.scene_text import changed
 from graphkin.errors import CallError, Problem, SceneError, did_you_mean
+from graphkin.files import OwnTables, Tables
 from graphkin.scene.source import parsed
 
 __all__ = ["EMPTY", "STEPS", "built", "draft", "trial_driver"]
@@ -19,8 +19,11 @@ __all__ = ["EMPTY", "STEPS", "built", "draft", "trial_driver"]
 EMPTY = 'title = "New mechanism"\n\n[units]\nlength = "mm"\n\n[frame]\nname = "0"\n'
 _LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 
+Step = Tables
+"""What is to be built, as the page asks for it: `what`, and the names and places that it needs."""
 
-def built(text: str, step: Mapping[str, Any]) -> str:
+
+def built(text: str, step: Step) -> str:
     """The text of a scene with one piece more, or one less.
 
     Parameters
@@ -43,17 +46,17 @@ def built(text: str, step: Mapping[str, Any]) -> str:
     return changed(text, changes) if changes else text
 
 
-def _tables(made: Mapping[str, Any], name: str) -> dict[str, Any]:
+def _tables(made: Tables, name: str) -> OwnTables:
     found = made.get(name)
     return dict(found) if isinstance(found, Mapping) else {}
 
 
-def _frame(made: Mapping[str, Any]) -> tuple[str, dict[str, Any]]:
+def _frame(made: Tables) -> tuple[str, OwnTables]:
     frame = _tables(made, "frame")
     return str(frame.get("name", "0")), _tables(frame, "points")
 
 
-def draft(made: Mapping[str, Any]) -> dict[str, Any]:
+def draft(made: Tables) -> OwnTables:
     """What of a mapping can be shown before it is a mechanism: places of points (scene units), and the points of each
     link, whatever is missing still."""
     _, fixed = _frame(made)
@@ -88,20 +91,20 @@ def _place(value: object) -> bool:
     return all(isinstance(x, int | float) and math.isfinite(x) for x in value)
 
 
-def _free_letter(made: Mapping[str, Any], taken: set[str]) -> str:
+def _free_letter(made: Tables, taken: set[str]) -> str:
     used = taken | _points(made)
     names: list[str] = [*_LETTERS, *(f"{c}{n}" for n in range(1, 100) for c in _LETTERS)]
     return next(name for name in names if name not in used)
 
 
-def next_link(made: Mapping[str, Any]) -> str:
+def next_link(made: Tables) -> str:
     """The number of the next link."""
     links = _tables(made, "links")
     fixed, _ = _frame(made)
     return next(str(n) for n in range(1, 10_000) if str(n) not in links and str(n) != fixed)
 
 
-def _points(made: Mapping[str, Any]) -> set[str]:
+def _points(made: Tables) -> set[str]:
     found = {*_tables(made, "sketch"), *_tables(made, "drawn"), *_tables(made, "pins"), *_frame(made)[1]}
     for link in _tables(made, "links").values():
         if isinstance(link, Mapping):
@@ -109,7 +112,7 @@ def _points(made: Mapping[str, Any]) -> set[str]:
     return found
 
 
-def _at(step: Mapping[str, Any], key: str) -> list[float]:
+def _at(step: Step, key: str) -> list[float]:
     value = step.get(key)
     if not isinstance(value, list) or not _place(value):
         raise CallError(Problem(key, f"found {value!r:.60}", "give a place [x, y] or the name of a point"))
@@ -121,7 +124,7 @@ def _round(value: float) -> float:
 
 
 def _end(
-    made: Mapping[str, Any], step: Mapping[str, Any], key: str, changes: dict[str, Any]
+    made: Tables, step: Step, key: str, changes: OwnTables
 ) -> tuple[str, list[float]]:
     """A point of the mechanism, or a new one at a place, whose sketch is written."""
     value = step.get(key)
@@ -138,26 +141,26 @@ def _end(
     return name, place
 
 
-def _link_of(made: Mapping[str, Any], step: Mapping[str, Any], key: str) -> str:
+def _link_of(made: Tables, step: Step, key: str) -> str:
     name, links = str(step.get(key, "")), _tables(made, "links")
     if name not in links:
         raise CallError(Problem(f'link "{name[:40]}"', "there is no such link", did_you_mean(name[:40], links)))
     return name
 
 
-def _pivot(made: Mapping[str, Any], step: Mapping[str, Any]) -> dict[str, Any]:
+def _pivot(made: Tables, step: Step) -> OwnTables:
     return {f"frame.points.{_free_letter(made, set())}": _at(step, "at")}
 
 
-def _fix(made: Mapping[str, Any], step: Mapping[str, Any]) -> dict[str, Any]:
+def _fix(made: Tables, step: Step) -> OwnTables:
     """A point that moved becomes a pivot of the frame."""
-    changes: dict[str, Any] = {}
+    changes: OwnTables = {}
     name, place = _end(made, step, "point", changes)
     return {**changes, f"frame.points.{name}": place, f"sketch.{name}": None}
 
 
-def _bar(made: Mapping[str, Any], step: Mapping[str, Any]) -> dict[str, Any]:
-    changes: dict[str, Any] = {}
+def _bar(made: Tables, step: Step) -> OwnTables:
+    changes: OwnTables = {}
     (one, p), (other, q) = _end(made, step, "from", changes), _end(made, step, "to", changes)
     long = math.dist(p, q)
     if one == other or long == 0.0:
@@ -165,7 +168,7 @@ def _bar(made: Mapping[str, Any], step: Mapping[str, Any]) -> dict[str, Any]:
     return {f"links.{next_link(made)}": {"points": [one, other], "length": _round(long)}, **changes}
 
 
-def _point_on(made: Mapping[str, Any], step: Mapping[str, Any]) -> dict[str, Any]:
+def _point_on(made: Tables, step: Step) -> OwnTables:
     """A further point of a link, in its own axes."""
     name, place = _link_of(made, step, "link"), _at(step, "at")
     own = _list(made["links"][name].get("points"))
@@ -179,9 +182,9 @@ def _point_on(made: Mapping[str, Any], step: Mapping[str, Any]) -> dict[str, Any
     return {f"links.{name}.at.{letter}": [_round(z.real), _round(z.imag)], f"sketch.{letter}": place}
 
 
-def _slider(made: Mapping[str, Any], step: Mapping[str, Any]) -> dict[str, Any]:
+def _slider(made: Tables, step: Step) -> OwnTables:
     """A block with a pin, on a new guide of the frame through its place."""
-    changes: dict[str, Any] = {}
+    changes: OwnTables = {}
     point, place = _end(made, step, "point", changes)
     fixed, _ = _frame(made)
     guides = _tables(_tables(made, "frame"), "guides")
@@ -195,21 +198,21 @@ def _slider(made: Mapping[str, Any], step: Mapping[str, Any]) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _block(made: Mapping[str, Any], step: Mapping[str, Any]) -> dict[str, Any]:
+def _block(made: Tables, step: Step) -> OwnTables:
     """A block with a pin that slides along a link's own axis."""
-    changes: dict[str, Any] = {}
+    changes: OwnTables = {}
     point, _ = _end(made, step, "point", changes)
     return {f"links.{next_link(made)}": {"points": [point], "on": _link_of(made, step, "link")}, **changes}
 
 
-def _slotted(made: Mapping[str, Any], step: Mapping[str, Any]) -> dict[str, Any]:
+def _slotted(made: Tables, step: Step) -> OwnTables:
     """A bar of no fixed length from a point, along whose axis something else slides."""
-    changes: dict[str, Any] = {}
+    changes: OwnTables = {}
     point, _ = _end(made, step, "point", changes)
     return {f"links.{next_link(made)}": {"points": [point]}, **changes}
 
 
-def _pin(made: Mapping[str, Any], step: Mapping[str, Any]) -> dict[str, Any]:
+def _pin(made: Tables, step: Step) -> OwnTables:
     """A pin of one link in the slot along the axis of another."""
     point = str(step.get("point", ""))
     if point not in _points(made):
@@ -218,7 +221,7 @@ def _pin(made: Mapping[str, Any], step: Mapping[str, Any]) -> dict[str, Any]:
     return {f"pins.{point}": {"of": _link_of(made, step, "of"), "in": _link_of(made, step, "link")}}
 
 
-def _drive(made: Mapping[str, Any], step: Mapping[str, Any]) -> dict[str, Any]:
+def _drive(made: Tables, step: Step) -> OwnTables:
     """A link that drives: its angle is that of the sketch."""
     name = _link_of(made, step, "link")
     link, spots = made["links"][name], draft(made)["points"]
@@ -239,9 +242,9 @@ def _drive(made: Mapping[str, Any], step: Mapping[str, Any]) -> dict[str, Any]:
     return {"driver": {"link": name, "angle": _round(angle), "omega": float(step.get("speed") or 10.0)}}
 
 
-def _delete(made: Mapping[str, Any], step: Mapping[str, Any]) -> dict[str, Any]:
+def _delete(made: Tables, step: Step) -> OwnTables:
     """Take a link or a point out, with what only hung on it."""
-    changes: dict[str, Any] = {}
+    changes: OwnTables = {}
     links = _tables(made, "links")
     if "link" in step:
         gone = {_link_of(made, step, "link")}
@@ -266,14 +269,14 @@ def _delete(made: Mapping[str, Any], step: Mapping[str, Any]) -> dict[str, Any]:
     return changes
 
 
-STEPS: Mapping[str, Callable[[Mapping[str, Any], Mapping[str, Any]], dict[str, Any]]] = {
+STEPS: Mapping[str, Callable[[Tables, Step], OwnTables]] = {
     "pivot": _pivot, "fix": _fix, "bar": _bar, "point": _point_on, "slider": _slider, "block": _block,
     "slotted": _slotted, "pin": _pin, "drive": _drive, "delete": _delete,
 }  # fmt: skip
 """What can be built, by name."""
 
 
-def trial_driver(made: Mapping[str, Any]) -> dict[str, Any] | None:
+def trial_driver(made: Tables) -> OwnTables | None:
     """A driver for a mapping that has none yet, so that its freedom can be counted; None where there is no link."""
     if "driver" in made or not _tables(made, "links"):
         return None

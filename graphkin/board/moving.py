@@ -10,9 +10,9 @@ import cmath
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 from graphkin.errors import CallError, Problem
+from graphkin.files import OwnTables, Tables
 from graphkin.plane import cross, degrees, dot
 from graphkin.scene.model import AngleDriver, Mechanism, SlideDriver
 from graphkin.solver import Motion
@@ -24,7 +24,7 @@ __all__ = ["Pulled", "movable", "pulled"]
 class Pulled:
     """What a pull changes: entries of the file by key, or the value of a driver in its own unit."""
 
-    changes: Mapping[str, Any]
+    changes: Tables
     at: Mapping[str, float]
 
 
@@ -56,7 +56,7 @@ def _driven(scene: Mechanism, driver: object) -> list[str]:
     return []
 
 
-def pulled(raw: Mapping[str, Any], motion: Motion, point: str, to: complex, lengths: bool = False) -> Pulled:
+def pulled(raw: Tables, motion: Motion, point: str, to: complex, lengths: bool = False) -> Pulled:
     """Pull a point to a place.
 
     Parameters
@@ -78,7 +78,7 @@ def pulled(raw: Mapping[str, Any], motion: Motion, point: str, to: complex, leng
         return Pulled(_of_frame(raw, scene, point, to), {})
     if kinds[point] == "driver" and not lengths:
         return Pulled({}, _driver(motion, point, to))
-    changes: dict[str, Any] = {}
+    changes: OwnTables = {}
     if point in raw.get("drawn", {}):
         return Pulled(_as_drawn(motion, point, to), {})
     to = _on_guide(scene, point, to)
@@ -90,7 +90,7 @@ def pulled(raw: Mapping[str, Any], motion: Motion, point: str, to: complex, leng
     return Pulled(changes, {})
 
 
-def _as_drawn(motion: Motion, point: str, to: complex) -> dict[str, Any]:
+def _as_drawn(motion: Motion, point: str, to: complex) -> OwnTables:
     """The place of a point that the file gives as drawn, which holds at the scene's own position."""
     scene = motion.scene
     own = [driver.values[0] for driver in scene.drivers]
@@ -120,7 +120,7 @@ def _driver(motion: Motion, point: str, to: complex) -> dict[str, float]:
     return {}
 
 
-def _of_frame(raw: Mapping[str, Any], scene: Mechanism, point: str, to: complex) -> dict[str, Any]:
+def _of_frame(raw: Tables, scene: Mechanism, point: str, to: complex) -> OwnTables:
     entry = raw["frame"]["points"][point]
     key = f"frame.points.{point}"
     if not isinstance(entry, Mapping):
@@ -129,8 +129,8 @@ def _of_frame(raw: Mapping[str, Any], scene: Mechanism, point: str, to: complex)
 
 
 def _from_others(
-    scene: Mechanism, key: str, entry: Mapping[str, Any], places: Mapping[str, complex], point: str, to: complex
-) -> dict[str, Any]:
+    scene: Mechanism, key: str, entry: Tables, places: Mapping[str, complex], point: str, to: complex
+) -> OwnTables:
     """An entry that places a point from one or two others, so that it lies at a place."""
     if isinstance(entry["from"], str):
         origin = places[entry["from"]]
@@ -142,7 +142,7 @@ def _from_others(
     }  # fmt: skip
 
 
-def _polar(scene: Mechanism, key: str, entry: Mapping[str, Any], before: complex, now: complex) -> dict[str, Any]:
+def _polar(scene: Mechanism, key: str, entry: Tables, before: complex, now: complex) -> OwnTables:
     if abs(now) == 0.0:
         return {}
     turned = float(entry.get("angle", 0.0)) + degrees(now / before)
@@ -158,7 +158,7 @@ def _on_guide(scene: Mechanism, point: str, to: complex) -> complex:
     return to
 
 
-def _of_link(raw: Mapping[str, Any], motion: Motion, name: str, point: str, to: complex) -> dict[str, Any]:
+def _of_link(raw: Tables, motion: Motion, name: str, point: str, to: complex) -> OwnTables:
     """What a link's own entries become, so that it has the point at a place with all its others where they are."""
     scene = motion.scene
     link = scene.by_name[name]

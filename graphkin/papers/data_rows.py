@@ -16,7 +16,8 @@ import operator
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+
+from graphkin.files import Tables
 
 __all__ = ["Columns", "columns_of", "names_in", "replaced", "value_of"]
 
@@ -104,7 +105,6 @@ def _evaluated(node: ast.expr, known: Mapping[str, float]) -> float:
     raise ValueError("only + - * /, sqrt, sin, cos, tan, asin, acos, atan and names of columns are possible")
 
 
-Source = Mapping[str, Any]
 Setting = tuple[str, float]
 _UNIT = re.compile(r"[（(\[].*?[）)\]]|/\s*(?:mm|m|cm|rpm|r/min|deg|rad/s|°)\s*$")
 _WORDS = re.compile("[\u3000-\u9fff\uff00-\uffef]+")
@@ -123,7 +123,7 @@ class Columns:
     unused: tuple[str, ...]
 
 
-def columns_of(source: Source, heads: Sequence[str]) -> Columns:
+def columns_of(source: Tables, heads: Sequence[str]) -> Columns:
     """Tell the columns of a table apart."""
     data: dict[int, str] = {}
     others: list[int] = []
@@ -136,7 +136,7 @@ def columns_of(source: Source, heads: Sequence[str]) -> Columns:
     return Columns(others[0] if others else None, data, tuple(heads[i] for i in others[1:]))
 
 
-def replaced(source: Source, columns: Columns, cells: Sequence[str]) -> list[Setting]:
+def replaced(source: Tables, columns: Columns, cells: Sequence[str]) -> list[Setting]:
     """Keys of the scene file with their values in one row.
 
     Raises
@@ -188,7 +188,7 @@ def _bare(name: str) -> str:
     return re.sub(r"^[lL]_?(?=[A-Z])", "", name)
 
 
-def _meaning(source: Source, short: str) -> str:
+def _meaning(source: Tables, short: str) -> str:
     """What a short name stands for: "speed", "rate", "angle", "length" or ""."""
     links = [str(d.get("link", "")) for d in _drivers(source)]
     for kind, pattern in (("speed", _SPEED), ("rate", _RATE), ("angle", _ANGLE)):
@@ -198,12 +198,12 @@ def _meaning(source: Source, short: str) -> str:
     return "length" if _two_points(source, short) else ""
 
 
-def _drivers(source: Source) -> Sequence[Mapping[str, Any]]:
+def _drivers(source: Tables) -> Sequence[Tables]:
     drivers = source.get("driver", [])
     return drivers if isinstance(drivers, list) else [drivers]
 
 
-def _settings(source: Source, short: str, value: float) -> Iterable[Setting]:
+def _settings(source: Tables, short: str, value: float) -> Iterable[Setting]:
     kind = _meaning(source, short)
     if kind == "length":
         return _length(source, short, value)
@@ -221,14 +221,14 @@ def _settings(source: Source, short: str, value: float) -> Iterable[Setting]:
     return [(f"{where}.omega", signed * math.pi / 30 if kind == "speed" else signed)]
 
 
-def _points(source: Source) -> set[str]:
+def _points(source: Tables) -> set[str]:
     found = set(source.get("frame", {}).get("points", {}))
     for link in source.get("links", {}).values():
         found |= {*link.get("points", []), *link.get("at", {})}
     return found
 
 
-def _two_points(source: Source, short: str) -> tuple[str, str] | None:
+def _two_points(source: Tables, short: str) -> tuple[str, str] | None:
     """The two points whose names make up a name, if something in the file gives their distance."""
     text = _bare(short)
     points = _points(source)
@@ -238,7 +238,7 @@ def _two_points(source: Source, short: str) -> tuple[str, str] | None:
     return None
 
 
-def _length(source: Source, what: str | tuple[str, str], value: float) -> Iterable[Setting]:
+def _length(source: Tables, what: str | tuple[str, str], value: float) -> Iterable[Setting]:
     """The entries of the file that give the distance of two points."""
     pair = _two_points(source, what) if isinstance(what, str) else what
     if pair is None:

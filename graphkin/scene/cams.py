@@ -11,8 +11,9 @@ import cmath
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
+from graphkin.plane import Values
 from graphkin.scene.follower_law import FollowerLaw, Lift
 
 __all__ = ["Course", "LawCam", "SlidingFollower", "SwingingFollower"]
@@ -50,25 +51,25 @@ class Course(NamedTuple):
     """The follower's point from the cam's axis (m), its first to third derivative by the cam's own angle, and the
     direction in which it moves, unit; complex, or arrays of complex numbers.  ``turning`` is how fast that turns."""
 
-    point: Any
-    first: Any
-    second: Any
-    third: Any
-    way: Any
-    turning: Any
+    point: Values
+    first: Values
+    second: Values
+    third: Values
+    way: Values
+    turning: Values
 
     @property
-    def tangent(self) -> Any:
+    def tangent(self) -> Values:
         """Derivative of the pitch curve, as seen from the cam (in the axes of the frame)."""
         return self.first - 1j * self.point
 
     @property
-    def bend(self) -> Any:
+    def bend(self) -> Values:
         """Its second derivative."""
         return self.second - 2j * self.first - self.point
 
     @property
-    def jerk(self) -> Any:
+    def jerk(self) -> Values:
         """Its third derivative."""
         return self.third - 3j * self.second - 3.0 * self.first + 1j * self.point
 
@@ -121,7 +122,7 @@ class LawCam:
         ends = [piece.start if grows else piece.end for piece in moving if lift == (piece.low if grows else piece.high)]
         return min(self.sense * end % math.tau for end in ends)
 
-    def course(self, start: float, lift: Lift, exp: Callable[[Any], Any] = cmath.exp) -> Course:
+    def course(self, start: float, lift: Lift, exp: Callable[[Values], Values] = cmath.exp) -> Course:
         """The follower's point where it has some lift.
 
         Parameters

@@ -13,6 +13,7 @@ from dataclasses import replace
 from typing import Any
 
 from graphkin.errors import Problem, did_you_mean
+from graphkin.files import OwnTables
 from graphkin.plane import direction
 from graphkin.scene.model import CircularSlot
 from graphkin.scene.names import Flaws
@@ -27,9 +28,9 @@ class _Slots:
     def __init__(self, file: SceneTables, flaws: Flaws, problems: list[Problem]) -> None:
         self.file, self.flaws, self.problems = file, flaws, problems
         frame = file.frame.name
-        self.holders: dict[str, Any] = {**file.links, frame: file.frame}
+        self.holders: OwnTables = {**file.links, frame: file.frame}
         self.points = {n: {*getattr(h, "at", {}), *h.points} for n, h in self.holders.items()}
-        self.given: dict[str, dict[str, Any]] = {n: {} for n in self.holders}  # points that stand for places of centres
+        self.given: dict[str, OwnTables] = {n: {} for n in self.holders}  # points that stand for places of centres
         self.arcs: dict[tuple[str, str], tuple[str, float, Guide]] = {}
         for name, holder in self.holders.items():
             where = "frame" if name == frame and name not in file.links else f"links.{name}"
@@ -114,7 +115,7 @@ def with_bars(
     for name, link in file.links.items():
         refs = _refs(link.on)
         keys = [slots.of(ref) for ref in refs]
-        at: dict[str, Any] = {**link.at, **slots.given[name]}
+        at: OwnTables = {**link.at, **slots.given[name]}
         on, angle_on = link.on, link.angle_on
         if any(keys):
             angles = _refs_of_angles(angle_on, len(refs))

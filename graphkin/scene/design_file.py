@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from graphkin.errors import CallError, Problem, SceneError, did_you_mean
+from graphkin.files import OwnTables, Tables
 from graphkin.plane import degrees, direction
 from graphkin.scene import source as scenes
 from graphkin.scene.synthesis import KINDS, BarPlace, BarPositionsTask, Design, DesignTask
@@ -20,7 +21,7 @@ __all__ = ["DesignLike", "design_of", "designs", "is_design"]
 
 LARGEST, SMALLEST = 1e15, 1e-15
 
-DesignLike = Design | str | os.PathLike[str] | Mapping[str, Any]
+DesignLike = Design | str | os.PathLike[str] | Tables
 
 
 def _shelf() -> Any:
@@ -79,9 +80,9 @@ def design_of(source: DesignLike) -> Design:
     return _read(raw, safe_name(name))
 
 
-def _read(raw: Mapping[str, Any], name: str) -> Design:
+def _read(raw: Tables, name: str) -> Design:
     problems: list[Problem] = []
-    given: dict[str, Any] = {}
+    given: OwnTables = {}
     for key, value in raw.items():
         if key not in ("title", "title_zh", "source", "design", "units", "sheet"):
             unknown = "unknown table" if isinstance(value, dict) else "unknown key"
@@ -100,7 +101,7 @@ def _read(raw: Mapping[str, Any], name: str) -> Design:
     return Design(task=task, name=name, **given)
 
 
-def _units_and_sheet(raw: Mapping[str, Any], problems: list[Problem]) -> dict[str, Any]:
+def _units_and_sheet(raw: Tables, problems: list[Problem]) -> OwnTables:
     """[units] and [sheet], which are those of a scene, read by its reader."""
     from graphkin.scene.reading import checked
 
@@ -126,7 +127,7 @@ def _task(raw: object, problems: list[Problem]) -> DesignTask | None:
         return None
     made = KINDS[kind]
     keys = {f.name: f for f in fields(made) if f.metadata["form"] != "beside"}
-    values: dict[str, Any] = {}
+    values: OwnTables = {}
     before = len(problems)
     for key in raw:
         if key != "kind" and key not in keys:
@@ -165,7 +166,7 @@ def _value(where: str, form: str, value: object, problems: list[Problem]) -> Any
     return [_bar(f"{where}.{i}", one, problems) for i, one in enumerate(value, 1)]
 
 
-def _bar(where: str, value: object, problems: list[Problem]) -> dict[str, Any]:
+def _bar(where: str, value: object, problems: list[Problem]) -> OwnTables:
     """A place of a bar as it is written: B with C or angle."""
     if not isinstance(value, dict):
         problems.append(Problem(where, f"found {_shown(value)}", "write { B = [x, y], C = [x, y] }"))
@@ -178,7 +179,7 @@ def _bar(where: str, value: object, problems: list[Problem]) -> dict[str, Any]:
     if ("C" in value) == ("angle" in value):
         found = "has both C and angle" if "C" in value else "has neither C nor angle"
         problems.append(Problem(where, found, "a bar lies where B and C lie, or B and its angle"))
-    made: dict[str, Any] = {}
+    made: OwnTables = {}
     if "B" not in value:
         problems.append(Problem(f"{where}.B", "is missing", "the first point of the bar, [x, y]"))
     for key in ("B", "C"):
@@ -189,7 +190,7 @@ def _bar(where: str, value: object, problems: list[Problem]) -> dict[str, Any]:
     return made
 
 
-def _bar_positions(values: dict[str, Any], problems: list[Problem]) -> BarPositionsTask | None:
+def _bar_positions(values: OwnTables, problems: list[Problem]) -> BarPositionsTask | None:
     bars, length = values["positions"], float(values.get("BC") or 0.0)
     by_angle = ["angle" in bar for bar in bars]
     if any(by_angle) and not length:

@@ -12,7 +12,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from types import ModuleType
-from typing import Any, NamedTuple
+from typing import NamedTuple
+
+from graphkin.plane import Values
 
 __all__ = ["LAWS", "SPELLINGS", "FollowerLaw", "Lift", "LiftPiece", "SmoothPart", "form_of"]
 
@@ -24,44 +26,44 @@ SEAM = 1e-12
 class Lift(NamedTuple):
     """Lift and its first three derivatives by the angle of the cam (m or rad, per rad)."""
 
-    lift: Any
-    slope: Any
-    bend: Any
-    jerk: Any
+    lift: Values
+    slope: Values
+    bend: Values
+    jerk: Values
 
 
-Form = Callable[[Any, ModuleType], tuple[Any, Any, Any, Any]]
+Form = Callable[[Values, ModuleType], tuple[Values, Values, Values, Values]]
 """From 0 to 1 over 0 to 1, with three derivatives; of floats with the functions of math, of arrays with NumPy's."""
 
 
-def _uniform(x: Any, _: ModuleType) -> tuple[Any, Any, Any, Any]:
+def _uniform(x: Values, _: ModuleType) -> tuple[Values, Values, Values, Values]:
     return x, 1.0 + 0 * x, 0.0 * x, 0.0 * x
 
 
-def _accelerated(x: Any, _: ModuleType) -> tuple[Any, Any, Any, Any]:
+def _accelerated(x: Values, _: ModuleType) -> tuple[Values, Values, Values, Values]:
     return x * x, 2 * x, 2.0 + 0 * x, 0.0 * x
 
 
-def _decelerated(x: Any, _: ModuleType) -> tuple[Any, Any, Any, Any]:
+def _decelerated(x: Values, _: ModuleType) -> tuple[Values, Values, Values, Values]:
     return x * (2 - x), 2 * (1 - x), -2.0 + 0 * x, 0.0 * x
 
 
-def _harmonic(x: Any, m: ModuleType) -> tuple[Any, Any, Any, Any]:
+def _harmonic(x: Values, m: ModuleType) -> tuple[Values, Values, Values, Values]:
     c, s, w = m.cos(math.pi * x), m.sin(math.pi * x), math.pi
     return (1 - c) / 2, w * s / 2, w**2 * c / 2, -(w**3) * s / 2
 
 
-def _cycloidal(x: Any, m: ModuleType) -> tuple[Any, Any, Any, Any]:
+def _cycloidal(x: Values, m: ModuleType) -> tuple[Values, Values, Values, Values]:
     c, s, w = m.cos(TURN * x), m.sin(TURN * x), TURN
     return x - s / w, 1 - c, w * s, w**2 * c
 
 
-def _345(x: Any, _: ModuleType) -> tuple[Any, Any, Any, Any]:
+def _345(x: Values, _: ModuleType) -> tuple[Values, Values, Values, Values]:
     y = 1 - x
     return x**3 * (10 + x * (6 * x - 15)), 30 * (x * y) ** 2, 60 * x * y * (1 - 2 * x), 60 - 360 * x * y
 
 
-def _4567(x: Any, _: ModuleType) -> tuple[Any, Any, Any, Any]:
+def _4567(x: Values, _: ModuleType) -> tuple[Values, Values, Values, Values]:
     xy = x * (1 - x)
     lift = x**4 * (35 + x * (x * (70 - 20 * x) - 84))
     return lift, 140 * xy**3, 420 * xy**2 * (1 - 2 * x), 840 * xy * (1 - 5 * xy)
@@ -97,7 +99,7 @@ class SmoothPart:
     by: str
     which: int = 0
 
-    def at(self, angle: Any, m: ModuleType = math) -> Lift:
+    def at(self, angle: Values, m: ModuleType = math) -> Lift:
         """The lift at angles inside (rad), plain, or arrays with the functions of NumPy."""
         wide, h = self.end - self.start, self.high - self.low
         if h == 0.0:

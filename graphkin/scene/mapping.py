@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from graphkin.files import OwnTables, Tables
 from graphkin.plane import degrees
 from graphkin.scene.cams import LawCam, SwingingFollower
 from graphkin.scene.contacts import PlacedContact, PlacedGear
@@ -17,7 +18,7 @@ from graphkin.scene.motion_law import CubicPart, MotionLaw
 __all__ = ["as_mapping", "toml_text"]
 
 
-def as_mapping(scene: Mechanism) -> dict[str, Any]:
+def as_mapping(scene: Mechanism) -> OwnTables:
     """The mapping of a scene file that reads as this scene, everything placed in the links' own axes.
 
     What was given by drawn points, arcs or polar entries stands there as lengths and places.
@@ -29,7 +30,7 @@ def as_mapping(scene: Mechanism) -> dict[str, Any]:
     def place(z: complex) -> list[float]:
         return [length(z.real), length(z.imag)]
 
-    def guides(link: PlacedLink) -> dict[str, Any]:
+    def guides(link: PlacedLink) -> OwnTables:
         own = {n: g for n, g in link.guides.items() if n}
         made = {n: {"through": place(g.through), "angle": _tidy(degrees(g.direction))} for n, g in own.items()}
         for slot in (s for s in scene.slots if s.on == link.name):
@@ -37,20 +38,20 @@ def as_mapping(scene: Mechanism) -> dict[str, Any]:
             made[slot.name] |= {"ends": [_tidy(math.degrees(a)) for a in slot.ends]} if slot.ends else {}
         return made
 
-    def discs(link: PlacedLink) -> dict[str, Any]:
+    def discs(link: PlacedLink) -> OwnTables:
         return {d.name: {"centre": d.centre, "r": length(d.radius)} for d in link.discs}
 
-    frame: dict[str, Any] = {"name": scene.frame.name}
+    frame: OwnTables = {"name": scene.frame.name}
     frame["points"] = {p: place(z) for p, z in scene.frame.points.items()}
     frame["guides"] = guides(scene.frame)
     frame["discs"] = discs(scene.frame)
-    links: dict[str, dict[str, Any]] = {}
+    links: dict[str, OwnTables] = {}
     bars = {slot.bar for slot in scene.slots if not slot.block}
     for link in scene.links:
         if link.name in bars:
             continue
         blocks = [slot for slot in scene.slots if slot.bar == link.name]
-        table: dict[str, Any] = {"points": list(link.bar)} if link.bar else {}
+        table: OwnTables = {"points": list(link.bar)} if link.bar else {}
         if link.length is not None:
             table["length"] = length(link.length)
         pairs = [s for s in scene.slidings if s.link == link.name]
@@ -67,13 +68,13 @@ def as_mapping(scene: Mechanism) -> dict[str, Any]:
         if link.redundant:
             table["redundant"] = True
         links[link.name] = {k: v for k, v in table.items() if v != {}}
-    pins: dict[str, dict[str, Any]] = {}
+    pins: dict[str, OwnTables] = {}
     for pin in scene.pins:
         pins.setdefault(pin.point, {"of": pin.of, "in": []})["in"].append(_guide_name(pin.on, pin.guide))
     for slot in (s for s in scene.slots if not s.block):
         of = next(n for n in scene.holders[slot.point] if n not in (slot.bar, slot.on))
         pins.setdefault(slot.point, {"of": of, "in": []})["in"].append(f"{slot.on}.{slot.name}")
-    made: dict[str, Any] = {"title": scene.title, "title_zh": scene.title_zh, "source": scene.source,
+    made: OwnTables = {"title": scene.title, "title_zh": scene.title_zh, "source": scene.source,
                             "source_zh": scene.source_zh}  # fmt: skip
     made["units"] = {"length": scene.units.length}
     if scene.units.speed:
@@ -95,16 +96,16 @@ def as_mapping(scene: Mechanism) -> dict[str, Any]:
     return {k: v for k, v in made.items() if v not in ("", {}, [])}
 
 
-def _cam(cam: LawCam, length: Callable[[float], float]) -> dict[str, Any]:
+def _cam(cam: LawCam, length: Callable[[float], float]) -> OwnTables:
     """A cam by the law of its follower."""
     swings = isinstance(cam.motion, SwingingFollower)
-    pieces: list[dict[str, Any]] = []
+    pieces: list[OwnTables] = []
     for piece in cam.law.pieces:
         way = piece.high - piece.low
         moved = _tidy(math.degrees(abs(way))) if swings else length(abs(way))
         kind = {"rise" if way > 0 else "fall": moved, "by": piece.by} if piece.by else {}
         pieces.append({"to": _tidy(math.degrees(piece.end)), **kind})
-    made: dict[str, Any] = {"follower": cam.follower, "law": pieces, "base": {"r": length(cam.base), "of": "pitch"}}
+    made: OwnTables = {"follower": cam.follower, "law": pieces, "base": {"r": length(cam.base), "of": "pitch"}}
     made |= {"sense": cam.sense} if cam.sense < 0 else {}
     made |= {"roller": length(cam.roller)} if cam.roller else {}
     made |= {"flat": True} if cam.flat else {}
@@ -122,7 +123,7 @@ def _start(scene: Mechanism, link: PlacedLink, length: Callable[[float], float])
     return _tidy(math.degrees(scene.starts[link.name])) if link.name in scene.starts else None
 
 
-def _contact(contact: PlacedContact) -> dict[str, Any]:
+def _contact(contact: PlacedContact) -> OwnTables:
     between = [f"{d.link}.{d.name}" if d else _guide_name(contact.face, contact.guide) for d in contact.discs]
     if contact.flat:
         side = "left" if contact.left else "right"
@@ -131,23 +132,23 @@ def _contact(contact: PlacedContact) -> dict[str, Any]:
     return {"between": between, "side": side, "rolling": contact.rolling}
 
 
-def _gear(gear: PlacedGear) -> dict[str, Any]:
+def _gear(gear: PlacedGear) -> OwnTables:
     second = _guide_name(gear.wheels[1], gear.guide)
     teeth = ["rack" if z is None else z for z in gear.teeth]
     return {"between": [gear.wheels[0], second], "teeth": teeth, "carrier": gear.carrier}
 
 
-def _loading(scene: Mechanism, place: Callable[[complex], list[float]]) -> dict[str, Any]:
+def _loading(scene: Mechanism, place: Callable[[complex], list[float]]) -> OwnTables:
     """Masses, loads, gravity, balance and flywheel."""
     loading, units = scene.loading, scene.units
-    made: dict[str, Any] = {"masses": {}, "loads": {}, "springs": {}}
+    made: OwnTables = {"masses": {}, "loads": {}, "springs": {}}
     if loading.gravity:
         made["gravity"] = {"g": _tidy(abs(loading.gravity)), "angle": _tidy(degrees(loading.gravity))}
     for mass in loading.masses:
         heavy, inertia = _tidy(mass.mass / units.kilograms), _tidy(mass.inertia / units.inertias)
         made["masses"][mass.link] = {"at": place(mass.at), "mass": heavy, "inertia": inertia}
     for load in loading.loads:
-        table: dict[str, Any] = {"on": load.link}
+        table: OwnTables = {"on": load.link}
         if load.is_force:
             table |= {"at": place(load.at), "force": _tidy(load.size / units.newtons)}
             table |= {"against": load.against} if load.against else {"angle": _tidy(degrees(load.turn))}
@@ -174,7 +175,7 @@ def _loading(scene: Mechanism, place: Callable[[complex], list[float]]) -> dict[
     return made
 
 
-def _phase(scene: Mechanism, phase: Phase) -> dict[str, Any]:
+def _phase(scene: Mechanism, phase: Phase) -> OwnTables:
     if phase.stroke:
         return {"stroke": phase.stroke, "sense": phase.sense, "from": phase.start, "to": phase.end}
     turns = isinstance(scene.drivers[0], AngleDriver)
@@ -190,11 +191,11 @@ def _guide_name(link: str, guide: str) -> str:
     return f"{link}.{guide}" if guide else link
 
 
-def _driver(scene: Mechanism, driver: AnyDriver, length: Callable[[float], float]) -> dict[str, Any]:
+def _driver(scene: Mechanism, driver: AnyDriver, length: Callable[[float], float]) -> OwnTables:
     if isinstance(driver, AngleDriver):
         base = {} if driver.relative_to == scene.frame.name else {"relative_to": driver.relative_to}
         angle = _tidy(math.degrees(driver.angle))
-        rate: dict[str, Any] = {"omega": _tidy(driver.omega)}
+        rate: OwnTables = {"omega": _tidy(driver.omega)}
         if driver.law is not None:
             moment = _law(driver.law, math.pi / 180)
             return {"link": driver.link, **base, **moment}
@@ -208,12 +209,12 @@ def _driver(scene: Mechanism, driver: AnyDriver, length: Callable[[float], float
     return {"slide": driver.key, "travel": travel, "velocity": velocity, "acceleration": second}
 
 
-def _law(law: MotionLaw, unit: float) -> dict[str, Any]:
+def _law(law: MotionLaw, unit: float) -> OwnTables:
     """How a driver moves over the time, and the moment that is asked."""
     if isinstance(law.pieces[0], CubicPart):
         rows = [[piece.start, _tidy(piece.low / unit)] for piece in law.pieces]
         return {"time": law.time, "law": {"table": [*rows, [law.duration, _tidy(law.pieces[-1].high / unit)]]}}
-    pieces: list[dict[str, Any]] = []
+    pieces: list[OwnTables] = []
     for piece in law.pieces:
         assert isinstance(piece, LiftPiece)
         way = _tidy((piece.high - piece.low) / unit)
@@ -227,7 +228,7 @@ def _tidy(value: float) -> float:
     return float(f"{value:.13g}") + 0.0
 
 
-def toml_text(mapping: Mapping[str, Any]) -> str:
+def toml_text(mapping: Tables) -> str:
     """The text of a scene file from its mapping; reading it gives the mapping again.
 
     >>> print(toml_text({"title": "A", "links": {"1": {"points": ["A", "B"], "length": 2.0}}}), end="")
@@ -251,7 +252,7 @@ def toml_text(mapping: Mapping[str, Any]) -> str:
         whole = isinstance(given, float) and given.is_integer() and abs(given) < 1e15
         return int(given) if whole else given
 
-    def table(given: Mapping[str, Any]) -> Table:
+    def table(given: Tables) -> Table:
         made = tomlkit.table()
         for key, item in given.items():
             made.append(key, value(item))

@@ -19,6 +19,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from graphkin.errors import Problem, SceneError, did_you_mean
+from graphkin.files import OwnTables, Tables
 from graphkin.scene import asked_tables, contact_tables, law_tables, load_tables, sheet_tables, tables
 from graphkin.scene.file_table import FileTable, entries, key_of, keys_of
 from graphkin.scene.form import SCENE
@@ -32,7 +33,7 @@ DEEPEST = 8
 UNKNOWN = "unexpected_keyword_argument"
 
 
-def plain(source: Mapping[Any, Any] | FileTable) -> dict[str, Any]:
+def plain(source: Mapping[Any, Any] | FileTable) -> OwnTables:
     """Copy a mapping, or typed tables, to plain dict, list, str, bool, int and float, so that the form can be checked
     strictly.
 
@@ -71,11 +72,11 @@ def plain(source: Mapping[Any, Any] | FileTable) -> dict[str, Any]:
             return float(value)
         return value
 
-    made: dict[str, Any] = copy(source, ())
+    made: OwnTables = copy(source, ())
     return made
 
 
-def checked(raw: dict[str, Any]) -> tuple[SceneTables, list[Problem], Flaws]:
+def checked(raw: OwnTables) -> tuple[SceneTables, list[Problem], Flaws]:
     """Check the form of a file.  Returns what is valid in it, the problems, and what was taken out for them.
 
     ``raw`` comes from ``plain`` and is changed: wrong entries are taken out of it.
@@ -107,7 +108,7 @@ def checked(raw: dict[str, Any]) -> tuple[SceneTables, list[Problem], Flaws]:
     raise SceneError(*problems.values())
 
 
-def _meant(loc: Path, raw: dict[str, Any]) -> str | None:
+def _meant(loc: Path, raw: OwnTables) -> str | None:
     """The key that a misspelt one stands for, where it is near and not written as well, or both are tables."""
     table = _value_at(raw, written_path(loc[:-1]))
     near = get_close_matches(str(loc[-1])[:60], keys_at(loc[:-1]), n=1, cutoff=0.75)
@@ -148,7 +149,7 @@ def _value_at(raw: Any, path: Path) -> Any:
     return raw
 
 
-def _read_as(raw: dict[str, Any], path: Path, key: str) -> None:
+def _read_as(raw: OwnTables, path: Path, key: str) -> None:
     """Move a misspelt entry to the key that is meant; a table is added to the one that is there."""
     table = _value_at(raw, path[:-1])
     value = table[path[-1]]
@@ -158,7 +159,7 @@ def _read_as(raw: dict[str, Any], path: Path, key: str) -> None:
     table.update({**renamed, key: moved})
 
 
-def _take_out(raw: dict[str, Any], path: Path) -> Path:
+def _take_out(raw: OwnTables, path: Path) -> Path:
     """Take an entry out, or where it is not there (a required key) the table that misses it; return its path."""
     table = _value_at(raw, path[:-1])
     if isinstance(table, dict) and path[-1] in table:
@@ -271,7 +272,7 @@ def keys_at(loc: Path) -> dict[str, str]:
     return {}
 
 
-def sentence(loc: Path, path: Path, item: dict[str, Any]) -> Problem:
+def sentence(loc: Path, path: Path, item: OwnTables) -> Problem:
     where, kind, value, ctx = path_name(path), item["type"], item["input"], item.get("ctx", {})
     if kind == "missing":
         text = keys_at(loc[:-1]).get(str(loc[-1]), "")
@@ -348,7 +349,7 @@ def _about_size(loc: Path, value: object) -> tuple[str, str]:
     return f"found {shown(value)}", wanted.get(str(written_path(loc)[-1]), "a place is [x, y]")
 
 
-def _name_rule(ctx: Mapping[str, Any]) -> str:
+def _name_rule(ctx: Tables) -> str:
     pattern = str(ctx.get("pattern", ""))
     if "max_length" in ctx:
         return f"a name has at most {ctx['max_length']} letters and digits"

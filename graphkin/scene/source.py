@@ -9,9 +9,9 @@ from collections.abc import Mapping
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 from pathlib import Path
-from typing import Any
 
 from graphkin.errors import Problem, SceneError, did_you_mean
+from graphkin.files import OwnTables, Tables
 from graphkin.scene.mapping import as_mapping
 from graphkin.scene.model import Mechanism
 from graphkin.scene.written import Scene, resolved
@@ -28,7 +28,7 @@ __all__ = [
     "written",
 ]
 
-SceneLike = Scene | Mechanism | str | os.PathLike[str] | Mapping[str, Any]
+SceneLike = Scene | Mechanism | str | os.PathLike[str] | Tables
 """A scene in any of its forms: built, read, a file, the name of one that comes along, or a mapping."""
 
 LARGEST_FILE = 1_000_000
@@ -51,7 +51,7 @@ def library_text(name: str) -> str:
     return (_shelf() / f"{name}.toml").read_text(encoding="utf-8")
 
 
-def read(source: str | os.PathLike[str] | Mapping[str, Any]) -> Scene:
+def read(source: str | os.PathLike[str] | Tables) -> Scene:
     """Read a scene.
 
     Parameters
@@ -84,7 +84,7 @@ def mechanism_of_text(text: str, name: str) -> Mechanism:
     return resolved(parsed(text), name)[1]
 
 
-def written(source: SceneLike) -> tuple[dict[str, Any], str]:
+def written(source: SceneLike) -> tuple[OwnTables, str]:
     """The mapping of a scene's file, as it was written where that is known, and the scene's name.
 
     Raises
@@ -112,7 +112,7 @@ def written(source: SceneLike) -> tuple[dict[str, Any], str]:
                              "give a file, the name of a scene that comes along, or a mapping"))
 
 
-def _beside(made: dict[str, Any], path: Path) -> dict[str, Any]:
+def _beside(made: OwnTables, path: Path) -> OwnTables:
     """The mapping of a file, with the places of the table and the picture that stand beside it."""
     sheet = made.get("sheet")
     scans = made.get("scans")
@@ -123,7 +123,7 @@ def _beside(made: dict[str, Any], path: Path) -> dict[str, Any]:
     return made
 
 
-def parsed(text: str) -> dict[str, Any]:
+def parsed(text: str) -> OwnTables:
     """The mapping of a TOML text.  Raises SceneError with the line that is wrong."""
     if len(text) > LARGEST_FILE:
         raise SceneError(_too_large())

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from graphkin.errors import CallError, Problem, as_text, did_you_mean
+from graphkin.files import OwnTables
 from graphkin.scene.mapping import as_mapping, toml_text
 from graphkin.scene.model import Mechanism
 from graphkin.scene.tables import SceneTables
@@ -120,7 +121,7 @@ class Scene(SceneTables):
             raise CallError(problem)
         return Scene.of(made, self.name)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> OwnTables:
         """The scene as a mapping, as a TOML parser gives it; what holds anyway is left out."""
         from graphkin.scene.reading import plain
 
@@ -153,7 +154,7 @@ class Scene(SceneTables):
         return f"<pre>{escape(toml_text(self.to_dict()))}</pre>"
 
 
-def put(made: dict[str, Any], key: str, value: object) -> Problem | None:
+def put(made: OwnTables, key: str, value: object) -> Problem | None:
     """Put a value at a key (with dots) of a scene's mapping, which is changed; the problem if there is no such key."""
     from graphkin.scene.reading import keys_at
 

@@ -12,10 +12,10 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
+from graphkin.plane import Values
 from graphkin.scene.model import AngleDriver
 from graphkin.solver import Motion
 from graphkin.solver.pose import Array
@@ -34,8 +34,8 @@ class Arithmetic:
 
     cos: Callable[[Array], Array]
     sin: Callable[[Array], Array]
-    arg: Callable[[complex], Any]
-    unturned: Callable[[Any], Any]
+    arg: Callable[[complex], Values]
+    unturned: Callable[[Values], Values]
     solve: Callable[[Array, Array], Array]
 
 
@@ -104,16 +104,16 @@ class Equations:
             rows += [z.real, z.imag, np.angle(u)]
         return np.array(rows)
 
-    def improved(self, x: Array, values: Sequence[Any]) -> Array:
+    def improved(self, x: Array, values: Sequence[Values]) -> Array:
         """One step of Newton's method."""
         matrix, open_ = self._system(x, values)
         return np.asarray(x - self.numbers.solve(matrix, open_))
 
-    def open(self, x: Array, values: Sequence[Any]) -> Array:
+    def open(self, x: Array, values: Sequence[Values]) -> Array:
         """How far each equation is from closed (m, rad)."""
         return self._system(x, values)[1]
 
-    def rates(self, x: Array, values: Sequence[Any], first: Sequence[Any], second: Sequence[Any]) -> Solution:
+    def rates(self, x: Array, values: Sequence[Values], first: Sequence[Values], second: Sequence[Values]) -> Solution:
         """Velocities and accelerations at a position: two linear systems with the matrix of the last Newton step."""
         matrix, _ = self._system(x, values)
         rate = self.numbers.solve(matrix, self._drive(x, first))
@@ -121,11 +121,11 @@ class Equations:
         self._bend(x, rate, values, push)
         return Solution(x, rate, self.numbers.solve(matrix, push))
 
-    def velocities(self, x: Array, values: Sequence[Any], first: Sequence[Any]) -> Array:
+    def velocities(self, x: Array, values: Sequence[Values], first: Sequence[Values]) -> Array:
         """Velocities alone."""
         return self.numbers.solve(self._system(x, values)[0], self._drive(x, first))
 
-    def point(self, at: Solution, link: str, local: Any) -> tuple[Any, ...]:
+    def point(self, at: Solution, link: str, local: Values) -> tuple[Values, ...]:
         """x and y of place, velocity and acceleration of a place of a link."""
         k = self.column[link]
         x, y, angle = at.place[k : k + 3]
@@ -139,21 +139,21 @@ class Equations:
 
     # the equations in their order: two for each pair, then one for each driver
 
-    def _link(self, x: Array, name: str) -> tuple[Any, Any, Any, Any]:
+    def _link(self, x: Array, name: str) -> tuple[Values, Values, Values, Values]:
         """Place and direction of a link."""
         if name not in self.column:
             return 0.0, 0.0, 1.0, 0.0
         k = self.column[name]
         return x[k], x[k + 1], self.numbers.cos(x[k + 2]), self.numbers.sin(x[k + 2])
 
-    def _angle(self, x: Array, name: str) -> Any:
+    def _angle(self, x: Array, name: str) -> Values:
         return x[self.column[name] + 2] if name in self.column else 0.0
 
-    def _system(self, x: Array, values: Sequence[Any]) -> tuple[Array, Array]:
+    def _system(self, x: Array, values: Sequence[Values]) -> tuple[Array, Array]:
         matrix = np.zeros((len(x), *x.shape), dtype=x.dtype)
         open_ = np.zeros_like(x)
 
-        def put(row: int, name: str, *by: Any) -> None:
+        def put(row: int, name: str, *by: Values) -> None:
             if name in self.column:
                 k = self.column[name]
                 for j, value in enumerate(by):
@@ -195,12 +195,12 @@ class Equations:
             put(i, pair.b, -gx, -gy, over)
         return matrix, open_
 
-    def _arm(self, x: Array, name: str, point: str) -> tuple[Any, Any, Any, Any]:
+    def _arm(self, x: Array, name: str, point: str) -> tuple[Values, Values, Values, Values]:
         place_x, place_y, c, s = self._link(x, name)
         p = self.structure.links[name].points[point]
         return place_x, place_y, c * p.real - s * p.imag, s * p.real + c * p.imag
 
-    def _guide(self, x: Array, pair: Slide) -> tuple[Any, ...]:
+    def _guide(self, x: Array, pair: Slide) -> tuple[Values, ...]:
         """Direction g of a guide, and g x e and g . e for the way e from its link's origin to the sliding link's."""
         ax, ay, _, _ = self._link(x, pair.a)
         bx, by, c, s = self._link(x, pair.b)
@@ -208,22 +208,22 @@ class Equations:
         gx, gy, ex, ey = c * g.real - s * g.imag, s * g.real + c * g.imag, ax - bx, ay - by
         return gx, gy, gx * ey - gy * ex, gx * ex + gy * ey
 
-    def _drive(self, x: Array, given: Sequence[Any]) -> Array:
+    def _drive(self, x: Array, given: Sequence[Values]) -> Array:
         right = np.zeros_like(x)
         for n, value in enumerate(given):
             right[2 * len(self.pairs) + n] = right[2 * len(self.pairs) + n] + value
         return right
 
-    def _bend(self, x: Array, rate: Array, values: Sequence[Any], right: Array) -> None:
+    def _bend(self, x: Array, rate: Array, values: Sequence[Values], right: Array) -> None:
         """Add to the right side of the acceleration equations what the velocities give: normal and Coriolis terms."""
 
-        def spin(name: str) -> Any:
+        def spin(name: str) -> Values:
             return rate[self.column[name] + 2] if name in self.column else 0.0
 
-        def speed(name: str) -> tuple[Any, Any]:
+        def speed(name: str) -> tuple[Values, Values]:
             return (rate[self.column[name]], rate[self.column[name] + 1]) if name in self.column else (0.0, 0.0)
 
-        def guided(pair: Slide) -> tuple[Any, ...]:
+        def guided(pair: Slide) -> tuple[Values, ...]:
             gx, gy, over, along = self._guide(x, pair)
             (ax, ay), (bx, by), w = speed(pair.a), speed(pair.b), spin(pair.b)
             return gx, gy, over, along, ax - bx, ay - by, w
