@@ -95,7 +95,7 @@ class CamMade:
         ):
             if most is None:
                 continue
-            said = Phrase(f"cam pressure {kind}", (f"{math.degrees(most.value):.4f}", _degree(most)))
+            said = Phrase(f"cam pressure {kind}", (_degrees(most.value), _degree(most)))
             if kept is not None and allowed is not None:
                 said = Phrase("cam kept" if kept else "cam exceeded", (said, f"{math.degrees(allowed):.6g}"))
             made.append(said)
@@ -112,7 +112,7 @@ class CamMade:
 
     def _undercut(self, start: float, end: float) -> Phrase:
         unit = self.mechanism.units.length
-        between = f"{math.degrees(start):.4f}", f"{math.degrees(end):.4f}"
+        between = _degrees(start), _degrees(end)
         least = self.study.radius.value if self.study.radius is not None else 0.0
         if self.cam.flat:
             return Phrase("cam undercut flat", (*between, self._length(self.cam.base - least), unit))
@@ -183,7 +183,12 @@ class CamMade:
 
 
 def _degree(at: AtDegree) -> str:
-    return f"{math.degrees(at.degree):.4f}".rstrip("0").rstrip(".")
+    return _degrees(at.degree)
+
+
+def _degrees(angle: float) -> str:
+    """An angle (rad) in degrees, to 4 decimals at most."""
+    return f"{round(math.degrees(angle), 4) + 0.0:.4f}".rstrip("0").rstrip(".")
 
 
 def cam_made(scene: Mechanism) -> tuple[CamMade, ...]:
@@ -280,9 +285,9 @@ class Cams(Result, OfScene):
         yield Phrase("cam disc", (disc.link, disc.follower, *size, f"{rise[0]:.6g}", rise[1]))
         if disc.offset is not None:
             yield Phrase("cam disc offset", (f"{disc.offset / metres + 0.0:.6g}", unit))
-        here = "–" if disc.here is None else f"{math.degrees(disc.here):.4f}"
-        at = f"{math.degrees(disc.most[1]) % 360.0:.4f}"
-        yield Phrase("cam disc pressure", (f"{math.degrees(disc.most[0]):.4f}", at, here))
+        here = "–" if disc.here is None else _degrees(disc.here)
+        at = _degrees(disc.most[1] % math.tau)
+        yield Phrase("cam disc pressure", (_degrees(disc.most[0]), at, here))
 
     @cached_property
     def table(self) -> Table:

@@ -49,7 +49,9 @@ def exact(compared: Compared, units: Units, carried: int = MOST + 1) -> str:
 
 def deviation(compared: Compared, units: Units) -> str:
     """How far a reading lies off the exact value: in per cent, or, where there is nothing to be a part of, the bound
-    (scene units) within which it cannot be told from zero."""
+    (scene units) within which it cannot be told from zero; 0 where a hand cannot be off."""
     if compared.relative is None:
+        if compared.uncertainty is not None and compared.bound <= compared.floor:
+            return "0"
         return f"± {amount(max(compared.bound, compared.error) / compared.symbol.per_unit(units), 2)}"
     return f"{100 * compared.relative:.2g} %"

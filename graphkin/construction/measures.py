@@ -11,6 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from graphkin.construction.board import Instrument
+from graphkin.construction.residues import MOST_LOST
 from graphkin.construction.rigid import Poses
 from graphkin.construction.sheet import Sheet
 from graphkin.plane import dot
@@ -138,6 +139,7 @@ def _of_turn(sheet: Sheet, symbol: Symbol, instrument: Instrument) -> Measured |
     one, two = (poses[driver.link].axis / poses[driver.relative_to].axis for poses in (low, high))
     between = phase(instrument.read_direction(two / one))
     lag = math.pi - abs(between)
+    lag = 0.0 if abs(lag) < MOST_LOST else lag  # rounding of exact hands: a pencil reads no such angle
     if symbol.kind == "theta_lag":
         return Measured(None, lag)
     return Measured(None, (math.pi + lag) / (math.pi - lag))

@@ -16,7 +16,7 @@ from graphkin.construction.steps import Act
 from graphkin.construction.strokes import Stroke, Vector
 from graphkin.scene.symbol import Symbol
 
-__all__ = ["without_residues"]
+__all__ = ["MOST_LOST", "without_residues"]
 
 LOST = 1e-13  # of the largest vector, by rounding, where lines cross square
 MOST_LOST = 1e-9  # what is larger is no residue, however lines cross

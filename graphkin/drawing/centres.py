@@ -14,6 +14,7 @@ import numpy as np
 
 from graphkin.construction.centres import Centre, Centres, Turning, velocity_sentences
 from graphkin.drawing import strokes
+from graphkin.drawing.bilingual import in_both
 from graphkin.drawing.box import Box
 from graphkin.drawing.centre_marks import centre_marks, line_name, mark_of, near_box, pale
 from graphkin.drawing.conventions import Letters, in_counting_order, letters_of, scale_statement
@@ -255,23 +256,23 @@ def _report(
             if centre.way:
                 kept = ", ".join(centres.kept)
                 sentences.append(_say(Phrase(f"centre {centre.way}", (centre.pair, kept)), each, letters))
-            lines += wrapped(term("sentence joint", each).join(sentences), 3.0, width)
+            lines += wrapped(word("sentence joint", each).join(sentences), 3.0, width)
     spoken = velocity_sentences(centres, turning)
     if spoken:
         lines += wrapped(term("velocities by centres", language), 3.2, width, bold=True)
     for phrase in spoken:
-        lines += wrapped(_in_all(phrase, language, letters), 3.0, width)
+        lines += (runs for said in _in_all(phrase, language, letters) for runs in wrapped(said, 3.0, width))
     return lines
 
 
-def _in_all(phrase: Phrase, language: str, letters: Letters) -> str:
-    """A sentence in each language of a sheet; a formula with which they all begin is written once."""
-    parts = [_say(phrase, each, letters).split(word("sentence joint", each), 1) for each in languages(language)]
-    formulas = list(dict.fromkeys(part[0] for part in parts))
-    if len(formulas) > 1:
-        return "  ".join(dict.fromkeys(word("sentence joint", "en").join(part) for part in parts))
-    words = "  ".join(dict.fromkeys(part[1] for part in parts if len(part) > 1))
-    return formulas[0] + (word("sentence joint", languages(language)[0]) + words if words else "")
+def _in_all(phrase: Phrase, language: str, letters: Letters) -> tuple[str, ...]:
+    """A sentence in each language of a sheet: its formulas and symbols once, with the further languages in brief."""
+    first, *others = languages(language)
+    said = _say(phrase, first, letters)
+    brief = [word(f"{phrase.key} briefly", each, "") for each in others]
+    if others and all(brief):
+        return (" ".join((said, *brief)),)
+    return in_both((said, *(_say(phrase, each, letters) for each in others)))
 
 
 def _say(phrase: Phrase, language: str, letters: Letters) -> str:

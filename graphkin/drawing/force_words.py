@@ -46,13 +46,13 @@ def group_caption(sheet: Sheet, group: ForceGroup, count: int, language: str) ->
 def inertia_line(sheet: Sheet, one: Inertia, letters: Letters, language: str) -> str:
     """``F_I4 = -m_4 a_S4 = 22.4 kg x 2.11 m/s2 = 47.4 N; M_I4 = ...; h_4 = ...``."""
     units, c = sheet.scene.units, letters.convention
-    size = abs(one.force) / units.newtons
-    mass = f"{number(one.mass / units.kilograms, DIGITS)} {units.mass}"
+    mass, push = amount(one.mass / units.kilograms, DIGITS), amount(abs(one.push), DIGITS)
+    size = product(mass, push, amount(units.kilograms / units.newtons, 12), carried=DIGITS)
     mass_of = next(m for m in sheet.scene.loading.masses if m.link == one.link)
     point = next((p for p, z in sheet.scene.by_name[one.link].points.items() if z == mass_of.at), f"S{one.link}")
     letter = "A" if c == "us" else "a"
     said = f"${force_letters(c, Symbol('Fi', link=one.link))}$ = $m_{{{one.link}}}$ ${letter}_{{{point}}}$ = "
-    said += f"{mass} × {number(abs(one.push), DIGITS)} m/s² = {number(size, DIGITS)} {units.force}"
+    said += f"{written(mass)} {units.mass} × {written(push)} m/s² = {written(size)} {units.force}"
     if one.inertia:
         turned = f"{number(one.moment / units.newtons, DIGITS)} {units.force}·m"
         name = force_letters(c, Symbol("Mi", link=one.link))

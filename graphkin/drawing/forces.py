@@ -11,6 +11,7 @@ from graphkin.checking.report import Report
 from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceVector
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing import strokes
+from graphkin.drawing.bilingual import all_in_both
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, letters_of, scale_statement
 from graphkin.drawing.dimensions import check_bar
@@ -29,7 +30,7 @@ from graphkin.drawing.springs import spring_lines
 from graphkin.drawing.stepwise import stepped
 from graphkin.drawing.tables import TableRow, readings_table
 from graphkin.drawing.text import fitted, plain, rich, wrapped
-from graphkin.words import Phrase, languages, say, word
+from graphkin.words import Phrase, languages, say
 
 __all__ = ["forces_figure", "group_equation", "group_picture"]
 
@@ -156,15 +157,14 @@ def _said(key: str, spoken: str, width: float) -> _Block:
 
 def _given(sheet: Sheet, forces: ForceSheet, letters: Letters, spoken: str, width: float) -> Iterator[_Block]:
     lines: list[tuple[str, bool]] = []
-    for each in languages(spoken):
-        lines.append((word("given", each), True))
-        lines += [(text, False) for text in given_loads(sheet, letters, each)]
+    every = languages(spoken)
+    lines.append((term("given", spoken), True))
+    lines += [(text, False) for text in all_in_both([given_loads(sheet, letters, each) for each in every])]
     if forces.inertias:
-        for each in languages(spoken):
-            lines.append((say(Phrase("force inertia"), each), True))
+        lines += [(say(Phrase("force inertia"), each), True) for each in every]
         lines += [(inertia_line(sheet, one, letters, spoken), False) for one in forces.inertias.values()]
-    for each in languages(spoken):
-        lines += [(text, False) for text in spring_lines(sheet, forces, letters, each)]
+    springs = [list(spring_lines(sheet, forces, letters, each)) for each in every]
+    lines += [(text, False) for text in all_in_both(springs)]
     yield _words(lines, width)
 
 
@@ -261,23 +261,27 @@ def _below(
 ) -> _Block:
     """Moments with their reasons, the vector equation with its rows, and what was read off."""
     blocks = []
+    lists = []
     for each in languages(spoken):
-        lines = [(text, False) for told in moment_sentences(sheet, group, letters, each) for text in told.lines]
+        said = [text for told in moment_sentences(sheet, group, letters, each) for text in told.lines]
         if group.way == "drawn system":
-            lines.append((say(Phrase("force reason system", (", ".join(group.links),)), each), False))
+            said.append(say(Phrase("force reason system", (", ".join(group.links),)), each))
         elif len(group.equation) > 1 and group.way == "polygon":
-            lines.append((say(Phrase("force reason polygon", (", ".join(group.links),)), each), False))
-        if lines:
-            blocks.append(_words(lines, width))
+            said.append(say(Phrase("force reason polygon", (", ".join(group.links),)), each))
+        lists.append(said)
+    if any(lists):
+        blocks.append(_words([(text, False) for text in all_in_both(lists)], width))
     if group.way != "drawn system" and len(group.equation) > 1:
         written = write_sum(sum_terms(sheet, group, letters), letters, languages(spoken)[0], width)
         blocks.append(_Block(Piece({"labels": (Group(written.children, id=""),)}), written.height))
-    for each in languages(spoken):
-        lines = [(text, False) for told in couple_sentences(sheet, group, letters, each) for text in told.lines]
-        read = read_off(sheet, forces, stage.state, group, letters) if each == languages(spoken)[0] else {}
-        lines += [(";  ".join(read.values()), False)] if read else []
-        if lines:
-            blocks.append(_words(lines, width))
+    couples = [
+        [text for told in couple_sentences(sheet, group, letters, each) for text in told.lines]
+        for each in languages(spoken)
+    ]
+    read = read_off(sheet, forces, stage.state, group, letters)
+    last = [*all_in_both(couples), *([";  ".join(read.values())] if read else [])]
+    if last:
+        blocks.append(_words([(text, False) for text in last], width))
     return _stacked(blocks)
 
 

@@ -10,6 +10,7 @@ from graphkin.construction.extent import Extent, fitting_scale
 from graphkin.construction.forces.force_sheet import ForceSheet, ForceState, Lever, LeverRow
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing import strokes
+from graphkin.drawing.bilingual import in_both
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, as_vector, letters_of, pole, scale_statement
 from graphkin.drawing.dimensions import check_bar
@@ -209,11 +210,11 @@ def _table(
         words += _row(row, columns, y, units.newtons, letters)
     y += 1.4
     words.append(Line(complex(MARGIN, y), complex(WIDTH - MARGIN, y), strokes.DIMENSION))
-    for each in languages(spoken):
-        total, balance = lever_sum(sheet, state, lever, letters, each)
-        words.append(Text(complex(MARGIN, y + ROW), rich(total, SIZE)))
-        words.append(Text(complex(MARGIN, y + 2 * ROW), rich(balance, SIZE, bold=True)))
-        y += 2 * ROW
+    sums = zip(*(lever_sum(sheet, state, lever, letters, each) for each in languages(spoken)), strict=True)
+    for said, bold in zip(sums, (False, True), strict=True):
+        for line in in_both(said):
+            y += ROW
+            words.append(Text(complex(MARGIN, y), rich(line, SIZE, bold=bold)))
     return y
 
 

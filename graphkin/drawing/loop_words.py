@@ -26,6 +26,8 @@ __all__ = [
 ]  # fmt: skip
 
 STRAIGHT = 1e-9  # rad
+ROUNDING = 1e-12  # of the size of the mechanism
+MORE = 9  # figures of what a root of 7 is worked out from
 
 
 def size_name(arrow: ArrowValue) -> str:
@@ -68,7 +70,7 @@ def _projection(loop: LoopValue, block: LoopBlock, scene: Mechanism, function: s
             if abs(share) > 1e-12:
                 scale = "" if abs(abs(share) - 1.0) < 1e-12 else f"{number(abs(share), 5)} "
                 terms.append(("−" if share < 0 else "+", f"{scale}{name.strip()}"))
-    if abs(known) > 1e-12 * scene.size / metres or not terms:
+    if abs(known) > ROUNDING * scene.size / metres or not terms:
         terms.append(("−" if known < 0 else "+", number(abs(known), 6)))
     text = " ".join(f"{sign} {term}" for sign, term in terms)
     return ("" if text.startswith("+") else "−") + text[2:] + " = 0"
@@ -95,13 +97,17 @@ def root(found: Root, loop: LoopValue, scene: Mechanism, language: str) -> str:
     metres = scene.units.metres
     sign = "+" if found.sign >= 0 else "−"
     name = _unknown(found.unknown)
+
+    def shown(value: float, power: int) -> str:
+        return number(value / metres**power if abs(value) > ROUNDING * scene.size**power else 0.0, MORE)
+
     if found.key == "loop root angle":
-        a, b, c = (number(x / metres**2, 6) for x in found.numbers)
+        a, b, c = (shown(x, 2) for x in found.numbers)
         return say(Phrase(found.key, (name, a, b, c, sign, number(math.degrees(found.value), 7))), language)
-    value = number(found.value / metres, 7)
+    value = number(found.value / metres if abs(found.value) > ROUNDING * scene.size else 0.0, 7)
     if found.key == "loop root lines":
         return say(Phrase(found.key, (name, value, scene.units.length)), language)
-    middle, rest = number(found.numbers[0] / metres, 6), number(found.numbers[1] / metres**2, 6)
+    middle, rest = (shown(x, power) for power, x in enumerate(found.numbers[:2], 1))
     return say(Phrase(found.key, (name, middle, sign, rest, value, scene.units.length)), language)
 
 
@@ -134,9 +140,12 @@ def matrices(block: LoopBlock, scene: Mechanism) -> Iterator[MatrixEquation]:
         )  # fmt: skip
         names = tuple(f"{letters[u.kind == 's']}_{{{u.of.replace('/', '')}}}" for u in block.unknowns)
         column = tuple(number(x / metres, 6) for x in _clean([right.tolist()])[0])
+        weights = [1.0 if u.kind == "s" else scene.size for u in block.unknowns]
+        most = max((abs(x) for x in (*right, *(w * x for w, x in zip(weights, found, strict=True)))), default=0.0)
+        kept = [x if w * abs(x) > ROUNDING * most else 0.0 for w, x in zip(weights, found, strict=True)]
         solution = tuple(
             f"${name}$ = {number(x / (metres if u.kind == 's' else 1.0), 7)} {after[u.kind == 's']}"
-            for name, u, x in zip(names, block.unknowns, found, strict=True)
+            for name, u, x in zip(names, block.unknowns, kept, strict=True)
         )
         yield MatrixEquation(key, rows, names, column, solution)
 

@@ -10,6 +10,7 @@ from collections.abc import Iterable, Sequence
 from graphkin.checking.loop_gaps import places_of_loops, stated_arrows
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing import strokes, symbols
+from graphkin.drawing.bilingual import in_both
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import letters_of
 from graphkin.drawing.drawing import Drawing
@@ -192,15 +193,15 @@ def _lines(
 ) -> list[tuple[str, bool]]:
     scene = sheet.scene
     lines: list[tuple[str, bool]] = []
-    for each in languages(spoken):
-        names = ", ".join(loop.loop.links)
-        lines.append((say(Phrase("loop heading", (loop.loop.name, names, equation(loop, convention))), each), True))
+    head = Phrase("loop heading", (loop.loop.name, ", ".join(loop.loop.links), equation(loop, convention)))
+    lines += [(text, True) for text in in_both([say(head, each) for each in languages(spoken)])]
     x, y = projections(loop, block, scene)
     lines += [(f"x:  {x}", False), (f"y:  {y}", False)]
     gap = _gap(sheet, loop)
     if gap is not None:
         told = f"{number(gap / scene.units.metres, 4)} {scene.units.length}"
-        lines += [(say(Phrase("loop open", (loop.loop.name, told)), each), False) for each in languages(spoken)]
+        left = Phrase("loop open", (loop.loop.name, told))
+        lines += [(text, False) for text in in_both([say(left, each) for each in languages(spoken)])]
     if loop.root is not None:
         lines += [(root(loop.root, loop, scene, each), False) for each in languages(spoken)[:1]]
     return lines

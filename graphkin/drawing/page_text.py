@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 from graphkin.construction.sheet import Sheet
+from graphkin.drawing.bilingual import all_in_both
 from graphkin.drawing.dimensions import check_bar
 from graphkin.drawing.headings import term, titles
 from graphkin.drawing.primitives import Group, Primitive, Run, Text, walk
@@ -79,11 +80,10 @@ def step_lines(steps: Iterable[tuple[int, str]], y: float) -> tuple[list[Primiti
 def note_lines(notes: Mapping[str, Sequence[str]], language: str, y: float) -> tuple[list[Primitive], float]:
     """Sentences by language (markup), and where they end."""
     words: list[Primitive] = []
-    for each in languages(language):
-        for note in notes[each]:
-            for line in wrapped(note, LETTER, WIDTH - 2 * MARGIN):
-                words.append(Text(complex(MARGIN, y), line, classes=("told",)))
-                y += LINE
+    for note in all_in_both([notes[each] for each in languages(language)]):
+        for line in wrapped(note.replace(" -", " −"), LETTER, WIDTH - 2 * MARGIN):
+            words.append(Text(complex(MARGIN, y), line, classes=("told",)))
+            y += LINE
     return words, y
 
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing import strokes
+from graphkin.drawing.bilingual import in_both
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, letters_of
 from graphkin.drawing.dimensions import angle_dimension, check_bar, dimension
@@ -238,6 +239,6 @@ def _measured_lines(shown: Shown, spoken: str) -> list[str]:
                 "stroke": f"{number(value / metres, 7)} {unit}", "K": number(value, 7),
             }.get(kind, f"{number(math.degrees(value), 7)}°")  # fmt: skip
             values.append(f"${letter}$ = {text}")
-        for each in languages(spoken):
-            said.append(say(Phrase("positions of", (pair, ",  ".join(values))), each))
+        told = Phrase("positions of", (pair, ",  ".join(values)))
+        said += in_both([say(told, each) for each in languages(spoken)])
     return said

@@ -1,0 +1,51 @@
+"""What a sheet in two languages says twice, and what once."""
+
+import re
+
+import pytest
+
+from graphkin import centres, draw
+from graphkin.drawing import Text
+from graphkin.drawing.bilingual import all_in_both, in_both
+from graphkin.drawing.primitives import walk
+
+
+def texts(figure) -> list[str]:
+    return [t.string for t in walk(figure.children) if isinstance(t, Text)]
+
+
+def test_a_formula_that_both_languages_share_is_written_once():
+    said = "arms on paper: $G$ 13.17 mm; in m: × 0.005 m/mm", "图上力臂：$G$ 13.17 mm；换算为 m：× 0.005 m/mm"
+    assert ("arms on paper 图上力臂: $G$ 13.17 mm; in m 换算为 m: × 0.005 m/mm",) == in_both(said)
+
+
+def test_a_bracket_that_spans_a_formula_keeps_the_sentences_apart():
+    said = "rate of $R$ (link 3): 1.6 N/mm", "$R$ 刚度（构件 3：1.6 N/mm）"
+    assert said == in_both(said)
+
+
+def test_lists_that_do_not_match_stand_one_after_the_other():
+    assert ["a = 1 mm", "b", "甲 = 1 mm"] == all_in_both((["a = 1 mm", "b"], ["甲 = 1 mm"]))
+
+
+@pytest.mark.parametrize("name", ["shaper-scheme-2", "elliptic-trammel"])
+def test_velocities_by_centres_name_each_centre_as_often_in_two_languages_as_in_one(name):
+    told = [
+        " ".join(t.string for t in walk(centres(name, language=each).figure.children)
+                 if isinstance(t, Text) and "told" in t.classes)
+        for each in ("en", "both")
+    ]  # fmt: skip
+    one, both = ([re.sub(r"\s", "", s) for s in re.findall(r"P\s*\d\s*\d", words)] for words in told)
+    assert one
+    assert one == both
+
+
+@pytest.mark.parametrize("figure", ["forces", "lever"])
+def test_numbers_of_forces_stand_once_on_a_sheet_in_two_languages(figure):
+    long = [
+        sorted(re.findall(r"\d+\.\d{3,}|\d{5,}", " ".join(texts(draw("shaper-forces", language=each,
+               figures=(figure,)).figures[figure]))))
+        for each in ("en", "both")
+    ]  # fmt: skip
+    assert long[0]
+    assert long[0] == long[1]
