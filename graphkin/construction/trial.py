@@ -9,14 +9,13 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from functools import cache
-from itertools import pairwise, product
 
 from graphkin.construction.dyads import drive, meet
 from graphkin.construction.follow import Choices, fitted, moved_to
 from graphkin.construction.reduced_mechanism import ReducedMechanism
 from graphkin.construction.rigid import PlacedLinks, Poses
 from graphkin.construction.sheet import Pose
+from graphkin.construction.trial_fits import all_fits, fits_between
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot
 from graphkin.scene.model import AngleDriver, Mechanism
@@ -24,15 +23,12 @@ from graphkin.structure import Cluster, Driven, Dyad, Element, Rolled, Slide, St
 
 __all__ = ["Known", "found_by_trial"]
 
-GRID = 360  # trial values looked at over a turn
 TRIALS = 3  # trial drivers used, one after the other, to find all assemblies
 # to either side of a sketch, looked at one after the other
 WINDOWS = (*map(math.radians, (3.0, 10.0, 30.0, 90.0)), math.pi)
 TWINS = 1e-6  # of the size: as near as this places are the same
 ROUGHLY = 0.1  # of the size: so far off a sketch may be
-COARSE = 12  # values of each of several trial drivers
 
-Branches = tuple[int, ...]  # which assembly each dyad of a reduced mechanism takes, in the order of drawing
 Known = tuple[Mapping[str, float], Poses]  # driver values, and every link there with the mechanism of size 1
 
 
@@ -172,7 +168,7 @@ def _nearest_fits(
     be nearest to the sketch, for an assembly that is nearer has that point nearer too."""
     sketched = _sketched(reduced, known)
     if sketched is None:
-        yield from _fits(reduced, known)
+        yield from all_fits(reduced, known)
         return
     middle, away, distance = sketched
     found = list(before)
@@ -181,7 +177,7 @@ def _nearest_fits(
     for half in WINDOWS:
         if half < least and half != WINDOWS[-1]:
             continue
-        fresh = list(_on_a_line(reduced, known, middle - half, middle + half))
+        fresh = list(fits_between(reduced, known, middle - half, middle + half))
         nearest = min((distance(poses) for poses in (*found, *fresh)), default=math.inf)
         wide = math.asin(nearest / away) if nearest < away else math.pi
         if wide <= half or half == WINDOWS[-1]:
@@ -222,19 +218,6 @@ def _sketched(
 
 def _near(one: Poses, other: Poses) -> bool:
     return all(abs(p.origin - other[n].origin) + abs(p.axis - other[n].axis) < 1e-6 for n, p in one.items())
-
-
-def _fits(reduced: ReducedMechanism, known: PlacedLinks) -> Iterator[dict[str, Pose]]:
-    """Every position of the trial drivers and every assembly of the trial dyads at which what was left out fits."""
-    if len(reduced.trial) == 1:
-        yield from _on_a_line(reduced, known, *_span(reduced, 0))
-    else:
-        yield from _on_a_grid(reduced, known)
-
-
-def _span(reduced: ReducedMechanism, i: int) -> tuple[float, float]:
-    """Where a trial driver may stand: a turn, or four sizes of the mechanism."""
-    return (-math.pi, math.pi) if isinstance(reduced.trial[i], AngleDriver) else (-2.0, 2.0)
 
 
 def _as_sketched(reduced: ReducedMechanism, known: PlacedLinks) -> dict[str, Pose] | None:
@@ -282,126 +265,3 @@ def _from_sketch(reduced: ReducedMechanism, known: PlacedLinks) -> dict[str, Pos
     return fitted(reduced, known, sketched) if sketched is not None else None
 
 
-def _on_a_grid(reduced: ReducedMechanism, known: PlacedLinks) -> Iterator[dict[str, Pose]]:
-    """Several trial drivers: each place of a grid improved."""
-    axes = []
-    for i in range(len(reduced.trial)):
-        start, end = _span(reduced, i)
-        axes.append([start + (end - start) * (n + 0.5) / COARSE for n in range(COARSE)])
-    trials = []
-    for values in product(*axes):
-        for branches, gaps in _gaps(reduced, known, values).items():
-            trials.append((max(abs(g) for g in gaps), values, branches))
-    trials.sort(key=lambda one: one[0])
-    for _, values, branches in trials[:200]:
-        frame = _drawn(reduced, known, values, branches)
-        if frame is None:
-            continue
-        near = fitted(reduced, known, frame.poses, values)
-        if near is not None:
-            yield near
-
-
-def _on_a_line(
-    reduced: ReducedMechanism, known: PlacedLinks, start: float, end: float
-) -> Iterator[dict[str, Pose]]:
-    low, high = _span(reduced, 0)
-    parts = max(1, round(GRID * (end - start) / (high - low)))
-    grid = [start + (end - start) * i / parts for i in range(parts + 1)]
-    # a value is drawn once for all assemblies: where one cannot be drawn on, others often cannot either
-    gaps_at = cache(lambda value: {b: gaps[0] for b, gaps in _gaps(reduced, known, (value,)).items()})
-    for branches in product((0, 1), repeat=sum(isinstance(e, Dyad) for e in reduced.elements)):
-
-        def gap(value: float, branches: Branches = branches) -> float:
-            return gaps_at(value).get(branches, math.nan)
-
-        for pair in pairwise((value, gap(value)) for value in grid):
-            (a, one), (b, two) = _inside(gap, *pair)
-            # nan compares false; a gap that leaps has passed half a turn, not zero
-            if not one * two <= 0.0 or abs(one - two) > 1.0:
-                continue
-            frame = _drawn(reduced, known, (_root(gap, a, b, one, two),), branches)
-            if frame is not None and abs(reduced.gaps(frame)[0]) < 1e-9:
-                yield reduced.put_back(frame)
-
-
-def _gaps(reduced: ReducedMechanism, known: PlacedLinks, values: Sequence[float]) -> dict[Branches, list[float]]:
-    """The gaps in every assembly of the trial dyads at some values; those that cannot be drawn are left out.
-
-    A dyad is drawn once for all assemblies of those after it.
-    """
-    frame = reduced.opened(known, values)
-    found: dict[Branches, list[float]] = {}
-
-    def draw(elements: Sequence[Driven | Dyad], branches: Branches) -> None:
-        if not elements:
-            found[branches] = reduced.gaps(frame)
-            return
-        element = elements[0]
-        if isinstance(element, Driven):
-            frame.poses[element.link], _ = drive(frame, element)
-            draw(elements[1:], branches)
-            return
-        for branch, poses in enumerate(meet(frame, element).poses):
-            frame.poses.update(poses)
-            draw(elements[1:], (*branches, branch))
-
-    draw(reduced.elements, ())
-    return found
-
-
-def _drawn(
-    reduced: ReducedMechanism, known: PlacedLinks, values: Sequence[float], branches: Branches
-) -> PlacedLinks | None:
-    """A trial drawing of the group; None where two loci do not meet."""
-    frame = reduced.opened(known, values)
-    wanted = iter(branches)
-    for element in reduced.elements:
-        if isinstance(element, Driven):
-            frame.poses[element.link], _ = drive(frame, element)
-            continue
-        meeting, branch = meet(frame, element), next(wanted)
-        if branch >= len(meeting.poses):
-            return None
-        frame.poses.update(meeting.poses[branch])
-    return frame
-
-
-def _inside(
-    gap: Callable[[float], float], one: tuple[float, float], two: tuple[float, float]
-) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Two trial values with their gaps; where only one can be drawn, the other is moved to the last that can."""
-    if math.isnan(one[1]) == math.isnan(two[1]):
-        return one, two
-    good, bad = (one, two[0]) if math.isnan(two[1]) else (two, one[0])
-    last = good
-    for _ in range(45):
-        middle = (last[0] + bad) / 2
-        there = gap(middle)
-        if math.isnan(there):
-            bad = middle
-        else:
-            last = middle, there
-    return good, last
-
-
-def _root(gap: Callable[[float], float], a: float, b: float, fa: float, fb: float) -> float:
-    """Where a gap closes between two trial values: proportional division, halving where that is slow (regula falsi,
-    Illinois variant)."""
-    side = 0
-    for _ in range(100):
-        c = (fa * b - fb * a) / (fa - fb) if fa != fb else (a + b) / 2
-        if not min(a, b) < c < max(a, b):
-            c = (a + b) / 2
-        fc = gap(c)
-        if fc == 0.0 or math.isnan(fc) or abs(b - a) <= 4e-16 * max(abs(a), abs(b), 1.0):
-            return c
-        if (fc > 0) == (fb > 0):
-            b, fb = c, fc
-            fa = fa / 2 if side == -1 else fa
-            side = -1
-        else:
-            a, fa = c, fc
-            fb = fb / 2 if side == 1 else fb
-            side = 1
-    return c

@@ -18,6 +18,7 @@ import numpy as np
 from graphkin.plane import Values
 from graphkin.scene.model import AngleDriver
 from graphkin.solver import Motion
+from graphkin.solver.larger_groups import solve_all
 from graphkin.solver.pose import Array
 from graphkin.structure import Cluster, Driven, Dyad, Pair, Slide, Structure, Turn
 
@@ -41,17 +42,7 @@ class Arithmetic:
 
 def solve_many(matrix: Array, right: Array) -> Array:
     """Solve systems side by side: matrix (m, m, n), right (m, n); a singular one gives inf or nan."""
-    a, b = np.moveaxis(matrix, -1, 0), np.moveaxis(right, -1, 0)[..., None]
-    try:
-        found = np.linalg.solve(a, b)
-    except np.linalg.LinAlgError:
-        found = np.full_like(b, np.nan)
-        for k in range(len(a)):
-            try:
-                found[k] = np.linalg.solve(a[k], b[k])
-            except np.linalg.LinAlgError:
-                continue
-    return np.moveaxis(found[..., 0], 0, -1)
+    return np.moveaxis(solve_all(np.moveaxis(matrix, -1, 0), np.moveaxis(right, -1, 0)), 0, -1)
 
 
 DOUBLES = Arithmetic(
