@@ -255,8 +255,9 @@ def polygon_phrase(act: InPolygon) -> Phrase:
 def _assumed(rates: Sequence[tuple[Symbol, float]]) -> tuple[object, str]:
     """The first of some rates as a symbol, and its value with those that follow."""
     (first, value), *rest = rates
-    more = "".join(f", {symbol} = {amount(v, 5)}" for symbol, v in rest)
-    return first, f"{amount(value, 5)}{more}".replace("-", "−")
+    units = {"omega": " rad/s", "alpha": " rad/s²"}
+    more = "".join(f", {symbol} = {amount(v, 5)}{units.get(symbol.kind, '')}" for symbol, v in rest)
+    return first, f"{amount(value, 5)}{units.get(first.kind, '')}{more}".replace("-", "−")
 
 
 def _on_plan(act: PlanDrawn | PlanTravel | PlanTried) -> Phrase:

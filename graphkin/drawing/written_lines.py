@@ -16,7 +16,7 @@ from graphkin.drawing.sums import bound, lengths_measured, plan_sum, rate_sum, r
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase, languages, say
 
-__all__ = ["written_lines"]
+__all__ = ["by_rates", "written_lines"]
 
 
 def written_lines(sheet: Sheet, letters: Letters, language: str) -> list[WrittenLine]:
@@ -36,7 +36,7 @@ def written_lines(sheet: Sheet, letters: Letters, language: str) -> list[Written
         if isinstance(step.act, MeasuredRate):
             lines.append(_measured(sheet, step.act, letters, language))
         elif isinstance(step.act, ByRate):
-            lines += _by_rates(sheet, step, step.act, letters)
+            lines += by_rates(sheet, step, step.act, letters)
         elif isinstance(step.act, PlanDrawn) and not step.act.known:
             lines.append(_off_plan(step.act, language))
         elif isinstance(step.act, SpecialPoint):
@@ -97,7 +97,7 @@ def _measured(sheet: Sheet, act: MeasuredRate, letters: Letters, language: str) 
     return " = ".join((*(_rate_name(act.rate, n) for n in names), rule, value)) + way
 
 
-def _by_rates(sheet: Sheet, step: Step, act: ByRate, letters: Letters) -> Iterator[str]:
+def by_rates(sheet: Sheet, step: Step, act: ByRate, letters: Letters) -> Iterator[str]:
     """``v_CB = ω_3 l_CB = 1.4737 × 151.21 = 222.84 mm/s,  ⊥CB``: how an end point is laid off from another of its link
     whose rates are known."""
     ends = act.point.point, act.start.point

@@ -126,7 +126,7 @@ def report(made: CourseDesign) -> Document:
         blocks += _headed(key, pictures, language)
     drawn = said("course drawn", language)
     place = said("course position", language, _plain(made.student.place)) if made.student.place else ()
-    blocks.append(Heading(_joined(drawn, place or said("course place", language, made.place_words)), 2, fresh=True))
+    blocks.append(Heading(_joined(drawn, place or said("course place", language, made.place_words))))
     blocks += [_lower(block) for block in solution_blocks(lesson)]
     blocks.append(
         Together((

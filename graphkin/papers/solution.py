@@ -260,7 +260,7 @@ def _force_blocks(lesson: Lesson, count: int) -> Iterator[Block]:
         lead = ()
         if stage.figure == "lever" and lever is not None:
             count += 1
-            yield Picture(bare_picture(lever), numbered(count, said("lever", language)), floats=True)
+            yield Picture(bare_picture(lever), numbered(count, said("lever", language)))
             lever = None
 
 

@@ -6,17 +6,21 @@ the same in every language.
 
 from __future__ import annotations
 
+import cmath
+import math
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
-from graphkin.construction.polygon_acts import Carried, LaidOff, MeasuredRate, PlanDrawn
+from graphkin.construction.polygon_acts import ByRate, Carried, LaidOff, MeasuredRate, PlanDrawn
 from graphkin.construction.sheet import DiagramName, Sheet, Step
 from graphkin.construction.sizes import Direction, Given, OffCurves, RateTimes, RollingCurves, Size, SquareOverRadius
 from graphkin.construction.strokes import Aid, Bar, Vector
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.headings import number, written
 from graphkin.drawing.sums import factors_of, plan_sum, rate_sum, scale_of, substituted, times_scale, unit_of
+from graphkin.drawing.written_lines import by_rates
 from graphkin.papers.blocks import whole_sentence
 from graphkin.papers.lettered_steps import LetteredSteps, Markup
 from graphkin.scene.symbol import PointRef, Symbol
@@ -109,7 +113,23 @@ class Speaker:
             size = next((t.size for side in sides for t in side if t.symbol == step.act.symbol), None)
             bar = next((s for s in step.strokes if isinstance(s, Bar) and s.b != s.a), None)
             return self._laid_off(step.diagram, step.act.symbol, size, abs(bar.b - bar.a)) if bar and size else ()
-        return tuple(self._measured(step.diagram, s) for s in step.strokes if isinstance(s, Vector))
+        measured = tuple(self._measured(step.diagram, s) for s in step.strokes if isinstance(s, Vector))
+        return (*self._by_rate(step, step.act), *measured) if isinstance(step.act, ByRate) else measured
+
+    def _by_rate(self, step: Step, act: ByRate) -> Iterator[str]:
+        """The parts of a relative vector that follow from the rates of a link, each with its length and direction."""
+        sheet, per, unit = self.sheet, scale_of(self.sheet, step.diagram), unit_of(self.sheet, step.diagram)
+        ends = {ref.point: place for ref, place in sheet.points.items()}
+        if act.point.point not in ends or act.start.point not in ends:
+            return
+        arm = (ends[act.point.point] - ends[act.start.point]) * sheet.scales.length
+        omega, alpha = (rates[act.link].value if act.link in rates else 0.0 for rates in (sheet.omega, sheet.alpha))
+        spans = [1j * omega * arm] if step.diagram == "velocity" else [-(omega**2) * arm, 1j * alpha * arm]
+        for said, span in zip(by_rates(sheet, step, act, self.letters), filter(None, spans), strict=True):
+            length = abs(span) / sheet.scales.of(step.diagram)
+            angle = f"{math.degrees(cmath.phase(span)) + 0.0:.1f}".replace("-", "−")
+            yield said
+            yield f"÷ {number(per)} ({unit})/mm = {written(on_paper(length))} mm,  {angle}°"
 
     def _rate(self, act: MeasuredRate) -> tuple[str, ...]:
         omega = act.rate == "omega"

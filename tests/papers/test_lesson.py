@@ -1,10 +1,15 @@
 from __future__ import annotations
 
+import cmath
+import math
+import re
+
 import pytest
 
 from graphkin import read
 from graphkin.api.handouts import handout
 from graphkin.construction import draft
+from graphkin.construction.polygon_acts import ByRate
 from graphkin.drawing.conventions import letters_of
 from graphkin.papers.lesson import plain_words, stages
 from graphkin.papers.reasons import reasons
@@ -176,3 +181,14 @@ def test_every_equation_says_why_and_the_rule_of_coriolis_stands_once():
 def test_the_sense_of_a_coriolis_term_follows_from_the_two_arrows():
     said = _reasons("shaper-scheme-2", "zh")[5]
     assert "$v_{A4A3}$ 指向 76.9°，构件 4 顺时针转动，故指向 −13.1°" in said
+
+
+def test_a_point_laid_off_by_rates_is_where_its_printed_lengths_and_angles_lead():
+    lesson = handout("contour-four-bars", formats=("html",), positions=1).lesson
+    steps = [step for step in lesson.sheet.steps if isinstance(step.act, ByRate)]
+    assert ["velocity", "acceleration"] == [step.diagram for step in steps]
+    for step in steps:
+        told = re.findall(r"= ([\d.]+) mm,  (−?[\d.]+)°", " ".join(lesson.speaker.work(step)))
+        laid = sum(cmath.rect(float(mm), math.radians(float(way.replace("−", "-")))) for mm, way in told)
+        drawn = {s.of.point: v.span for s, v in lesson.sheet.vectors(step.diagram).items() if s.of and s.to is None}
+        assert abs(laid - (drawn["C"] - drawn["B"])) < 0.1
