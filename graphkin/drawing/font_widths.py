@@ -95,9 +95,13 @@ def start_runs(text: Text) -> tuple[Run, ...]:
 
 def text_box(text: Text) -> Box:
     """Box of a text on the page (mm).  Raises ValueError for a text without runs."""
-    boxes = [run_box(run) for run in start_runs(text)]
-    if len(boxes) == 1:
-        return boxes[0]
+    return _box_about(text.runs, text.anchor).moved(text.at)
+
+
+@lru_cache(maxsize=4096)
+def _box_about(runs: tuple[Run, ...], anchor: str) -> Box:
+    """Box of a text about its own point."""
+    boxes = [run_box(run) for run in start_runs(Text(0j, runs, anchor))]
     return Box(
         min(b.left for b in boxes),
         min(b.top for b in boxes),

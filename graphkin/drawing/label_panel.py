@@ -38,7 +38,7 @@ from graphkin.drawing.obstacles import (
 )
 from graphkin.drawing.primitives import Segment
 
-__all__ = ["TANGLED", "LabelPanel", "least_cost"]
+__all__ = ["FORBIDDEN", "TANGLED", "LabelPanel", "least_cost"]
 
 LEADER_GAP = 0.4  # mm between the end of a leader and the box of its label
 CLEARANCE = 0.35  # between a label and any line or area, mm

@@ -125,12 +125,11 @@ class LabelPositions:
 
 
 class HeldPositions:
-    """The positions that labels hold, as arrays by label: middles and half sizes of boxes (nan of a label that holds
-    none), feet and tips of leaders, whether there is one."""
+    """The positions that labels hold, also as arrays by label: middles and half sizes of boxes (nan of a label that
+    holds none), feet and tips of leaders."""
 
     def __init__(self, count: int) -> None:
         self.middles, self.halves, self.feet, self.tips = np.full((4, count), complex(np.nan, np.nan))
-        self.led = np.zeros(count, dtype=bool)
         self.standing: dict[int, LabelPosition] = {}
         self.leaders: dict[int, LabelPosition] = {}  # those of them that have one
 
@@ -138,31 +137,29 @@ class HeldPositions:
         low, high = complex(position.left, position.top), complex(position.right, position.bottom)
         self.middles[label], self.halves[label] = (low + high) / 2, (high - low) / 2
         self.standing[label] = position
-        self.led[label] = position.leader is not None
         if position.leader is not None:
             self.feet[label], self.tips[label] = position.leader
             self.leaders[label] = position
 
     def leave(self, label: int) -> None:
-        self.middles[label], self.led[label] = complex(np.nan, np.nan), False
+        self.middles[label] = complex(np.nan, np.nan)
         del self.standing[label]
         self.leaders.pop(label, None)
 
     def met(self, places: LabelPositions, space: float) -> Flags:
         """Which of some places (rows) meet the positions of which labels (columns), as `LabelPosition.meets` says."""
-        off = places.centres[:, None] - self.middles
         room = self.halves + places.half + complex(space, space)
-        over: Flags = np.abs(off.real) < room.real
-        over &= np.abs(off.imag) < room.imag
+        over: Flags = np.abs(places.centres.real[:, None] - self.middles.real) < room.real
+        over &= np.abs(places.centres.imag[:, None] - self.middles.imag) < room.imag
         theirs = np.array(list(self.leaders), dtype=np.intp)
-        start, end = self.feet[theirs], self.tips[theirs]
-        around = sides_around(start, end)
         if theirs.size:
+            start, end = self.feet[theirs], self.tips[theirs]
+            around = sides_around(start, end)
             reach = places.half + complex(LEADER_SPACE, LEADER_SPACE)
             i, j = near(sides(places.centres - reach, places.centres + reach), around)
             hit = ~separated(places.centres[i], reach, start[j], end[j])
             over[i[hit], theirs[j[hit]]] = True
-        own = np.flatnonzero(places.led)
+        own = places.led.nonzero()[0]
         if own.size:
             feet, tips = places.feet[own], places.tips[own]
             along, spaces = sides_around(feet, tips), self.halves + complex(LEADER_SPACE, LEADER_SPACE)

@@ -19,7 +19,7 @@ from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.label_candidates import RINGS, LabelRequest, Mark, ends
-from graphkin.drawing.label_panel import TANGLED, LabelPanel, least_cost
+from graphkin.drawing.label_panel import FORBIDDEN, TANGLED, LabelPanel, least_cost
 from graphkin.drawing.label_positions import HeldPositions, LabelPosition, LabelPositions
 from graphkin.drawing.obstacles import Flags, Obstacles
 from graphkin.drawing.primitives import Line, Text
@@ -270,6 +270,8 @@ class Placement:
         """What it costs that a label stands where it stands, or nowhere."""
         if i not in self.held.standing:
             return _MISSING_COST
+        if not self.clear[i]:
+            return FORBIDDEN
         return self.held.standing[i].cost + _KEY_COST * (i in self.keyed)
 
     def _forms(self, i: int) -> list[tuple[int, float]]:
@@ -322,7 +324,8 @@ class Placement:
             positions = self.found[form].part(0, _LOOKED_AT)
             met = self.held.met(positions, _SPACE)
             free = np.flatnonzero(met.sum(axis=1) == met[:, j])
-            found += [(float(cost) + extra, form, int(k)) for cost, k in zip(positions.costs[free], free, strict=True)]
+            costs = (positions.costs[free] + extra).tolist()
+            found += [(cost, form, k) for cost, k in zip(costs, free.tolist(), strict=True)]
         return sorted(found)
 
     def _nearly_free(self, positions: LabelPositions, count: int) -> Iterator[tuple[LabelPosition, Flags]]:

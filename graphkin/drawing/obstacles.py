@@ -88,7 +88,8 @@ def obstacles_of(children: tuple[Primitive, ...]) -> Obstacles:
             (solid if thing.stroke.solid else dashed).extend(pairwise(_round(thing)))
         elif isinstance(thing, Circle):
             reach = thing.radius + (thing.stroke.width / 2 if thing.stroke else 0.0)
-            areas.append(Box.around((thing.centre,)).grown(reach))
+            x, y = thing.centre.real, thing.centre.imag
+            areas.append(Box(x - reach, y - reach, x + reach, y + reach))
         elif isinstance(thing, Polygon) and thing.fill and _size(thing) <= SMALL:
             if _size(thing) <= TINY:
                 areas.append(Box.around(thing.points))
@@ -154,9 +155,10 @@ def near(boxes: Sides, others: Sides) -> tuple[Indices, Indices]:
         meeting &= right >= own_left
         meeting &= top <= own_bottom
         meeting &= bottom >= own_top
-        found.append(np.flatnonzero(meeting) + first * len(left))
-    which, what = np.divmod(found[0] if len(found) == 1 else np.concatenate(found), len(left))
-    return which, what
+        found.append(meeting.ravel().nonzero()[0] + first * len(left))
+    pairs = found[0] if len(found) == 1 else np.concatenate(found)
+    which = pairs // len(left)
+    return which, pairs - which * len(left)
 
 
 def separated(centres: Points, half: Points | complex, start: Points, end: Points) -> Flags:

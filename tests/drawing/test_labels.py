@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import cmath
 import itertools
+from dataclasses import replace
 from itertools import combinations
 
 import pytest
@@ -12,7 +13,7 @@ from hypothesis import strategies as st
 from graphkin.drawing import symbols as arrows
 from graphkin.drawing.box import Box
 from graphkin.drawing.drawing import Drawing
-from graphkin.drawing.labels import Label, place
+from graphkin.drawing.labels import Label, Placement, place
 from graphkin.drawing.obstacles import Obstacles, obstacles_of
 from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Text
 from graphkin.drawing.strokes import DIRECTION, LINK
@@ -157,6 +158,30 @@ def test_a_crowd_of_fifteen_labels_in_one_centimetre_stays_legible(violations):
     crowd = [30 + 70j + complex(6 - 3 * (3 * i % 5), 5 - 2.5 * (2 * i % 5)) for i in range(5)]
     svg, _ = figure(*polygon(crowd))
     assert violations(svg) == []
+
+
+def between_walls(**more) -> Placement:
+    """A vector upright between two others, with room for a short name beside it, not for a long one."""
+    walls = tuple(Line(complex(x, 5), complex(x, 105), LINK) for x in (46, 54))
+    vector = Line(50 + 20j, 50 + 90j, LINK)
+    name = replace(label("$a_{CBDEFGHKLMN}$ long", (50 + 20j, 50 + 90j)), **more)
+    return Placement([name], Box(40.0, 5.0, 60.0, 105.0), obstacles_of((*walls, vector)))
+
+
+def test_a_key_stands_where_a_name_has_no_room():
+    placement = between_walls(key=Text(0j, rich("(7)", 2.0)))
+    assert placement.crowded == [0]
+    placement.shorten()
+    (placed,) = placement.placed
+    assert (placement.crowded, placed.keyed, placed.leader) == ([], True, None)
+    assert 46 < placed.box.left < placed.box.right < 54
+
+
+def test_a_name_without_a_key_stays_where_it_is():
+    placement = between_walls()
+    before = placement.placed
+    placement.shorten()
+    assert before == placement.placed
 
 
 def test_leaders_do_not_cross_each_other():

@@ -61,6 +61,12 @@ def test_what_a_crowd_has_no_room_for_is_listed_behind_the_number_of_its_step():
         assert len("".join(entry.itertext())) > len(number)
 
 
+def test_the_letter_of_a_small_foot_stands_in_its_inset_alone():
+    root = ET.fromstring(drawn("sixbar-AE70").figures["acceleration"].content("svg"))
+    letters = [text.get("id") for text in root.iter(f"{SVG}text") if "foot-an_C-B" in (text.get("id") or "")]
+    assert letters == ["label-detail-foot-an_C-B"]
+
+
 def crossed(scene: str, figure: str) -> int:
     leaders, vectors, _ = read(scene, figure)
     foot = shapely.Point
@@ -68,6 +74,6 @@ def crossed(scene: str, figure: str) -> int:
                for one in leaders for vector in vectors)  # fmt: skip
 
 
-@pytest.mark.parametrize("scene", ["shaper-forces", "hit-two-RPR"])
+@pytest.mark.parametrize("scene", ["shaper-forces", "hit-two-RPR", "hydraulic-cylinder", "boom-lifted"])
 def test_no_leader_of_these_sheets_runs_across_a_vector(scene):
     assert crossed(scene, "sheet") == 0
