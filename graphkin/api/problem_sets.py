@@ -330,6 +330,8 @@ def _number(source: Any, path: Sequence[str | int]) -> float:
 
 def _head_of(source: Mapping[str, Any], path: Sequence[str | int]) -> str:
     """A datum as a table heads it: the letters of a bar, the place of a point, or its key."""
+    if path[0] in ("gears", "cams") or "discs" in path:
+        return ".".join(str(part + 1) if isinstance(part, int) else part for part in path[1:] if part != "discs")
     if path[0] == "links":
         points = source["links"][path[1]].get("points", ())
         return "".join(points) if len(points) == 2 else f"{path[1]}"

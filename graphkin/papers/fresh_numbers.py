@@ -13,7 +13,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from graphkin.papers.vary_rules import asked_now, free_of_rules, ruled
+from graphkin.papers.fitting_numbers import fitted, fitting_keys
+from graphkin.papers.vary_rules import asked_now, free_of_rules, ruled, ruled_keys
 
 __all__ = ["Spread", "candidate", "round_step", "varied_keys"]
 
@@ -26,12 +27,13 @@ SHY = 0.12  # part of its reach that a driver keeps off both ends
 
 @dataclass(frozen=True)
 class Spread:
-    """How far the data vary: lengths and rates by a part of their size, places by a part of theirs, angles by all, or
-    within the ``reach`` (degrees) of a first driver that cannot turn fully."""
+    """How far the data vary: lengths, rates and teeth by a part of their size, places by a part of theirs, angles by
+    all, or within the ``reach`` (degrees) of a first driver that cannot turn fully."""
 
     lengths: float = 0.15
     places: float = 0.08
     rates: float = 0.25
+    teeth: float = 0.25
     angle_step: float = 5.0
     reach: tuple[float, float] | None = None
 
@@ -52,8 +54,8 @@ def round_step(value: float) -> float:
 
 
 def varied_keys(source: Source) -> tuple[tuple[Path, str], ...]:
-    """The numbers of a scene file that variants change, with what they are: "length", "place", "angle", "rate" or
-    "travel".  Zeros stay zero, and so do accelerations and the directions of guides."""
+    """The numbers of a scene file that variants change, with what they are: "length", "place", "angle", "rate",
+    "travel", or as `fitting_keys` says.  Zeros stay zero, and so do accelerations and the directions of guides."""
     found: list[tuple[Path, str]] = []
     for name, link in source.get("links", {}).items():
         if "length" in link:
@@ -78,7 +80,7 @@ def varied_keys(source: Source) -> tuple[tuple[Path, str], ...]:
             if driver.get(key) or (key == "angle" and key in driver):
                 kind = key if key in ("angle", "travel") else "rate"
                 found.append(((*path, key), kind))
-    return tuple(found)
+    return (*found, *fitting_keys(source))
 
 
 def candidate(source: Source, spread: Spread, seed: int, number: int, attempt: int) -> dict[str, Any]:
@@ -90,6 +92,8 @@ def candidate(source: Source, spread: Spread, seed: int, number: int, attempt: i
         value = float(_at(source, path))
         _put(made, path, _drawn(dice, value, kind, spread) if limited is None else _within(dice, limited, spread))
     ruled(source, made, dice, {"angle": spread.angle_step})
+    tied = ruled_keys(source)
+    fitted(source, made, lambda path: path not in tied)
     _said_once(made)
     asked = asked_now(source, dice)
     return {**made, "find": asked} if asked else made
@@ -110,7 +114,13 @@ def _drawn(dice: random.Random, value: float, kind: str, spread: Spread) -> floa
         turn = round(360.0 / spread.angle_step)
         angle = spread.angle_step * dice.randrange(turn)
         return angle if angle <= 180.0 else angle - 360.0
-    part = {"length": spread.lengths, "travel": spread.lengths, "place": spread.places, "rate": spread.rates}[kind]
+    if kind == "teeth":
+        few, many = (round(abs(value) * (1 + sign * spread.teeth)) for sign in (-1, 1))
+        return int(math.copysign(dice.randint(few, many), value))
+    if kind == "end":
+        return value + spread.angle_step * dice.randint(-3, 3)
+    part = {"length": spread.lengths, "travel": spread.lengths, "place": spread.places, "rate": spread.rates,
+            "moment": spread.rates}[kind]  # fmt: skip
     step = round_step(value) * (5.0 if kind == "rate" else 1.0)
     low, high = math.ceil(abs(value) * (1 - part) / step), math.floor(abs(value) * (1 + part) / step)
     steps = dice.randint(low, high) if low <= high else max(1, round(abs(value) / step))

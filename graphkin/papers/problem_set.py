@@ -181,7 +181,7 @@ def _where_it_was(source: Source, original: Source) -> dict[str, Any]:
     """The file with the drivers' values of the original, where its sketch holds."""
     made = json.loads(json.dumps(source))
     for path, kind in varied_keys(original):
-        if kind in ("angle", "travel"):
+        if kind in ("angle", "travel", "moment") or (path[0] == "driver" and "law" in path):
             place, old = made, original
             for part in path[:-1]:
                 place, old = place[part], old[part]  # type: ignore[index]

@@ -177,7 +177,7 @@ def examined(
         motion = solve(scene)
         if motion.status[0] != "ok":
             raise Unfit(f"{motion.status[0]}: {motion.why[0]}")
-        remarks = [*_flat(motion, bounds)]
+        remarks = [*_flat(motion, bounds), *_uncut(scene)]
         if remarks and strict:
             raise Unfit(remarks[0])
         asked = asked_of(scene)
@@ -200,6 +200,8 @@ def examined(
     if strict:  # what errors do together only adds to it
         unread = {s for s, _ in answers if any(_unread(sheet, (s,)))} if chosen else idle
         read = tuple((s, value) for s, value in answers if (value or not chosen) and s not in unread)  # what moves
+        if not read and not idle:
+            raise Unfit(next(_unread(sheet, asked), "nothing that is asked for moves here"))
         most = {s: bounds.tolerance * abs(value) for s, value in read}
         spare = max(0, len(read) - fewest) if chosen else 0
         found = predict(what, "pencil", scene.sheet.tools, together=False, most=most, spare=spare)
@@ -275,6 +277,18 @@ def _flat(motion: Motion, bounds: Bounds) -> Iterator[str]:
             yield f"the transmission angle of {links} is {math.degrees(angle):.0f} degrees only"
         if dyad.kind != "RRR" and math.pi / 2 - angle > bounds.pressure:
             yield f"the pressure angle of {links} is {90 - math.degrees(angle):.0f} degrees"
+
+
+def _uncut(scene: Mechanism) -> Iterator[str]:
+    """The cams whose profile turns back on itself."""
+    if not scene.cams:
+        return
+    from graphkin.solver.cam_study import study_cam
+
+    for cam in scene.cams:
+        for start, end in study_cam(cam).undercut:
+            between = f"{math.degrees(start):.0f} and {math.degrees(end):.0f} degrees"
+            yield f"the profile of cam {cam.link} cannot be cut between {between}"
 
 
 def _remarks(sheet: Sheet, asked: tuple[Symbol, ...], crossing: float) -> Iterator[str]:

@@ -10,7 +10,7 @@ from typing import Any
 
 from graphkin.errors import CallError, Problem
 
-__all__ = ["LEVELS", "Bounds", "asked_now", "free_of_rules", "level_of", "ruled", "rules_checked"]
+__all__ = ["LEVELS", "Bounds", "asked_now", "free_of_rules", "level_of", "ruled", "ruled_keys", "rules_checked"]
 
 Source = Mapping[str, Any]
 Path = tuple[str | int, ...]
@@ -97,9 +97,15 @@ def free_of_rules(source: Source, paths: Sequence[tuple[Path, str]]) -> list[tup
     table = _table(source)
     if table.get("only"):
         return []
+    fixed = ruled_keys(source)
+    return [(path, kind) for path, kind in paths if path not in fixed]
+
+
+def ruled_keys(source: Source) -> set[Path]:
+    """The numbers that have a range, are tied to another, or are kept."""
+    table = _table(source)
     tied = [key for keys in table.get("ratios", ()) for key in keys[1:]]
-    ruled_ones = {path_of(source, key) for key in (*table.get("ranges", {}), *tied, *table.get("keep", ()))}
-    return [(path, kind) for path, kind in paths if path not in ruled_ones]
+    return {path_of(source, key) for key in (*table.get("ranges", {}), *tied, *table.get("keep", ()))}
 
 
 def ruled(source: Source, made: dict[str, Any], dice: random.Random, step_of: Mapping[str, float]) -> None:
@@ -108,12 +114,14 @@ def ruled(source: Source, made: dict[str, Any], dice: random.Random, step_of: Ma
     for key, (low, high) in table.get("ranges", {}).items():
         path = path_of(source, key)
         size = max(abs(low), abs(high), 1e-9)
-        step = step_of.get(str(path[-1]), _round_step(size))
-        if high - low < 2 * step:
+        whole = "teeth" in path
+        step = 1.0 if whole else step_of.get(str(path[-1]), _round_step(size))
+        if high - low < 2 * step and not whole:
             step = _round_step(max(high - low, 1e-9)) * 10
         first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
         value = dice.randint(first, last) * step if first <= last else low
-        _put(made, path, float(f"{min(max(value, low), high):.12g}"))
+        value = min(max(value, low), high)
+        _put(made, path, round(value) if whole else float(f"{value:.12g}"))
     for keys in table.get("ratios", ()):
         lead, *others = [path_of(source, key) for key in keys]
         factor = _at(made, lead) / _at(source, lead) if _at(source, lead) else 1.0

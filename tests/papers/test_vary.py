@@ -133,3 +133,91 @@ def test_cams_and_rolling_wheels_vary_and_are_asked_for_something(scene, asked):
 def test_a_slider_that_never_turns_is_not_asked_for_its_rate():
     source = {key: value for key, value in graphkin.read("triad-slider").to_dict().items() if key != "find"}
     assert all(answer.value for answer in examined(source, None, "01", fewest=1).answers)
+
+
+def _drawn(name, key, **vary):
+    """A number of twelve candidates of a scene, by its key with dots."""
+    source, _ = written(name)
+    made = [candidate({**source, "vary": vary}, Spread(), 1, number, 0) for number in range(12)]
+    return [_get(one, key) for one in made]
+
+
+def _get(made, key):
+    for part in key.split("."):
+        made = made[int(part)] if isinstance(made, list) else made[part]
+    return made
+
+
+@pytest.mark.parametrize(
+    ("name", "key"),
+    [
+        ("disc-on-disc", "links.1.discs.k.r"), ("gears-epicyclic", "gears.sun.teeth.0"),
+        ("geared-five-bar", "gears.g.teeth.1"), ("cam-swinging-roller", "cams.1.law.0.to"),
+        ("cam-swinging-roller", "cams.1.law.0.rise"), ("cam-swinging-roller", "cams.1.roller"),
+    ],
+)  # fmt: skip
+def test_discs_wheels_and_cams_vary(name, key):
+    assert len(set(_drawn(name, key))) > 3
+    assert 1 == len(set(_drawn(name, key, only=True)))
+
+
+def test_a_planet_meshes_with_sun_and_ring():
+    keys = ("sun.teeth.0", "sun.teeth.1", "ring.teeth.1")
+    suns, planets, rings = (_drawn("gears-epicyclic", f"gears.{k}") for k in keys)
+    assert all(isinstance(z, int) for z in (*suns, *planets, *rings))
+    assert [s + 2 * p for s, p in zip(suns, planets, strict=True)] == [-r for r in rings]
+    assert planets == _drawn("gears-epicyclic", "gears.ring.teeth.0")
+
+
+def test_a_cam_that_rises_comes_back_and_its_pieces_follow_each_other():
+    ups, downs = (_drawn("cam-swinging-roller", f"cams.1.law.{k}") for k in ("0.rise", "2.fall"))
+    assert ups == downs
+    ends = zip(*(_drawn("cam-swinging-roller", f"cams.1.law.{i}.to") for i in range(4)), strict=True)
+    assert all(0 < a < b < c < d == 360 for a, b, c, d in ends)
+
+
+def test_a_range_of_teeth_gives_whole_numbers_and_the_others_follow():
+    ranges = {"ranges": {"gears.sun.teeth.2": [24, 26]}}  # counted from 1, as drivers are
+    assert {24, 25, 26} == set(_drawn("gears-epicyclic", "gears.sun.teeth.1", **ranges))
+    suns, rings = (_drawn("gears-epicyclic", f"gears.{k}", **ranges) for k in ("sun.teeth.0", "ring.teeth.1"))
+    assert {24, 25, 26} == {(-r - s) // 2 for s, r in zip(suns, rings, strict=True)}
+
+
+def test_a_rolling_wheel_stands_on_its_rail_and_its_rim_stays_its_rim():
+    made = graphkin.problem_set("wheel-on-rail", 4, seed=1, workers=1)
+    assert made.ok
+    lengths = {answers[0].value for answers in made.made.answers.values()}
+    assert 4 == len(lengths)
+
+
+ROLLING = {
+    "title": "Two discs on an arm",
+    "frame": {"name": "0", "points": {"A": [0, 0]}, "discs": {"s": {"centre": "A", "r": 30}}},
+    "links": {
+        "1": {"points": ["A", "B"], "length": 50},
+        "2": {"points": ["B", "P"], "length": 12, "discs": {"p": {"centre": "B", "r": 20}}},
+    },
+    "contacts": {"K": {"between": ["2.p", "0.s"], "rolling": True}},
+    "driver": {"link": "1", "angle": 40, "omega": 5},
+}
+
+
+def test_an_arm_is_as_long_as_the_radii_of_what_rolls_on_each_other():
+    for number in range(8):
+        made = candidate(ROLLING, Spread(), 1, number, 0)
+        radii = made["frame"]["discs"]["s"]["r"] + made["links"]["2"]["discs"]["p"]["r"]
+        assert radii == pytest.approx(made["links"]["1"]["length"])
+        graphkin.read(made)
+
+
+def test_an_arm_that_is_kept_keeps_its_discs():
+    made = candidate({**ROLLING, "vary": {"keep": ["links.1.length"]}}, Spread(), 1, 1, 0)
+    assert (30, 20) == (made["frame"]["discs"]["s"]["r"], made["links"]["2"]["discs"]["p"]["r"])
+
+
+def test_a_law_over_the_time_varies_with_the_moment_within_it():
+    scene = graphkin.read("slider-crank-offset").to_dict()
+    driver = {"link": "1", "time": 0.2, "law": {"from": 20, "to": 110, "duration": 0.5, "by": "cycloidal"}}
+    made = [candidate({**scene, "driver": driver}, Spread(), 1, n, 0)["driver"] for n in range(12)]
+    assert len({one["law"]["duration"] for one in made}) > 2
+    assert all(0.149 < one["time"] / one["law"]["duration"] < 0.851 for one in made)
