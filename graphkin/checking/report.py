@@ -15,11 +15,12 @@ from graphkin.scene.symbol import PointRef, Symbol
 if TYPE_CHECKING:
     from graphkin.checking.uncertainty import Uncertainty
 
-__all__ = ["Compared", "Report", "compare"]
+__all__ = ["JUDGED", "Compared", "Report", "compare"]
 
 EXACT_TOLERANCE = 1e-9
 ROUNDING = 1e-14
 GRAIN = 2e-15  # rounding of places, of the farthest
+JUDGED = 4.0  # deviations of a pencil: what each of a dozen readings keeps within in a thousand drawings
 FAIR = 1e-3  # of the largest of its diagram: a tolerance that is greater accepts anything (exact hands, programs)
 COARSE = 1.0  # the same for hands that err
 ON_PAPER = {"exact": 0.0, "cad": 0.1}  # mm that may be read off a figure in which nothing moves
@@ -159,7 +160,7 @@ def compare(
         expected = (predicted or {}).get(reading.symbol)
         by = 1.0 if reading.symbol.is_vector else sheet.scene.size
         rounded = (rounding or {}).get(reading.diagram, 0.0) / by
-        tolerance = max(_allowed(predicted, expected), max(EXACT_TOLERANCE, grain) * most, rounded)
+        tolerance = max(_allowed(sheet, predicted, expected), max(EXACT_TOLERANCE, grain) * most, rounded)
         least = ON_PAPER.get(sheet.instrument, HAND) * sheet.scales.of(reading.diagram) / by
         floor = _floor(sheet, reading, rounding or {}, EXACT_TOLERANCE * most)
         if not reading.symbol.is_vector and math.isfinite(floor):  # over its own bar, which may be short
@@ -216,7 +217,7 @@ class _Forces:
         if symbol.is_vector and min(abs(reading.value), abs(exact)) > 1e-7 * whole:
             turned = cmath.phase(complex(reading.value) / complex(exact))
         expected = (self.predicted or {}).get(symbol)
-        tolerance = max(_allowed(self.predicted, expected), max(EXACT_TOLERANCE, 4.0 * relative) * whole)
+        tolerance = max(_allowed(sheet, self.predicted, expected), max(EXACT_TOLERANCE, 4.0 * relative) * whole)
         if not math.isfinite(abs(exact)):
             error = math.inf
         least = HAND * self.largest / 100.0 if sheet.instrument not in ON_PAPER else 0.0
@@ -238,11 +239,13 @@ def _grain(sheet: Sheet) -> float:
     return GRAIN * far / min(bars, default=math.inf)
 
 
-def _allowed(predicted: Mapping[Symbol, Uncertainty] | None, expected: Uncertainty | None) -> float:
+def _allowed(
+    sheet: Sheet, predicted: Mapping[Symbol, Uncertainty] | None, expected: Uncertainty | None
+) -> float:
     """What an instrument may be off; anything, where it draws and nothing is predicted of this reading."""
     if expected is None:
         return 0.0 if predicted is None else math.inf
-    return expected.bound
+    return JUDGED * expected.deviation if sheet.instrument == "pencil" else expected.bound
 
 
 def _fair(sheet: Sheet, tolerance: float, most: float, least: float) -> bool:
@@ -263,7 +266,7 @@ def _position(
     most = max(size if length else 1.0, abs(exact))
     expected = (predicted or {}).get(reading.symbol)
     rounded = (rounding or {}).get("mechanism", 0.0) / (1.0 if length else size)
-    tolerance = max(_allowed(predicted, expected), EXACT_TOLERANCE * most, rounded)
+    tolerance = max(_allowed(sheet, predicted, expected), EXACT_TOLERANCE * most, rounded)
     floor, fair = max(rounded, ROUNDING * most), _fair(sheet, tolerance, most, 0.0)
     return Compared(reading, exact, abs(off), tolerance, 0.0, expected, floor, fair)
 

@@ -28,7 +28,7 @@ def slider_crank(**driver: float) -> dict[str, Any]:
     }
 
 
-@pytest.mark.parametrize("seed", [1, 2, 3])
+@pytest.mark.parametrize("seed", [0, 1, 2])
 def test_a_pencil_at_rest_keeps_within_what_it_promises(seed: int) -> None:
     assert graphkin.check(slider_crank(omega=0, alpha=5), instrument="pencil", seed=seed).ok
 
