@@ -4,18 +4,17 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from graphkin.api.answers import Answers, AnswersLike, Unread, as_answers
+from graphkin.api.answers import Answers, AnswersLike, as_answers
 from graphkin.api.arguments import At, SceneLike, as_scene, known_words, placed, write_files
 from graphkin.api.checked import solved_here
 from graphkin.api.class_results import Scheme, people_of, quantities_of, scheme_of
 from graphkin.api.judging import MOST_DRAWN, evidence_at, judged_table
-from graphkin.api.reading_rows import in_scene_units
 from graphkin.api.results import OfScene, Result
 from graphkin.checking.audit import Judged, judge, with_gaps
 from graphkin.checking.scans import JudgedScan, judge_scans
@@ -29,6 +28,7 @@ from graphkin.words import Phrase, say, word
 
 if TYPE_CHECKING:
     from graphkin.table import Table
+from graphkin.api.audit_rows import rows_of
 
 __all__ = ["Audited", "audit"]
 
@@ -63,7 +63,7 @@ class Audited(Result, OfScene):
     @cached_property
     def data(self) -> dict[str, Any]:
         """The object that ``graphkin audit --json`` prints; values in scene units."""
-        values = [row for who, judged in self.people for row in _values(self.mechanism, who, judged, "en")]
+        values = [row for who, judged in self.people for row in rows_of(self.mechanism, who, judged, "en")]
         found: dict[str, Any] = {"ok": self.ok, "values": values}
         if self.is_class:
             found["people"] = list(people_of(self.people, self.scheme, "en"))
@@ -121,7 +121,7 @@ class Audited(Result, OfScene):
         for who, judged in self.people:
             own = {"person": who.person, "id": who.id, "variant": who.variant, "at": _place(who.at)}
             lead = [own[key] for key in self._named]
-            for row in _values(self.mechanism, who, judged, self.language):
+            for row in rows_of(self.mechanism, who, judged, self.language):
                 off = "" if row["deviation_pct"] is None else f"{round(row['deviation_pct'], 2) + 0.0:+.2f} %"
                 exact = "" if row["exact"] is None else _shown(row["exact"])
                 verdict = word(row["verdict"] or "not judged", self.language)
@@ -198,63 +198,8 @@ def _cell(value: object) -> str:
     return "" if value is None else f"{value:g}" if isinstance(value, int | float) else str(value)
 
 
-def _values(
-    scene: Mechanism, who: Answers, judged: Sequence[Judged], language: str
-) -> Iterator[dict[str, Any]]:  # fmt: skip
-    """The rows of one person, answered or not."""
-    lead: dict[str, Any] = {k: v for k, v in (("person", who.person), ("id", who.id), ("variant", who.variant)) if v}
-    lead |= {"at": who.at} if who.at is not None else {}
-    rows = [(one.printed.symbol, _value(scene, one, language)) for one in judged]
-    rows += [(cell.symbol, _unread(cell, language)) for cell in who.unread]
-    place = {symbol: i for i, symbol in enumerate(who.order)}
-    for _, row in sorted(rows, key=lambda row: place.get(row[0], 0)):
-        yield lead | row
-
-
-def _unread(cell: Unread, language: str) -> dict[str, Any]:
-    row: dict[str, Any] = {"symbol": str(cell.symbol), "written": cell.text, "printed": None, "exact": None,
-                           "deviation_pct": None}  # fmt: skip
-    if cell.why:
-        return row | {"verdict": "not readable", "why": say(cell.why, language)}
-    return row | {"verdict": "missing", "why": "no answer"}
-
-
-def _value(scene: Mechanism, judged: Judged, language: str) -> dict[str, Any]:
-    symbol = judged.printed.symbol
-
-    def unit(value: Value) -> float | list[float]:
-        if isinstance(value, complex):
-            # what is left of a component that cancels is no value
-            parts = (v if abs(v) > 1e-12 * abs(value) else 0.0 for v in (value.real, value.imag))
-            return [_plain(in_scene_units(scene, symbol, v, degrees=True)) for v in parts]
-        return _plain(in_scene_units(scene, symbol, value, degrees=True))
-
-    row: dict[str, Any] = {
-        "symbol": str(symbol), "written": judged.printed.text, "printed": unit(judged.printed.value),
-        "exact": unit(judged.exact),
-    }  # fmt: skip
-    row["deviation_pct"] = None if judged.deviation is None else 100 * judged.deviation
-    if judged.deviation is None:
-        row["why"] = "the exact value is zero"
-    row["verdict"] = judged.verdict if judged.verdict != "not judged" else None
-    row["bound"] = unit(judged.bound) if math.isfinite(judged.bound) else None
-    if judged.verdict == "not judged":
-        row["why"] = say(Phrase("nothing to judge by"), language)
-    if judged.looks_like is not None:
-        row["looks_like"] = say(judged.looks_like, language)
-    if judged.gap is not None:
-        row["loop_gap"] = {"loop": judged.gap[0], "gap": _plain(judged.gap[1] / scene.units.metres)}
-    if judged.follows_from:
-        row["follows_from"] = [str(s) for s in judged.follows_from]
-    return row
-
-
 def _place(at: float | str | None) -> str:
     return "" if at is None else at if isinstance(at, str) else f"{at:g}"
-
-
-def _plain(value: float) -> float:
-    return float(f"{value:.12g}")
 
 
 def _shown(value: float | list[float]) -> str:

@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-import math
 import os
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
-from graphkin import solver
-from graphkin.api.answers import table_of
 from graphkin.api.arguments import (
     ON_SHEETS,
     At,
     SceneLike,
-    as_scene,
     asked_symbols,
     driver_values,
     for_paper,
@@ -25,63 +21,28 @@ from graphkin.api.arguments import (
     whole_number,
 )
 from graphkin.api.checked import solved_here
+from graphkin.api.course_schemes import dealt_out, read_at, scheme_name, scheme_of, tabled
 from graphkin.api.drawn import draw
 from graphkin.api.problem_sets import drawn_schemes, schemes_of
 from graphkin.api.results import FilesOfScene
 from graphkin.api.sweep import sweep
-from graphkin.checking.readings import read_off
-from graphkin.checking.report import compare
-from graphkin.construction import execute
 from graphkin.drawing import ChartPage
-from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
+from graphkin.errors import CallError, Problem, Unsolvable
 from graphkin.jobs import Progress
 from graphkin.papers.blocks import Picture, Plate
-from graphkin.papers.course_design import (
-    ClassRow,
-    CourseDesign,
-    PlaceValues,
-    Student,
-    class_document,
-    on_paper,
-    plate,
-    report,
-    value_read,
-)
+from graphkin.papers.course_design import ClassRow, CourseDesign, Student, class_document, on_paper, plate, report
 from graphkin.papers.lesson import Lesson
 from graphkin.papers.page import document_page
 from graphkin.papers.paper import paper_of, paper_plan
 from graphkin.papers.pdf import can_join, can_typeset, one_after_another, pdf
-from graphkin.papers.prepare import FORMATS, lesson_of, positions
-from graphkin.papers.variants import asked_of
+from graphkin.papers.prepare import FORMATS, lesson_of
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.written import safe_name
-from graphkin.solver.named_positions import named_positions
 from graphkin.table import Table
 from graphkin.words import Phrase, languages
 
 __all__ = ["CourseDesigns", "course_design"]
-
-HEADS: Mapping[str, tuple[str, ...]] = {
-    "name": ("name", "student", "姓名", "学生"),
-    "id": ("id", "number", "no", "学号"),
-    "scheme": ("scheme", "variant", "group", "方案", "组", "组别"),
-    "place": ("position", "at", "位置"),
-}
-
-
-@dataclass(frozen=True)
-class _Scheme:
-    """One mechanism of a course: its positions (SI values of the first driver) and what was read off at each."""
-
-    name: str
-    scene: Mechanism
-    drivers: Mapping[str, float]
-    places: Mapping[str, PlaceValues]
-
-    def values(self, place: str) -> dict[str, float]:
-        """Driver values (rad, m) at a position."""
-        return {self.scene.drivers[0].key: self.drivers[place]}
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -187,17 +148,17 @@ def course_design(
         sources, data = schemes_of(scene, rows)
     elif variants is not None:
         sources, data = drawn_schemes(scene, variants, seed, find)
-    course = {name: _scheme(name, source, find, count) for name, source in sources.items()}
+    course = {name: scheme_of(name, source, find, count) for name, source in sources.items()}
     if students is None:
         dealt = [(Student(scheme=name), driver_values(one.scene, at)) for name, one in course.items()]
         dealt = [(replace(who, place=at if isinstance(at, str) else ""), values) for who, values in dealt]
     else:
-        dealt = [(who, course[_key(course, who)].values(who.place)) for who in _dealt(students, course)]
+        dealt = [(who, course[scheme_name(course, who)].values(who.place)) for who in dealt_out(students, course)]
     content: dict[str, bytes] = {}
     lines, agrees, shared, bound = [], True, dict[str, dict[str, Any]](), []
     lesson = None
     for k, (who, values) in enumerate(dealt):
-        one = course[_key(course, who)]
+        one = course[scheme_name(course, who)]
         motion = solved_here(one.scene, values)
         what = paper_plan(motion.structure, values, asked_symbols(one.scene, find))
         lesson = lesson_of(what, motion, spoken, letters)
@@ -205,9 +166,9 @@ def course_design(
         if one.name not in shared:
             shared[one.name] = _figures(one.scene, spoken, letters, lesson)
         key = one.scene.drivers[0].key
-        asked = _tabled(one.scene, find)
+        asked = tabled(one.scene, find)
         stands = lesson.sheet.drivers[key]
-        place = one.places[who.place] if who.place in one.places else _read("", stands, lesson, asked)
+        place = one.places[who.place] if who.place in one.places else read_at("", stands, lesson, asked)
         lines.append(ClassRow(who, place))
         made = CourseDesign(
             lesson, who, own_unit(one.scene, one.scene.drivers[0], stands), data,
@@ -223,7 +184,7 @@ def course_design(
         if progress is not None:
             progress(k + 1, len(dealt))
     assert lesson is not None
-    asked = _tabled(lesson.sheet.scene, find)
+    asked = tabled(lesson.sheet.scene, find)
     whole = class_document(lesson, lines, asked, _unit(given))
     if "html" in formats:
         content["class.html"] = document_page(whole).encode()
@@ -245,114 +206,8 @@ def _stem(k: int, count: int, who: Student) -> str:
     return f"{k + 1:0{max(2, len(str(count)))}}-{safe_name(words) if words else 'report'}"
 
 
-def _tabled(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tuple[Symbol, ...]:
-    """What the tables show: what is asked of the position itself, else the motion of the last joint and the rates of
-    what turns about fixed pivots, else every velocity and acceleration that is read off."""
-    asked = (s for s in asked_symbols(scene, find) if s.scope in ("motion", "position", "force") and not s.at)
-    kept = tuple(asked) or asked_of(replace(scene, find=()))
-    if kept:
-        return kept
-    drawn = (reading.symbol for reading in read_off(execute(paper_plan(scene, None, ()))))
-    return tuple(s for s in drawn if s.scope == "motion" and s.to is None and s.kind in ("v", "a", "omega", "alpha"))
-
-
 def _unit(scene: Mechanism) -> str:
     return "°" if isinstance(scene.drivers[0], AngleDriver) else scene.units.length
-
-
-def _in_unit(scene: Mechanism, value: float) -> float:
-    return math.degrees(value) if isinstance(scene.drivers[0], AngleDriver) else value / scene.units.metres
-
-
-def _scheme(name: str, source: SceneLike, find: Iterable[str | Symbol] | None, count: int) -> _Scheme:
-    """A mechanism with all its positions, each drawn and held against the solver."""
-    scene = for_paper(as_scene(source))
-    structure = solver.structure_of(scene)
-    key = scene.drivers[0].key
-    named = named_positions(scene)
-    if named is not None:
-        drivers = dict(named.values)
-    else:
-        drivers = {str(k): row[key] for k, row in enumerate(positions(structure, None, count)[0], 1)}
-    asked = _tabled(scene, find)
-    places = {}
-    for place, value in drivers.items():
-        try:
-            motion = solved_here(structure, {key: value})
-            sheet = execute(paper_plan(structure, {key: value}, asked))
-            exact = solver.exact_values(solver.as_drawn(motion, sheet.structure), asked)
-            lesson = Lesson(sheet, compare(sheet, read_off(sheet), exact, asked), {}, "en", "chinese", asked)
-            places[place] = _read(place, value, lesson, asked)
-        except Unsolvable:
-            places[place] = PlaceValues(place, _in_unit(scene, value))
-    return _Scheme(name, scene, drivers, places)
-
-
-def _read(place: str, value: float, lesson: Lesson, asked: Sequence[Symbol]) -> PlaceValues:
-    """What was read off at a position, in scene units."""
-    rows = [row for row in lesson.report.rows if row.symbol in asked]
-    read = {row.symbol: value_read(lesson, row) for row in rows}
-    exact = {
-        row.symbol: lesson.in_unit(row.symbol, abs(row.true) if row.symbol.is_vector else float(row.true.real))
-        for row in rows
-    }
-    return PlaceValues(place, _in_unit(lesson.sheet.scene, value), read, exact)
-
-
-def _key(course: Mapping[str, _Scheme], who: Student) -> str:
-    """The scheme of a student; where there is but one, what stands in the table is the name of a group."""
-    return who.scheme if who.scheme in course else next(iter(course))
-
-
-def _dealt(students: str | os.PathLike[str], course: Mapping[str, _Scheme]) -> Iterator[Student]:
-    """Every student with a scheme and a position of it.
-
-    Raises CallError for a table without names, and all schemes and positions that there are not.
-    """
-    table = table_of(students)
-    columns = {
-        role: i for role, names in HEADS.items() for i, head in reversed(tuple(enumerate(table.heads)))
-        if head.strip().lower() in names
-    }  # fmt: skip
-    if "name" not in columns and "id" not in columns:
-        found = f"no column of names: {', '.join(table.heads)[:200]}"
-        raise CallError(Problem(str(students), found, "write a head name (姓名) or id (学号)"))
-    problems: list[Problem] = []
-    listed = []
-    for line, cells in table.rows:
-        who = Student(**{role: cells[i] if i < len(cells) else "" for role, i in columns.items()})
-        where = f"{students}, line {line}"
-        if who.scheme and len(course) > 1 and who.scheme not in course:
-            problems.append(Problem(where, f'there is no scheme "{who.scheme}"', did_you_mean(who.scheme, course)))
-            continue
-        known = course[_key(course, who)].places if who.scheme or len(course) == 1 else None
-        all_known = dict.fromkeys(n for one in course.values() for n in one.places) if known is None else known
-        if who.place and who.place not in all_known:
-            problems.append(Problem(where, f'there is no position "{who.place}"', did_you_mean(who.place, all_known)))
-            continue
-        if who.place and known is not None and not known[who.place].read:
-            problems.append(Problem(where, f"position {who.place} cannot be drawn", "give another one"))
-        listed.append(who)
-    if problems:
-        raise CallError(*problems)
-    free = {name: [p for p, v in one.places.items() if v.read] for name, one in course.items()}
-    if not any(free.values()):
-        raise CallError(Problem("positions", "none of them can be drawn", "give others in [positions]"))
-    taken: dict[str, list[str]] = {}
-    for who in listed:
-        if who.place:
-            taken.setdefault(who.scheme, []).append(who.place)
-    for who in listed:
-        if not who.scheme and len(course) > 1:
-            # the first scheme with a position left, and when all are dealt out from the start again
-            name = min(free, key=lambda n: len(taken.get(n, ())) // max(1, len(free[n])))
-            who = replace(who, scheme=name)
-        if not who.place:
-            own = taken.setdefault(who.scheme, [])
-            places = free[_key(course, who)]
-            who = replace(who, place=min(places, key=own.count))
-            own.append(who.place)
-        yield who
 
 
 def _figures(scene: Mechanism, language: str, convention: str, lesson: Lesson) -> dict[str, Any]:
