@@ -14,10 +14,11 @@ from graphkin.drawing.headings import written
 from graphkin.words import Phrase, say
 from graphkin.words.written import amount, on_paper
 
-__all__ = ["arm_lines", "closed_by", "laid_lines", "laid_off"]
+__all__ = ["arm_lines", "closed_by", "corners", "laid_lines", "laid_off"]
 
 ZERO = 1e-8  # mm
 SAME = 1e-6  # mm
+APART = 0.3  # mm: corners that are nearer bear one letter
 
 
 def laid_off(group: ForceGroup) -> tuple[ForceVector, ...]:
@@ -30,13 +31,35 @@ def laid_off(group: ForceGroup) -> tuple[ForceVector, ...]:
     return tuple(v for v in turned if _known(group, v) and abs(v.span) > ZERO)
 
 
+def corners(group: ForceGroup) -> tuple[tuple[str, complex, ForceVector], ...]:
+    """The corners of a polygon as they are drawn, lettered a, b, c …: each with its place (mm) and the force that ends
+    there, the first with the force that begins there; places that fall together bear one letter."""
+    chain = laid_off(group)
+    turned = list(group.polygon)
+    while chain and turned[0] is not chain[0]:
+        turned.append(turned.pop(0))
+    if not turned:
+        return ()
+    found = [("a", turned[0].tail, turned[0])]
+    for vector in turned:
+        if all(abs(vector.tip - place) > APART for _, place, _ in found):
+            found.append((chr(ord("a") + len(found)), vector.tip, vector))
+    return tuple(found)
+
+
+def corner_at(group: ForceGroup, place: complex) -> str:
+    """The letter of a corner as markup."""
+    letter, _, _ = min(corners(group), key=lambda corner: abs(corner[1] - place))
+    return f"${letter}$"
+
+
 def laid_lines(sheet: Sheet, forces: ForceSheet, group: ForceGroup, letters: Letters) -> list[str]:
-    """``P = 9000 N ÷ 100 N/mm = 90.00 mm, 180.0°`` for each of them."""
+    """``ab = P = 9000 N ÷ 100 N/mm = 90.00 mm, 180.0°`` for each of them."""
     units = sheet.scene.units
     per = amount(forces.per_mm / units.newtons, 12)
     return [
-        f"{_name(v, letters)} = {amount(abs(v.span) * forces.per_mm / units.newtons, 5)} {units.force} ÷ "
-        f"{written(per)} {units.force}/mm = {written(on_paper(abs(v.span)))} mm,  {_degrees(v.span)}°"
+        f"{_ends(group, v)}{_name(v, letters)} = {amount(abs(v.span) * forces.per_mm / units.newtons, 5)} "
+        f"{units.force} ÷ {written(per)} {units.force}/mm = {written(on_paper(abs(v.span)))} mm,  {_degrees(v.span)}°"
         for v in laid_off(group)
     ]
 
@@ -49,7 +72,9 @@ def closed_by(group: ForceGroup, letters: Letters, frame: str, language: str) ->
     first, last = chain[0], chain[-1]
     if len(unknown) == 1:
         (one,) = unknown
-        return say(Phrase("force closes", tuple(_name(v, letters) for v in (last, first, one))), language)
+        joined = [_name(v, letters) for v in (last, first, one)]
+        lettered = [corner_at(group, place) for place in (last.tip, first.tail)]
+        return say(Phrase("force closes", (*joined, *lettered)), language)
     behind = next((v for v in unknown if abs(v.tail - last.tip) < SAME), None)
     before = next((v for v in unknown if abs(v.tip - first.tail) < SAME and v is not behind), None)
     if behind is None or before is None:
@@ -58,7 +83,15 @@ def closed_by(group: ForceGroup, letters: Letters, frame: str, language: str) ->
     if not all(ways):
         return ""
     ends = (_name(last, letters), ways[0], _name(behind, letters))
-    return say(Phrase("force lines meet", (*ends, _name(first, letters), ways[1], _name(before, letters))), language)
+    corner = [corner_at(group, place) for place in (last.tip, first.tail, behind.tip)]
+    names = (*ends, _name(first, letters), ways[1], _name(before, letters))
+    return say(Phrase("force lines meet", (*names, *corner)), language)
+
+
+def _ends(group: ForceGroup, vector: ForceVector) -> str:
+    """``ab = ``: the corners between which a force stands; "" where they bear one letter."""
+    one, two = (corner_at(group, place).strip("$") for place in (vector.tail, vector.tip))
+    return f"${one}{two}$ = " if one != two else ""
 
 
 def arm_lines(sheet: Sheet, one: MomentEquation, letters: Letters, name: str, language: str) -> list[str]:

@@ -13,6 +13,7 @@ from graphkin.construction.strokes import Vector
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
+from graphkin.drawing.force_chain import corners
 from graphkin.drawing.force_stages import ForceStage
 from graphkin.drawing.free_body import colour_of_force, letters_of_force
 from graphkin.drawing.labels import Label
@@ -85,6 +86,11 @@ def drawn_polygon(
         markup, own = letters_of_force(letters, whole), f"label-{name}"
         text = Text(0j, symbol(markup, 3.2), "start", colour, own, ("label",), step)
         labels.append(Label(text, ends, rank=0))
+    for letter, place, vector in corners(stage.group) if stage.group is not None and not link else ():
+        names[f"corner-{letter}"] += 1
+        own = f"label-corner-{letter}-{names[f'corner-{letter}']}{suffix}"
+        text = Text(0j, symbol(letter, 3.0), "start", classes=("label",), id=own, step=stage.in_polygon(vector, link))
+        labels.append(Label(text, place.conjugate(), rank=1))
     zero = [v for v in vectors if abs(v.span) <= SHORT and not v.known]
     for vector in zero:
         thin.append(Circle(vector.tip.conjugate(), 0.4, fill=strokes.BLACK))

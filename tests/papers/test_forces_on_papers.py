@@ -48,9 +48,9 @@ def test_a_force_polygon_is_laid_off_with_lengths_directions_and_the_ends_that_c
     text = words(papers["handout.html"])
     assert "in this order" in text
     assert "arms on paper:" in text
-    assert "Pgas = 6000 N ÷ 100 N/mm = 60.00 mm, 180.0°" in text
-    assert "Through the end of Pgas draw a line ⊥h: F14 lies on it; through the beginning of Ft23 a line ∥" in text
-    assert "they meet where F14 ends and Fn23 begins" in text
+    assert "de = Pgas = 6000 N ÷ 100 N/mm = 60.00 mm, 180.0°" in text
+    assert "Through e, the end of Pgas, draw a line ⊥h: F14 lies on it; through a, the beginning of Ft23" in text
+    assert "they meet in f, where F14 ends and Fn23 begins" in text
 
 
 def test_a_force_found_before_is_laid_off_in_the_direction_in_which_it_acts(papers):
