@@ -49,6 +49,7 @@ from graphkin.papers.reasons import reasons
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Units
 from graphkin.words import Phrase, languages, say, word
+from graphkin.words.written import LEAST, amount
 
 __all__ = [
     "KeyRow",
@@ -98,13 +99,14 @@ def _row(lesson: Lesson, row: Compared) -> KeyRow:
         else lesson.in_unit(symbol, COVERAGE * spread.deviation)
     )
     size = abs(row.true) if symbol.is_vector else float(row.true.real)
-    angle = math.degrees(math.atan2(complex(row.exact).imag, complex(row.exact).real)) + 0.0
+    angle = round(math.degrees(math.atan2(complex(row.exact).imag, complex(row.exact).real)), 3) + 0.0
+    mm = row.reading.on_paper
     has_way = symbol.is_vector and size > 0.0
     return KeyRow(
         symbol=str(symbol),
         unit=lesson.unit(symbol),
         asked=symbol in lesson.questions,
-        on_paper=row.reading.on_paper,
+        on_paper=None if mm is None else float(amount(mm, 3)) if mm < LEAST else round(mm, 3),
         exact=lesson.in_unit(symbol, size),
         tolerance=bound,
         direction=angle if has_way else None,
@@ -157,7 +159,7 @@ def key_table(lesson: Lesson) -> table.Table:
     """The key as a table, in scene units."""
     heads = ("symbol", "unit", "asked", "on_paper_mm", "exact", "tolerance", "direction_deg")
     rows = ((r.symbol, r.unit, r.asked, r.on_paper, r.exact, r.tolerance, r.direction) for r in key_rows(lesson))
-    return table.Table.of(heads, rows, ("", "", "", ".3f", ".9g", ".3g", ".3f"))
+    return table.Table.of(heads, rows, ("", "", "", "", ".9g", ".3g", ".3f"))
 
 
 def answers_template(asked: Sequence[Symbol], units: Units, language: str, variants: Iterable[str] = ()) -> table.Table:

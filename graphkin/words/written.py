@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from decimal import Decimal, localcontext
 
-__all__ = ["MOST", "amount", "difference", "figures", "on_paper", "product", "quotient"]
+__all__ = ["LEAST", "MOST", "amount", "difference", "figures", "on_paper", "product", "quotient"]
 
 MOST = 5  # figures of a computed number
 LEAST = 0.05  # mm; what is shorter is read where it is drawn larger
