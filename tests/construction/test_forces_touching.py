@@ -9,11 +9,11 @@ import pytest
 
 import graphkin
 from graphkin.construction import touching
-from graphkin.scene import library, mechanism_of
+from tests import with_tables
 from tests.construction.test_forces import judged
 from tests.solver.test_forces import loaded
 
-TOUCHING = [n for n in library() if (m := mechanism_of(n)).contacts or m.gears or m.cams]
+TOUCHING = with_tables("contacts", "gears", "cams")
 
 
 def scene(name, at=None):

@@ -16,12 +16,12 @@ from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Strok
 from graphkin.drawing.text import rich
 from graphkin.errors import CallError
 
-ezdxf = pytest.importorskip("ezdxf")
 SVG = "{http://www.w3.org/2000/svg}"
 THIN = Stroke(0.18)
 
 
 def opened(content: bytes):
+    ezdxf = pytest.importorskip("ezdxf")  # here, since it takes a second to load
     return ezdxf.read(io.StringIO(content.decode()))
 
 
@@ -37,7 +37,9 @@ def test_it_opens_without_a_fault(velocity):
 
 
 def test_its_unit_is_the_millimetre(velocity):
-    assert ezdxf.units.MM == velocity[1].units
+    from ezdxf.units import MM
+
+    assert MM == velocity[1].units
 
 
 def test_a_vector_measured_times_the_scale_is_its_value(velocity):

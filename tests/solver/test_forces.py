@@ -15,6 +15,7 @@ import graphkin
 from graphkin.scene import library, mechanism_of
 from graphkin.solver.cam_profile import contact_of
 from graphkin.solver.contacts import pitch_point
+from tests import with_tables
 from tests.command import run
 from tests.mechanisms import KINDS, random_scene
 
@@ -194,7 +195,7 @@ def test_scenes_that_come_along_are_in_equilibrium_under_loads(name):
     assert power <= 1e-9 * largest
 
 
-@pytest.mark.parametrize("name", [n for n in library() if mechanism_of(n).contacts or mechanism_of(n).gears])
+@pytest.mark.parametrize("name", with_tables("contacts", "gears"))
 def test_what_touches_and_what_rolls_is_in_equilibrium(name):
     worst, most, power, largest = residues(loaded(graphkin.read(name).to_dict(), 7))
     assert worst <= 1e-10 * most
