@@ -16,7 +16,7 @@ from itertools import combinations
 from typing import Literal
 
 from graphkin.construction.net import Edge, Net, TwoWays
-from graphkin.construction.relative_points import best_relative_point
+from graphkin.construction.relative_points import FarPoint, best_relative_point
 from graphkin.plane import cross, cross_lines, unit
 from graphkin.scene.symbol import PointRef
 
@@ -70,8 +70,8 @@ class GroupPlan:
 
     ``tried`` are the unknowns that are assumed ("omega 4"); ``open_ends`` as many edges whose ends do not meet for a
     wrong assumption, along them or (True) square to them; ``assumed`` the rates of each trial polygon, by the kind
-    of polygon (SI).  ``parallel`` names links and two legs of theirs that are
-    parallel.
+    of polygon (SI).  ``parallel`` names links and two legs of theirs that are parallel, ``far`` the special point for
+    want of which a rate is assumed, where there is one.
     """
 
     moves: tuple[Move, ...]
@@ -80,6 +80,7 @@ class GroupPlan:
     parallel: tuple[tuple[str, str, str], ...] = ()
     open_ends: tuple[tuple[Edge, bool], ...] = ()
     assumed: Mapping[str, tuple[tuple[float, ...], ...]] = field(default_factory=dict)
+    far: FarPoint | None = None
 
     @property
     def way(self) -> Literal["special points", "superposition"]:
@@ -99,9 +100,11 @@ class _Search:
     moves: list[Move] = field(default_factory=list)
     parallel: list[tuple[str, str, str]] = field(default_factory=list)
     ties: list[tuple[str, str]] = field(default_factory=list)  # links with a special point of both
+    far: list[FarPoint] = field(default_factory=list)  # special points of two links met with that are no use
 
     def copy(self, tried: Sequence[str]) -> _Search:
-        return _Search(self.net.copy(), self.turn, self.along, self.letters, set(self.nodes), {*self.known, *tried})
+        known = {*self.known, *tried}
+        return _Search(self.net.copy(), self.turn, self.along, self.letters, set(self.nodes), known, far=self.far)
 
     # -- what is known -------------------------------------------------------------------------------------------------
 
@@ -300,7 +303,8 @@ class _Search:
     def tie(self, left_out: Collection[tuple[str, str]]) -> bool:
         """The special point of two links that both move, which are drawn as if hinged there from now on."""
         without = {*left_out, *self.ties}
-        point = best_relative_point(self.net, self.known, self.nodes, without, self.along, self.turn)
+        point, far = best_relative_point(self.net, self.known, self.nodes, without, self.along, self.turn)
+        self.far += far
         if point is None:
             return False
         letter = next(self.letters)
@@ -365,7 +369,8 @@ def plan_group(
                 search = _searched(start, tried, letters, relative)
                 if search is not None:
                     served = True
-                    yield GroupPlan(tuple(search.moves), tried, search.net, tuple(search.parallel))
+                    far = min(start.far, key=lambda point: point.away, default=None) if tried else None
+                    yield GroupPlan(tuple(search.moves), tried, search.net, tuple(search.parallel), far=far)
             if served:
                 return
 

@@ -8,7 +8,7 @@ Hain, Applied Kinematics; Artobolevsky, Theory of mechanisms).
 from __future__ import annotations
 
 import copy
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -18,7 +18,7 @@ from graphkin.construction.group_moves import GroupMoves
 from graphkin.construction.group_plan import GroupPlan, Special, plan_group
 from graphkin.construction.net import Edge
 from graphkin.construction.plot import Order
-from graphkin.construction.polygon_acts import Superposed, TrialDrawn
+from graphkin.construction.polygon_acts import Superposed, TakenOff, TrialDrawn
 from graphkin.construction.remarks import Magnified, ParallelLegs
 from graphkin.construction.rigid import PlacedLinks
 from graphkin.construction.sheet import DrawnGroup, Rate, Scales
@@ -157,7 +157,8 @@ class GroupPolygons(GroupMoves):
         found: dict[tuple[Edge, bool], float] = {}
         for ref in plan.net.nodes:
             for edge in plan.net.edges[ref]:
-                if edge.forward and plan.net.natural >= {edge.start, edge.end}:
+                bare = edge.slide is not None and edge.slide.pin is None  # no point of it is a joint
+                if edge.forward and (bare or plan.net.natural >= {edge.start, edge.end}):
                     for across in (False, True):
                         value = self._apart(order, edge, across)
                         if value is not None:
@@ -169,24 +170,37 @@ class GroupPolygons(GroupMoves):
         parts = parts_of(self, order, whole)
         missing = self.end(order, edge.end) - self.end(order, edge.start)
         missing -= sum((p.span for p in parts if p.span is not None), 0j)
+        if not across and any(p.span is None for p in parts):
+            return None
+        return dot(missing, self._measured_along(edge, across))
+
+    def _measured_along(self, edge: Edge, across: bool) -> complex:
+        """Direction in which what an edge leaves open is measured: along it, or square to it."""
         way = self._way(edge, self.places)
         way = way if edge.slide is not None or edge.contact else -1j * way
-        if not across:
-            return dot(missing, way) if all(p.span is not None for p in parts) else None
-        return dot(missing, 1j * way)
+        return 1j * way if across else way
+
+    def _taken_off(self, order: Order, edge: Edge, across: bool) -> Iterator[TakenOff]:
+        """What is known of an edge and has a part in the direction in which it is left open."""
+        way = self._measured_along(edge, across)
+        parts = parts_of(self, order, replace(edge, unknown=""))
+        for p in parts:
+            if p.span and abs(dot(p.span, way)) > NAUGHT * abs(p.span):
+                yield TakenOff(p.symbol, p.size, dot(p.span, way))
 
     def _judged(self, order: Order, group: Cluster, plan: GroupPlan) -> tuple[float, GroupPlan]:
         """How well a group is found by some trials (0: not at all), and the ends by which the true rates are known."""
         try:
-            rows = [
-                self._tried(order, group, plan, i + 1, rates)._ends_apart(order, plan)
+            trials = [
+                self._tried(order, group, plan, i + 1, rates)
                 for i, rates in enumerate(self._trial_rates(order, plan))
             ]
+            rows = [trial._ends_apart(order, plan) for trial in trials]
         except Unsolvable:
             return 0.0, plan
         keys = [k for k in rows[0] if all(k in row for row in rows)]
         slopes = np.array([[row[k] - rows[0][k] for row in rows[1:]] for k in keys])
-        scale = max((abs(v) for order_ in self.ends.values() for v in order_.values()), default=0.0)
+        scale = max((abs(v) for trial in trials for v in trial.ends[order].values()), default=0.0)
         scale = max(scale, float(np.abs(slopes).max(initial=0.0)))
         chosen: list[int] = []
         left = slopes.copy()
@@ -226,6 +240,7 @@ class GroupPolygons(GroupMoves):
         rates = plan.assumed[order]
         apart: list[list[float]] = []
         ends: list[dict[PointRef, complex]] = []
+        far = plan.far and replace(plan.far, away=plan.far.away * self.scales.length)
         for number, assumed in enumerate(rates, 1):
             trial = self._tried(order, group, plan, number, assumed)
             apart.append([self.board.instrument.read(mm) for mm in self._open(order, plan, trial)])
@@ -237,12 +252,15 @@ class GroupPolygons(GroupMoves):
                     self.board.do("mechanism", step.act, *step.strokes)
             steps = [step for step in trial.board.steps if step.diagram == order]
             strokes = [replace(s, trial=number) for step in steps for s in step.strokes if isinstance(s, Aid)]
-            self.board.do(order, TrialDrawn(number, self._named(order, plan, assumed)), *strokes)
+            self.board.do(order, TrialDrawn(number, self._named(order, plan, assumed), far), *strokes)
         self.board.notice(order, Magnified(group.links, _magnified(ends, apart)))
         found = _divided(rates, apart)
         closing = tuple(e.link or (e.slide.key if e.slide else "") for e, _ in plan.open_ends)
         ways = tuple(_left_open(e, across) for e, across in plan.open_ends)
-        self.board.do(order, Superposed(self._named(order, plan, found), closing, tuple(map(tuple, apart)), ways))
+        between = tuple((self.label(e.labels[0]), self.label(e.labels[1])) for e, _ in plan.open_ends)
+        less = tuple(tuple(trial._taken_off(order, *one)) for one in plan.open_ends)
+        named = self._named(order, plan, found)
+        self.board.do(order, Superposed(named, closing, tuple(map(tuple, apart)), ways, between, less))
         return found
 
     def _named(self, order: Order, plan: GroupPlan, values: Sequence[float]) -> tuple[tuple[Symbol, float], ...]:

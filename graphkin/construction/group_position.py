@@ -8,15 +8,18 @@ open is divided proportionally, until what was left out fits.
 from __future__ import annotations
 
 import cmath
-from collections.abc import Mapping
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import Literal
 
 import numpy as np
 
 from graphkin.construction.board import EXACT
 from graphkin.construction.dyads import Story, drive, meet
 from graphkin.construction.follow import drawn_near, fitted
-from graphkin.construction.mechanism_acts import LaidOffAngle, RollingStarts, TrialPositions
+from graphkin.construction.mechanism_acts import LaidOffAngle, RollingStarts, TrialPositions, TrialTable
 from graphkin.construction.reduced_mechanism import ReducedMechanism
 from graphkin.construction.removed_constraint import RemovedConstraint
 from graphkin.construction.rigid import PlacedLinks, Poses
@@ -32,6 +35,7 @@ __all__ = ["GroupTrial", "placed_by_trial", "trial_story"]
 POINTS = 7  # trial positions drawn
 BETWEEN = 6  # parts into which the curve between two of them is divided
 AWAY = 0.35  # of the trial driver (rad, or the mechanism's size): how far the first trial is from the last
+DIVISIONS, UNSEEN = 4, 0.02  # divisions at most, until so little (mm, degrees) is missed
 BEFORE = 0.45  # part of the trial positions that lie before the place sought; so that none falls on it
 
 
@@ -116,12 +120,14 @@ def trial_story(frame: PlacedLinks, so_far: PlacedLinks, trial: GroupTrial) -> S
     if reduced.trial:
         driven = tuple(d.key for d in reduced.trial)
         strokes: tuple[Stroke, ...] = ()
-        point = ""
+        point, table = "", None
         if len(values) == 1:
-            point, strokes = _curve(so_far, reduced, poses, values)
+            tried = _trial_drawings(replace(so_far, instrument=EXACT), reduced, poses, values)
+            point, strokes = _curve(so_far, reduced, poses, tried)
+            table = _table(so_far, reduced, tried) if tried else None
         rolling = tuple(r.name for r in reduced.removed if r.rolling is not None)
         left_out = tuple(name for name in reduced.left_out if name not in rolling)
-        told = TrialPositions(reduced.cluster.links, driven, left_out, point, POINTS, rolling)
+        told = TrialPositions(reduced.cluster.links, driven, left_out, point, POINTS, rolling, table)
         story.append((told, strokes))
     board = reduced.opened(so_far, [float(v) for v in values])
     board = replace(board, instrument=EXACT)
@@ -153,38 +159,102 @@ def _off(one: Poses, other: Poses) -> float:
     return sum(abs(p.origin - other[n].origin) + abs(p.axis - other[n].axis) for n, p in one.items())
 
 
-def _curve(
+def _trial_drawings(
     known: PlacedLinks, reduced: ReducedMechanism, poses: Poses, values: np.ndarray
+) -> list[tuple[float, PlacedLinks]]:
+    """Drawings at trial values on either side of the place sought, so near that all can be drawn; none where even the
+    nearest cannot."""
+    parts = (POINTS - 1) * BETWEEN
+    away = AWAY
+    for _ in range(6):
+        near: dict[int, PlacedLinks] = {}
+        for i in sorted(range(parts + 1), key=lambda i: abs(i - BEFORE * parts)):
+            beside = next((near[j].poses for j in (i - 1, i + 1) if j in near), poses)
+            drawn = drawn_near(reduced, known, beside, values + away * (i / parts - BEFORE))
+            if drawn is None:
+                break
+            near[i] = drawn
+        else:
+            return [(float(values[0]) + away * (i / parts - BEFORE), near[i]) for i in range(parts + 1)]
+        away /= 2.0
+    return []
+
+
+def _curve(
+    known: PlacedLinks, reduced: ReducedMechanism, poses: Poses, tried: Sequence[tuple[float, PlacedLinks]]
 ) -> tuple[str, tuple[Stroke, ...]]:
     """The free end in some trial positions, and the arc or the line that it must meet; nothing where what is left out
     is an angle or a driver."""
     removed = reduced.removed[0]
-    if not removed.ends:
+    if not removed.ends or not tried:
         return "", ()
-    known = replace(known, instrument=EXACT)
     if removed.slide is None and removed.ends[0][1] not in reduced.cluster.members:
         removed = replace(removed, ends=removed.ends[::-1])  # the free end is the one that moves
-    away = AWAY
-    for _ in range(6):
-        parts = (POINTS - 1) * BETWEEN
-        places: list[complex] = []
-        guess = poses
-        steps = sorted(range(parts + 1), key=lambda i: abs(i - BEFORE * parts))
-        found: dict[int, complex] = {}
-        near: dict[int, Mapping[str, Pose]] = {}
-        for i in steps:
-            beside = next((near[j] for j in (i - 1, i + 1) if j in near), guess)
-            drawn = drawn_near(reduced, known, beside, values + away * (i / parts - BEFORE))
+    places = tuple(_seen(drawn, removed, poses) for _, drawn in tried)
+    curve = TrialCurve(places, places[::BETWEEN], removed.ends[0][0])
+    return removed.ends[0][0], (curve, *_goal(known, removed, poses))
+
+
+def _table(
+    known: PlacedLinks, reduced: ReducedMechanism, tried: Sequence[tuple[float, PlacedLinks]]
+) -> TrialTable:
+    """What is measured in the trial positions, and what proportional division makes of it."""
+    driver, removed = reduced.trial[0], reduced.removed[0]
+    size = known.mm * reduced.structure.scene.size
+    turned = isinstance(driver, AngleDriver)
+    exact = replace(known, instrument=EXACT)
+
+    def shown(rows: Sequence[tuple[float, float]]) -> tuple[tuple[float, float], ...]:
+        x, y = math.degrees(1.0) if turned else size, math.degrees(1.0) if removed.is_angle else size
+        return tuple((value * x, gap * y) for value, gap in rows)
+
+    trials = [(value, reduced.gaps(drawn)[0]) for value, drawn in tried[::BETWEEN]]
+    over = [i for i, ((_, a), (_, b)) in enumerate(pairwise(trials)) if a * b < 0.0]
+    sides = min(over, key=lambda i: abs(i + 0.5 - BEFORE * (POINTS - 1)), default=None)
+    divided: list[tuple[float, float]] = []
+    if sides is not None:
+        (a, one), (b, two) = trials[sides], trials[sides + 1]
+        near: Poses = tried[sides * BETWEEN][1].poses
+        while len(divided) < DIVISIONS and not (divided and abs(shown(divided)[-1][1]) < UNSEEN):
+            c = (a * two - b * one) / (two - one)
+            drawn = drawn_near(reduced, exact, near, np.array([c]))
             if drawn is None:
                 break
-            near[i] = drawn.poses
-            found[i] = _seen(drawn, removed, poses)
-        else:
-            places = [found[i] for i in range(parts + 1)]
-            curve = TrialCurve(tuple(places), tuple(places[::BETWEEN]), removed.ends[0][0])
-            return removed.ends[0][0], (curve, *_goal(known, removed, poses))
-        away /= 2.0
-    return "", ()
+            gap, near = reduced.gaps(drawn)[0], drawn.poses
+            divided.append((c, gap))
+            (a, one), (b, two) = ((c, gap), (b, two)) if gap * two < 0.0 else ((a, one), (c, gap))
+            if gap == 0.0:
+                break
+    missed, names, length = _missed(reduced, removed, known.mm)
+    frame = reduced.structure.scene.frame.name
+    moved, base = (driver.link, driver.relative_to) if isinstance(driver, AngleDriver) else (driver.key, frame)
+    if base in known.poses:  # a link that stands already: its angle is taken to the x axis
+        ahead, base = cmath.phase(known.poses[base].axis), frame
+        trials = [(value + ahead, gap) for value, gap in trials]
+        divided = [(value + ahead, gap) for value, gap in divided]
+    return TrialTable(
+        moved, "" if base == frame else base, turned, missed, names, length, removed.is_angle, shown(trials),
+        (sides or 0) + 1, shown(divided),
+    )  # fmt: skip
+
+
+def _missed(
+    reduced: ReducedMechanism, removed: RemovedConstraint, mm: float
+) -> tuple[Literal["bar", "guide", "turn", "travel", "guides", "rolled"], tuple[str, ...], float]:
+    """What is measured of what was left out, between what, and the length (mm) that a bar must have."""
+    if removed.rolling is not None:
+        return "rolled", (removed.name,), 0.0
+    if isinstance(removed.driver, AngleDriver):
+        return "turn", (removed.driver.relative_to, removed.driver.link), 0.0
+    if removed.driver is not None:
+        return "travel", (removed.driver.key,), 0.0
+    if removed.second is not None:
+        return "guides", (removed.left_out,), 0.0
+    ends = tuple(point for point, _ in removed.ends)
+    if removed.slide is not None:
+        return "guide", (*ends, removed.slide.key), 0.0
+    own = reduced.structure.links[removed.left_out].points
+    return "bar", ends, abs(own[ends[1]] - own[ends[0]]) * mm
 
 
 def _seen(drawn: PlacedLinks, removed: RemovedConstraint, poses: Poses) -> complex:

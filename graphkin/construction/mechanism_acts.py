@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from graphkin.words import Phrase
@@ -27,6 +27,7 @@ __all__ = [
     "SlidToMeet",
     "SpecialPoint",
     "TrialPositions",
+    "TrialTable",
     "mechanism_phrase",
 ]
 
@@ -141,10 +142,40 @@ class HeldStill:
 
 
 @dataclass(frozen=True)
+class TrialTable:
+    """What is measured in the trial positions of a group, and divided.
+
+    ``moved`` is the link that is turned, by degrees from the link ``base`` ("" for the x axis), or the pair whose
+    travel is changed (``turned`` false; mm on paper).  ``missed`` tells what is measured of what was left out, with
+    the ``names`` that it lies between and the ``length`` of a bar (mm on paper).  ``trials`` are values with the
+    misses there (mm on paper, or, ``angle``, degrees), ``divided`` those that proportional division gives after the
+    trial number ``before`` (from 1), one after the other, the last one where nothing is missed.
+    """
+
+    moved: str
+    base: str
+    turned: bool
+    missed: Literal["bar", "guide", "turn", "travel", "guides", "rolled"]
+    names: tuple[str, ...]
+    length: float
+    angle: bool
+    trials: tuple[tuple[float, float], ...]
+    before: int
+    divided: tuple[tuple[float, float], ...]
+
+    def scaled(self, times: float) -> TrialTable:
+        """The same with its lengths so many times as large."""
+        x, y = 1.0 if self.turned else times, 1.0 if self.angle else times
+        trials, divided = (tuple((v * x, m * y) for v, m in rows) for rows in (self.trials, self.divided))
+        return replace(self, length=self.length * times, trials=trials, divided=divided)
+
+
+@dataclass(frozen=True)
 class TrialPositions:
     """A group placed by trial: ``driven`` names what is moved, ``left_out`` the link (or driver) left out until it
     fits, ``rolling`` the contacts or gears at which as much must have rolled off as since the scene's own position,
-    ``point`` the free point whose trial curve is drawn ("" for none), in ``count`` trial positions."""
+    ``point`` the free point whose trial curve is drawn ("" for none), in ``count`` trial positions, ``table`` what is
+    measured in them."""
 
     links: tuple[str, ...]
     driven: tuple[str, ...]
@@ -152,6 +183,7 @@ class TrialPositions:
     point: str
     count: int
     rolling: tuple[str, ...] = ()
+    table: TrialTable | None = None
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
+from graphkin.construction.relative_points import FarPoint
 from graphkin.construction.sizes import Direction, Size
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase
@@ -30,6 +31,7 @@ __all__ = [
     "Resultant",
     "SamePlace",
     "Superposed",
+    "TakenOff",
     "Translated",
     "TrialDrawn",
     "polygon_phrase",
@@ -188,21 +190,35 @@ class PlanTried:
 
 @dataclass(frozen=True)
 class TrialDrawn:
-    """A trial polygon by its number, with what was assumed (rad/s, or the scene's units)."""
+    """A trial polygon by its number, with what was assumed (rad/s, or the scene's units); ``far`` is the special point
+    for want of which."""
 
     number: int
     assumed: tuple[tuple[Symbol, float], ...]
+    far: FarPoint | None = None
+
+
+@dataclass(frozen=True)
+class TakenOff:
+    """A known vector with the rule of its size, and how long it is (mm) in the direction in which something is open."""
+
+    symbol: Symbol
+    size: Size | None
+    mm: float
 
 
 @dataclass(frozen=True)
 class Superposed:
     """The true rates by proportional division; ``apart`` (mm) is what is left open in each trial at ``closing``, along
-    ``ways``."""
+    ``ways``: from the end point of the first of ``between`` to that of the second, less what is known between them,
+    ``less``."""
 
     found: tuple[tuple[Symbol, float], ...]
     closing: tuple[str, ...]
     apart: tuple[tuple[float, ...], ...]
     ways: tuple[Direction, ...]
+    between: tuple[tuple[PointRef, PointRef], ...]
+    less: tuple[tuple[TakenOff, ...], ...]
 
 
 InPolygon = (
@@ -237,11 +253,11 @@ def polygon_phrase(act: InPolygon) -> Phrase:
             return Phrase("division" if on_line else "image", (point, *between, link))
         case Translated(link):
             return Phrase("translates", (link,))
-        case TrialDrawn(number, assumed):
+        case TrialDrawn(number, assumed, _):
             if not any(value for _, value in assumed):
                 return Phrase("trial polygon at rest", (number, assumed[0][0]))
             return Phrase("trial polygon", (number, *_assumed([one for one in assumed if one[1]])))
-        case Superposed(found, closing, apart, ways):
+        case Superposed(found, closing, apart, ways, _, _):
             rows = "; ".join(", ".join(f"{mm:.2f}" for mm in row) for row in apart).replace("-", "−")
             open_at = ", ".join(f"{name} ({way})" for name, way in zip(closing, ways, strict=True))
             return Phrase("superposed", (open_at, rows, *_assumed(found)))

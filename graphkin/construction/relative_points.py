@@ -8,6 +8,7 @@ link; Artobolevsky, Theory of mechanisms).
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
@@ -16,7 +17,7 @@ from graphkin.construction.net import Edge, Net
 from graphkin.plane import cross, cross_lines, unit
 from graphkin.scene.symbol import PointRef
 
-__all__ = ["RelativePoint", "best_relative_point"]
+__all__ = ["FarPoint", "RelativePoint", "best_relative_point"]
 
 LONGEST = 3  # edges of a leg
 OFF = 1e-9  # sine between a leg's line and the way from joint to joint, below which it is that way
@@ -34,6 +35,16 @@ class RelativePoint:
     legs: tuple[Path, Path]
 
 
+@dataclass(frozen=True)
+class FarPoint:
+    """Two links whose special point cannot be used: how far from the joints (m; in a net as its places), and at which
+    angle (rad) the lines of the legs cross."""
+
+    links: tuple[str, str]
+    away: float
+    crossing: float
+
+
 def best_relative_point(
     net: Net,
     known: Collection[str],
@@ -41,8 +52,8 @@ def best_relative_point(
     left_out: Collection[tuple[str, str]],
     along: Callable[[Edge, Mapping[str, complex]], complex],
     turn: Mapping[str, str],
-) -> RelativePoint | None:
-    """The relative special point that gives the best crossing; None where there is none.
+) -> tuple[RelativePoint | None, list[FarPoint]]:
+    """The relative special point that gives the best crossing, None where there is none; and those that are no use.
 
     Parameters
     ----------
@@ -54,16 +65,22 @@ def best_relative_point(
     """
     size = max((abs(z) for z in net.places.values()), default=1.0) or 1.0
     best: tuple[float, RelativePoint] | None = None
+    far: list[FarPoint] = []
     for links, legs in _legs(net, known, settled, left_out, along, turn).items():
         for one, two in combinations(legs, 2):
             (p, d), (q, e) = (_line(net, leg, along) for leg in (one, two))
             at = cross_lines(p, d, q, e)
             if at is None:
                 continue
-            quality = abs(cross(d, e)) / (1.0 + abs(at - (p + q) / 2) / size)
-            if quality > WORST and (best is None or quality > best[0]):
+            sine, away = abs(cross(d, e)), abs(at - (p + q) / 2)
+            quality = sine / (1.0 + away / size)
+            if sine < OFF:  # parallel: nothing lies there
+                continue
+            if quality <= WORST:
+                far.append(FarPoint(links, away, math.asin(min(1.0, sine))))
+            elif best is None or quality > best[0]:
                 best = quality, RelativePoint(links, at, (one, two))
-    return best[1] if best else None
+    return best[1] if best else None, far
 
 
 def _legs(

@@ -63,8 +63,12 @@ def scaled(thing: _Scalable, times: float) -> _Scalable:
     """The same act with its lengths so many times as large."""
     if isinstance(thing, CompassArcs):
         return replace(thing, radii=(thing.radii[0] * times, thing.radii[1] * times))
+    if isinstance(thing, TrialPositions):
+        return replace(thing, table=thing.table.scaled(times) if thing.table is not None else None)
     if isinstance(thing, Superposed):
-        return replace(thing, apart=tuple(tuple(mm * times for mm in row) for row in thing.apart))
+        apart = tuple(tuple(mm * times for mm in row) for row in thing.apart)
+        less = tuple(tuple(replace(one, mm=one.mm * times) for one in row) for row in thing.less)
+        return replace(thing, apart=apart, less=less)
     return replace(thing, mm=thing.mm * times) if isinstance(thing, _WITH_LENGTH) else thing
 
 

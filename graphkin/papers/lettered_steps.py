@@ -11,6 +11,7 @@ from functools import cached_property, reduce
 from graphkin.construction.polygon_acts import (
     Asked,
     ByImage,
+    ByRate,
     Carried,
     DirectionLine,
     FoundVector,
@@ -18,6 +19,8 @@ from graphkin.construction.polygon_acts import (
     LinesMeet,
     Named,
     Resultant,
+    Superposed,
+    TrialDrawn,
 )
 from graphkin.construction.sheet import DiagramName, Sheet, Step
 from graphkin.construction.sizes import Direction, Given, Size
@@ -27,6 +30,7 @@ from graphkin.drawing.conventions import Letters, pole
 from graphkin.drawing.headings import number
 from graphkin.drawing.polygon_on_page import SAME, PolygonOnPage
 from graphkin.drawing.polygon_points import NamedPoint, named_points
+from graphkin.papers.group_steps import divided, laid_off_by_rate, tried
 from graphkin.papers.position_steps import PositionSteps
 from graphkin.plane import dot
 from graphkin.scene.symbol import PointRef, Symbol
@@ -77,6 +81,12 @@ class LetteredSteps:
             return Phrase(key, (*ends, name, act.symbol)) if name else None
         if isinstance(act, Carried):
             return self._carried(step, act)
+        if isinstance(act, TrialDrawn):
+            return tried(self.sheet, step, act)
+        if isinstance(act, Superposed):
+            return divided(self.sheet, step, act, self._of)
+        if isinstance(act, ByRate):
+            return laid_off_by_rate(self.sheet, step, act, self._of)
         return self._by_image(step, act) if isinstance(act, ByImage) else PositionSteps(self.sheet).phrase(step)
 
     def _carried(self, step: Step, act: Carried) -> Phrase | None:

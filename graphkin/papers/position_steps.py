@@ -19,11 +19,13 @@ from graphkin.construction.mechanism_acts import (
     LinkPoints,
     PathDrawn,
     PathsCross,
+    TrialPositions,
 )
 from graphkin.construction.sheet import Sheet, Step
 from graphkin.construction.steps import phrase_of
 from graphkin.construction.strokes import Bar, CompassArc, Mark
 from graphkin.drawing.headings import number
+from graphkin.papers.group_steps import tried_in_positions
 from graphkin.plane import cross, dot, unit
 from graphkin.scene.symbol import PointRef
 from graphkin.words import Phrase
@@ -51,6 +53,8 @@ class PositionSteps:
             return Phrase(key, (act.link, _signed(f"{math.degrees(act.angle):.6g}"), act.hinge, act.to))
         if isinstance(act, LinkPoints):
             return self._link(step, act)
+        if isinstance(act, TrialPositions):
+            return tried_in_positions(self.sheet, act)
         if isinstance(act, CompassArcs):
             one, other, at = (self._at(p) for p in (*act.about, act.point))
             if one is None or other is None or at is None or abs(other - one) < SAME:

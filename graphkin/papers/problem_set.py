@@ -19,18 +19,17 @@ from typing import Any
 from graphkin.errors import GraphkinError
 from graphkin.jobs import Checkpoints, Progress, Started, Workers, key_of
 from graphkin.papers.fresh_numbers import Spread, candidate, varied_keys
-from graphkin.papers.variants import Answer, Unfit, Variant, examined, magnified
+from graphkin.papers.variants import Answer, Unfit, Variant, examined
 from graphkin.papers.vary_rules import level_of
 from graphkin.scene import mechanism_of
 from graphkin.structure import Cluster, analyse
 
 __all__ = ["Failure", "Job", "MadeSet", "Render", "accepted", "distinct", "jobs_of_rows", "jobs_of_seed", "make"]
 
-# of them for everything that may be asked, then as many for two of it at least, then for one: dyads, larger groups
-MANY, FEW = 12, 4
+MANY = 12  # of them for everything that may be asked, then as many for two of it at least, then for one
+AMONG = 12  # candidates with larger groups among which one is looked for of which a pencil finds two quantities
 ATTEMPTS = 120  # tries at one variant before it is given up
-POOL, BEST = 40, 10  # candidates with larger groups that are compared, and of them those that are looked at closely
-PATIENCE, LONGER = 3.0, 24.0  # s of the processor, after which no further one is begun; with larger groups
+PATIENCE, LONGER = 3.0, 9.0  # s of the processor, after which no further one is begun; with larger groups
 
 # of a title: the data that it names ("…, scheme 2, position 7", "… 150, 500, 300")
 _DATA = re.compile(r"(?:\s+[\d.]+(?=[,、]\s*\d))?\s*[,:，：;；(（、][^,:，：;；(（、]*\d.*$")
@@ -111,42 +110,32 @@ def work(job: Job, attempt: int) -> Attempt:
     why: Counter[str] = Counter()
     begun = time.process_time()
     large = any(isinstance(group, Cluster) for group in analyse(mechanism_of(job.source)).elements)
-    patient = FEW if large else MANY
-    best: Mapping[int, Sequence[Source]] = {}
+    lone: Attempt | None = None  # of which a pencil finds one quantity
     for k in range(attempt, ATTEMPTS):
-        if time.process_time() - begun > (LONGER if large else PATIENCE):
+        if time.process_time() - begun > (LONGER if large else PATIENCE) or (lone is not None and k - attempt >= AMONG):
             break
         try:
-            fewest = (0, 2, 1)[min((k - attempt) // patient, 2)]
-            if large:
-                if k // BEST not in best:
-                    best = {k // BEST: _best_of(job, job.spread, k // BEST)}
-                source = best[k // BEST][k % BEST]
-            else:
-                source = _named(candidate(job.source, job.spread, job.seed, job.number, k), job.name)
+            fewest = 1 if large else (0, 2, 1)[min((k - attempt) // MANY, 2)]
+            # lengths much unlike its own seldom let a larger group assemble
+            spread = job.spread.narrower() if large and k % 2 else job.spread
+            source = _named(candidate(job.source, spread, job.seed, job.number, k), job.name)
             was = _where_it_was(source, job.source)
             bounds = level_of(job.source)
-            return Attempt(examined(source, was, job.name, bounds=bounds, fewest=fewest), k)
+            made = Attempt(found := examined(source, was, job.name, bounds=bounds, fewest=fewest), k)
+            if not large or len(found.answers) > 1 or source.get("find"):
+                return made
+            lone = lone or made
         except Unfit as unfit:
             why[str(unfit)] += 1
         except Exception as error:  # whatever goes wrong with one must not take the others along
             why[_reason(error)] += 1
+    if lone is not None:
+        return lone
     reason = "every attempt has the answers of another variant"
     if why:
         reason = "for example: {} ({} times)".format(*why.most_common(1)[0])
     easier = 'ask for less in "find", narrow [vary] ranges, or allow more by [vary] tolerance = 0.1 or level = "hard"'
     return Attempt(None, ATTEMPTS, f"none of {why.total()} attempts is a good problem, {reason}; {easier}")
-
-
-def _best_of(job: Job, spread: Spread, pool: int) -> list[dict[str, Any]]:
-    """Candidates of a mechanism with larger groups, that first which magnifies errors least; every other of them with
-    data near its own."""
-    made = []
-    for k in range(pool * POOL, (pool + 1) * POOL):
-        wide = spread if k % 2 == 0 else spread.narrower()
-        source = _named(candidate(job.source, wide, job.seed, job.number, k), job.name)
-        made.append((magnified(source, _where_it_was(source, job.source)), k, source))
-    return [source for _, _, source in sorted(made, key=lambda one: one[:2])]
 
 
 def _row(job: Job) -> Attempt:

@@ -7,7 +7,6 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from statistics import median
 from typing import Any
 
 from graphkin.checking.readings import read_off
@@ -26,7 +25,7 @@ from graphkin.solver import Motion, exact_values, solve
 from graphkin.solver.places import transmission
 from graphkin.structure import Cluster, Driven, Dyad, Pair, analyse, links_of
 
-__all__ = ["Answer", "Unfit", "Variant", "asked_of", "examined", "magnified"]
+__all__ = ["Answer", "Unfit", "Variant", "asked_of", "examined"]
 
 Source = Mapping[str, Any]
 Path = tuple[str | int, ...]
@@ -118,29 +117,6 @@ def _of_larger_groups(scene: Mechanism, asked: Sequence[Symbol]) -> Iterator[Sym
         found |= {p for link in links for p in link.points}
 
 
-def magnified(source: Source, base: Source) -> float:
-    """By how much larger groups magnify what is wrong in their drawing: how far rounding moves what may be asked of
-    them, as a part of that (the solver's own error bound), in the middle; inf where nothing assembles.
-
-    Parameters
-    ----------
-    source, base : as for `examined`
-    """
-    try:
-        scene = mechanism_of(_moved(source, base))
-        motion = solve(scene)
-        if motion.status[0] != "ok":
-            return math.inf
-        asked = asked_of(scene)
-        asked = tuple(s for s in (*asked, *_of_larger_groups(scene, asked)) if s.scope == "motion")
-        exact = exact_values(motion, asked)
-        sizes = [abs(complex(exact(s))) * (1.0 if s.is_vector else scene.size) for s in asked]
-    except (GraphkinError, Unfit, ArithmeticError):
-        return math.inf
-    offs = [float(motion.rough[0 if s.kind in ("v", "omega") else 1][0]) for s in asked]
-    return median(off / size if size else math.inf for off, size in zip(offs, sizes, strict=True)) if asked else 0.0
-
-
 def _joints(group: Dyad | Cluster) -> tuple[Pair, ...]:
     """The pairs of a group, those whose motion is best asked for first: its end, or what lies inside it."""
     if isinstance(group, Dyad):
@@ -207,7 +183,9 @@ def examined(
         found = predict(what, "pencil", scene.sheet.tools, together=False, most=most, spare=spare)
         first = {s: u.bound for s, u in found.items()}
         if chosen:
-            asked = _within_reach(read, first, bounds.tolerance, fewest)[:MOST_ASKED]
+            usual = asked_of(scene)
+            asked = _within_reach(read, first, bounds.tolerance, fewest)
+            asked = usual if set(usual) <= set(asked) else asked[:MOST_ASKED]
             read = answers = tuple(one for one in answers if one[0] in asked)
             made["find"] = [str(s) for s in asked]
         _held(read, first, bounds.tolerance)

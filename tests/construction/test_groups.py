@@ -12,8 +12,8 @@ import graphkin
 from graphkin import solver
 from graphkin.checking.readings import read_off
 from graphkin.construction import Slip, draft, execute, plan
-from graphkin.construction.mechanism_acts import SpecialPoint
-from graphkin.construction.polygon_acts import Superposed
+from graphkin.construction.mechanism_acts import SpecialPoint, TrialPositions
+from graphkin.construction.polygon_acts import Superposed, TrialDrawn
 from graphkin.construction.remarks import ParallelLegs
 from graphkin.construction.strokes import Aid, TrialCurve
 from graphkin.scene import mechanism_of
@@ -172,6 +172,22 @@ STEEP: dict[str, Any] = {  # between two trial angles 1 degree apart G runs to i
     "driver": {"link": "1", "angle": 25, "omega": 8, "alpha": -30},
     "sketch": {"E": [137.5, 118], "F": [154.2, 116.7], "G": [86.5, 36.6]},
 }
+BARE: dict[str, Any] = {  # what a trial leaves open lies where a link without points slides on another
+    "frame": {"points": {"A": [0, 0], "F": [273.786, 129.737]}},
+    "links": {
+        "1": {"points": ["A"]},
+        "2": {"points": ["B"], "on": "5.g", "angle_on": 5.2},
+        "3": {"guides": {"h": {"through": [-163.6, -49.939], "angle": -219.89},
+                         "k": {"through": [-150.307, -212.216], "angle": 28.41}}, "on": "1"},
+        "4": {"points": ["E"], "on": "3.h"},
+        "5": {"points": ["C"], "guides": {"g": {"through": [88.605, 156.396], "angle": -215.1}}, "on": "3.k",
+              "angle_on": -25.2},
+        "6": {"points": ["C", "D"], "length": 67.121, "at": {"E": [-51.368, 56.945]}},
+        "7": {"points": ["B", "D"], "length": 181.707, "at": {"F": [55.829, 72.85]}},
+    },
+    "driver": {"link": "7", "relative_to": "1", "angle": -103.78, "omega": 3.44, "alpha": 38.5},
+    "sketch": {"B": [182.6, 140.2], "C": [212.1, -36.5], "D": [275.9, -15.7], "E": [145.6, 1.6]},
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("at", [70, 55, 95])
@@ -203,7 +219,7 @@ def test_a_line_to_the_special_point_of_two_moving_links_turned_by_a_tenth_of_a_
     assert {"v_C", "v_E", "omega_3", "omega_6", "a_D", "alpha_4"} <= wrong(CONTOUR, Slip(line=line))
 
 
-@pytest.mark.parametrize("scene", [SLIDING, STEEP])
+@pytest.mark.parametrize("scene", [SLIDING, STEEP, BARE])
 def test_groups_far_from_points_and_fits_are_drawn_where_they_are_sketched(scene: dict[str, Any]) -> None:
     result = graphkin.check(scene)
     assert set() == everything(scene) - {str(row.symbol) for row in result.report.rows}
@@ -258,6 +274,43 @@ def test_the_trial_curve_passes_the_place_found_between_its_trials() -> None:
     step = max(abs(b - a) for a, b in zip(curve.at, curve.at[1:], strict=False))
     assert min(abs(z - place) for z in curve.at) < step
     assert min(abs(z - place) for z in curve.at) > 0
+
+
+@pytest.mark.parametrize(("name", "bar"), [("triad-slider", "BC"), ("double-butterfly", "DK")])
+def test_what_is_missed_in_trial_positions_is_divided_to_the_place_where_nothing_is(name: str, bar: str) -> None:
+    sheet = draft(mechanism_of(name))
+    (act,) = (step.act for step in sheet.steps if isinstance(step.act, TrialPositions))
+    table = act.table
+    assert table is not None
+    assert ("bar", set(bar)) == (table.missed, set(table.names))
+    at = {str(ref): z for ref, z in sheet.points.items()}
+    assert table.length == pytest.approx(abs(at[bar[0]] - at[bar[1]]), abs=1e-9)
+    (a, one), (b, two) = table.trials[table.before - 1 : table.before + 1]
+    assert one * two < 0
+    assert table.divided[0][0] == pytest.approx((a * two - b * one) / (two - one), abs=1e-9)
+    p, q = mechanism_of(name).by_name[table.moved].bar
+    turned = math.degrees(cmath.phase((at[q] - at[p]) * cmath.rect(1, -math.radians(table.divided[-1][0]))))
+    assert 0 == pytest.approx(turned, abs=0.1)
+
+
+def test_why_trial_polygons_are_drawn_is_known() -> None:
+    def why(name: str) -> list[tuple[str, ...] | None]:
+        acts = [step.act for step in draft(mechanism_of(name)).steps]
+        return [act.far and act.far.links for act in acts if isinstance(act, TrialDrawn) and act.number == 1]
+
+    assert [("4", "5")] * 2 == why("contour-four-bars")
+    assert [None] * 2 == why("double-butterfly")
+
+
+def test_what_is_known_of_the_end_left_open_is_taken_off_in_the_sense_in_which_it_is_measured() -> None:
+    sheet = draft(mechanism_of("double-butterfly"))
+    act = [step.act for step in sheet.steps if isinstance(step.act, Superposed)][1]
+    ((taken,),) = act.less
+    at = {str(ref): z for ref, z in sheet.points.items()}
+    normal = -(sheet.omega["8"].value ** 2) * (at["D"] - at["K"]) * sheet.scales.length / sheet.scales.acceleration
+    along = (at["D"] - at["K"]) / abs(at["D"] - at["K"])
+    assert "an_D/K" == str(taken.symbol)
+    assert taken.mm == pytest.approx((normal * along.conjugate()).real, abs=1e-9)
 
 
 def test_a_pencil_keeps_what_it_promises() -> None:

@@ -1,0 +1,189 @@
+"""Steps of groups larger than a dyad as they are said on paper: what is measured in trial positions and in trial
+polygons, how it is divided, and end points laid off by rates."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Callable, Sequence
+from functools import reduce
+
+from graphkin.construction.mechanism_acts import TrialPositions, TrialTable
+from graphkin.construction.polygon_acts import ByRate, Superposed, TrialDrawn
+from graphkin.construction.sheet import DiagramName, Sheet, Step
+from graphkin.construction.sizes import Direction, RateTimes
+from graphkin.construction.steps import phrase_of
+from graphkin.construction.strokes import Aid
+from graphkin.drawing.group_aids import NUMERALS
+from graphkin.drawing.headings import number
+from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.words import Phrase
+from graphkin.words.written import on_paper
+
+__all__ = ["divided", "laid_off_by_rate", "tried", "tried_in_positions"]
+
+Lettered = Callable[[DiagramName, PointRef], str | None]  # the letter of an end point in a polygon
+
+
+def tried_in_positions(sheet: Sheet, act: TrialPositions) -> Phrase | None:
+    """Trial positions with what is measured in each, and the division."""
+    table = act.table
+    if table is None:
+        return None
+    one, other = ("°" if x else " mm" for x in (table.turned, table.angle))
+    values = ", ".join(_value(value, one) for value, _ in table.trials)
+    misses = "; ".join(_two(miss) for _, miss in table.trials) + other
+    missed = Phrase(f"missed {table.missed}", (_named(table), on_paper(table.length)))
+    told = Phrase("trial table", (_moved(sheet, table), values, missed, misses))
+    if table.divided:
+        before = table.before
+        between = tuple(f"{abs(table.trials[i][1]):.2f}" for i in (before - 1, before))
+        first, *rest = table.divided
+        told = Phrase("trial division", (told, before, before + 1, *between, _value(first[0], one),
+                                         _two(first[1]) + other))  # fmt: skip
+        if rest:
+            told = Phrase("trial division again", (told, _value(rest[-1][0], one)))
+    return Phrase("in turn", (phrase_of(act), told))
+
+
+def _named(table: TrialTable) -> str:
+    """Between what is measured: the ends of a bar, or a list."""
+    return "".join(table.names) if table.missed == "bar" else ", ".join(table.names)
+
+
+def _moved(sheet: Sheet, table: TrialTable) -> Phrase:
+    if not table.turned:
+        return Phrase("trial travel", (table.moved,))
+    if not table.base:
+        return Phrase("trial angle", (table.moved,))
+    one, other = (sheet.structure.links[name] for name in (table.base, table.moved))
+    hinge = next((p for p in one.points if p in other.points), "")
+    if len(one.bar) < 2 or len(other.bar) < 2 or not hinge:
+        return Phrase("trial turn", (table.moved, table.base))
+    return Phrase("trial turn of bars", (table.moved, "".join(other.bar[:2]), "".join(one.bar[:2]), hinge))
+
+
+def _value(value: float, unit: str) -> str:
+    if unit == "°":
+        value = 180.0 - (180.0 - value) % 360.0  # from -180 to 180
+    return _two(value) + unit
+
+
+def _two(value: float) -> str:
+    """With two digits behind the point, without the sign of a nought."""
+    return _signed(f"{round(value, 2) + 0.0:.2f}")
+
+
+def _signed(text: str) -> str:
+    return text.replace("-", "−")
+
+
+def tried(sheet: Sheet, step: Step, act: TrialDrawn) -> Phrase:
+    """A trial polygon: which steps draw it, and in the first one why it is drawn."""
+    told = Phrase("trial lettered", (_numeral(act.number), _rates(sheet, act.assumed), *_drawn_by(sheet, step)))
+    if act.number > 1:
+        return told
+    if act.far is None:
+        return Phrase("superposed since none", (told,))
+    angle = number(math.degrees(act.far.crossing), 2)
+    return Phrase("superposed since far", (told, *act.far.links, angle, f"{act.far.away / sheet.scales.length:.0f}"))
+
+
+def _drawn_by(sheet: Sheet, step: Step) -> tuple[int, int]:
+    """The first and the last of the steps by which a trial is drawn like the true polygon."""
+    aids = {s.symbol for s in step.strokes if isinstance(s, Aid)}
+    later = [s for s in sheet.steps if s.diagram == step.diagram and s.number > step.number]
+    first = next(s.number for s in later if isinstance(s.act, Superposed)) + 1
+    own = [s.number for s in later if s.number >= first and any(getattr(x, "symbol", None) in aids for x in s.strokes)]
+    return first, max(own, default=first)
+
+
+def divided(sheet: Sheet, step: Step, act: Superposed, lettered: Lettered) -> Phrase:
+    """What the trials leave open, measured from letter to letter, and the proportional division in numbers."""
+    before = [s.act for s in sheet.steps if s.diagram == step.diagram and s.number < step.number]
+    trials = [a for a in before if isinstance(a, TrialDrawn)][-len(act.apart) :]
+    opened = [_opened(step, act, i, lettered) for i in range(len(act.ways))]
+    where = reduce(lambda one, other: Phrase("listed", (one, other)), opened)
+    rows = "; ".join(
+        f"{_numeral(i)} " + ", ".join(on_paper(mm) for mm in row) for i, row in enumerate(act.apart, 1)
+    ).replace("-", "−") + " mm"  # fmt: skip
+    found = _rates(sheet, act.found)
+    first = [value for _, value in trials[0].assumed]
+    steps = [trials[i + 1].assumed[i][1] - value for i, value in enumerate(first)]
+    parts = [(value - low) / step for (_, value), low, step in zip(act.found, first, steps, strict=True)]
+    if len(first) > 1:
+        return Phrase("superposed several", (where, rows, ", ".join(_signed(number(x, 4)) for x in parts), found))
+    (one,), (two,) = act.apart
+    low, high = (_signed(number(x, 5)) for x in (first[0], steps[0]))
+    share = f"{on_paper(one)} / {on_paper(abs(one - two))}" if one > two else (
+        f"{on_paper(-one)} / {on_paper(abs(one - two))}")  # fmt: skip
+    high = f"({high})" if steps[0] < 0.0 else high
+    return Phrase("superposed one", (where, rows, f"{low} + {_signed(share)} × {high}", found))
+
+
+def _opened(step: Step, act: Superposed, i: int, lettered: Lettered) -> Phrase:
+    """From which end point to which, and in which direction, something is left open."""
+    way, (start, end) = act.ways[i], act.between[i]
+    a, b = (lettered(step.diagram, ref) or Phrase("point on link", (ref.point, ref.link)) for ref in (start, end))
+    across = "square" if way.relation == "square" else "along"
+    if way.names == (start.point, end.point) and start.link == end.link == "":
+        told = Phrase(f"open {across} bar", (a, b, *way.names))
+    elif start.point != end.point:
+        told = Phrase(f"open {across} bar", (a, b, start.point, end.point))
+    else:
+        told = Phrase(f"open {across} guide", (a, b, "".join(way.names)))
+    for one in act.less[i]:
+        rule = one.symbol if one.size is None else Phrase("rule of size", (one.symbol, one.size))
+        told = Phrase("open less", (told, rule, _signed(on_paper(one.mm))))
+    return told
+
+
+def laid_off_by_rate(sheet: Sheet, step: Step, act: ByRate, lettered: Lettered) -> Phrase | None:
+    """An end point from another of its link: what the rates give, laid off from letter to letter."""
+    places = [sheet.points.get(PointRef(ref.point)) for ref in (act.start, act.point)]
+    letters = [lettered(step.diagram, ref) for ref in (act.start, act.point)]
+    if None in places or None in letters or act.link not in sheet.omega:
+        return None
+    arm = (places[1] - places[0]) * sheet.scales.length  # type: ignore[operator]
+    ends = act.point.point, act.start.point
+    omega = sheet.omega[act.link].value
+    parts: list[tuple[str, Symbol, RateTimes, Direction | Phrase, complex]] = []
+    turned = RateTimes("omega", (act.link,), ends)
+    if step.diagram == "velocity":
+        parts = [("as vector", Symbol("v", act.point, act.start), turned, *_square(ends, 1j * omega * arm))]
+    elif act.link in sheet.alpha:
+        inwards = Direction("towards", ends)
+        square, bent = RateTimes("omega", (act.link,), ends, square=True), RateTimes("alpha", (act.link,), ends)
+        alpha = sheet.alpha[act.link].value
+        parts = [
+            ("as normal", Symbol("an", act.point, act.start), square, inwards, -omega * omega * arm),
+            ("as vector", Symbol("at", act.point, act.start), bent, *_square(ends, 1j * alpha * arm)),
+        ]
+    parts = [part for part in parts if abs(part[4]) > 0.0]
+    scale = sheet.scales.velocity if step.diagram == "velocity" else sheet.scales.acceleration
+    start = Phrase("the point", (letters[0],))
+    laid: list[Phrase] = []
+    for key, symbol, size, way, span in parts:
+        rule = Phrase(key, (Phrase("rule of size", (symbol, size)),))
+        laid.append(Phrase("lay off from", (start, rule, on_paper(abs(span) / scale), way)))
+        start = Phrase("the end of", (symbol,))
+    if not laid:
+        return None
+    return Phrase("ends in", (reduce(lambda one, other: Phrase("in turn", (one, other)), laid), letters[1]))
+
+
+def _square(ends: tuple[str, str], span: complex) -> tuple[Phrase, complex]:
+    angle = _signed(f"{math.degrees(cmath.phase(span)) + 0.0:.1f}")
+    return Phrase("pointing", (Direction("square", ends), angle)), span
+
+
+def _numeral(number_of: int) -> str:
+    return NUMERALS[(number_of - 1) % len(NUMERALS)]
+
+
+def _rates(sheet: Sheet, found: Sequence[tuple[Symbol, float]]) -> Phrase:
+    """Rates with their units, in a list."""
+    length = sheet.scene.units.rates.length
+    units = {"omega": "rad/s", "alpha": "rad/s²", "v": f"{length}/s", "ar": f"{length}/s²"}
+    told = [Phrase("rate is", (s, _signed(number(value, 5)), units[s.kind])) for s, value in found]
+    return reduce(lambda one, other: Phrase("listed", (one, other)), told)
