@@ -272,7 +272,8 @@ def _groups(structure: Structure) -> Iterator[Sentence]:
     for group in structure.groups:
         order = group.order if isinstance(group, Cluster) else 2
         links = ", ".join(group.links)
-        kind = Phrase("explained group kind") if isinstance(group, Cluster) else group.kind
+        larger = Phrase("explained group kind" if order > 2 else "explained rolling kind")
+        kind = larger if isinstance(group, Cluster) else group.kind
         yield "explained groups", Phrase("explained group", (links, kind, class_of(order)))
         taken = assembly.get(links)
         if taken is not None:

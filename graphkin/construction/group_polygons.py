@@ -226,7 +226,7 @@ class GroupPolygons(GroupMoves):
         around = []
         for x, once in zip(_divided(rates, apart), (rates[i + 1][i] for i in range(len(plan.tried))), strict=True):
             small = abs(x) <= 0.05 * abs(once)
-            around.append((_round(-0.3 * once), _round(0.3 * once)) if small else (_round(0.6 * x), _round(1.4 * x)))
+            around.append((_round(-0.3 * once), _round(0.3 * once)) if small else (_round(0.75 * x), _round(1.25 * x)))
         first = [low for low, _ in around]
         fair = [first, *([high if i == j else low for j, (low, high) in enumerate(around)] for i in range(len(first)))]
         return replace(plan, assumed={**plan.assumed, order: tuple(tuple(row) for row in fair)})

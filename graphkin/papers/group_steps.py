@@ -22,6 +22,8 @@ from graphkin.words.written import on_paper
 
 __all__ = ["divided", "laid_off_by_rate", "tried", "tried_in_positions"]
 
+SEEN = 0.005  # mm on paper: less than that is not taken off
+
 Lettered = Callable[[DiagramName, PointRef], str | None]  # the letter of an end point in a polygon
 
 
@@ -132,7 +134,7 @@ def _opened(step: Step, act: Superposed, i: int, lettered: Lettered) -> Phrase:
         told = Phrase(f"open {across} bar", (a, b, start.point, end.point))
     else:
         told = Phrase(f"open {across} guide", (a, b, "".join(way.names)))
-    for one in act.less[i]:
+    for one in (one for one in act.less[i] if abs(one.mm) >= SEEN):
         rule = one.symbol if one.size is None else Phrase("rule of size", (one.symbol, one.size))
         told = Phrase("open less", (told, rule, _signed(on_paper(one.mm))))
     return told

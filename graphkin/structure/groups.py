@@ -144,7 +144,7 @@ def element_of(system: Constraints, members: list[str], known: set[str]) -> Elem
             rolled = rolled_by(scene, rolling[0], members[0], pairs[0])
             if rolled is not None:
                 return Driven(members[0], pairs[0], rolled)
-        order = _order(members, pairs)
+        order = 2 if _rolls_like_a_dyad(members, pairs, drivers, rolling) else _order(members, pairs)
         return Cluster(tuple(members), tuple(pairs), tuple(drivers), real, order, rolling=rolling)
     if len(members) == 1 and len(pairs) == 1 and len(drivers) == 1:
         return Driven(members[0], pairs[0], drivers[0])
@@ -263,6 +263,17 @@ def _dyad(system: Constraints, bodies: list[Body], pairs: list[Pair], links: tup
 
 def _letter(pair: Pair) -> str:
     return "R" if isinstance(pair, Turn) else "P"
+
+
+def _rolls_like_a_dyad(
+    members: Sequence[str], pairs: Sequence[Pair], drivers: Sequence[AnyDriver], rolling: Sequence[RollingRelation]
+) -> bool:
+    """Whether for velocities a group is two links with three joints, one of them where it rolls, as if hinged there: a
+    link that only carries a wheel follows it, links that a driver joins are one."""
+    carriers = {carrier for relation in rolling for carrier in relation.links[2:]}
+    bodies = sum(name not in carriers for name in members)
+    joints = sum(not carriers & {pair.a, pair.b} for pair in pairs) + len(rolling)
+    return (bodies, joints) == (2 + len(drivers), 3 + len(drivers))
 
 
 def _order(members: list[str], pairs: list[Pair]) -> int:

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 import pytest
 
 from graphkin.errors import Unsolvable
 from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.structure import Cluster, Driven, Dyad, Structure, analyse
 from tests import scenes
+from tests.rolling_linkages import cylinder_and_wheel, five_bar_by_its_middle, planet_by_a_rod, wheel_at_its_rim
 
 pytestmark = pytest.mark.quick
 
@@ -160,3 +164,13 @@ def test_a_part_held_too_much_is_named_with_the_part_that_is_free() -> None:
 def test_a_link_marked_redundant_that_is_needed_is_named() -> None:
     with pytest.raises(Unsolvable, match="link 3, marked redundant, is not counted"):
         structure(FOUR_BAR.replace("[links.3]\n", "[links.3]\nredundant = true\n"))
+
+
+@pytest.mark.parametrize(("scene", "order"), [
+    (wheel_at_its_rim, 2), (cylinder_and_wheel, 2), (planet_by_a_rod, 2), (five_bar_by_its_middle, 3),
+])  # fmt: skip
+def test_a_rod_and_the_wheel_that_it_moves_are_a_dyad_about_where_it_rolls(
+    scene: Callable[[], dict[str, Any]], order: int
+) -> None:
+    (group,) = (e for e in analyse(mechanism_of(scene())).elements if isinstance(e, Cluster))
+    assert order == group.order
