@@ -7,7 +7,7 @@ sense), the carrier of an epicyclic train taken as standing.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from functools import partial
 
@@ -75,3 +75,16 @@ def _slips(scene: Mechanism) -> Iterator[tuple[Phrase, float, tuple[PlacedGear, 
             ways.append(("slip carrier", 0.1, replace(gear, carrier=frame)))
         for key, share, other in ways:
             yield Phrase(key, (gear.name,)), share * each, tuple(other if g is gear else g for g in scene.gears)
+        if two is not None and len(scene.gears) > 1:  # of the wheels themselves, where they mesh with others too
+            swapped = {(gear.wheels[0], abs(one)): abs(two), (gear.wheels[1], abs(two)): abs(one)}
+            gears = tuple(_with(g, swapped) for g in scene.gears)
+            yield Phrase("slip teeth exchanged", (gear.name,)), 0.08 * each, gears
+
+
+def _with(gear: PlacedGear, numbers: Mapping[tuple[str, float], float]) -> PlacedGear:
+    """A mesh with other numbers of teeth, by link and number before; a rack has none."""
+    one, two = (
+        z if z is None else math.copysign(numbers.get((link, abs(z)), abs(z)), z)
+        for link, z in zip(gear.wheels, gear.teeth, strict=True)
+    )
+    return replace(gear, teeth=(one or gear.teeth[0], two))

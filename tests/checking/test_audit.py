@@ -125,6 +125,11 @@ def test_a_wrong_angular_velocity_is_followed_to_a_point_far_from_it():
     assert "right from your own omega_3" == entry["looks_like"]
 
 
+def test_a_sun_taken_for_its_planet_is_told():
+    # Willis with 20 teeth for the sun's 30: 10 * 20 / (20 + 70)
+    assert "teeth" in judged("gears-epicyclic", omega_2="2.222")["looks_like"]
+
+
 def test_a_wrong_value_that_nothing_explains_has_no_name():
     assert "looks_like" not in judged(SIXBAR, v_D="701")
 
