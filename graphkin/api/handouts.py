@@ -23,13 +23,13 @@ from graphkin.api.arguments import (
 from graphkin.api.checked import solved_here
 from graphkin.api.results import FilesOfScene
 from graphkin.errors import CallError, Problem, as_list, as_text, did_you_mean
+from graphkin.papers.answer_key import KeyRow, key_rows
 from graphkin.papers.exports import PLATFORMS, Question, files_for, question_of
 from graphkin.papers.lesson import Lesson
 from graphkin.papers.paper import paper_plan
 from graphkin.papers.pdf import can_typeset
 from graphkin.papers.prepare import FORMATS, Papers, evidence_of, handout_files, lesson_of, usual_count, views_of
 from graphkin.papers.screen_positions import Progress
-from graphkin.papers.solution import KeyRow, key_rows
 from graphkin.scene.model import Mechanism
 from graphkin.scene.over_time import moves_by_law
 from graphkin.scene.symbol import Symbol
@@ -131,8 +131,8 @@ class Handout(FilesOfScene):
         return f"<Handout {self.mechanism.name}: {', '.join(self.formats)}>"
 
     def _repr_html_(self) -> str:
+        from graphkin.papers.answer_key import answer_key
         from graphkin.papers.html import blocks_html
-        from graphkin.papers.solution import answer_key
 
         return blocks_html(answer_key(self.lesson).blocks)
 

@@ -30,12 +30,12 @@ from graphkin.api.results import OfScene, Result
 from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable, as_text, did_you_mean
 from graphkin.files import folder_alone, path_of
 from graphkin.jobs import Progress, Workers
+from graphkin.papers.answer_key import answers_template
 from graphkin.papers.data_rows import Columns, columns_of, replaced
 from graphkin.papers.exports import BANKED, bank
 from graphkin.papers.fresh_numbers import Spread, varied_keys
 from graphkin.papers.pdf import can_join, one_after_another
 from graphkin.papers.problem_set import Job, MadeSet, Render, accepted, jobs_of_rows, jobs_of_seed, make
-from graphkin.papers.solution import answers_template
 from graphkin.papers.variants import Answer, Variant, asked_of
 from graphkin.papers.vary_rules import rules_checked
 from graphkin.scene.mapping import as_mapping, toml_text

@@ -12,6 +12,7 @@ from graphkin.checking.report import Compared
 from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.headings import number
 from graphkin.drawing.piece import ink_box, moved
+from graphkin.papers.answer_key import key_rows, way
 from graphkin.papers.blocks import (
     Beside,
     Block,
@@ -30,7 +31,7 @@ from graphkin.papers.lesson import Lesson
 from graphkin.papers.paper import Paper, paper_of
 from graphkin.papers.pictures import mechanism_picture, parts
 from graphkin.papers.problem import given, paper_title, scene_title
-from graphkin.papers.solution import key_rows, solution_blocks, way
+from graphkin.papers.solution import solution_blocks
 from graphkin.scene.symbol import Symbol
 from graphkin.words import languages, word
 

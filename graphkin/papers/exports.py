@@ -16,12 +16,12 @@ from xml.sax.saxutils import escape
 
 from graphkin.checking.slips import Evidence
 from graphkin.errors import GraphkinError
+from graphkin.papers.answer_key import key_rows
 from graphkin.papers.blocks import clean
 from graphkin.papers.html import said_html, words_html
 from graphkin.papers.lesson import Lesson, plain_words
 from graphkin.papers.pictures import mechanism_picture, parts
 from graphkin.papers.problem import given, scene_title
-from graphkin.papers.solution import key_rows
 from graphkin.scene.symbol import Symbol
 from graphkin.words import languages, say, word
 

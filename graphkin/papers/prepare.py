@@ -23,6 +23,7 @@ from graphkin.construction.forces import force_scale
 from graphkin.construction.sheet import Scales, Sheet
 from graphkin.drawing import figures
 from graphkin.errors import Unsolvable
+from graphkin.papers.answer_key import answer_key, answers_template, key_table
 from graphkin.papers.blocks import Block, Document
 from graphkin.papers.exports import files_for, question_of
 from graphkin.papers.lesson import Lesson
@@ -32,7 +33,7 @@ from graphkin.papers.paper import paper_plan
 from graphkin.papers.pdf import can_typeset, pdf
 from graphkin.papers.problem import problem
 from graphkin.papers.screen_positions import POSITIONS, Progress, View, common_scales
-from graphkin.papers.solution import answer_key, answers_template, beginning, key_table, solution, solution_blocks
+from graphkin.papers.solution import beginning, solution, solution_blocks
 from graphkin.papers.variants import Variant, asked_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.over_time import moves_by_law

@@ -26,12 +26,13 @@ from graphkin.drawing.mechanism import mechanism_piece
 from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
 from graphkin.drawing.polygon_on_page import extent
 from graphkin.drawing.stepwise import births, stepped
+from graphkin.papers.answer_key import way
 from graphkin.papers.blocks import said
 from graphkin.papers.html import blocks_html, figure_svg, said_html, words_html
 from graphkin.papers.lesson import Lesson, Stage, plain_words
 from graphkin.papers.pictures import ROOM, equation_picture
 from graphkin.papers.problem import equation_words, given
-from graphkin.papers.solution import results_blocks, stage_title, step_items, way
+from graphkin.papers.solution import results_blocks, stage_title, step_items
 from graphkin.papers.spoken import spoken_words
 from graphkin.papers.trial import force_found, found_in
 from graphkin.scene.model import AngleDriver

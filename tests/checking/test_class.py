@@ -9,7 +9,7 @@ import pytest
 
 import graphkin
 from graphkin.errors import CallError
-from graphkin.papers.solution import answers_template
+from graphkin.papers.answer_key import answers_template
 from graphkin.scene import mechanism_of
 from graphkin.scene.cells import read_cell
 from graphkin.scene.source import written
@@ -151,9 +151,9 @@ def test_a_direction_turned_back_is_called_so():
 
 
 def test_the_words_of_the_key_are_right(tmp_path):
+    from graphkin.papers.answer_key import answer_key
     from graphkin.papers.blocks import TableBlock
     from graphkin.papers.lesson import plain_words
-    from graphkin.papers.solution import answer_key
 
     for language in ("en", "zh"):
         lesson = graphkin.handout(SIXBAR, language=language).lesson
