@@ -126,6 +126,7 @@ def speed_accuracy(
     given = as_scene(scene)
     repeats = whole_number("repeats", repeats, 1, 1000)
     known_words(language=language)
+    _ = out is None or path_of(out)  # what is wrong with it is said before minutes of work
     found = SpeedAccuracy(race(given, repeats), language or given.sheet.language)
     if out is not None:
         found.write(out)
@@ -207,6 +208,7 @@ def stability(
         raise CallError(*wrong)
     samples = whole_number("samples", samples, 1, 100)
     known_words(language=language)
+    _ = out is None or path_of(out)
     found = Stability(run_singularities(wanted, samples), language)
     if out is not None:
         found.write(out)

@@ -60,6 +60,8 @@ def test_one_symbol_may_stand_without_a_list():
         (lambda: graphkin.draw(SIXBAR, figures=[[]]), 'figure: "[]"; known here: acceleration'),
         (lambda: graphkin.draw(SIXBAR, figures=np.array(3)), 'figures: found array(3); give a list: ["velocity"]'),
         (lambda: graphkin.stability(None), 'kinds: found None; give a list: ["dead point RRR"]'),
+        (lambda: graphkin.stability(out=0), "path: found 0; give the name of a file or folder as a text"),
+        (lambda: graphkin.speed_accuracy("shaper-scheme-2", out=b""), "path: found b''; give the name of a file"),
         (lambda: graphkin.stability([[]]), 'kind: "[]"; known here'),
         (lambda: graphkin.sweep(SIXBAR, differentiate=[None]), "differentiate: found None; give a name as a text"),
         (lambda: graphkin.prepare(SIXBAR, "v_D").at(float("inf")), "at: inf is no driver value; give a finite number"),
