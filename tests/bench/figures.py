@@ -18,7 +18,7 @@ from collections.abc import Callable
 from unittest.mock import patch
 
 import graphkin
-from graphkin.drawing import labels, svg_bytes
+from graphkin.drawing import piece, svg_bytes
 from tests.command import PROGRAM
 
 REPEATS = 9
@@ -56,26 +56,19 @@ def five(name: str) -> None:
 def placed(name: str) -> tuple[float, int]:
     """Time for all labels of a scene's figures, ms, and how many times labels were placed."""
     spent, times = 0.0, 0
-    own = labels.place
+    own = piece.named
 
-    def timed(*args: object, **more: object) -> object:
+    def timed(*args: object) -> object:
         nonlocal spent, times
         start = time.process_time()
         try:
-            return own(*args, **more)  # type: ignore[arg-type]
+            return own(*args)  # type: ignore[arg-type]
         finally:
             spent += time.process_time() - start
             times += 1
 
-    with patch.object(labels, "place", timed):
-        modules = [m for m in sys.modules.values() if getattr(m, "place", None) is own]
-        for module in modules:
-            module.place = timed  # type: ignore[attr-defined]
-        try:
-            five(name)
-        finally:
-            for module in modules:
-                module.place = own  # type: ignore[attr-defined]
+    with patch.object(piece, "named", timed):
+        five(name)
     return 1e3 * spent, times
 
 
