@@ -113,7 +113,7 @@ def _insets(sheet: Sheet, diagram: DiagramName, born: dict[str, int]) -> None:
         last = max(born[v.symbol.id] for v in detail.vectors)
         born[f"detail-{diagram}-{number}"] = born[f"ring-{diagram}-{number}"] = last
         born.update({f"detail-{v.symbol.id}": last for v in detail.vectors})
-        points = [id for id in born if id.startswith((f"{diagram}-", f"pole-{diagram}", "foot-"))]
+        points = [id for id in born if id.startswith((f"{diagram}-", f"pole-{diagram}", f"trial-{diagram}-", "foot-"))]
         born.update({f"detail-{id}": last for id in points})
 
 
