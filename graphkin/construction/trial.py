@@ -15,6 +15,7 @@ from graphkin.construction.follow import Choices, fitted, moved_to
 from graphkin.construction.reduced_mechanism import ReducedMechanism
 from graphkin.construction.rigid import PlacedLinks, Poses
 from graphkin.construction.sheet import Pose
+from graphkin.construction.sketched import as_sketched
 from graphkin.construction.trial_fits import all_fits, fits_between
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot
@@ -104,7 +105,11 @@ def _cluster_by_sketch(choices: Choices, frame: PlacedLinks, cluster: Cluster) -
     structure = choices.structure
     # where a sketch tells where to look, it is looked there
     ways = sorted(by_driver.values(), key=lambda reduced: _sketched(reduced, frame) is None)
-    near = (fit for reduced in choices.of[cluster] if (fit := _from_sketch(reduced, frame)) is not None)
+    # the positions that are sketched, improved until everything fits
+    near = (
+        fit for rough in as_sketched(structure, cluster, frame) for reduced in choices.of[cluster]
+        if (fit := fitted(reduced, frame, rough)) is not None
+    )  # fmt: skip
     if len(ways[0].trial) > 1:
         # a grid of several trial values is coarse: the sketch comes first, by whichever trial drivers it leads to a fit
         found += _as_told(structure, frame, near)
@@ -218,50 +223,3 @@ def _sketched(
 
 def _near(one: Poses, other: Poses) -> bool:
     return all(abs(p.origin - other[n].origin) + abs(p.axis - other[n].axis) < 1e-6 for n, p in one.items())
-
-
-def _as_sketched(reduced: ReducedMechanism, known: PlacedLinks) -> dict[str, Pose] | None:
-    """The links of a group roughly where they are sketched; None where the sketch does not tell of all of them."""
-    structure, scene = reduced.structure, reduced.structure.scene
-    places = {p: z * known.mm for p, z in {**scene.sketch, **scene.drawn}.items()}
-    places |= {p: known.point(n, p) for n in known.poses for p in structure.links[n].points}
-    poses = dict(known.poses)
-    left = [n for n in reduced.cluster.members if n not in poses]
-    slides = [p for p in reduced.cluster.pairs if isinstance(p, Slide)]
-    while left:
-        before = len(left)
-        for name in list(left):
-            points = {p: z * known.mm for p, z in structure.links[name].points.items() if p in places}
-            a, b = max(((a, b) for a in points for b in points), key=lambda ab: abs(points[ab[0]] - points[ab[1]]),
-                       default=("", ""))  # fmt: skip
-            if a != b and places[a] != places[b]:
-                axis = (places[b] - places[a]) / (points[b] - points[a])
-            else:
-                mine = [s for s in slides if name in (s.a, s.b)]
-                beside = next((s for s in mine if {s.a, s.b} - {name} <= set(poses)), None)
-                if not a:
-                    continue
-                if beside is not None:
-                    turn = beside.guide.direction * beside.turn
-                    axis = poses[beside.b].axis * turn if name == beside.a else poses[beside.a].axis * turn.conjugate()
-                else:
-                    # a guide through its own point and that of what slides on it, such as a cylinder with its rod
-                    far = [places[p] for s in mine if s.b == name for p in structure.links[s.a].points if p in places]
-                    if not far or far[0] == places[a]:
-                        continue
-                    guide = next(s for s in mine if s.b == name).guide
-                    axis = (far[0] - places[a]) / guide.direction
-            axis /= abs(axis)
-            poses[name] = Pose(places[a] - axis * points[a], axis)
-            left.remove(name)
-        if len(left) == before:
-            return None
-    return poses
-
-
-def _from_sketch(reduced: ReducedMechanism, known: PlacedLinks) -> dict[str, Pose] | None:
-    """The position that is sketched, improved until everything fits; None where that leads nowhere."""
-    sketched = _as_sketched(reduced, known)
-    return fitted(reduced, known, sketched) if sketched is not None else None
-
-

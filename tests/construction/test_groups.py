@@ -188,6 +188,22 @@ BARE: dict[str, Any] = {  # what a trial leaves open lies where a link without p
     "driver": {"link": "7", "relative_to": "1", "angle": -103.78, "omega": 3.44, "alpha": 38.5},
     "sketch": {"B": [182.6, 140.2], "C": [212.1, -36.5], "D": [275.9, -15.7], "E": [145.6, 1.6]},
 }  # fmt: skip
+UNBARRED: dict[str, Any] = {  # only the driven angle and guides that miss the points tell how links are turned
+    "frame": {"points": {"A": [0, 0], "C": [107.632, 196.258]},
+              "guides": {"g": {"through": [432.677, 113.137], "angle": 125.2}}},
+    "links": {
+        "1": {"points": ["A"]},
+        "2": {"points": ["C"], "guides": {"h": {"through": [58.18, 93.084], "angle": 202}}, "on": "5.j"},
+        "3": {"points": ["B"], "guides": {"k": {"through": [121.635, -267.306], "angle": -189.52}}, "on": "1",
+              "angle_on": 30},
+        "4": {"points": ["B"], "on": "2.h", "angle_on": 30},
+        "5": {"points": ["D"], "guides": {"j": {"through": [70.024, -252.679], "angle": -51.6}}, "on": "3.k"},
+        "6": {"points": ["D", "E"], "length": 96.797},
+        "7": {"points": ["E"], "on": "0.g"},
+    },
+    "driver": {"link": "4", "relative_to": "6", "angle": 100.69, "omega": 12.36, "alpha": 0.7},
+    "sketch": {"B": [43.1, 52.7], "D": [340.6, 170.9], "E": [425.2, 123.8]},
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("at", [70, 55, 95])
@@ -219,7 +235,7 @@ def test_a_line_to_the_special_point_of_two_moving_links_turned_by_a_tenth_of_a_
     assert {"v_C", "v_E", "omega_3", "omega_6", "a_D", "alpha_4"} <= wrong(CONTOUR, Slip(line=line))
 
 
-@pytest.mark.parametrize("scene", [SLIDING, STEEP, BARE])
+@pytest.mark.parametrize("scene", [SLIDING, STEEP, BARE, UNBARRED])
 def test_groups_far_from_points_and_fits_are_drawn_where_they_are_sketched(scene: dict[str, Any]) -> None:
     result = graphkin.check(scene)
     assert set() == everything(scene) - {str(row.symbol) for row in result.report.rows}
