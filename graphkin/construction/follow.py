@@ -307,6 +307,7 @@ def standing(choices: Choices, cluster: Cluster, known: PlacedLinks, guess: Pose
     removed: list[RemovedConstraint] = []
     trial: list[AnyDriver] = []
     drawn: list[Driven | Dyad] = []
+    held: dict[str, tuple[str, float]] = {}
     before = replace(known, poses=dict(known.poses))
     mine = [e for e in choices.structure.elements if set(links_of(e)) <= set(cluster.members)]
     for k, element in enumerate(mine):
@@ -321,7 +322,8 @@ def standing(choices: Choices, cluster: Cluster, known: PlacedLinks, guess: Pose
             removed += best.reduced.removed
             trial += best.reduced.trial
             drawn += best.reduced.elements
+            held.update(best.reduced.held)
         else:
             drawn.append(element)
         before.poses.update({name: guess[name] for name in links_of(element)})
-    return ReducedMechanism(choices.structure, tuple(removed), tuple(trial), cluster, tuple(drawn))
+    return ReducedMechanism(choices.structure, tuple(removed), tuple(trial), cluster, tuple(drawn), held=held)

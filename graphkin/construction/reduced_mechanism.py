@@ -32,7 +32,9 @@ class ReducedMechanism:
 
     ``removed`` are left out of it, ``trial`` are the trial drivers in their stead, at value and rate 0; ``elements``
     are those that place the links of the group, in the order of drawing.  ``since`` are angles and travels (rad, m) of
-    what rolls at a position within half a turn at which it fits, by their names.
+    what rolls at a position within half a turn at which it fits, by their names.  ``held`` are drivers of blocks left
+    out, as they drive the links that turn with these: by their keys there, the driver's own key and by how much the
+    angle is larger (rad).
     """
 
     structure: Structure
@@ -41,6 +43,7 @@ class ReducedMechanism:
     cluster: Cluster
     elements: tuple[Driven | Dyad, ...]
     since: Mapping[str, float] = field(default_factory=dict)
+    held: Mapping[str, tuple[str, float]] = field(default_factory=dict)
 
     @property
     def left_out(self) -> tuple[str, ...]:
@@ -73,6 +76,7 @@ class ReducedMechanism:
     def opened(self, known: PlacedLinks, values: Sequence[float]) -> PlacedLinks:
         """The board before the group is drawn, the trial drivers at values (rad, or travel in the mechanism's size)."""
         here = {d.key: v * self._unit(d) for d, v in zip(self.trial, values, strict=True)}
+        here |= {key: known.values[own] + more for key, (own, more) in self.held.items()}
         return PlacedLinks(
             known.links, known.mm, {**known.values, **here}, dict(known.poses), known.instrument, dict(known.pricked)
         )
@@ -122,22 +126,30 @@ def reduced_mechanisms(structure: Structure, cluster: Cluster, more_than: int = 
 
 def _reduced(structure: Structure, cluster: Cluster, known: set[str], count: int) -> Iterator[ReducedMechanism]:
     rolling = tuple(_rolling(structure, cluster))
-    for others in combinations(_removable(structure, cluster), count - len(rolling)):
+    own = {d.key: d for d in structure.scene.drivers}
+    driven = {n for d in structure.scene.drivers if isinstance(d, AngleDriver) for n in (d.link, d.relative_to)}
+    # what the driver moves is rather left in its place
+    removable = sorted(_removable(structure, cluster, driven), key=lambda r: r.left_out in driven)
+    for others in combinations(removable, count - len(rolling)):
         removed = (*rolling, *others)
         gone = {r.left_out for r in removed if r.left_out}
         if len(gone) + sum(not r.left_out for r in removed) < count:
             continue
         if any(gone.intersection(r.links) for r in removed):
             continue  # where one is put back, the other must lie already
-        opened = _opened(structure.scene, removed)
+        drivers = _instead(structure.scene.drivers, removed)
+        if len({d.key for d in drivers.values()}) < len(drivers):
+            continue
+        opened = _opened(structure.scene, removed, drivers)
+        held = {new.key: (key, new.values[0] - own[key].values[0]) for key, new in drivers.items() if new != own[key]}
         members = [m for m in cluster.members if m not in gone]
         for trial in combinations(list(_trials(structure, cluster, gone, known)), count):
             elements = regrouped(replace(opened, drivers=(*opened.drivers, *trial)), known, members)
-            if elements is None:
+            if elements is None or held.keys() & {d.key for d in trial}:
                 continue
             drawn = tuple(e for e in elements if isinstance(e, Driven | Dyad))
             if len(drawn) == len(elements):
-                yield ReducedMechanism(structure, removed, trial, cluster, drawn)
+                yield ReducedMechanism(structure, removed, trial, cluster, drawn, held=held)
 
 
 def _rolling(structure: Structure, cluster: Cluster) -> Iterator[RemovedConstraint]:
@@ -146,12 +158,11 @@ def _rolling(structure: Structure, cluster: Cluster) -> Iterator[RemovedConstrai
         yield RemovedConstraint("", slide=slides[0] if slides else None, rolling=relation)
 
 
-def _removable(structure: Structure, cluster: Cluster) -> Iterator[RemovedConstraint]:
+def _removable(structure: Structure, cluster: Cluster, driven: set[str]) -> Iterator[RemovedConstraint]:
     scene = structure.scene
     touching = {n for c in scene.contacts for n in c.links}
     touching |= {n for c in scene.contacts if c.rolling for n in (c.block, c.carrier)}
     touching |= {n for g in scene.gears for n in (*g.wheels, g.carrier)}
-    driven = {n for d in scene.drivers if isinstance(d, AngleDriver) for n in (d.link, d.relative_to)}
     for name in cluster.members:
         if name in touching:
             continue  # what stands for its contacts would hang on nothing
@@ -160,7 +171,7 @@ def _removable(structure: Structure, cluster: Cluster) -> Iterator[RemovedConstr
         # what later groups hang on it hangs on it still when it is put back
         hinges = [p for p in hinges if _within(structure, cluster, p, name)]
         slides = [s for s in slides if s in cluster.pairs]
-        if name in driven or any(s.key == d.key for d in scene.drivers for s in slides):
+        if (name in driven and not slides) or any(s.key == d.key for d in scene.drivers for s in slides):
             continue
         ends = tuple((p, _within(structure, cluster, p, name)) for p in hinges)
         if len(hinges) == 2 and not slides:
@@ -183,10 +194,30 @@ def _within(structure: Structure, cluster: Cluster, point: str, name: str) -> st
     return next((n for n in structure.hinges[point] if n in others), "")
 
 
-def _opened(scene: Mechanism, removed: Sequence[RemovedConstraint]) -> Mechanism:
-    """The scene without some constraints of a group."""
+def _instead(drivers: Sequence[AnyDriver], removed: Sequence[RemovedConstraint]) -> dict[str, AnyDriver]:
+    """The drivers that are not removed, by their keys: an angle of a block left out is that of what it slides on, or of
+    what slides on it, and a constant."""
+    blocks = {r.left_out: r for r in removed if r.left_out and r.slide is not None}
+    left: dict[str, AnyDriver] = {}
+    for driver in drivers:
+        if any(driver == r.driver for r in removed):
+            continue
+        new = driver
+        if isinstance(new, AngleDriver) and new.link in blocks:
+            block = blocks[new.link]
+            new = replace(new, link=block.other_side, angle=new.angle - block.turned)
+        if isinstance(new, AngleDriver) and new.relative_to in blocks:
+            block = blocks[new.relative_to]
+            new = replace(new, relative_to=block.other_side, angle=new.angle + block.turned)
+        left[driver.key] = new
+    return left
+
+
+def _opened(
+    scene: Mechanism, removed: Sequence[RemovedConstraint], drivers: Mapping[str, AnyDriver]
+) -> Mechanism:
+    """The scene without some constraints of a group, driven as given."""
     gone = {r.left_out for r in removed if r.left_out}
-    drivers = [r.driver for r in removed]
     scene = unrolled(scene, [r.rolling.name for r in removed if r.rolling is not None])
     return replace(
         scene,
@@ -194,7 +225,7 @@ def _opened(scene: Mechanism, removed: Sequence[RemovedConstraint]) -> Mechanism
         slidings=tuple(s for s in scene.slidings if not gone & {s.link, s.on}),
         pins=tuple(p for p in scene.pins if p.key not in gone and not gone & {p.of, p.on}),
         contacts=tuple(c for c in scene.contacts if c.block not in gone),
-        drivers=tuple(d for d in scene.drivers if d not in drivers),
+        drivers=tuple(drivers.values()),
         find=(),
         stated=(),
     )

@@ -124,6 +124,13 @@ class RemovedConstraint:
         assert self.slide is not None
         return self.slide.b if self.slide.a == self.left_out else self.slide.a
 
+    @property
+    def turned(self) -> float:
+        """By how much (rad) a block left out is turned from the link on its other side, always."""
+        assert self.slide is not None
+        turn = cmath.phase(self.slide.guide.direction * self.slide.turn)
+        return turn if self.slide.a == self.left_out else -turn
+
     def along(self, poses: Poses) -> complex:
         """Direction of the guide of a block left out."""
         assert self.slide is not None

@@ -204,6 +204,22 @@ UNBARRED: dict[str, Any] = {  # only the driven angle and guides that miss the p
     "driver": {"link": "4", "relative_to": "6", "angle": 100.69, "omega": 12.36, "alpha": 0.7},
     "sketch": {"B": [43.1, 52.7], "D": [340.6, 170.9], "E": [425.2, 123.8]},
 }  # fmt: skip
+HELD: dict[str, Any] = {  # only dyads remain where the driven block is left out, and what it slides on is driven
+    "frame": {"points": {"A": [0, 0]}, "guides": {"g": {"through": [250.829, -2.869], "angle": 142.7}}},
+    "links": {
+        "1": {"points": ["A", "E"], "length": 75.156},
+        "2": {"points": ["B", "D"], "length": 145.221, "on": "0.g", "angle_on": -71.46},
+        "3": {"points": ["C"], "guides": {"h": {"through": [52.852, -11.765], "angle": 44.4}}},
+        "4": {"guides": {"j": {"through": [22.205, 167.414], "angle": 3.6},
+                         "k": {"through": [-140.782, 131.808], "angle": 78.1}}, "on": "6.m"},
+        "5": {"points": ["B", "C"], "length": 105.093, "on": "4.j", "angle_on": -65.08},
+        "6": {"points": ["E"], "guides": {"m": {"through": [-13.009, 21.165], "angle": -113.2}}, "on": "3.h",
+              "angle_on": 92.1},
+        "7": {"points": ["D"], "on": "4.k"},
+    },
+    "driver": {"link": "3", "relative_to": "1", "angle": -193.22, "omega": -11.17, "alpha": 37.6},
+    "sketch": {"B": [188.7, 44.4], "C": [84.5, 31.4], "D": [235.5, 181.9], "E": [39.2, 64.1]},
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("at", [70, 55, 95])
@@ -233,6 +249,13 @@ def test_a_line_to_the_special_point_of_two_moving_links_turned_by_a_tenth_of_a_
 
     assert set() == wrong(CONTOUR, Slip())
     assert {"v_C", "v_E", "omega_3", "omega_6", "a_D", "alpha_4"} <= wrong(CONTOUR, Slip(line=line))
+
+
+@pytest.mark.parametrize("at", [-193.22, -190, -195])
+def test_a_group_of_which_only_driven_blocks_can_be_left_out_is_drawn(at: float) -> None:
+    result = graphkin.check(HELD, at)
+    assert set() == everything(HELD) - {str(row.symbol) for row in result.report.rows}
+    assert [] == [str(row.symbol) for row in result.report.rows if row.error > 1e-9 * max(abs(row.exact), 1e-3)]
 
 
 @pytest.mark.parametrize("scene", [SLIDING, STEEP, BARE, UNBARRED])
