@@ -15,7 +15,7 @@ import numpy as np
 from graphkin.api.arguments import ON_SHEETS, SceneLike, for_paper, known_words, own_folder, write_files
 from graphkin.api.results import OfScene, Result
 from graphkin.checking.cam_points import CamPoints, compare_cam
-from graphkin.construction.cam_sheet import CamSheet, cam_sheet
+from graphkin.construction.cam_sheet import CamSheet
 from graphkin.errors import CallError, Problem
 from graphkin.files import Json
 from graphkin.scene.cams import LawCam, SwingingFollower
@@ -50,10 +50,9 @@ class CamMade:
     @cached_property
     def sheet(self) -> CamSheet:
         """The construction at the scale of its figure."""
-        from graphkin.drawing.cam import cam_scale
+        from graphkin.drawing.cam import scaled_cam
 
-        natural = cam_sheet(self.cam, self.cam.base / 50.0)
-        return cam_sheet(self.cam, cam_scale(self.mechanism, self.cam, natural))
+        return scaled_cam(self.mechanism, self.cam)
 
     @cached_property
     def drawn(self) -> CamPoints:

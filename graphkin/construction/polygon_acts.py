@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, TypeAlias
 
 from graphkin.construction.relative_points import FarPoint
 from graphkin.construction.sizes import Direction, Size
@@ -24,6 +24,7 @@ __all__ = [
     "LinesMeet",
     "MeasuredRate",
     "Named",
+    "OnPlan",
     "PlanDrawn",
     "PlanTravel",
     "PlanTried",
@@ -188,6 +189,9 @@ class PlanTried:
     found: tuple[float, ...]
 
 
+OnPlan: TypeAlias = PlanDrawn | PlanTravel | PlanTried
+
+
 @dataclass(frozen=True)
 class TrialDrawn:
     """A trial polygon by its number, with what was assumed (rad/s, or the scene's units); ``far`` is the special point
@@ -223,7 +227,7 @@ class Superposed:
 
 InPolygon = (
     LaidOff | FoundVector | DirectionLine | Carried | PutBack | Resultant | Asked | LinesMeet | Named | SamePlace
-    | ByRate | ByImage | Translated | MeasuredRate | PlanDrawn | PlanTravel | PlanTried | TrialDrawn
+    | ByRate | ByImage | Translated | MeasuredRate | OnPlan | TrialDrawn
     | Superposed
 )  # fmt: skip
 
@@ -276,7 +280,7 @@ def _assumed(rates: Sequence[tuple[Symbol, float]]) -> tuple[object, str]:
     return first, f"{amount(value, 5)}{units.get(first.kind, '')}{more}".replace("-", "−")
 
 
-def _on_plan(act: PlanDrawn | PlanTravel | PlanTried) -> Phrase:
+def _on_plan(act: OnPlan) -> Phrase:
     letter = "ω" if act.rate == "omega" else "α"
     match act:
         case PlanDrawn(rate, link, by, known, mm, per_mm, value):

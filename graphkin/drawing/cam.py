@@ -7,7 +7,7 @@ import cmath
 import math
 from collections.abc import Mapping, Sequence
 
-from graphkin.construction.cam_sheet import CamDivision, CamSheet
+from graphkin.construction.cam_sheet import CamDivision, CamSheet, cam_sheet
 from graphkin.construction.extent import Extent, fitting_scale
 from graphkin.drawing import strokes, symbols
 from graphkin.drawing.box import Box
@@ -25,7 +25,7 @@ from graphkin.scene.model import Mechanism
 from graphkin.version import __version__
 from graphkin.words import Phrase, languages, say, word
 
-__all__ = ["cam_figure", "cam_given", "cam_pictures", "cam_scale"]
+__all__ = ["cam_figure", "cam_given", "cam_pictures", "scaled_cam"]
 
 PANEL = (150.0, 140.0)
 """mm that the cam may fill."""
@@ -40,16 +40,18 @@ PITCH, THIN, RAY = Stroke(0.25, (5.0, 1.0, 0.6, 1.0)), Stroke(0.13), Stroke(0.13
 ROWS = 10
 
 
-def cam_scale(scene: Mechanism, cam: LawCam, natural: CamSheet) -> float:
-    """m for one mm of paper: as the scene wishes, or the finest of the series at which the cam fits the page."""
+def scaled_cam(scene: Mechanism, cam: LawCam) -> CamSheet:
+    """The construction of a cam at the scale of its figure: as the scene wishes, or the finest of the series at which
+    the cam fits the page."""
     if scene.sheet.length_scale:
-        return scene.sheet.length_scale * 1e-3
+        return cam_sheet(cam, scene.sheet.length_scale * 1e-3)
+    natural = cam_sheet(cam, cam.base / 50.0)
     far = [*natural.profile, *natural.pitch, *(d.at.point for d in natural.divisions)]
     far += [d.at.line for d in natural.divisions] if isinstance(cam.motion, SwingingFollower) else []
     box = Box.around(far)
     room = PANEL[0] - 2 * PAST - 8.0, PANEL[1] - 2 * PAST - 8.0
     per = scene.units.metres
-    return fitting_scale(Extent(box.width, box.height), room, natural.scale / per) * per
+    return cam_sheet(cam, fitting_scale(Extent(box.width, box.height), room, natural.scale / per) * per)
 
 
 def cam_figure(scene: Mechanism, sheet: CamSheet, told: Mapping[str, Sequence[str]], language: str) -> Drawing:

@@ -37,6 +37,9 @@ HIT = 3.0  # mm
 PIXEL = 25.4 / 96  # mm
 _PROLOG = re.compile(r"^<\?xml[^>]*\?>\s*")
 _LAYER = re.compile(r' inkscape:(?:groupmode|label)="[^"]*"| xmlns:(?:inkscape|ev|xlink)="[^"]*"| baseProfile="[^"]*"')
+_NEEDLESS = re.compile(r' version="1\.1"| xml:lang="[^"]*"| xmlns="[^"]*"')  # inside a page
+_BLACK = re.compile(r'(<(?:text|polygon|circle)\b[^>]*?) fill="#000000"')  # what they are unless something else is said
+_DOUBLED = re.compile(r'"#(\w)\1(\w)\2(\w)\3"')
 _ID = re.compile(r' id="[^"]*"')
 _LAYER_ID = re.compile(r' id="(?:construction|mechanism|velocity|acceleration|forces|centres|answers|labels)"')
 _LENGTH = re.compile(' (?:lengthAdjust|textLength)="[^"]*"')  # the page has the faces, and many thousands of runs
@@ -87,9 +90,10 @@ def figure_svg(drawing: Drawing, named: bool = False) -> str:
     bare = replace(drawing, metadata={}, children=tuple(map(_wide, children)) if named else children)
     text = _PROLOG.sub("", svg_bytes(bare, embed=False).decode()).strip()
     head, body = text.split(">", 1)
-    head = _LAYER.sub("", head)
+    head = _NEEDLESS.sub("", _LAYER.sub("", head))
     body = _LENGTH.sub("", _LAYER.sub("", _DATA.sub("", body)))
     body = (_LAYER_ID if named else _ID).sub("", body)
+    body = _DOUBLED.sub(r'"#\1\2\3"', _BLACK.sub(r"\1", body))
     body = _FIRST_RUN.sub(r"\g<text>\g<face>", body.replace(" />", "/>"))  # it has size and place of its text
     label = escape(clean(re.sub(r"\s+", " ", f"{drawing.title}. {drawing.desc}".strip(". "))))
     return f'{head} aria-label="{label}" focusable="false">{body}'

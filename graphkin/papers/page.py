@@ -133,6 +133,7 @@ SPOKEN = (
     ("hint2", "hint direction", ("{0}",)), ("hint3", "hint size", ("{0}", "{1}")), ("play", "play", ()),
     ("pause", "pause", ()), ("ccw", "counter-clockwise", ()), ("cw", "clockwise", ()), ("hidden", "step hidden", ()),
     ("velocity", "velocity polygon", ()), ("acceleration", "acceleration polygon", ()), ("mechanism", "mechanism", ()),
+    ("figure", "figure numbered", ("{0}", "")),
 )  # fmt: skip
 
 

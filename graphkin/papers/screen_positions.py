@@ -7,12 +7,15 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import zip_longest
 from typing import Literal, TypeAlias
 
 from graphkin.construction import Plan, execute
 from graphkin.construction.centres import Centres
+from graphkin.construction.polygon_acts import OnPlan
 from graphkin.construction.sheet import DiagramName, Scales, Sheet
 from graphkin.drawing.box import Box
+from graphkin.drawing.cam import cam_pictures, scaled_cam
 from graphkin.drawing.centre_marks import centre_marks, near_box
 from graphkin.drawing.centres import background
 from graphkin.drawing.conventions import scale_statement
@@ -25,12 +28,14 @@ from graphkin.drawing.lever import lever_figure
 from graphkin.drawing.mechanism import mechanism_piece
 from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
 from graphkin.drawing.polygon_on_page import extent
+from graphkin.drawing.primitives import Group
 from graphkin.drawing.stepwise import births, stepped
+from graphkin.drawing.train import moving_plans, train_figure
 from graphkin.papers.answer_key import way
-from graphkin.papers.blocks import said
+from graphkin.papers.blocks import Said, capital, said
 from graphkin.papers.html import blocks_html, figure_svg, said_html, words_html
 from graphkin.papers.lesson import Lesson, Stage, plain_words
-from graphkin.papers.pictures import ROOM, equation_picture
+from graphkin.papers.pictures import ROOM, bare_picture, equation_picture
 from graphkin.papers.problem import equation_words, given
 from graphkin.papers.solution import results_blocks, stage_title, step_items
 from graphkin.papers.spoken import spoken_words
@@ -46,6 +51,7 @@ MECHANISM, POLYGON = (160.0, 218.0), 190.0  # mm that the mechanism in all posit
 WIDE = 96.0  # mm of the sketch of a group, its polygon below
 SERIES = (1.0, 2.0, 2.5, 5.0)
 POLYGONS: tuple[DiagramName, ...] = ("velocity", "acceleration")
+LISTED = ("figures", "steps")
 FigureName: TypeAlias = Literal["mechanism", "velocity", "acceleration", "centres", "force"]
 
 
@@ -91,14 +97,21 @@ def _coarser(scale: float, factor: float) -> float:
 
 
 def positions_data(views: Sequence[View], progress: Progress | None = None) -> dict[str, object]:
-    """For each position its name, figures and steps, ready for the page, and the stages of all of them, each once."""
+    """Names, figures and steps of the positions, ready for the page, and the stages of all of them, each once.
+
+    What is alike stands together, by key the values of all positions, of figures and steps row by row (None where a
+    position has fewer): so packed it takes two thirds of the room.
+    """
     frames = _Frames(views)
     positions = []
     for done, view in enumerate(views, 1):
         positions.append(frames.data(view))
         if progress is not None:
             progress(done, len(views))
-    return {"positions": positions, "stages": frames.stages}
+    columns: dict[str, list[object]] = {key: [one[key] for one in positions] for key in positions[0]}
+    for key in LISTED:
+        columns[key] = [list(row) for row in zip_longest(*columns[key])]  # type: ignore[call-overload]
+    return {"positions": columns, "stages": frames.stages}
 
 
 def _described(lesson: Lesson, name: str, language: str) -> str:
@@ -121,6 +134,7 @@ class _Frames:
         self.mechanism = _joined(box for _, box in self.pieces).grown(ROOM)
         self.polygons = {d: self._largest(views, d) for d in POLYGONS}
         self.views = list(views)
+        self.cams = _cams(views[0].lesson)
         self.stages: list[dict[str, str]] = []
         backs = [ink_box(background(piece).drawn) or box for piece, box in self.pieces]
         shown = [(v.centres, back) for v, back in zip(views, backs, strict=True) if v.centres is not None]
@@ -147,7 +161,7 @@ class _Frames:
             "name": plain_words(drivers(lesson.sheet, lesson.letters)),
             "label": words_html(drivers(lesson.sheet, lesson.letters), first),
             "at": _at(lesson.sheet),
-            "figures": [*figures, *shown],
+            "figures": [*figures, *_plans(lesson), *shown, *self.cams],
             "stages": [*(self._stage(lesson, stage) for stage in stages), *more],
             "results": blocks_html(results_blocks(lesson), first) if lesson.report.rows else "",
             "given": blocks_html(given(lesson), first),
@@ -254,6 +268,34 @@ class _Frames:
         return Drawing(
             panel.width, panel.height, layer_groups(moved), title, plain_words(desc), languages(lesson.language)[0]
         )
+
+
+def _plans(lesson: Lesson) -> Iterator[dict[str, str]]:
+    """The velocity plans of what rolls, each there from the step on that ends it."""
+    sheet, language = lesson.sheet, lesson.language
+    figure = train_figure(sheet, language=language, convention=lesson.convention)
+    for plan, page in zip(moving_plans(sheet), (figure, *figure.further) if figure else (), strict=True):
+        own = [step.number for step in sheet.steps if step.diagram == plan.order and isinstance(step.act, OnPlan)]
+        bare = bare_picture(page)
+        drawn = replace(bare, children=(Group(bare.children, classes=(f"step-{own[-1]}",)),)) if own else bare
+        told = said("plan" if plan.order == "velocity" else "plan accelerations", language)
+        yield {"name": f"plan-{plan.order}", "svg": figure_svg(drawn), "caption": _caption(told)}
+
+
+def _cams(lesson: Lesson) -> list[dict[str, str]]:
+    """Displacement diagram and inversion of each cam that is drawn by its law."""
+    scene, language = lesson.sheet.scene, lesson.language
+    return [
+        {"name": f"{key.replace(' ', '-')}-{i}", "svg": figure_svg(picture), "caption": _caption(said(key, language))}
+        for i, cam in enumerate(scene.cams)
+        for key, picture in zip(
+            ("cam diagram", "cam figure"), cam_pictures(scene, scaled_cam(scene, cam), language), strict=True
+        )
+    ]
+
+
+def _caption(told: Said) -> str:
+    return said_html(tuple((each, capital(text)) for each, text in told))
 
 
 def _at(sheet: Sheet) -> float:

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
-from typing import TypeAlias
 
 from graphkin.checking.reading_words import exact, measured
-from graphkin.construction.polygon_acts import DirectionLine, PlanDrawn, PlanTravel, PlanTried
+from graphkin.construction.polygon_acts import DirectionLine, OnPlan
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.conventions import scale_statement
 from graphkin.drawing.drawing import Drawing
@@ -43,7 +42,6 @@ from graphkin.words import Phrase, languages, say, word
 
 __all__ = ["beginning", "results_blocks", "solution", "solution_blocks", "stage_title", "step_items"]
 
-OnPlan: TypeAlias = PlanDrawn | PlanTravel | PlanTried
 MANY = 6  # steps that stand in two columns above their figure
 
 

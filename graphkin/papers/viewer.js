@@ -7,6 +7,10 @@
     return JSON.parse(await new Response(stream).text());
   };
   const data = await unpack(byId("positions").textContent.trim());
+  // by key the values of all positions, figures and steps by rows
+  const columns = Object.entries(data.positions);
+  const positions = data.positions.at.map((_, i) => Object.fromEntries(columns.map(([key, values]) =>
+    [key, ["figures", "steps"].includes(key) ? values.map((row) => row[i]).filter(Boolean) : values[i]])));
   const [viewer, list, figures, live, tabs] = ["viewer", "list", "figures", "live", "tabs"].map(byId);
   const [stepInput, stepOut, placeInput, placeOut] = ["step", "step-out", "place", "place-out"].map(byId);
   const [results, given, paper] = ["results", "given", "paper"].map(byId);
@@ -15,7 +19,7 @@
   let place = data.start;
   let step = 0; // index into the steps of the place
 
-  const here = () => data.positions[place];
+  const here = () => positions[place];
   const numberOf = (element) => {
     const found = element && /(?:^|\s)step-(\d+)(?:\s|$)/.exec(element.getAttribute("class"));
     return found ? Number(found[1]) : 0;
@@ -39,7 +43,7 @@
       aria-label="${f.name}">${f.svg}</div><figcaption>${f.caption}</figcaption></figure>`);
     // the mechanism and its centres stand beside the polygons
     const [left, right] = [0, 1].map((side) =>
-      shown.filter((_, i) => /velocity|acceleration|force|lever/.test(now.figures[i].name) === Boolean(side)).join(""));
+      shown.filter((_, i) => /velocity|acceleration|force|lever|cam-figure/.test(now.figures[i].name) === Boolean(side)).join(""));
     figures.innerHTML = `<div>${left}</div><div>${right}</div>`;
     for (const [i, f] of now.figures.entries()) {
       figures.querySelector(`#figure-${f.name} .pane`).setAttribute("aria-label", figures.querySelectorAll("figcaption")[i].textContent);
@@ -69,13 +73,18 @@
     const bare = (svg) => svg.replace(/ id="[^"]*"/g, "");
     const last = (e) => e === now.stages.length - 1 || now.steps.find((s) => s.e === e + 1)?.d !== now.steps.find((s) => s.e === e)?.d;
     const title = document.querySelector("h1").innerHTML;
+    let count = 0;
+    const printedFigure = ({ svg, caption }) => {
+      count += 1;
+      return `<figure>${bare(svg)}<figcaption>${fill(data.words.figure, count)} ${caption}</figcaption></figure>`;
+    };
     const stages = now.stages.map((number, e) => {
       const stage = data.stages[number], steps = now.steps.filter((s) => s.e === e);
-      const figure = last(e) ? now.figures.find((f) => f.name === steps[0]?.d) : undefined;
+      const own = last(e) ? now.figures.filter((f) => [steps[0]?.d, `plan-${steps[0]?.d}`].includes(f.name)) : [];
       const items = steps.map((s) => `<li value="${s.n}">${s.html}</li>`).join("");
       return `<div class="together"><h2>${stage.title}</h2>${stage.svg ? `<figure class="equation">${bare(stage.svg)}</figure>` : ""}` +
         `<ol class="steps">${items}</ol></div>` +
-        (figure ? `<figure>${bare(figure.svg)}<figcaption>${figure.caption}</figcaption></figure>` : "");
+        own.map(printedFigure).join("");
     });
     return `<h2>${title}</h2>${now.given}${stages.join("")}`;
   }
@@ -381,7 +390,7 @@
     if (m.at) showFrame(nearest(m.at, here().at));
   }
   function settle() {
-    const near = nearest(data.positions.map((p) => p.at), m.at[frame]);
+    const near = nearest(positions.map((p) => p.at), m.at[frame]);
     if (near !== place) { place = near; showPlace(); }
   }
 
@@ -406,7 +415,7 @@
 
   document.documentElement.classList.add("scripted");
   viewer.hidden = false;
-  placeInput.max = data.positions.length - 1;
+  placeInput.max = positions.length - 1;
   setUp();
   showPlace();
   follow();

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-import base64
 import cmath
-import json
 import math
 import re
-import zlib
 from pathlib import Path
 
 import pytest
 
 import graphkin
+import tests.papers
 
 ENGINE = "engine-gas-force"
 
@@ -71,8 +69,7 @@ def test_the_lever_of_a_solution_does_not_repeat_the_title_of_the_page(papers):
 
 
 def test_the_forces_are_found_step_by_step_on_the_page(papers):
-    packed = re.search(r'id="positions">(.*?)</script>', papers["handout.html"], re.DOTALL)[1]
-    (position,) = json.loads(zlib.decompress(base64.b64decode(packed)))["positions"]
+    (position,) = tests.papers.unpacked(papers["handout.html"])["positions"]
     svg = "".join(figure["svg"] for figure in position["figures"])
     ids = re.findall(r' id="([^"]*)"', svg)
     assert len(ids) == len(set(ids))

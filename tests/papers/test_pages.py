@@ -4,17 +4,16 @@ import base64
 import hashlib
 import json
 import re
-import zlib
 
 import pytest
 
+import tests.papers
 from graphkin.api.handouts import handout
 from tests import EVERYTHING
 
 
 def _data(page: str) -> dict:
-    packed = re.search(r'<script type="text/plain" id="positions">(.*?)</script>', page, re.DOTALL)[1]
-    return json.loads(zlib.decompress(base64.b64decode(packed)))
+    return tests.papers.unpacked(page)
 
 
 def _page(made, name="handout.html") -> str:
@@ -86,3 +85,13 @@ def test_both_languages_stand_on_one_page():
     page = _page(handout("slotter-75-150", language="both", formats=("html",), positions=1))
     assert 'lang="en"' in page
     assert 'lang="zh-Hans"' in page
+
+
+def test_a_velocity_plan_and_the_inversion_of_a_cam_are_figures_of_the_page():
+    wheels = _data(_page(handout("gears-epicyclic", positions=2, formats=("html",))))["positions"]
+    for position in wheels:
+        (plan,) = (f for f in position["figures"] if f["name"] == "plan-velocity")
+        ends = [s["n"] for s in position["steps"] if s["text"].startswith("Velocity plan")]
+        assert f'class="step-{ends[-1]}"' in plan["svg"]
+    cam = _data(_page(handout("cam-offset-roller", positions=2, formats=("html",))))["positions"]
+    assert [["cam-diagram-0", "cam-figure-0"]] * 2 == [[f["name"] for f in p["figures"]][-2:] for p in cam]
