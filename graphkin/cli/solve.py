@@ -8,7 +8,7 @@ from __future__ import annotations
 import json
 import math
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -31,8 +31,13 @@ from graphkin.errors import CallError, Problem
 
 if TYPE_CHECKING:
     from graphkin.api.solved import Solved, SolvedBlocks
+    from graphkin.table import Column
 
 __all__ = ["scenes", "solve"]
+
+_OF_SLIDES = {"travel": "position", "velocity": "velocity", "acceleration": "acceleration"}
+_KINDS = {"deg": "angle", "rad/s": "omega", "rad/s2": "alpha", "/s": "velocity", "/s2": "acceleration"}
+"""Which bound of a position holds for a quantity, by its unit without that of lengths."""
 
 
 def scenes(
@@ -195,7 +200,9 @@ def _print_positions(solved: Solved, language: str) -> None:
             tell(f"{position['status']}: {position['why']}")
             continue
         if solved.find:
-            rows = [[c.name, _number(float(c.values[number])), c.unit] for c in columns]
+            bounds = [_bound_of(c, position["error_bound"], scene.units.length) for c in columns]
+            told = [_certain(float(c.values[number]), b) for c, b in zip(columns, bounds, strict=True)]
+            rows = [[c.name, _number(x), c.unit] for c, x in zip(columns, told, strict=True)]
             print_table([word("quantity", language), "", ""], rows, right=(1,))
             continue
         _print_position(position, scene.units.length, language)
@@ -207,18 +214,27 @@ def _print_position(position: Mapping[str, Any], unit: str, language: str) -> No
     from graphkin.words import Phrase, say
 
     heads = {k: say(Phrase(f"heads of {k}", (unit,)), language).split("|") for k in ("links", "points", "slides")}
+    bound = {kind: b or 0.0 for kind, b in position["error_bound"].items() if kind != "why"}
     links = [
-        [name, _number(math.degrees(link["angle"])), _number(link["omega"]), _number(link["alpha"])]
+        [
+            name,
+            _number(math.degrees(_certain(link["angle"], bound["angle"]))),
+            *(_number(_certain(link[k], bound[k])) for k in ("omega", "alpha")),
+        ]
         for name, link in position["links"].items()
     ]
     points = [
-        [name, *(_pair(point[k]) for k in ("position", "velocity", "acceleration"))]
+        [name, *(_pair(point[k], bound[k]) for k in ("position", "velocity", "acceleration"))]
         for name, point in position["points"].items()
     ]
-    slides = [
-        [name, *(_number(slide[k]) for k in ("travel", "velocity", "acceleration")), _pair(slide["coriolis"])]
-        for name, slide in position["slides"].items()
-    ]
+    slides = []
+    for name, slide in position["slides"].items():
+        # a difference of two points', and 2 omega v of such a one
+        twice = {k: 2.0 * bound[b] for k, b in _OF_SLIDES.items()}
+        spin = abs(position["links"].get(name.partition("/")[2], {"omega": 0.0})["omega"])
+        turned = 2.0 * (spin * twice["velocity"] + bound["omega"] * abs(slide["velocity"]))
+        told = [_number(_certain(slide[k], twice[k])) for k in twice]
+        slides.append([name, *told, _pair(slide["coriolis"], turned)])
     print_table(heads["links"], links, right=(1, 2, 3))
     print_table(heads["points"], points)
     print_table(heads["slides"], slides, right=(1, 2, 3))
@@ -232,11 +248,16 @@ def _print_forces(position: Mapping[str, Any], unit: str, language: str) -> None
 
     heads = {k: say(Phrase(f"heads of {k}", (unit,)), language).split("|") for k in ("forces", "moments")}
     forces = [
-        [key, _pair(force), _number(math.hypot(*force)), _number(math.degrees(math.atan2(force[1], force[0])))]
+        [
+            key,
+            _pair(given, force_bound),
+            _number(math.hypot(*force)),
+            _number(math.degrees(math.atan2(force[1], force[0]))),
+        ]
         for key, given in position["forces"].items()
-        for force in [[x if abs(x) > force_bound else 0.0 for x in given]]
+        for force in [[_certain(x, force_bound) for x in given]]
     ]
-    moments = [[key, _number(m if abs(m) > moment_bound else 0.0)] for key, m in position["moments"].items()]
+    moments = [[key, _number(_certain(m, moment_bound))] for key, m in position["moments"].items()]
     print_table(heads["forces"], forces, right=(2, 3))
     print_table(heads["moments"], moments, right=(1,))
 
@@ -245,5 +266,19 @@ def _number(value: float) -> str:
     return f"{value:.6g}"
 
 
-def _pair(value: list[float]) -> str:
-    return f"{value[0]:.6g}, {value[1]:.6g}"
+def _pair(value: Sequence[float], bound: float) -> str:
+    return ", ".join(_number(_certain(x, bound)) for x in value)
+
+
+def _certain(value: float, bound: float) -> float:
+    """A value, 0 where its bound does not tell it from that."""
+    return value if not abs(value) <= bound else 0.0
+
+
+def _bound_of(column: Column, bound: Mapping[str, Any], unit: str) -> float:
+    """The bound of a quantity asked by name, in its unit: that of its kind, of two of them where it is relative."""
+    kind = "position" if column.unit == unit else _KINDS.get(column.unit.replace(unit, ""))
+    if kind is None:
+        return 0.0
+    own = float(bound[kind] or 0.0)
+    return (math.degrees(own) if kind == "angle" else own) * (2.0 if "/" in column.name else 1.0)

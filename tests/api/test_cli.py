@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+import re
 import subprocess
 import sys
 import xml.etree.ElementTree as ET
@@ -272,6 +273,14 @@ def test_check_and_solve_write_what_they_found_into_the_folder_given(tmp_path):
     assert 0 == run("check", SIXBAR, "-q", "-o", "out", cwd=tmp_path).returncode
     assert 0 == run("solve", SIXBAR, "-q", "-o", "out", cwd=tmp_path).returncode
     assert {"readings.csv", "report.txt", "solution.json"} == {p.name for p in (tmp_path / "out").iterdir()}
+
+
+@pytest.mark.parametrize("asked", [(), ("--find", "a_C", "--find", "alpha_2", "--find", "at_C/B")])
+@pytest.mark.parametrize("at", [0, 90, 180, 270])
+def test_solve_prints_no_number_that_its_bound_does_not_tell_from_zero(asked, at):
+    printed = run("solve", "slider-crank-offset", "--at", str(at), *asked).stdout
+    assert [] == re.findall(r"\S*e-\d+|-0(?![.\d])", printed)
+    assert "313.994" in printed or at != 90
 
 
 def test_solve_speaks_chinese():
