@@ -18,6 +18,7 @@ __all__ = ["all_in_both", "in_both"]
 _TOKEN = re.compile(r"\$[^$]*\$|[A-Za-z]+|\d+(?:\.\d+)?|\s+|.")
 _LATIN = str.maketrans("；：，（）。", ";:,().")
 _MARKS = " ;:,.()；：，。、（）"
+_BRACKETS = re.compile(r"([()])")
 _TAIL = re.compile(r"[\s:;,=]*$")
 _DATA = re.compile(r"=.*\d|\d [A-Za-z]+|\d\.\d{3}")
 
@@ -45,10 +46,10 @@ def in_both(said: Sequence[str]) -> tuple[str, ...]:
     i = k = 0
     for tokens, block in blocks:
         if _tells(tokens) or any(token[0] == "$" for token in tokens) or block.size == 0:
-            gap = one[i : block.a], other[k : block.b]
-            if {"（", "）"} & set("".join(gap[1]).strip(_MARKS)):
-                return lines  # a bracket that spans a formula
-            parts += [_gap(*gap), *tokens]
+            between = _between(one[i : block.a], other[k : block.b])
+            if between is None:
+                return lines
+            parts += [between, *tokens]
             i, k = block.a + block.size, block.b + block.size
     whole = re.sub(" +([;:,])", r"\1", "".join(parts))
     return (re.sub("(?<![,;]) {2,}", " ", whole).strip(),)
@@ -57,6 +58,18 @@ def in_both(said: Sequence[str]) -> tuple[str, ...]:
 def _tells(tokens: Sequence[str]) -> bool:
     """Whether tokens hold a formula, a number with its unit, or one of many figures."""
     return _DATA.search("".join(tokens)) is not None
+
+
+def _between(one: Sequence[str], other: Sequence[str]) -> str | None:
+    """A gap in both languages, bracket by bracket; None where their brackets do not match, as one that spans a
+    formula."""
+    ours, theirs = (_BRACKETS.split("".join(tokens).translate(_LATIN)) for tokens in (one, other))
+    if not {"（", "）"} & set("".join(other).strip(_MARKS)):
+        return _gap(one, other)
+    if ours[1::2] != theirs[1::2]:
+        return None
+    said = [a if i % 2 else _gap([a], [b]) for i, (a, b) in enumerate(zip(ours, theirs, strict=True))]
+    return re.sub(r" +\)", ")", "".join(said))
 
 
 def _gap(one: Iterable[str], other: Iterable[str]) -> str:

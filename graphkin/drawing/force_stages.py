@@ -9,6 +9,7 @@ from typing import Literal
 
 from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceState, ForceVector
 from graphkin.construction.sheet import Sheet
+from graphkin.drawing.bilingual import all_in_both, in_both
 from graphkin.drawing.conventions import Letters, pole
 from graphkin.drawing.force_chain import closed_by, laid_lines, laid_off
 from graphkin.drawing.force_letters import force_letters
@@ -24,7 +25,7 @@ from graphkin.drawing.force_words import (
 from graphkin.drawing.lever import lever_on_page
 from graphkin.drawing.springs import spring_lines
 from graphkin.scene.symbol import Symbol
-from graphkin.words import Phrase, languages, say, word
+from graphkin.words import Phrase, languages, listed, say, word
 
 __all__ = ["ForceStage", "ForceStep", "force_stages"]
 
@@ -103,7 +104,7 @@ class _StageWriter:
         for each in zip(*of, strict=True):
             words = tuple((language, one.reason) for language, one in zip(self.spoken, each, strict=True))
             found = () if each[0].symbol is None else (each[0].symbol,)
-            yield self.step(words, each[0].work, found), each[0]
+            yield self.step(words, all_in_both([one.work for one in each]), found), each[0]
 
 
 def force_stages(sheet: Sheet, forces: ForceSheet, letters: Letters, language: str) -> tuple[ForceStage, ...]:
@@ -141,12 +142,12 @@ def _known(writer: _StageWriter) -> Iterator[ForceStage]:
 
 
 def _group(writer: _StageWriter, state: ForceState, group: ForceGroup, count: int, again: bool) -> ForceStage:
-    sheet, letters, links = writer.sheet, writer.letters, ", ".join(group.links)
+    sheet, letters, links = writer.sheet, writer.letters, listed(group.links)
     drawn = [*group.polygon, *(v for polygon in group.inner.values() for v in polygon)]
     forces = list(dict.fromkeys(v.symbol for v in drawn if v.known and v.span))
     turning = [t.symbol for t in state.turning if t.moment and t.link in group.links]
-    names = ", ".join(writer.name(s) for s in dict.fromkeys((*forces, *turning)))
-    cut = writer.said("force step cut", links, names) if names else writer.said("force step cut bare", links)
+    names = [writer.name(s) for s in dict.fromkeys((*forces, *turning))]
+    cut = writer.said("force step cut", links, listed(names)) if names else writer.said("force step cut bare", links)
     steps = [writer.step(cut)]
     made = ForceStage("forces", (), (), state, group, again, known=steps[0].number)
     moments: dict[tuple[Symbol, str], int] = {}
@@ -174,7 +175,7 @@ def _group(writer: _StageWriter, state: ForceState, group: ForceGroup, count: in
     for link, vectors in group.inner.items():
         own = [s for s in dict.fromkeys(v.symbol for v in vectors if not v.known) if s in read]
         if own:
-            found = ", ".join(map(writer.name, own))
+            found = listed([writer.name(s) for s in own])
             steps.append(writer.step(writer.said("force step inside", link, found), [read.pop(s) for s in own], own))
             inside[link] = steps[-1].number
     couples: dict[Symbol, int] = {}
@@ -200,5 +201,5 @@ def _levers(writer: _StageWriter) -> Iterator[ForceStage]:
             shown, _ = lever_on_page(writer.sheet, lever)
             sums = [lever_sum(writer.sheet, state, shown, writer.letters, each) for each in writer.spoken]
             words = tuple((each, balance) for each, (_, balance) in zip(writer.spoken, sums, strict=True))
-            steps.append(writer.step(words, [sums[0][0]], [lever.balance]))
+            steps.append(writer.step(words, in_both([total for total, _ in sums]), [lever.balance]))
             yield ForceStage("lever", writer.said("lever"), tuple(steps), state, again=bool(k))

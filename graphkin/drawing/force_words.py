@@ -25,7 +25,7 @@ from graphkin.drawing.force_chain import arm_lines
 from graphkin.drawing.force_letters import force_letters
 from graphkin.drawing.headings import number, written
 from graphkin.scene.symbol import Symbol
-from graphkin.words import Phrase, say
+from graphkin.words import Phrase, listed, say
 from graphkin.words.written import amount, on_paper, product
 
 __all__ = [
@@ -40,7 +40,7 @@ ZERO = 1e-8  # mm: a shorter force is nothing but rounding
 def group_caption(sheet: Sheet, group: ForceGroup, count: int, language: str) -> str:
     """``1. Links 5, 6 (RRP) cut free``."""
     kind = {"driver": Phrase("force driver"), "drawn system": Phrase("force larger group")}.get(group.way, group.kind)
-    return say(Phrase("force group", (str(count), ", ".join(group.links), kind)), language)
+    return say(Phrase("force group", (str(count), listed(group.links), kind)), language)
 
 
 def inertia_line(sheet: Sheet, one: Inertia, letters: Letters, language: str) -> str:
@@ -102,9 +102,9 @@ def moment_sentences(sheet: Sheet, group: ForceGroup, letters: Letters, language
     return lines
 
 
-def _links(names: Sequence[str]) -> str:
+def _links(names: Sequence[str]) -> object:
     """Links by name, blocks of pins left out where they are not alone."""
-    return ", ".join([name for name in names if "/" not in name] or names)
+    return listed([name for name in names if "/" not in name] or names)
 
 
 def _parted(group: ForceGroup, one: MomentEquation) -> bool:

@@ -30,7 +30,7 @@ from graphkin.drawing.springs import spring_lines
 from graphkin.drawing.stepwise import stepped
 from graphkin.drawing.tables import TableRow, readings_table
 from graphkin.drawing.text import fitted, plain, rich, wrapped
-from graphkin.words import Phrase, languages, say
+from graphkin.words import Phrase, languages, listed, say
 
 __all__ = ["forces_figure", "group_equation", "group_picture"]
 
@@ -265,14 +265,14 @@ def _below(
     for each in languages(spoken):
         said = [text for told in moment_sentences(sheet, group, letters, each) for text in told.lines]
         if group.way == "drawn system":
-            said.append(say(Phrase("force reason system", (", ".join(group.links),)), each))
+            said.append(say(Phrase("force reason system", (listed(group.links),)), each))
         elif len(group.equation) > 1 and group.way == "polygon":
-            said.append(say(Phrase("force reason polygon", (", ".join(group.links),)), each))
+            said.append(say(Phrase("force reason polygon", (listed(group.links),)), each))
         lists.append(said)
     if any(lists):
         blocks.append(_words([(text, False) for text in all_in_both(lists)], width))
     if group.way != "drawn system" and len(group.equation) > 1:
-        written = write_sum(sum_terms(sheet, group, letters), letters, languages(spoken)[0], width)
+        written = write_sum(sum_terms(sheet, group, letters), letters, spoken, width)
         blocks.append(_Block(Piece({"labels": (Group(written.children, id=""),)}), written.height))
     couples = [
         [text for told in couple_sentences(sheet, group, letters, each) for text in told.lines]
@@ -289,9 +289,9 @@ def group_equation(sheet: Sheet, group: ForceGroup, letters: Letters, language: 
     """The equation of a group over its rows of sizes and directions; None where it is drawn by one system."""
     if group.way == "drawn system" or len(group.equation) < 2:
         return None
-    spoken = languages(language)[0]
-    written = write_sum(sum_terms(sheet, group, letters), letters, spoken, width)
-    return Drawing(written.width, written.height, written.children, term("forces", language), "", spoken)
+    written = write_sum(sum_terms(sheet, group, letters), letters, language, width)
+    title = term("forces", language)
+    return Drawing(written.width, written.height, written.children, title, "", languages(language)[0])
 
 
 def _frame(panel: Box) -> Piece:

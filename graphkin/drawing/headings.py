@@ -20,7 +20,7 @@ from graphkin.scene.over_time import asked_time, moves_by_law
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Cluster
 from graphkin.version import __version__
-from graphkin.words import Phrase, languages, say, word
+from graphkin.words import Phrase, languages, listed, say, word
 from graphkin.words.written import amount, on_paper, product
 
 __all__ = [
@@ -278,10 +278,10 @@ def remarks(sheet: Sheet, language: str, letters: Letters | None = None) -> list
 
 def _mechanism(sheet: Sheet, language: str) -> list[str]:
     scene = sheet.scene
-    said = [say(Phrase("fixed link", (scene.frame.name, ", ".join(scene.frame.points) or "-")), language)]
+    said = [say(Phrase("fixed link", (scene.frame.name, listed([*scene.frame.points] or ["-"]))), language)]
     for link in scene.links:
         if link.points:
-            said.append(say(Phrase("link joins", (link.name, ", ".join(link.points))), language))
+            said.append(say(Phrase("link joins", (link.name, listed([*link.points]))), language))
     for pair in scene.slidings:
         said.append(say(Phrase("link slides", (pair.link, pair.on)), language))
     for pin in scene.pins:

@@ -6,13 +6,14 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 
 from graphkin.checking.loop_gaps import places_of_loops, stated_arrows
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing import strokes, symbols
 from graphkin.drawing.bilingual import in_both
 from graphkin.drawing.box import Box
-from graphkin.drawing.conventions import letters_of
+from graphkin.drawing.conventions import letters_of, scale_statement
 from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.font_widths import runs_width
 from graphkin.drawing.headings import drivers, facts, figure_title, number, term
@@ -76,8 +77,8 @@ def loops_figure(sheet: Sheet, *, language: str | None = None, convention: str |
             if loop is block.loops[-1]:
                 end = _matrices(words, sheet, block, spoken, complex(column.left, end + 1.0), column.right)
             y = max(panel.bottom, end) + 5.0
-    shown = rich(f"$μ_{{l}}$ = {number(scale / sheet.scene.units.metres)} {sheet.scene.units.length}/mm", 3.2)
-    words.append(Text(complex(MARGIN, y + 2.0), shown))
+    at_scale = replace(sheet, scales=replace(sheet.scales, length=scale))
+    words.append(Text(complex(MARGIN, y + 2.0), rich(scale_statement(at_scale, letters.convention, "mechanism"), 3.2)))
     page = joined((*pieces, Piece({"labels": tuple(words)})))
     return Drawing(
         WIDTH, y + 8.0, layer_groups(page), figure_title(sheet, "loops", spoken), _described(sheet, blocks, spoken),

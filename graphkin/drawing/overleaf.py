@@ -26,6 +26,7 @@ CAPTION = 5.5
 HEAD = 15.0  # mm for the heading
 NARROWEST = 209.0  # mm: the narrower side of A4, about
 LEAST_TABLE = 20.0  # mm: a table of fewer rows is none
+TWO_LINES = 3.4  # mm: letters of titles that stand below each other, where one line would have them smaller
 
 
 @dataclass(frozen=True)
@@ -80,11 +81,13 @@ def overleaf(sheet: Sheet, rest: Remainder, letters: Letters, language: str, pag
 
 def heading(sheet: Sheet, letters: Letters, language: str, page: Box) -> Piece:
     """Title and driver values at the head of a page."""
-    words = "   ".join(titles(sheet, language))
-    return Piece({"labels": (
-        Text(complex(page.left, page.top + 4.0), fitted(words, 4.6, page.width, bold=True, least=2.6)),
-        Text(complex(page.left, page.top + 9.2), fitted(drivers(sheet, letters), 3.2, page.width)),
-    )})  # fmt: skip
+    names = titles(sheet, language)
+    runs = fitted("   ".join(names), 4.6, page.width, bold=True, least=2.6)
+    lines = [(4.0, runs)]
+    if len(names) > 1 and runs[0].size < TWO_LINES:
+        lines = [(2.6 + 3.7 * i, fitted(name, TWO_LINES, page.width, bold=True)) for i, name in enumerate(names)]
+    lines.append((9.2 + 0.6 * (len(lines) - 1), fitted(drivers(sheet, letters), 3.2, page.width)))
+    return Piece({"labels": tuple(Text(complex(page.left, page.top + y), said) for y, said in lines)})
 
 
 def _number(sheet: Sheet, language: str, number: int, page: Box) -> Piece:

@@ -12,7 +12,7 @@ from graphkin.construction.sheet import Sheet
 from graphkin.drawing import strokes
 from graphkin.drawing.bilingual import in_both
 from graphkin.drawing.box import Box
-from graphkin.drawing.conventions import Letters, letters_of
+from graphkin.drawing.conventions import Letters, letters_of, scale_statement
 from graphkin.drawing.dimensions import angle_dimension, check_bar, dimension
 from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.headings import facts, figure_title, number, term, titles
@@ -95,8 +95,7 @@ def positions_figure(shown: Shown, *, language: str | None = None, convention: s
         Text(complex(MARGIN, MARGIN + 3.5 + LINE * i), runs, classes=("heading",))
         for i, runs in enumerate((*head, *told))
     ]
-    metres, unit = scene.units.metres, scene.units.length
-    scale = f"$μ_{{l}}$ = {number(sheet.scales.length / metres)} {unit}/mm"
+    scale = scale_statement(sheet, letters.convention, "mechanism")
     words.append(Text(complex(MARGIN, height - 6.0), rich(scale, 3.5)))
     words += check_bar(complex(width - MARGIN - 50.0, height - 6.0), rich(term("check bar", spoken), 2.5))
     return Drawing(

@@ -43,6 +43,7 @@ from graphkin.words import Phrase, languages, say, word
 
 __all__ = ["sheet_page"]
 
+LEGIBLE_TITLE = 2.4  # mm
 BAR_ROOM, SCALES_ROOM = 56.0, 33.0  # least widths in the title block, for the check bar and for the scales
 GIVEN = 2.8  # mm, letters of the given data overleaf
 EQUATIONS_ROOM = 20.0  # least height of the equations above insets of Coriolis terms
@@ -203,13 +204,17 @@ def _equations(
 def _title_block(sheet: Sheet, report: Report | None, letters: Letters, language: str, box: Box) -> Piece:
     lines: list[Primitive] = [Polygon(box.corners, "", strokes.OUTLINE)]
     two = min(box.left + 0.66 * box.width, box.right - BAR_ROOM)
-    one = min(box.left + 0.36 * box.width, two - SCALES_ROOM)
-    lines += [Line(complex(x, box.top), complex(x, box.bottom), strokes.DIMENSION) for x in (one, two)]
-    words: list[Primitive] = []
     names = titles(sheet, language)
     left = box.left + 2.0
+    for share in (0.36, 0.48):  # more for a long title
+        one = min(box.left + share * box.width, two - SCALES_ROOM)
+        title = _title_lines(names, one - left - 1.5)
+        if title[0][0].size >= LEGIBLE_TITLE:
+            break
+    lines += [Line(complex(x, box.top), complex(x, box.bottom), strokes.DIMENSION) for x in (one, two)]
+    words: list[Primitive] = []
     y = box.top + 1.4
-    for runs in _title_lines(names, one - left - 1.5):
+    for runs in title:
         y += 1.25 * runs[0].size
         words.append(Text(complex(left, y), runs))
     comma, colon = (punctuation(key, language) for key in ("list comma", "colon"))

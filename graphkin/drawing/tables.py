@@ -172,7 +172,7 @@ def given_lines(sheet: Sheet, letters: Letters, language: str, width: float, siz
     unit = scene.units.length
     items = drivers(sheet, letters).split(",  ")
     items += rolling_starts(sheet)
-    items += given_teeth(scene)
+    items += given_teeth(scene, language)
     items += [f"${name}$ = {number(value)} {unit}" for name, value in given_lengths(scene, letters)]
     fixed = [f"${letters.point(p)}$ ({_pair(z, scene)}) {unit}" for p, z in scene.frame.points.items()]
     for guide in scene.frame.guides.values():
@@ -229,17 +229,16 @@ def given_lengths(scene: Mechanism, letters: Letters) -> list[tuple[str, float]]
     return [(name, length) for name, length in found if length > NO_LENGTH * scene.size / metres]
 
 
-def given_teeth(scene: Mechanism) -> list[str]:
-    """The numbers of teeth, each wheel once; of one that has several, with the gear."""
+def given_teeth(scene: Mechanism, language: str) -> list[str]:
+    """The numbers of teeth, each wheel once; of one that has several, with the gear.  Internal ones are said to be."""
     found: dict[str, str] = {}
     for gear in scene.gears:
         for wheel, teeth in zip(gear.wheels, gear.teeth, strict=True):
             if teeth is None:
                 continue
-            text = number(teeth).replace("-", "−")
-            said = f"$z_{{{wheel}}}$ = {text}"
+            said = f"$z_{{{wheel}}}$ = {number(abs(teeth))}" + f" ({term('internal', language)})" * (teeth < 0)
             if found.setdefault(wheel, said) != said:
-                found[f"{wheel} {gear.name}"] = f"$z_{{{wheel}}}$ = {text} ({gear.name})"
+                found[f"{wheel} {gear.name}"] = f"{said} ({gear.name})"
     return list(found.values())
 
 

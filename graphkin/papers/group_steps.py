@@ -17,7 +17,7 @@ from graphkin.construction.strokes import Aid
 from graphkin.drawing.group_aids import NUMERALS
 from graphkin.drawing.headings import number
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import Phrase
+from graphkin.words import Phrase, listed
 from graphkin.words.written import on_paper
 
 __all__ = ["divided", "laid_off_by_rate", "tried", "tried_in_positions"]
@@ -105,7 +105,7 @@ def divided(sheet: Sheet, step: Step, act: Superposed, lettered: Lettered) -> Ph
     before = [s.act for s in sheet.steps if s.diagram == step.diagram and s.number < step.number]
     trials = [a for a in before if isinstance(a, TrialDrawn)][-len(act.apart) :]
     opened = [_opened(step, act, i, lettered) for i in range(len(act.ways))]
-    where = reduce(lambda one, other: Phrase("listed", (one, other)), opened)
+    where = listed(opened)
     rows = "; ".join(
         f"{_numeral(i)} " + ", ".join(on_paper(mm) for mm in row) for i, row in enumerate(act.apart, 1)
     ).replace("-", "−") + " mm"  # fmt: skip
@@ -183,9 +183,9 @@ def _numeral(number_of: int) -> str:
     return NUMERALS[(number_of - 1) % len(NUMERALS)]
 
 
-def _rates(sheet: Sheet, found: Sequence[tuple[Symbol, float]]) -> Phrase:
+def _rates(sheet: Sheet, found: Sequence[tuple[Symbol, float]]) -> object:
     """Rates with their units, in a list."""
     length = sheet.scene.units.rates.length
     units = {"omega": "rad/s", "alpha": "rad/s²", "v": f"{length}/s", "ar": f"{length}/s²"}
     told = [Phrase("rate is", (s, _signed(number(value, 5)), units[s.kind])) for s, value in found]
-    return reduce(lambda one, other: Phrase("listed", (one, other)), told)
+    return listed(told)

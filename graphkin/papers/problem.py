@@ -220,7 +220,7 @@ def given(lesson: Lesson) -> Iterator[Paragraph]:
         f"${letters.point(p)}$ ({number(z.real / metres)}, {number(z.imag / metres)}){BOUND}{unit}"
         for p, z in scene.frame.points.items()
     ]
-    for key, items in (("lengths given", [*lengths, *given_teeth(scene)]), ("fixed points", fixed)):
+    for key, items in (("lengths given", [*lengths, *given_teeth(scene, lesson.language)]), ("fixed points", fixed)):
         if items:
             yield Paragraph(_labelled(lesson, key, items, "list comma"))
     guides = [g for g in scene.frame.guides.values() if g.name]

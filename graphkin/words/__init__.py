@@ -7,12 +7,12 @@ same keys, and every command knows it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, reduce
 from pathlib import Path
 
-__all__ = ["BOTH", "LANGUAGES", "Phrase", "area", "class_of", "languages", "say", "word"]
+__all__ = ["BOTH", "LANGUAGES", "Phrase", "area", "class_of", "languages", "listed", "say", "word"]
 
 
 _TABLES = {path.stem: path for path in Path(__file__).parent.glob("*.toml")}
@@ -55,6 +55,15 @@ def say(phrase: Phrase, language: str = "en", show: Callable[[object], str] = st
     """
     parts = (say(a, language, show) if isinstance(a, Phrase) else show(a) for a in phrase.args)
     return _table(language)[phrase.key].format(*parts)
+
+
+def listed(names: Sequence[object]) -> object:
+    """Names or phrases, one at least, as an argument of a sentence: a list with the marks of its language.
+
+    >>> say(Phrase("points", ("2", listed(["B", "C", "D"]))))
+    'mark B, C, D on link 2'
+    """
+    return reduce(lambda one, other: Phrase("listed", (one, other)), names)
 
 
 def class_of(order: int) -> Phrase | str:

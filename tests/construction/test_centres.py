@@ -17,6 +17,7 @@ from graphkin.scene import library, mechanism_of
 from graphkin.scene.symbol import Symbol
 from graphkin.words import written
 from tests.bench.attack import mechanism
+from tests.mechanisms import random_scene
 
 
 def xy(z: complex) -> list[float]:
@@ -238,6 +239,14 @@ def test_every_told_rate_is_true_as_it_is_written(name: str) -> None:
             value = sign * float(turning[known]) * float(far) / float(near)
             assert float(rate) == pytest.approx(value, rel=0.0, abs=0.5001 * unit_of(rate))
             turning[link] = rate
+
+
+def test_a_residue_is_no_rate_of_a_velocity_by_centres() -> None:
+    # at this dead centre a link stands still: nothing but rounding is left of its rate
+    scene = random_scene(9129, ("RRP", "RPR"), "slot", textbook=True)
+    found = checked_centres(scene, at=121.65525060596437)
+    told = [str(arg) for phrase in velocity_sentences(found.centres, found.turning) for arg in phrase.args]
+    assert [] == [text for text in told if "e-" in text or "e−" in text]
 
 
 def unit_of(number: str) -> float:

@@ -24,6 +24,22 @@ def test_a_bracket_that_spans_a_formula_keeps_the_sentences_apart():
     assert said == in_both(said)
 
 
+def test_brackets_that_match_are_filled_in_both_languages():
+    said = "from $A$ (link 3) to $B$: rate 1.6 N/mm", "由 $A$（构件 3）至 $B$：刚度 1.6 N/mm"
+    assert ("from 由 $A$ (link 3 构件 3) to 至 $B$: rate 刚度 1.6 N/mm",) == in_both(said)
+
+
+def test_the_numbers_of_a_spring_stand_once_in_two_languages():
+    said = " ".join(texts(draw("rocker-return-spring", language="both", figures=("forces",)).figures["forces"]))
+    assert 1 == said.count("1.6 N/mm")
+
+
+@pytest.mark.parametrize(("language", "said"), [("en", "(internal teeth)"), ("both", "(internal teeth 内齿)")])
+def test_internal_teeth_are_said_to_be_internal_and_have_no_sign(language, said):
+    shown = texts(draw("gears-epicyclic", language=language, figures=("sheet",)).figures["sheet"])
+    assert [True] == [said in text and "−" not in text for text in shown if "70" in text and "z" in text]
+
+
 def test_lists_that_do_not_match_stand_one_after_the_other():
     assert ["a = 1 mm", "b", "甲 = 1 mm"] == all_in_both((["a = 1 mm", "b"], ["甲 = 1 mm"]))
 

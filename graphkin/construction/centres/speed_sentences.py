@@ -10,7 +10,7 @@ from decimal import Decimal
 
 from graphkin.construction.centres.find import Centres
 from graphkin.construction.centres.pairs import LinkPair
-from graphkin.construction.centres.speeds import Turning, by_centres
+from graphkin.construction.centres.speeds import SURE, Turning, by_centres, error_by_centres
 from graphkin.plane import dot
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, written
@@ -66,8 +66,13 @@ def _rates(centres: Centres, moving: Mapping[str, Turning]) -> Mapping[str, _Rat
     """The rate of every link, worked out from the rate before it and the distances as they are written."""
     frame = centres.links.scene.frame.name
     found: dict[str, _Rate] = {}
+    largest = max((abs(t.omega) for t in moving.values()), default=0.0)
     for name, turning in sorted(moving.items(), key=lambda one: len(one[1].chain)):
-        if len(turning.chain) < 2 or turning.chain[-2] not in found or turning.omega == 0.0:
+        off = 0.0 if name == frame else error_by_centres(centres, moving, Symbol("omega", link=name))
+        if abs(turning.omega) <= max(STILL * largest, min(off, SURE * largest)):
+            found[name] = _Rate("0")  # nothing but rounding
+            continue
+        if len(turning.chain) < 2 or turning.chain[-2] not in found:
             found[name] = _Rate(amount(turning.omega))
             continue
         known = turning.chain[-2]
