@@ -7,20 +7,21 @@ same; its figures are those that the drawing carries.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 from graphkin.construction.board import EXACT
-from graphkin.construction.polygon_acts import LaidOff, MeasuredRate, PlanDrawn
-from graphkin.construction.sheet import DiagramName, Sheet
+from graphkin.construction.polygon_acts import LaidOff, MeasuredRate, PlanDrawn, Superposed, TrialDrawn
+from graphkin.construction.sheet import DiagramName, Sheet, Step
 from graphkin.construction.sizes import RateTimes, RollingCurves, Size
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.headings import number, written
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Units
-from graphkin.words.written import MOST, amount, figures, on_paper, product, quotient
+from graphkin.words.written import MOST, amount, difference, figures, increased, on_paper, product, quotient
 
 __all__ = [
-    "bound", "factors_of", "lengths_measured", "plan_sum", "rate_sum", "rule_sum", "scale_of", "substituted",
-    "times_scale", "unit_of",
+    "Division", "bound", "divisions", "factors_of", "lengths_measured", "plan_sum", "rate_sum", "rule_sum", "scale_of",
+    "substituted", "times_scale", "trials_of", "unit_of",
 ]  # fmt: skip
 
 _TAILS = {"mechanism": "", "velocity": "/s", "acceleration": "/s²"}
@@ -77,6 +78,49 @@ def plan_sum(act: PlanDrawn) -> str:
     unit = "rad/s" if act.rate == "omega" else "rad/s²"
     length, scale = on_paper(act.mm), amount(act.per_mm, 12)
     return f"{length} mm × {scale} ({unit})/mm = {product(length, scale)} {unit}"
+
+
+@dataclass(frozen=True)
+class Division:
+    """A rate found from trial polygons: ``9 + 15.14 / 5.24 × 1``, what that is, and the ``part`` of the step."""
+
+    terms: str
+    value: str
+    part: str
+
+
+def trials_of(sheet: Sheet, step: Step, act: Superposed) -> list[TrialDrawn]:
+    """The trial polygons from which a step divides."""
+    before = [s.act for s in sheet.steps if s.diagram == step.diagram and s.number < step.number]
+    return [a for a in before if isinstance(a, TrialDrawn)][-len(act.apart) :]
+
+
+def divisions(sheet: Sheet, step: Step, act: Superposed) -> list[Division]:
+    """How each rate follows from the first that was assumed and the step to its other trial: by what the two leave open
+    where one rate was assumed, else by the parts of the steps with which nothing is left open."""
+    trials = trials_of(sheet, step, act)
+    found = []
+    for i, (_, rate) in enumerate(act.found):
+        low = trials[0].assumed[i][1]
+        more = trials[i + 1].assumed[i][1] - low
+        start, size = amount(low, MOST), amount(abs(more), MOST)
+        if len(act.found) == 1:
+            one, two = (on_paper(row[0]) for row in act.apart)
+            over, under = on_paper(abs(act.apart[0][0])), on_paper(float(difference(one, two)))
+            if under == "0":  # the trials differ by less than a ruler shows
+                under = amount(abs(act.apart[0][0] - act.apart[1][0]), 3)
+            added = quotient(product(over, size), under, figures(over, under))
+            part = f"{written(over)} / {written(under)}"
+        else:
+            share = amount(abs((rate - low) / more), 4)
+            added, part = product(share, size, carried=figures(share)), written(share)
+        falls = rate < low
+        value = increased(start, f"-{added}" if falls else added)
+        finer = amount(rate, MOST)
+        exact = "" if finer == value or sheet.instrument != EXACT.name else f" ({written(finer)})"
+        terms = f"{written(start)} {'−' if falls else '+'} {part} × {written(size)}"
+        found.append(Division(terms, written(value) + exact, ("" if falls == (more < 0.0) else "−") + part))
+    return found
 
 
 def _carried(sheet: Sheet, diagram: DiagramName, mm: float, carried: int) -> str:

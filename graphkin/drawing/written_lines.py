@@ -6,15 +6,16 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import Literal
 
 from graphkin.construction.mechanism_acts import SpecialPoint, TrialPositions
-from graphkin.construction.polygon_acts import ByRate, LaidOff, MeasuredRate, PlanDrawn, Superposed, TrialDrawn
+from graphkin.construction.polygon_acts import ByRate, LaidOff, MeasuredRate, PlanDrawn, Superposed
 from graphkin.construction.sheet import Equation, Rate, Sheet, Step
 from graphkin.construction.sizes import Direction, RateTimes
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.equations import WrittenLine, rule_alone
-from graphkin.drawing.headings import number, term
-from graphkin.drawing.sums import bound, lengths_measured, plan_sum, rate_sum, rule_sum
+from graphkin.drawing.headings import number, term, written
+from graphkin.drawing.sums import bound, divisions, lengths_measured, plan_sum, rate_sum, rule_sum, trials_of
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase, languages, say
+from graphkin.words.written import on_paper
 
 __all__ = ["by_rates", "written_lines"]
 
@@ -60,29 +61,32 @@ def _in_dollars(*letters: str) -> tuple[str, ...]:
 
 
 def _trials(sheet: Sheet, last: Step, letters: Letters, language: str) -> Iterator[str]:
-    """``I: ω_3 = 0.2 rad/s; left open at 8: 3.21 mm``, a line for each trial, and what follows."""
+    """``I: ω_3 = 0.2 rad/s; left open at 8: 3.21 mm``, a line for each trial, and the proportional division."""
     act = last.act
     assert isinstance(act, Superposed)
     units = {"omega": "rad/s", "alpha": "rad/s²", "v": f"{sheet.scene.units.rates.length}/s"}
 
+    push = f"{sheet.scene.units.rates.length}/s²"
+
     def rates(found: Sequence[tuple[Symbol, float]]) -> str:
-        push = f"{sheet.scene.units.rates.length}/s²"
         return ", ".join(
             f"${letters.vector(s)}$ = {number(value, 5)} {units.get(s.kind, push)}" for s, value in found
         )
 
-    drawn = [s.act for s in sheet.steps if s.diagram == last.diagram and s.number < last.number]
-    trials = [a for a in drawn if isinstance(a, TrialDrawn)][-len(act.apart):]
     frame = sheet.scene.frame.name
     open_at = ", ".join(
         f"{name} (${letters.direction(way, frame)}$)" for name, way in zip(act.closing, act.ways, strict=True)
     )
-    for trial, row in zip(trials, act.apart, strict=True):
-        apart = ", ".join(number(mm, 4) for mm in row)
+    for trial, row in zip(trials_of(sheet, last, act), act.apart, strict=True):
+        apart = ", ".join(written(on_paper(mm)) for mm in row)
         numeral = "I" * trial.number if trial.number < 4 else str(trial.number)
         args = numeral, rates(trial.assumed), open_at, apart
         yield say(Phrase("written trial polygon", args), language)
-    yield say(Phrase("written superposed", (rates(act.found),)), language)
+    sums = "; ".join(
+        bound(f"${letters.vector(s)}$ = {one.terms} = {one.value} {units.get(s.kind, push)}")
+        for (s, _), one in zip(act.found, divisions(sheet, last, act), strict=True)
+    )
+    yield say(Phrase("written superposed", (sums,)), language)
 
 
 def _measured(sheet: Sheet, act: MeasuredRate, letters: Letters, language: str) -> str:

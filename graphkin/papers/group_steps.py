@@ -16,6 +16,7 @@ from graphkin.construction.steps import phrase_of
 from graphkin.construction.strokes import Aid
 from graphkin.drawing.group_aids import NUMERALS
 from graphkin.drawing.headings import number
+from graphkin.drawing.sums import divisions
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, listed
 from graphkin.words.written import on_paper
@@ -102,25 +103,16 @@ def _drawn_by(sheet: Sheet, step: Step) -> tuple[int, int]:
 
 def divided(sheet: Sheet, step: Step, act: Superposed, lettered: Lettered) -> Phrase:
     """What the trials leave open, measured from letter to letter, and the proportional division in numbers."""
-    before = [s.act for s in sheet.steps if s.diagram == step.diagram and s.number < step.number]
-    trials = [a for a in before if isinstance(a, TrialDrawn)][-len(act.apart) :]
     opened = [_opened(step, act, i, lettered) for i in range(len(act.ways))]
     where = listed(opened)
     rows = "; ".join(
         f"{_numeral(i)} " + ", ".join(on_paper(mm) for mm in row) for i, row in enumerate(act.apart, 1)
     ).replace("-", "−") + " mm"  # fmt: skip
     found = _rates(sheet, act.found)
-    first = [value for _, value in trials[0].assumed]
-    steps = [trials[i + 1].assumed[i][1] - value for i, value in enumerate(first)]
-    parts = [(value - low) / step for (_, value), low, step in zip(act.found, first, steps, strict=True)]
-    if len(first) > 1:
-        return Phrase("superposed several", (where, rows, ", ".join(_signed(number(x, 4)) for x in parts), found))
-    (one,), (two,) = act.apart
-    low, high = (_signed(number(x, 5)) for x in (first[0], steps[0]))
-    share = f"{on_paper(one)} / {on_paper(abs(one - two))}" if one > two else (
-        f"{on_paper(-one)} / {on_paper(abs(one - two))}")  # fmt: skip
-    high = f"({high})" if steps[0] < 0.0 else high
-    return Phrase("superposed one", (where, rows, f"{low} + {_signed(share)} × {high}", found))
+    sums = divisions(sheet, step, act)
+    if len(sums) > 1:
+        return Phrase("superposed several", (where, rows, ", ".join(one.part for one in sums), found))
+    return Phrase("superposed one", (where, rows, sums[0].terms, found))
 
 
 def _opened(step: Step, act: Superposed, i: int, lettered: Lettered) -> Phrase:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from decimal import Decimal, localcontext
 
-__all__ = ["LEAST", "MOST", "amount", "difference", "figures", "on_paper", "product", "quotient"]
+__all__ = ["LEAST", "MOST", "amount", "difference", "figures", "increased", "on_paper", "product", "quotient"]
 
 MOST = 5  # figures of a computed number
 LEAST = 0.05  # mm; what is shorter is read where it is drawn larger
@@ -62,6 +62,16 @@ def quotient(over: str, under: str, carried: int) -> str:
     """The quotient of two numbers as they are written, to so many figures."""
     with localcontext(prec=DIGITS):
         return _plain(_rounded(_number(over) / _number(under), carried))
+
+
+def increased(value: str, more: str) -> str:
+    """The sum of two numbers as they are written.
+
+    >>> increased("9", "2.89"), increased("0.5", "-0.5")
+    ('11.89', '0')
+    """
+    with localcontext(prec=DIGITS):
+        return _plain(_number(value) + _number(more))
 
 
 def amount(value: float, carried: int = 6) -> str:

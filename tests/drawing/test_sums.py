@@ -12,9 +12,9 @@ import pytest
 from graphkin import draw
 from graphkin.construction import draft, pencil
 from graphkin.construction.board import EXACT
-from graphkin.construction.polygon_acts import LaidOff, MeasuredRate, PlanDrawn
+from graphkin.construction.polygon_acts import LaidOff, MeasuredRate, PlanDrawn, Superposed
 from graphkin.drawing.conventions import letters_of
-from graphkin.drawing.sums import lengths_measured, plan_sum, rate_sum, rule_sum
+from graphkin.drawing.sums import divisions, lengths_measured, plan_sum, rate_sum, rule_sum
 from graphkin.drawing.written_lines import written_lines
 from graphkin.scene import library, mechanism_of
 from graphkin.scene.sheet_tables import Tools
@@ -37,6 +37,26 @@ def test_nothing_is_measured_where_every_length_is_given():
 def test_the_sheet_tells_the_rate_in_numbers_once():
     lines = [line for line in written_lines(*drawn("sixbar-guide-40deg"), "en") if isinstance(line, str)]
     assert 1 == sum("1075.8\u00a0/\u00a0381.6 =\u00a02.819" in line for line in lines)
+
+
+@pytest.mark.parametrize("name", ["contour-four-bars", "double-butterfly"])
+def test_trial_rates_are_divided_as_it_is_written(name):
+    sheet, _ = drawn(name)
+    steps = [step for step in sheet.steps if isinstance(step.act, Superposed)]
+    assert ["velocity", "acceleration"] == [step.diagram for step in steps]
+    for step in steps:
+        for (_, rate), one in zip(step.act.found, divisions(sheet, step, step.act), strict=True):
+            value = eval(one.terms.replace("×", "*").replace("−", "-"))
+            told = one.value.split(" ")[0].replace("−", "-")
+            assert value == pytest.approx(float(told), abs=0.5000001 * 10.0 ** -len(told.partition(".")[2]))
+            assert rate == pytest.approx(value, rel=5e-3)
+
+
+def test_the_sheet_tells_how_trials_are_divided():
+    lines = [line for line in written_lines(*drawn("contour-four-bars"), "en") if isinstance(line, str)]
+    told = [line.replace("\u00a0", " ") for line in lines if "nothing open" in line]
+    assert "nothing open: $ω_{3}$ = −5 − 15.44 / 27.93 × 3 = −6.658 (−6.6584) rad/s" == told[0]
+    assert 2 == len(told)
 
 
 @pytest.mark.parametrize("name", sorted(library())[::4])
