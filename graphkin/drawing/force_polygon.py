@@ -90,7 +90,7 @@ def drawn_polygon(
         names[f"corner-{letter}"] += 1
         own = f"label-corner-{letter}-{names[f'corner-{letter}']}{suffix}"
         text = Text(0j, symbol(letter, 3.0), "start", classes=("label",), id=own, step=stage.in_polygon(vector, link))
-        labels.append(Label(text, place.conjugate(), rank=1))
+        labels.append(Label(text, (place + shifts.get(_key(vector), 0j)).conjugate(), rank=1))
     zero = [v for v in vectors if abs(v.span) <= SHORT and not v.known]
     for vector in zero:
         thin.append(Circle(vector.tip.conjugate(), 0.4, fill=strokes.BLACK))

@@ -50,8 +50,7 @@ AREA_WEIGHT, THICK_WEIGHT = 25.0, 10.0  # of what a leader crosses, where a thin
 FORBIDDEN = 1e5
 TANGLED = LEADER_COST + CROSSED_COST * THICK_WEIGHT  # what a place costs at least whose leader crosses a vector
 OUTSIDE = 100  # faults that leaving the panel counts for
-# What lies nearer to the foot of a leader is the mark itself: a point with its symbol, or the line of a vector, mm.
-POINT_REACH, LINE_REACH = 1.5, 0.4
+FOOT_REACH = 0.45  # mm: what lies nearer to the foot of a leader is the mark itself
 NEAR_END = 2.0
 
 
@@ -120,7 +119,7 @@ class LabelPanel:
             return False
         if place.leader not in self.over:
             foot, tip = (np.array([z]) for z in place.leader)
-            start = foot + (tip - foot) / np.abs(tip - foot) * LINE_REACH
+            start = foot + (tip - foot) / np.abs(tip - foot) * FOOT_REACH
             self.over[place.leader] = bool(self._crossed(foot, start, tip, self.weights * (self.weights > 1.0))[0] > 0)
         return self.over[place.leader]
 
@@ -177,11 +176,10 @@ class LabelPanel:
         way = _held(off.real, half.real) + 1j * _held(off.imag, half.imag)
         length = np.maximum(np.abs(way), 1e-9)
         tips: Points = feet + way * np.maximum(0.0, 1.0 - LEADER_GAP / length)
-        is_point = self.requests.is_point[owners]
-        start = feet + way / length * np.where(is_point, POINT_REACH, LINE_REACH)
+        start = feet + way / length * FOOT_REACH
         places.costs[led] += LEADER_COST + CROSSED_COST * self._crossed(feet, start, tips, self.weights)
         nearest = np.minimum(np.abs(self.requests.start[owners] - feet), np.abs(self.requests.end[owners] - feet))
-        places.costs[led] += END_COST * (~is_point & (nearest < NEAR_END))
+        places.costs[led] += END_COST * (~self.requests.is_point[owners] & (nearest < NEAR_END))
         return tips
 
     def _outside(self, centres: Points, half: Points) -> Flags:

@@ -228,8 +228,10 @@ class Placement:
         tangled.sort(key=lambda i: (-self.held.standing[i].cost, i))
         for i, positions in zip(tangled, self.panel.further(tangled), strict=True):
             self.found[i] = self.found[i].joined(positions)
-        for i in tangled:
-            self._make_room(i)
+        for _ in range(2):  # once more, since others have made room
+            for i in tangled:
+                if self._tangled(i):
+                    self._make_room(i)
 
     def _tangled(self, i: int) -> bool:
         """Whether the leader of a label crosses what leaders are to go round."""

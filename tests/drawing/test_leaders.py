@@ -30,8 +30,13 @@ def read(scene: str, figure: str) -> tuple[list[shapely.LineString], list[shapel
     return [line(one) for one in labels if one.tag == f"{SVG}line"], vectors, joints
 
 
-@pytest.mark.parametrize("figure", ["mechanism", "velocity", "acceleration", "sheet", "centres"])
-@pytest.mark.parametrize("scene", ["sixbar-AE70", "sixbar-1A-last-link"])
+FIVE = ("mechanism", "velocity", "acceleration", "sheet", "centres")
+
+
+@pytest.mark.parametrize(("scene", "figure"), [
+    *(("sixbar-AE70", figure) for figure in FIVE), *(("sixbar-1A-last-link", figure) for figure in FIVE),
+    ("double-butterfly", "sheet"),
+])  # fmt: skip
 def test_no_leader_runs_through_a_joint(scene, figure):
     leaders, _, joints = read(scene, figure)
     assert not [one for one in leaders for joint in joints
@@ -47,7 +52,7 @@ def test_hardly_a_leader_runs_across_a_velocity(scene):
 
 
 def test_what_a_crowd_has_no_room_for_is_listed_behind_the_number_of_its_step():
-    root = ET.fromstring(draw("double-butterfly").figures["sheet"].content("svg"))
+    root = ET.fromstring(drawn("double-butterfly").figures["sheet"].content("svg"))
     texts = {text.get("id"): text for text in root.iter(f"{SVG}text") if text.get("id")}
     listed = {id.removeprefix("listed-"): text for id, text in texts.items() if id.startswith("listed-label-a")}
     assert listed
@@ -77,3 +82,8 @@ def crossed(scene: str, figure: str) -> int:
 @pytest.mark.parametrize("scene", ["shaper-forces", "hit-two-RPR", "hydraulic-cylinder", "boom-lifted"])
 def test_no_leader_of_these_sheets_runs_across_a_vector(scene):
     assert crossed(scene, "sheet") == 0
+
+
+@pytest.mark.parametrize("scene", ["boom-lifted", "toggle-press-force"])
+def test_letters_of_corners_stand_clear_of_the_forces_of_their_polygon(scene):
+    assert crossed(scene, "forces") == 0
