@@ -45,7 +45,7 @@ def test_a_problem_with_forces_has_blanks_for_its_equations_and_the_mechanism_be
 def test_a_force_polygon_is_laid_off_with_lengths_directions_and_the_ends_that_close_it(papers):
     text = words(papers["handout.html"])
     assert "in this order" in text
-    assert "arms on paper:" in text
+    assert "arms on paper 图上力臂:" in text
     assert "de = Pgas = 6000 N ÷ 100 N/mm = 60.00 mm, 180.0°" in text
     assert "Through e, the end of Pgas, draw a line ⊥h: F14 lies on it; through a, the beginning of Ft23" in text
     assert "they meet in f, where F14 ends and Fn23 begins" in text
