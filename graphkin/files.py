@@ -25,7 +25,8 @@ _LOCK = ".graphkin-writes-here"
 def path_of(place: str | os.PathLike[str]) -> Path:
     """A path as callers give it.  Raises CallError for what is none."""
     path: object = None
-    with suppress(TypeError):
+    with suppress(TypeError, UnicodeEncodeError):
+        os.fsencode(place)  # half a pair of UTF-16 is in no name
         path = os.fspath(place)
     if not isinstance(path, str) or "\0" in path:
         raise CallError(Problem("path", f"found {place!r:.60}", "give the name of a file or folder as a text"))

@@ -94,7 +94,7 @@ def known_words(
     ]
     if not formats:
         wrong.append(Problem("format", "none given", f"known here: {', '.join(known_formats)}"))
-    if "dxf" in (formats or ()) and find_spec("ezdxf") is None:
+    if any(isinstance(word, str) and word == "dxf" for word in formats) and find_spec("ezdxf") is None:
         wrong.append(Problem("format", '"dxf"', 'it needs the extra cad: pip install "graphkin[cad]"'))
     if wrong:
         raise CallError(*wrong)
@@ -167,8 +167,9 @@ def driver_values(scene: Mechanism, at: At) -> dict[str, float] | None:
     values: dict[str, float] = {}
     for name, value in given.items():
         driver = _driver(scene, str(name))
-        if not isinstance(value, Real) or not math.isfinite(value) or abs(value) > 1e9:
-            raise CallError(Problem(f"at {name}", f"{value!r} is no driver value", "give a finite number below 1e9"))
+        if not isinstance(value, Real) or abs(value) > 1e9 or not math.isfinite(value):
+            said = f"{value!r:.60} is no driver value"
+            raise CallError(Problem(f"at {name}", said, "give a finite number below 1e9"))
         values[driver.key] = math.radians(value) if isinstance(driver, AngleDriver) else value * scene.units.metres
     return values
 

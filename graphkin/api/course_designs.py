@@ -28,6 +28,7 @@ from graphkin.api.results import FilesOfScene
 from graphkin.api.sweep import sweep
 from graphkin.drawing import ChartPage
 from graphkin.errors import CallError, Problem, Unsolvable
+from graphkin.files import path_of
 from graphkin.jobs import Progress
 from graphkin.papers.blocks import Picture, Plate
 from graphkin.papers.course_design import ClassRow, CourseDesign, Student, class_document, on_paper, plate, report
@@ -134,6 +135,7 @@ def course_design(
     """
     known_words(formats, language, convention, known_formats=FORMATS, known_languages=ON_SHEETS)
     require_callable("progress", progress)
+    _ = out is None or path_of(out)
     given = for_paper(scene)
     asked_symbols(given, find)
     if students is not None and at is not None:

@@ -23,6 +23,7 @@ from graphkin.api.arguments import (
 from graphkin.api.checked import solved_here
 from graphkin.api.results import FilesOfScene
 from graphkin.errors import CallError, Problem, as_list, as_text, did_you_mean
+from graphkin.files import path_of
 from graphkin.papers.answer_key import KeyRow, key_rows
 from graphkin.papers.exports import PLATFORMS, Question, files_for, question_of
 from graphkin.papers.lesson import Lesson
@@ -169,6 +170,8 @@ def handout(
     """
     known_words(formats, language, convention, known_formats=FORMATS, known_languages=ON_SHEETS)
     platforms = known_platforms(exports)
+    require_callable("progress", progress)
+    _ = out is None or path_of(out)  # what is wrong with it is said before the work
     given = for_paper(scene)
     count = usual_count(given) if positions is None else whole_number("positions", positions, 1, 72)
     if count > 1 and moves_by_law(given):
@@ -178,7 +181,6 @@ def handout(
     motion = solved_here(given, values)
     what = paper_plan(motion.structure, values, asked)
     lesson = lesson_of(what, motion, language or given.sheet.language, convention or given.sheet.convention)
-    require_callable("progress", progress)
     question = question_of(lesson, evidence_of(what, motion, lesson), given.name) if platforms else None
     made = Handout(lesson, values, tuple(dict.fromkeys(formats)), count, progress, question, platforms)
     if out is not None:
@@ -209,7 +211,7 @@ def known_platforms(exports: Sequence[str]) -> tuple[str, ...]:
         raise CallError(Problem("export", f'"{exports}" is a text', f'give a list: ["{exports}"]'))
     named = as_list("export", exports, f"give a list: {', '.join(PLATFORMS)}")
     wrong = [Problem("export", f'"{e!s:.60}"', did_you_mean(str(e)[:60], PLATFORMS))
-             for e in named if e not in PLATFORMS]  # fmt: skip
+             for e in named if not isinstance(e, str) or e not in PLATFORMS]  # fmt: skip
     if wrong:
         raise CallError(*wrong)
     return tuple(dict.fromkeys(named))

@@ -73,7 +73,7 @@ class Solved(Result, OfScene):
         if watched is None:
             watched = watched_symbol(*asked_symbols(scene, [name]))
         parts = watched.parts(None, self._moved)
-        return parts[0] if len(parts) == 1 else parts[0] + 1j * parts[1]
+        return np.array(parts[0]) if len(parts) == 1 else parts[0] + 1j * parts[1]
 
     @cached_property
     def table(self) -> Table:

@@ -7,7 +7,7 @@ from typing import Any
 
 from graphkin.board.answers import Desk, answer
 from graphkin.board.server import STATIC
-from graphkin.errors import CallError, Problem
+from graphkin.errors import CallError, Problem, SceneError
 from graphkin.scene.mapping import toml_text
 from graphkin.scene.source import SceneLike, library, library_text, written
 
@@ -32,7 +32,11 @@ def open_board(scene: SceneLike | None = None) -> Any:
     if isinstance(scene, str) and scene in library():
         text = library_text(scene)
     else:
-        text = "" if scene is None else toml_text(written(scene)[0])
+        try:
+            text = "" if scene is None else toml_text(written(scene)[0])
+        except (TypeError, ValueError) as error:
+            said = Problem("scene", f"cannot be written as a file: {error}", "give texts and numbers")
+            raise SceneError(said) from None
     try:
         return _widget_class()(Desk(text=text))
     except ImportError:

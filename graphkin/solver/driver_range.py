@@ -22,7 +22,7 @@ from graphkin.solver.engine import positions
 from graphkin.solver.findings import assembly_words, limit_why, structure_of
 from graphkin.solver.joints import Drive
 from graphkin.solver.motion import Motion
-from graphkin.solver.motion_at import BLOCK, goal_values, motion_of
+from graphkin.solver.motion_at import BLOCK, goal_values, joined, motion_of
 from graphkin.solver.pose import Array
 from graphkin.structure import Structure
 from graphkin.structure.assembly import MOST_TURNS, ChangePoint, ways
@@ -150,15 +150,10 @@ class DriverRange:
         other = self.behind.form(s)
         return {i: np.where(ahead.reshape(-1, *[1] * (f.ndim - 1)), f, other[i]) for i, f in forms.items()}
 
-    def turned(self, part: Array) -> dict[str, Array]:
+    def turned(self, part: Array) -> Mapping[str, Array]:
         """How far each link that is not redundant has turned since the start (rad), whole turns included, to a few
-        degrees."""
-        ahead, t, s = self._split(part)
-        turned = self.ahead.turned(t)
-        if ahead.all():
-            return turned
-        other = self.behind.turned(s)
-        return {name: np.where(ahead, angle, other[name]) for name, angle in turned.items()}
+        degrees; each found when it is asked for."""
+        return _Turned(self, part)
 
     def _split(self, part: Array) -> tuple[Array, Array, Array]:
         """Which parts lie ahead, and all of them as parameters of both ways."""
@@ -191,16 +186,26 @@ class DriverRange:
         fine : False for curves: 16 digits throughout, and no reasons where the status is not ok
         """
         offset = np.asarray(offset, dtype=float)
-        low, high = self.ends
-        if not self.full and isinstance(self.driver, AngleDriver):
-            offset = np.where((offset > high) & (offset - 2 * np.pi >= low), offset - 2 * np.pi, offset)
-        within = np.clip(offset, low, high)
+        n = len(offset)
+        if n > BLOCK:
+            blocks = (self.motion(offset[k : k + BLOCK], unit, fine) for k in range(0, n, BLOCK))
+            part = np.clip(self._reached(offset), *self.ends) / abs(self.wide)
+            return replace(joined(blocks, n), turned=self.turned(part))
+        offset = self._reached(offset)
+        within = np.clip(offset, *self.ends)
         drive = Drive.at(self.structure, self.values(within))
         if unit:
             rate = np.zeros_like(drive.value)
             rate[:, 0] = self.sense
             drive = Drive(drive.value, rate, np.zeros_like(rate))
         return self._motion(within / abs(self.wide), self.values(offset), drive, self.reaches(offset), fine)
+
+    def _reached(self, offset: Array) -> Array:
+        """The offsets, a turn less where an angle driver that cannot turn fully comes there the other way round."""
+        low, high = self.ends
+        if self.full or not isinstance(self.driver, AngleDriver):
+            return offset
+        return np.where((offset > high) & (offset - 2 * np.pi >= low), offset - 2 * np.pi, offset)
 
     @cached_property
     def known(self) -> Motion:
@@ -248,6 +253,28 @@ class DriverRange:
     def _start_angle(self) -> dict[str, float]:
         poses = self.motion(np.zeros(1)).poses
         return {name: float(np.angle(np.where(np.isfinite(p.u), p.u, 1.0))[0]) for name, p in poses.items()}
+
+
+@dataclass(frozen=True)
+class _Turned(Mapping[str, Array]):
+    """How far links have turned at parts of a range, by name: of a million positions only what is asked for."""
+
+    range: DriverRange
+    part: Array
+
+    def __getitem__(self, link: str) -> Array:
+        ahead, t, s = self.range._split(self.part)
+        turned = self.range.ahead.turned_of(link, t)
+        return turned if ahead.all() else np.where(ahead, turned, self.range.behind.turned_of(link, s))
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.range.ahead.turned(np.zeros(1)))
+
+    def __len__(self) -> int:
+        return len(self.range.ahead.turned(np.zeros(1)))
+
+    def __reduce__(self) -> tuple[type, tuple[dict[str, Array]]]:
+        return dict, (dict(self),)
 
 
 def driver_range(scene: Mechanism | Structure, at: Mapping[str, float] | None = None) -> DriverRange:

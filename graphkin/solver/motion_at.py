@@ -4,7 +4,9 @@ does.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from itertools import takewhile
 
 import numpy as np
 
@@ -16,11 +18,11 @@ from graphkin.solver.error_bound import ErrorBound
 from graphkin.solver.findings import singular, without_singular
 from graphkin.solver.joints import Drive
 from graphkin.solver.motion import Motion
-from graphkin.solver.pose import Array, Pose, rest
+from graphkin.solver.pose import FIELDS, Array, Pose, rest
 from graphkin.solver.redundant import all_slides, place_redundant
 from graphkin.structure import Structure
 
-__all__ = ["BLOCK", "goal_values", "motion_of"]
+__all__ = ["BLOCK", "goal_values", "joined", "motion_of"]
 
 BLOCK = 16384
 """Positions that are computed together."""
@@ -64,7 +66,9 @@ def motion_of(
     """
     n = len(drive)
     if n > BLOCK:
-        return _in_blocks(structure, drive, forms, assembly, good, why, fine)
+        blocks = (slice(first, min(first + BLOCK, n)) for first in range(0, n, BLOCK))
+        own = (({i: f[rows] if np.ndim(f) and len(f) == n else f for i, f in forms.items()}, rows) for rows in blocks)
+        return joined((motion_of(structure, drive[r], f, assembly, good[r], why, fine) for f, r in own), n)
     state = positions(structure, drive, forms, fine=fine)
     status = np.where(good, "ok", "not assembled").astype("<U13")
     reasons = ["" if g else why for g in good]
@@ -84,29 +88,79 @@ def motion_of(
     return Motion(structure, drive.value, status, tuple(reasons), poses, slides, assembly, bound, rough)
 
 
-def _in_blocks(
-    structure: Structure,
-    drive: Drive,
-    forms: Mapping[int, Array],
-    assembly: tuple[str, ...],
-    good: Array,
-    why: str,
-    fine: bool,
-) -> Motion:
-    """``motion_of`` a block of positions at a time, so that no more is in memory than what is found."""
-    n = len(drive)
-    status, reasons = np.empty(n, dtype="<U13"), [""] * n
-    poses: dict[str, Pose] = {}
-    numbers = np.empty((8, n))
-    for first in range(0, n, BLOCK):
-        rows = slice(first, min(first + BLOCK, n))
-        own = {i: f[rows] if np.ndim(f) and len(f) == n else f for i, f in forms.items()}
-        some = motion_of(structure, drive[rows], own, assembly, good[rows], why, fine)
-        status[rows], reasons[rows] = some.status, some.why
-        numbers[:, rows] = [*some.bound, *some.rough]
-        poses = poses or {name: rest().spread(n) for name in some.poses}
-        for name, pose in some.poses.items():
-            poses[name].put(rows, pose)
-    poses[structure.scene.frame.name] = rest().still(n)
-    bound, rough = ErrorBound(*numbers[:6]), (numbers[6], numbers[7])
-    return Motion(structure, drive.value, status, tuple(reasons), poses, some.slides, assembly, bound, rough)
+def joined(blocks: Iterable[Motion], n: int) -> Motion:
+    """Motions of blocks of positions, one after the other, as one of n positions.
+
+    Each block is let go before the next is found, and what is the same at all positions, or for two links (the angle of
+    a block on its guide), is kept once: fields may be read-only, or be the memory of another.
+    """
+    columns: dict[tuple[str, str], _Column] = {}
+    reasons = [""] * n
+    first, some = 0, None
+    for some in blocks:
+        rows = slice(first, first + len(some))
+        parts = {(name, f): np.broadcast_to(getattr(p, f), len(some)) for name, p in some.poses.items() for f in FIELDS}
+        parts |= {("bound", str(k)): b for k, b in enumerate((*some.bound, *some.rough))}
+        parts |= {("", "status"): some.status, ("", "values"): some.values}
+        if not columns:
+            columns = {key: _Column(n) for key in parts}
+        for key, values in parts.items():
+            columns[key].put(rows, values, [c for other, c in columns.items() if other[1] == key[1]])
+        reasons[rows] = some.why
+        first = rows.stop
+    assert some is not None
+    kept = {key: column.array for key, column in columns.items()}
+    numbers = [kept["bound", str(k)] for k in range(8)]
+    return replace(
+        some,
+        values=kept["", "values"],
+        status=kept["", "status"],
+        why=tuple(reasons),
+        poses={name: Pose(*(kept[name, field] for field in FIELDS)) for name in some.poses},
+        bound=ErrorBound(*numbers[:6]),
+        rough=(numbers[6], numbers[7]),
+    )
+
+
+class _Column:
+    """A column of n rows that is filled from the top: one row for all as long as they are the same, bit by bit, nothing
+    of its own as long as another column is the same."""
+
+    def __init__(self, n: int) -> None:
+        self.n = n
+        self.like: _Column | None = None
+        self.own: Array | None = None
+
+    @property
+    def array(self) -> Array:
+        if self.like is not None:
+            return self.like.array
+        assert self.own is not None
+        return self.own if len(self.own) == self.n else np.broadcast_to(self.own, (self.n, *self.own.shape[1:]))
+
+    def put(self, rows: slice, values: Array, others: Iterable[_Column]) -> None:
+        """The next rows; ``others`` that come before this one have theirs already."""
+        if rows.start == 0:
+            one = values[:1]
+            if _same(values, np.broadcast_to(one, values.shape)):
+                self.own = one.copy()
+                return
+            before = takewhile(lambda c: c is not self, others)
+            self.like = next((c for c in before if c.like is None and _same(values, c.array[rows])), None)
+            if self.like is None:
+                self._spread(values[:0])[rows] = values
+            return
+        if self.own is not None and len(self.own) == self.n:
+            self.own[rows] = values
+        elif not _same(values, self.array[rows]):
+            self._spread(self.array[: rows.start])[rows] = values
+
+    def _spread(self, above: Array) -> Array:
+        self.own, self.like = np.empty((self.n, *above.shape[1:]), dtype=above.dtype), None
+        self.own[: len(above)] = above
+        return self.own
+
+
+def _same(one: Array, other: Array) -> bool:
+    """Whether two arrays are the same bit by bit: minus zero is not zero, and NaN is NaN."""
+    return one.dtype == other.dtype and one.tobytes() == other.tobytes()

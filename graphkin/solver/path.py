@@ -252,7 +252,11 @@ class Path:
 
     def turned(self, t: Array) -> dict[str, Array]:
         """How far each link has turned from the start (rad), whole turns included, to a few degrees."""
-        return {name: np.interp(t, self.nodes, angle) for name, angle in self._turned.items()}
+        return {name: self.turned_of(name, t) for name in self._turned}
+
+    def turned_of(self, link: str, t: Array) -> Array:
+        """The same of one link.  Raises KeyError for a redundant one."""
+        return np.asarray(np.interp(t, self.nodes, self._turned[link]))
 
     @cached_property
     def _turned(self) -> dict[str, Array]:

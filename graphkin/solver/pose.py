@@ -151,11 +151,6 @@ class Pose(Generic[V, R]):
         """The same at some positions, in the same memory."""
         return Pose(*(x[rows] for x in (self.z, self.u, self.v, self.omega, self.a, self.alpha)))
 
-    def put(self: Pose, rows: slice, some: Pose) -> None:
-        """Write the same of some positions into the arrays of these."""
-        for name in ("z", "u", "v", "omega", "a", "alpha"):
-            getattr(self, name)[rows] = getattr(some, name)
-
     def where(self: Pose, ok: Array) -> Pose:
         """The same where ok, NaN elsewhere."""
         return Pose(*(np.where(ok, x, np.nan) for x in (self.z, self.u, self.v, self.omega, self.a, self.alpha)))

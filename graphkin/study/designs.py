@@ -78,7 +78,7 @@ def designs_of(
     for key, values in ((as_text("designs", key), values) for key, values in (given or {}).items()):
         try:
             grid[key] = _values(values)
-        except TypeError:
+        except (TypeError, OverflowError):
             problems.append(Problem(f"--set {key}", f"found {values!r:.60}", "give a number, or several"))
         except ValueError as error:
             problems.append(Problem(f"--set {key}", str(error), "write KEY=40:60:21, KEY=40,50,60 or KEY=50"))

@@ -93,6 +93,27 @@ def test_a_sentence_does_not_repeat_a_page_of_what_was_given(call):
     assert 1000 > len(str(refusal.value))
 
 
+def misuses():
+    words = np.array([["svg", "pdf"]])
+    return [
+        lambda: graphkin.solve(SIXBAR, at=10**400),
+        lambda: graphkin.check(SIXBAR, at={"1": 10**400}),
+        lambda: graphkin.sweep(SIXBAR, designs={"links.1.length": 10**400}),
+        lambda: graphkin.draw(SIXBAR, formats=words),
+        lambda: graphkin.handout(SIXBAR, exports=words),
+        lambda: graphkin.draw(SIXBAR, out="\ud800"),
+        lambda: graphkin.handout(SIXBAR, out=5),
+        lambda: graphkin.course_design(SIXBAR, out=b"x"),
+        lambda: graphkin.open_board({"title": None}),
+    ]
+
+
+@pytest.mark.parametrize("call", misuses())
+def test_what_stands_for_nothing_is_refused_in_a_sentence(call):
+    with pytest.raises(graphkin.GraphkinError, match=r"found|known here|is no|cannot be"):
+        call()
+
+
 def test_whole_numbers_may_be_those_of_numpy():
     one, two = (graphkin.check(SIXBAR, instrument="pencil", seed=seed) for seed in (np.int64(3), 3))
     assert one.data == two.data

@@ -134,15 +134,29 @@ def test_a_redundant_link_is_given_its_motion() -> None:
     assert motion.alpha("4")[0] == pytest.approx(motion.alpha("1")[0], rel=1e-13)
 
 
-def test_positions_in_blocks_are_those_of_one(monkeypatch: pytest.MonkeyPatch) -> None:
-    scene = mechanism_of("sixbar-AE70")
+@pytest.mark.parametrize("name", ["sixbar-AE70", "shaper-scheme-2", "triad-slider"])
+def test_positions_in_blocks_are_those_of_one(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    scene = mechanism_of(name)
     whole = solve(scene, sweep=37)
     monkeypatch.setattr(import_module("graphkin.solver.driver_range"), "BLOCK", 5)
     parts = solve(scene, sweep=37)
     assert whole.status.tolist() == parts.status.tolist()
     assert whole.why == parts.why
-    for name, pose in whole.poses.items():
-        assert np.array_equal(pose.a, parts.poses[name].a, equal_nan=True)
+    for link, pose in whole.poses.items():
+        for field in FIELDS:
+            assert np.array_equal(getattr(pose, field), getattr(parts.poses[link], field), equal_nan=True)
+    for part in whole.scene.links:
+        assert np.array_equal(whole.angle(part.name), parts.angle(part.name), equal_nan=True)
+
+
+def test_many_positions_keep_once_what_is_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(import_module("graphkin.solver.driver_range"), "BLOCK", 5)
+    motion = solve(mechanism_of("shaper-scheme-2"), sweep=37)
+    poses = motion.poses
+    assert np.shares_memory(poses["3"].omega, poses["4"].omega)  # the block on its guide
+    assert poses["2"].omega.strides == (0,) == poses["6"].u.strides  # the crank's rate, the ram's direction
+    assert not np.shares_memory(poses["4"].u, poses["5"].u)
+    assert motion.status.strides == (0,)
 
 
 @pytest.mark.parametrize("name", ["OLDHAM", "DOUBLE_PARALLELOGRAM", "CYLINDER", "TWO_SLOTS"])
