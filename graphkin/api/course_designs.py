@@ -32,7 +32,6 @@ from graphkin.files import path_of
 from graphkin.jobs import Progress
 from graphkin.papers.blocks import Picture, Plate
 from graphkin.papers.course_design import ClassRow, CourseDesign, Student, class_document, on_paper, plate, report
-from graphkin.papers.lesson import Lesson
 from graphkin.papers.page import document_page
 from graphkin.papers.paper import paper_of, paper_plan
 from graphkin.papers.pdf import can_join, can_typeset, one_after_another, pdf
@@ -166,7 +165,7 @@ def course_design(
         lesson = lesson_of(what, motion, spoken, letters)
         agrees = agrees and lesson.report.ok
         if one.name not in shared:
-            shared[one.name] = _figures(one.scene, spoken, letters, lesson)
+            shared[one.name] = _figures(one.scene, spoken, letters)
         key = one.scene.drivers[0].key
         asked = tabled(one.scene, find)
         stands = lesson.sheet.drivers[key]
@@ -175,6 +174,7 @@ def course_design(
         made = CourseDesign(
             lesson, who, own_unit(one.scene, one.scene.drivers[0], stands), data,
             tuple(one.places.values()), asked, _unit(one.scene), **shared[one.name],
+            loops=_drawn(one.scene, "loops", spoken, letters, place.driver),
         )  # fmt: skip
         document = report(made)
         stem = "report" if len(dealt) == 1 and students is None and not data else _stem(k, len(dealt), who)
@@ -212,17 +212,22 @@ def _unit(scene: Mechanism) -> str:
     return "°" if isinstance(scene.drivers[0], AngleDriver) else scene.units.length
 
 
-def _figures(scene: Mechanism, language: str, convention: str, lesson: Lesson) -> dict[str, Any]:
+def _drawn(
+    scene: Mechanism, name: str, language: str, convention: str, at: At = None
+) -> tuple[Picture | Plate, ...]:
+    """The pages of a figure; none where it cannot be drawn: a report without it is whole in all else."""
+    try:
+        figure = draw(scene, at=at, language=language, convention=convention, figures=[name]).figures.get(name)
+    except Unsolvable:
+        return ()
+    pages = (figure, *figure.further) if figure is not None else ()
+    return tuple(on_paper(page, paper_of(scene)) for page in pages)
+
+
+def _figures(scene: Mechanism, language: str, convention: str) -> dict[str, Any]:
     """Figures that all students of a scheme share."""
     paper = paper_of(scene)
-    found: dict[str, Any] = {}
-    for name in ("structure", "positions", "loops"):
-        try:
-            figure = draw(scene, language=language, convention=convention, figures=[name]).figures.get(name)
-        except Unsolvable:
-            continue  # a report without it is whole in all else
-        pages = (figure, *figure.further) if figure is not None else ()
-        found[name] = tuple(on_paper(page, paper) for page in pages)
+    found: dict[str, Any] = {name: _drawn(scene, name, language, convention) for name in ("structure", "positions")}
     pages_of: list[Picture | Plate] = []
     for page in sweep(scene, language=languages(language)[0]).figures.values():
         if isinstance(page, ChartPage):

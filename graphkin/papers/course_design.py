@@ -5,13 +5,13 @@ The table of a class stands here too.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from graphkin.checking.report import Compared
 from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.headings import number
-from graphkin.drawing.piece import ink_box, moved
 from graphkin.papers.answer_key import key_rows, way
 from graphkin.papers.blocks import (
     Beside,
@@ -29,7 +29,7 @@ from graphkin.papers.blocks import (
 )
 from graphkin.papers.lesson import Lesson
 from graphkin.papers.paper import Paper, paper_of
-from graphkin.papers.pictures import mechanism_picture, parts
+from graphkin.papers.pictures import bare_picture, mechanism_picture, parts
 from graphkin.papers.problem import given, paper_title, scene_title
 from graphkin.papers.solution import solution_blocks
 from graphkin.scene.symbol import Symbol
@@ -98,15 +98,12 @@ class ClassRow:
 
 
 def on_paper(drawing: Drawing, paper: Paper, caption: Said = ()) -> Picture | Plate:
-    """A page that was drawn for itself within the margins of a paper: without its own margins true to scale where that
-    fits, else made small, with its check bar."""
-    box = (ink_box(drawing.children) or paper.body).grown(1.0)
-    narrow = replace(
-        drawing, width=box.width, height=box.height, children=moved(drawing.children, -box.corners[0]), further=()
-    )
-    if box.width <= paper.body.width and box.height <= paper.body.height - HEADED:
+    """A page that was drawn for itself within the margins of a paper: without its own margins and titles true to scale
+    where that fits, else made small, with its check bar."""
+    narrow = bare_picture(drawing)
+    if narrow.width <= paper.body.width and narrow.height <= paper.body.height - HEADED:
         return Picture(narrow, caption)
-    return plate(narrow.content("svg", text="outlines"), (box.width, box.height), paper, drawing.desc, caption)
+    return plate(narrow.content("svg", text="outlines"), (narrow.width, narrow.height), paper, drawing.desc, caption)
 
 
 def plate(svg: bytes, size: tuple[float, float], paper: Paper, words: str, caption: Said = ()) -> Plate:
@@ -209,6 +206,18 @@ def _plain(text: str) -> str:
     return text.replace("$", "$$")
 
 
+def _letters(head: str) -> str:
+    """The head of a column as markup, a letter with its index set as such.
+
+    >>> _letters("l_O2A (mm)"), _letters("n2 (r/min)"), _letters("driver.angle")
+    ('$l_{O2A}$ (mm)', '$n_{2}$ (r/min)', 'driver.angle')
+    """
+    found = re.match(r"([^\W\d_])(?:_([^\W_]+)|(\d+))(?=\s|$)", head)
+    if found is None:
+        return _plain(head)
+    return f"${found[1]}_{{{found[2] or found[3]}}}${_plain(head[found.end():])}"
+
+
 def _data(made: CourseDesign) -> Iterable[TableBlock]:
     """The data of the schemes, split where they are many, the student's own row in bold."""
     heads, *rows = made.schemes
@@ -216,7 +225,7 @@ def _data(made: CourseDesign) -> Iterable[TableBlock]:
     for k in range(1, len(heads), MOST_VALUES):
         part = slice(k, k + MOST_VALUES)
         yield TableBlock(
-            tuple((("en", _plain(head)),) if i else said("course scheme head", made.lesson.language)
+            tuple((("en", _letters(head)),) if i else said("course scheme head", made.lesson.language)
                   for i, head in enumerate((heads[0], *heads[part]))),
             tuple(tuple(map(_plain, (row[0], *row[part]))) for row in rows),
             "l" + "r" * len(heads[part]), own,

@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import csv
 import io
+import re
 
 import pytest
 from pypdf import PdfReader
@@ -34,6 +35,11 @@ def test_everyone_has_a_position_of_their_own_and_stands_in_the_table_of_the_cla
     names = _file(tmp_path, "学号,姓名,位置\n1,李华,\n2,王芳,1\n3,=1+1,\n")
     made = graphkin.course_design(SCENE, names, find=["v_C"], positions=4, formats=("html",))
     assert ["2", "1", "3"] == [row.student.place for row in made.rows]
+    for name, row in zip(sorted(n for n in made.files if n[0].isdigit()), made.rows, strict=True):
+        loops = graphkin.draw(SCENE, at=row.values.driver, figures=["loops"]).figures["loops"]
+        numbers = set(re.findall(r"\d+\.\d{3,}", re.sub("<[^>]*>", " ", loops.content("svg").decode())))
+        assert numbers
+        assert numbers <= set(re.findall(r"\d+\.\d{3,}", made.files[name].decode()))
     for row in made.data["students"]:
         exact = graphkin.check(SCENE, at=row["at"], find="v_C")["v_C"].exact
         assert abs(exact) * 1000 == pytest.approx(row["values"]["v_C"], rel=1e-9, abs=1e-9)
