@@ -12,16 +12,18 @@ __all__ = ["LEAST", "MOST", "amount", "difference", "figures", "increased", "on_
 
 MOST = 5  # figures of a computed number
 LEAST = 0.05  # mm; what is shorter is read where it is drawn larger
+ROUNDED = 1e-12  # mm on a sheet of some hundred: what the sixteenth digit leaves
 DIGITS = 40
 
 
 def on_paper(mm: float) -> str:
-    """A length on paper (mm): to 0.01 mm; of one that only a drawing at its own scale shows, three figures.
+    """A length on paper (mm): to 0.01 mm; of one that only a drawing at its own scale shows, three figures; what
+    rounding leaves of zero on a sheet is 0.
 
-    >>> on_paper(107.5778), on_paper(0.0612), on_paper(0.0), on_paper(3.21e-7)
+    >>> on_paper(107.5778), on_paper(0.0612), on_paper(1e-15), on_paper(3.21e-7)
     ('107.58', '0.06', '0', '3.21e-7')
     """
-    if mm == 0.0:
+    if abs(mm) < ROUNDED:
         return "0"
     return f"{mm:.2f}" if abs(mm) >= LEAST else amount(mm, 3)
 
