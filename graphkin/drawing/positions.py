@@ -92,7 +92,7 @@ def positions_figure(shown: Shown, *, language: str | None = None, convention: s
     placed = with_labels(moved_piece(whole, panel.centre - box.centre), panel)
     height = panel.bottom + FOOT
     words: list[Primitive] = [
-        Text(complex(MARGIN, MARGIN + 3.5 + LINE * i), runs, classes=("heading",))
+        Text(complex(MARGIN, MARGIN + 3.5 + LINE * i), runs, classes=("heading",) if i < len(head) else ("told",))
         for i, runs in enumerate((*head, *told))
     ]
     scale = scale_statement(sheet, letters.convention, "mechanism")

@@ -8,6 +8,7 @@ import pytest
 
 import graphkin
 from graphkin.drawing import svg_bytes
+from graphkin.papers.pictures import bare_picture
 
 FOUR_BAR = graphkin.read("fourbar-150-500-300-400").to_dict() | {"positions": {"count": 4, "first": 0}}
 
@@ -42,3 +43,8 @@ def test_the_least_transmission_angle_is_that_with_the_crank_along_the_frame(fig
 def test_a_scene_with_positions_has_the_figure_by_itself() -> None:
     wanted = graphkin.draw(FOUR_BAR).wanted
     assert ("mechanism", "velocity", "acceleration", "sheet", "centres", "positions") == wanted
+
+
+def test_what_is_measured_stays_with_the_figure_where_its_titles_are_left_out() -> None:
+    bare = bare_picture(graphkin.draw(FOUR_BAR, figures=["positions"]).figures["positions"])
+    assert any("1.366094" in "".join(text.itertext()) for text in ET.fromstring(svg_bytes(bare)).iter())
