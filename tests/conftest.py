@@ -9,6 +9,7 @@ import gc
 import os
 import shutil
 import signal
+import sys
 from contextlib import suppress
 from pathlib import Path
 
@@ -18,7 +19,7 @@ TESTS = Path(__file__).parent
 
 # commands that tests start, and the workers, find their byte code, as installed ones do
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
-os.environ.setdefault("PYTHONPYCACHEPREFIX", str(TESTS.parent / ".pytest_cache" / "bytecode"))
+sys.dont_write_bytecode = False
 
 # started in the background by a shell, a run inherits that Ctrl-C is ignored, and so would all that it starts and
 # interrupts

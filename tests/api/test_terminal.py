@@ -67,7 +67,8 @@ def test_control_characters_of_a_file_never_reach_the_terminal(tmp_path: Path, b
 
 @POSIX
 def test_a_sweep_that_is_interrupted_twice_ends_at_once_with_all_its_processes(tmp_path: Path) -> None:
-    call = [*PROGRAM, "sweep", "shaper-scheme-2", "--set", "links.2.length=80:100:4000", "--workers", "2", "-o", "out"]
+    varied = "links.2.length=80:100:4000"
+    call = [*PROGRAM, "sweep", "slider-crank-offset", "--set", varied, "--workers", "2", "-o", "out"]
     with subprocess.Popen(call, cwd=tmp_path, stderr=subprocess.PIPE, text=True, start_new_session=True) as program:
         deadline = time.monotonic() + 30
         while not list(tmp_path.glob("out/.sweep-*/0*")) and time.monotonic() < deadline:
