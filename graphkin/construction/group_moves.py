@@ -17,7 +17,7 @@ from graphkin.construction.touching import Touching
 from graphkin.plane import cross, unit
 from graphkin.scene.model import AngleDriver, SlideDriver
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Cluster, Slide, Weld, driver_pair, links_of
+from graphkin.structure import Cluster, Slide, Turn, Weld, driver_pair, links_of
 
 __all__ = ["GroupMoves"]
 
@@ -76,6 +76,8 @@ class GroupMoves(Polygons):
             return self.frame.poses[edge.slide.b].axis * edge.slide.guide.direction
         if edge.contact:
             return -1j * self.contact(edge.contact)[2]
+        if edge.weld is not None and isinstance(edge.weld.pair, Turn):  # both ends lie at one place, off the hinge
+            return 1j * unit(places[edge.end.point] - places[edge.weld.pair.point])
         return 1j * unit(places[edge.end.point] - places[edge.start.point])
 
     def _move(self, order: Order, group: Cluster, move: Move) -> None:

@@ -221,6 +221,19 @@ HELD: dict[str, Any] = {  # only dyads remain where the driven block is left out
     "sketch": {"B": [188.7, 44.4], "C": [84.5, 31.4], "D": [235.5, 181.9], "E": [39.2, 64.1]},
 }  # fmt: skip
 
+WELDED: dict[str, Any] = {  # a driven hinge in the group, and one place of both its links
+    "frame": {"points": {"A": [0, 0], "E": [76.669, 34.436]}},
+    "links": {
+        "1": {"points": ["A", "D"], "length": 27.041},
+        "2": {"points": ["C"], "guides": {"h": {"through": [-66.393, 49.62], "angle": 165.8}}},
+        "3": {"points": ["B", "D"], "length": 212.559, "on": "2.h", "angle_on": -274.53},
+        "4": {"points": ["C", "E"], "length": 90.046, "guides": {"g": {"through": [-67.782, 5.291], "angle": -29.8}}},
+        "5": {"points": ["B"], "on": "4.g"},
+    },
+    "driver": {"link": "4", "relative_to": "2", "angle": -97.4, "omega": -12.36, "alpha": -12.8},
+    "sketch": {"B": [154.5, 131.7], "C": [140.6, 97.9], "D": [-22.8, 14.5]},
+}  # fmt: skip
+
 
 @pytest.mark.parametrize("at", [70, 55, 95])
 def test_plates_joined_by_two_bars_are_drawn_by_the_special_point_of_both(at: float) -> None:
@@ -258,7 +271,7 @@ def test_a_group_of_which_only_driven_blocks_can_be_left_out_is_drawn(at: float)
     assert [] == [str(row.symbol) for row in result.report.rows if row.error > 1e-9 * max(abs(row.exact), 1e-3)]
 
 
-@pytest.mark.parametrize("scene", [SLIDING, STEEP, BARE, UNBARRED])
+@pytest.mark.parametrize("scene", [SLIDING, STEEP, BARE, UNBARRED, WELDED])
 def test_groups_far_from_points_and_fits_are_drawn_where_they_are_sketched(scene: dict[str, Any]) -> None:
     result = graphkin.check(scene)
     assert set() == everything(scene) - {str(row.symbol) for row in result.report.rows}
