@@ -45,8 +45,6 @@ from graphkin.version import __version__
 
 TYPE_CHECKING = False  # that of typing, without waiting for typing
 if TYPE_CHECKING:
-    from typing import Any
-
     from graphkin.api.audited import Audited, audit
     from graphkin.api.cams import Cams, cam
     from graphkin.api.centred import Centred, centres
@@ -189,7 +187,7 @@ _PLACES = {
 }
 
 
-def __getattr__(name: str) -> Any:
+def __getattr__(name: str) -> object:
     # each public name is loaded when it is first used, so that importing graphkin costs next to nothing, and a program
     # that checks a scene does not wait for the papers
     from importlib import import_module

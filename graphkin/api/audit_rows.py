@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import Any
 
 from graphkin.api.answers import Answers, Unread
 from graphkin.api.reading_rows import in_scene_units
 from graphkin.checking.audit import Judged
+from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Value
 from graphkin.words import Phrase, say
 
 __all__ = ["Row", "rows_of"]
 
-Row = dict[str, Any]
+Row = dict[str, Json]
 """A value as JSON: what was written, what is exact, the verdict, and why."""
 
 

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from graphkin.api.answers import Answers, AnswersLike, as_answers
 from graphkin.api.arguments import At, SceneLike, as_scene, known_words, placed, write_files
@@ -21,7 +21,7 @@ from graphkin.checking.scans import JudgedScan, judge_scans
 from graphkin.checking.slips import Evidence, ValuesElsewhere
 from graphkin.construction import execute, plan
 from graphkin.errors import CallError, Problem, as_text, did_you_mean
-from graphkin.files import path_of
+from graphkin.files import Json, path_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol, Value
 from graphkin.words import Phrase, say, word
@@ -61,10 +61,10 @@ class Audited(Result, OfScene):
         )
 
     @cached_property
-    def data(self) -> dict[str, Any]:
+    def data(self) -> dict[str, Json]:
         """The object that ``graphkin audit --json`` prints; values in scene units."""
         values = [row for who, judged in self.people for row in rows_of(self.mechanism, who, judged, "en")]
-        found: dict[str, Any] = {"ok": self.ok, "values": values}
+        found: dict[str, Json] = {"ok": self.ok, "values": values}
         if self.is_class:
             found["people"] = list(people_of(self.people, self.scheme, "en"))
             found["quantities"] = list(quantities_of(self.people, "en"))
@@ -72,8 +72,8 @@ class Audited(Result, OfScene):
             found["scans"] = {scan.diagram: self._scan(scan) for scan in self.scans}
         return {**found, **({"unused": list(self.unused)} if self.unused else {})}
 
-    def _scan(self, judged: JudgedScan) -> dict[str, Any]:
-        lines = [
+    def _scan(self, judged: JudgedScan) -> dict[str, Json]:
+        lines: list[dict[str, Json]] = [
             {
                 "line": line.name, "on_paper_mm": abs(line.read), "exact_mm": abs(line.exact),
                 "turned_deg": math.degrees(line.turned), "ok": line.ok, "said": say(line.said, "en"),
@@ -122,15 +122,14 @@ class Audited(Result, OfScene):
             own = {"person": who.person, "id": who.id, "variant": who.variant, "at": _place(who.at)}
             lead = [own[key] for key in self._named]
             for row in rows_of(self.mechanism, who, judged, self.language):
-                off = "" if row["deviation_pct"] is None else f"{round(row['deviation_pct'], 2) + 0.0:+.2f} %"
-                exact = "" if row["exact"] is None else _shown(row["exact"])
-                verdict = word(row["verdict"] or "not judged", self.language)
-                said = row.get("looks_like", row.get("why", "") if row["verdict"] == "not readable" else "")
-                if "loop_gap" in row:
-                    gap = row["loop_gap"]
+                percent, gap = row["deviation_pct"], row.get("loop_gap")
+                off = f"{round(percent, 2) + 0.0:+.2f} %" if isinstance(percent, float) else ""
+                verdict = word(str(row["verdict"] or "not judged"), self.language)
+                said = str(row.get("looks_like", row.get("why", "") if row["verdict"] == "not readable" else ""))
+                if isinstance(gap, dict):
                     open_ = Phrase("loop open", (gap["loop"], f"{gap['gap']:.4g} {self.mechanism.units.length}"))
                     said = "; ".join(filter(None, (said, say(open_, self.language))))
-                rows.append([*lead, row["symbol"], row["written"], exact, off, verdict, said])
+                rows.append([*lead, str(row["symbol"]), str(row["written"]), _shown(row["exact"]), off, verdict, said])
         return rows
 
     def __getitem__(self, name: str) -> tuple[Judged, ...]:
@@ -156,8 +155,7 @@ class Audited(Result, OfScene):
         from graphkin.table import Table
 
         rows = list(people_of(self.people, self.scheme, self.language))
-        flat = [{**{k: v for k, v in r.items() if k != "points"},
-                 **r.get("points", {})} for r in rows]  # fmt: skip
+        flat = [{**{k: v for k, v in r.items() if k != "points"}, **_points(r)} for r in rows]
         keys = list(dict.fromkeys(k for row in flat for k in row))
         last = [k for k in ("total", "of", "slip") if k in keys]
         keys = [*(k for k in keys if k not in last), *last]
@@ -202,8 +200,14 @@ def _place(at: float | str | None) -> str:
     return "" if at is None else at if isinstance(at, str) else f"{at:g}"
 
 
-def _shown(value: float | list[float]) -> str:
-    return ", ".join(f"{v:.6g}" for v in (value if isinstance(value, list) else [value]))
+def _points(row: Mapping[str, Json]) -> Mapping[str, Json]:
+    found = row.get("points")
+    return found if isinstance(found, Mapping) else {}
+
+
+def _shown(value: Json) -> str:
+    """A number or the components of a vector; "" where there is none."""
+    return "" if value is None else ", ".join(f"{v:.6g}" for v in (value if isinstance(value, list) else [value]))
 
 
 def audit(

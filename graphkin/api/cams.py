@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from graphkin.drawing import Drawing
     from graphkin.solver.cam_study import AtDegree, CamStudy
     from graphkin.solver.disc_cams import DiscCam
-    from graphkin.table import Table
+    from graphkin.table import Array, Table
 
 __all__ = ["CamMade", "Cams", "cam", "cam_made", "cam_table"]
 
@@ -138,7 +138,7 @@ class CamMade:
         return [say(phrase, language) for phrase in self.phrases()]
 
     @property
-    def data(self) -> dict[str, Any]:
+    def data(self) -> dict[str, Json]:
         """Plain data: lengths in the scene's unit, angles in degrees of the cam under ``degree``, else radians."""
         metres, study = self.mechanism.units.metres, self.study
         lift = 1.0 if self._swings else metres
@@ -243,12 +243,12 @@ class Cams(Result, OfScene):
     def _links(self) -> str:
         return ", ".join([*(one.cam.link for one in self.made), *(disc.link for disc in self.discs)])
 
-    def __getitem__(self, name: str) -> Any:
+    def __getitem__(self, name: str) -> CamMade | Array:
         """A cam by its link, or a column of the table.  Raises CallError for an unknown one."""
         return next((one for one in self.made if one.cam.link == name), None) or self.table[name]
 
     @property
-    def data(self) -> dict[str, Any]:
+    def data(self) -> dict[str, Json]:
         """The object that ``graphkin cam --json`` prints."""
         return {
             "title": self.mechanism.title,

@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from graphkin.api.arguments import (
     ON_SHEETS,
@@ -71,10 +71,9 @@ def centres_text(centred: Centred) -> CentresText:
 
     rows = []
     for pair, centre in sorted(centred.centres.table.items(), key=lambda item: item[1].number):
-        row = centred.data["centres"]["-".join(pair)]
         least = 1e-12 * centred.mechanism.size / centred.mechanism.units.metres
-        place = ", ".join(f"{x if abs(x) > least else 0.0:.6g}" for x in row.get("point", row.get("direction", [])))
-        if "direction" in row:
+        place = ", ".join(f"{x if abs(x) > least else 0.0:.6g}" for x in centred.where(centre))
+        if centre.point is None and centre.direction is not None:
             place = f"∞ ({place})"
         how = say(_phrase(centre, name, ", ".join(centred.centres.kept)), language, name)
         rows.append((str(centre.number or ""), name(pair), place, how))
@@ -158,7 +157,7 @@ class Centred(Result, OfScene):
         return near and all(v.ok is not False for v in self.velocities)
 
     @cached_property
-    def data(self) -> dict[str, Any]:
+    def data(self) -> dict[str, Json]:
         """The object that ``graphkin centres --json`` prints."""
         names = self.centres.links.names
         return {
@@ -170,14 +169,11 @@ class Centred(Result, OfScene):
 
     def _centre(self, centre: Centre) -> dict[str, Json]:
         row: dict[str, Json] = {}
-        if centre.point is not None:
-            z = centre.point * self.centres.sheet.scales.length / self.mechanism.units.metres
-            row["point"] = [_plain(z.real), _plain(z.imag)]
-        elif centre.direction is not None:
-            row["direction"] = [_plain(centre.direction.real), _plain(centre.direction.imag)]
+        if where := self.where(centre):
+            row["direction" if centre.point is None else "point"] = list(where)
         row["kind"] = centre.kind
         if centre.lines:
-            row["by"] = [[p if isinstance(p, str) else _name(p) for p in line.through] for line in centre.lines]
+            row["by"] = _crossing(centre)
         if centre.way:
             row["by"] = centre.way
         if centre.number and centre.kind == "found":
@@ -185,6 +181,13 @@ class Centred(Result, OfScene):
         if centre.why:
             row["why"] = say(centre.why, languages(self.language or self.mechanism.sheet.language)[0])
         return row
+
+    def where(self, centre: Centre) -> tuple[float, float] | tuple[()]:
+        """Coordinates of a centre in the scene's unit; of one at infinity its direction; none where it is unknown."""
+        if centre.point is not None:
+            z = centre.point * self.centres.sheet.scales.length / self.mechanism.units.metres
+            return _plain(z.real), _plain(z.imag)
+        return () if centre.direction is None else (_plain(centre.direction.real), _plain(centre.direction.imag))
 
     def _velocity(self, v: Velocity) -> dict[str, Json]:
         unit = self.mechanism.units.rates.metres if v.symbol.is_vector else 1.0
@@ -242,11 +245,11 @@ class Centred(Result, OfScene):
         from graphkin.table import Table
 
         rows = []
-        for (pair, centre), row in zip(self.centres.table.items(), self.data["centres"].values(), strict=True):
-            by = row.get("by", centre.joint)
-            told = by if isinstance(by, str) else " x ".join(" ".join(line) for line in by)
-            place, way = row.get("point", (None, None)), row.get("direction", (None, None))
-            rows.append((_name(pair), centre.kind, centre.number or None, *place, *way, told, self.errors[pair]))
+        for pair, centre in self.centres.table.items():
+            told = centre.way or " x ".join(" ".join(line) for line in _crossing(centre)) or centre.joint
+            x, y = self.where(centre) or (None, None)
+            where = (x, y, None, None) if centre.point is not None else (None, None, x, y)
+            rows.append((_name(pair), centre.kind, centre.number or None, *where, told, self.errors[pair]))
         heads = ("pair", "kind", "number", "x", "y", "direction_x", "direction_y", "by", "error")
         return Table.of(heads, rows, ("", "", "g", *(".12g",) * 4, "", ".3g"))
 
@@ -294,6 +297,11 @@ def found_centres(of: Mechanism | Structure, values: Mapping[str, float] | None)
 
 def _name(pair: LinkPair) -> str:
     return "-".join(pair)
+
+
+def _crossing(centre: Centre) -> list[list[str]]:
+    """What each line goes through on which a centre lies."""
+    return [[p if isinstance(p, str) else _name(p) for p in line.through] for line in centre.lines]
 
 
 def _plain(value: float) -> float:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +18,7 @@ from graphkin.api.checked import solved_here
 from graphkin.api.results import OfScene, Result
 from graphkin.construction.centres import Centres
 from graphkin.errors import CallError, Problem, as_text, did_you_mean
+from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 
 if TYPE_CHECKING:
@@ -63,7 +64,7 @@ class Centroded(Result, OfScene):
         return self.motion.position(self.point, self.link) if self.point else np.zeros(0, dtype=np.complex128)
 
     @property
-    def data(self) -> dict[str, Any]:
+    def data(self) -> dict[str, Json]:
         """The object that ``graphkin centres --centrode --json`` prints, but for the files."""
         return {"link": self.link, "ok": self.ok}
 
@@ -124,7 +125,7 @@ class Centroded(Result, OfScene):
         return svg_bytes(self.figure).decode()
 
 
-def _branches(places: NDArray[Any], joined: NDArray[Any]) -> list[list[complex]]:
+def _branches(places: NDArray[np.complex128], joined: NDArray[np.bool_]) -> list[list[complex]]:
     """Places in runs that a pen draws without lifting; the end of a turn joins its start."""
     runs: list[list[complex]] = []
     run: list[complex] = []

@@ -8,7 +8,7 @@ from copy import deepcopy
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -124,7 +124,7 @@ class Checked(Result, OfScene):
         return write_files(path_of(folder), {"readings.csv": self.table.csv().encode()})
 
     @cached_property
-    def data(self) -> dict[str, Any]:
+    def data(self) -> dict[str, Json]:
         """The object that ``graphkin check --json`` prints: scene units, readings with sign."""
         return {
             "instrument": self.report.instrument,

@@ -6,11 +6,11 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from numbers import Real
-from typing import Any
 
 from graphkin.api.answers import Answers
 from graphkin.checking.audit import Judged
 from graphkin.errors import CallError, Problem
+from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.scene.spelling import Spelling
 from graphkin.scene.symbol import Symbol
@@ -70,7 +70,7 @@ def scheme_of(scene: Mechanism, given: Mapping[str, float] | None) -> Scheme | N
     return Scheme(parts, symbols)
 
 
-def people_of(people: Sequence[Person], scheme: Scheme | None, language: str) -> Iterator[dict[str, Any]]:
+def people_of(people: Sequence[Person], scheme: Scheme | None, language: str) -> Iterator[dict[str, Json]]:
     """For each person: the verdicts counted, the slip to talk about, and the points where there is a scheme.
 
     The slip is the first one made: values that only follow from it are no slips.
@@ -79,7 +79,7 @@ def people_of(people: Sequence[Person], scheme: Scheme | None, language: str) ->
         asked = [*(j.printed.symbol for j in judged), *(u.symbol for u in who.unread)]
         counts = Counter(_verdicts(who, judged))
         slip = next((j.looks_like for j in judged if j.verdict == "wrong" and j.looks_like is not None), None)
-        row: dict[str, Any] = {"person": who.person}
+        row: dict[str, Json] = {"person": who.person}
         row |= {k: v for k, v in (("id", who.id), ("variant", who.variant), ("at", who.at)) if v not in ("", None)}
         row |= {verdict: counts[verdict] for verdict in COUNTED}
         if slip is not None:
@@ -89,19 +89,19 @@ def people_of(people: Sequence[Person], scheme: Scheme | None, language: str) ->
         yield row
 
 
-def _points(who: Answers, judged: Sequence[Judged], asked: Sequence[Symbol], scheme: Scheme) -> dict[str, Any]:
+def _points(who: Answers, judged: Sequence[Judged], asked: Sequence[Symbol], scheme: Scheme) -> dict[str, Json]:
     """Points by part, their sum, and of how many; a part that nobody has marked yet is None and not counted."""
     good = [j.printed.symbol for j in judged if j.verdict in FULL]
     values = sum(scheme.of(s, asked) for s in good)
     most = sum(scheme.of(s, asked) for s in asked)
-    points: dict[str, Any] = {"values": values}
+    points: dict[str, float | None] = {"values": values}
     total = values
     for part in ("equations", "drawing"):
         if part in scheme.parts:
             mark = who.marks.get(part)
-            points[part] = None if mark is None else min(max(mark, 0.0), scheme.parts[part])
-            if mark is not None:
-                total += points[part]
+            points[part] = own = None if mark is None else min(max(mark, 0.0), scheme.parts[part])
+            if own is not None:
+                total += own
                 most += scheme.parts[part]
     return {"points": {k: None if v is None else round(v, 4) for k, v in points.items()},
             "total": round(total, 4), "of": round(most, 4)}  # fmt: skip
@@ -112,7 +112,7 @@ def _verdicts(who: Answers, judged: Sequence[Judged]) -> Iterator[str]:
     yield from ("not readable" if u.why else "missing" for u in who.unread)
 
 
-def quantities_of(people: Sequence[Person], language: str) -> Iterator[dict[str, Any]]:
+def quantities_of(people: Sequence[Person], language: str) -> Iterator[dict[str, Json]]:
     """For each quantity: the verdicts of the class counted, and the commonest slip with how many made it."""
     symbols: dict[Symbol, None] = {}
     for who, judged in people:
@@ -124,7 +124,7 @@ def quantities_of(people: Sequence[Person], language: str) -> Iterator[dict[str,
         counts["not readable"] = sum(bool(u.why) for u in unread)
         counts["missing"] = len(unread) - counts["not readable"]
         slips: Counter[Phrase] = Counter(j.looks_like for j in own if j.verdict == "wrong" and j.looks_like)
-        row: dict[str, Any] = {"symbol": str(symbol), **{verdict: counts[verdict] for verdict in COUNTED}}
+        row: dict[str, Json] = {"symbol": str(symbol), **{verdict: counts[verdict] for verdict in COUNTED}}
         if slips:
             phrase, made = slips.most_common(1)[0]
             row |= {"commonest_slip": say(phrase, language), "made_by": made}

@@ -8,13 +8,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any
 
 from graphkin.api.arguments import SceneLike, as_scene, write_files
 from graphkin.api.results import Result
 from graphkin.errors import Problem, Unsolvable
 from graphkin.exchange import FRAME, READ, Bodies, BodyDrive, BodySlide, is_address, read_bodies, write_bodies
-from graphkin.files import path_of
+from graphkin.files import Json, Tables, path_of
 from graphkin.scene.mapping import toml_text
 from graphkin.scene.model import AngleDriver, Mechanism, PlacedLink
 from graphkin.scene.written import Scene, safe_name
@@ -43,7 +42,7 @@ class Converted(Result):
         return {f"{safe_name(self.scene.name)}{self.ending}": self.text.encode()}
 
     @property
-    def data(self) -> dict[str, Any]:
+    def data(self) -> dict[str, Json]:
         """The scene as a mapping, and what was left out."""
         return {"scene": self.scene.to_dict(), "left": list(self.left)}
 
@@ -113,7 +112,7 @@ def _is_file(path: str) -> bool:
         return False
 
 
-def _written(source: SceneLike, given: Mechanism) -> Mapping[str, Any]:
+def _written(source: SceneLike, given: Mechanism) -> Tables:
     from graphkin.scene.source import written
 
     return written(source)[0] if source is not given else written(given)[0]
@@ -123,25 +122,23 @@ def _bodies(scene: Mechanism) -> Bodies:
     """The bodies of a scene at its own position, in its length unit."""
     from graphkin import solver
 
-    data: dict[str, Any] = solver.to_json(solver.solve(scene))
-    at = data["positions"][0]
-    if at["status"] != "ok":
-        raise Unsolvable(at["status"], Problem(scene.title, at["why"]))
+    motion = solver.solve(scene)
+    if not motion.ok[0]:
+        raise Unsolvable(str(motion.status[0]), Problem(scene.title, motion.why[0]))
     unit = scene.units.metres
     made = Bodies(scene.title, unit=scene.units.length)
     for point, place in scene.frame.points.items():
         made.point(point, place / unit)
-    for name, facts in at["points"].items():
-        own, _, link = name.partition("@")
-        if own in scene.by_name[link].points and own not in made.places:
-            made.point(own, complex(*facts["position"]))
+    for point, name in solver.listed_points(scene, motion.slides):
+        if point in scene.by_name[name].points and point not in made.places:
+            made.point(point, complex((motion.point(point, name).z / unit)[0]))
     made.body(FRAME, scene.frame.points)
     for link in scene.links:
         if not link.redundant:
             made.body(link.name, link.points)
     poses = {scene.frame.name: (0j, 1 + 0j)}
     for link in scene.links:
-        poses[link.name] = _pose(link, made, at["links"][link.name]["angle"])
+        poses[link.name] = _pose(link, made, float(motion.angle(link.name)[0]))
     pairs: list[tuple[str, str | None, str, str, bool]]
     pairs = [(s.link, s.pin, s.on, s.guide, False) for s in scene.slidings]
     pairs += [(p.of, p.point, p.on, p.guide, True) for p in scene.pins]

@@ -6,7 +6,6 @@ import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
 
 from graphkin.api.arguments import (
     ON_SHEETS,
@@ -28,7 +27,7 @@ from graphkin.api.results import FilesOfScene
 from graphkin.api.sweep import sweep
 from graphkin.drawing import ChartPage
 from graphkin.errors import CallError, Problem, Unsolvable
-from graphkin.files import path_of
+from graphkin.files import Json, path_of
 from graphkin.jobs import Progress
 from graphkin.papers.blocks import Picture, Plate
 from graphkin.papers.course_design import ClassRow, CourseDesign, Student, class_document, on_paper, plate, report
@@ -70,9 +69,9 @@ class CourseDesigns(FilesOfScene):
         return _class_table(self.mechanism, self.rows, self.asked)
 
     @cached_property
-    def data(self) -> dict[str, Any]:
+    def data(self) -> dict[str, Json]:
         """The table for programs, in scene units."""
-        students = [
+        students: list[dict[str, Json]] = [
             {"name": row.student.name, "id": row.student.id, "variant": row.student.scheme,
              "position": row.student.place, "at": row.values.driver,
              "values": {str(s): row.values.read.get(s) for s in self.asked},
@@ -156,7 +155,7 @@ def course_design(
     else:
         dealt = [(who, course[scheme_name(course, who)].values(who.place)) for who in dealt_out(students, course)]
     content: dict[str, bytes] = {}
-    lines, agrees, shared, bound = [], True, dict[str, dict[str, Any]](), []
+    lines, agrees, shared, bound = [], True, dict[str, dict[str, tuple[Picture | Plate, ...]]](), []
     lesson = None
     for k, (who, values) in enumerate(dealt):
         one = course[scheme_name(course, who)]
@@ -224,10 +223,10 @@ def _drawn(
     return tuple(on_paper(page, paper_of(scene)) for page in pages)
 
 
-def _figures(scene: Mechanism, language: str, convention: str) -> dict[str, Any]:
+def _figures(scene: Mechanism, language: str, convention: str) -> dict[str, tuple[Picture | Plate, ...]]:
     """Figures that all students of a scheme share."""
     paper = paper_of(scene)
-    found: dict[str, Any] = {name: _drawn(scene, name, language, convention) for name in ("structure", "positions")}
+    found = {name: _drawn(scene, name, language, convention) for name in ("structure", "positions")}
     pages_of: list[Picture | Plate] = []
     for page in sweep(scene, language=languages(language)[0]).figures.values():
         if isinstance(page, ChartPage):

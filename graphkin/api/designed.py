@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from graphkin.api.arguments import MOST_SEED, ON_SHEETS, known_words, own_folder, whole_number, write_files
 from graphkin.api.results import Result
@@ -178,7 +178,7 @@ class Designed(Result):
         return found if found is not None and 1.002 * found.low < found.best < 0.998 * found.high else None
 
     @property
-    def data(self) -> dict[str, Any]:
+    def data(self) -> dict[str, Json]:
         """The object that ``graphkin design --json`` prints."""
         made: dict[str, Json] = {
             "kind": self.given.task.kind,

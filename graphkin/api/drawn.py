@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from graphkin.api.arguments import (
     ON_SHEETS,
@@ -25,6 +25,7 @@ from graphkin.api.report_text import report_text
 from graphkin.api.results import OfScene, Result
 from graphkin.construction import EXACT, Plan, execute, plan
 from graphkin.errors import CallError, Problem, as_list, as_text, did_you_mean
+from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.table import Table
@@ -86,7 +87,7 @@ class Drawn(Result, OfScene):
         return self.checked.ok
 
     @property
-    def data(self) -> dict[str, Any]:
+    def data(self) -> dict[str, Json]:
         """The object that ``graphkin draw --json`` prints: that of the check."""
         return self.checked.data
 

@@ -11,14 +11,13 @@ from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any
 
 from graphkin.api.arguments import SceneLike, as_scene, known_words, own_unit, write_files
 from graphkin.api.report_text import show
 from graphkin.api.results import OfScene, Result
 from graphkin.construction import EXACT, execute, plan
 from graphkin.errors import GraphkinError, Unsolvable
-from graphkin.files import path_of
+from graphkin.files import Json, path_of
 from graphkin.scene.force_names import force_names
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedGuide, PlacedLink
 from graphkin.structure import Cluster, Structure, mobility_of
@@ -66,7 +65,7 @@ class Explained(Result, OfScene):
         return Table.of(("about", "sentence"), rows)
 
     @cached_property
-    def data(self) -> dict[str, Any]:
+    def data(self) -> dict[str, Json]:
         """The sentences by what they are about, in English."""
         found: dict[str, list[str]] = {}
         for about, phrase in self.sentences:

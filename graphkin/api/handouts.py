@@ -6,7 +6,7 @@ import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, fields
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from graphkin.api.arguments import (
     ON_SHEETS,
@@ -23,7 +23,7 @@ from graphkin.api.arguments import (
 from graphkin.api.checked import solved_here
 from graphkin.api.results import FilesOfScene
 from graphkin.errors import CallError, Problem, as_list, as_text, did_you_mean
-from graphkin.files import path_of
+from graphkin.files import Json, path_of
 from graphkin.papers.answer_key import KeyRow, key_rows
 from graphkin.papers.exports import PLATFORMS, Question, files_for, question_of
 from graphkin.papers.lesson import Lesson
@@ -69,7 +69,7 @@ class Handout(FilesOfScene):
         return key_rows(self.lesson)
 
     @cached_property
-    def data(self) -> dict[str, Any]:
+    def data(self) -> dict[str, Json]:
         """The key for programs, in scene units."""
         return {"ok": self.ok, "key": [asdict(row) for row in self.key]}
 

@@ -6,7 +6,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
@@ -40,7 +39,7 @@ class LoopText:
     language: str = "en"
 
     @cached_property
-    def data(self) -> list[dict[str, Any]]:
+    def data(self) -> list[dict[str, Json]]:
         """For programs: loops that are solved together, in scene units and radians; the matrix times the rates is the
         right side, rows are x and y of each loop in turn."""
         return [self._block(block) for block in self.blocks]

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from importlib.util import find_spec
 from numbers import Integral, Real
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -245,7 +245,7 @@ class Prepared(Tabled, OfScene):
     def __hash__(self) -> int:
         return hash(self.asked)
 
-    def __reduce__(self) -> tuple[Any, ...]:
+    def __reduce__(self) -> tuple[object, ...]:
         # what was asked is pickled, the code for it is made anew
         return prepare, self._said
 
@@ -325,7 +325,7 @@ class PreparedDesigns(Tabled, OfScene):
     def __hash__(self) -> int:
         return hash((self.prepared, tuple(self.values)))
 
-    def __reduce__(self) -> tuple[Any, ...]:
+    def __reduce__(self) -> tuple[object, ...]:
         given = {key: float(own[0]) if self.single else own for key, own in self.values.items()}
         return _over, (self.prepared, given)
 

@@ -28,7 +28,7 @@ from graphkin.api.arguments import (
 )
 from graphkin.api.results import OfScene, Result
 from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable, as_text, did_you_mean
-from graphkin.files import folder_alone, path_of
+from graphkin.files import Json, folder_alone, path_of
 from graphkin.jobs import Progress, Workers
 from graphkin.papers.answer_key import answers_template
 from graphkin.papers.data_rows import Columns, columns_of, replaced
@@ -68,9 +68,9 @@ class ProblemSet(Result, OfScene):
         return self.made.ok
 
     @property
-    def data(self) -> dict[str, Any]:
+    def data(self) -> dict[str, Json]:
         """All answers, remarks and failures, for programs."""
-        variants = [
+        variants: list[dict[str, Json]] = [
             {
                 "name": name,
                 "answers": [{"symbol": a.symbol, "value": a.value, "tolerance": a.tolerance} for a in answers],

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 from graphkin.errors import as_text
+from graphkin.files import Json
 
 if TYPE_CHECKING:
     import pandas
@@ -38,7 +39,7 @@ class Tabled(ABC):
         """Its main table."""
 
     @property
-    def data(self) -> Any:
+    def data(self) -> Json:
         """For programs: each column of the table with its unit and its values; ``None`` where there is none."""
         return self.table.data
 
@@ -104,7 +105,7 @@ class Result(Tabled):
 
     @property
     @abstractmethod
-    def data(self) -> Any:
+    def data(self) -> Json:
         """Plain dicts, lists, texts and numbers, as the command of the same name prints them under ``--json``."""
 
     @abstractmethod
@@ -121,7 +122,7 @@ class Result(Tabled):
         # equal results have equal tables
         return hash((type(self), self.table))
 
-    def __getstate__(self) -> dict[str, Any]:
+    def __getstate__(self) -> dict[str, object]:
         return {field.name: getattr(self, field.name) for field in fields(self)}  # type: ignore[arg-type]
 
 

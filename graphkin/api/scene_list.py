@@ -5,12 +5,12 @@ from __future__ import annotations
 import os
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from graphkin.api.arguments import write_files
 from graphkin.api.results import Result
 from graphkin.errors import CallError, Problem, as_text, did_you_mean
-from graphkin.files import path_of
+from graphkin.files import Json, path_of
 from graphkin.scene.source import library, library_text, mechanism_of, read
 from graphkin.structure import analyse
 
@@ -32,7 +32,7 @@ class Listed(Result):
         return bool(self.rows)
 
     @property
-    def data(self) -> list[dict[str, Any]]:
+    def data(self) -> list[dict[str, Json]]:
         """The list that ``graphkin scenes --json`` prints."""
         return [{"name": n, "title": t, "title_zh": z, "mobility": f} for n, t, z, f in self.rows]
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import chain, islice
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,7 +34,7 @@ from graphkin.structure import mobility_of
 if TYPE_CHECKING:
     from graphkin.api.loops_text import LoopText
     from graphkin.solver import Forces, Motion
-    from graphkin.table import Column, Table
+    from graphkin.table import Array, Column, Table
 
 __all__ = ["Solved", "SolvedBlocks", "refused", "solve", "solve_in_blocks"]
 
@@ -59,7 +59,7 @@ class Solved(Result, OfScene):
     def __repr__(self) -> str:
         return f"<Solved {self.mechanism.name}: {int(self.motion.ok.sum())} of {len(self.motion)} positions>"
 
-    def __getitem__(self, name: str) -> NDArray[Any]:
+    def __getitem__(self, name: str) -> Array:
         """A quantity by its name (a symbol, "C", "theta_3", "s_2/3", a column of the table).  Raises CallError."""
         name = as_text("name", name)
         from graphkin.study.watched import watched_named, watched_symbol
@@ -111,18 +111,18 @@ class Solved(Result, OfScene):
         return self.motion if self.forces is None else self.forces.motion
 
     @cached_property
-    def data(self) -> dict[str, Any]:
+    def data(self) -> dict[str, Json]:
         """The object that ``graphkin solve --json`` prints."""
         return {**self.head, "positions": list(self.entries())}
 
     @cached_property
-    def head(self) -> dict[str, Any]:
+    def head(self) -> dict[str, Json]:
         """What ``data`` says before its positions."""
         from graphkin.solver import head
 
         return head(self.motion)
 
-    def entries(self) -> Iterator[dict[str, Any]]:
+    def entries(self) -> Iterator[dict[str, Json]]:
         """What ``data`` says of each position, one after the other: of a long sweep only some are in memory."""
         from graphkin.solver import entries
         from graphkin.solver.named_positions import named_positions
@@ -141,7 +141,7 @@ class Solved(Result, OfScene):
                     entry["values"] = {name: _finite(values[k]) for name, values in asked.items()}
             yield entry
 
-    def _plain(self, name: str) -> NDArray[Any]:
+    def _plain(self, name: str) -> NDArray[np.float64]:
         """What has a name, shape (positions,) or (positions, 2) for vectors; angles in radians."""
         own = self[name]
         own = np.radians(own) if self.columns(name)[0].unit == "deg" else own
@@ -190,7 +190,7 @@ class SolvedBlocks:
         return any(some.ok for some in self)
 
     @property
-    def data(self) -> dict[str, Any]:
+    def data(self) -> dict[str, Json]:
         """``Solved.data`` of the whole."""
         return {**self.first.head, "positions": [entry for some in self for entry in some.entries()]}
 

@@ -8,12 +8,12 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
+from typing import TYPE_CHECKING, ClassVar, TypeVar
 
 from graphkin.api.arguments import CHART_FORMATS, SceneLike, as_scene, known_words, whole_number, write_files
 from graphkin.api.results import Result
 from graphkin.errors import CallError, Problem, as_list, as_text, did_you_mean
-from graphkin.files import path_of
+from graphkin.files import Json, path_of
 
 if TYPE_CHECKING:
     from graphkin.drawing import ChartPage
@@ -92,7 +92,7 @@ class SpeedAccuracy(_Charted):
         return race_table(self.race)
 
     @cached_property
-    def data(self) -> dict[str, Any]:
+    def data(self) -> dict[str, Json]:
         """The object that ``graphkin study speed-accuracy --json`` prints."""
         from graphkin.races import to_json
 
@@ -166,7 +166,7 @@ class Stability(_Charted):
         return laws_table(self.singularities)
 
     @cached_property
-    def data(self) -> dict[str, Any]:
+    def data(self) -> dict[str, Json]:
         """The object that ``graphkin study stability --json`` prints."""
         from graphkin.study.stability import to_json
 

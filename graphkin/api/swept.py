@@ -9,15 +9,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from graphkin.api.arguments import CHART_FORMATS, known_words, write_files
 from graphkin.api.results import OfScene, Result
 from graphkin.errors import as_text
-from graphkin.files import path_of
+from graphkin.files import Json, path_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.over_time import moves_by_law
 from graphkin.scene.symbol import Symbol
@@ -35,6 +34,7 @@ if TYPE_CHECKING:
     from graphkin.study.sweeps import Found, Sweep
     from graphkin.study.turn import TurnStudy
     from graphkin.study.watched import Arrays
+    from graphkin.table import Array
 
 __all__ = ["Swept"]
 
@@ -79,7 +79,7 @@ class Swept(Result, OfScene):
         """Over designs how many came out with each status."""
         return Counter(outcome.status for outcome in self.found.outcomes)
 
-    def __getitem__(self, name: str) -> NDArray[Any]:
+    def __getitem__(self, name: str) -> Array:
         """A quantity by its name, as far as it was asked for, or any column of the table: NaN where there is none.
         Raises CallError for an unknown one."""
         name = as_text("name", name)
@@ -139,11 +139,11 @@ class Swept(Result, OfScene):
         return wished if [w.name for w in self.over.asked] != own else []
 
     @cached_property
-    def data(self) -> dict[str, Any]:
+    def data(self) -> dict[str, Json]:
         """The object that ``graphkin sweep --json`` prints."""
         from graphkin.study.summary import to_json
 
-        data: dict[str, Any] = to_json(self.turn) if self.turn is not None else {"title": self.over.scene.title}
+        data: dict[str, Json] = to_json(self.turn) if self.turn is not None else {"title": self.over.scene.title}
         if self.time is not None:
             data = dict(self.time.data)
         data["positions"] = {"rows": self.rows, "ok": self.good}

@@ -8,7 +8,7 @@ from __future__ import annotations
 import json
 import math
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -32,6 +32,9 @@ from graphkin.errors import CallError, Problem
 if TYPE_CHECKING:
     from graphkin.api.solved import Solved, SolvedBlocks
     from graphkin.table import Column
+
+Told = Mapping[str, Any]
+"""A part of the object that ``--json`` prints."""
 
 __all__ = ["scenes", "solve"]
 
@@ -174,7 +177,8 @@ def _print_solution(solved: SolvedBlocks, lang: str | None) -> None:
     from graphkin.api.arguments import passed_words
     from graphkin.words import Phrase, class_of, say
 
-    said_first, scene = solved.first.head, solved.first.motion.scene
+    scene = solved.first.motion.scene
+    said_first: Told = solved.first.head
     language = lang or scene.sheet.language
     tell(f"{scene.title_in(language)}   F = {said_first['mobility']}")
     for group in said_first["groups"]:
@@ -192,7 +196,8 @@ def _print_positions(solved: Solved, language: str) -> None:
 
     scene = solved.motion.scene
     columns = [column for name in solved.find for column in solved.columns(name)]
-    for number, position in enumerate(solved.entries()):
+    positions: Iterator[Told] = solved.entries()
+    for number, position in enumerate(positions):
         tell("")
         values = ", ".join(f"{k} = {v:.6g}" for k, v in position["driver"].items())
         tell(say(Phrase("solved driver", (values,)), language))
@@ -210,7 +215,7 @@ def _print_positions(solved: Solved, language: str) -> None:
             _print_forces(position, scene.units.force, language)
 
 
-def _print_position(position: Mapping[str, Any], unit: str, language: str) -> None:
+def _print_position(position: Told, unit: str, language: str) -> None:
     from graphkin.words import Phrase, say
 
     heads = {k: say(Phrase(f"heads of {k}", (unit,)), language).split("|") for k in ("links", "points", "slides")}
@@ -240,7 +245,7 @@ def _print_position(position: Mapping[str, Any], unit: str, language: str) -> No
     print_table(heads["slides"], slides, right=(1, 2, 3))
 
 
-def _print_forces(position: Mapping[str, Any], unit: str, language: str) -> None:
+def _print_forces(position: Told, unit: str, language: str) -> None:
     """Forces by components, size and direction, and moments; what its bound does not tell from 0 is 0."""
     from graphkin.words import Phrase, say
 
@@ -275,7 +280,7 @@ def _certain(value: float, bound: float) -> float:
     return value if not abs(value) <= bound else 0.0
 
 
-def _bound_of(column: Column, bound: Mapping[str, Any], unit: str) -> float:
+def _bound_of(column: Column, bound: Told, unit: str) -> float:
     """The bound of a quantity asked by name, in its unit: that of its kind, of two of them where it is relative."""
     kind = "position" if column.unit == unit else _KINDS.get(column.unit.replace(unit, ""))
     if kind is None:

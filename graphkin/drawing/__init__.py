@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from graphkin.drawing.box import Box
 from graphkin.drawing.drawing import Drawing, save
@@ -52,7 +52,7 @@ _COMPOSED = {
 }
 
 
-def __getattr__(name: str) -> Any:
+def __getattr__(name: str) -> object:
     if name in _COMPOSED:
         return getattr(import_module(f"graphkin.drawing.{_COMPOSED[name]}"), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

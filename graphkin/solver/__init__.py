@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from graphkin.solver.driver_range import DriverRange, driver_range
 from graphkin.solver.exact_values import exact_values, value_of
@@ -52,7 +52,7 @@ _PLACES = {
 }
 
 
-def __getattr__(name: str) -> Any:
+def __getattr__(name: str) -> object:
     # what few ask for is loaded when it is asked for
     for place, names in _PLACES.items():
         if name in names:

@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from graphkin.solver.motion import Motion
 from graphkin.solver.places import pole
@@ -40,9 +41,9 @@ class Centrode:
         turn between the two, so that the centre passes through infinity
     """
 
-    fixed: Array
-    moving: Array
-    joined: Array
+    fixed: NDArray[np.complex128]
+    moving: NDArray[np.complex128]
+    joined: NDArray[np.bool_]
 
 
 def centrode(motion: Motion, link: str) -> Centrode:

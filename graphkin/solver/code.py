@@ -7,18 +7,18 @@ the last bit.  Names in the code are made from numbers only.  Compiled code: ``g
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Container, Mapping, Sequence
+from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 from decimal import Decimal
 from functools import cached_property
 from typing import Any
 
 import numpy as np
+from numpy.typing import DTypeLike
 
-from graphkin.solver.decimals import decimal_function
 from graphkin.solver.expressions import LEAVES, ExpressionGraph, Name, Real, operands
 from graphkin.solver.pose import Array
 
-__all__ = ["BLOCK", "Code"]
+__all__ = ["BLOCK", "Code", "defined"]
 
 BLOCK = 8192
 """Positions that are computed together: some dozens of columns of this length stay in the cache."""
@@ -57,6 +57,9 @@ def _fmin(a: float, b: float) -> float:
 
 def _fmax(a: float, b: float) -> float:
     return a if a != a or a > b else b
+
+
+_FLOATS = {"sqrt": math.sqrt, "fmin": _fmin, "fmax": _fmax, "atan2": math.atan2}
 
 
 class Code:
@@ -99,14 +102,18 @@ class Code:
     def floats(self) -> Callable[[Sequence[float], Sequence[float]], tuple[float, ...]]:
         """Function of params and inputs to what is asked.  Raises ZeroDivisionError, OverflowError in a singular
         position."""
-        made: Callable[[Sequence[float], Sequence[float]], tuple[float, ...]] = _made(self._one({}))
+        made: Callable[[Sequence[float], Sequence[float]], tuple[float, ...]] = defined(self._one({}), _FLOATS)
         return made
 
     @cached_property
     def decimals(self) -> Callable[[Sequence[Decimal], Sequence[Decimal]], tuple[Decimal, ...]]:
         """The same in 50 digits."""
         values = dict.fromkeys(self.graph.lines[at][1] for at in self.order if self.graph.lines[at][0] == "const")
-        return decimal_function(self._one({x: f"k{n}" for n, x in enumerate(values)}), list(values))
+        names = {x: f"k{n}" for n, x in enumerate(values)}
+        numbers = {name: Decimal(x) for x, name in names.items()}
+        made: Callable[[Sequence[Decimal], Sequence[Decimal]], tuple[Decimal, ...]]
+        made = defined(self._one(names), {"sqrt": Decimal.sqrt, "fmin": min, "fmax": max, **numbers})
+        return made
 
     def _one(self, constants: Mapping[float, str]) -> str:
         inputs = {name: f"i[{k}]" for name, k in self._input.items()}
@@ -177,8 +184,8 @@ class Code:
                 wanted.setdefault(at, len(wanted))
         order = [at for at in self.order if at not in self.varying]
         body, names = self._straight(order, {}, {})
-        made = _made("\n    ".join(["def made(p):", *body, _tuple(names.get(at, f"x{at}") for at in wanted)]))
-        return made, wanted
+        text = "\n    ".join(["def made(p):", *body, _tuple(names.get(at, f"x{at}") for at in wanted)])
+        return defined(text, _FLOATS), wanted
 
     @cached_property
     def _blocks(self) -> tuple[Callable[..., None], int]:
@@ -233,9 +240,10 @@ class Code:
             *_unpacked("o", len(self.asked), "o"),
             *_unpacked("r", count, "r"),
         ]
-        return _made("\n    ".join([*head, *body, *copies, "return None"])), count
+        text = "\n    ".join([*head, *body, *copies, "return None"])
+        return defined(text, {f.__name__: f for f in _UFUNCS.values()}), count
 
-    def same(self, params: Sequence[float], dtype: Any = np.float64) -> list[Array] | None:
+    def same(self, params: Sequence[float], dtype: DTypeLike = np.float64) -> list[Array] | None:
         """What is the same at all positions; None where it cannot be computed."""
         try:
             return [np.array(x, dtype=dtype) for x in self._same[0](params)]
@@ -281,13 +289,12 @@ def _unpacked(letter: str, count: int, source: str) -> list[str]:
     return [f"{', '.join(f'{letter}{k}' for k in range(count))}, = {source}"] if count else []
 
 
-def _tuple(texts: Any) -> str:
+def _tuple(texts: Iterable[str]) -> str:
     return f"return ({''.join(f'{t}, ' for t in texts)})"
 
 
-def _made(text: str) -> Any:
-    space: dict[str, Any] = {f.__name__: f for f in _UFUNCS.values()}
-    if "def made(p" in text:
-        space = {"sqrt": math.sqrt, "fmin": _fmin, "fmax": _fmax, "atan2": math.atan2}
+def defined(text: str, called: Mapping[str, object]) -> Any:
+    """The function ``made`` that a text defines; ``called`` is what it calls."""
+    space: dict[str, Any] = dict(called)
     exec(compile(text, "<formulas>", "exec"), space)
     return space["made"]

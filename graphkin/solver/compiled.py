@@ -11,13 +11,13 @@ from collections.abc import Callable
 from functools import cache
 from itertools import pairwise
 from threading import Thread
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.errors import CallError, Problem
-from graphkin.solver.code import Code
+from graphkin.solver.code import Code, defined
 from graphkin.solver.expressions import ExpressionGraph, Name, Real, operands
 
 __all__ = ["LONG", "Kernel", "kernel_text"]
@@ -56,7 +56,7 @@ class Kernel:
         self.checked = len(code.asked) > columns
         self.run = _compiled(self.text)
 
-    def __call__(self, count: int, *given: Any) -> None:
+    def __call__(self, count: int, *given: object) -> None:
         """Fill so many columns.
 
         Parameters
@@ -155,12 +155,15 @@ def _reciprocal(x: Real, over: Real) -> Real | None:
     return graph.line("div", graph.const(1.0).at, x.at)
 
 
+Function = TypeVar("Function", bound=Callable[..., object])
+
+
 @cache
 def _compiled(text: str) -> Callable[..., None]:
     """The compiled function that a text defines.  Raises CallError without numba."""
-    space = dict(_library())
-    exec(compile(text, "<formulas>", "exec"), space)
-    return space["njit"](space["made"])  # type: ignore[no-any-return]
+    called = _library()
+    made: Callable[..., None] = called["njit"](defined(text, called))
+    return made
 
 
 @cache
@@ -173,8 +176,10 @@ def _library() -> dict[str, Any]:
             Problem("compiled", "needs numba, which is not installed", 'pip install "graphkin[fast]"')
         ) from None
 
-    def njit(function: Callable[..., Any], inside: bool = False) -> Any:
-        return numba.njit(function, error_model="numpy", fastmath={"contract"}, nogil=True, forceinline=inside)
+    def njit(function: Function, inside: bool = False) -> Function:
+        options = {"error_model": "numpy", "fastmath": {"contract"}, "nogil": True, "forceinline": inside}
+        made: Function = numba.njit(function, **options)
+        return made
 
     turn = njit(_turn, True)
 
@@ -207,7 +212,7 @@ def _library() -> dict[str, Any]:
             if 0 <= k < count:
                 room[k], room[BLOCK + k] = turn(start + step * (first + k))
 
-    space: dict[str, Any] = {"sqrt": math.sqrt, "atan2": math.atan2, "fmin": min, "fmax": max, "empty": np.empty}
+    space: dict[str, object] = {"sqrt": math.sqrt, "atan2": math.atan2, "fmin": min, "fmax": max, "empty": np.empty}
     return space | {"njit": njit, "turns": njit(turns), "fine": njit(fine), "products": njit(products)}
 
 

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import cmath
-from collections.abc import Callable, Sequence
+from contextlib import AbstractContextManager
 from decimal import ROUND_HALF_EVEN, Context, Decimal, DivisionByZero, InvalidOperation, Overflow, localcontext
-from typing import Any
 
 from graphkin.scene.model import AngleDriver, AnyDriver
 
@@ -13,7 +12,6 @@ __all__ = [
     "DIGITS",
     "PI",
     "cos_sin",
-    "decimal_function",
     "meant",
     "meant_angle",
     "meant_direction",
@@ -27,7 +25,7 @@ SHORT = 12
 """A float that agrees in its last digits with a decimal of this many places is taken for that decimal."""
 
 
-def working() -> Any:
+def working() -> AbstractContextManager[Context]:
     """The arithmetic of this module, as a context manager."""
     return localcontext(
         Context(prec=DIGITS + 10, rounding=ROUND_HALF_EVEN, traps=[DivisionByZero, InvalidOperation, Overflow])
@@ -81,12 +79,3 @@ def cos_sin(angle: Decimal) -> tuple[Decimal, Decimal]:
         term = term * x / k
     c, s = parts
     return ((c, s), (-s, c), (-c, -s), (s, -c))[int(turns) % 4]
-
-
-def decimal_function(text: str, constants: Sequence[float]) -> Callable[..., tuple[Decimal, ...]]:
-    """The function that a text defines, computing with decimals; ``k0``, ``k1``, ... are its constants."""
-    space: dict[str, Any] = {"sqrt": Decimal.sqrt, "fmin": min, "fmax": max}
-    space |= {f"k{n}": Decimal(x) for n, x in enumerate(constants)}
-    exec(compile(text, "<formulas>", "exec"), space)
-    made: Callable[..., tuple[Decimal, ...]] = space["made"]
-    return made

@@ -17,9 +17,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Generic, NamedTuple
+from typing import Generic, NamedTuple
 
-from graphkin.plane import cross, dot
+from graphkin.plane import Values, cross, dot
 from graphkin.solver.expressions import fmax, fmin, root, two_sum
 from graphkin.solver.pose import Number, Pose, R, V
 from graphkin.structure import DyadKind
@@ -77,25 +77,25 @@ def solve_dyad(kind: DyadKind, joints: Joints[V, R], sign: R) -> DyadSolution[V,
     return _SOLVERS[kind](joints, sign)
 
 
-def _square(z: Number) -> Any:
+def _square(z: Number) -> Values:
     return z.real * z.real + z.imag * z.imag
 
 
-def _length(z: Number) -> Any:
+def _length(z: Number) -> Values:
     return root(_square(z))
 
 
-def _by(arm: Number, local: Number, long: Number) -> Any:
+def _by(arm: Number, local: Number, long: Number) -> Values:
     """The direction of a body from one of its vectors in the world and in its own axes."""
     return arm * (local * (1.0 / (long * long))).conjugate()
 
 
-def _slip(u: V, outer: Pose[V, R], inner: Pose[V, R]) -> Any:
+def _slip(u: V, outer: Pose[V, R], inner: Pose[V, R]) -> Values:
     """Rate of the vector from the outer to the inner joint, seen from the body itself."""
     return u * (inner.v - outer.v)
 
 
-def _bent(arm: V, u: V, outer: Pose[V, R], inner: Pose[V, R], omega: R) -> Any:
+def _bent(arm: V, u: V, outer: Pose[V, R], inner: Pose[V, R], omega: R) -> Values:
     """Second rate of that vector in the world when the body turns with ``omega`` and no angular acceleration."""
     return u * (inner.a - outer.a + omega * (2j * (inner.v - outer.v))) - (omega * omega) * arm
 
@@ -196,12 +196,12 @@ def _rpr(j: Joints[V, R], sign: R) -> DyadSolution[V, R]:
     )
 
 
-def _greater(a: Number, b: Number) -> Any:
+def _greater(a: Number, b: Number) -> Values:
     """A smooth stand-in for the greater of two lengths, at most 1.42 times as large."""
     return root(a * a + b * b)
 
 
-def _two(e1: Number, e2: Number, over: Number, w: Number) -> tuple[Any, Any]:
+def _two(e1: Number, e2: Number, over: Number, w: Number) -> tuple[Values, Values]:
     """Solve x e1 + y e2 = w for real x, y, with over = 1 / (e1 x e2)."""
     return cross(w, e2) * over, cross(e1, w) * over
 
@@ -260,7 +260,7 @@ def _rpp(j: Joints[V, R], sign: R) -> DyadSolution[V, R]:
     return DyadSolution(first, guide.along(t, dt, ddt).pinned(j.outer2, u2, w2, al2), sign * sine, sine, e1, e2, load)
 
 
-_SOLVERS: dict[DyadKind, Callable[[Joints[Any, Any], Any], DyadSolution[Any, Any]]] = {
+_SOLVERS: dict[DyadKind, Callable[[Joints[Values, Values], Values], DyadSolution[Values, Values]]] = {
     "RRR": _rrr,
     "RRP": _rrp,
     "RPR": _rpr,

@@ -7,7 +7,7 @@ or 1 is folded away, what is computed twice is computed once, and what leads to 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any, TypeAlias, cast, overload
+from typing import Any, TypeAlias, TypeVar, overload
 
 import numpy as np
 
@@ -37,7 +37,7 @@ class ExpressionGraph:
         self.rests: set[int] = set()
         self._place: dict[Line, int] = {}
 
-    def line(self, *line: Any) -> Real:
+    def line(self, *line: str | float | Name) -> Real:
         """The formula of one operation."""
         at = self._place.get(line)
         if at is None:
@@ -285,11 +285,10 @@ PoseFormula: TypeAlias = "Pose[Vec, Real]"
 """A pose given by formulas."""
 
 
-@overload
-def root(x: Real) -> Real: ...
-@overload
-def root(x: Array) -> Array: ...
-def root(x: Real | Array) -> Real | Array:
+Number = TypeVar("Number", Real, Array)
+
+
+def root(x: Number) -> Number:
     """Square root of the size of a number: where rounding has put a zero below zero it stays near zero."""
     if not isinstance(x, Real):
         return np.sqrt(np.abs(x))
@@ -300,29 +299,25 @@ def root(x: Real | Array) -> Real | Array:
     return x.graph.line("root", x.at)
 
 
-@overload
-def fmin(x: Real, y: Real) -> Real: ...
-@overload
-def fmin(x: Array, y: Array) -> Array: ...
-def fmin(x: Any, y: Any) -> Real | Array:
+def fmin(x: Number, y: Number) -> Number:
     """The smaller of two numbers; the other one where one is not a number."""
-    return x.graph.line("fmin", x.at, y.at) if isinstance(x, Real) else cast(Array, np.fmin(x, y))
+    if not isinstance(x, Real):
+        smaller: Array = np.fmin(x, y)
+        return smaller
+    return x.graph.line("fmin", x.at, y.at)
 
 
-@overload
-def fmax(x: Real, y: Real) -> Real: ...
-@overload
-def fmax(x: Array, y: Array) -> Array: ...
-def fmax(x: Any, y: Any) -> Real | Array:
+def fmax(x: Number, y: Number) -> Number:
     """The greater of two numbers."""
     if not isinstance(x, Real):
-        return cast(Array, np.fmax(x, y))
+        greater: Array = np.fmax(x, y)
+        return greater
     if x.at == y.at or (y.value == 0 and x.never_negative):
         return x
     return x.graph.line("fmax", *sorted((x.at, y.at)))
 
 
-def two_sum(a: Any, b: Any) -> tuple[Any, Any]:
+def two_sum(a: Number, b: Number) -> tuple[Number, Number]:
     """A sum as it is rounded, and what rounding has taken from it (Knuth, The Art of Computer Programming, vol. 2).
 
     Of formulas the two are meant to be used together: as a pair they have no rounding.

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 
@@ -100,6 +99,6 @@ def follower_inputs(cam: LawCam, turn: Array) -> Mapping[str, Array]:
         return {"travel": motion.travel + start + lift.lift, "slope": cam.sense * lift.slope, "bend": lift.bend}
     line = cam.axis - motion.centre
     line = line / abs(line) * (-1 if motion.back else 1)
-    axis: Any = line * turned(motion.side * (start + lift.lift))
+    axis = line * turned(motion.side * (start + lift.lift))
     return {"cos": axis.real, "sin": axis.imag, "slope": motion.side * cam.sense * lift.slope,
             "bend": motion.side * lift.bend}  # fmt: skip

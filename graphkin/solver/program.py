@@ -9,7 +9,7 @@ from collections.abc import Container, Hashable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from decimal import Decimal
-from typing import Any
+from typing import TypeVar
 
 from graphkin.scene.cams import LawCam, SlidingFollower
 from graphkin.scene.model import AngleDriver, AnyDriver
@@ -19,7 +19,7 @@ from graphkin.solver.decimals import DIGITS, meant, meant_direction
 from graphkin.solver.dyads import DyadSolution, Joints, solve_dyad
 from graphkin.solver.expressions import ExpressionGraph, Name, PoseFormula, Real, Vec
 from graphkin.solver.joints import body_shape, driven, dyad_joints, members
-from graphkin.solver.pose import FIELDS, Pose
+from graphkin.solver.pose import Pose
 from graphkin.solver.rounding import UNIT
 from graphkin.structure import Cluster, Driven, Dyad, Pair, Rolled, Slide, Structure, Turn
 from graphkin.structure.model import Coordinate
@@ -147,12 +147,13 @@ class Program:
 
     def _placed(self, name: str) -> PoseFormula:
         """A link of a larger group, whose pose is given."""
-        parts: dict[str, Any] = {}
-        for part in FIELDS:
-            real = self.graph.input(("pose", name, part, "x"))
-            flat = part in ("omega", "alpha")
-            parts[part] = real if flat else Vec(real, self.graph.input(("pose", name, part, "y")))
-        return Pose(**parts)
+        def real(part: str, axis: str = "x") -> Real:
+            return self.graph.input(("pose", name, part, axis))
+
+        def vec(part: str) -> Vec:
+            return Vec(real(part), real(part, "y"))
+
+        return Pose(vec("z"), vec("u"), vec("v"), real("omega"), vec("a"), real("alpha"))
 
     # code
 
@@ -294,7 +295,11 @@ def program_of(
     return dimensioned
 
 
-def _keep_latest(kept: dict[Any, Any]) -> None:
+Key = TypeVar("Key")
+Kept = TypeVar("Kept")
+
+
+def _keep_latest(kept: dict[Key, Kept]) -> None:
     """The oldest go; another thread may be at the same."""
     while len(kept) > MOST:
         with suppress(RuntimeError, StopIteration):

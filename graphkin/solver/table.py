@@ -6,7 +6,6 @@ import json
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import islice
-from typing import Any
 
 import numpy as np
 
@@ -205,11 +204,11 @@ def _flywheel(motion: Motion) -> dict[str, Json]:
     return {"excess_W": found.excess / units.newtons, "J_F": found.inertia / units.inertias}
 
 
-def _plain(values: Array) -> list[Any]:
+def _plain(values: Array) -> list[Json]:
     """Numbers, or pairs of numbers for complex ones."""
-    if np.iscomplexobj(values):
-        return np.stack([values.real, values.imag], axis=1).tolist()  # type: ignore[no-any-return]
-    return values.tolist()  # type: ignore[no-any-return]
+    parts = np.stack([values.real, values.imag], axis=1) if np.iscomplexobj(values) else values
+    found: list[Json] = parts.tolist()
+    return found
 
 
 def _bounds(motion: Motion, k: int) -> dict[str, Json]:

@@ -24,10 +24,11 @@ from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from graphkin.errors import CallError, Problem, as_text, did_you_mean
+from graphkin.files import Json
 from graphkin.table.cells import (
+    Array,
     all_quoted,
     as_array,
     formatted,
@@ -44,9 +45,7 @@ if TYPE_CHECKING:
     import pyarrow
     import xarray
 
-__all__ = ["Column", "Table", "have", "text_column"]
-
-Array = NDArray[Any]
+__all__ = ["Array", "Column", "Table", "have", "text_column"]
 
 BLOCK = 16384
 """Rows that are turned into text at once, so that a table of any length needs little more memory."""
@@ -264,7 +263,7 @@ class Table:
     # data
 
     @cached_property
-    def data(self) -> dict[str, Any]:
+    def data(self) -> dict[str, Json]:
         """For programs: each column with its unit, its symbol and its values; ``None`` where there is none."""
         return {c.name: {**_facts(c), "values": plain(c.values)} for c in self.columns}
 

@@ -10,10 +10,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from graphkin.files import Json
+
 if TYPE_CHECKING:
     import pyarrow
 
 __all__ = [
+    "Array",
     "all_quoted",
     "as_array",
     "formatted",
@@ -26,6 +29,7 @@ __all__ = [
 ]
 
 Array = NDArray[Any]
+"""Cells of a column: numbers, words as objects, or whether something is so."""
 
 _LEAST, _MOST = 1e-6, 1e10
 
@@ -41,11 +45,11 @@ def as_array(cells: Sequence[object]) -> Array:
     return np.array(numbers, dtype=float)
 
 
-def plain(values: Array) -> list[Any]:
+def plain(values: Array) -> list[Json]:
     """Cells for programs: ``None`` where there is no number."""
-    found: list[Any] = values.tolist()
+    found: list[Json] = values.tolist()
     if values.dtype.kind == "f" and not np.isfinite(values).all():
-        return [x if np.isfinite(x) else None for x in found]
+        return [x if known else None for x, known in zip(found, np.isfinite(values).tolist(), strict=True)]
     return found
 
 

@@ -6,19 +6,16 @@ import csv
 from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, Any
+from typing import IO, TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
-from graphkin.table import Column, Table, have
+from graphkin.table import Array, Column, Table, have
 
 if TYPE_CHECKING:
     import pyarrow.csv
 
 __all__ = ["parquet_of_csv", "table_of_csv"]
-
-Array = NDArray[Any]
 
 
 def table_of_csv(path: str | Path, like: Table) -> Table:
