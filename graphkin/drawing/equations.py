@@ -19,10 +19,11 @@ from graphkin.drawing.sums import bound, factors_of, substituted
 from graphkin.drawing.text import rich, symbol, wrapped
 from graphkin.words.written import MOST, product
 
-__all__ = ["SumTerm", "Written", "equations_in_room", "rule_alone", "write_equation", "write_sum"]
+__all__ = ["LEAST_LETTERS", "SumTerm", "Written", "equations_in_room", "rule_alone", "write_equation", "write_sum"]
 
 # mm, of the letters, and columns; the first that fits is taken: sums break in narrow columns
 WAYS = ((3.2, 1), (2.9, 1), (3.2, 2), (2.9, 2), (2.6, 1), (2.6, 2))
+LEAST_LETTERS = min(size for size, _ in WAYS)
 LEAST_ROW = 2.3  # mm, of the letters in rows: below it a square over an index runs into it
 CLEAR, UNDERLINE = 0.55, 0.6  # mm between two rows, and between two lines under a term
 GAP = 1.3  # mm beside a column of terms
@@ -59,12 +60,15 @@ WrittenLine = Equation | str
 
 
 def equations_in_room(
-    lines: Sequence[WrittenLine], sheet: Sheet, letters: Letters, language: str, width: float, height: float
-) -> tuple[tuple[Primitive, ...], int]:
-    """Lines as large as they fit an area (mm), in one column or two, about its left upper corner; and how many of them,
-    the first ones, fit."""
+    lines: Sequence[WrittenLine], sheet: Sheet, letters: Letters, language: str, width: float, height: float,
+    most: float = WAYS[0][0],
+) -> tuple[tuple[Primitive, ...], int]:  # fmt: skip
+    """Lines as large as they fit an area (mm), with letters of ``most`` mm, in one column or two, about its left upper
+    corner; and how many of them, the first ones, fit."""
     fullest: list[tuple[Written, complex]] = []
     for size, columns in WAYS:
+        if size > most:
+            continue
         wide = (width - (columns - 1) * COLUMN_GAP) / columns
         # lines are set as they are placed, since those after one that has no room are not wanted
         blocks = (_write_line(line, sheet, letters, language, wide, size) for line in lines)
@@ -182,7 +186,7 @@ def _short(sheet: Sheet, equation: Equation, letters: Letters) -> str | None:
     value = next(laid_off, abs(vector.span)) * sheet.scales.of(equation.diagram) / sheet.scene.units.rates.metres
     parts.append(f"{said or number(value, MOST)}\u00a0{unit}")
     way = letters.direction(only.direction, sheet.scene.frame.name)
-    return " = ".join(parts) + (f",  ${way}$" if way else "")
+    return " =\u00a0".join(parts) + (f",  ${way}$" if way else "")
 
 
 def rule_alone(sheet: Sheet, equation: Equation) -> bool:

@@ -102,8 +102,10 @@ def titles(sheet: Sheet, language: str) -> tuple[str, ...]:
 def dimensions_in(sheet: Sheet, language: str) -> str:
     """In which unit the dimensions are, where it is not the millimetre that goes without saying."""
     unit = sheet.scene.units.length
-    said = (say(Phrase("dimensions in", (unit,)), each) for each in languages(language))
-    return "" if unit == "mm" else " / ".join(said)
+    if unit == "mm":
+        return ""
+    said = (say(Phrase("dimensions in", (word(f"unit {unit}", each),)), each) for each in languages(language))
+    return " / ".join(said)
 
 
 def number(value: float, digits: int = 6) -> str:

@@ -1,4 +1,6 @@
-"""The pages on which a sheet goes on: what of its equations, data, insets and readings found no room on the first."""
+"""Where a sheet goes on: what of its equations, data, insets and readings found no room in its own place stands where
+others have left some, or on further pages.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +12,7 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.coriolis import CoriolisTerm
 from graphkin.drawing.drawing import Drawing
-from graphkin.drawing.equations import WrittenLine, equations_in_room
+from graphkin.drawing.equations import LEAST_LETTERS, WrittenLine, equations_in_room
 from graphkin.drawing.headings import drivers, facts, figure_title, term, titles
 from graphkin.drawing.insets import INSET, coriolis_row, per_row
 from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved
@@ -19,13 +21,14 @@ from graphkin.drawing.tables import TableRow, readings_table, set_lines
 from graphkin.drawing.text import fitted, plain
 from graphkin.words import Phrase, languages, say
 
-__all__ = ["Remainder", "captioned", "heading", "overleaf"]
+__all__ = ["Remainder", "below", "captioned", "continued", "heading", "overleaf"]
 
-GAP = 6.0  # mm between two parts
+GAP, LEAST_GAP = 6.0, 2.0  # mm between two parts, and where room is short
 CAPTION = 5.5
 HEAD = 15.0  # mm for the heading
 NARROWEST = 209.0  # mm: the narrower side of A4, about
 LEAST_TABLE = 20.0  # mm: a table of fewer rows is none
+TABLE_WIDTH = 80.0  # mm: a narrower one has no room for its columns
 TWO_LINES = 3.4  # mm: letters of titles that stand below each other, where one line would have them smaller
 
 
@@ -44,6 +47,18 @@ class Remainder:
     @property
     def count(self) -> int:
         return len(self.equations) + len(self.senses) + len(self.given) + len(self.readings)
+
+
+def continued(
+    sheet: Sheet, rest: Remainder, rooms: Sequence[Box], letters: Letters, language: str
+) -> Piece | None:
+    """The rest in rooms that other writing has left on the first page; None where they do not hold all of it."""
+    pieces: list[Piece] = []
+    for room in rooms:
+        for part in (_equations, _senses, _given, _readings):
+            piece, rest, room = part(sheet, rest, letters, language, room, True)
+            pieces.append(piece)
+    return None if rest else joined(pieces)
 
 
 def overleaf(sheet: Sheet, rest: Remainder, letters: Letters, language: str, page: Box) -> tuple[Drawing, ...]:
@@ -104,23 +119,35 @@ def captioned(box: Box, caption: str, layer: str, children: tuple[Primitive, ...
 _Part = tuple[Piece, Remainder, Box]
 
 
-def _below(room: Box, drawn: tuple[Primitive, ...]) -> Box:
+def below(room: Box, drawn: tuple[Primitive, ...]) -> Box:
+    """What is left of a room below what is drawn in it."""
     ink = ink_box(drawn)
-    return Box(room.left, (ink.bottom if ink else room.top) + GAP, room.right, room.bottom)
+    return Box(room.left, (ink.bottom if ink else room.top) + LEAST_GAP, room.right, room.bottom)
 
 
-def _equations(sheet: Sheet, rest: Remainder, letters: Letters, language: str, room: Box) -> _Part:
+def _after(room: Box, drawn: tuple[Primitive, ...]) -> Box:
+    rest = below(room, drawn)
+    return Box(rest.left, rest.top + GAP - LEAST_GAP, rest.right, rest.bottom)
+
+
+def _equations(
+    sheet: Sheet, rest: Remainder, letters: Letters, language: str, room: Box, begun: bool = False
+) -> _Part:
     if not rest.equations:
         return Piece(), rest, room
     box = Box(room.left, room.top + CAPTION, room.right, room.bottom)
-    blocks, count = equations_in_room(rest.equations, sheet, letters, language, box.width, box.height)
+    most = {"most": LEAST_LETTERS} if begun else {}
+    blocks, count = equations_in_room(rest.equations, sheet, letters, language, box.width, box.height, **most)
+    if not count:
+        return Piece(), rest, room
     written = moved(blocks, complex(box.left, box.top))
-    piece = captioned(box, term("equations", language), "labels", (Group(written, id="equations"),))
+    caption = term("equations continued" if begun else "equations", language)
+    piece = captioned(box, caption, "labels", (Group(written, id="equations-continued" if begun else "equations"),))
     left = Remainder(rest.equations[count:], rest.senses, rest.given, rest.readings)
-    return piece, left, _below(box, written)
+    return piece, left, _after(box, written)
 
 
-def _senses(sheet: Sheet, rest: Remainder, letters: Letters, language: str, room: Box) -> _Part:
+def _senses(sheet: Sheet, rest: Remainder, letters: Letters, language: str, room: Box, begun: bool = False) -> _Part:
     pieces: list[Piece] = []
     senses = rest.senses
     while senses and room.height >= INSET[1]:
@@ -131,21 +158,27 @@ def _senses(sheet: Sheet, rest: Remainder, letters: Letters, language: str, room
     return joined(pieces), Remainder(rest.equations, senses, rest.given, rest.readings), room
 
 
-def _given(sheet: Sheet, rest: Remainder, letters: Letters, language: str, room: Box) -> _Part:
+def _given(sheet: Sheet, rest: Remainder, letters: Letters, language: str, room: Box, begun: bool = False) -> _Part:
     size = max((run.size for line in rest.given for run in line), default=1.0)
     most = max(0, int((room.height - CAPTION) / (1.55 * size)))
-    if not rest.given or not most:
+    if begun or not rest.given or not most:
         return Piece(), rest, room
     box = Box(room.left, room.top + CAPTION, room.right, room.bottom)
     lines = set_lines(rest.given[:most], complex(box.left, box.top))
     left = Remainder(rest.equations, rest.senses, rest.given[most:], rest.readings)
-    return captioned(box, term("given", language), "labels", lines), left, _below(box, lines)
+    return captioned(box, term("given", language), "labels", lines), left, _after(box, lines)
 
 
-def _readings(sheet: Sheet, rest: Remainder, letters: Letters, language: str, room: Box) -> _Part:
-    if not rest.readings or room.height < LEAST_TABLE:
+def _readings(
+    sheet: Sheet, rest: Remainder, letters: Letters, language: str, room: Box, begun: bool = False
+) -> _Part:
+    least = 0.0 if begun else LEAST_TABLE
+    if not rest.readings or room.height < CAPTION + least or room.width < TABLE_WIDTH:
         return Piece(), rest, room
     box = Box(room.left, room.top + CAPTION, room.right, room.bottom)
     table, count = readings_table(sheet, rest.readings, letters, language, box)
+    if not count:
+        return Piece(), rest, room
     left = Remainder(rest.equations, rest.senses, rest.given, rest.readings[count:])
-    return captioned(box, term("readings", language), "answers", table), left, _below(box, table)
+    caption = term("readings continued" if begun else "readings", language)
+    return captioned(box, caption, "answers", table), left, _after(box, table)

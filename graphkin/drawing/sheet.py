@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import islice, product
 
 from graphkin.checking.report import Report
 from graphkin.construction.sheet import DiagramName, Sheet
@@ -30,11 +31,11 @@ from graphkin.drawing.loops import MARGIN as FIGURE_MARGIN
 from graphkin.drawing.loops import loops_figure
 from graphkin.drawing.mechanism import mechanism_piece
 from graphkin.drawing.mechanism_detail import mechanism_detail
-from graphkin.drawing.overleaf import Remainder, captioned, heading, overleaf
+from graphkin.drawing.overleaf import Remainder, below, captioned, continued, heading, overleaf
 from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved, moved_piece, with_labels
 from graphkin.drawing.polygon_on_page import extent
 from graphkin.drawing.primitives import Group, Line, Polygon, Primitive, Run, Text
-from graphkin.drawing.sheet_plan import BLOCK, GUTTER, SheetPlan, sheet_plan
+from graphkin.drawing.sheet_plan import BLOCK, GUTTER, SheetPlan, sheet_plan, with_less_mechanism
 from graphkin.drawing.tables import given_data, given_lines, readings_table, table_rows
 from graphkin.drawing.text import fitted, plain, wrapped
 from graphkin.drawing.train import train_figure
@@ -45,7 +46,7 @@ __all__ = ["sheet_page"]
 
 LEGIBLE_TITLE = 2.4  # mm
 BAR_ROOM, SCALES_ROOM = 56.0, 33.0  # least widths in the title block, for the check bar and for the scales
-GIVEN = 2.8  # mm, letters of the given data overleaf
+GIVEN = (2.8, 2.5)  # mm, letters of the given data: usual, and where room is short
 EQUATIONS_ROOM = 20.0  # least height of the equations above insets of Coriolis terms
 
 
@@ -73,7 +74,13 @@ def sheet_page(
         drawn.append("acceleration")
         acceleration, homeless = _polygon(sheet, "acceleration", letters, spoken, plan.acceleration)
         pieces += [_panel(plan.acceleration, _caption(sheet, letters, spoken, "acceleration")), acceleration]
-    writing, rest = _writing(sheet, report, letters, spoken, plan, homeless)
+    writing, rest = _writing(sheet, report, letters, spoken, plan, homeless, GIVEN[0])
+    closer = product((plan, *with_less_mechanism(plan, sheet)), GIVEN) if rest and plan.equations else ()
+    for each, size in islice(closer, 1, None):
+        there, left = _writing(sheet, report, letters, spoken, each, homeless, size)
+        if not left:
+            plan, writing, rest = each, there, left
+            break
     pieces += [
         heading(sheet, letters, spoken, plan.page),
         _panel(plan.mechanism, _caption(sheet, letters, spoken, "mechanism")),
@@ -105,24 +112,29 @@ def sheet_page(
 
 
 def _writing(
-    sheet: Sheet, report: Report | None, letters: Letters, language: str, plan: SheetPlan, senses: list[CoriolisTerm]
-) -> tuple[list[Piece], Remainder]:
-    """Equations, given data and readings, with the insets of Coriolis terms that found no room in their panel; and what
-    is left of them for further pages."""
+    sheet: Sheet, report: Report | None, letters: Letters, language: str, plan: SheetPlan, senses: list[CoriolisTerm],
+    size: float,
+) -> tuple[list[Piece], Remainder]:  # fmt: skip
+    """Equations, given data in letters of at most a size, and readings, with the insets of Coriolis terms that found no
+    room in their panel; and what is left of them for further pages."""
     rows = table_rows(sheet, report)
     if plan.equations is None or plan.given is None or plan.readings is None:
-        lines = given_lines(sheet, letters, language, plan.page.width, GIVEN)
+        lines = given_lines(sheet, letters, language, plan.page.width, GIVEN[0])
         return [], Remainder(written_lines(sheet, letters, language), senses, lines, rows)
-    given, given_rest = given_data(sheet, letters, language, plan.given)
-    pieces = [captioned(plan.given, term("given", language), "labels", given)]
+    given, given_rest = given_data(sheet, letters, language, plan.given, size)
+    data = captioned(plan.given, term("given", language), "labels", given)
     spare = _spare(plan.given, given)
     if spare is not None and not given_rest:
-        pieces.append(coriolis_row(sheet, senses[:1], letters, spare))
+        data = joined((data, coriolis_row(sheet, senses[:1], letters, spare)))
         senses = senses[1:]
     equations, lines_left, senses = _equations(sheet, letters, language, plan.equations, senses)
-    readings, count = readings_table(sheet, rows, letters, language, plan.readings)
-    pieces += [equations, captioned(plan.readings, term("readings", language), "answers", readings)]
-    return pieces, Remainder(lines_left, senses, given_rest, rows[count:])
+    table, count = readings_table(sheet, rows, letters, language, plan.readings)
+    readings = captioned(plan.readings, term("readings", language), "answers", table)
+    rest = Remainder(lines_left, senses, given_rest, rows[count:])
+    places = (plan.given, data), (plan.equations, equations), (plan.readings, readings)
+    more = continued(sheet, rest, [below(box, piece.drawn) for box, piece in places], letters, language)
+    pieces = [data, equations, readings]
+    return (pieces, rest) if more is None else ([*pieces, more], Remainder())
 
 
 def _as_page(sheet: Sheet, figure: Drawing, plan: SheetPlan, number: int) -> Drawing:

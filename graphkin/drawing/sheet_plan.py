@@ -7,7 +7,7 @@ scene wishes for scales that none of them holds, writing goes overleaf, and afte
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 
 from graphkin.construction import Room, drawn_sizes
@@ -16,12 +16,13 @@ from graphkin.drawing.box import Box
 from graphkin.scene.model import Mechanism
 from graphkin.scene.sheet_tables import PAPERS
 
-__all__ = ["BLOCK", "CAPTION", "GUTTER", "MARGIN", "SheetPlan", "sheet_plan", "sheet_room"]
+__all__ = ["BLOCK", "CAPTION", "GUTTER", "MARGIN", "SheetPlan", "sheet_plan", "sheet_room", "with_less_mechanism"]
 
 MARGIN, GUTTER, CAPTION = 10.0, 2.0, 5.5
 HEAD, BLOCK = 11.0, 16.0  # heading above, title block below
 FILL = 0.87  # of a panel, by the polygon with the finest scale
 AROUND_MECHANISM = (13.0, 15.0)  # mm for symbols and names
+FOR_DIMENSIONS = 14.0  # mm above and below a mechanism that gives room to the equations
 # Width of the mechanism's panel by that of the page: the usual one, others, and one with nothing below it.
 SPLITS, SLENDER = (0.483, 0.36, 0.6), 0.28
 # Height of a polygon's panel by that of the page: the usual one, and that beside which few readings have room.
@@ -82,6 +83,21 @@ def sheet_plan(sheet: Sheet) -> SheetPlan:
     plans = sorted(_plans(sheet.scene), key=lambda plan: plan.cost)
     sizes = drawn_sizes(sheet)
     return next((plan for plan in plans if plan.holds(sizes)), plans[0])
+
+
+def with_less_mechanism(plan: SheetPlan, sheet: Sheet) -> Iterator[SheetPlan]:
+    """Plans whose mechanism leaves more room to the equations below it."""
+    panel, equations = plan.mechanism, plan.equations
+    if equations is None or equations.top < panel.bottom:
+        return
+    spare = panel.height - drawn_sizes(sheet)[0][1] - AROUND_MECHANISM[1] - FOR_DIMENSIONS
+    for share in (0.5, 1.0) if spare > 0 else ():
+        up = share * spare
+        yield replace(
+            plan,
+            mechanism=Box(panel.left, panel.top, panel.right, panel.bottom - up),
+            equations=Box(equations.left, equations.top - up, equations.right, equations.bottom),
+        )
 
 
 def _plans(scene: Mechanism) -> Iterator[SheetPlan]:

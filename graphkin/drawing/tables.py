@@ -92,14 +92,15 @@ def _alike(one: TableRow, two: TableRow) -> bool:
 def _grid(count: int, area: Box, heads: int) -> tuple[int, int, float]:
     """How many rows fit under so many lines of heading, in how many columns, how high."""
     widest = 3 if area.width > 170 else 2 if area.width > 100 else 1
+    room = 0
     for columns in range(1, widest + 1):
         if area.width / columns > 95 and columns < widest:
             continue  # too wide to read across
         for height in (ROW, LEAST_ROW):
-            room = int(area.height / height - 0.5 - 0.75 * heads) * columns
+            room = int(area.height / height - 0.6 - 0.75 * heads) * columns
             if room >= count:
                 return room, columns, height
-    return int(area.height / LEAST_ROW - 1.2 - 0.75 * heads) * widest, widest, LEAST_ROW
+    return room, widest, LEAST_ROW
 
 
 def _column(
@@ -187,11 +188,11 @@ def given_lines(sheet: Sheet, letters: Letters, language: str, width: float, siz
 
 
 def given_data(
-    sheet: Sheet, letters: Letters, language: str, area: Box
+    sheet: Sheet, letters: Letters, language: str, area: Box, most: float
 ) -> tuple[tuple[Primitive, ...], list[tuple[Run, ...]]]:
-    """The given data as lines of text in an area (mm), as large as they fit; and those lines for which there is no
-    room."""
-    for size in (2.8, 2.5, 2.2):
+    """The given data as lines of text in an area (mm), as large as they fit, in letters of at most ``most`` mm; and
+    those lines for which there is no room."""
+    for size in (each for each in (2.8, 2.5, 2.2) if each <= most):
         lines = given_lines(sheet, letters, language, area.width, size)
         if len(lines) * 1.55 * size <= area.height:
             break

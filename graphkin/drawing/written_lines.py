@@ -98,7 +98,7 @@ def _measured(sheet: Sheet, act: MeasuredRate, letters: Letters, language: str) 
     unit = "rad/s" if act.rate == "omega" else "rad/s²"
     way = "" if rate.value == 0.0 else f",  {term('clockwise' if rate.value < 0 else 'counter-clockwise', language)}"
     value = bound(rate_sum(sheet, act, units=False)) or f"{number(abs(rate.value), 5)} {unit}"
-    return " = ".join((*(_rate_name(act.rate, n) for n in names), rule, value)) + way
+    return " =\u00a0".join((*(_rate_name(act.rate, n) for n in names), rule, value)) + way
 
 
 def by_rates(sheet: Sheet, step: Step, act: ByRate, letters: Letters) -> Iterator[str]:
@@ -119,7 +119,7 @@ def by_rates(sheet: Sheet, step: Step, act: ByRate, letters: Letters) -> Iterato
         rates = sheet.omega if rule.rate == "omega" else sheet.alpha
         if rates[act.link].value and (said := rule_sum(sheet, rule, step.diagram)):
             symbol = Symbol(kind, act.point, act.start)
-            yield f"${letters.vector(symbol)}$ = ${letters.size(rule)}$ = {bound(said)},  {direction}"
+            yield f"${letters.vector(symbol)}$ =\u00a0${letters.size(rule)}$ =\u00a0{bound(said)},  {direction}"
 
 
 def _off_plan(act: PlanDrawn, language: str) -> str:
@@ -143,7 +143,7 @@ def _products(sheet: Sheet, equation: Equation, letters: Letters) -> list[str]:
         for one in side
         if one.symbol in laid_off and not laid_off[one.symbol].is_zero
     }
-    said = [f"${letters.vector(symbol)}$ = {bound(text)}" for symbol, text in sums.items() if text]
+    said = [f"${letters.vector(symbol)}$ =\u00a0{bound(text)}" for symbol, text in sums.items() if text]
     return [";  ".join(said)] if said else []
 
 

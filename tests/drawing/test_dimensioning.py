@@ -82,7 +82,7 @@ def test_a_given_angular_acceleration_is_an_arc_with_two_heads():
 
 def test_the_unit_of_dimensions_is_told_where_it_is_not_the_millimetre():
     told = words(draw({**SCENE, "units": {"length": "in"}}).figures["mechanism"])
-    assert any(text.endswith("dimensions in in") for text in told)
+    assert any(text.endswith("dimensions in inches") for text in told)
 
 
 def test_pivots_whose_symbols_overlap_are_drawn_again_larger():

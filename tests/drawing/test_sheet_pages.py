@@ -113,7 +113,18 @@ def test_the_title_elsewhere_is_without_the_words_of_the_scenes_own_position(at,
     assert [expected] == [text[-len(expected) :] for text in told if text.startswith("Shaper")]
 
 
+@pytest.mark.parametrize(("scene", "how"), [
+    ("slotter-75-150", {}), ("oldham-coupling", {"language": "zh"}),
+    ("hit-two-RPR", {"convention": "us", "language": "both"}),
+])  # fmt: skip
+def test_few_lines_that_have_no_room_in_their_place_stand_where_the_page_has_some(scene, how):
+    figures = draw(scene, figures=("sheet",), **how).figures
+    assert ["sheet"] == list(figures)
+
+
 def test_what_a_large_sheet_leaves_goes_overleaf_on_a4():
-    figures = draw("sixbar-guide-40deg", figures=("sheet",)).figures
+    scene = mechanism_of("sixbar-guide-40deg")
+    finer = replace(scene.sheet, acceleration_scale=0.8 * scene.sheet.acceleration_scale)
+    figures = draw(replace(scene, sheet=finer), figures=("sheet",)).figures
     assert (297.0, 420.0) == (figures["sheet"].width, figures["sheet"].height)
     assert (210.0, 297.0) == (figures["sheet-2"].width, figures["sheet-2"].height)
