@@ -25,11 +25,14 @@ from multiprocessing.connection import wait
 from multiprocessing.process import BaseProcess
 from pathlib import Path
 from types import TracebackType
-from typing import IO, Any, Generic, TypeVar
+from typing import IO, TYPE_CHECKING, Any, Generic, ParamSpec, TypeVar
 
 from graphkin.errors import CallError, Problem
-from graphkin.files import whole_file
+from graphkin.files import Json, Tables, whole_file
 from graphkin.version import __version__
+
+if TYPE_CHECKING:
+    from distributed import Client
 
 __all__ = [
     "Checkpoints",
@@ -45,6 +48,7 @@ __all__ = [
 Progress = Callable[[int, int], None]
 """Called with how much is done, and with all there is to do."""
 Result = TypeVar("Result")
+P = ParamSpec("P")
 
 AHEAD = 4
 """Pieces given out for each worker, so that memory stays bounded and none waits."""
@@ -71,7 +75,7 @@ def key_of(*parts: object) -> str:
 class FinishedPiece:
     """A finished piece of work: facts about it, and where its content begins in its file."""
 
-    facts: Mapping[str, Any]
+    facts: Tables
     path: Path
     begin: int
 
@@ -111,7 +115,7 @@ class Checkpoints:
             return set()
         return {int(path.name) for path in self.place.iterdir() if path.name.isdecimal()}
 
-    def save(self, number: int, facts: Mapping[str, Any], content: bytes = b"") -> None:
+    def save(self, number: int, facts: Mapping[str, Json], content: bytes = b"") -> None:
         """Keep a finished piece."""
         with whole_file(self.place / f"{number:07d}") as out:
             out.write(json.dumps(facts, ensure_ascii=False).encode() + b"\n")
@@ -167,11 +171,11 @@ class Workers:
         """How many pieces to give out beyond the one that is waited for."""
         return 0 if self._given is None and self._processes is None else AHEAD * max(2, self.width)
 
-    def start(self, task: Callable[..., Result], *given: Any) -> Started[Result]:
+    def start(self, task: Callable[..., Result], *given: object) -> Started[Result]:
         """Give out a piece."""
         return Started(self, task, given)
 
-    def results(self, task: Callable[..., Result], pieces: Iterable[tuple[Any, ...]]) -> Iterator[Result]:
+    def results(self, task: Callable[..., Result], pieces: Iterable[tuple[object, ...]]) -> Iterator[Result]:
         """What each piece gives, in their order; a few are always given out ahead."""
         queue: deque[Started[Result]] = deque()
         for given in pieces:
@@ -194,7 +198,7 @@ class Workers:
         else:
             _end(pool, old)
 
-    def _submit(self, task: Callable[..., Result], given: tuple[Any, ...]) -> Future[Result] | None:
+    def _submit(self, task: Callable[..., Result], given: tuple[object, ...]) -> Future[Result] | None:
         """The future of a piece; None where there is no executor, or none that takes it."""
         future: Future[Result] | None = None
         if self._given is not None:
@@ -207,7 +211,7 @@ class Workers:
             future.add_done_callback(self._waiting.discard)
         return future
 
-    def _to_pool(self, task: Callable[..., Result], given: tuple[Any, ...]) -> Future[Result]:
+    def _to_pool(self, task: Callable[..., Result], given: tuple[object, ...]) -> Future[Result]:
         for _ in range(MOST_LOSSES):
             if self._pool is None or self._count >= self._renewed:
                 if self._pool is not None:
@@ -227,7 +231,7 @@ class Workers:
 class Started(Generic[Result]):
     """A piece that is given out."""
 
-    def __init__(self, workers: Workers, task: Callable[..., Result], given: tuple[Any, ...]) -> None:
+    def __init__(self, workers: Workers, task: Callable[..., Result], given: tuple[object, ...]) -> None:
         self._workers, self._task, self._given = workers, task, given
         self._future = workers._submit(task, given)
 
@@ -318,9 +322,8 @@ def _width(executor: Executor) -> int:
     width = getattr(executor, "_max_workers", None)
     if isinstance(width, int):
         return width
-    client: Any = getattr(executor, "_client", None)
-    with suppress(Exception):
-        return int(sum(client.nthreads().values()))
+    with suppress(Exception):  # of Dask
+        return int(sum(executor._client.nthreads().values()))  # type: ignore[attr-defined]
     return 2
 
 
@@ -347,12 +350,12 @@ def cluster(address: str) -> Executor:
 
 
 class _Cluster(Executor):
-    def __init__(self, client: Any) -> None:
+    def __init__(self, client: Client) -> None:
         self._client = client
         # a piece is done anew where the worker that held its result is lost
         self._inner: Executor = client.get_executor(pure=False, retries=MOST_LOSSES)
 
-    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
+    def submit(self, fn: Callable[P, Result], /, *args: P.args, **kwargs: P.kwargs) -> Future[Result]:
         return self._inner.submit(fn, *args, **kwargs)
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cache
-from typing import Any
+from typing import TYPE_CHECKING
 
 from graphkin.board.answers import Desk, answer
 from graphkin.board.server import STATIC
@@ -11,10 +12,13 @@ from graphkin.errors import CallError, Problem, SceneError
 from graphkin.scene.mapping import toml_text
 from graphkin.scene.source import SceneLike, library, library_text, written
 
+if TYPE_CHECKING:
+    from anywidget import AnyWidget
+
 __all__ = ["open_board"]
 
 
-def open_board(scene: SceneLike | None = None) -> Any:
+def open_board(scene: SceneLike | None = None) -> AnyWidget:
     """Show the drawing board in a notebook, with a scene on it.
 
     Parameters
@@ -44,11 +48,11 @@ def open_board(scene: SceneLike | None = None) -> Any:
 
 
 @cache
-def _widget_class() -> Any:
+def _widget_class() -> Callable[[Desk], AnyWidget]:
     import anywidget
     import traitlets
 
-    class Board(anywidget.AnyWidget):  # type: ignore[misc]
+    class Board(anywidget.AnyWidget):
         """The board as a widget."""
 
         _esm = STATIC / "board.js"

@@ -14,10 +14,15 @@ from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 from graphkin.board.answers import Desk, answer
 from graphkin.errors import CallError, Problem
+
+if TYPE_CHECKING:
+    import socket
+
+    from starlette.applications import Starlette
 
 __all__ = ["LARGEST_MESSAGE", "Address", "application", "needs_live", "serve"]
 
@@ -77,7 +82,7 @@ def _policy(nonce: str, address: Address) -> str:
     )
 
 
-def application(desk: Desk, address: Address) -> Any:
+def application(desk: Desk, address: Address) -> Starlette:
     """The ASGI application of the page.
 
     Parameters
@@ -202,7 +207,7 @@ def serve(desk: Desk, port: int = 0, ready: Callable[[Address], None] | None = N
         listening.close()
 
 
-async def _run(app: Any, listening: Any, ready: Callable[[], None]) -> None:
+async def _run(app: Starlette, listening: socket.socket, ready: Callable[[], None]) -> None:
     import uvicorn
 
     config = uvicorn.Config(
@@ -210,8 +215,8 @@ async def _run(app: Any, listening: Any, ready: Callable[[], None]) -> None:
         server_header=False, timeout_graceful_shutdown=1, ws_per_message_deflate=False,
     )  # fmt: skip
 
-    class Server(uvicorn.Server):  # type: ignore[misc]
-        async def startup(self, sockets: list[Any] | None = None) -> None:
+    class Server(uvicorn.Server):
+        async def startup(self, sockets: list[socket.socket] | None = None) -> None:
             await super().startup(sockets)
             ready()
 

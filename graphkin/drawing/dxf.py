@@ -10,11 +10,15 @@ import math
 from collections.abc import Callable, Iterable, Sequence
 from io import StringIO
 from threading import Lock
-from typing import Any
+from typing import TYPE_CHECKING
 
 from graphkin.drawing.font_widths import CAP_HEIGHT, has_cjk, start_runs, width
 from graphkin.drawing.primitives import Arc, Circle, Group, Line, Page, Polygon, Polyline, Primitive, Scan, Stroke, Text
 from graphkin.errors import CallError, Problem
+
+if TYPE_CHECKING:
+    from ezdxf.document import Drawing as DxfFile
+    from ezdxf.entities import DXFGraphic
 
 __all__ = ["closed_curve_dxf", "dxf_bytes"]
 
@@ -28,7 +32,7 @@ _ALONE = Lock()
 def dxf_bytes(drawing: Page) -> bytes:
     """The drawing as a DXF file (release 2010).  Raises CallError where the extra ``cad`` is not installed."""
 
-    def put(document: Any) -> None:
+    def put(document: DxfFile) -> None:
         for name, font in STYLES.items():
             document.styles.add(name, font=font)
         _Board(document, drawing.height).draw(drawing.children, PAPER)
@@ -40,7 +44,7 @@ def closed_curve_dxf(vertices: Sequence[tuple[complex, float]], reach: float) ->
     """A closed curve of arcs on the layer "profile", each vertex with the bulge to the next (mm), and on the layer
     "axis" a cross at the origin, half a ``reach`` long.  Raises CallError without the extra ``cad``."""
 
-    def put(document: Any) -> None:
+    def put(document: DxfFile) -> None:
         space = document.modelspace()
         points = [(z.real, z.imag, bulge) for z, bulge in vertices]
         space.add_lwpolyline(points, format="xyb", close=True, dxfattribs={"layer": "profile"})
@@ -50,7 +54,7 @@ def closed_curve_dxf(vertices: Sequence[tuple[complex, float]], reach: float) ->
     return _document(put)
 
 
-def _document(put: Callable[[Any], None]) -> bytes:
+def _document(put: Callable[[DxfFile], None]) -> bytes:
     """A file in millimetres, filled by ``put``."""
     try:
         import ezdxf
@@ -74,12 +78,12 @@ def _document(put: Callable[[Any], None]) -> bytes:
 class _Board:
     """Puts primitives into the model space of a document, y up."""
 
-    def __init__(self, document: Any, height: float) -> None:
+    def __init__(self, document: DxfFile, height: float) -> None:
         self.document, self.space, self.height = document, document.modelspace(), height
 
-    def draw(self, things: Iterable[Primitive], layer: str) -> list[Any]:
+    def draw(self, things: Iterable[Primitive], layer: str) -> list[DXFGraphic]:
         """Draw on a layer; returns the entities."""
-        made: list[Any] = []
+        made: list[DXFGraphic] = []
         for thing in things:
             if isinstance(thing, Group):
                 inner = self.draw(thing.children, thing.layer or layer)
@@ -94,7 +98,7 @@ class _Board:
                 made += self._shape(thing, layer)
         return made
 
-    def _named(self, name: str, entities: list[Any]) -> None:
+    def _named(self, name: str, entities: list[DXFGraphic]) -> None:
         groups, free, count = self.document.groups, name, 1
         while free in groups:
             count += 1
@@ -104,7 +108,7 @@ class _Board:
     def _at(self, z: complex) -> tuple[float, float]:
         return round(z.real, 6), round(self.height - z.imag, 6)
 
-    def _shape(self, thing: Line | Polyline | Polygon | Circle | Arc, layer: str) -> list[Any]:
+    def _shape(self, thing: Line | Polyline | Polygon | Circle | Arc, layer: str) -> list[DXFGraphic]:
         made = []
         fill = thing.fill if isinstance(thing, Polygon | Circle) else ""
         if fill and fill.lower() not in ("#fff", "#ffffff"):
@@ -124,7 +128,7 @@ class _Board:
             made.append(self.space.add_lwpolyline(list(map(self._at, thing.points)), close=closed, dxfattribs=look))
         return made
 
-    def _filled(self, thing: Line | Polyline | Polygon | Circle | Arc, fill: str, layer: str) -> Any:
+    def _filled(self, thing: Line | Polyline | Polygon | Circle | Arc, fill: str, layer: str) -> DXFGraphic:
         look = {"layer": layer, "true_color": _colour(fill)}
         if isinstance(thing, Polygon) and len(thing.points) in (3, 4):
             corners = list(map(self._at, thing.points))
@@ -149,11 +153,11 @@ class _Board:
             look["linetype"] = name
         return look
 
-    def _text(self, text: Text, layer: str) -> list[Any]:
+    def _text(self, text: Text, layer: str) -> list[DXFGraphic]:
         """A text of each run, fitted into the length that its glyphs have in the other formats."""
         from ezdxf.enums import TextEntityAlignment
 
-        made = []
+        made: list[DXFGraphic] = []
         for run in start_runs(text):
             style = "serif-bold" if run.bold else "serif-italic" if run.italic else "serif"
             look = {"layer": layer, "true_color": _colour(text.colour)}

@@ -9,10 +9,11 @@ import json
 import math
 import re
 from base64 import b64encode
+from collections.abc import Callable
 from functools import cache, lru_cache, partial
 from html import escape
 from itertools import chain, count
-from typing import Any
+from typing import TYPE_CHECKING, Protocol
 from zlib import crc32
 
 from graphkin.drawing.embedded import face_rules, families, outline
@@ -35,6 +36,11 @@ from graphkin.drawing.primitives import (
     Travel,
     class_names,
 )
+
+if TYPE_CHECKING:
+    from xml.etree.ElementTree import Element as XmlElement
+
+    import svgwrite
 
 __all__ = ["number", "svg_bytes"]
 
@@ -107,17 +113,36 @@ def svg_bytes(drawing: Page, debug: bool = False, embed: bool = True, outlines: 
     return f'<?xml version="1.0" encoding="utf-8"?>\n{text}\n'.encode()
 
 
+class _Element(Protocol):
+    """An element of svgwrite."""
+
+    elementname: str
+    attribs: dict[str, str]
+    elements: list[_Element]
+    text: str
+
+    def add(self, element: _Element) -> _Element: ...
+
+
+class _Page(_Element, Protocol):
+    """A page of svgwrite, with its options."""
+
+    _parameter: object
+
+    def tostring(self) -> str: ...
+
+
 class _Ink:
     """Turns primitives into elements of one page; knows the clips and names that it has already given."""
 
-    def __init__(self, page: Any, lang: str, outlines: bool = False) -> None:
+    def __init__(self, page: _Page, lang: str, outlines: bool = False) -> None:
         self.page, self.lang, self.outlines = page, lang, outlines
         self.made = partial(_element_class(), page)
         self.clips: set[str] = set()
         self.ids: set[str] = set()
         self.used: dict[Style, set[str]] = {"regular": set(), "italic": set(), "bold": set()}
 
-    def draw(self, parent: Any, thing: Primitive) -> None:
+    def draw(self, parent: _Element, thing: Primitive) -> None:
         element = parent.add(self._element(thing))
         if isinstance(thing, Line) and thing.covered:
             shaft = _shaft(thing)
@@ -130,7 +155,7 @@ class _Ink:
                 clip.add(self.made("path", {"d": shaft}))
                 parent.add(clip)
 
-    def _element(self, thing: Primitive) -> Any:
+    def _element(self, thing: Primitive) -> _Element:
         if isinstance(thing, Group):
             return self._group(thing)
         if isinstance(thing, Text):
@@ -151,7 +176,7 @@ class _Ink:
             return self.made("circle", {**look, **stroke})
         return self.made("path", {"d": _arc(thing), "fill": "none", **stroke})
 
-    def _group(self, group: Group) -> Any:
+    def _group(self, group: Group) -> _Element:
         layer = {"inkscape:groupmode": "layer", "inkscape:label": _clean(group.layer)} if group.layer else {}
         element = self.made("g", {**self._named(group.id, class_names(group)), **layer})
         inner = element if group.motion is None else self._moving(element, group.motion)
@@ -161,10 +186,10 @@ class _Ink:
             element.elements.append(self.made("title", {}, _clean(group.title)))
         return element
 
-    def _moving(self, element: Any, motion: Travel) -> Any:
+    def _moving(self, element: _Element, motion: Travel) -> _Element:
         """Have an element move; returns the one that turns in it."""
 
-        def animated(parent: Any, attributes: dict[str, str], tag: str = "animateTransform") -> None:
+        def animated(parent: _Element, attributes: dict[str, str], tag: str = "animateTransform") -> None:
             always = {"dur": f"{number(motion.seconds)}s", "repeatCount": "indefinite"}
             parent.add(self.made(tag, {**attributes, **always}))
 
@@ -184,7 +209,7 @@ class _Ink:
         animated(inner, {**transform, "type": "rotate", "values": turns})
         return element.add(inner)
 
-    def _scan(self, scan: Scan) -> Any:
+    def _scan(self, scan: Scan) -> _Element:
         """A picture with its file in it, cut by a clip that stands beside it."""
         shape = "M" + "L".join(" ".join(_pair(corner)) for corner in scan.panel) + "Z"
         group = self.made("g", {"clip-path": f"url(#clip-{crc32(shape.encode()):08x})"})
@@ -198,7 +223,7 @@ class _Ink:
         group.add(self.made("image", look))
         return group
 
-    def _text(self, text: Text) -> Any:
+    def _text(self, text: Text) -> _Element:
         runs, anchor = start_runs(text), ""
         places = [(number(run.x), number(run.y)) for run in runs]
         if len(runs) == 1 and text.anchor != "start":
@@ -226,7 +251,7 @@ class _Ink:
             element.add(self.made("tspan", face, words))
         return self._outlined(element, runs) if self.outlines else element
 
-    def _outlined(self, element: Any, runs: tuple[Run, ...]) -> Any:
+    def _outlined(self, element: _Element, runs: tuple[Run, ...]) -> _Element:
         """A text as paths, with itself unseen over them."""
         own = {key: element.attribs.pop(key) for key in ("id", "class") if key in element.attribs}
         group = self.made("g", own)
@@ -285,31 +310,31 @@ def _shaft(line: Line) -> str:
 
 
 @cache
-def _element_class() -> Any:
+def _element_class() -> Callable[..., _Element]:
     from svgwrite.base import BaseElement
 
     class Element(BaseElement):  # type: ignore[misc]
         """An element of svgwrite whose attributes are texts already, and which may hold a text."""
 
-        def __init__(self, page: Any, tag: str, attributes: dict[str, str], text: str = "") -> None:
+        def __init__(self, page: _Page, tag: str, attributes: dict[str, str], text: str = "") -> None:
             self._parameter = page._parameter  # its own way looks at each for options of svgwrite
             self.elementname, self.attribs, self.text = tag, attributes, text
-            self.elements: list[Any] = []
+            self.elements: list[_Element] = []
 
-        def get_xml(self) -> Any:
-            xml = super().get_xml()
+        def get_xml(self) -> XmlElement:
+            xml: XmlElement = super().get_xml()
             xml.text = self.text
             return xml
 
     return Element
 
 
-def _written(page: Any) -> str:
+def _written(page: _Page) -> str:
     """The text that ``page.tostring()`` gives, which makes a tree of it first and takes several times as long."""
     children, page.elements = page.elements, []
     out = [page.tostring().removesuffix(" />"), ">"]
 
-    def write(element: Any) -> None:
+    def write(element: _Element) -> None:
         tag = element.elementname
         looks = [pair for pair in sorted(element.attribs.items()) if pair[1]]
         if _MARKUP.search("".join([value for _, value in looks])):
@@ -337,7 +362,7 @@ def _quoted(text: str) -> str:
     return _escaped(text).translate(_IN_QUOTES)
 
 
-def _allow_accessibility(page: Any) -> None:
+def _allow_accessibility(page: svgwrite.Drawing) -> None:
     """Teach svgwrite's check of SVG 1.1 the attributes for readers and editors that later standards have."""
     from svgwrite.data.types import SVGAttribute
     from svgwrite.extensions import Inkscape
