@@ -88,8 +88,8 @@ def sheet_plan(sheet: Sheet) -> SheetPlan:
 def with_less_mechanism(plan: SheetPlan, sheet: Sheet) -> Iterator[SheetPlan]:
     """Plans whose mechanism leaves more room to the equations below it."""
     panel, equations = plan.mechanism, plan.equations
-    if equations is None or equations.top < panel.bottom:
-        return
+    if equations is None or equations.right != panel.right:
+        return  # they stand elsewhere
     spare = panel.height - drawn_sizes(sheet)[0][1] - AROUND_MECHANISM[1] - FOR_DIMENSIONS
     for share in (0.5, 1.0) if spare > 0 else ():
         up = share * spare
