@@ -11,15 +11,15 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from numbers import Real
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.errors import CallError, Problem, SceneError
-from graphkin.files import Json
+from graphkin.files import Tables
 from graphkin.scene import mechanism_of
 from graphkin.scene.dimensions import Dimension, dimensions
+from graphkin.scene.file_keys import path_of_key, value_at
 from graphkin.scene.model import Mechanism
 from graphkin.solver.joints import turned
 from graphkin.study.designs import applied
@@ -74,7 +74,7 @@ class DesignKeys:
         return found
 
 
-def design_keys(source: Mapping[str, Json], scene: Mechanism, keys: Sequence[str]) -> DesignKeys:
+def design_keys(source: Tables, scene: Mechanism, keys: Sequence[str]) -> DesignKeys:
     """Find what keys do.
 
     Parameters
@@ -102,23 +102,16 @@ def design_keys(source: Mapping[str, Json], scene: Mechanism, keys: Sequence[str
     return made
 
 
-def _begin(source: Mapping[str, Json], key: str) -> tuple[float, float]:
+def _begin(source: Tables, key: str) -> tuple[float, float]:
     """A value of a key and a step from it: its own where it has one."""
-    place: Any = source
-    for part in key.split("."):
-        if isinstance(place, list | tuple):
-            index = {"x": 0, "y": 1}.get(part, int(part) - 1 if part.isdecimal() else -1)
-            place = place[index] if 0 <= index < len(place) else None
-        else:
-            place = place.get(part) if isinstance(place, Mapping) else None
-    if place is None or place == 0:
+    path = path_of_key(source, key)
+    own = None if path is None else value_at(source, path)
+    if not isinstance(own, Real) or own == 0:  # of what is no number the reader says what is wrong
         return 0.0, 1.0
-    if not isinstance(place, Real):
-        return 0.0, 1.0  # the reader says what is wrong
-    return float(place), abs(float(place)) / 8
+    return float(own), abs(float(own)) / 8
 
 
-def _numbers(source: Mapping[str, Json], values: Mapping[str, float]) -> dict[Dimension, complex]:
+def _numbers(source: Tables, values: Mapping[str, float]) -> dict[Dimension, complex]:
     try:
         return dimensions(mechanism_of(applied(source, tuple(values), tuple(values.values()))))
     except SceneError as error:

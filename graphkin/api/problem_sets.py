@@ -10,7 +10,6 @@ from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -28,7 +27,7 @@ from graphkin.api.arguments import (
 )
 from graphkin.api.results import OfScene, Result
 from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable, as_text, did_you_mean
-from graphkin.files import Json, folder_alone, path_of
+from graphkin.files import Json, OwnTables, Tables, folder_alone, path_of
 from graphkin.jobs import Progress, Workers
 from graphkin.papers.answer_key import answers_template
 from graphkin.papers.data_rows import Columns, columns_of, replaced
@@ -38,6 +37,7 @@ from graphkin.papers.pdf import can_join, one_after_another
 from graphkin.papers.problem_set import Job, MadeSet, Render, accepted, jobs_of_rows, jobs_of_seed, make
 from graphkin.papers.variants import Answer, Variant, asked_of
 from graphkin.papers.vary_rules import rules_checked
+from graphkin.scene.file_keys import KeyPath, value_at
 from graphkin.scene.mapping import as_mapping, toml_text
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.source import written
@@ -217,7 +217,7 @@ def half_written(folder: Path, stem: str) -> list[Path]:
     return [path for path in folder.glob(".*") if pattern.fullmatch(path.name)]
 
 
-def _source(scene: SceneLike) -> tuple[dict[str, Any], str]:
+def _source(scene: SceneLike) -> tuple[OwnTables, str]:
     """The mapping of a scene file, as it was written where that is possible, and the scene's name."""
     read = as_scene(scene)
     if isinstance(scene, Mechanism) or read.drawn:
@@ -228,7 +228,7 @@ def _source(scene: SceneLike) -> tuple[dict[str, Any], str]:
 
 
 def _jobs(
-    source: Mapping[str, Any], variants: int | None, seed: int, rows: str | os.PathLike[str] | None, spread: Spread
+    source: Tables, variants: int | None, seed: int, rows: str | os.PathLike[str] | None, spread: Spread
 ) -> tuple[Sequence[Job], tuple[str, ...]]:
     if rows is None:
         count = whole_number("variants", variants, 1, MOST)
@@ -253,7 +253,7 @@ def _reach(scene: Mechanism) -> tuple[float, float] | None:
     return None if found.full or high - low > MOST_OF_A_TURN else (low, high)
 
 
-def _data_of(source: Mapping[str, Any], rows: str | os.PathLike[str]) -> tuple[Rows, Columns]:
+def _data_of(source: Tables, rows: str | os.PathLike[str]) -> tuple[Rows, Columns]:
     """A table of data, and what its columns are.  Raises CallError where none is a datum of the scene."""
     table = with_points(table_of(rows))
     columns = columns_of(source, table.heads)
@@ -318,17 +318,11 @@ def drawn_schemes(
             if attempt.variant is None:
                 raise Unsolvable("not drawn", Problem(f"variant {job.name}", attempt.why))
             made[job.name] = attempt.variant.scene
-            lines.append((job.name, *(f"{_number(attempt.variant.source, path):.6g}" for path in keys)))
+            lines.append((job.name, *(f"{float(value_at(attempt.variant.source, path)):.6g}" for path in keys)))
     return made, (("", *(_head_of(source, path) for path in keys)), *lines)
 
 
-def _number(source: Any, path: Sequence[str | int]) -> float:
-    for part in path:
-        source = source[part]
-    return float(source)
-
-
-def _head_of(source: Mapping[str, Any], path: Sequence[str | int]) -> str:
+def _head_of(source: Tables, path: KeyPath) -> str:
     """A datum as a table heads it: the letters of a bar, the place of a point, or its key."""
     if path[0] in ("gears", "cams") or "discs" in path:
         return ".".join(str(part + 1) if isinstance(part, int) else part for part in path[1:] if part != "discs")
@@ -341,8 +335,8 @@ def _head_of(source: Mapping[str, Any], path: Sequence[str | int]) -> str:
 
 
 def _rows(
-    source: Mapping[str, Any], columns: Columns, lines: Sequence[tuple[int, tuple[str, ...]]]
-) -> Iterator[tuple[str, dict[str, Any], dict[str, Any] | None, str]]:
+    source: Tables, columns: Columns, lines: Sequence[tuple[int, tuple[str, ...]]]
+) -> Iterator[tuple[str, OwnTables, OwnTables | None, str]]:
     used: set[str] = set()
     for line, cells in lines:
         known = columns.name is not None and columns.name < len(cells)
@@ -359,5 +353,5 @@ def _rows(
             yield name, {}, None, str(error).splitlines()[0]
 
 
-def _with(source: Mapping[str, Any], settings: Sequence[tuple[str, float]]) -> dict[str, Any]:
+def _with(source: Tables, settings: Sequence[tuple[str, float]]) -> OwnTables:
     return applied(source, [k for k, _ in settings], [v for _, v in settings])

@@ -9,6 +9,7 @@ from typing import Any
 
 from graphkin.errors import CallError, Problem, SceneError
 from graphkin.files import Json
+from graphkin.scene.file_keys import item_of
 from graphkin.scene.source import LARGEST_FILE, parsed
 
 __all__ = ["changed", "completions", "line_of", "places"]
@@ -123,8 +124,8 @@ def _laid_out(made: str, before: str) -> str:
 
 
 def _index(place: list[Any], part: str, key: str) -> int:
-    index = {"x": 0, "y": 1}.get(part, int(part) - 1 if part.isdecimal() else -1)
-    if not 0 <= index < len(place):
+    index = item_of(part, len(place))
+    if index is None:
         raise CallError(Problem(key, f"there is no item {part}", f"it has {len(place)}, counted from 1"))
     return index
 

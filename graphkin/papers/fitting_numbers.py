@@ -5,18 +5,18 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from itertools import pairwise
 from typing import Any
 
+from graphkin.files import OwnTables, Tables
 from graphkin.scene import mechanism_of
 from graphkin.scene.contacts import PlacedContact, PlacedGear
+from graphkin.scene.file_keys import KeyPath
 from graphkin.scene.model import Mechanism
 
 __all__ = ["fitted", "fitting_keys"]
 
-Source = Mapping[str, Any]
-Path = tuple[str | int, ...]
 
 LEAST_TEETH = 8
 EARLY = 0.15  # part of a driver's law at its beginning and at its end that no problem asks for
@@ -24,13 +24,13 @@ LEAST_PIECE = 10.0  # degrees of a cam
 ALIKE = 1e-6
 
 
-def fitting_keys(source: Source) -> Iterator[tuple[Path, str]]:
+def fitting_keys(source: Tables) -> Iterator[tuple[KeyPath, str]]:
     """The numbers of discs, wheels, cams and driver laws that vary: radii ("length"), "teeth", the ends of a cam's
     pieces ("end"), its rises ("length"), the end, duration and moment of a driver's law ("length", "rate", "moment").
 
     Falls follow the rises, lengths of carriers their wheels.
     """
-    owners: list[tuple[Path, Source]] = [(("frame",), source.get("frame", {}))]
+    owners: list[tuple[KeyPath, Tables]] = [(("frame",), source.get("frame", {}))]
     owners += [(("links", name), link) for name, link in source.get("links", {}).items()]
     for where, owner in owners:
         for name, disc in owner.get("discs", {}).items():
@@ -48,7 +48,7 @@ def fitting_keys(source: Source) -> Iterator[tuple[Path, str]]:
     drivers = source.get("driver", [])
     several = isinstance(drivers, list)
     for i, driver in enumerate(drivers if several else [drivers]):
-        path: Path = ("driver", i) if several else ("driver",)
+        path: KeyPath = ("driver", i) if several else ("driver",)
         law = driver.get("law", {})
         if law.get("duration"):
             yield (*path, "law", "duration"), "rate"
@@ -58,7 +58,7 @@ def fitting_keys(source: Source) -> Iterator[tuple[Path, str]]:
                 yield (*path, "time"), "moment"
 
 
-def fitted(source: Source, made: dict[str, Any], free: Callable[[Path], bool]) -> None:
+def fitted(source: Tables, made: OwnTables, free: Callable[[KeyPath], bool]) -> None:
     """Make the numbers of a candidate fit each other; those that cannot are put back as they were.
 
     Parameters
@@ -84,7 +84,7 @@ def fitted(source: Source, made: dict[str, Any], free: Callable[[Path], bool]) -
                 _put_back(source.get(where, {}), made.get(where, {}))
 
 
-def _cam(was: Source, cam: dict[str, Any]) -> None:
+def _cam(was: Tables, cam: OwnTables) -> None:
     """Pieces one after the other, that come back to where they began."""
     law, old = cam["law"], was["law"]
     ends = [0.0, *(float(piece["to"]) for piece in law)]
@@ -99,7 +99,7 @@ def _cam(was: Source, cam: dict[str, Any]) -> None:
         falls[-1]["fall"] = float(f"{up - sum(piece['fall'] for piece in falls[:-1]):.12g}")
 
 
-def _moment(driver: dict[str, Any], law: Mapping[str, Any]) -> None:
+def _moment(driver: OwnTables, law: Tables) -> None:
     """A moment, or an angle, well within what a law goes through."""
     if driver.get("time"):
         within = min(max(driver["time"] / law["duration"], EARLY), 1.0 - EARLY)
@@ -110,7 +110,7 @@ def _moment(driver: dict[str, Any], law: Mapping[str, Any]) -> None:
         driver["angle"] = float(round(begin + within * (end - begin)))
 
 
-def _rims(was: Source, link: dict[str, Any]) -> None:
+def _rims(was: Tables, link: OwnTables) -> None:
     """A bar that ends on the rim of a disc goes on doing so."""
     points = link.get("points", ())
     for name, disc in link.get("discs", {}).items():
@@ -118,13 +118,13 @@ def _rims(was: Source, link: dict[str, Any]) -> None:
             disc["r"] = link["length"]
 
 
-def _axle_key(made: Mapping[str, Any], carrier: str, axes: tuple[str, str]) -> Path | None:
+def _axle_key(made: Tables, carrier: str, axes: tuple[str, str]) -> KeyPath | None:
     """Where the distance of two axes stands as the length of their carrier."""
     link = made.get("links", {}).get(carrier, {})
     return ("links", carrier, "length") if set(link.get("points", ())) == set(axes) and "length" in link else None
 
 
-def _teeth(scene: Mechanism, made: dict[str, Any], free: Callable[[Path], bool]) -> bool:
+def _teeth(scene: Mechanism, made: OwnTables, free: Callable[[KeyPath], bool]) -> bool:
     """Wheels that mesh with several others keep one pitch circle: of wheels about the same two axes the last number of
     teeth follows, else the distance of the axes.  False where neither can."""
     meshes: list[tuple[PlacedGear, list[int]]] = []
@@ -166,7 +166,7 @@ def _teeth(scene: Mechanism, made: dict[str, Any], free: Callable[[Path], bool])
     return True
 
 
-def _radii(scene: Mechanism, made: dict[str, Any], free: Callable[[Path], bool]) -> bool:
+def _radii(scene: Mechanism, made: OwnTables, free: Callable[[KeyPath], bool]) -> bool:
     """Discs that roll on each other stand as far apart as their radii say.  False where they cannot."""
     for contact in scene.contacts:
         if not contact.rolling:
@@ -189,7 +189,7 @@ def _radii(scene: Mechanism, made: dict[str, Any], free: Callable[[Path], bool])
     return True
 
 
-def _on_its_face(made: dict[str, Any], contact: PlacedContact) -> bool:
+def _on_its_face(made: OwnTables, contact: PlacedContact) -> bool:
     """A drawn centre of a disc that rolls on a face of the frame goes off it by the radius.  False where it cannot."""
     (disc,) = contact.round
     drawn = made.get("drawn", {}).get(disc.centre)
@@ -209,7 +209,7 @@ def _on_its_face(made: dict[str, Any], contact: PlacedContact) -> bool:
     return True
 
 
-def _disc(made: Mapping[str, Any], ref: str) -> float:
+def _disc(made: Tables, ref: str) -> float:
     link, _, name = ref.partition(".")
     owner = made["links"].get(link, made.get("frame", {}))
     return float(owner["discs"][name]["r"])

@@ -9,17 +9,15 @@ from __future__ import annotations
 import copy
 import math
 import random
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Any
 
+from graphkin.files import OwnTables, Tables
 from graphkin.papers.fitting_numbers import fitted, fitting_keys
 from graphkin.papers.vary_rules import asked_now, free_of_rules, ruled, ruled_keys
+from graphkin.scene.file_keys import KeyPath, put_at, value_at
 
 __all__ = ["Spread", "candidate", "round_step", "varied_keys"]
 
-Source = Mapping[str, Any]
-Path = tuple[str | int, ...]
 
 STEPS = (1.0, 2.0, 5.0)
 SHY = 0.12  # part of its reach that a driver keeps off both ends
@@ -53,10 +51,10 @@ def round_step(value: float) -> float:
     return max(s * decade for s in STEPS if s * decade <= least * (1 + 1e-9))
 
 
-def varied_keys(source: Source) -> tuple[tuple[Path, str], ...]:
+def varied_keys(source: Tables) -> tuple[tuple[KeyPath, str], ...]:
     """The numbers of a scene file that variants change, with what they are: "length", "place", "angle", "rate",
     "travel", or as `fitting_keys` says.  Zeros stay zero, and so do accelerations and the directions of guides."""
-    found: list[tuple[Path, str]] = []
+    found: list[tuple[KeyPath, str]] = []
     for name, link in source.get("links", {}).items():
         if "length" in link:
             found.append((("links", name, "length"), "length"))
@@ -75,7 +73,7 @@ def varied_keys(source: Source) -> tuple[tuple[Path, str], ...]:
     drivers = source.get("driver", [])
     several = isinstance(drivers, list)
     for i, driver in enumerate(drivers if several else [drivers]):
-        path: Path = ("driver", i) if several else ("driver",)
+        path: KeyPath = ("driver", i) if several else ("driver",)
         for key in ("angle", "travel", "omega", "rpm", "velocity"):
             if driver.get(key) or (key == "angle" and key in driver):
                 kind = key if key in ("angle", "travel") else "rate"
@@ -83,14 +81,14 @@ def varied_keys(source: Source) -> tuple[tuple[Path, str], ...]:
     return (*found, *fitting_keys(source))
 
 
-def candidate(source: Source, spread: Spread, seed: int, number: int, attempt: int) -> dict[str, Any]:
+def candidate(source: Tables, spread: Spread, seed: int, number: int, attempt: int) -> OwnTables:
     """One try at a variant: every number that varies drawn afresh and rounded; not looked at yet."""
     dice = random.Random(f"{seed}/{number}/{attempt}")
     made = copy.deepcopy(dict(source))
     for path, kind in free_of_rules(source, varied_keys(source)):
         limited = spread.reach if path in (("driver", "angle"), ("driver", 0, "angle")) else None
-        value = float(_at(source, path))
-        _put(made, path, _drawn(dice, value, kind, spread) if limited is None else _within(dice, limited, spread))
+        value = float(value_at(source, path))
+        put_at(made, path, _drawn(dice, value, kind, spread) if limited is None else _within(dice, limited, spread))
     ruled(source, made, dice, {"angle": spread.angle_step})
     tied = ruled_keys(source)
     fitted(source, made, lambda path: path not in tied)
@@ -99,7 +97,7 @@ def candidate(source: Source, spread: Spread, seed: int, number: int, attempt: i
     return {**made, "find": asked} if asked else made
 
 
-def _said_once(made: dict[str, Any]) -> None:
+def _said_once(made: OwnTables) -> None:
     """What other numbers say is not said twice: a driven link begins to roll where its driver has it, and a cam's
     offset is that of the guide."""
     for cam in made.get("cams", {}).values():
@@ -134,13 +132,3 @@ def _within(dice: random.Random, reach: tuple[float, float], spread: Spread) -> 
     step = min(spread.angle_step, round_step((high - low) * 10.0))
     first, last = math.ceil((low + margin) / step), math.floor((high - margin) / step)
     return float(f"{step * dice.randint(first, max(first, last)):.12g}")
-
-
-def _at(source: Any, path: Path) -> Any:
-    for part in path:
-        source = source[part]
-    return source
-
-
-def _put(made: Any, path: Path, value: float) -> None:
-    _at(made, path[:-1])[path[-1]] = value

@@ -14,9 +14,9 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, is_dataclass
 from itertools import islice
 from pathlib import Path
-from typing import Any
 
 from graphkin.errors import GraphkinError
+from graphkin.files import OwnTables, Tables
 from graphkin.jobs import Checkpoints, Progress, Started, Workers, key_of
 from graphkin.papers.fresh_numbers import Spread, candidate, varied_keys
 from graphkin.papers.variants import Answer, Unfit, Variant, examined
@@ -34,7 +34,6 @@ PATIENCE, LONGER = 3.0, 9.0  # s of the processor, after which no further one is
 # of a title: the data that it names ("…, scheme 2, position 7", "… 150, 500, 300")
 _DATA = re.compile(r"(?:\s+[\d.]+(?=[,、]\s*\d))?\s*[,:，：;；(（、][^,:，：;；(（、]*\d.*$")
 
-Source = Mapping[str, Any]
 Render = Callable[[Variant], Mapping[str, bytes]]
 
 
@@ -48,10 +47,10 @@ class Job:
 
     name: str
     number: int
-    source: Source
+    source: Tables
     spread: Spread | None = None
     seed: int = 0
-    base: Source | None = None
+    base: Tables | None = None
     trouble: str = ""
 
 
@@ -87,14 +86,14 @@ class MadeSet:
         return not self.failures
 
 
-def jobs_of_seed(source: Source, count: int, seed: int, spread: Spread) -> Iterator[Job]:
+def jobs_of_seed(source: Tables, count: int, seed: int, spread: Spread) -> Iterator[Job]:
     """One job for each of so many variants of a scene file."""
     digits = max(2, len(str(count)))
     for number in range(1, count + 1):
         yield Job(f"{number:0{digits}d}", number, source, spread, seed)
 
 
-def jobs_of_rows(rows: Iterable[tuple[str, Source, Source | None, str]]) -> Iterator[Job]:
+def jobs_of_rows(rows: Iterable[tuple[str, Tables, Tables | None, str]]) -> Iterator[Job]:
     """One job for each row of data: name, scene file, the file with the driver where it was, what is wrong with it."""
     for number, (name, source, base, trouble) in enumerate(rows, 1):
         yield Job(name, number, source, base=base, trouble=trouble)
@@ -153,7 +152,7 @@ def _row(job: Job) -> Attempt:
     return Attempt(None, 0, why)
 
 
-def _named(source: Source, name: str) -> dict[str, Any]:
+def _named(source: Tables, name: str) -> OwnTables:
     title, zh = (_DATA.sub("", str(source.get(key, ""))) for key in ("title", "title_zh"))
     named = {"title": f"{title} (no. {name})"[:300], **({"title_zh": f"{zh}（第 {name} 题）"[:300]} if zh else {})}
     # where it comes from, published values and scales belong to the problem as it was
@@ -166,7 +165,7 @@ def _named(source: Source, name: str) -> dict[str, Any]:
     return {**named, **kept, **({"sheet": sheet} if sheet else {})}
 
 
-def _where_it_was(source: Source, original: Source) -> dict[str, Any]:
+def _where_it_was(source: Tables, original: Tables) -> OwnTables:
     """The file with the drivers' values of the original, where its sketch holds."""
     made = json.loads(json.dumps(source))
     for path, kind in varied_keys(original):
@@ -305,7 +304,7 @@ def _finished(points: Checkpoints | None) -> dict[int, Attempt]:
     return found
 
 
-def _made(facts: Mapping[str, Any]) -> Attempt:
+def _made(facts: Tables) -> Attempt:
     v = facts["variant"]
     if v is None:
         return Attempt(None, facts["attempt"], facts["why"])

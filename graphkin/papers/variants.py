@@ -7,13 +7,13 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any
 
 from graphkin.checking.readings import read_off
 from graphkin.checking.uncertainty import predict
 from graphkin.construction import Sheet, execute
 from graphkin.construction.strokes import Ray
 from graphkin.errors import GraphkinError, Problem, SceneError, Unsolvable
+from graphkin.files import OwnTables, Tables
 from graphkin.papers.fresh_numbers import round_step
 from graphkin.papers.paper import paper_plan
 from graphkin.papers.vary_rules import LEVELS, Bounds
@@ -27,8 +27,6 @@ from graphkin.structure import Cluster, Driven, Dyad, Pair, analyse, links_of
 
 __all__ = ["Answer", "Unfit", "Variant", "asked_of", "examined"]
 
-Source = Mapping[str, Any]
-Path = tuple[str | int, ...]
 
 LEAST_READING = 10.0  # mm on paper
 AMPLE = 0.8  # of a tolerance, to which errors that act together may still add
@@ -49,7 +47,7 @@ class Variant:
     """One variant: its name, the mapping of its scene file, its answers, and what should be known of it."""
 
     name: str
-    source: Source
+    source: Tables
     answers: tuple[Answer, ...]
     remarks: tuple[str, ...] = ()
 
@@ -126,7 +124,7 @@ def _joints(group: Dyad | Cluster) -> tuple[Pair, ...]:
 
 
 def examined(
-    source: Source, base: Source | None, name: str, strict: bool = True, bounds: Bounds = LEVELS["usual"],
+    source: Tables, base: Tables | None, name: str, strict: bool = True, bounds: Bounds = LEVELS["usual"],
     fewest: int = 0,
 ) -> Variant:  # fmt: skip
     """A variant from the mapping of a scene file, if it makes a good problem.
@@ -222,7 +220,7 @@ def _within_reach(
     return kept if len(kept) >= fewest else tuple(s for s, _ in answers)
 
 
-def _moved(source: Source, base: Source) -> dict[str, Any]:
+def _moved(source: Tables, base: Tables) -> OwnTables:
     """The file with its driver's value reached from that of ``base``, and a sketch that tells this assembly."""
     start, goal = mechanism_of(base), mechanism_of(source)
     motion = solve(start, {d.key: d.values[0] for d in goal.drivers})

@@ -6,14 +6,13 @@ import math
 import random
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 from graphkin.errors import CallError, Problem
+from graphkin.files import OwnTables, Tables
+from graphkin.scene.file_keys import KeyPath, path_of_key, put_at, value_at
 
 __all__ = ["LEVELS", "Bounds", "asked_now", "free_of_rules", "level_of", "ruled", "ruled_keys", "rules_checked"]
 
-Source = Mapping[str, Any]
-Path = tuple[str | int, ...]
 
 
 @dataclass(frozen=True)
@@ -36,7 +35,7 @@ LEVELS = {
 pressure angle of a slider."""
 
 
-def level_of(source: Source) -> Bounds:
+def level_of(source: Tables) -> Bounds:
     """The bounds that a scene asks for: those of its level, and what it says itself."""
     table = _table(source)
     keys = ("crossing", "transmission", "pressure", "tolerance")
@@ -45,33 +44,24 @@ def level_of(source: Source) -> Bounds:
     return replace(LEVELS[table.get("level", "usual")], **bounds)
 
 
-def _table(source: Source) -> Mapping[str, Any]:
+def _table(source: Tables) -> Tables:
     table = source.get("vary") or {}
     return table if isinstance(table, Mapping) else {}
 
 
-def path_of(source: Source, key: str) -> Path:
+def _path_of_number(source: Tables, key: str) -> KeyPath:
     """The place of a number by its key with dots: ``links.2.length``, ``frame.points.D.x``, ``driver.2.angle``.
 
     Raises ValueError where there is no number.
     """
-    path: list[str | int] = []
-    node: Any = source
-    for part in key.split("."):
-        step: str | int = part
-        if isinstance(node, list | tuple):
-            step = {"x": 0, "y": 1}.get(part, int(part) - 1 if part.isdigit() else -1)
-        try:
-            node = node[step] if not isinstance(step, int) or step >= 0 else None
-        except (KeyError, IndexError, TypeError):
-            node = None
-        path.append(step)
-    if isinstance(node, bool) or not isinstance(node, int | float):
+    path = path_of_key(source, key)
+    value = None if path is None else value_at(source, path)
+    if path is None or isinstance(value, bool) or not isinstance(value, int | float):
         raise ValueError("is no number of the scene")
-    return tuple(path)
+    return path
 
 
-def rules_checked(source: Source) -> None:
+def rules_checked(source: Tables) -> None:
     """Raise CallError naming every key of ``[vary]`` that is no number of the scene, and every range that is none."""
     table = _table(source)
     problems = []
@@ -80,7 +70,7 @@ def rules_checked(source: Source) -> None:
     keys += [("vary.ratios", k) for keys in table.get("ratios", ()) for k in keys]
     for where, key in keys:
         try:
-            path_of(source, key)
+            _path_of_number(source, key)
         except ValueError as error:
             problems.append(Problem(where, f'"{key}" {error}', "write a key such as links.2.length or driver.angle"))
     problems += [Problem(f"vary.ranges.{k}", f"from {low:g} to {high:g}", "give the smaller value first")
@@ -92,7 +82,7 @@ def rules_checked(source: Source) -> None:
         raise CallError(*problems)
 
 
-def free_of_rules(source: Source, paths: Sequence[tuple[Path, str]]) -> list[tuple[Path, str]]:
+def free_of_rules(source: Tables, paths: Sequence[tuple[KeyPath, str]]) -> list[tuple[KeyPath, str]]:
     """The numbers that vary by themselves: without a range, not tied to another, not kept."""
     table = _table(source)
     if table.get("only"):
@@ -101,18 +91,18 @@ def free_of_rules(source: Source, paths: Sequence[tuple[Path, str]]) -> list[tup
     return [(path, kind) for path, kind in paths if path not in fixed]
 
 
-def ruled_keys(source: Source) -> set[Path]:
+def ruled_keys(source: Tables) -> set[KeyPath]:
     """The numbers that have a range, are tied to another, or are kept."""
     table = _table(source)
     tied = [key for keys in table.get("ratios", ()) for key in keys[1:]]
-    return {path_of(source, key) for key in (*table.get("ranges", {}), *tied, *table.get("keep", ()))}
+    return {_path_of_number(source, key) for key in (*table.get("ranges", {}), *tied, *table.get("keep", ()))}
 
 
-def ruled(source: Source, made: dict[str, Any], dice: random.Random, step_of: Mapping[str, float]) -> None:
+def ruled(source: Tables, made: OwnTables, dice: random.Random, step_of: Mapping[str, float]) -> None:
     """Draw what has a range, and let what is tied follow; ``step_of`` gives the steps of angles by the last key."""
     table = _table(source)
     for key, (low, high) in table.get("ranges", {}).items():
-        path = path_of(source, key)
+        path = _path_of_number(source, key)
         size = max(abs(low), abs(high), 1e-9)
         whole = "teeth" in path
         step = 1.0 if whole else step_of.get(str(path[-1]), _round_step(size))
@@ -121,15 +111,15 @@ def ruled(source: Source, made: dict[str, Any], dice: random.Random, step_of: Ma
         first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
         value = dice.randint(first, last) * step if first <= last else low
         value = min(max(value, low), high)
-        _put(made, path, round(value) if whole else float(f"{value:.12g}"))
+        put_at(made, path, round(value) if whole else float(f"{value:.12g}"))
     for keys in table.get("ratios", ()):
-        lead, *others = [path_of(source, key) for key in keys]
-        factor = _at(made, lead) / _at(source, lead) if _at(source, lead) else 1.0
+        lead, *others = [_path_of_number(source, key) for key in keys]
+        factor = value_at(made, lead) / value_at(source, lead) if value_at(source, lead) else 1.0
         for other in others:
-            _put(made, other, float(f"{_at(source, other) * factor:.9g}"))
+            put_at(made, other, float(f"{value_at(source, other) * factor:.9g}"))
 
 
-def asked_now(source: Source, dice: random.Random) -> list[str]:
+def asked_now(source: Tables, dice: random.Random) -> list[str]:
     """Which quantities a variant asks for; none where the scene leaves it."""
     table = _table(source)
     pool = list(table.get("find", ()))
@@ -141,14 +131,3 @@ def asked_now(source: Source, dice: random.Random) -> list[str]:
 def _round_step(value: float) -> float:
     decade = 10.0 ** math.floor(math.log10(abs(value) / 60.0))
     return max(s * decade for s in (1.0, 2.0, 5.0) if s * decade <= abs(value) / 60.0 * (1 + 1e-9))
-
-
-def _at(node: Any, path: Path) -> Any:
-    for part in path:
-        node = node[part]
-    return node
-
-
-def _put(made: Any, path: Path, value: float) -> None:
-    node = _at(made, path[:-1])
-    node[path[-1]] = value

@@ -6,19 +6,17 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from graphkin.errors import Problem, did_you_mean
+from graphkin.scene.file_keys import KeyPath
 from graphkin.scene.tables import SceneTables
 
-__all__ = ["Flaws", "Names", "Path"]
-
-Path = tuple[str | int, ...]
-"""A place in a file: keys, and numbers of items of lists."""
+__all__ = ["Flaws", "Names"]
 
 
 @dataclass(frozen=True)
 class Flaws:
     """The paths of the entries that were reported and taken out of the file."""
 
-    paths: frozenset[Path] = frozenset()
+    paths: frozenset[KeyPath] = frozenset()
 
     def under(self, *prefix: str) -> bool:
         """True where something at or under this path, or a table that holds it, was taken out."""

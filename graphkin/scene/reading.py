@@ -21,9 +21,10 @@ from pydantic import ValidationError
 from graphkin.errors import Problem, SceneError, did_you_mean
 from graphkin.files import OwnTables, Tables
 from graphkin.scene import asked_tables, contact_tables, law_tables, load_tables, sheet_tables, tables
+from graphkin.scene.file_keys import KeyPath, value_at
 from graphkin.scene.file_table import FileTable, entries, key_of, keys_of
 from graphkin.scene.form import SCENE
-from graphkin.scene.names import Flaws, Path
+from graphkin.scene.names import Flaws
 from graphkin.scene.tables import SceneTables
 
 __all__ = ["checked", "keys_at", "path_name", "plain", "shown"]
@@ -33,7 +34,7 @@ DEEPEST = 8
 UNKNOWN = "unexpected_keyword_argument"
 
 
-def plain(source: Mapping[Any, Any] | FileTable) -> OwnTables:
+def plain(source: Mapping[Any, object] | FileTable) -> OwnTables:
     """Copy a mapping, or typed tables, to plain dict, list, str, bool, int and float, so that the form can be checked
     strictly.
 
@@ -41,7 +42,7 @@ def plain(source: Mapping[Any, Any] | FileTable) -> OwnTables:
     """
     left = MOST_VALUES
 
-    def copy(value: object, path: Path) -> Any:
+    def copy(value: object, path: KeyPath) -> object:
         nonlocal left
         left -= 1
         if len(path) > DEEPEST:
@@ -72,7 +73,8 @@ def plain(source: Mapping[Any, Any] | FileTable) -> OwnTables:
             return float(value)
         return value
 
-    made: OwnTables = copy(source, ())
+    made = copy(source, ())
+    assert isinstance(made, dict)
     return made
 
 
@@ -82,17 +84,17 @@ def checked(raw: OwnTables) -> tuple[SceneTables, list[Problem], Flaws]:
     ``raw`` comes from ``plain`` and is changed: wrong entries are taken out of it.
     Raises SceneError where nothing is left to ask about.
     """
-    problems: dict[Path, Problem] = {}
-    gone: set[Path] = set()
+    problems: dict[KeyPath, Problem] = {}
+    gone: set[KeyPath] = set()
     for _ in range(50):
         try:
             return SCENE.validate_python(raw), list(problems.values()), Flaws(frozenset(gone))
         except ValidationError as error:
             found = error.errors(include_url=False)
         for item in sorted(found, key=lambda e: e["type"] != UNKNOWN):
-            loc: Path = tuple(item["loc"])
+            loc: KeyPath = tuple(item["loc"])
             path = written_path(loc)
-            if item["type"] == "missing" and _value_at(raw, path) is not None:
+            if item["type"] == "missing" and value_at(raw, path) is not None:
                 continue  # it was there under a misspelt name
             if path not in problems:
                 problems[path] = sentence(loc, path, dict(item))
@@ -108,9 +110,9 @@ def checked(raw: OwnTables) -> tuple[SceneTables, list[Problem], Flaws]:
     raise SceneError(*problems.values())
 
 
-def _meant(loc: Path, raw: OwnTables) -> str | None:
+def _meant(loc: KeyPath, raw: OwnTables) -> str | None:
     """The key that a misspelt one stands for, where it is near and not written as well, or both are tables."""
-    table = _value_at(raw, written_path(loc[:-1]))
+    table = value_at(raw, written_path(loc[:-1]))
     near = get_close_matches(str(loc[-1])[:60], keys_at(loc[:-1]), n=1, cutoff=0.75)
     if not near or not isinstance(table, dict) or loc[-1] not in table:
         return None
@@ -118,7 +120,7 @@ def _meant(loc: Path, raw: OwnTables) -> str | None:
     return near[0] if near[0] not in table or all(isinstance(t, dict) for t in both) else None
 
 
-def _cut(path: Path) -> Path:
+def _cut(path: KeyPath) -> KeyPath:
     """The smallest entry of the file that can be taken out for something wrong at ``path``."""
     head = path[:1]
     if head == ("links",):
@@ -138,20 +140,9 @@ def _cut(path: Path) -> Path:
     return path[:2] if head and head[0] in inside else head
 
 
-def _value_at(raw: Any, path: Path) -> Any:
-    for part in path:
-        if isinstance(raw, dict):
-            raw = raw.get(part)
-        elif isinstance(raw, list) and isinstance(part, int) and part < len(raw):
-            raw = raw[part]
-        else:
-            return None
-    return raw
-
-
-def _read_as(raw: OwnTables, path: Path, key: str) -> None:
+def _read_as(raw: OwnTables, path: KeyPath, key: str) -> None:
     """Move a misspelt entry to the key that is meant; a table is added to the one that is there."""
-    table = _value_at(raw, path[:-1])
+    table = value_at(raw, path[:-1])
     value = table[path[-1]]
     moved = {**value, **table[key]} if key in table else value
     renamed = {key if k == path[-1] else k: v for k, v in table.items()}
@@ -159,9 +150,9 @@ def _read_as(raw: OwnTables, path: Path, key: str) -> None:
     table.update({**renamed, key: moved})
 
 
-def _take_out(raw: OwnTables, path: Path) -> Path:
+def _take_out(raw: OwnTables, path: KeyPath) -> KeyPath:
     """Take an entry out, or where it is not there (a required key) the table that misses it; return its path."""
-    table = _value_at(raw, path[:-1])
+    table = value_at(raw, path[:-1])
     if isinstance(table, dict) and path[-1] in table:
         del table[path[-1]]
         return path
@@ -260,11 +251,11 @@ def path_name(path: Iterable[str | int]) -> str:
     return ".".join(parts) or "the file"
 
 
-def written_path(loc: Path) -> Path:
+def written_path(loc: KeyPath) -> KeyPath:
     return tuple(part for part in loc if not (isinstance(part, str) and part.startswith("<")) and part != "[key]")
 
 
-def keys_at(loc: Path) -> dict[str, str]:
+def keys_at(loc: KeyPath) -> dict[str, str]:
     """The keys that may stand in the table at ``loc``, with their descriptions."""
     for pattern, table in _TABLES:
         if len(pattern) == len(loc) and all(p in ("*", part) for p, part in zip(pattern, loc, strict=True)):
@@ -272,7 +263,7 @@ def keys_at(loc: Path) -> dict[str, str]:
     return {}
 
 
-def sentence(loc: Path, path: Path, item: OwnTables) -> Problem:
+def sentence(loc: KeyPath, path: KeyPath, item: OwnTables) -> Problem:
     where, kind, value, ctx = path_name(path), item["type"], item["input"], item.get("ctx", {})
     if kind == "missing":
         text = keys_at(loc[:-1]).get(str(loc[-1]), "")
@@ -320,7 +311,7 @@ def sentence(loc: Path, path: Path, item: OwnTables) -> Problem:
     return Problem(where, f"found {shown(value)}", str(item["msg"]))
 
 
-def _about_key(loc: Path) -> str:
+def _about_key(loc: KeyPath) -> str:
     key, here, top = str(loc[-1])[:60], keys_at(loc[:-1]), keys_at(())
     if key in top and len(loc) > 1:
         return (
@@ -333,7 +324,7 @@ def _about_key(loc: Path) -> str:
     return did_you_mean(key, here)
 
 
-def _about_size(loc: Path, value: object) -> tuple[str, str]:
+def _about_size(loc: KeyPath, value: object) -> tuple[str, str]:
     if loc == ("links",):
         return "there is none", "a scene has moving links, [links.1] and so on"
     wanted = {

@@ -15,6 +15,7 @@ from typing import Any
 
 from graphkin.errors import CallError, Problem, as_text, did_you_mean
 from graphkin.files import OwnTables
+from graphkin.scene.file_keys import item_of
 from graphkin.scene.mapping import as_mapping, toml_text
 from graphkin.scene.model import Mechanism
 from graphkin.scene.tables import SceneTables
@@ -22,7 +23,7 @@ from graphkin.scene.tables import SceneTables
 __all__ = ["Scene", "put", "resolved", "safe_name"]
 
 
-def resolved(source: Mapping[Any, Any] | SceneTables, name: str) -> tuple[SceneTables, Mechanism]:
+def resolved(source: Mapping[Any, object] | SceneTables, name: str) -> tuple[SceneTables, Mechanism]:
     """What is written in a scene, checked, and what it says.  Raises SceneError with all that is wrong."""
     # pydantic is loaded where a scene is read, not where a mechanism is only used
     from graphkin.scene.reading import checked, plain
@@ -80,7 +81,7 @@ class Scene(SceneTables):
         vars(self).update(vars(tables), _mechanism=mechanism)
 
     @classmethod
-    def of(cls, source: Mapping[Any, Any], name: str = "scene") -> Scene:
+    def of(cls, source: Mapping[Any, object], name: str = "scene") -> Scene:
         """The scene of a mapping of the same shape as a file.  Raises SceneError."""
         tables, mechanism = resolved(source, name)
         scene = object.__new__(cls)
@@ -160,13 +161,13 @@ def put(made: OwnTables, key: str, value: object) -> Problem | None:
 
     parts = key.split(".")
     whole = isinstance(value, dict | list)
-    place: Any = made
+    place: object = made
     for depth, part in enumerate(parts):
         last = depth == len(parts) - 1
         before = ".".join(parts[:depth]) or "the scene"
         if isinstance(place, list):
-            index = {"x": 0, "y": 1}.get(part, int(part) - 1 if part.isdecimal() else -1)
-            if not 0 <= index < len(place):
+            index = item_of(part, len(place))
+            if index is None:
                 return Problem(key, f"{before} has no item {part}", f"it has {len(place)}, counted from 1")
             if last:
                 place[index] = value

@@ -11,10 +11,9 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import islice
 from numbers import Real
-from typing import Any
 
 from graphkin.errors import CallError, Problem, as_text
-from graphkin.files import path_of
+from graphkin.files import OwnTables, Tables, path_of
 from graphkin.scene.written import put
 
 __all__ = ["Designs", "Value", "applied", "designs_of", "read_designs"]
@@ -174,7 +173,7 @@ def read_designs(path: str | os.PathLike[str]) -> tuple[tuple[str, ...], tuple[t
     return keys, tuple(rows)
 
 
-def applied(source: Mapping[str, Any], keys: Sequence[str], values: Sequence[Value]) -> dict[str, Any]:
+def applied(source: Tables, keys: Sequence[str], values: Sequence[Value]) -> OwnTables:
     """A scene's mapping with some numbers replaced.
 
     Keys are those of the file with dots: ``links.1.length``, ``frame.points.D.x`` (or ``.1``: items of lists are

@@ -11,11 +11,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from graphkin.errors import GraphkinError, Unsolvable
+from graphkin.files import Tables
 from graphkin.jobs import key_of
 from graphkin.scene import mechanism_of
 from graphkin.scene.dimensions import Dimension, dimensions, same_but_for_dimensions
@@ -72,14 +72,14 @@ class Sweep:
     asked, at : as for a `FollowedDesign`
     """
 
-    source: Mechanism | Mapping[str, Any]
+    source: Mechanism | Tables
     name: str
     designs: Designs
     positions: int
     asked: tuple[Watched, ...] = ()
     at: tuple[tuple[str, float], ...] = ()
 
-    def __getstate__(self) -> dict[str, Any]:
+    def __getstate__(self) -> dict[str, object]:
         # what is pickled is what was asked: compiled functions are made anew
         return {field.name: getattr(self, field.name) for field in fields(self)}
 
