@@ -29,6 +29,9 @@ from graphkin.words import Phrase, say, word
 
 __all__ = ["LoopText", "loops_text"]
 
+ROUNDED = 1e-11
+"""A sum of arrows that is less than this part of the longest is nothing but rounding."""
+
 
 @dataclass(frozen=True)
 class LoopText:
@@ -92,8 +95,12 @@ class LoopText:
                 lines += [as_plain(say(head, self.language)), f"  x: {as_plain(x)}", f"  y: {as_plain(y)}"]
                 if one.root is not None:
                     lines.append(f"  {as_plain(root(one.root, one, self.scene, self.language))}")
-                gap = f"{abs(one.gap) / self.scene.units.metres:.1e}"
-                lines.append(f"  {say(Phrase('loop gap', (gap, self.scene.units.length)), self.language)}")
+                longest = max(abs(arrow.vector) for arrow in one.arrows)
+                if abs(one.gap) <= ROUNDED * longest:
+                    lines.append(f"  {word('loop closes', self.language)}")
+                else:
+                    gap = f"{abs(one.gap) / self.scene.units.metres:.1e}"
+                    lines.append(f"  {say(Phrase('loop gap', (gap, self.scene.units.length)), self.language)}")
             for matrix in matrices(block, self.scene):
                 lines += [f"  {word(matrix.key, self.language)}", *matrix_lines(matrix)]
                 lines.append("  " + ", ".join(map(as_plain, matrix.solution)))

@@ -339,6 +339,6 @@ def reading_words(checked: Checked) -> Iterator[tuple[str, str, str, str, bool |
     scales, units = checked.report.scales, checked.mechanism.units
     for row in checked.report.rows:
         said = measured(row.reading, scales, units, row)
-        if said == "0" and row.uncertainty is not None and row.bound:
+        if said == "0" and row.uncertainty is not None and row.bound > row.floor:
             said = f"0 {deviation(row, units)}"
         yield str(row.symbol), paper(row.reading, row), said, exact(row, units), row.ok

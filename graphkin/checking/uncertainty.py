@@ -264,8 +264,8 @@ def advise(
         expected = predicted.get(r.symbol)
         if expected is None or not 0.0 < expected.deviation < math.inf:
             continue
-        if abs(r.value) < max(SMALL * largest[_sort(r.symbol)], expected.deviation):
-            continue  # too small, or no value but noise, such as velocities at rest
+        if abs(r.value) <= max(SMALL * largest[_sort(r.symbol)], expected.bound):
+            continue  # too small, or nothing that is told from zero, such as velocities at rest
         part = expected.deviation / abs(r.value)
         if worst is None or part > worst[0]:
             worst = part, r.symbol

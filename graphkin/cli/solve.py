@@ -175,16 +175,17 @@ def solve(
 
 def _print_solution(solved: SolvedBlocks, lang: str | None) -> None:
     from graphkin.api.arguments import passed_words
-    from graphkin.words import Phrase, class_of, say
+    from graphkin.words import Phrase, class_of, listed, say
 
     scene = solved.first.motion.scene
     said_first: Told = solved.first.head
     language = lang or scene.sheet.language
     tell(f"{scene.title_in(language)}   F = {said_first['mobility']}")
-    for group in said_first["groups"]:
-        links = ", ".join(group["links"])
-        args = links, group["kind"], class_of(group["class"]), group["assembly"]
-        tell(say(Phrase("solved group", args), language))
+    for group, assembly in zip(said_first["groups"], solved.first.motion.assembly, strict=True):
+        links, order = listed(group["links"]), class_of(group["class"])
+        larger = Phrase("solved larger group", (links, order, assembly))
+        dyad = Phrase("solved group", (links, group["kind"], order, assembly))
+        tell(say(dyad if group["class"] == 2 else larger, language))
     for said in passed_words(scene, solved.first.motion.passed):
         tell(say(said, language))
     for some in solved:

@@ -16,6 +16,8 @@ __all__ = ["LinkMotion", "PlacedLinks", "Poses", "RigidBody", "across", "hinge",
 
 
 Poses = Mapping[str, Pose]
+SAME_HOLE = 1e-9
+"""Points of a link that lie nearer to each other on paper (mm) are pricked once."""
 
 
 @dataclass(frozen=True)
@@ -66,10 +68,14 @@ class PlacedLinks:
             link, pose = self.links[name], self.poses[name]
             known = [p for p in link.points if p in self.pricked]
             for point in link.points:
-                if point not in self.pricked:
-                    lies = self._settled(name, pose, known)
-                    self.pricked[point] = self.instrument.point(lies.origin + lies.axis * link.points[point] * self.mm)
-                    known.append(point)
+                if point in self.pricked:
+                    continue
+                lies, own = self._settled(name, pose, known), link.points[point]
+                same = next((p for p in known if abs(link.points[p] - own) * self.mm < SAME_HOLE), None)
+                self.pricked[point] = (
+                    self.pricked[same] if same else self.instrument.point(lies.origin + lies.axis * own * self.mm)
+                )
+                known.append(point)
             self.poses[name] = self._settled(name, pose, known)
 
     def _settled(self, name: str, pose: Pose, known: Sequence[str]) -> Pose:

@@ -12,7 +12,7 @@ from graphkin.drawing.conventions import Letters
 from graphkin.drawing.force_letters import force_letters
 from graphkin.drawing.headings import written
 from graphkin.words import Phrase, say
-from graphkin.words.written import amount, on_paper
+from graphkin.words.written import amount, on_paper, to_lay_off
 
 __all__ = ["arm_lines", "closed_by", "corners", "laid_lines", "laid_off"]
 
@@ -55,13 +55,16 @@ def corner_at(group: ForceGroup, place: complex) -> str:
 
 def laid_lines(sheet: Sheet, forces: ForceSheet, group: ForceGroup, letters: Letters) -> list[str]:
     """``ab = P = 9000 N ÷ 100 N/mm = 90.00 mm, 180.0°`` for each of them."""
-    units = sheet.scene.units
-    per = amount(forces.per_mm / units.newtons, 12)
-    return [
-        f"{_ends(group, v)}{_name(v, letters)} = {amount(abs(v.span) * forces.per_mm / units.newtons, 5)} "
-        f"{units.force} ÷ {written(per)} {units.force}/mm = {written(on_paper(abs(v.span)))} mm,  {_degrees(v.span)}°"
-        for v in laid_off(group)
-    ]
+    units, lines = sheet.scene.units, []
+    per = forces.per_mm / units.newtons
+    scale = written(amount(per, 12))
+    for v in laid_off(group):
+        value, length = to_lay_off(abs(v.span) * per, per, abs(v.span))
+        lines.append(
+            f"{_ends(group, v)}{_name(v, letters)} = {written(value)} {units.force} ÷ {scale} {units.force}/mm = "
+            f"{written(length)} mm,  {_degrees(v.span)}°"
+        )
+    return lines
 
 
 def closed_by(group: ForceGroup, letters: Letters, frame: str, language: str) -> str:

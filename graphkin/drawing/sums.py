@@ -17,11 +17,22 @@ from graphkin.drawing.conventions import Letters
 from graphkin.drawing.headings import number, written
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Units
-from graphkin.words.written import MOST, amount, difference, figures, increased, on_paper, product, quotient
+from graphkin.words.written import (
+    FINER,
+    MOST,
+    amount,
+    difference,
+    figures,
+    increased,
+    is_quotient,
+    on_paper,
+    product,
+    quotient,
+)
 
 __all__ = [
-    "Division", "bound", "divisions", "factors_of", "lengths_measured", "plan_sum", "rate_sum", "rule_sum", "scale_of",
-    "substituted", "times_scale", "trials_of", "unit_of",
+    "Division", "bound", "divisions", "factors_of", "laid_sum", "lengths_measured", "plan_sum", "rate_sum", "rule_sum",
+    "scale_of", "substituted", "times_scale", "trials_of", "unit_of",
 ]  # fmt: skip
 
 _TAILS = {"mechanism": "", "velocity": "/s", "acceleration": "/s²"}
@@ -41,9 +52,9 @@ def _units(sheet: Sheet, diagram: DiagramName) -> Units:
     return sheet.scene.units if diagram == "mechanism" else sheet.scene.units.rates
 
 
-def _arm(sheet: Sheet, mm: float) -> str:
+def _arm(sheet: Sheet, mm: float, most: int = MOST) -> str:
     """A length (mm on paper) in the length unit of rates, with which it is multiplied or by which they are divided."""
-    return amount(mm * sheet.scales.length / sheet.scene.units.rates.metres, MOST)
+    return amount(mm * sheet.scales.length / sheet.scene.units.rates.metres, most)
 
 
 def times_scale(sheet: Sheet, diagram: DiagramName, mm: float) -> str:
@@ -66,8 +77,11 @@ def rate_sum(sheet: Sheet, act: MeasuredRate, units: bool = True) -> str:
         return ""
     diagram: DiagramName = "velocity" if omega else "acceleration"
     carried = figures(on_paper(rate.mm))
-    size = _carried(sheet, diagram, rate.mm, carried)
-    arm = _arm(sheet, rate.arm_mm)
+    shown = amount(abs(rate.value), min(MOST - 1, carried))
+    tried = [
+        (_carried(sheet, diagram, rate.mm, carried, most), _arm(sheet, rate.arm_mm, most)) for most in FINER
+    ]  # fmt: skip
+    size, arm = next((t for t in tried if quotient(*t, min(MOST - 1, carried)) == shown), tried[0])
     of, over = (f" {unit_of(sheet, diagram)}", f" {sheet.scene.units.rates.length}") if units else ("", "")
     value = written(quotient(size, arm, min(MOST - 1, carried)))
     return f"{written(size)}{of} / {written(arm)}{over} = {value} {'rad/s' if omega else 'rad/s²'}"
@@ -123,26 +137,27 @@ def divisions(sheet: Sheet, step: Step, act: Superposed) -> list[Division]:
     return found
 
 
-def _carried(sheet: Sheet, diagram: DiagramName, mm: float, carried: int) -> str:
-    """What a length on paper stands for: of an exact drawing with one figure more than paper shows."""
+def _carried(sheet: Sheet, diagram: DiagramName, mm: float, carried: int, most: int) -> str:
+    """What a length on paper stands for: of an exact drawing with one figure more than paper shows, or with more."""
     if sheet.instrument != EXACT.name:
         return product(on_paper(mm), amount(scale_of(sheet, diagram), 12))
-    return amount(mm * scale_of(sheet, diagram), min(MOST, carried + 1))
+    return amount(mm * scale_of(sheet, diagram), min(MOST, carried + 1) + most - MOST)
 
 
-def factors_of(sheet: Sheet, rule: Size | None) -> tuple[str, ...]:
-    """The numbers whose product a size is, as they are written; none where no such rule is known."""
+def factors_of(sheet: Sheet, rule: Size | None, most: int = MOST) -> tuple[str, ...]:
+    """The numbers whose product a size is, as they are written to so many figures; none where no such rule is known."""
     if isinstance(rule, RollingCurves):
         rates = [sheet.omega[name].value for name in rule.turning]
-        turning = amount(abs(rates[0] - sum(rates[1:])), MOST)
-        return turning, turning, amount(rule.radius / sheet.scene.units.metres, MOST)
+        turning = amount(abs(rates[0] - sum(rates[1:])), most)
+        return turning, turning, amount(rule.radius / sheet.scene.units.metres, most)
     if not isinstance(rule, RateTimes) or len(rule.links) > 1:
         return ()
-    factor = _speed(sheet, rule.factor) if isinstance(rule.factor, Symbol) else _length(sheet, *rule.factor)
+    by = rule.factor
+    factor = _speed(sheet, by, most) if isinstance(by, Symbol) else _length(sheet, by, most)
     if factor is None:
         return ()
     turned = sheet.omega if rule.rate == "omega" else sheet.alpha
-    rate = amount(abs(turned[rule.links[0]].value), MOST)
+    rate = amount(abs(turned[rule.links[0]].value), most)
     return (*("2",) * rule.twice, *(rate,) * (1 + rule.square), factor)
 
 
@@ -189,16 +204,31 @@ def _is_given(sheet: Sheet, bar: tuple[str, str]) -> bool:
     return any(set(bar) <= set(body.points) for body in bodies)
 
 
-def _length(sheet: Sheet, one: str, other: str) -> str | None:
-    ends = [sheet.points.get(PointRef(name)) for name in (one, other)]
+def _length(sheet: Sheet, bar: tuple[str, str], most: int) -> str | None:
+    ends = [sheet.points.get(PointRef(name)) for name in bar]
     if ends[0] is None or ends[1] is None:
         return None
-    return _arm(sheet, abs(ends[0] - ends[1]))
+    return _arm(sheet, abs(ends[0] - ends[1]), most)
 
 
-def _speed(sheet: Sheet, symbol: Symbol) -> str | None:
+def _speed(sheet: Sheet, symbol: Symbol, most: int) -> str | None:
     vector = sheet.vectors("velocity").get(symbol)
-    return None if vector is None else amount(abs(vector.span) * scale_of(sheet, "velocity"), MOST)
+    return None if vector is None else amount(abs(vector.span) * scale_of(sheet, "velocity"), most)
+
+
+def laid_sum(sheet: Sheet, diagram: DiagramName, rule: Size | None, mm: float) -> tuple[str, str]:
+    """``0.7396² × 383.14 = 209.58 mm/s²`` (without a rule the value alone), and what ``÷ 10 (mm/s²)/mm = 20.96 mm``
+    says of it, for a vector of a length on paper: with as many figures as both want to be true as they are written."""
+    per, unit = scale_of(sheet, diagram), unit_of(sheet, diagram)
+    length, scale = on_paper(mm), amount(per, 12)
+    tried = [
+        (factors, product(*factors, carried=most) if factors else amount(mm * per, most))
+        for most in FINER for factors in (factors_of(sheet, rule, most),)
+    ]  # fmt: skip
+    factors, value = next((t for t in tried if is_quotient(length, t[1], scale)), tried[0])
+    middle = f"{substituted(rule, factors)} = " if factors else ""
+    shown = f"{written(value)} {unit}"
+    return f"{middle}{shown}", f"{shown} ÷ {number(per)} ({unit})/mm = {written(length)} mm"
 
 
 def bound(text: str) -> str:

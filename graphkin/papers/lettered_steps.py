@@ -102,7 +102,7 @@ class LetteredSteps:
         rule = _rule(act.symbol, term.size)
         what = (rule, on_paper(abs(bar.b - bar.a)), _way(term.direction, bar.b - bar.a))
         ends = self._at(step, bar.a), self._at(step, bar.b)
-        if None in ends:
+        if None in ends or ends[0] == ends[1]:
             return Phrase("carry from", (start, *what))
         return Phrase("carry lettered", (start, _joined(*ends), *what, ends[1]))
 
@@ -199,9 +199,10 @@ class LetteredSteps:
         return Markup(letter) if letter else None
 
     def _between(self, step: Step, vector: Vector | Aid) -> Markup | None:
-        """A vector by the letters of its ends: ``pb``; None where the convention has no letters."""
+        """A vector by the letters of its ends: ``pb``; None where the convention has no letters, and where it is so
+        small that one letter stands for both."""
         ends = self._at(step, vector.tail), self._at(step, vector.tip)
-        return None if None in ends else _joined(*ends)
+        return None if None in ends or ends[0] == ends[1] else _joined(*ends)
 
     def _start(self, step: Step, at: complex) -> Phrase | None:
         """Where a vector begins: a letter, or the end of a vector."""

@@ -19,13 +19,13 @@ from graphkin.construction.sizes import Direction, Given, OffCurves, RateTimes, 
 from graphkin.construction.strokes import Aid, Bar, Vector
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.headings import number, written
-from graphkin.drawing.sums import factors_of, plan_sum, rate_sum, scale_of, substituted, times_scale, unit_of
+from graphkin.drawing.sums import laid_sum, plan_sum, rate_sum, scale_of, times_scale, unit_of
 from graphkin.drawing.written_lines import by_rates
 from graphkin.papers.blocks import whole_sentence
 from graphkin.papers.lettered_steps import LetteredSteps, Markup
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, say, word
-from graphkin.words.written import MOST, amount, on_paper, product
+from graphkin.words.written import MOST, on_paper
 
 __all__ = ["Speaker"]
 
@@ -138,14 +138,8 @@ class Speaker:
         return (f"${'ω' if omega else 'α'}_{{{act.link}}}$ = {value}",)
 
     def _laid_off(self, diagram: DiagramName, symbol: Symbol, size: Size | None, length: float) -> tuple[str, ...]:
-        per, unit = scale_of(self.sheet, diagram), unit_of(self.sheet, diagram)
-        factors = factors_of(self.sheet, size)
-        value = written(product(*factors, carried=MOST) if factors else amount(length * per, MOST))
-        middle = f" = {substituted(size, factors)}" if factors else ""
-        return (
-            f"${self.letters.vector(symbol)}${middle} = {value} {unit}",
-            f"{value} {unit} ÷ {number(per)} ({unit})/mm = {written(on_paper(length))} mm",
-        )
+        computed, laid = laid_sum(self.sheet, diagram, size, length)
+        return f"${self.letters.vector(symbol)}$ = {computed}", laid
 
     def _measured(self, diagram: DiagramName, vector: Vector) -> str:
         size = abs(vector.span)

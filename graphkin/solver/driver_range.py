@@ -26,6 +26,7 @@ from graphkin.solver.motion_at import BLOCK, goal_values, joined, motion_of
 from graphkin.solver.pose import Array
 from graphkin.structure import Structure
 from graphkin.structure.assembly import MOST_TURNS, ChangePoint, ways
+from graphkin.words import Phrase
 
 if TYPE_CHECKING:
     from graphkin.solver.path import Path
@@ -169,7 +170,7 @@ class DriverRange:
         return self.ahead.change_points + (() if self.full else self.behind.change_points)
 
     @cached_property
-    def assembly(self) -> tuple[str, ...]:
+    def assembly(self) -> tuple[Phrase, ...]:
         """For each group which assembly was taken."""
         return assembly_words(self.structure, self._own_forms)
 

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import reduce
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -33,6 +34,7 @@ from graphkin.structure import (
     named_with_contact,
 )
 from graphkin.structure.cams_replaced import with_cams
+from graphkin.words import Phrase
 
 if TYPE_CHECKING:
     from graphkin.solver.path import Path
@@ -218,18 +220,19 @@ def _where(structure: Structure, i: int, values: Array, forms: Mapping[int, Arra
     return f"; it lies at {driver.key} = {driver_text(scene, driver, float(point.value))}, {unit[1]:.3g} {unit[0]} away"
 
 
-def assembly_words(structure: Structure, forms: Mapping[int, Array]) -> tuple[str, ...]:
+def assembly_words(structure: Structure, forms: Mapping[int, Array]) -> tuple[Phrase, ...]:
     """For each group which assembly was taken, in the order of ``structure.groups``."""
-    words: list[str] = []
+    words: list[Phrase] = []
     for i, element in enumerate(structure.elements):
         if isinstance(element, Dyad):
-            words.append(_dyad_words(element)[0 if float(forms[i]) > 0 else 1])
+            said = _dyad_words(element)
+            words.append(said.positive if float(forms[i]) > 0 else said.negative)
         elif isinstance(element, Cluster):
             words.append(_cluster_words(structure, element, np.asarray(forms[i])))
     return tuple(words)
 
 
-def _cluster_words(structure: Structure, group: Cluster, place: Array) -> str:
+def _cluster_words(structure: Structure, group: Cluster, place: Array) -> Phrase:
     """Sides of the inner joints of a larger group, each seen from the next joint on its one link to that on the other,
     and where the first of them lies: two assemblies may have all sides in common."""
     row = (place if place.ndim == 2 else place[0])[: len(group.members)]
@@ -243,8 +246,8 @@ def _cluster_words(structure: Structure, group: Cluster, place: Array) -> str:
         turns = (p.point for p in group.pairs if isinstance(p, Turn) and link in (p.a, p.b))
         return next((p for p in turns if p != point), None)
 
-    said: list[str] = []
-    where = ""
+    said: list[Phrase] = []
+    where: Phrase | None = None
     for pair in group.pairs:
         if not {pair.a, pair.b} <= set(group.members):
             continue
@@ -252,43 +255,51 @@ def _cluster_words(structure: Structure, group: Cluster, place: Array) -> str:
             origin, turned = at[pair.b]
             along = (at[pair.a][0] - origin) / turned - pair.guide.through
             positive = (along / pair.guide.direction).real > 0
-            said.append(f"{pair.a} on the {'positive' if positive else 'negative'} side of {_guide(pair)}")
+            side_key = "assembled with it positive" if positive else "assembled with it negative"
+            said.append(Phrase(side_key, (pair.a, _guide(pair))))
             continue
         first, second = other(pair.a, pair.point), other(pair.b, pair.point)
         if first is None or second is None:
             continue
         inner, one, two = world(pair.a, pair.point), world(pair.a, first), world(pair.b, second)
         z = inner / structure.scene.units.metres
-        where = where or f"{pair.point} at [{z.real:.5g}, {z.imag:.5g}]"
+        where = where or Phrase("assembled at", (pair.point, f"{z.real:.5g}", f"{z.imag:.5g}"))
         side = ((two - one).conjugate() * (inner - one)).imag
-        said.append(f"{pair.point} {'left' if side > 0 else 'right'} of {first} to {second}")
-    return ", ".join([*said, where] if where else said) or "as in the scene's own position"
+        said.append(_beside(side > 0, pair.point, first, second))
+    said += [where] if where else []
+    return reduce(lambda one, other: Phrase("listed", (one, other)), said or [Phrase("assembled as in the scene")])
+
+
+def _beside(left: bool, inner: str, first: str, second: str) -> Phrase:
+    return Phrase("assembled left" if left else "assembled right", (inner, first, second))
 
 
 class _DyadWords(NamedTuple):
     """What a dyad is said to be: in its positive and in its negative assembly, and at a dead point."""
 
-    positive: str
-    negative: str
+    positive: Phrase
+    negative: Phrase
     dead: str
 
 
 def _dyad_words(dyad: Dyad) -> _DyadWords:
     first, inner, second = (getattr(p, "point", "") for p in (dyad.outer_first, dyad.inner, dyad.outer_second))
     guide = next((_guide(p) for p in (dyad.outer_second, dyad.inner) if isinstance(p, Slide)), "")
-    line = f"{first} to {second}"
+    only = Phrase("assembled only so")
     return {
         "RRR": _DyadWords(
-            f"{inner} left of {line}", f"{inner} right of {line}", f"have {first}{inner} and {inner}{second} in line"
+            _beside(True, inner, first, second), _beside(False, inner, first, second),
+            f"have {first}{inner} and {inner}{second} in line",
         ),
         "RRP": _DyadWords(
-            f"further along {guide}", f"less far along {guide}", f"have {first}{inner} square to the guide"
+            Phrase("assembled further along", (guide,)), Phrase("assembled less far along", (guide,)),
+            f"have {first}{inner} square to the guide",
         ),
         "RPR": _DyadWords(
-            f"on the positive side of {guide}", f"on the negative side of {guide}",
+            Phrase("assembled on the positive side", (guide,)), Phrase("assembled on the negative side", (guide,)),
             f"have {second}{first} square to the guide",
         ),
-    }.get(dyad.kind, _DyadWords("the only one", "the only one", "have parallel guides"))  # fmt: skip
+    }.get(dyad.kind, _DyadWords(only, only, "have parallel guides"))  # fmt: skip
 
 
 def _guide(pair: Slide) -> str:

@@ -17,6 +17,7 @@ from graphkin.solver.error_bound import ErrorBound
 from graphkin.solver.pose import Array, Pose
 from graphkin.structure import Slide, Structure
 from graphkin.structure.assembly import ChangePoint
+from graphkin.words import Phrase
 
 __all__ = ["Motion", "Sliding", "evaluate"]
 
@@ -220,7 +221,7 @@ class Motion:
     why: tuple[str, ...]
     poses: Mapping[str, Pose]
     slides: tuple[Slide, ...]
-    assembly: tuple[str, ...]
+    assembly: tuple[Phrase, ...]
     bound: ErrorBound[Array]
     rough: tuple[Array, Array]
     turned: Mapping[str, Array] = field(default_factory=dict)

@@ -21,6 +21,7 @@ from graphkin.solver.motion import Motion
 from graphkin.solver.pose import FIELDS, Array, Pose, rest
 from graphkin.solver.redundant import all_slides, place_redundant
 from graphkin.structure import Structure
+from graphkin.words import Phrase
 
 __all__ = ["BLOCK", "goal_values", "joined", "motion_of"]
 
@@ -50,7 +51,7 @@ def motion_of(
     structure: Structure,
     drive: Drive,
     forms: Mapping[int, Array],
-    assembly: tuple[str, ...],
+    assembly: tuple[Phrase, ...],
     good: Array,
     why: str = "",
     fine: bool = True,

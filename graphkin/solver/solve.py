@@ -21,6 +21,7 @@ from graphkin.solver.pose import Array, rest
 from graphkin.solver.redundant import all_slides
 from graphkin.structure import Structure
 from graphkin.structure.assembly import ChangePoint
+from graphkin.words import Phrase
 
 __all__ = ["solve", "sweep_in_blocks"]
 
@@ -113,7 +114,7 @@ def _nowhere(structure: Structure, goal: Array, sweep: int | None, status: str, 
     poses = dict.fromkeys(names, gone)
     poses[structure.scene.frame.name] = none
     nan = np.full(n, np.nan)
-    unknown = tuple("" for _ in structure.groups)
+    unknown = tuple(Phrase("assembled nowhere") for _ in structure.groups)
     slides, said = all_slides(structure), (why,) * n
     bound = ErrorBound(*(nan,) * 6)
     return Motion(structure, values, np.full(n, status), said, poses, slides, unknown, bound, (nan, nan))

@@ -22,6 +22,7 @@ from graphkin.solver.motion import Motion
 from graphkin.solver.pose import Array
 from graphkin.structure import Cluster, Dyad, Slide
 from graphkin.structure.assembly import ChangePoint
+from graphkin.words import Phrase, say
 
 __all__ = ["entries", "head", "json_text", "listed_points", "own_slides", "to_json"]
 
@@ -225,7 +226,7 @@ def _bounds(motion: Motion, k: int) -> dict[str, Json]:
     return found
 
 
-def _group(group: Dyad | Cluster, words: str) -> dict[str, Json]:
+def _group(group: Dyad | Cluster, words: Phrase) -> dict[str, Json]:
     order = group.order if isinstance(group, Cluster) else 2
-    return {"class": order, "kind": group.kind, "links": list(group.links), "assembly": words}
+    return {"class": order, "kind": group.kind, "links": list(group.links), "assembly": say(words)}
 

@@ -25,6 +25,8 @@ STRAIGHT = 0.02
 """A pitch curve of less curvature, times the base radius, has its centre of curvature too far away for a bar."""
 SHARP = 1e-9
 """A pitch curve whose tangent is shorter than this, of the base radius, has a cusp."""
+ROUNDED = 1e-13
+"""A centre of curvature nearer to the axis than this part of the radius lies on it."""
 
 
 def with_cams(scene: Mechanism | Structure) -> Mechanism | Structure:
@@ -92,9 +94,10 @@ def cams_replaced(
         places[point] = cam.axis + course.point
         if bars and abs(bends) * cam.base >= STRAIGHT:
             # about the centre of curvature, as in a slot along a circle
-            centre = next(names)
-            links[cam.link] = replace(link, points={
-                **link.points, centre: (course.point + 1j * unit(tangent) / bends) / turn})  # fmt: skip
+            centre, middle = next(names), course.point + 1j * unit(tangent) / bends
+            if abs(middle) * abs(bends) < ROUNDED:  # in a dwell
+                middle = 0j
+            links[cam.link] = replace(link, points={**link.points, centre: middle / turn})
             bar = PlacedLink(f"{centre}{point}", {centre: 0j, point: complex(1.0 / abs(bends))}, (centre, point),
                              {"": PlacedGuide("", 0j, 1 + 0j)})  # fmt: skip
             made[bar.name] = bar

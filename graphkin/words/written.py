@@ -8,9 +8,13 @@ from __future__ import annotations
 
 from decimal import Decimal, localcontext
 
-__all__ = ["LEAST", "MOST", "amount", "difference", "figures", "increased", "on_paper", "product", "quotient"]
+__all__ = [
+    "FINER", "LEAST", "MOST", "amount", "difference", "figures", "increased", "is_quotient", "on_paper", "product",
+    "quotient", "to_lay_off",
+]  # fmt: skip
 
 MOST = 5  # figures of a computed number
+FINER = range(MOST, MOST + 4)  # figures, where those few do not give what they should as they are written
 LEAST = 0.05  # mm; what is shorter is read where it is drawn larger
 ROUNDED = 1e-12  # mm on a sheet of some hundred: what the sixteenth digit leaves
 DIGITS = 40
@@ -64,6 +68,29 @@ def quotient(over: str, under: str, carried: int) -> str:
     """The quotient of two numbers as they are written, to so many figures."""
     with localcontext(prec=DIGITS):
         return _plain(_rounded(_number(over) / _number(under), carried))
+
+
+def to_lay_off(value: float, per: float, mm: float) -> tuple[str, str]:
+    """A value of which so much goes on one mm, with as many figures as the quotient wants to be true as it is written;
+    and the length on paper (mm) that it is.
+
+    >>> to_lay_off(228.0374, 2.5, 91.21496), to_lay_off(9000.0, 100.0, 90.0)
+    (('228.037', '91.21'), ('9000', '90.00'))
+    """
+    length, scale = on_paper(mm), amount(per, 12)
+    tried = (amount(value, carried) for carried in FINER)
+    return next((one for one in tried if is_quotient(length, one, scale)), amount(value, MOST)), length
+
+
+def is_quotient(value: str, over: str, under: str) -> bool:
+    """Whether a number is the quotient of two others, all as they are written.
+
+    >>> is_quotient("90.00", "9000", "100"), is_quotient("91.21", "228.04", "2.5")
+    (True, False)
+    """
+    with localcontext(prec=DIGITS):
+        whole, step = _number(value), Decimal(1).scaleb(int(_number(value).as_tuple().exponent))
+        return 2 * abs(_number(over) / _number(under) - whole) <= step
 
 
 def increased(value: str, more: str) -> str:

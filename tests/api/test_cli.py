@@ -287,6 +287,13 @@ def test_solve_speaks_chinese():
     assert "角加速度" in run("solve", SIXBAR, "--lang", "zh").stdout
 
 
+@pytest.mark.parametrize("name", [SIXBAR, "double-butterfly", "hit16-double-guide", "triad-slider"])
+def test_assemblies_of_groups_are_told_in_chinese_without_english(name):
+    said = [line for line in run("solve", name, "--lang", "zh").stdout.splitlines() if "级杆组" in line]
+    assert said
+    assert [] == [line for line in said if re.search(r"[a-z]{2,}", line)]
+
+
 def test_a_larger_group_is_drawn_and_how_is_said():
     done = run("check", "double-butterfly", "--json")
     assert 0 == done.returncode

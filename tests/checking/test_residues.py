@@ -9,8 +9,8 @@ from decimal import Decimal
 
 import pytest
 
-from graphkin import check, draw
-from graphkin.api.report_text import reading_words
+from graphkin import check, draw, solve
+from graphkin.api.report_text import reading_words, report_text
 from graphkin.words.written import amount
 
 DEAD = [("shaper-scheme-2", 90), ("swinging-block", 180), ("whitworth", 270), ("slider-crank-offset", 0)]
@@ -68,3 +68,25 @@ def test_a_reading_of_a_pencil_below_its_uncertainty_is_zero_with_its_bound():
 def test_the_table_of_readings_has_no_residue():
     rows = list(csv.DictReader(io.StringIO(check("shaper-scheme-2", at=90).table.csv())))
     assert [] == [row["symbol"] for row in rows if 0.0 < abs(float(row["measured"])) < 1e-9]
+
+
+@pytest.mark.parametrize("instrument", ["exact", "cad", "pencil"])
+@pytest.mark.parametrize(
+    ("name", "at"), [("cam-flat-face", 350), ("cam-offset-roller", 130), ("cam-swinging-roller", 10)]
+)
+def test_a_follower_that_dwells_has_no_rates_and_every_reading_is_determined(name, at, instrument):
+    checked = check(name, at=at, instrument=instrument, seed=2)
+    turning = [row.symbol.link for row in checked.report.rows if row.symbol.kind == "omega" and row.measured != 0.0]
+    assert (["1"], (), True) == (turning, checked.report.undetermined, checked.ok)
+    assert [] == [str(row.symbol) for row in checked.report.rows if row.symbol.kind != "omega" and row.measured != 0.0]
+
+
+def test_the_advice_is_not_of_a_reading_that_is_not_told_from_zero():
+    said = report_text(check("cam-flat-face", at=350, instrument="pencil"), "en")
+    assert "least certain" not in said
+
+
+@pytest.mark.parametrize("name", ["four-bar-coupler-point", "sixbar-rotating-guide-scheme2", "double-butterfly"])
+def test_loops_that_close_have_the_sum_0(name):
+    said = [line for line in solve(name).loops("en").plain.splitlines() if "sum of all arrows" in line]
+    assert {"the sum of all arrows is 0"} == {line.strip() for line in said}

@@ -3,15 +3,17 @@ from __future__ import annotations
 import cmath
 import math
 import re
+from decimal import Decimal
 
 import pytest
 
 from graphkin import read
 from graphkin.api.handouts import handout
 from graphkin.construction import draft
-from graphkin.construction.polygon_acts import ByRate
+from graphkin.construction.polygon_acts import ByRate, LaidOff, MeasuredRate
 from graphkin.drawing.conventions import letters_of
 from graphkin.papers.lesson import plain_words, stages
+from graphkin.papers.lettered_steps import LetteredSteps
 from graphkin.papers.reasons import reasons
 from graphkin.papers.speaker import Speaker
 from graphkin.scene import library, mechanism_of
@@ -22,6 +24,11 @@ pytestmark = pytest.mark.quick
 def _six_bar():
     sheet = draft(mechanism_of("sixbar-guide-40deg"))
     return sheet, Speaker(sheet, letters_of(sheet, "chinese"))
+
+
+def _at(name, degrees):
+    scene = mechanism_of(name)
+    return draft(scene, {scene.drivers[0].key: math.radians(degrees)})
 
 
 def test_every_equation_is_one_stage_and_the_position_another():
@@ -45,6 +52,36 @@ def test_a_coriolis_part_is_computed_from_a_measured_rate_and_a_measured_velocit
     sheet, speaker = _six_bar()
     step = next(s for s in sheet.steps if s.phrase.key == "lay off coriolis")
     assert "2 × 2.8191 × 575.41 = 3244.3 mm/s²" in speaker.work(step)[0]
+
+
+@pytest.mark.parametrize(
+    ("name", "at"), [("double-butterfly", 180), ("sixbar-420rpm", 60), ("sixbar-AE70", 0), ("whitworth", 17.3)]
+)
+def test_what_is_laid_off_is_the_quotient_of_the_numbers_before_it(name, at):
+    sheet = _at(name, at)
+    speaker = Speaker(sheet, letters_of(sheet, "chinese"))
+    lines = [line for step in sheet.steps for line in speaker.work(step)]
+    divided = [re.fullmatch(r"([\d.]+) \S+ ÷ ([\d.]+) \S+ = ([\d.]+) mm", line) for line in lines]
+    said = [tuple(map(Decimal, one.groups())) for one in divided if one]
+    assert said
+    half = [Decimal("0.5").scaleb(length.as_tuple().exponent) for *_, length in said]
+    assert [] == [one for one, off in zip(said, half, strict=True) if abs(one[0] / one[1] - one[2]) > off]
+
+
+def test_a_rate_comes_to_the_same_in_its_sentence_and_in_its_quotient():
+    sheet = _at("sixbar-420rpm", 60)
+    speaker = Speaker(sheet, letters_of(sheet, "chinese"))
+    rates = (s for s in sheet.steps if isinstance(s.act, MeasuredRate))
+    step = next(s for s in rates if (s.act.rate, s.act.link) == ("alpha", "4"))
+    assert "106.1 rad/s²" in speaker.sentence(step.phrase, "en")
+    assert speaker.work(step)[0].endswith("= 106.1 rad/s²")
+
+
+def test_a_vector_too_small_for_letters_of_its_own_is_not_named_by_one_letter_twice():
+    sheet = _at("sixbar-420rpm", 60)
+    lettered = LetteredSteps(sheet, letters_of(sheet, "chinese"))
+    tiny = next(s for s in sheet.steps if isinstance(s.act, LaidOff) and str(s.act.symbol) == "an_F/E")
+    assert "lay off from" == lettered.phrase(tiny).key
 
 
 def test_a_sentence_ends_and_begins_as_its_language_does():
