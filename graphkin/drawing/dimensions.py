@@ -18,7 +18,7 @@ import numpy as np
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.font_widths import CAP_HEIGHT, text_box
-from graphkin.drawing.obstacles import Floats, Indices, Obstacles, Points, cross_product, meets
+from graphkin.drawing.obstacles import Flags, Floats, Indices, Obstacles, Points, cross_product, meets
 from graphkin.drawing.primitives import Arc, Line, Polygon, Run, Text, page_direction
 from graphkin.drawing.symbols import POINTER, arrowhead
 from graphkin.drawing.text import plain
@@ -114,6 +114,7 @@ def _head(tip: complex, along: complex) -> Polygon:
 
 AROUND_POINT = 11.0  # mm around a point in which lines belong to its own symbols
 ARROWHEAD = 1.7  # mm: half the diagonal of the box of one, which is smaller than any symbol of a point
+ON_LINE = 1e-9  # mm²: a smaller area with a line is rounding
 TRIM, LEAST_EXTENSION = 0.8, 2.2  # mm between a symbol and an extension line; a shorter one is none
 
 
@@ -138,6 +139,7 @@ class DimensionClearance:
         self.areas = _arrays(obstacles.areas)
         self.numbers = _arrays(())  # of dimensions, over which nothing runs
         self.heads = _arrays(())  # arrowheads of dimensions, over which extension lines of others may run
+        self.taken = self.areas  # with all of these
         corners = [z for box in obstacles.areas for z in box.corners] + [z for s in obstacles.solid for z in s]
         self.content = Box.around(corners) if corners else Box(0, 0, 0, 0)
 
@@ -166,6 +168,7 @@ class DimensionClearance:
         self.segments = np.concatenate((self.segments, fit.lines))
         self.areas, self.numbers = _joined(self.areas, fit.numbers), _joined(self.numbers, fit.numbers)
         self.heads = _joined(self.heads, fit.heads)
+        self.taken = _joined(self.areas, self.heads)
         return fit.parts
 
     def _fit(
@@ -213,7 +216,7 @@ class DimensionClearance:
     def _covered(self, middles: Points, halves: Points) -> bool:
         """Whether boxes meet anything."""
         grown = halves[:, None] + 0.5 * (1 + 1j)
-        taken, sizes = _joined(self.areas, self.heads)
+        taken, sizes = self.taken
         off, reach = middles[:, None] - taken, grown + sizes
         if ((np.abs(off.real) < reach.real) & (np.abs(off.imag) < reach.imag)).any():
             return True
@@ -225,15 +228,18 @@ class DimensionClearance:
         ways = [(line.end - line.start) / length for line, length in zip(lines, lengths, strict=True)]
         near = _segments([(line.start, line.start + AROUND_POINT * way) for line, way in zip(lines, ways, strict=True)])
         starts = [-TRIM] * len(lines)
-        for i, share in zip(*_crossings(near, self.segments), strict=True):
-            starts[i] = max(starts[i], float(share))
+        which, shares = _crossings(near, self.segments)
+        for i, share in zip(which.tolist(), shares.tolist(), strict=True):
+            starts[i] = max(starts[i], share)
         # the symbols on the point end where the line leaves their boxes
         middles, reach = self.areas[0], self.areas[1] + 0.4 * (1 + 1j)
-        for i, j in np.argwhere(meets(near[:, None], middles, reach)):
-            box = Box.around((complex(middles[j] - reach[j]), complex(middles[j] + reach[j])))
-            chord = box.clip(complex(near[i, 0]), complex(near[i, 1]))
-            if chord is not None:
-                starts[i] = max(starts[i], abs(chord[1] - lines[i].start) / AROUND_POINT)
+        which, what = meets(near[:, None], middles, reach).nonzero()
+        if len(which):
+            low, high = (middles[what] - reach[what]).tolist(), (middles[what] + reach[what]).tolist()
+            for i, corners in zip(which.tolist(), zip(low, high, strict=True), strict=True):
+                chord = Box.around(corners).clip(lines[i].start, lines[i].start + AROUND_POINT * ways[i])
+                if chord is not None:
+                    starts[i] = max(starts[i], abs(chord[1] - lines[i].start) / AROUND_POINT)
         found: list[Line | None] = []
         for line, length, way, share in zip(lines, lengths, ways, starts, strict=True):
             start = AROUND_POINT * share + TRIM if share > 0 else 0.0
@@ -261,20 +267,22 @@ def _arrays(boxes: Sequence[Box]) -> tuple[Points, Points]:
     return np.array([box.centre for box in boxes], dtype=complex), np.array(sizes, dtype=complex)
 
 
-def _sign(area: Floats) -> Floats:
-    """On which side a point lies: 0 where it is on the line but for rounding."""
-    return np.where(np.abs(area) < 1e-9, 0.0, np.sign(area))
+def _either_side(one: Floats, other: Floats) -> Flags:
+    """Whether points lie on different sides of a line, or on it but for rounding; their areas with it tell."""
+    return (np.minimum(one, other) < ON_LINE) & (np.maximum(one, other) > -ON_LINE)
 
 
 def _crossings(own: Points, others: Points) -> tuple[Indices, Floats]:
     """Which of some segments cross others, and at which share of their length."""
     p, d = own[:, None, 0], own[:, None, 1] - own[:, None, 0]
     q, e = others[None, :, 0], others[None, :, 1] - others[None, :, 0]
-    one = _sign(cross_product(d, q - p)) * _sign(cross_product(d, q + e - p))
-    other = _sign(cross_product(e, p - q)) * _sign(cross_product(e, p + d - q))
-    crossing = (one <= 0) & (other <= 0)
-    which, what = np.nonzero(crossing)
+    away = q - p
+    crossing = _either_side(cross_product(d, away), cross_product(d, q + e - p))
+    crossing &= _either_side(cross_product(e, -away), cross_product(e, p + d - q))
+    which, what = crossing.nonzero()
+    if not len(which):
+        return which, np.empty(0)
     turn = cross_product(d[which, 0], e[0, what])
-    along = np.abs(turn) < 1e-9  # on one line: no place of their own
+    along = np.abs(turn) < ON_LINE  # on one line: no place of their own
     share = cross_product(q[0, what] - p[which, 0], e[0, what]) / np.where(along, 1.0, turn)
     return which, np.where(along, 0.0, share)

@@ -13,7 +13,7 @@ from graphkin.construction.strokes import CompassArc
 from graphkin.drawing import strokes, symbols
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
-from graphkin.drawing.dimensioning import LENGTHS, drawn_lengths
+from graphkin.drawing.dimensioning import drawn_lengths
 from graphkin.drawing.group_aids import aids_in_mechanism
 from graphkin.drawing.labels import Label
 from graphkin.drawing.mechanism_on_paper import (
@@ -335,17 +335,18 @@ def mechanism_piece(sheet: Sheet, letters: Letters, room: tuple[float, float] | 
     are left out first, then bars are cut at the edge of a room about its points.
     """
     here = MechanismOnPaper(sheet, letters)
-    piece = _piece(here, None)
-    box = ink_box(piece.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
-    if room is None or _fits(box, room):
-        return piece, box
-    lengths = [thing for thing in piece.drawn if isinstance(thing, Group) and thing.id == LENGTHS]
-    bare = ink_box(thing for thing in piece.drawn if thing not in lengths) or box
-    if not _fits(bare, room):
-        bare = Box.around(page(z) for z in sheet.points.values())
+    bare = _without_lengths(here)
+    around = ink_box(bare.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
+    if room is None or _fits(around, room):
+        piece = _with_lengths(here, bare, None)
+        box = ink_box(piece.drawn) or around
+        if room is None or _fits(box, room):
+            return piece, box
+    else:
+        around = Box.around(page(z) for z in sheet.points.values())
     half = complex(*room) / 2
-    panel = Box.around((bare.centre - half, bare.centre + half))
-    piece = _piece(here, panel)
+    panel = Box.around((around.centre - half, around.centre + half))
+    piece = _with_lengths(here, bare, panel)
     layers = {name: cut_to(things, panel) for name, things in piece.layers.items()}
     names = tuple(n for n in piece.labels if panel.distance(middle_of(n.mark)) == 0.0)
     return Piece(layers, names, piece.marks), panel
@@ -365,13 +366,16 @@ def _marks(here: MechanismOnPaper) -> Piece:
     return Piece(marks=tuple(page(z) for z in here.places.values()))
 
 
-def _piece(here: MechanismOnPaper, panel: Box | None) -> Piece:
+def _without_lengths(here: MechanismOnPaper) -> Piece:
     clear = clearance(here)
     bodies = joined((links(here), springs(here)))
     placed = joined((_construction(here), contact_marks(here), bodies, aids_in_mechanism(here.sheet)))
-    whole = joined((placed, joints(here), drivers(here, clear), found_rates(here, clear)))
-    drawn = [thing for layer in ("construction", "mechanism", "answers") for thing in whole.layers[layer]]
-    return joined((whole, drawn_lengths(here.sheet, drawn, panel), link_names(here), _marks(here)))
+    return joined((placed, joints(here), drivers(here, clear), found_rates(here, clear)))
+
+
+def _with_lengths(here: MechanismOnPaper, bare: Piece, panel: Box | None) -> Piece:
+    drawn = [thing for layer in ("construction", "mechanism", "answers") for thing in bare.layers[layer]]
+    return joined((bare, drawn_lengths(here.sheet, drawn, panel), link_names(here), _marks(here)))
 
 
 def _construction(here: MechanismOnPaper) -> Piece:

@@ -176,7 +176,7 @@ def meets(segments: Points, centres: Points, half: Points) -> Flags:
     close = (np.abs(middle.real) <= np.abs(reach.real) + half.real) & (
         np.abs(middle.imag) <= np.abs(reach.imag) + half.imag
     )
-    return close & ~separated(centres, half, start, end)
+    return close & ~separated(centres, half, start, end) if close.any() else close
 
 
 def crosses(a: Points, b: Points, c: Points, d: Points) -> Flags:
