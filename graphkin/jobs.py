@@ -19,7 +19,6 @@ from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future, ProcessPoolExecutor
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
 from multiprocessing import resource_tracker
 from multiprocessing.connection import wait
 from multiprocessing.process import BaseProcess
@@ -29,6 +28,7 @@ from typing import IO, TYPE_CHECKING, Any, Generic, ParamSpec, TypeVar
 
 from graphkin.errors import CallError, Problem
 from graphkin.files import Json, Tables, whole_file
+from graphkin.frozen import dataclass
 from graphkin.version import __version__
 
 if TYPE_CHECKING:

@@ -7,12 +7,13 @@ import io
 import os
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Literal
 
 from graphkin.api.arguments import asked_symbols
 from graphkin.errors import CallError, Problem
 from graphkin.files import path_of
+from graphkin.frozen import dataclass
 from graphkin.scene.cells import is_blank, read_cell
 from graphkin.scene.directions import Way, read_way
 from graphkin.scene.model import Mechanism

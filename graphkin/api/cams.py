@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -18,6 +17,7 @@ from graphkin.checking.cam_points import CamPoints, compare_cam
 from graphkin.construction.cam_sheet import CamSheet
 from graphkin.errors import CallError, Problem
 from graphkin.files import Json
+from graphkin.frozen import dataclass
 from graphkin.scene.cams import LawCam, SwingingFollower
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.words import Phrase, languages, say

@@ -5,13 +5,13 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from graphkin.construction import nudged
 from graphkin.construction.cam_by_hand import division_by_hand
 from graphkin.construction.cam_sheet import CamSheet
+from graphkin.frozen import dataclass
 from graphkin.scene.sheet_tables import Tools
 from graphkin.solver.cam_profile import cam_at
 

@@ -5,11 +5,12 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from graphkin.checking.readings import Reading
 from graphkin.construction.sheet import DiagramName, Scales, Sheet
+from graphkin.frozen import dataclass
 from graphkin.scene.symbol import PointRef, Symbol
 
 if TYPE_CHECKING:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 from graphkin.checking.uncertainty import COVERAGE
 from graphkin.construction import EXACT, Instrument, nudged
 from graphkin.construction.design_sheet import DesignSheet
 from graphkin.construction.synthesis import construct
 from graphkin.errors import Unsolvable
+from graphkin.frozen import dataclass
 from graphkin.scene.sheet_tables import Tools
 from graphkin.scene.synthesis import DesignTask
 

@@ -9,9 +9,9 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from graphkin.construction.cam_outline import CamStation, outline, station
+from graphkin.frozen import dataclass
 from graphkin.scene.cams import LawCam, SlidingFollower
 from graphkin.scene.follower_law import TURN
 from graphkin.words import Phrase

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 
 from graphkin.construction.asked import show
 from graphkin.construction.board import EXACT, Board, Hand, Instrument
@@ -15,6 +14,7 @@ from graphkin.construction.residues import without_residues
 from graphkin.construction.sheet import DrawnGroup, Limits, Scales, Sheet, Step
 from graphkin.construction.slip import NO_SLIP, Slip
 from graphkin.construction.task import Task
+from graphkin.frozen import dataclass
 from graphkin.scene.symbol import PointRef, Symbol, Value
 from graphkin.structure import Cluster, needed
 from graphkin.words import Phrase

@@ -7,9 +7,10 @@ at another scale (``scaled``).
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Self
 
+from graphkin.frozen import dataclass
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase
 

@@ -7,7 +7,7 @@ acceleration polygons from their poles; where a figure is placed on a page is no
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal
 
@@ -15,6 +15,7 @@ from graphkin.construction.remarks import Remark
 from graphkin.construction.sizes import Direction, Size
 from graphkin.construction.steps import Act, Cause, phrase_of, scaled
 from graphkin.construction.strokes import Stroke, Vector
+from graphkin.frozen import dataclass
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure.model import Cluster, Element, Structure

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from cmath import phase
 from collections.abc import Collection, Iterator, Mapping
-from dataclasses import dataclass
 from typing import Literal
 
 from graphkin.construction.cam_outline import station
 from graphkin.construction.sheet import Pose
+from graphkin.frozen import dataclass
 from graphkin.plane import dot
 from graphkin.scene.contacts import PlacedContact, PlacedGear
 from graphkin.scene.model import Mechanism

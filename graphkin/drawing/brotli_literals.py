@@ -9,8 +9,9 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections import Counter
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from heapq import heapify, heappop, heappush
+
+from graphkin.frozen import dataclass
 
 __all__ = ["PrefixCode", "as_brotli", "code_for"]
 

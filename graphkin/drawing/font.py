@@ -9,13 +9,13 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cache, cached_property, lru_cache
 from pathlib import Path
 from typing import Literal
 
 from graphkin.drawing.brotli_literals import PrefixCode, code_for
 from graphkin.drawing.woff2 import Streams, streams, woff2
+from graphkin.frozen import dataclass
 
 __all__ = ["EM", "FAMILY", "FOLDER", "Glyph", "Style", "glyph", "holds", "part"]
 

@@ -7,7 +7,6 @@ half size, segments with their two ends in the last dimension.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import TypeAlias
 
@@ -28,6 +27,7 @@ from graphkin.drawing.primitives import (
     page_direction,
     walk,
 )
+from graphkin.frozen import dataclass
 
 __all__ = [
     "Flags", "Floats", "Indices", "Obstacles", "Points", "Sides", "cross_product", "crosses", "meets", "near",

@@ -4,7 +4,7 @@ places; pieces moved, measured and cut."""
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 
 from graphkin.drawing.box import Box
 from graphkin.drawing.font_widths import text_box
@@ -12,6 +12,7 @@ from graphkin.drawing.labels import Label, Mark
 from graphkin.drawing.listed_names import named
 from graphkin.drawing.obstacles import Obstacles, obstacles_of
 from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Scan, Text, walk
+from graphkin.frozen import dataclass
 
 __all__ = [
     "LAYERS",

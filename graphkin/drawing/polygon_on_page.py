@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 
 from graphkin.construction.sheet import DiagramName, Sheet, Step
@@ -14,6 +13,7 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.primitives import Segment
 from graphkin.drawing.side_by_side import side_by_side
+from graphkin.frozen import dataclass
 from graphkin.scene.symbol import Symbol
 
 __all__ = ["SAME", "ZERO", "Detail", "PolygonOnPage", "details", "extent", "same_place"]

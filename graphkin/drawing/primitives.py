@@ -8,8 +8,10 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import NamedTuple, TypeAlias
+
+from graphkin.frozen import dataclass
 
 __all__ = [
     "PALE",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from graphkin.checking.reading_words import deviation, exact, measured, paper
 from graphkin.checking.readings import Reading, read_off
@@ -17,6 +17,7 @@ from graphkin.drawing.font_widths import runs_width
 from graphkin.drawing.headings import drivers, number, remarks, rolling_starts, term, written
 from graphkin.drawing.primitives import Line, Primitive, Run, Text
 from graphkin.drawing.text import rich, wrapped
+from graphkin.frozen import dataclass
 from graphkin.plane import degrees
 from graphkin.scene.model import Mechanism, PlacedLink
 from graphkin.words import languages, word

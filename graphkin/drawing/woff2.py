@@ -5,10 +5,10 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from functools import lru_cache
 
 from graphkin.drawing.brotli_literals import PrefixCode, as_brotli
+from graphkin.frozen import dataclass
 
 __all__ = ["Streams", "streams", "woff2"]
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from graphkin.exchange.bodies import FRAME, Bodies, BodySlide
+from graphkin.frozen import dataclass
 
 __all__ = ["FileJoint", "bodies_of"]
 

@@ -9,9 +9,10 @@ from __future__ import annotations
 import copy
 import math
 import random
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from graphkin.files import OwnTables, Tables
+from graphkin.frozen import dataclass
 from graphkin.papers.fitting_numbers import fitted, fitting_keys
 from graphkin.papers.vary_rules import asked_now, free_of_rules, ruled, ruled_keys
 from graphkin.scene.file_keys import KeyPath, put_at, value_at

@@ -8,8 +8,10 @@ take lines of a paragraph (Software: Practice and Experience 11, 1981).
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache
+
+from graphkin.frozen import dataclass
 
 __all__ = ["KEPT", "Filled", "Piece", "Placed", "balanced", "fill_pages"]
 

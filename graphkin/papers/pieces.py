@@ -6,9 +6,10 @@ Heights are those of the typesetter, which measures each piece once.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TypeAlias
 
+from graphkin.frozen import dataclass
 from graphkin.papers.blocks import (
     Beside,
     Block,

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 from graphkin.errors import Problem
+from graphkin.frozen import dataclass
 from graphkin.plane import cross, dot
 from graphkin.scene.cams import LawCam, SlidingFollower, SwingingFollower
 from graphkin.scene.follower_law import LAWS, FollowerLaw, LiftPiece, form_of
@@ -47,6 +47,8 @@ def cams_of(
 
 @dataclass(frozen=True)
 class _CamReading:
+    """What the cams of a file are read from, and the problems found on the way."""
+
     file: SceneTables
     names: Names
     flaws: Flaws

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING, Literal
 
+from graphkin.frozen import dataclass
 from graphkin.scene.file_table import FileTable, about
 
 if TYPE_CHECKING:

@@ -3,9 +3,10 @@ a driver over the time."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING, Literal
 
+from graphkin.frozen import dataclass
 from graphkin.scene.file_table import FileTable, about
 from graphkin.scene.follower_law import SPELLINGS
 

@@ -9,8 +9,9 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
+from graphkin.frozen import dataclass
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import KINDS, PointRef, Symbol
 from graphkin.scene.tables import Units

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
+from graphkin.frozen import dataclass
 from graphkin.scene.contacts import PlacedContact, PlacedGear
 from graphkin.solver.motion import Motion
 from graphkin.solver.pose import Array

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Generic, TypeVar
 
+from graphkin.frozen import dataclass
 from graphkin.solver.expressions import Real
 from graphkin.solver.pose import Array
 

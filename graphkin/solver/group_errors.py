@@ -8,11 +8,12 @@ constraints of the rates off, errors of place and rates those of the second rate
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import NamedTuple
 
 import numpy as np
 
+from graphkin.frozen import dataclass
 from graphkin.scene.model import AngleDriver
 from graphkin.solver.error_bound import ErrorBound
 from graphkin.solver.expressions import Name

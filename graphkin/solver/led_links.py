@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
+from graphkin.frozen import dataclass
 from graphkin.scene.cams import LawCam, SlidingFollower
 from graphkin.scene.model import AngleFollower, SlideFollower
 from graphkin.solver.error_bound import ErrorBound

@@ -10,11 +10,11 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from itertools import chain
 from typing import Any
 
+from graphkin.frozen import dataclass
 from graphkin.scene.contacts import PlacedContact, PlacedGear
 from graphkin.scene.model import AngleDriver, AngleFollower, Follower, Mechanism, PlacedLink, SlideFollower
 from graphkin.scene.touching import rack_place

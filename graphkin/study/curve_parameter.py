@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
+from graphkin.frozen import dataclass
 from graphkin.solver import DriverRange
 from graphkin.solver.pose import Array
 from graphkin.study.curves import Pieces

@@ -9,11 +9,12 @@ Theory and Approximation Practice).
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
+
+from graphkin.frozen import dataclass
 
 __all__ = ["Pieces", "resolve"]
 

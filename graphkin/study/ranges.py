@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
 
+from graphkin.frozen import dataclass
 from graphkin.scene.model import AngleDriver
 from graphkin.solver import DriverRange
 from graphkin.solver.engine import positions

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Literal
 
 from graphkin.construction.board import EXACT, Instrument
@@ -22,6 +22,7 @@ from graphkin.construction.centres.pairs import (
 from graphkin.construction.plan import Room, scales_for
 from graphkin.construction.rigid import LinkMotion
 from graphkin.construction.sheet import Sheet
+from graphkin.frozen import dataclass
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Structure, analyse, part_of

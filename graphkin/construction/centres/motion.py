@@ -6,7 +6,6 @@ The motion of a link is measured on the velocity polygon; where two links have o
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Literal
 
 from graphkin.construction.board import EXACT, Instrument
@@ -14,6 +13,7 @@ from graphkin.construction.centres.pairs import LinkPair, Place, ProjectiveChart
 from graphkin.construction.plan import draft
 from graphkin.construction.rigid import LinkMotion
 from graphkin.construction.sheet import Sheet
+from graphkin.frozen import dataclass
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import Structure

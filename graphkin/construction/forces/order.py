@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from graphkin.errors import Unsolvable
+from graphkin.frozen import dataclass
 from graphkin.scene.cams import LawCam
 from graphkin.scene.model import AngleDriver, AnyDriver, SlideDriver
 from graphkin.scene.symbol import Symbol

@@ -7,7 +7,7 @@ is drawn.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from graphkin import solver
@@ -15,6 +15,7 @@ from graphkin.checking.uncertainty import predict
 from graphkin.construction import EXACT, Plan, Scales, execute, pencil, plan
 from graphkin.construction.board import Instrument
 from graphkin.construction.centres import by_centres, find_centres, speeds
+from graphkin.frozen import dataclass
 from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.scene.model import Mechanism
 from graphkin.scene.sheet_tables import Tools
