@@ -36,9 +36,9 @@ _SHARES = np.array((0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9))
 # Far from a mark every second angle, and places about the middle of a vector, will do.
 _SOME = np.arange(24) % 2 == 0, np.arange(9) < 5
 # What a leader that runs over a vector is tried with further: places of its foot, ways, distances.
-_FEET = np.array((0.35, 0.65, 0.2, 0.8, 0.08, 0.92))
+_FEET = np.array((0.35, 0.65, 0.2, 0.8, 0.08, 0.92, 0.5, 0.14, 0.86, 0.28, 0.72, 0.97))
 _MANY_WAYS = np.exp(-2j * np.pi * np.arange(48) / 48)
-_LED_RINGS = (2.4, 5.0, 9.0, 14.5, 22.0, 32.0)
+_LED_RINGS = (2.4, 3.6, 5.0, 6.8, 9.0, 11.5, 14.5, 18.0, 22.0, 27.0, 32.0, 38.0)
 _SIDES = np.array((1.0, -1.0))
 # Where nothing is liked, up and to the right reads best (Imhof, Positioning names on maps, 1975).
 _LIKED = math.radians(40)

@@ -35,6 +35,7 @@ from graphkin.drawing.obstacles import (
     separated,
     sides,
     sides_around,
+    touches,
 )
 from graphkin.drawing.primitives import Segment
 
@@ -220,7 +221,7 @@ class LabelPanel:
         which, what = near(sides_around(start, to), self.reach)
         start, to = start[which], to[which]
         a, b = self.start[what], self.end[what]
-        over = crosses(start, to, a, b).astype(float)
+        over = touches(start, to, a, b).astype(float)
         areas = what < self.areas  # a leader over an area crosses one of its diagonals
         a, b = a[areas], b[areas]
         other = a.real + 1j * b.imag, b.real + 1j * a.imag

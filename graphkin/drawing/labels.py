@@ -35,6 +35,8 @@ _DRIVES = 4  # how often labels may drive out others, for each label
 _SPACE = 0.9  # between two labels, mm
 _TRIED = 40  # places tried to get round a vector
 _LOOKED_AT = 120  # places of a label that is to make room
+# Pushes for one label; what each costs the pushed one, more each time; what it costs to drop one that may be missing.
+_PUSHES, _PUSHED, _DROPPED = 40, 8.0, 60.0
 _MOVED = 2  # labels that make room for another at most
 _DISPENSABLE = 4  # the rank from which labels may be missing
 # What it costs, beside what places cost, that a key stands for a name, and that a label stands nowhere.
@@ -229,10 +231,10 @@ class Placement:
         tangled.sort(key=lambda i: (-self.held.standing[i].cost, i))
         for i, positions in zip(tangled, self.panel.further(tangled), strict=True):
             self.found[i] = self.found[i].joined(positions)
-        for _ in range(2):  # once more, since others have made room
+        for attempt in (self._make_room, self._make_room, self._push):  # once more, since others have made room
             for i in tangled:
-                if self._tangled(i):
-                    self._make_room(i)
+                if i in self.held.standing and self._tangled(i):
+                    attempt(i)
 
     def _tangled(self, i: int) -> bool:
         """Whether the leader of a label crosses what leaders are to go round."""
@@ -290,6 +292,10 @@ class Placement:
         others: dict[int, list[tuple[float, int, int]]] = {}  # their places that are free but for this label and them
         for form, extra in self._forms(i):
             positions = self.found[form]
+            free = self.held.first_free(positions, positions.cheaper(best - extra), _SPACE)
+            if free is not None:
+                chosen = {i: (form, positions.position(free))}
+                best = chosen[i][1].cost + extra
             nearly = self._nearly_free(positions, positions.cheaper(best - extra))
             for position, meeting in islice(nearly, _TRIED):
                 cost = position.cost + extra
@@ -319,6 +325,37 @@ class Placement:
             self.held.take(label, position)
             self.clear[label] = True
             (self.keyed.discard if form == label else self.keyed.add)(label)
+
+    def _push(self, i: int) -> None:
+        """Put a label where its leader crosses nothing, and whoever stands there elsewhere in the same way; everything
+        back where that comes to no end, or costs more."""
+        before = dict(self.held.standing)
+        pushed = np.full(len(self.ranks), _PUSHED)
+        queue = [i]
+        self.held.leave(i)
+        for _ in range(_PUSHES):
+            if not queue:
+                break
+            j = queue.pop(0)
+            self._look([j], len(RINGS))
+            positions = self.found[j].part(0, self.found[j].cheaper(TANGLED))
+            if not len(positions):
+                queue.append(j)
+                break
+            met = self.held.met(positions, _SPACE)
+            chosen = int(np.argmin(positions.costs + met @ pushed))
+            for k in np.flatnonzero(met[chosen]).tolist():
+                self.held.leave(k)
+                pushed[k] += _PUSHED
+                queue.append(k)
+            self.held.take(j, positions.position(chosen))
+        after = self.held.standing
+        cost = sum(position.cost - before[j].cost for j, position in after.items() if position is not before[j])
+        cost += sum(_DROPPED - before[j].cost for j in queue)
+        if cost >= 0 or any(self.ranks[j] < _DISPENSABLE for j in queue):
+            self.held = HeldPositions(len(self.ranks))
+            for j, position in before.items():
+                self.held.take(j, position)
 
     def _others(self, j: int) -> list[tuple[float, int, int]]:
         """Places of a label that no other is in the way of: what they cost, their request and index."""

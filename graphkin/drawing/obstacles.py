@@ -41,6 +41,7 @@ Indices: TypeAlias = NDArray[np.intp]
 Sides: TypeAlias = tuple[Floats, Floats, Floats, Floats]
 """Left, top, right, bottom of upright boxes."""
 
+ON_LINE = 1e-9  # mm⁴: so near to a line, but for rounding, lies on it
 MOST_PAIRS = 1 << 17  # of boxes compared at a time: what a processor holds near
 
 # A filled polygon up to this size (mm) is a block or a corner, which no label may cover; a larger one is the tint of a
@@ -184,3 +185,10 @@ def crosses(a: Points, b: Points, c: Points, d: Points) -> Flags:
     apart = cross_product(b - a, c - a) * cross_product(b - a, d - a)
     across = cross_product(d - c, a - c) * cross_product(d - c, b - c)
     return (apart < 0) & (across < 0)
+
+
+def touches(a: Points, b: Points, c: Points, d: Points) -> Flags:
+    """As `crosses`, or one ends on the other."""
+    apart = cross_product(b - a, c - a) * cross_product(b - a, d - a)
+    across = cross_product(d - c, a - c) * cross_product(d - c, b - c)
+    return (apart <= ON_LINE) & (across <= ON_LINE)
